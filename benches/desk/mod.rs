@@ -1,0 +1,267 @@
+//! The program on a terminal. What it writes is recorded with its time and looked at only when the
+//! program is at rest, so that looking takes no time from it.
+
+use std::sync::mpsc::RecvTimeoutError;
+use std::time::{Duration, Instant};
+
+use halflight::scene::Size;
+use halflight::ui::view::layout::{Areas, Zoom, arrange, raster};
+use ratatui::layout::Rect;
+use vt100::{Color, Screen};
+
+use crate::harness::Session;
+
+/// Columns and rows of the terminal.
+pub(crate) const TERMINAL: (u16, u16) = (200, 50);
+
+/// The scene, and the size it gives its picture.
+const SCENE: &str = include_str!("../../scenes/default.ray");
+const OUTPUT: Size = Size {
+    width: 400,
+    height: 300,
+};
+
+/// Longer than the time between two frames of a preview.
+const QUIET: Duration = Duration::from_millis(800);
+
+/// After this time a picture is nearly what it will be.
+const SETTLED: Duration = Duration::from_millis(800);
+
+/// A picture that changes more than this shows something new; a finer one of the same changes less
+/// once it has settled.
+const NEW: f64 = 0.7;
+
+/// What ends a frame.
+const END: &[u8] = b"\x1b[?2026l";
+
+/// One program on its terminal, in a folder of its own with one scene.
+pub(crate) struct Desk {
+    session: Session,
+    pub(crate) folder: tempfile::TempDir,
+    tape: Vec<(Instant, Vec<u8>)>,
+    screen: vt100::Parser,
+    /// Bytes of a frame that has not ended yet.
+    open: Vec<u8>,
+    seen: Seen,
+}
+
+/// One frame that the program drew.
+pub(crate) struct Drawn {
+    /// When its last byte came.
+    pub(crate) at: Instant,
+    pub(crate) bytes: usize,
+    /// By how much the picture changed: the mean of all channels' differences, of 255.
+    pub(crate) change: f64,
+    /// What else changed.
+    pub(crate) list: bool,
+    pub(crate) fields: bool,
+    /// Two a cell of the picture, one above the other.
+    pub(crate) pixels: Vec<[u8; 3]>,
+    /// The characters on the screen.
+    pub(crate) text: String,
+}
+
+#[derive(Default, PartialEq)]
+struct Seen {
+    pixels: Vec<[u8; 3]>,
+    list: Vec<(String, Color, Color)>,
+    fields: Vec<(String, Color, Color)>,
+}
+
+impl Drawn {
+    /// Whether the picture changed at all.
+    pub(crate) fn is_picture(&self) -> bool {
+        0.0 < self.change
+    }
+
+    /// Whether the picture shows something new, if it had settled before.
+    pub(crate) fn is_new_picture(&self) -> bool {
+        NEW <= self.change
+    }
+}
+
+impl Desk {
+    /// Starts the program on the scene; the moment is that before it was started.
+    pub(crate) fn open(arguments: &[&str], environment: &[(&str, &str)]) -> (Self, Instant) {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join("scene.ray"), SCENE).expect("the folder takes a scene");
+        let mut all = vec!["scene.ray", "--color", "24"];
+        all.extend(arguments);
+        let begun = Instant::now();
+        let session = Session::start(folder.path(), &all, TERMINAL, environment);
+        let cells = |cells| std::num::NonZeroU16::new(cells).expect("a screen has cells");
+        let desk = Self {
+            session,
+            folder,
+            tape: Vec::new(),
+            screen: vt100::Parser::new(cells(TERMINAL.1), cells(TERMINAL.0), 0),
+            open: Vec::new(),
+            seen: Seen::default(),
+        };
+        (desk, begun)
+    }
+
+    /// As [`Desk::open`], with the picture at rest.
+    pub(crate) fn at_rest(arguments: &[&str], environment: &[(&str, &str)]) -> Self {
+        let mut desk = Self::open(arguments, environment).0;
+        desk.rest();
+        desk.look();
+        desk
+    }
+
+    /// Types, and says when.
+    pub(crate) fn press(&mut self, keys: &str) -> Instant {
+        let at = Instant::now();
+        self.session.send(keys);
+        at
+    }
+
+    /// Types one after the other, so far apart, and says when each.
+    pub(crate) fn press_all<'k>(
+        &mut self,
+        keys: impl IntoIterator<Item = &'k str>,
+        apart: Duration,
+    ) -> Vec<Instant> {
+        let mut due = Instant::now();
+        let mut pressed = Vec::new();
+        for key in keys {
+            pressed.push(self.press(key));
+            due += apart;
+            self.record(due);
+        }
+        pressed
+    }
+
+    /// Records until a moment.
+    pub(crate) fn record(&mut self, until: Instant) {
+        loop {
+            let patience = until.saturating_duration_since(Instant::now());
+            match self.session.take(patience) {
+                Ok(piece) => self.tape.push(piece),
+                Err(RecvTimeoutError::Timeout) => return,
+                Err(RecvTimeoutError::Disconnected) => panic!("the program has ended"),
+            }
+        }
+    }
+
+    /// Records until the program is silent.
+    pub(crate) fn rest(&mut self) {
+        while let Ok(piece) = self.session.take(QUIET) {
+            self.tape.push(piece);
+        }
+    }
+
+    /// Types, waits until the program is silent, and looks at what it drew.
+    pub(crate) fn answer(&mut self, keys: &str) -> (Instant, Vec<Drawn>) {
+        let at = self.press(keys);
+        self.rest();
+        (at, self.look())
+    }
+
+    /// Records until the picture under way changes but little from one frame to the next, and looks
+    /// at all of it.
+    pub(crate) fn settle(&mut self) -> Vec<Drawn> {
+        self.record(Instant::now() + SETTLED);
+        self.look()
+    }
+
+    /// Looks at what was recorded.
+    pub(crate) fn look(&mut self) -> Vec<Drawn> {
+        let mut drawn = Vec::new();
+        for (at, piece) in std::mem::take(&mut self.tape) {
+            self.open.extend(piece);
+            let ends = |open: &[u8]| open.windows(END.len()).position(|part| part == END);
+            while let Some(end) = ends(&self.open) {
+                let frame: Vec<u8> = self.open.drain(..end + END.len()).collect();
+                self.screen.process(&frame);
+                drawn.push(self.drawn(at, frame.len()));
+            }
+        }
+        drawn
+    }
+
+    fn drawn(&mut self, at: Instant, bytes: usize) -> Drawn {
+        let screen = self.screen.screen();
+        let areas = areas(Zoom::Panels);
+        let seen = Seen {
+            pixels: pixels(screen, picture_cells(Zoom::Panels)),
+            list: cells(screen, areas.list),
+            fields: cells(screen, areas.fields),
+        };
+        let before = std::mem::replace(&mut self.seen, seen);
+        let seen = &self.seen;
+        Drawn {
+            at,
+            bytes,
+            change: difference(&before.pixels, &seen.pixels),
+            list: before.list != seen.list,
+            fields: before.fields != seen.fields,
+            pixels: seen.pixels.clone(),
+            text: screen.contents(),
+        }
+    }
+
+    /// The program's time on processors so far, all of its threads together.
+    pub(crate) fn processor_time(&self) -> Duration {
+        let tasks = format!("/proc/{}/task", self.session.process_id());
+        let tasks = std::fs::read_dir(tasks).expect("the program runs");
+        let spent = tasks.map(|task| {
+            let path = task.expect("a thread").path().join("schedstat");
+            let said = std::fs::read_to_string(path).unwrap_or_default();
+            said.split(' ')
+                .next()
+                .and_then(|time| time.parse().ok())
+                .unwrap_or(0)
+        });
+        Duration::from_nanos(spent.sum())
+    }
+}
+
+/// The mean difference of all channels of two pictures.
+pub(crate) fn difference(a: &[[u8; 3]], b: &[[u8; 3]]) -> f64 {
+    let channels = a.as_flattened().iter().zip(b.as_flattened());
+    let sum: u64 = channels.map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+    sum as f64 / (3 * a.len().max(1)) as f64
+}
+
+/// The cells that the picture takes.
+pub(crate) fn picture_cells(zoom: Zoom) -> Rect {
+    raster(areas(zoom).picture, OUTPUT)
+        .expect("there is room")
+        .0
+}
+
+fn areas(zoom: Zoom) -> Areas {
+    arrange(Rect::new(0, 0, TERMINAL.0, TERMINAL.1), zoom, 0)
+}
+
+/// What half blocks show: a cell may be sent in several forms that look the same.
+fn pixels(screen: &Screen, area: Rect) -> Vec<[u8; 3]> {
+    let rgb = |colour| match colour {
+        Color::Rgb(red, green, blue) => [red, green, blue],
+        _ => [0; 3],
+    };
+    cells(screen, area)
+        .into_iter()
+        .flat_map(|(symbol, fg, bg)| match symbol.as_str() {
+            "▀" => [fg, bg],
+            "▄" => [bg, fg],
+            "█" => [fg, fg],
+            _ => [bg, bg],
+        })
+        .map(rgb)
+        .collect()
+}
+
+fn cells(screen: &Screen, area: Rect) -> Vec<(String, Color, Color)> {
+    let cell = |at: ratatui::layout::Position| {
+        let cell = screen.cell(at.y, at.x).expect("the area is on the screen");
+        let (fg, bg) = if cell.inverse() {
+            (cell.bgcolor(), cell.fgcolor())
+        } else {
+            (cell.fgcolor(), cell.bgcolor())
+        };
+        (cell.contents().to_owned(), fg, bg)
+    };
+    area.positions().map(cell).collect()
+}

@@ -1,0 +1,421 @@
+//! How quick the program is in the hand: a table of what was measured at its terminal, beside what
+//! is to be reached.
+//!
+//! `cargo bench --bench interface` prints it; with words after `--` only the parts with one of them
+//! in their name. Times are from the key, the file or the start to the last byte of the frame that
+//! shows what came of it.
+
+mod desk;
+#[allow(
+    dead_code,
+    unreachable_pub,
+    reason = "shared with tests, which ask other things of it"
+)]
+#[path = "../tests/harness/mod.rs"]
+mod harness;
+#[allow(dead_code, reason = "shared with the other bench")]
+mod scenes;
+
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use halflight::format::{self, Format};
+use halflight::render::{DEFAULT_DEPTH, Job, Renderer, Settings, Threads};
+use halflight::scene::{Scene, lower};
+use halflight::ui::view::layout::Zoom;
+
+use desk::{Desk, Drawn, TERMINAL, difference, picture_cells};
+
+/// What a shell at the other end of a network is told.
+const SSH: &[(&str, &str)] = &[("SSH_CONNECTION", "192.0.2.1 50000 192.0.2.2 22")];
+
+const SECOND: Duration = Duration::from_secs(1);
+
+fn main() {
+    // Cargo passes `--bench`; anything else is part of a name.
+    let wanted: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|a| !a.starts_with("--"))
+        .collect();
+    let (columns, rows) = TERMINAL;
+    println!(
+        "{columns}x{rows}, truecolour, scenes/default.ray; load {}",
+        load()
+    );
+    let parts: [(&str, fn()); 9] = [
+        ("start", start),
+        ("edit", edit),
+        ("keys", keys_while_tracing),
+        ("save", save),
+        ("idle", idle),
+        ("cancel", cancel),
+        ("held", held),
+        ("bytes", bytes),
+        ("link", link),
+    ];
+    for (name, measure) in parts {
+        if wanted.is_empty() || wanted.iter().any(|part| name.contains(part.as_str())) {
+            measure();
+        }
+    }
+    println!("load {}", load());
+}
+
+fn start() {
+    let times = repeat(50, || {
+        let (mut desk, begun) = Desk::open(&[], &[]);
+        desk.record(begun + Duration::from_millis(300));
+        let drawn = desk.look();
+        first(&drawn, begun, Drawn::is_picture)
+    });
+    times_row("start to first picture", &times, "p50 <= 100");
+}
+
+fn edit() {
+    let mut desk = Desk::at_rest(&[], &[]);
+    edit_light(&mut desk);
+    let (mut answered, mut pictured, mut sharp) = (Vec::new(), Vec::new(), Vec::new());
+    for key in ["L", "H"].repeat(30) {
+        let pressed = desk.press(key);
+        let drawn = desk.settle();
+        answered.extend(first(&drawn, pressed, |drawn| drawn.fields));
+        let new = first(&drawn, pressed, Drawn::is_new_picture);
+        pictured.extend(new);
+        sharp.extend(first(
+            &drawn,
+            pressed + new.unwrap_or_default(),
+            Drawn::is_new_picture,
+        ));
+    }
+    times_row("nudge to changed field", &answered, "p95 <= 16, max 33");
+    times_row("nudge to changed picture", &pictured, "p95 <= 50");
+    times_row("  from there to a finer one", &sharp, "-");
+    let (pressed, drawn) = desk.answer("L");
+    let rested: Vec<_> = drawn
+        .last()
+        .map(|drawn| drawn.at - pressed)
+        .into_iter()
+        .collect();
+    times_row("nudge to rest (64 spp)", &rested, "-");
+}
+
+fn keys_while_tracing() {
+    let mut desk = Desk::at_rest(&["--spp", "4096"], &[]);
+    let begun = desk.press("\x1b[15~");
+    desk.record(begun + SECOND);
+    let back = desk.press("\x1b");
+    desk.record(back + SECOND);
+    desk.look();
+    let keys = ["j", "j", "k"]
+        .repeat(12)
+        .into_iter()
+        .chain(["k", "k", "j"].repeat(12));
+    let pressed = desk.press_all(keys.chain(["j", "k"].repeat(14)), Duration::from_millis(41));
+    desk.record(Instant::now() + Duration::from_millis(200));
+    let drawn = desk.look();
+    times_row(
+        "key to list, tracing",
+        &each(&drawn, &pressed, |d| d.list),
+        "p95 <= 16, max 33",
+    );
+}
+
+fn save() {
+    let mut desk = Desk::at_rest(&[], &[]);
+    let path = desk.folder.path().join("scene.ray");
+    let good = std::fs::read_to_string(&path).expect("the scene");
+    let mut put = |text: &str| {
+        let new = path.with_extension("new");
+        std::fs::write(&new, text).expect("the folder takes a file");
+        let at = Instant::now();
+        std::fs::rename(&new, &path).expect("the file is replaced");
+        (at, desk.settle())
+    };
+    let moved = |turn| good.replace("5 7.5 4.5", &format!("{} 7.5 4.5", 3 + turn % 2));
+    let (mut pictured, mut told, mut kept) = (Vec::new(), Vec::new(), 0);
+    for turn in 0..50 {
+        let (at, drawn) = put(&moved(turn));
+        pictured.extend(first(&drawn, at, Drawn::is_new_picture));
+    }
+    for turn in 0..20 {
+        let (at, drawn) = put(&good.replace("7.5 4.5", &format!("7.5 x{turn}")));
+        let is_told = |drawn: &Drawn| drawn.text.contains("STALE");
+        told.extend(first(&drawn, at, is_told));
+        // The half above the errors.
+        let half = |drawn: &Drawn| drawn.pixels[..drawn.pixels.len() / 2].to_vec();
+        let dark = vec![[0; 3]; picture_cells(Zoom::Panels).area() as usize];
+        kept += usize::from(
+            drawn
+                .last()
+                .is_some_and(|last| 5.0 < difference(&half(last), &dark)),
+        );
+        put(&moved(turn));
+    }
+    times_row("save to changed picture", &pictured, "p95 <= 60");
+    times_row("broken save to errors", &told, "p95 <= 150");
+    row("  picture kept", &format!("{kept} of 20"), "20 of 20");
+}
+
+fn idle() {
+    let mut desk = Desk::at_rest(&[], &[]);
+    let (begun, before) = (Instant::now(), desk.processor_time());
+    desk.record(begun + 3 * SECOND);
+    let spent = desk.processor_time().saturating_sub(before);
+    let bytes: usize = desk.look().iter().map(|drawn| drawn.bytes).sum();
+    row("idle for 3 s: bytes", &bytes.to_string(), "0");
+    let share = 100.0 * spent.as_secs_f64() / begun.elapsed().as_secs_f64();
+    row(
+        "idle for 3 s: processor",
+        &format!("{share:.3} %"),
+        "< 0.5 %",
+    );
+}
+
+fn cancel() {
+    let default = scene(include_str!("../scenes/default.ray"));
+    let million = scene(&scenes::random_spheres(1_000_000, 1));
+    let busy = |scene: &Arc<Scene>, count| {
+        repeat(count, || {
+            let (renderer, woken) = tracing(scene);
+            woken.recv().expect("the worker runs");
+            thread::sleep(Duration::from_millis(50));
+            Some(drop_time(renderer))
+        })
+    };
+    times_row("drop while tracing", &busy(&default, 50), "<= 10");
+    times_row("  1,000,000 spheres", &busy(&million, 5), "<= 10");
+    let mut wait = 0;
+    let building = repeat(20, || {
+        let (renderer, _woken) = tracing(&million);
+        wait += 15;
+        thread::sleep(Duration::from_millis(wait));
+        Some(drop_time(renderer))
+    });
+    times_row("  while building for them", &building, "<= 10");
+}
+
+fn held() {
+    for (apart, count) in [(33, 200), (5, 840)] {
+        let apart = Duration::from_millis(apart);
+        let mut desk = Desk::at_rest(&[], &[]);
+        edit_light(&mut desk);
+        let original = desk.look().pop().expect("the fields are shown").pixels;
+        // Forty steps up, forty down, and so on, so that the last one is far from the first.
+        let keys = (0..count).map(|at| if at % 80 < 40 { "l" } else { "h" });
+        let pressed = desk.press_all(keys, apart);
+        let undone = desk.press("u");
+        desk.rest();
+        let drawn: Vec<_> = desk.look().into_iter().filter(Drawn::is_picture).collect();
+        let begun = pressed[0];
+        let shown: Vec<_> = drawn.iter().filter(|drawn| drawn.at <= undone).collect();
+        let changed = shown.last().map_or(&original, |drawn| &drawn.pixels);
+        let is_undone = |drawn: &Drawn| {
+            difference(&drawn.pixels, &original) < difference(&drawn.pixels, changed)
+        };
+        let last = first(&drawn, undone, is_undone);
+        let moments: Vec<_> = shown.iter().map(|drawn| drawn.at - begun).collect();
+        let name = format!("{count} edits, {} ms apart", apart.as_millis());
+        let least = if count == 200 { ">= 200" } else { "-" };
+        row(
+            &format!("{name}: pictures"),
+            &moments.len().to_string(),
+            least,
+        );
+        let sparse = least_in_a_second(&moments, undone - begun);
+        row("  least in a second", &sparse.to_string(), ">= 25");
+        times_row(
+            "  undo to its picture",
+            &last.into_iter().collect::<Vec<_>>(),
+            "<= 50",
+        );
+    }
+}
+
+fn bytes() {
+    let mut desk = Desk::at_rest(&[], &[]);
+    let whole: usize = desk.answer("\x0c").1.iter().map(|drawn| drawn.bytes).sum();
+    row("whole screen, bytes", &whole.to_string(), "-");
+    desk.answer("z");
+    let alone: usize = desk.answer("\x0c").1.iter().map(|drawn| drawn.bytes).sum();
+    let each = alone as f64 / f64::from(picture_cells(Zoom::Picture).area());
+    row(
+        "picture alone, bytes",
+        &format!("{alone}, {each:.1} a cell"),
+        "<= 37 a cell",
+    );
+    desk.answer("z");
+    desk.answer("o");
+    let (_, drawn) = desk.answer("j");
+    row(
+        "next in the list, bytes",
+        &total(&drawn).to_string(),
+        "<= 2048",
+    );
+    desk.answer("k");
+    edit_light(&mut desk);
+    let (mut fields, mut first, mut refined) = (Vec::new(), Vec::new(), Vec::new());
+    for key in ["l", "h"].repeat(6) {
+        let (_, drawn) = desk.answer(key);
+        let at = drawn.iter().position(Drawn::is_picture).unwrap_or(0);
+        fields.push(total(&drawn[..at]));
+        first.push(drawn[at].bytes);
+        refined.extend(drawn[at + 1..].iter().map(|drawn| drawn.bytes));
+    }
+    row(
+        "nudge without picture, bytes",
+        &spread(&mut fields),
+        "<= 2048",
+    );
+    row("its first picture, bytes", &spread(&mut first), "-");
+    let most = format!("p50 <= {}", whole * 6 / 10);
+    row("refined pictures, bytes", &spread(&mut refined), &most);
+}
+
+fn link() {
+    let mut desk = Desk::at_rest(&[], SSH);
+    edit_light(&mut desk);
+    let pressed = desk.press("l");
+    desk.record(pressed + 2 * SECOND);
+    let drawn = desk.look();
+    rate_rows("over SSH, refining", &drawn, pressed);
+    desk.rest();
+    desk.look();
+    let pressed = desk.press_all(["l", "l", "h"].repeat(50), Duration::from_millis(33));
+    let drawn = desk.look();
+    rate_rows("over SSH, nudging", &drawn, pressed[0]);
+    times_row(
+        "  nudge to changed field",
+        &each(&drawn, &pressed, |d| d.fields),
+        "p95 <= 16",
+    );
+}
+
+/// Puts the cursor on the first number of the first light.
+fn edit_light(desk: &mut Desk) {
+    for key in ["j", "j", "e"] {
+        desk.press(key);
+        desk.record(Instant::now() + Duration::from_millis(50));
+    }
+    desk.rest();
+}
+
+fn scene(text: &str) -> Arc<Scene> {
+    let tree = format::parse(Format::Ray, text);
+    Arc::new(lower(text, &tree).scene.expect("a scene without errors"))
+}
+
+/// A renderer at work on all cores, and what tells of its frames.
+fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
+    let (wake, woken) = mpsc::channel();
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let renderer = Renderer::new(Threads::Exactly(cores), move || {
+        let _ = wake.send(());
+    });
+    let settings = Settings {
+        size: scene.camera.size,
+        spp: 4096,
+        depth: DEFAULT_DEPTH,
+        seed: 0,
+    };
+    renderer.restart(Job {
+        scene: Arc::clone(scene),
+        camera: scene.camera,
+        settings,
+    });
+    (renderer, woken)
+}
+
+fn drop_time(renderer: Renderer) -> Duration {
+    let begun = Instant::now();
+    drop(renderer);
+    begun.elapsed()
+}
+
+/// The times of several runs. Those in which nothing came are missing.
+fn repeat(count: usize, mut run: impl FnMut() -> Option<Duration>) -> Vec<Duration> {
+    (0..count).filter_map(|_| run()).collect()
+}
+
+/// The time from a moment to the first frame after it that is as asked.
+fn first(drawn: &[Drawn], from: Instant, holds: impl Fn(&Drawn) -> bool) -> Option<Duration> {
+    let after = drawn.iter().filter(|drawn| from < drawn.at);
+    after
+        .filter(|drawn| holds(drawn))
+        .map(|drawn| drawn.at - from)
+        .next()
+}
+
+/// The time from each key to the first frame after it that is as asked.
+fn each(drawn: &[Drawn], pressed: &[Instant], holds: impl Fn(&Drawn) -> bool) -> Vec<Duration> {
+    pressed
+        .iter()
+        .filter_map(|&key| first(drawn, key, &holds))
+        .collect()
+}
+
+/// The least number of moments in any second before `end`.
+fn least_in_a_second(moments: &[Duration], end: Duration) -> usize {
+    let starts = [Duration::ZERO].into_iter().chain(moments.iter().copied());
+    let whole = starts.filter(|&start| start + SECOND <= end);
+    let within = |start| {
+        moments
+            .iter()
+            .filter(|&&at| start < at && at <= start + SECOND)
+            .count()
+    };
+    whole.map(within).min().unwrap_or(moments.len())
+}
+
+fn total(drawn: &[Drawn]) -> usize {
+    drawn.iter().map(|drawn| drawn.bytes).sum()
+}
+
+fn rate_rows(name: &str, drawn: &[Drawn], begun: Instant) {
+    let span = drawn.last().map_or(SECOND, |drawn| drawn.at - begun);
+    let mean = total(drawn) as f64 / span.as_secs_f64() / 1024.0;
+    let in_a_second = |from: Instant| {
+        let within = drawn
+            .iter()
+            .filter(|d| from <= d.at && d.at < from + SECOND);
+        within.map(|drawn| drawn.bytes).sum::<usize>() / 1024
+    };
+    let most = drawn
+        .iter()
+        .map(|drawn| in_a_second(drawn.at))
+        .max()
+        .unwrap_or(0);
+    let said = format!("mean {mean:.0}, most in a second {most}");
+    row(&format!("{name}, KB/s"), &said, "mean <= 128");
+}
+
+fn times_row(name: &str, times: &[Duration], target: &str) {
+    let mut times: Vec<_> = times.iter().map(|time| time.as_secs_f64() * 1e3).collect();
+    times.sort_by(f64::total_cmp);
+    let at = |share: f64| times.get(((times.len() as f64 * share).ceil() as usize).max(1) - 1);
+    let said =
+        [at(0.5), at(0.95), at(1.0)].map(|t| t.map_or_else(|| "-".into(), |t| format!("{t:.1}")));
+    let [p50, p95, most] = said;
+    let said = format!(
+        "p50 {p50:>6}  p95 {p95:>6}  max {most:>6}  n {}",
+        times.len()
+    );
+    row(&format!("{name}, ms"), &said, target);
+}
+
+fn spread(counts: &mut [usize]) -> String {
+    counts.sort_unstable();
+    let middle = counts.get(counts.len() / 2).copied().unwrap_or(0);
+    format!("p50 {middle}  max {}", counts.last().copied().unwrap_or(0))
+}
+
+fn row(name: &str, said: &str, target: &str) {
+    println!("{name:<32} {said:<46} {target}");
+}
+
+/// The machine's load over the last minute, which says what the figures are worth.
+fn load() -> String {
+    let said = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
+    said.split(' ').next().unwrap_or("?").to_owned()
+}

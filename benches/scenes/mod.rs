@@ -1,0 +1,137 @@
+//! Scenes to measure with, as `.ray` text made up on the spot.
+
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use std::fmt::Write as _;
+
+/// A vector.
+type Vector = [f64; 3];
+
+/// Writes the sphereflake of Haines' Standard Procedural Databases ("balls"): a sphere of radius ½
+/// with nine of a third its size on it, and so on for `levels`, over a floor. Level 4 has 7,381
+/// spheres.
+pub(crate) fn sphereflake(levels: u32) -> String {
+    let mut spheres = Vec::new();
+    grow(
+        levels,
+        [0.0; 3],
+        0.5,
+        [0.0, 0.0, 1.0],
+        &directions(),
+        &mut spheres,
+    );
+    let mut text = String::from(
+        "// view: eye 2.1 1.3 1.7 target 0 0 0 up 0 0 1 fov 45 size 1280 720\n\
+         .05 .05 .05\n3\n4 3 2\n.5 .5 .5\n1 -4 4\n.5 .5 .5\n-3 1 5\n.5 .5 .5\n",
+    );
+    let floor = "box\n-6 -6 -.7 1 0 0 0 1 0 0 0 1 12 12 .2\n\
+                 .8 .6 .26\n.8 .6 .26\n0 0 0\n1 0 0 1\n";
+    put(&mut text, format_args!("{}\n{floor}", spheres.len() + 1));
+    for ([x, y, z], radius) in spheres {
+        put(
+            &mut text,
+            format_args!(
+                "sphere\n{x} {y} {z} {radius}\n.5 .45 .35\n.5 .45 .35\n.5 .5 .5\n30 .5 0 1\n"
+            ),
+        );
+    }
+    text
+}
+
+/// Writes `count` small spheres in eight colours, spread evenly over a cube of edge 2. The same seed
+/// gives the same text.
+pub(crate) fn random_spheres(count: usize, seed: u64) -> String {
+    const COLOURS: [&str; 8] = [
+        ".8 .2 .2", ".2 .7 .2", ".2 .3 .8", ".8 .7 .2", ".7 .2 .7", ".2 .7 .7", ".8 .8 .8",
+        ".8 .5 .2",
+    ];
+    let mut text = String::from(
+        "// view: eye 2.6 -3.2 2.2 target 0 0 0 up 0 0 1 fov 36 size 1280 720\n\
+         .1 .1 .1\n1\n4 -6 8\n.9 .9 .9\n",
+    );
+    put(&mut text, format_args!("{count}\n"));
+    let mut state = seed;
+    for _ in 0..count {
+        let [x, y, z, size, shade] = [(); 5].map(|()| unit(&mut state));
+        let [x, y, z] = [x, y, z].map(|coordinate| 2.0 * coordinate - 1.0);
+        let radius = 0.002 + 0.002 * size;
+        let colour = COLOURS[(shade * 8.0) as usize % 8];
+        put(
+            &mut text,
+            format_args!(
+                "sphere\n{x:.5} {y:.5} {z:.5} {radius:.5}\n{colour}\n{colour}\n.3 .3 .3\n20 0 0 1\n"
+            ),
+        );
+    }
+    text
+}
+
+/// The nine directions of the children of a sphere that points along +z.
+fn directions() -> Vec<Vector> {
+    let d = FRAC_1_SQRT_2;
+    let axis = [d, -d, 0.0];
+    let tilt = (2.0 / 6f64.sqrt()).asin();
+    let triple = [[d, d, 0.0], [d, 0.0, -d], [0.0, d, -d]].map(|v| rotate(v, axis, tilt));
+    let turns = [0.0, 2.0, 4.0].map(|thirds| thirds * PI / 3.0);
+    turns
+        .iter()
+        .flat_map(|&angle| triple.map(|v| rotate(v, [0.0, 0.0, 1.0], angle)))
+        .collect()
+}
+
+/// Adds a sphere that points along `up`, and `levels` of children.
+fn grow(
+    levels: u32,
+    centre: Vector,
+    radius: f64,
+    up: Vector,
+    directions: &[Vector],
+    spheres: &mut Vec<(Vector, f64)>,
+) {
+    spheres.push((centre, radius));
+    if levels == 0 {
+        return;
+    }
+    for &direction in directions {
+        let out = lean(direction, up);
+        let reach = radius + radius / 3.0;
+        let place = [0, 1, 2].map(|i| centre[i] + reach * out[i]);
+        grow(levels - 1, place, radius / 3.0, out, directions, spheres);
+    }
+}
+
+/// Turns `v` by the shortest rotation that takes +z to `up`.
+fn lean(v: Vector, up: Vector) -> Vector {
+    let sine = up[0].hypot(up[1]);
+    if sine < 1e-9 {
+        let sign = up[2].signum();
+        return [v[0], sign * v[1], sign * v[2]];
+    }
+    rotate(v, [-up[1] / sine, up[0] / sine, 0.0], sine.atan2(up[2]))
+}
+
+/// Rodrigues' rotation about a unit axis.
+fn rotate(v: Vector, axis: Vector, angle: f64) -> Vector {
+    let (sin, cos) = angle.sin_cos();
+    let [x, y, z] = axis;
+    let across = [
+        y * v[2] - z * v[1],
+        z * v[0] - x * v[2],
+        x * v[1] - y * v[0],
+    ];
+    let along = x * v[0] + y * v[1] + z * v[2];
+    [0, 1, 2].map(|i| v[i] * cos + across[i] * sin + axis[i] * along * (1.0 - cos))
+}
+
+/// The next number in 0..1 of `SplitMix64` (Steele, Lea and Flood 2014).
+fn unit(state: &mut u64) -> f64 {
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let x = (*state ^ (*state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((x ^ (x >> 31)) >> 11) as f64 * 2f64.powi(-53)
+}
+
+/// Appends to a text.
+fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
+    text.write_fmt(what)
+        .expect("a String takes all that is written to it");
+}

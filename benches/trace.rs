@@ -1,0 +1,191 @@
+//! How fast scenes are read, made ready and traced: a table, from one run of each on all cores and
+//! the median of several.
+//!
+//! `cargo bench --bench trace` prints it; `cargo bench --bench trace -- flake` only the scenes with
+//! that in their name.
+
+mod scenes;
+
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::mpsc;
+use std::time::{Duration, Instant};
+
+use halflight::accel::Bvh;
+use halflight::format::{self, Format};
+use halflight::geometry::Aabb;
+use halflight::render::{DEFAULT_DEPTH, Frame, Job, Renderer, Settings, Threads};
+use halflight::scene::{Scene, Size, lower};
+
+/// Runs of everything that is timed; the median is printed.
+const RUNS: usize = 5;
+
+/// Pixels traced, one sample each.
+const SIZE: Size = Size {
+    width: 640,
+    height: 480,
+};
+
+fn main() {
+    // Cargo passes `--bench`; anything else is part of a name.
+    let wanted: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|a| !a.starts_with("--"))
+        .collect();
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    println!(
+        "{}x{}, 1 spp, depth {DEFAULT_DEPTH}, medians of {RUNS}",
+        SIZE.width, SIZE.height
+    );
+    println!(
+        "{:<20} {:>8} {:>9} {:>9} {:>9} {:>9} {:>7} {:>9} {:>9}",
+        "scene",
+        "objects",
+        "parse ms",
+        "lower ms",
+        "build ms",
+        "B/object",
+        "Mrays",
+        "Mray/s 1",
+        format!("Mray/s {cores}")
+    );
+    for (name, text) in measured() {
+        if wanted.is_empty() || wanted.iter().any(|part| name.contains(part.as_str())) {
+            row(&name, &text(), cores);
+        }
+    }
+}
+
+type Text = Box<dyn Fn() -> String>;
+
+/// The scenes by name: the project's own and the generated ones.
+fn measured() -> Vec<(String, Text)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let entries = std::fs::read_dir(folder).expect("the scenes are there");
+    let mut own: Vec<_> = entries
+        .map(|entry| entry.expect("a scene").path())
+        .collect();
+    own.retain(|path| Format::of_path(path).is_some());
+    own.sort();
+    let mut measured: Vec<(String, Text)> = Vec::new();
+    for path in own {
+        let name = path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        measured.push((
+            name,
+            Box::new(move || std::fs::read_to_string(&path).expect("a scene")),
+        ));
+    }
+    measured.push(("flake of 7,381".into(), Box::new(|| scenes::sphereflake(4))));
+    measured.push((
+        "1,000,000 spheres".into(),
+        Box::new(|| scenes::random_spheres(1_000_000, 1)),
+    ));
+    measured
+}
+
+fn row(name: &str, text: &str, cores: usize) {
+    let (parse, tree) = median(|| format::parse(Format::Ray, text));
+    let (lowering, lowered) = median(|| lower(text, &tree));
+    drop((tree, lowered));
+
+    // What an open document costs beside its text: tokens, origins, scene and acceleration tree.
+    let before = resident();
+    let tree = format::parse(Format::Ray, text);
+    let mut lowered = lower(text, &tree);
+    let scene = Arc::new(lowered.scene.take().expect("a scene without errors"));
+    let boxes: Vec<Aabb> = scene
+        .objects
+        .iter()
+        .map(|object| object.shape.bounds())
+        .collect();
+    let (build, bvh) = median(|| Bvh::build(&boxes, || false).expect("nothing cancels"));
+    drop(boxes);
+    let bytes = resident().saturating_sub(before) / scene.objects.len();
+    drop((tree, lowered, bvh));
+
+    let (alone, frame) = traced(&scene, 1);
+    let (together, _) = traced(&scene, cores);
+    let rays = frame.progress.rays as f64 / 1e6;
+    println!(
+        "{name:<20} {:>8} {:>9} {:>9} {:>9} {:>9} {rays:>7.2} {:>9.2} {:>9.2}",
+        scene.objects.len(),
+        milliseconds(parse),
+        milliseconds(lowering),
+        milliseconds(build),
+        // Below that, a page more or less says nothing about objects.
+        if scene.objects.len() < 1000 {
+            "-".into()
+        } else {
+            bytes.to_string()
+        },
+        rays / alone.as_secs_f64(),
+        rays / together.as_secs_f64(),
+    );
+}
+
+/// The median time of tracing a scene on so many threads, and the frame.
+fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
+    let (wake, woken) = mpsc::channel();
+    let renderer = Renderer::new(Threads::Exactly(threads), move || {
+        let _ = wake.send(());
+    });
+    let trace = || {
+        let settings = Settings {
+            size: SIZE,
+            spp: 1,
+            depth: DEFAULT_DEPTH,
+            seed: 0,
+        };
+        let job = Job {
+            scene: Arc::clone(scene),
+            camera: scene.camera,
+            settings,
+        };
+        let generation = renderer.restart(job).expect("the worker runs");
+        loop {
+            woken.recv().expect("the worker runs");
+            match renderer.latest() {
+                Some(frame) if frame.generation == generation && frame.progress.complete => {
+                    return frame;
+                }
+                _ => {}
+            }
+        }
+    };
+    // The first one builds the tree.
+    trace();
+    median(trace)
+}
+
+/// The median time of several runs, and what the last one gave.
+fn median<T>(mut run: impl FnMut() -> T) -> (Duration, T) {
+    let mut times = [Duration::ZERO; RUNS];
+    let mut last = None;
+    for time in &mut times {
+        drop(last.take());
+        let begun = Instant::now();
+        last = Some(run());
+        *time = begun.elapsed();
+    }
+    times.sort_unstable();
+    (times[RUNS / 2], last.expect("there was a run"))
+}
+
+fn milliseconds(time: Duration) -> String {
+    format!("{:.2}", time.as_secs_f64() * 1e3)
+}
+
+/// Memory of this process that is in use, in bytes; 0 where the system does not say so.
+fn resident() -> usize {
+    let status = std::fs::read_to_string("/proc/self/statm").unwrap_or_default();
+    let pages = status
+        .split(' ')
+        .nth(1)
+        .and_then(|pages| pages.parse().ok())
+        .unwrap_or(0_usize);
+    4096 * pages
+}

@@ -1,0 +1,84 @@
+//! Boxes against rays: a bounding volume hierarchy over boxes. Knows boxes and rays only; what a
+//! box holds is the caller's closure.
+//!
+//! `build` sorts boxes into a tree of [`node::WIDTH`]-wide nodes by the surface area heuristic,
+//! `node` holds such a node and tests a ray against all its children at once, and `traverse` walks
+//! the tree, near children first.
+//!
+//! # How nothing is missed
+//!
+//! - Nodes store `f32` planes relative to a reference point, rounded outward. The reference is the
+//!   median of the boxes' centres, so a scene far from the origin keeps its resolution, and so do
+//!   small things beside a few huge ones.
+//! - A ray's origin relative to the reference is an interval of one unit in the last place, and
+//!   each plane takes the end of it that makes the box larger.
+//! - Planes are widened to `f64`, which is exact, and distances grow by the bound on their rounding
+//!   error after Ize, "Robust BVH Ray Traversal" (JCGT 2013).
+//!
+//! All of it is relative: there is no absolute tolerance, and a scene scaled by a power of two gives
+//! the same tree and the same visits.
+
+mod build;
+mod node;
+mod split;
+mod traverse;
+
+#[cfg(test)]
+mod tests;
+
+use std::mem::size_of_val;
+
+use glam::DVec3;
+
+use crate::geometry::{Aabb, Ray};
+use node::Node;
+
+/// A bounding volume hierarchy over the boxes it was built from.
+#[derive(Debug)]
+pub struct Bvh {
+    /// The point the planes of the nodes are relative to.
+    reference: DVec3,
+    /// The root first; none if no box is in the tree.
+    nodes: Vec<Node>,
+    /// Indices of boxes; a leaf is a run of them.
+    indices: Vec<u32>,
+    /// Boxes without finite planes, which every ray visits.
+    unbounded: Vec<u32>,
+}
+
+impl Bvh {
+    /// Builds the tree, in parallel on the current rayon pool; the same boxes give the same tree.
+    /// `None` if `cancelled` said so, which is asked at least every few milliseconds.
+    ///
+    /// An empty box is never visited. A box that is infinite, not a number, or farther than `f32`
+    /// reaches from most others is visited by every ray. Boxes beyond the first 2³² − 1 are
+    /// ignored.
+    pub fn build(boxes: &[Aabb], cancelled: impl Fn() -> bool + Sync) -> Option<Self> {
+        build::build(boxes, &cancelled).ok()
+    }
+
+    /// Calls `visit` with the index of every box the ray may meet at a distance in `0..=limit`,
+    /// roughly near ones first. `visit` returns the limit from there on: the same, or less once
+    /// something nearer was found; below 0 ends the walk. Never misses a box the ray meets; may
+    /// visit ones it does not.
+    ///
+    /// Inlined into the caller, so that it uses whatever vectors the caller was compiled for; the
+    /// visits are the same with any.
+    ///
+    /// Each index is visited at most once. A ray that is not finite visits anything or nothing.
+    #[expect(
+        clippy::inline_always,
+        reason = "a caller compiled for wider vectors must take this with it"
+    )]
+    #[inline(always)]
+    pub fn traverse(&self, ray: &Ray, limit: f64, visit: impl FnMut(u32) -> f64) {
+        traverse::traverse(self, ray, limit, visit);
+    }
+
+    /// Bytes on the heap.
+    pub fn memory(&self) -> usize {
+        size_of_val(self.nodes.as_slice())
+            + size_of_val(self.indices.as_slice())
+            + size_of_val(self.unbounded.as_slice())
+    }
+}

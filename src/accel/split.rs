@@ -1,0 +1,276 @@
+//! Dividing boxes in two by the surface area heuristic over bins.
+//!
+//! After Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies" (RT 2007). Bins are
+//! merged by minimum, maximum and sum of integers, so they do not depend on how work was shared.
+
+use rayon::prelude::*;
+
+use super::node::Bounds;
+
+/// A box on its way into the tree.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reference {
+    pub(super) bounds: Bounds,
+    pub(super) index: u32,
+}
+
+/// The answer of a build that was told to stop.
+#[derive(Debug)]
+pub(super) struct Cancelled;
+
+/// The caller's wish to stop, asked as a check that fails.
+pub(super) struct Patience<'a, F>(pub(super) &'a F);
+
+impl<F: Fn() -> bool + Sync> Patience<'_, F> {
+    pub(super) fn check(&self) -> Result<(), Cancelled> {
+        if (self.0)() { Err(Cancelled) } else { Ok(()) }
+    }
+}
+
+/// References looked at between two checks, and the least worth a task: about 0.2 ms.
+pub(super) const CHUNK: usize = 8192;
+
+/// The boxes around some references and around their centres.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Extent {
+    pub(super) bounds: Bounds,
+    pub(super) centres: Bounds,
+}
+
+impl Extent {
+    const EMPTY: Self = Self {
+        bounds: Bounds::EMPTY,
+        centres: Bounds::EMPTY,
+    };
+
+    /// Measures references.
+    pub(super) fn of(
+        references: &[Reference],
+        patience: &Patience<impl Fn() -> bool + Sync>,
+    ) -> Result<Self, Cancelled> {
+        gather(references, patience, Self::EMPTY, Self::measure, |a, b| {
+            Self {
+                bounds: a.bounds.union(&b.bounds),
+                centres: a.centres.union(&b.centres),
+            }
+        })
+    }
+
+    fn measure(chunk: &[Reference]) -> Self {
+        let mut extent = Self::EMPTY;
+        for reference in chunk {
+            let centre = reference.bounds.centre();
+            extent.bounds = extent.bounds.union(&reference.bounds);
+            extent.centres = extent.centres.union(&Bounds {
+                low: centre,
+                high: centre,
+            });
+        }
+        extent
+    }
+
+    /// The axis along which the centres spread most.
+    fn widest(&self) -> usize {
+        let width = |axis: usize| self.centres.high[axis] - self.centres.low[axis];
+        let wider = usize::from(width(0) < width(1));
+        if width(wider) < width(2) { 2 } else { wider }
+    }
+}
+
+/// Divides the references into two parts, neither empty, and returns the length of the first: where
+/// the heuristic sees the least cost, or in halves if all centres fall together.
+pub(super) fn by_area(
+    references: &mut [Reference],
+    extent: &Extent,
+    patience: &Patience<impl Fn() -> bool + Sync>,
+) -> Result<usize, Cancelled> {
+    let count = bin_count(references.len());
+    let grid = Grid::new(&extent.centres, count);
+    let bins = gather(
+        references,
+        patience,
+        Bins::EMPTY,
+        |chunk| Bins::fill(chunk, &grid),
+        Bins::merge,
+    )?;
+    match bins.cheapest(count) {
+        Some((axis, bin)) => partition(references, patience, |reference| {
+            grid.bin(axis, reference.bounds.centre()[axis]) < bin
+        }),
+        None => Ok(references.len() / 2),
+    }
+}
+
+/// Divides the references into halves by their centres along the widest axis.
+pub(super) fn by_count(references: &mut [Reference], extent: &Extent) -> usize {
+    let axis = extent.widest();
+    let half = references.len() / 2;
+    references.select_nth_unstable_by(half, |a, b| {
+        let [a_centre, b_centre] = [a, b].map(|reference| reference.bounds.centre()[axis]);
+        a_centre.total_cmp(&b_centre).then(a.index.cmp(&b.index))
+    });
+    half
+}
+
+/// The most bins an axis.
+const BINS: usize = 16;
+
+/// Bins an axis for so many references: sweeping them is most of the work for few.
+fn bin_count(references: usize) -> usize {
+    if references < 64 { BINS / 2 } else { BINS }
+}
+
+/// Maps centres to bins.
+struct Grid {
+    low: [f32; 4],
+    /// Bins a unit of length; infinite for coincident centres.
+    scale: [f32; 4],
+    last: usize,
+}
+
+impl Grid {
+    fn new(centres: &Bounds, count: usize) -> Self {
+        let scale =
+            std::array::from_fn(|axis| count as f32 / (centres.high[axis] - centres.low[axis]));
+        Self {
+            low: centres.low,
+            scale,
+            last: count - 1,
+        }
+    }
+
+    /// The bin of a coordinate; 0 · ∞ counts as the first.
+    #[inline]
+    fn bin(&self, axis: usize, coordinate: f32) -> usize {
+        let bin = ((coordinate - self.low[axis]) * self.scale[axis]) as usize;
+        bin.min(self.last)
+    }
+}
+
+/// What fell into a bin.
+#[derive(Clone, Copy)]
+struct Bin {
+    bounds: Bounds,
+    count: u32,
+}
+
+/// Bins along each axis.
+struct Bins([[Bin; BINS]; 3]);
+
+impl Bins {
+    const EMPTY: Self = Self(
+        [[Bin {
+            bounds: Bounds::EMPTY,
+            count: 0,
+        }; BINS]; 3],
+    );
+
+    fn fill(chunk: &[Reference], grid: &Grid) -> Self {
+        let mut bins = Self::EMPTY;
+        for reference in chunk {
+            let centre = reference.bounds.centre();
+            for (axis, row) in bins.0.iter_mut().enumerate() {
+                let bin = &mut row[grid.bin(axis, centre[axis]) % BINS];
+                bin.bounds = bin.bounds.union(&reference.bounds);
+                bin.count += 1;
+            }
+        }
+        bins
+    }
+
+    fn merge(mut self, Self(theirs): Self) -> Self {
+        let theirs = theirs.into_iter().flatten();
+        for (bin, other) in self.0.iter_mut().flatten().zip(theirs) {
+            bin.bounds = bin.bounds.union(&other.bounds);
+            bin.count += other.count;
+        }
+        self
+    }
+
+    /// The axis and the first bin of the second part of the cheapest division; none if every axis
+    /// has all in one bin.
+    fn cheapest(&self, count: usize) -> Option<(usize, usize)> {
+        let mut best = None;
+        let mut least = f64::INFINITY;
+        for (axis, row) in self.0.iter().enumerate() {
+            let mut after = [None; BINS];
+            let mut sum = Bin {
+                bounds: Bounds::EMPTY,
+                count: 0,
+            };
+            for bin in (1..count).rev() {
+                sum = sum.and(&row[bin]);
+                after[bin] = sum.cost();
+            }
+            sum = row[0];
+            for bin in 1..count {
+                if let (Some(before), Some(after)) = (sum.cost(), after[bin])
+                    && before + after < least
+                {
+                    least = before + after;
+                    best = Some((axis, bin));
+                }
+                sum = sum.and(&row[bin]);
+            }
+        }
+        best
+    }
+}
+
+impl Bin {
+    #[inline]
+    fn and(&self, other: &Self) -> Self {
+        Self {
+            bounds: self.bounds.union(&other.bounds),
+            count: self.count + other.count,
+        }
+    }
+
+    /// Half area times count, in proportion to the expected work; none if there is nothing in it.
+    #[inline]
+    fn cost(&self) -> Option<f64> {
+        (self.count != 0).then(|| self.bounds.half_area() * f64::from(self.count))
+    }
+}
+
+/// Reduces chunks of references, in parallel if there are several, with a check before each.
+fn gather<T: Send>(
+    references: &[Reference],
+    patience: &Patience<impl Fn() -> bool + Sync>,
+    empty: T,
+    measure: impl Fn(&[Reference]) -> T + Sync,
+    merge: impl Fn(T, T) -> T + Sync,
+) -> Result<T, Cancelled> {
+    if references.len() <= CHUNK {
+        return Ok(measure(references));
+    }
+    let chunks = references.par_chunks(CHUNK).map(|chunk| {
+        patience.check()?;
+        Ok(measure(chunk))
+    });
+    let merged = chunks.try_reduce_with(|a, b| Ok(merge(a, b)));
+    merged.unwrap_or(Ok(empty))
+}
+
+/// Moves the references that belong first to the front and returns how many they are.
+fn partition(
+    references: &mut [Reference],
+    patience: &Patience<impl Fn() -> bool + Sync>,
+    belongs_first: impl Fn(&Reference) -> bool,
+) -> Result<usize, Cancelled> {
+    let (mut front, mut back) = (0, references.len());
+    while front < back {
+        if CHUNK < back - front {
+            patience.check()?;
+        }
+        for _ in 0..CHUNK.min(back - front) {
+            if belongs_first(&references[front]) {
+                front += 1;
+            } else {
+                back -= 1;
+                references.swap(front, back);
+            }
+        }
+    }
+    Ok(front)
+}

@@ -1,0 +1,431 @@
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use glam::DVec3;
+
+use super::Bvh;
+use super::build::LEVELS;
+use super::node::{Bounds, Child, WIDTH};
+use super::split::{Extent, Patience, Reference, by_count};
+use crate::geometry::{Aabb, Ray};
+
+/// The generator of Steele, Lea and Flood (2014): repeatable numbers without a dependency.
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^ (x >> 31)
+    }
+
+    /// In −1..1.
+    fn signed(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 * 2f64.powi(-52) - 1.0
+    }
+
+    fn point(&mut self) -> DVec3 {
+        DVec3::new(self.signed(), self.signed(), self.signed())
+    }
+
+    fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+        from[self.bits() as usize % from.len()]
+    }
+}
+
+fn build(boxes: &[Aabb]) -> Bvh {
+    Bvh::build(boxes, || false).expect("nobody cancels")
+}
+
+fn cube(centre: DVec3, half: DVec3) -> Aabb {
+    Aabb {
+        min: centre - half,
+        max: centre + half,
+    }
+}
+
+/// Boxes of many sizes, every fourth of them flat.
+fn random_boxes(random: &mut Random, count: usize, scale: f64, around: DVec3) -> Vec<Aabb> {
+    let boxes = (0..count).map(|i| {
+        let mut half = random.point().abs() * 0.2 * random.signed().abs();
+        if i % 4 == 0 {
+            half[i / 4 % 3] = 0.0;
+        }
+        cube(around + scale * random.point(), scale * half)
+    });
+    boxes.collect()
+}
+
+/// A ray aimed at a point of a box: its centre, a corner, a place in an edge or a face, from inside
+/// or outside, often along an axis.
+fn ray_at(random: &mut Random, target: Aabb, scale: f64) -> Ray {
+    let weight = DVec3::from_array([0; 3].map(|_: i32| random.pick(&[0.0, 0.5, 1.0])));
+    let aim = target.min * (DVec3::ONE - weight) + target.max * weight;
+    let direction = match random.bits() % 3 {
+        0 => random.pick(&DVec3::AXES) * random.pick(&[1.0, -1.0]),
+        1 => DVec3::new(random.signed(), random.pick(&[0.0, -0.0]), random.signed()).normalize(),
+        _ => random.point().normalize(),
+    };
+    let back = scale * random.pick(&[0.0, 0.01, 3.0]);
+    Ray {
+        origin: aim - back * direction,
+        direction,
+    }
+}
+
+/// Where a ray is in a box, at distances not below 0. A box that contains the coordinate of a
+/// parallel ray does not bound it.
+fn span(aabb: &Aabb, ray: &Ray) -> [f64; 2] {
+    let (mut enter, mut exit) = (0.0, f64::INFINITY);
+    for axis in 0..3 {
+        let [low, high, origin] = [aabb.min, aabb.max, ray.origin].map(|v| v[axis]);
+        let slope = ray.direction[axis];
+        if slope == 0.0 {
+            if origin < low || high < origin {
+                return [f64::INFINITY, 0.0];
+            }
+            continue;
+        }
+        let (a, b) = ((low - origin) / slope, (high - origin) / slope);
+        enter = a.min(b).max(enter);
+        exit = a.max(b).min(exit);
+    }
+    [enter, exit]
+}
+
+fn visits(bvh: &Bvh, ray: &Ray, limit: f64) -> Vec<u32> {
+    let mut seen = Vec::new();
+    bvh.traverse(ray, limit, |index| {
+        seen.push(index);
+        limit
+    });
+    seen.sort_unstable();
+    seen
+}
+
+/// Checks a node and all below it: children's boxes lie in `outer` and around what they hold.
+/// Returns the number of levels.
+fn check_node(bvh: &Bvh, boxes: &[Aabb], number: u32, outer: &Bounds, held: &mut [u32]) -> usize {
+    let node = &bvh.nodes[number as usize];
+    let mut levels = 0;
+    for lane in 0..WIDTH {
+        let (child, bounds) = (node.child(lane), node.bounds(lane));
+        if let Child::Leaf { count: 0, .. } = child {
+            continue;
+        }
+        assert_eq!(outer.union(&bounds), *outer, "a child leaves its parent");
+        match child {
+            Child::Inner(child) => {
+                levels = levels.max(check_node(bvh, boxes, child, &bounds, held));
+            }
+            Child::Leaf { first, count } => {
+                for &index in &bvh.indices[first as usize..][..usize::from(count)] {
+                    held[index as usize] += 1;
+                    let own = boxes[index as usize];
+                    for axis in 0..3 {
+                        let low = f64::from(bounds.low[axis]);
+                        let high = f64::from(bounds.high[axis]);
+                        assert!(low < own.min[axis] - bvh.reference[axis]);
+                        assert!(own.max[axis] - bvh.reference[axis] < high);
+                    }
+                }
+            }
+        }
+    }
+    levels + 1
+}
+
+/// Checks the whole tree and returns its number of levels.
+fn check_tree(bvh: &Bvh, boxes: &[Aabb]) -> usize {
+    let mut held = vec![0; boxes.len()];
+    let everything = Bounds {
+        low: [f32::NEG_INFINITY; 4],
+        high: [f32::INFINITY; 4],
+    };
+    let levels = check_node(bvh, boxes, 0, &everything, &mut held);
+    assert!(held.iter().all(|&count| count == 1), "each box once");
+    assert!(levels <= LEVELS);
+    levels
+}
+
+#[test]
+fn every_box_that_is_met_is_visited() {
+    let mut random = Random(1);
+    for scale in [1e-6, 1.0, 1e6] {
+        for around in [DVec3::ZERO, DVec3::new(1e6, -3e5, 7.0) * scale] {
+            let boxes = random_boxes(&mut random, 300, scale, around);
+            let bvh = build(&boxes);
+            for _ in 0..1500 {
+                let aim = random.pick(&boxes);
+                let ray = ray_at(&mut random, aim, scale);
+                let seen = visits(&bvh, &ray, f64::INFINITY);
+                for (index, aabb) in (0..).zip(&boxes) {
+                    let [enter, exit] = span(aabb, &ray);
+                    assert!(
+                        exit < enter || seen.binary_search(&index).is_ok(),
+                        "{ray:?} misses {aabb:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// A ray aimed along an axis in integers meets a box exactly, whatever its coordinates.
+#[test]
+fn a_ray_in_a_face_edge_or_corner_meets_the_box() {
+    for offset in [0.0, 3.0, 1e9, -1e15] {
+        let target = cube(DVec3::splat(offset), DVec3::new(1.0, 2.0, 0.0));
+        let bvh = build(&[target, cube(DVec3::splat(offset + 5.0), DVec3::ONE)]);
+        for direction in DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]) {
+            for corner in [target.min, target.max] {
+                let origin = corner - 8.0 * direction;
+                let seen = visits(&bvh, &Ray { origin, direction }, f64::INFINITY);
+                assert!(seen.contains(&0), "{direction} to {corner}");
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_far_beyond_the_limit_is_visited_and_all_up_to_it_is() {
+    // Boxes of one unit at x = 0, 10, 20 …: their leaves' boxes are known to the f32 rounding only
+    // if they are leaves of one box, as in a tree of up to eight.
+    let boxes: Vec<_> = (0..8)
+        .map(|i| cube(10.0 * f64::from(i) * DVec3::X, DVec3::ONE))
+        .collect();
+    let bvh = build(&boxes);
+    let ray = Ray {
+        origin: -9.0 * DVec3::X,
+        direction: DVec3::X,
+    };
+    for count in 1..=8 {
+        // Box i is entered at 8 + 10 i.
+        let limit = f64::from(8 + 10 * (count - 1));
+        let expected: Vec<u32> = (0..count as u32).collect();
+        assert_eq!(visits(&bvh, &ray, limit), expected);
+        assert_eq!(
+            visits(&bvh, &ray, limit - 1e-4),
+            expected[..expected.len() - 1]
+        );
+    }
+    assert!(visits(&bvh, &ray, -1.0).is_empty());
+}
+
+/// Distance at which a ray meets the largest sphere in a box.
+fn sphere(aabb: &Aabb, ray: &Ray) -> f64 {
+    let (from, radius) = (ray.origin - aabb.centre(), 0.5 * aabb.size().x);
+    let toward = -from.dot(ray.direction);
+    let across = radius * radius - (from + toward * ray.direction).length_squared();
+    let t = toward - across.max(0.0).sqrt();
+    if across < 0.0 || t < 0.0 {
+        f64::INFINITY
+    } else {
+        t
+    }
+}
+
+#[test]
+fn a_shrinking_limit_finds_the_nearest_sphere() {
+    let mut random = Random(2);
+    let boxes: Vec<_> = (0..2000)
+        .map(|_| cube(random.point(), DVec3::splat(0.05 * random.signed().abs())))
+        .collect();
+    let bvh = build(&boxes);
+    let (mut met, mut visited) = (0, 0);
+    for _ in 0..2000 {
+        let ray = Ray {
+            origin: 2.0 * random.point(),
+            direction: random.point().normalize(),
+        };
+        let mut nearest = f64::INFINITY;
+        bvh.traverse(&ray, nearest, |index| {
+            visited += 1;
+            nearest = nearest.min(sphere(&boxes[index as usize], &ray));
+            nearest
+        });
+        let expected = boxes
+            .iter()
+            .map(|aabb| sphere(aabb, &ray))
+            .fold(f64::INFINITY, f64::min);
+        assert_eq!(nearest.to_bits(), expected.to_bits());
+        met += usize::from(nearest < f64::INFINITY);
+    }
+    assert!(200 < met, "rays meet something");
+    assert!(visited < 2000 * 20, "most boxes are culled");
+}
+
+#[test]
+fn a_negative_limit_ends_the_walk() {
+    let boxes = vec![cube(DVec3::ZERO, DVec3::ONE); 100];
+    let ray = Ray {
+        origin: DVec3::ZERO,
+        direction: DVec3::X,
+    };
+    let mut count = 0;
+    build(&boxes).traverse(&ray, 1.0, |_| {
+        count += 1;
+        -1.0
+    });
+    assert_eq!(count, 1);
+}
+
+#[test]
+fn trees_are_sound() {
+    let mut random = Random(3);
+    for count in [1, 2, 4, 5, 8, 9, 64, 65, 1000, 20_000] {
+        let boxes = random_boxes(&mut random, count, 1.0, DVec3::ZERO);
+        let bvh = build(&boxes);
+        assert!(check_tree(&bvh, &boxes) <= 10, "{count} boxes");
+        assert!(bvh.memory() <= 256 + 70 * count, "{count} boxes");
+    }
+}
+
+/// Each box a tenth of the one before, all sharing a corner: the heuristic peels off a few at a time.
+#[test]
+fn a_tree_of_nested_boxes_stays_within_its_depth() {
+    let boxes: Vec<_> = (0..30_000)
+        .map(|i| cube(DVec3::ZERO, DVec3::splat(10f64.powi(-(i % 30)))))
+        .chain((0..3000).map(|i| {
+            let size = 0.97f64.powi(i);
+            cube(DVec3::splat(size), DVec3::splat(0.1 * size))
+        }))
+        .collect();
+    let bvh = build(&boxes);
+    check_tree(&bvh, &boxes);
+}
+
+#[test]
+fn division_by_count_halves_along_the_widest_axis() {
+    let mut random = Random(7);
+    let stretch = DVec3::new(1.0, 2.0, 9.0);
+    let mut references: Vec<_> = (0..1001)
+        .map(|index| Reference {
+            bounds: Bounds::around(cube(stretch * random.point(), DVec3::ONE), DVec3::ZERO),
+            index,
+        })
+        .collect();
+    let extent = Extent::of(&references, &Patience(&|| false)).expect("nobody cancels");
+    assert_eq!(by_count(&mut references, &extent), 500);
+    let heights = references
+        .iter()
+        .map(|reference| reference.bounds.centre()[2]);
+    let (low, high): (Vec<_>, Vec<_>) = (
+        heights.clone().take(500).collect(),
+        heights.skip(500).collect(),
+    );
+    assert!(low.iter().all(|a| high.iter().all(|b| a <= b)));
+}
+
+#[test]
+fn coincident_boxes_make_a_shallow_tree() {
+    let boxes = vec![cube(DVec3::ONE, DVec3::ONE); 1_000_000];
+    let bvh = build(&boxes);
+    // Eight to the seventh is two million.
+    assert!(check_tree(&bvh, &boxes) <= 7);
+}
+
+#[test]
+fn thread_count_does_not_change_the_tree() {
+    let boxes = random_boxes(&mut Random(4), 40_000, 1.0, DVec3::ZERO);
+    let [one, two] = [1, 2].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("threads start").install(|| build(&boxes))
+    });
+    assert_eq!(one.nodes, two.nodes);
+    assert_eq!(one.indices, two.indices);
+}
+
+#[test]
+fn a_power_of_two_scales_the_visits_away() {
+    let mut random = Random(5);
+    let boxes = random_boxes(&mut random, 500, 1.0, DVec3::ONE);
+    let rays: Vec<_> = (0..300)
+        .map(|_| {
+            let aim = random.pick(&boxes);
+            ray_at(&mut random, aim, 1.0)
+        })
+        .collect();
+    let bvh = build(&boxes);
+    for factor in [-40, -1, 1, 40].map(|k| 2f64.powi(k)) {
+        let scaled: Vec<_> = boxes
+            .iter()
+            .map(|aabb| Aabb {
+                min: factor * aabb.min,
+                max: factor * aabb.max,
+            })
+            .collect();
+        let scaled = build(&scaled);
+        for ray in &rays {
+            let far = Ray {
+                origin: factor * ray.origin,
+                ..*ray
+            };
+            assert_eq!(visits(&scaled, &far, 2.0 * factor), visits(&bvh, ray, 2.0));
+        }
+    }
+}
+
+#[test]
+fn a_build_asks_often_and_stops_when_told() {
+    let boxes = random_boxes(&mut Random(6), 100_000, 1.0, DVec3::ZERO);
+    let asked = AtomicUsize::new(0);
+    assert!(Bvh::build(&boxes, || true).is_none());
+    let whole = Bvh::build(&boxes, || {
+        asked.fetch_add(1, Ordering::Relaxed);
+        false
+    });
+    assert!(whole.is_some());
+    // Each of five binary levels at the least touches every chunk of 8192 boxes.
+    let asked = asked.into_inner();
+    assert!(5 * 12 < asked, "asked {asked} times");
+    for patience in [1, 10, asked / 2, asked - 1] {
+        let left = AtomicUsize::new(patience);
+        let cancelled = || {
+            left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |n| n.checked_sub(1))
+                .is_err()
+        };
+        assert!(Bvh::build(&boxes, cancelled).is_none(), "after {patience}");
+    }
+}
+
+#[test]
+fn odd_boxes_do_no_harm() {
+    let ray = Ray {
+        origin: DVec3::splat(-4.0),
+        direction: DVec3::ONE.normalize(),
+    };
+    let all = f64::INFINITY;
+    assert!(visits(&build(&[]), &ray, all).is_empty());
+    assert_eq!(build(&[]).memory(), 0);
+    assert!(visits(&build(&[Aabb::EMPTY]), &ray, all).is_empty());
+    let nan = Aabb {
+        min: DVec3::NAN,
+        max: DVec3::ONE,
+    };
+    let everywhere = Aabb {
+        min: DVec3::NEG_INFINITY,
+        max: DVec3::INFINITY,
+    };
+    let half_space = Aabb {
+        max: DVec3::new(-9.0, all, all),
+        ..everywhere
+    };
+    let huge = cube(DVec3::ZERO, DVec3::splat(1e300));
+    let aside = cube(DVec3::new(9.0, -9.0, 0.0), DVec3::ONE);
+    let met = cube(DVec3::ONE, DVec3::ONE);
+    let bvh = build(&[Aabb::EMPTY, nan, everywhere, half_space, huge, aside, met]);
+    assert_eq!(visits(&bvh, &ray, all), [1, 2, 3, 4, 6]);
+    for broken in [DVec3::NAN, DVec3::INFINITY, DVec3::ZERO] {
+        let direction = broken;
+        visits(&bvh, &Ray { direction, ..ray }, all);
+        visits(
+            &bvh,
+            &Ray {
+                origin: broken,
+                direction,
+            },
+            f64::NAN,
+        );
+    }
+}

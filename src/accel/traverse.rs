@@ -1,0 +1,92 @@
+//! The walk of a ray through the tree, near children first.
+
+use crate::geometry::Ray;
+
+use super::Bvh;
+use super::build::LEVELS;
+use super::node::{Child, SlabRay, WIDEN, WIDTH};
+
+/// The most children that can wait: a node takes one off and leaves at most [`WIDTH`], once a level.
+const STACK: usize = 1 + LEVELS * (WIDTH - 1);
+
+/// A child whose turn has not come.
+#[derive(Clone, Copy)]
+struct Waiting {
+    /// Where the ray enters its box.
+    entry: f64,
+    child: Child,
+}
+
+/// See [`Bvh::traverse`].
+#[expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take this with it"
+)]
+#[inline(always)]
+pub(super) fn traverse(bvh: &Bvh, ray: &Ray, mut limit: f64, mut visit: impl FnMut(u32) -> f64) {
+    for &index in &bvh.unbounded {
+        if limit < 0.0 {
+            return;
+        }
+        limit = visit(index);
+    }
+    if bvh.nodes.is_empty() {
+        return;
+    }
+    let ray = SlabRay::new(ray, bvh.reference);
+    let root = Waiting {
+        entry: 0.0,
+        child: Child::Inner(0),
+    };
+    let mut stack = [root; STACK];
+    let mut height = 1;
+    while 0 < height {
+        height -= 1;
+        let Waiting { entry, child } = stack[height];
+        // The entry carries rounding errors; a box entered right at the limit still counts.
+        if limit * WIDEN < entry {
+            continue;
+        }
+        match child {
+            Child::Inner(number) => {
+                let node = &bvh.nodes[number as usize];
+                let (entries, mut met) = node.entries(&ray, limit);
+                let base = height;
+                while met != 0 {
+                    let lane = met.trailing_zeros() as usize % WIDTH;
+                    met &= met - 1;
+                    let waiting = Waiting {
+                        entry: entries[lane],
+                        child: node.child(lane),
+                    };
+                    insert(&mut stack, base, height, waiting);
+                    height += 1;
+                }
+            }
+            Child::Leaf { first, count } => {
+                let first = first as usize;
+                for &index in &bvh.indices[first..first + usize::from(count)] {
+                    limit = visit(index);
+                    if limit < 0.0 {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Puts a child among those from `base` to `height`, which stay sorted with the nearest on top.
+#[expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take this with it"
+)]
+#[inline(always)]
+fn insert(stack: &mut [Waiting; STACK], base: usize, height: usize, waiting: Waiting) {
+    let mut place = height;
+    while base < place && stack[place - 1].entry < waiting.entry {
+        stack[place] = stack[place - 1];
+        place -= 1;
+    }
+    stack[place] = waiting;
+}

@@ -1,0 +1,140 @@
+//! Headless work: check and render. Knows no terminals, but for a progress line where the error
+//! stream is one.
+
+mod progress;
+mod render;
+mod report;
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use crate::file::{self, ReadError};
+use crate::format::{self, Format};
+use crate::scene::{self, Scene};
+use crate::text::visible;
+
+pub use render::{Output, Render, render};
+
+/// Why headless work did not come to its end. Whoever gets it has nothing to print: the work did.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A scene can't be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// A file whose name does not say which language it is written in.
+    #[error("{path}: not a scene: scenes end in .ray", path = path.display())]
+    UnknownLanguage {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Scenes have errors, which were printed.
+    #[error("no picture was made: the scene has {}", counted(*.errors, "error"))]
+    Invalid {
+        /// How many.
+        errors: usize,
+    },
+    /// The picture asked for can't be made, for a reason known before tracing.
+    #[error("{0}")]
+    Refused(String),
+    /// There can be no file of that name.
+    #[error("{path}: {source}", path = path.display())]
+    Create {
+        /// The file.
+        path: PathBuf,
+        /// What the file system said.
+        source: io::Error,
+    },
+    /// The picture can't be written.
+    #[error("{to}: {source}")]
+    Write {
+        /// Where to: a file's name, or what else it is.
+        to: String,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The renderer ended without a picture.
+    #[error("the renderer stopped early; please report this with the scene")]
+    Stopped,
+}
+
+/// Reads scenes and prints what is wrong with them, then a line that sums it up, all to the error
+/// stream. Every scene is looked at. The error of the first scene that can't be read or is wrong
+/// is returned; for wrong ones, with the errors of all.
+pub fn check(paths: &[PathBuf]) -> Result<(), Error> {
+    let mut first = None;
+    let mut errors = 0;
+    let mut warnings = 0;
+    for path in paths {
+        match load(path) {
+            Ok(loaded) => {
+                errors += loaded.errors;
+                warnings += loaded.warnings;
+                if 0 < loaded.errors {
+                    first.get_or_insert(Error::Invalid { errors: 0 });
+                }
+            }
+            Err(error) => {
+                errors += 1;
+                tell("error", &error.to_string());
+                first.get_or_insert(error);
+            }
+        }
+    }
+    print(&format!(
+        "{} checked: {}, {}",
+        counted(paths.len(), "scene"),
+        counted(errors, "error"),
+        counted(warnings, "warning"),
+    ));
+    match first {
+        None => Ok(()),
+        Some(Error::Invalid { .. }) => Err(Error::Invalid { errors }),
+        Some(error) => Err(error),
+    }
+}
+
+/// A scene file as far as it was understood.
+struct Loaded {
+    /// `None` where there are errors.
+    scene: Option<Scene>,
+    errors: usize,
+    warnings: usize,
+}
+
+/// Reads a scene and prints what is wrong with it.
+fn load(path: &Path) -> Result<Loaded, Error> {
+    let format = Format::of_path(path).ok_or_else(|| Error::UnknownLanguage {
+        path: path.to_owned(),
+    })?;
+    let text = file::read_text(path)?;
+    let lowered = scene::lower(&text, &format::parse(format, &text));
+    print(&report::render(
+        &path.to_string_lossy(),
+        &text,
+        &lowered.diagnostics,
+        report::Style::of_error_stream(),
+    ));
+    let errors = lowered.diagnostics.iter().filter(|d| d.is_error()).count();
+    Ok(Loaded {
+        scene: lowered.scene,
+        errors,
+        warnings: lowered.diagnostics.len() - errors,
+    })
+}
+
+/// Prints one line about the whole work: `error: no such file`.
+fn tell(kind: &str, message: &str) {
+    print(&format!("{kind}: {}", visible(message)));
+}
+
+/// Prints lines to the error stream. There is nobody to tell if that fails.
+fn print(lines: &str) {
+    if !lines.is_empty() {
+        let _ = writeln!(io::stderr().lock(), "{lines}");
+    }
+}
+
+fn counted(count: usize, noun: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{plural}")
+}

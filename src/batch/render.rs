@@ -1,0 +1,158 @@
+//! A scene file to a picture file.
+
+use std::io::{self, IsTerminal, Write};
+use std::path::PathBuf;
+use std::sync::{Arc, mpsc};
+
+use super::progress::ProgressLine;
+use super::{Error, counted, load, tell};
+use crate::file;
+use crate::image_out::ImageFormat;
+use crate::render::{Frame, Job, Renderer, Settings, Threads};
+use crate::scene::{Camera, Scene, Size};
+
+/// A picture to make.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Render {
+    /// The scene file.
+    pub scene: PathBuf,
+    /// Where the picture goes.
+    pub output: Output,
+    /// How it is encoded.
+    pub format: ImageFormat,
+    /// Its size; the scene's own if `None`.
+    pub size: Option<Size>,
+    /// Samples a pixel.
+    pub spp: u32,
+    /// Bounces.
+    pub depth: u32,
+    /// Chooses among equally good sample patterns.
+    pub seed: u32,
+    /// Threads that trace.
+    pub threads: usize,
+}
+
+/// Where a picture goes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Output {
+    /// A file, replaced when the picture is whole.
+    File(PathBuf),
+    /// The output stream, unless it is a terminal.
+    Stdout,
+    /// The output stream, even if it is a terminal.
+    StdoutTerminal,
+}
+
+/// Traces a scene and writes the picture. Warnings, notes and progress go to the error stream. A
+/// reader that closes the pipe early has what it wanted: no error. Interrupted at any moment, it
+/// leaves the old file or the new one, see [`file::replace`].
+pub fn render(work: &Render) -> Result<(), Error> {
+    make(work).inspect_err(|error| tell("error", &error.to_string()))
+}
+
+fn make(work: &Render) -> Result<(), Error> {
+    check_output(&work.output)?;
+    let loaded = load(&work.scene)?;
+    let scene = loaded.scene.ok_or(Error::Invalid {
+        errors: loaded.errors,
+    })?;
+    let size = work.size.unwrap_or(scene.camera.size);
+    if let Some(reason) = work.format.refuses(size) {
+        return Err(Error::Refused(reason));
+    }
+    let frame = trace(work, scene, size)?;
+    if 0 < frame.progress.over_budget {
+        let samples = counted(frame.progress.over_budget as usize, "sample");
+        tell(
+            "note",
+            &format!("{samples} ran out of rays and may be too dark; a smaller --depth avoids it"),
+        );
+    }
+    write(work, &frame)
+}
+
+/// Finds out before the work whether its outcome has a place.
+fn check_output(output: &Output) -> Result<(), Error> {
+    match output {
+        Output::File(path) => file::check_target(path).map_err(|source| Error::Create {
+            path: path.clone(),
+            source,
+        }),
+        Output::Stdout if io::stdout().is_terminal() => Err(Error::Refused(
+            "a terminal can't show a picture file; use -o FILE, a pipe, or --force".to_owned(),
+        )),
+        Output::Stdout | Output::StdoutTerminal => Ok(()),
+    }
+}
+
+fn trace(work: &Render, scene: Scene, size: Size) -> Result<Arc<Frame>, Error> {
+    let job = Job {
+        // The picture's ratio is the one asked for.
+        camera: Camera {
+            size,
+            ..scene.camera
+        },
+        scene: Arc::new(scene),
+        settings: Settings {
+            size,
+            spp: work.spp,
+            depth: work.depth,
+            seed: work.seed,
+        },
+    };
+    let (wake, woken) = mpsc::channel();
+    let renderer = Renderer::new(Threads::Exactly(work.threads), move || {
+        // The receiver is gone only while the renderer is being dropped.
+        let _ = wake.send(());
+    });
+    if renderer.restart(job).is_none() {
+        return Err(Error::Stopped);
+    }
+    let mut line = ProgressLine::new();
+    while woken.recv().is_ok() {
+        let Some(frame) = renderer.latest() else {
+            continue;
+        };
+        if frame.progress.complete {
+            return Ok(frame);
+        }
+        line.show(&frame.progress);
+    }
+    Err(Error::Stopped)
+}
+
+fn write(work: &Render, frame: &Frame) -> Result<(), Error> {
+    let written = match &work.output {
+        Output::File(path) => file::replace(path, |out| work.format.write(frame, out)),
+        Output::Stdout | Output::StdoutTerminal => write_to_stdout(work.format, frame),
+    };
+    written.or_else(|source| match (source.kind(), &work.output) {
+        (io::ErrorKind::BrokenPipe, _) => Ok(()),
+        (_, Output::Stdout | Output::StdoutTerminal) => Err(Error::Write {
+            to: "standard output".to_owned(),
+            source,
+        }),
+        (
+            io::ErrorKind::NotFound
+            | io::ErrorKind::PermissionDenied
+            | io::ErrorKind::ReadOnlyFilesystem,
+            Output::File(path),
+        ) => Err(Error::Create {
+            path: path.clone(),
+            source,
+        }),
+        (_, Output::File(path)) => Err(Error::Write {
+            to: path.display().to_string(),
+            source,
+        }),
+    })
+}
+
+fn write_to_stdout(format: ImageFormat, frame: &Frame) -> io::Result<()> {
+    // Whole at once: the stream flushes at every byte that looks like a line break.
+    let mut bytes = Vec::new();
+    format.write(frame, &mut bytes)?;
+    let mut stdout = io::stdout().lock();
+    stdout.write_all(&bytes)?;
+    stdout.flush()
+}

@@ -1,0 +1,222 @@
+//! Diagnostics as lines to read, each with an excerpt of the text.
+
+use std::fmt::Write;
+use std::io::{self, IsTerminal};
+
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+
+use crate::text::{Diagnostic, Position, Severity, Span, visible};
+
+/// Characters of a line shown before the place in question, and after its beginning.
+const MARGIN: usize = 60;
+
+/// Whether a report is coloured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Style {
+    Plain,
+    Coloured,
+}
+
+impl Style {
+    /// Coloured on a terminal, unless the user asked for no colours (see no-color.org).
+    pub(super) fn of_error_stream() -> Self {
+        let no_colour = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+        if io::stderr().is_terminal() && !no_colour {
+            Self::Coloured
+        } else {
+            Self::Plain
+        }
+    }
+}
+
+/// Renders diagnostics of a text, in their order, as lines without a line break at the end. The
+/// first line of each holds `NAME:LINE:COLUMN`. Foreign text in them is made visible.
+pub(super) fn render(name: &str, text: &str, diagnostics: &[Diagnostic], style: Style) -> String {
+    let renderer = match style {
+        Style::Plain => Renderer::plain(),
+        Style::Coloured => Renderer::styled(),
+    };
+    let lines: Vec<_> = diagnostics
+        .iter()
+        .map(|diagnostic| one(name, text, diagnostic, &renderer))
+        .collect();
+    lines.join("\n")
+}
+
+fn one(name: &str, text: &str, diagnostic: &Diagnostic, renderer: &Renderer) -> String {
+    let Position { line, column } = Position::of(text, diagnostic.span.start());
+    let mut title = String::new();
+    // Writing to a string can't fail.
+    let _ = write!(
+        title,
+        "{}:{line}:{column}: {}",
+        visible(name),
+        visible(&diagnostic.message)
+    );
+    let level = match diagnostic.severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+    };
+    let excerpt = Excerpt::of(text, diagnostic.span);
+    let mark = AnnotationKind::Primary.span(excerpt.marked.range());
+    let snippet = Snippet::source(excerpt.line)
+        .line_start(line)
+        .annotation(mark.label(visible(&diagnostic.expected)));
+    let mut group = level.primary_title(title).element(snippet);
+    if let Some(hint) = &diagnostic.hint {
+        group = group.element(Level::HELP.message(visible(hint)));
+    }
+    renderer.render(&[group])
+}
+
+/// A line as it can be shown.
+#[derive(Debug, PartialEq)]
+struct Excerpt {
+    line: String,
+    marked: Span,
+}
+
+impl Excerpt {
+    /// The line that `span` begins in, cut around it if it is long; of a longer span, the part in
+    /// that line.
+    fn of(text: &str, span: Span) -> Self {
+        let start = span.start().min(text.len());
+        let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
+        let line_end = text[start..].find('\n').map_or(text.len(), |n| start + n);
+        let end = span.end().clamp(start, line_end);
+        let before = last_chars(&text[line_start..start]);
+        let marked = first_chars(&text[start..end]);
+        let after = first_chars(text[start + marked.len()..line_end].trim_end());
+
+        let mut line = String::new();
+        if before.len() < start - line_start {
+            line.push('…');
+        }
+        line.push_str(&shown(before));
+        let from = line.len();
+        line.push_str(&shown(marked));
+        let marked = Span::new(from, line.len());
+        line.push_str(&shown(after));
+        line.truncate(line.trim_end().len().max(marked.end()));
+        Self { line, marked }
+    }
+}
+
+/// Text of one line as it can be shown: tabs as spaces, all else made visible.
+fn shown(text: &str) -> String {
+    let parts: Vec<_> = text.split('\t').map(visible).collect();
+    parts.join("    ")
+}
+
+fn first_chars(text: &str) -> &str {
+    let end = text
+        .char_indices()
+        .nth(MARGIN)
+        .map_or(text.len(), |(at, _)| at);
+    &text[..end]
+}
+
+fn last_chars(text: &str) -> &str {
+    let start = text
+        .char_indices()
+        .rev()
+        .nth(MARGIN - 1)
+        .map_or(0, |(at, _)| at);
+    &text[start..]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The plain report of one error at the part of `text` between brackets.
+    fn report(text: &str) -> String {
+        let start = text.find('[').expect("a bracket");
+        let end = text.find(']').expect("a bracket") - 1;
+        let text = text.replace(['[', ']'], "");
+        let diagnostic = Diagnostic::error(Span::new(start, end), "wrong", "a number");
+        render("a.ray", &text, &[diagnostic], Style::Plain)
+    }
+
+    #[test]
+    fn a_report_names_the_place_and_points_at_it() {
+        let text = "1\nsphere 0 0 0 -1\n";
+        let diagnostic = Diagnostic::error(
+            Span::new(15, 17),
+            "object 1 (sphere) radius: must be greater than 0",
+            "a number greater than 0",
+        )
+        .with_hint("write 1");
+        assert_eq!(
+            render("a.ray", text, &[diagnostic], Style::Plain),
+            "\
+error: a.ray:2:14: object 1 (sphere) radius: must be greater than 0
+  |
+2 | sphere 0 0 0 -1
+  |              ^^ a number greater than 0
+  |
+  = help: write 1"
+        );
+    }
+
+    #[test]
+    fn warnings_say_so_and_none_is_left_out() {
+        let warning = Diagnostic::warning(Span::at(0), "odd", "something else");
+        let mut all = vec![warning; 102];
+        all.push(Diagnostic::error(Span::at(0), "wrong", "something right"));
+        let lines = render("a.ray", "x", &all, Style::Plain);
+        assert!(lines.starts_with("warning: a.ray:1:1: odd\n"), "{lines}");
+        assert_eq!(lines.matches("warning:").count(), 102);
+        assert_eq!(lines.matches("error: a.ray:1:1: wrong").count(), 1);
+    }
+
+    #[test]
+    fn excerpts_keep_the_mark_on_its_text() {
+        let long = "0 ".repeat(1000);
+        let cases = [
+            ("[ab] c", "ab c", "ab"),
+            ("x\ny [ab]\r\r\nc", "y ab", "ab"),
+            ("\t[1]\t2", "    1    2", "1"),
+            ("\u{1b}[\u{9b}m]", "\\u{1b}\\u{9b}m", "\\u{9b}m"),
+            ("é\u{202e}[é]\u{7}", "é\\u{202e}é\\u{7}", "é"),
+            ("a [b\nc] d", "a b", "b"),
+            ("end[]", "end", ""),
+            ("end \n[]", "", ""),
+        ];
+        for (text, line, marked) in cases {
+            check_excerpt(text, line, marked);
+        }
+        let zeros = "0 ".repeat(30);
+        let cut = format!("…{zeros}x{}", zeros.trim_end());
+        check_excerpt(&format!("{long}[x]{}{long}", ""), &cut, "x");
+    }
+
+    fn check_excerpt(text: &str, line: &str, marked: &str) {
+        let start = text.find('[').expect("a bracket");
+        let end = text.find(']').expect("a bracket") - 1;
+        let excerpt = Excerpt::of(&text.replace(['[', ']'], ""), Span::new(start, end));
+        assert_eq!(excerpt.line, line, "{text:?}");
+        assert_eq!(excerpt.marked.of(&excerpt.line), marked, "{text:?}");
+    }
+
+    #[test]
+    fn a_place_at_the_end_is_pointed_at() {
+        assert_eq!(
+            report("1 2[]"),
+            "\
+error: a.ray:1:4: wrong
+  |
+1 | 1 2
+  |    ^ a number"
+        );
+    }
+
+    #[test]
+    fn nothing_of_a_text_reaches_the_terminal_raw() {
+        let evil = "\u{1b}]52;c;eA\u{7}\r\u{9b}31m\u{202e}";
+        let diagnostic = Diagnostic::warning(Span::new(0, evil.len()), evil, evil).with_hint(evil);
+        let lines = render(evil, evil, &[diagnostic], Style::Plain);
+        let raw = |c: char| c != '\n' && (c.is_control() || c == '\u{202e}');
+        assert!(!lines.contains(raw), "{lines:?}");
+    }
+}

@@ -1,0 +1,368 @@
+//! Arguments and exit codes; no work.
+
+use std::ffi::OsString;
+use std::fmt::Write;
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+use std::thread;
+use std::time::Duration;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::error::ErrorKind;
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum, value_parser};
+
+use crate::batch::{self, Output, Render};
+use crate::file::ReadError;
+use crate::image_out::{FORMATS, ImageFormat, known_extensions};
+use crate::render::{DEFAULT_DEPTH, MAX_SPP};
+use crate::scene::Size;
+use crate::text::visible;
+use crate::ui;
+use crate::ui::terminal::{Choice, ColourDepth, Mouse};
+
+/// Done.
+pub const DONE: u8 = 0;
+/// Reading, writing or the machine failed on the way.
+pub const FAILED: u8 = 1;
+/// The arguments make no sense.
+pub const USAGE: u8 = 2;
+/// A scene is wrong.
+pub const INVALID: u8 = 65;
+/// A scene is missing or can't be opened.
+pub const NO_INPUT: u8 = 66;
+/// The picture's file can't be created.
+pub const NO_OUTPUT: u8 = 73;
+
+/// The interface's terminal is gone: what shells report for `SIGHUP`.
+pub const HUNG_UP: u8 = 129;
+/// The interface was interrupted from outside: what shells report for `SIGINT`.
+pub const INTERRUPTED: u8 = 130;
+/// The interface was asked from outside to end: what shells report for `SIGTERM`.
+pub const TERMINATED: u8 = 143;
+
+/// What the user wants done.
+#[derive(Clone, Debug)]
+pub enum Command {
+    /// Open the interface.
+    Interface(ui::Options),
+    /// Make a picture.
+    Render(Render),
+    /// Say what is wrong with scenes.
+    Check(Vec<PathBuf>),
+}
+
+/// How many colours the terminal is sent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum ColourChoice {
+    /// As many as it is found to show.
+    #[default]
+    Auto,
+    /// 24-bit colours.
+    #[value(name = "24")]
+    True,
+    /// The 256 indexed colours.
+    #[value(name = "256")]
+    Indexed,
+    /// The 16 basic colours.
+    #[value(name = "16")]
+    Basic,
+    /// None.
+    Mono,
+}
+
+impl ColourChoice {
+    fn meaning(self) -> Choice {
+        Choice::Fixed(match self {
+            Self::Auto => return Choice::Auto,
+            Self::True => ColourDepth::TrueColour,
+            Self::Indexed => ColourDepth::Palette256,
+            Self::Basic => ColourDepth::Palette16,
+            Self::Mono => ColourDepth::Mono,
+        })
+    }
+}
+
+/// A text to print instead of doing anything, and the exit code to end with.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Stop {
+    /// The text, safe to print.
+    pub text: String,
+    /// [`DONE`] if the text was asked for and goes to the output stream, else [`USAGE`].
+    pub code: u8,
+}
+
+/// Understands the arguments, the program's name first.
+pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, Stop> {
+    let said = Cli::try_parse_from(arguments).map_err(|error| Stop::of(&error))?;
+    match said.command {
+        Some(Subcommands::Render(render)) => render.meaning().map(Command::Render),
+        Some(Subcommands::Check { scenes }) => Ok(Command::Check(scenes)),
+        None => said.interface.meaning().map(Command::Interface),
+    }
+    .map_err(|reason| Stop::of(&Cli::command().error(ErrorKind::ValueValidation, reason)))
+}
+
+/// The exit code that headless work ends with.
+pub fn exit_code(outcome: &Result<(), batch::Error>) -> u8 {
+    use batch::Error;
+    let Err(error) = outcome else {
+        return DONE;
+    };
+    match error {
+        Error::Read(error) => read_code(error),
+        Error::UnknownLanguage { .. } | Error::Invalid { .. } => INVALID,
+        Error::Refused(_) => USAGE,
+        Error::Create { .. } => NO_OUTPUT,
+        Error::Write { .. } | Error::Stopped => FAILED,
+    }
+}
+
+/// The exit code that the interface ends with.
+pub fn interface_exit_code(outcome: &Result<ui::Ending, ui::Error>) -> u8 {
+    match outcome {
+        Ok(ui::Ending::Quit) => DONE,
+        Ok(ui::Ending::HungUp) => HUNG_UP,
+        Ok(ui::Ending::Interrupted) => INTERRUPTED,
+        Ok(ui::Ending::Terminated) => TERMINATED,
+        Err(ui::Error::Read(error)) => read_code(error),
+        Err(ui::Error::UnknownLanguage { .. }) => INVALID,
+        Err(ui::Error::Folder { .. }) => NO_INPUT,
+        Err(ui::Error::NoSuch { .. }) => USAGE,
+        Err(ui::Error::Terminal(_)) => FAILED,
+    }
+}
+
+fn read_code(error: &ReadError) -> u8 {
+    match error {
+        ReadError::NotUtf8 { .. } | ReadError::TooLong { .. } => INVALID,
+        ReadError::NotFound { .. } | ReadError::NotRegular { .. } => NO_INPUT,
+        ReadError::Io { source, .. } => match source.kind() {
+            std::io::ErrorKind::PermissionDenied | std::io::ErrorKind::NotADirectory => NO_INPUT,
+            _ => FAILED,
+        },
+    }
+}
+
+impl Stop {
+    fn of(error: &clap::Error) -> Self {
+        // The text repeats arguments, which may hold anything.
+        let mut text = String::new();
+        for line in error.to_string().lines() {
+            // Writing to a string can't fail.
+            let _ = writeln!(text, "{}", visible(line));
+        }
+        Self {
+            text,
+            code: if error.use_stderr() { USAGE } else { DONE },
+        }
+    }
+}
+
+/// A progressive ray tracer that lives in the terminal.
+#[derive(Debug, Parser)]
+#[command(
+    version,
+    after_help = EXAMPLES,
+    args_conflicts_with_subcommands = true
+)]
+struct Cli {
+    #[command(flatten)]
+    interface: InterfaceArguments,
+    #[command(subcommand)]
+    command: Option<Subcommands>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  halflight scene.ray                             edit and see a scene
+  halflight render scene.ray -o scene.bmp         make a picture
+  halflight render scene.ray -o - --format ppm | ssh far 'cat > scene.ppm'
+  halflight check scenes/*.ray                    say what is wrong with scenes
+
+A scene named like a command is opened as ./render or ./check.
+
+Exit codes: 0 done, 1 reading or writing failed, 2 wrong arguments, 65 wrong scene,
+66 scene not found or not to be opened, 73 picture file not to be created,
+129 terminal gone, 130 interrupted, 143 asked to end.";
+
+#[derive(Debug, Subcommand)]
+enum Subcommands {
+    /// Make a picture of a scene
+    #[command(after_help = RENDER_EXAMPLES)]
+    Render(RenderArguments),
+    /// Say what is wrong with scenes, without tracing them
+    Check {
+        /// Scene files
+        #[arg(required = true, value_name = "SCENE")]
+        scenes: Vec<PathBuf>,
+    },
+}
+
+#[derive(Args, Debug)]
+struct InterfaceArguments {
+    /// Scene file to open
+    #[arg(value_name = "SCENE")]
+    scene: Option<PathBuf>,
+    // Read so that a second scene is refused as such and not as an unknown command.
+    #[arg(hide = true)]
+    surplus: Vec<PathBuf>,
+    /// Compare the file's content every MS milliseconds (500 unless given), for network file
+    /// systems, which send no notices of changes
+    #[arg(
+        long, value_name = "MS", num_args = 0..=1, require_equals = true,
+        default_missing_value = "500", value_parser = value_parser!(u64).range(10..=3_600_000)
+    )]
+    poll: Option<u64>,
+    /// Send the terminal at most so many kilobytes (1000 bytes) a second; 0 is no limit
+    #[arg(long, value_name = "KB/s", value_parser = value_parser!(u32).range(..=4_000_000))]
+    bandwidth: Option<u32>,
+    /// Colours that the terminal is sent
+    #[arg(long, value_name = "COLOURS", value_enum, default_value_t)]
+    color: ColourChoice,
+    /// Leave the mouse to the terminal
+    #[arg(long)]
+    no_mouse: bool,
+    /// Samples a pixel
+    #[arg(long, value_name = "N", value_parser = spp_range())]
+    spp: Option<u32>,
+    /// Bounces of a ray
+    #[arg(long, value_name = "N", value_parser = depth_range())]
+    depth: Option<u32>,
+    /// Threads that trace [default: one fewer than the machine's cores]
+    #[arg(long, value_name = "N", value_parser = threads_range())]
+    threads: Option<u16>,
+}
+
+impl InterfaceArguments {
+    fn meaning(self) -> Result<ui::Options, String> {
+        if let Some(second) = self.surplus.first() {
+            return Err(format!(
+                "one scene is opened at a time, {} is a second one; the commands are render and \
+                 check",
+                second.display()
+            ));
+        }
+        Ok(ui::Options {
+            scene: self.scene,
+            poll: self.poll.map(Duration::from_millis),
+            bandwidth: self.bandwidth.map(|kilobytes| kilobytes * 1000),
+            colour: self.color.meaning(),
+            mouse: if self.no_mouse { Mouse::Off } else { Mouse::On },
+            spp: self.spp,
+            depth: self.depth,
+            threads: self.threads.map(usize::from),
+        })
+    }
+}
+
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  halflight render scene.ray -o scene.bmp
+  halflight render scene.ray -o scene.png --size 1920x1080 --spp 64
+  halflight render scene.ray -o - --format ppm | display
+
+The same scene, size, spp, depth and seed give the same bytes on every machine and with any
+number of threads.";
+
+#[derive(Args, Debug)]
+struct RenderArguments {
+    /// Scene file
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    /// Picture file, in the format its extension says (.bmp, .ppm, .png); - is standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// Format of the picture, whatever the file's name [default for -o -: bmp]
+    #[arg(long, value_name = "FORMAT", value_parser = format_names())]
+    format: Option<ImageFormat>,
+    /// Width and height in pixels, such as 800x600 [default: the scene's]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<Size>,
+    /// Samples a pixel, 1 to 65536
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = spp_range())]
+    spp: u32,
+    /// Bounces of a ray; 0 is none
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_DEPTH, value_parser = depth_range())]
+    depth: u32,
+    /// Chooses among equally good sample patterns
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u32,
+    /// Threads that trace [default: one a core]
+    #[arg(long, value_name = "N", value_parser = threads_range())]
+    threads: Option<u16>,
+    /// Write the picture even to a terminal
+    #[arg(long)]
+    force: bool,
+}
+
+impl RenderArguments {
+    fn meaning(self) -> Result<Render, String> {
+        let to_stdout = self.output == Path::new("-");
+        let format = match self.format {
+            Some(format) => format,
+            None if to_stdout => ImageFormat::Bmp,
+            None => ImageFormat::of_path(&self.output).ok_or_else(|| {
+                format!(
+                    "can't tell the format of {}: give it an extension of {}, or use --format",
+                    self.output.display(),
+                    known_extensions()
+                )
+            })?,
+        };
+        let all_cores = || thread::available_parallelism().map_or(1, NonZero::get);
+        Ok(Render {
+            scene: self.scene,
+            output: match (to_stdout, self.force) {
+                (false, _) => Output::File(self.output),
+                (true, false) => Output::Stdout,
+                (true, true) => Output::StdoutTerminal,
+            },
+            format,
+            size: self.size,
+            spp: self.spp,
+            depth: self.depth,
+            seed: self.seed,
+            threads: self.threads.map_or_else(all_cores, usize::from),
+        })
+    }
+}
+
+fn spp_range() -> impl TypedValueParser<Value = u32> {
+    value_parser!(u32).range(1..=i64::from(MAX_SPP))
+}
+
+fn depth_range() -> impl TypedValueParser<Value = u32> {
+    // No sample has rays for more bounces: see the ray budget of the renderer.
+    value_parser!(u32).range(..=4096)
+}
+
+fn threads_range() -> impl TypedValueParser<Value = u16> {
+    // More than any machine has; far more could not be started.
+    value_parser!(u16).range(1..=1024)
+}
+
+fn format_names() -> impl TypedValueParser<Value = ImageFormat> {
+    PossibleValuesParser::new(FORMATS.map(|(name, _)| name)).try_map(|said| {
+        let known = FORMATS.into_iter().find(|&(name, _)| name == said);
+        known.map(|(_, format)| format).ok_or("unknown format")
+    })
+}
+
+fn parse_size(said: &str) -> Result<Size, String> {
+    let number = |digits: &str| {
+        let number = u32::from_str(digits).ok();
+        number.filter(|&n| 0 < n && digits.bytes().all(|b| b.is_ascii_digit()))
+    };
+    said.split_once(['x', 'X'])
+        .and_then(|(width, height)| {
+            Some(Size {
+                width: number(width)?,
+                height: number(height)?,
+            })
+        })
+        .ok_or_else(|| "expected two whole numbers of at least 1, such as 800x600".to_owned())
+}
+
+#[cfg(test)]
+mod tests;

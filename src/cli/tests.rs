@@ -1,0 +1,131 @@
+use super::*;
+
+/// What a command line, its words separated by blanks, means.
+fn parsed(line: &str) -> Result<Command, Stop> {
+    parse(line.split(' ').map(OsString::from))
+}
+
+fn interface(line: &str) -> ui::Options {
+    match parsed(line) {
+        Ok(Command::Interface(options)) => options,
+        other => panic!("{line}: {other:?}"),
+    }
+}
+
+fn render(line: &str) -> Render {
+    match parsed(line) {
+        Ok(Command::Render(render)) => render,
+        other => panic!("{line}: {other:?}"),
+    }
+}
+
+#[test]
+fn the_declaration_is_sound() {
+    Cli::command().debug_assert();
+}
+
+#[test]
+fn what_is_not_said_is_left_to_the_interface() {
+    assert_eq!(interface("halflight"), ui::Options::default());
+    assert_eq!(
+        interface("halflight a.ray --poll").poll,
+        Some(Duration::from_millis(500))
+    );
+}
+
+#[test]
+fn the_interface_is_told_what_was_said() {
+    let line = "halflight --poll=20 --bandwidth 128 --color 256 --no-mouse --spp 4 --depth 0 --threads 3 a";
+    assert_eq!(
+        interface(line),
+        ui::Options {
+            scene: Some("a".into()),
+            poll: Some(Duration::from_millis(20)),
+            bandwidth: Some(128_000),
+            colour: Choice::Fixed(ColourDepth::Palette256),
+            mouse: Mouse::Off,
+            spp: Some(4),
+            depth: Some(0),
+            threads: Some(3),
+        }
+    );
+    assert_eq!(interface("halflight --bandwidth 0 a").bandwidth, Some(0));
+    assert_eq!(interface("halflight ./check").scene, Some("./check".into()));
+}
+
+#[test]
+fn a_picture_s_format_is_its_extension_unless_said() {
+    let cases = [
+        ("halflight render a -o b.PNG", ImageFormat::Png),
+        ("halflight render a -o b.png --format ppm", ImageFormat::Ppm),
+        ("halflight render a -o -", ImageFormat::Bmp),
+        ("halflight render a -o - --format png", ImageFormat::Png),
+    ];
+    for (line, format) in cases {
+        assert_eq!(render(line).format, format, "{line}");
+    }
+}
+
+#[test]
+fn a_picture_has_defaults() {
+    let default = render("halflight render a.ray -o a.bmp");
+    assert_eq!((default.spp, default.depth, default.seed), (16, 8, 0));
+    assert_eq!(default.size, None);
+    assert_eq!(default.output, Output::File("a.bmp".into()));
+    let said = render("halflight render a -o - --force --size 3X2 --spp 65536 --seed 7");
+    let size = Size {
+        width: 3,
+        height: 2,
+    };
+    assert_eq!((said.size, said.spp, said.seed), (Some(size), 65_536, 7));
+    assert_eq!(said.output, Output::StdoutTerminal);
+}
+
+#[test]
+fn wrong_arguments_are_refused_with_a_reason() {
+    let cases = [
+        ("halflight a b", "b is a second one"),
+        (
+            "halflight --color blue a",
+            "[possible values: auto, 24, 256, 16, mono]",
+        ),
+        ("halflight --poll=1 a", "10..=3600000"),
+        ("halflight render a", "--output"),
+        ("halflight render a -o b.gif", ".bmp, .ppm or .png"),
+        ("halflight render a -o b", ".bmp, .ppm or .png"),
+        (
+            "halflight render a -o - --format gif",
+            "[possible values: bmp, ppm, png]",
+        ),
+        ("halflight render a -o b.bmp --size 0x1", "such as 800x600"),
+        ("halflight render a -o b.bmp --size 1x", "such as 800x600"),
+        ("halflight render a -o b.bmp --size +1x1", "such as 800x600"),
+        (
+            "halflight render a -o b.bmp --size 1x4294967296",
+            "such as 800x600",
+        ),
+        ("halflight render a -o b.bmp --spp 0", "1..=65536"),
+        ("halflight render a -o b.bmp --spp 65537", "1..=65536"),
+        ("halflight render a -o b.bmp --threads 0", "1..=1024"),
+        ("halflight check", "<SCENE>..."),
+        ("halflight b \u{1b}[31m", "\\u{1b}[31m"),
+    ];
+    for (line, reason) in cases {
+        let stop = parsed(line).expect_err(line);
+        assert_eq!(stop.code, USAGE, "{line}");
+        let shown = &stop.text;
+        assert!(
+            shown.contains(reason) && !shown.contains('\u{1b}'),
+            "{line}: {shown}"
+        );
+    }
+}
+
+#[test]
+fn help_is_no_error() {
+    for line in ["halflight --help", "halflight render -h", "halflight -V"] {
+        let stop = parsed(line).expect_err("help");
+        assert_eq!(stop.code, DONE);
+        assert!(stop.text.contains("halflight"));
+    }
+}

@@ -1,0 +1,186 @@
+//! Where one text differs from another, in chunks: leaves and the white space between them.
+//!
+//! A diff finds a shortest way from one text to the other, which is not always what happened: of
+//! equal leaves in a row it cannot tell which one is new. Every doubt is settled towards larger
+//! hunks, for a needless question is better than a silently wrong merge.
+
+use std::ops::Range;
+use std::time::{Duration, Instant};
+
+use similar::{Algorithm, DiffOp, capture_diff_slices_deadline};
+
+use crate::format::{self, Format};
+use crate::text::Span;
+
+/// How long the search for a short difference may go on; what is left then counts as one hunk.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// This many unchanged leaves in a row are never taken for a coincidence.
+const COINCIDENCE: usize = 4;
+
+/// A text chopped into white space, leaf, white space … leaf, white space, where any white space
+/// may be empty: leaves have odd indices. All chunks together are the text.
+pub(super) struct Chunks<'t> {
+    text: &'t str,
+    slices: Vec<&'t str>,
+    /// Where each chunk begins, and the text's length.
+    bounds: Vec<usize>,
+}
+
+impl<'t> Chunks<'t> {
+    /// Chops a text.
+    pub(super) fn of(format: Format, text: &'t str) -> Self {
+        let leaves = format::parse(format, text).leaves();
+        let mut bounds = Vec::with_capacity(2 * leaves.len() + 2);
+        bounds.push(0);
+        bounds.extend(leaves.iter().flat_map(|leaf| [leaf.start(), leaf.end()]));
+        bounds.push(text.len());
+        let slices = bounds.windows(2).map(|ends| &text[ends[0]..ends[1]]);
+        Self {
+            text,
+            slices: slices.collect(),
+            bounds,
+        }
+    }
+
+    /// The chunks, in order.
+    pub(super) fn as_slice(&self) -> &[&'t str] {
+        &self.slices
+    }
+
+    /// The bytes that some chunks cover.
+    pub(super) fn span(&self, chunks: &Range<usize>) -> Span {
+        Span::new(self.bounds[chunks.start], self.bounds[chunks.end])
+    }
+
+    /// The text of some chunks.
+    pub(super) fn slice(&self, chunks: &Range<usize>) -> &'t str {
+        self.span(chunks).of(self.text)
+    }
+}
+
+/// Chunks of the base that became other chunks.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Hunk {
+    /// What was replaced; empty where something was inserted.
+    pub(super) base: Range<usize>,
+    /// What stands there now; empty where something was deleted.
+    pub(super) other: Range<usize>,
+}
+
+impl Hunk {
+    /// Whether it changes how many chunks there are; otherwise it replaces one by one.
+    pub(super) fn is_structural(&self) -> bool {
+        self.base.len() != self.other.len()
+    }
+
+    /// How many leaves it takes or brings.
+    fn leaves(&self) -> usize {
+        leaves(&self.base).max(leaves(&self.other))
+    }
+}
+
+/// The differences of `other` from `base`, in order and disjoint. Where leaves were replaced one by
+/// one, each is a hunk of its own; an insertion or deletion that might as well have happened a few
+/// chunks further on covers all those places.
+pub(super) fn hunks(base: &Chunks, other: &Chunks) -> Vec<Hunk> {
+    let raw = fuse(differences(base.as_slice(), other.as_slice()));
+    let mut hunks: Vec<Hunk> = Vec::with_capacity(raw.len());
+    for (index, hunk) in raw.iter().enumerate() {
+        if hunk.is_structural() {
+            let from = hunks.last().map_or(0, |last| last.base.end);
+            let to = raw
+                .get(index + 1)
+                .map_or(base.slices.len(), |next| next.base.start);
+            hunks.push(widen(hunk, base.as_slice(), other.as_slice(), from..to));
+        } else {
+            let pairs = hunk.base.clone().zip(hunk.other.clone());
+            hunks.extend(
+                pairs
+                    .filter(|&(b, o)| base.slices[b] != other.slices[o])
+                    .map(|(b, o)| Hunk {
+                        base: b..b + 1,
+                        other: o..o + 1,
+                    }),
+            );
+        }
+    }
+    hunks
+}
+
+/// The differences as the diff finds them, apart from each other by equal chunks.
+fn differences(base: &[&str], other: &[&str]) -> Vec<Hunk> {
+    let deadline = Instant::now().checked_add(PATIENCE);
+    let ops = capture_diff_slices_deadline(Algorithm::Myers, base, other, deadline);
+    let mut hunks: Vec<Hunk> = Vec::new();
+    for op in ops {
+        if matches!(op, DiffOp::Equal { .. }) {
+            continue;
+        }
+        let (old, new) = (op.old_range(), op.new_range());
+        match hunks.last_mut() {
+            Some(last) if last.base.end == old.start && last.other.end == new.start => {
+                last.base.end = old.end;
+                last.other.end = new.end;
+            }
+            _ => hunks.push(Hunk {
+                base: old,
+                other: new,
+            }),
+        }
+    }
+    hunks
+}
+
+/// Joins hunks with so few unchanged leaves between them that these may be equal by coincidence:
+/// `0 1 2` becomes `1 2 3` by three new values rather than by a deletion and an insertion.
+fn fuse(hunks: Vec<Hunk>) -> Vec<Hunk> {
+    let mut fused: Vec<Hunk> = Vec::with_capacity(hunks.len());
+    let mut previous_leaves = 0;
+    for hunk in hunks {
+        let limit = (2 * previous_leaves.min(hunk.leaves())).min(COINCIDENCE);
+        previous_leaves = hunk.leaves();
+        match fused.last_mut() {
+            Some(last) if leaves(&(last.base.end..hunk.base.start)) <= limit => {
+                last.base.end = hunk.base.end;
+                last.other.end = hunk.other.end;
+            }
+            _ => fused.push(hunk),
+        }
+    }
+    fused
+}
+
+/// Widens an insertion or deletion to every place where it would give the same text, within the
+/// base chunks `room`. One that can be read as appending to the text, or as cutting off its end, is
+/// read so; likewise at the beginning.
+fn widen(hunk: &Hunk, base: &[&str], other: &[&str], room: Range<usize>) -> Hunk {
+    let (chunks, block) = match (hunk.base.is_empty(), hunk.other.is_empty()) {
+        (true, false) => (other, &hunk.other),
+        (false, true) => (base, &hunk.base),
+        _ => return hunk.clone(),
+    };
+    let back = (1..=hunk.base.start - room.start)
+        .take_while(|step| chunks[block.start - step] == chunks[block.end - step])
+        .count();
+    let forth = (0..room.end - hunk.base.end)
+        .take_while(|step| chunks[block.start + step] == chunks[block.end + step])
+        .count();
+    // The first and the last chunk are white space, which belongs to either side of an end.
+    let at_start = hunk.base.start - back <= 1;
+    let at_end = base.len() <= hunk.base.end + forth + 1;
+    let slide = |range: &Range<usize>| match (at_start, at_end) {
+        (false, true) => range.start + forth..range.end + forth,
+        (true, false) => range.start - back..range.end - back,
+        _ => range.start - back..range.end + forth,
+    };
+    Hunk {
+        base: slide(&hunk.base),
+        other: slide(&hunk.other),
+    }
+}
+
+/// How many of the chunks are leaves.
+fn leaves(chunks: &Range<usize>) -> usize {
+    chunks.end / 2 - chunks.start / 2
+}

@@ -1,0 +1,216 @@
+use proptest::prelude::*;
+
+use super::*;
+
+fn merge(base: &str, mine: &str, theirs: &str) -> Merge {
+    Merge::new(Format::Ray, base, mine, theirs.to_owned())
+}
+
+/// The merged text with each conflict written out as `{base|mine|theirs}`.
+fn marked(merge: &Merge) -> String {
+    let mut marked = merge.clone();
+    for conflict in &mut marked.conflicts {
+        assert_eq!(conflict.span.of(&merge.mine), conflict.mine);
+        conflict.theirs = format!(
+            "{{{}|{}|{}}}",
+            conflict.base, conflict.mine, conflict.theirs
+        );
+        conflict.decision = Some(Side::Theirs);
+    }
+    marked.text()
+}
+
+#[track_caller]
+fn check(cases: &[(&str, &str, &str, &str)]) {
+    for (base, mine, theirs, expected) in cases {
+        assert_eq!(
+            marked(&merge(base, mine, theirs)),
+            *expected,
+            "{base:?}, mine {mine:?}, theirs {theirs:?}"
+        );
+    }
+}
+
+#[test]
+fn values_merge_leaf_by_leaf() {
+    check(&[
+        ("1 2 3", "9 2 3", "1 2 8", "9 2 8"),
+        ("1 2 3", "9 2 3", "1 8 3", "9 8 3"),
+        ("1 2", "3 4", "1 5", "3 {2|4|5}"),
+        ("1 2", "3 4", "3 5", "3 {2|4|5}"),
+        ("1 2", "3 2", "3 2", "3 2"),
+        ("1 // one", "2 // one", "1 // uno", "2 // uno"),
+        (
+            "1 // one",
+            "1 // eins",
+            "1 // uno",
+            "1 {// one|// eins|// uno}",
+        ),
+        // Three new values, not a leaf less here and a leaf more there.
+        ("0 1 2 // v", "0 1 9 // v", "1 2 3 // v", "1 2 {2|9|3} // v"),
+        ("0\n1\n2", "0\n1\n9", "1\n2\n3", "1\n2\n{2|9|3}"),
+    ]);
+}
+
+#[test]
+fn white_space_merges_with_values() {
+    check(&[
+        ("1 2 3", "1 5 3", "1\t2  3\n", "1\t5  3\n"),
+        ("1\r\n2\r\n", "7\r\n2\r\n", "1\n2\n", "7\n2\n"),
+        (
+            "\u{FEFF}1\u{A0}2",
+            "\u{FEFF}1\u{A0}3",
+            "1\u{A0}2",
+            "1\u{A0}3",
+        ),
+        ("1 2", "1\n2", "1\t2", "1{ |\n|\t}2"),
+        ("", "\n", " ", "{|\n| }"),
+    ]);
+}
+
+#[test]
+fn objects_come_and_go_beside_edits() {
+    let base = "2 // objects\nsphere 0 0 1 5\nbox 4 0 1 5\n";
+    check(&[
+        // Appended, with the count that goes with it; one value edited.
+        (
+            base,
+            "2 // objects\nsphere 0 0 1 7\nbox 4 0 1 5\n",
+            "3 // objects\nsphere 0 0 1 5\nbox 4 0 1 5\ncone 6 6 1 5\n",
+            "3 // objects\nsphere 0 0 1 7\nbox 4 0 1 5\ncone 6 6 1 5\n",
+        ),
+        // The same, the edited value being the last before what was appended.
+        (
+            base,
+            "2 // objects\nsphere 0 0 1 5\nbox 4 0 1 6\n",
+            "3 // objects\nsphere 0 0 1 5\nbox 4 0 1 5\nbox 4 9 1 5\n",
+            "3 // objects\nsphere 0 0 1 5\nbox 4 0 1 6\nbox 4 9 1 5\n",
+        ),
+        ("1 2", "1 5", "1 2\n3", "1 5\n3"),
+        ("1 2\n", "5 2\n", "0\n1 2\n", "0\n5 2\n"),
+        // The first object removed, the second edited.
+        (
+            base,
+            "2 // objects\nsphere 0 0 1 5\nbox 4 0 1 6\n",
+            "1 // objects\nbox 4 0 1 5\n",
+            "1 // objects\nbox 4 0 1 6\n",
+        ),
+        // One removed, and edited by the other side.
+        (
+            "a 1 2\nb 3 4\nc 5 6\n",
+            "a 1 2\nb 3 7\nc 5 6\n",
+            "a 1 2\nc 5 6\n",
+            "a 1 2{\nb 3 4\n|\nb 3 7\n|\n}c 5 6\n",
+        ),
+        // Both append.
+        ("1\n", "1\n2\n", "1\n3\n", "1\n{|2\n|3\n}"),
+        ("1\n", "1\n2\n", "1\n2\n", "1\n2\n"),
+        ("", "1", "2", "{|1|2}"),
+    ]);
+}
+
+#[test]
+fn an_insertion_in_doubtful_place_covers_all_its_places() {
+    check(&[
+        // Which of the zeros is new?
+        ("7 0 0 8", "7 0 5 8", "7 0 0 0 8", "7{ 0 0 | 0 5 | 0 0 0 }8"),
+        ("7 0 0 8", "7 0 5 8", "7 0 8", "7{ 0 0 | 0 5 | 0 }8"),
+        ("7 0 0 8", "7 0 0 9", "7 0 0 0 8", "7 0 0 0 9"),
+        ("7 0 0", "7 0 5", "7 0 0 0", "7 0 5 0"),
+    ]);
+}
+
+#[test]
+fn leaves_never_run_together() {
+    check(&[
+        // Mine takes the line's end away, theirs opens a comment before it.
+        ("1\n2", "1 2", "// x\n2", "{1\n|1 |// x\n}2"),
+        // Mine makes a comment a number, theirs takes the space before it away.
+        ("1 // c", "1 5", "1// c", "1{ // c| 5|// c}"),
+    ]);
+}
+
+#[test]
+fn undecided_conflicts_keep_mine() {
+    let mut merge = merge("1 2 3", "4 5 6", "7 2 9");
+    assert_eq!(merge.text(), "4 5 6");
+    merge.conflicts[1].decision = Some(Side::Theirs);
+    assert_eq!(merge.text(), "4 5 9");
+    merge.conflicts[0].decision = Some(Side::Mine);
+    assert_eq!(merge.text(), "4 5 9");
+    merge.conflicts[0].decision = Some(Side::Theirs);
+    assert_eq!(merge.text(), "7 5 9");
+}
+
+#[test]
+fn decisions_survive_further_edits() {
+    let mut first = merge("1 2 3", "4 5 6", "7 8 9");
+    for conflict in &mut first.conflicts {
+        conflict.decision = Some(Side::Theirs);
+    }
+    let second = first.onto(Format::Ray, "4 0 6");
+    let decisions: Vec<_> = second.conflicts.iter().map(|c| c.decision).collect();
+    assert_eq!(decisions, [Some(Side::Theirs), None, Some(Side::Theirs)]);
+}
+
+#[test]
+fn long_texts_with_no_leaf_in_common_merge() {
+    let numbers = |from: usize| lines((from..from + 60_000).map(|n| n.to_string()));
+    let (base, theirs) = (numbers(0), numbers(1_000_000));
+    let mine = base.replacen("\n500\n", "\nx\n", 1);
+    let conflicts = merge(&base, &mine, &theirs).conflicts;
+    let values: Vec<_> = conflicts
+        .iter()
+        .map(|c| (&*c.base, &*c.mine, &*c.theirs))
+        .collect();
+    assert_eq!(values, [("500", "x", "1000500")]);
+}
+
+/// A line for each word.
+fn lines(words: impl Iterator<Item = String>) -> String {
+    words.flat_map(|word| [word, "\n".to_owned()]).collect()
+}
+
+/// Short texts of few different leaves: the worst to align.
+fn scene() -> impl Strategy<Value = String> {
+    proptest::string::string_regex("((0|1|2|ab|// c\n)( |\n|\r\n|\t)){0,9}(7|// z)?")
+        .expect("the pattern is regular")
+}
+
+proptest! {
+    #[test]
+    fn one_sided_changes_are_taken(base in scene(), changed in scene()) {
+        prop_assert_eq!(marked(&merge(&base, &base, &changed)), changed.clone());
+        prop_assert_eq!(marked(&merge(&base, &changed, &base)), changed.clone());
+        prop_assert_eq!(marked(&merge(&base, &changed, &changed)), changed);
+    }
+
+    #[test]
+    fn the_sides_are_equal(base in scene(), mine in scene(), theirs in scene()) {
+        let (forth, back) = (merge(&base, &mine, &theirs), merge(&base, &theirs, &mine));
+        prop_assert_eq!(forth.conflicts.len(), back.conflicts.len());
+        let decided = |mut merge: Merge, side| {
+            merge.conflicts.iter_mut().for_each(|conflict| conflict.decision = Some(side));
+            merge.text()
+        };
+        prop_assert_eq!(decided(forth.clone(), Side::Mine), decided(back.clone(), Side::Theirs));
+        prop_assert_eq!(decided(forth, Side::Theirs), decided(back, Side::Mine));
+    }
+
+    #[test]
+    fn changes_of_different_leaves_always_merge(
+        leaves in prop::collection::vec((0..3, 0..4), 1..40),
+    ) {
+        // Each leaf changes on one side, to a value found nowhere else, or on neither.
+        let text = |change: &dyn Fn(usize, i32, i32) -> i32| {
+            let spelled = leaves.iter().enumerate();
+            lines(spelled.map(|(at, &(value, owner))| change(at, value, owner).to_string()))
+        };
+        let new = |at: usize| 100 + at as i32;
+        let base = text(&|_, value, _| value);
+        let mine = text(&|at, value, owner| if owner == 1 { new(at) } else { value });
+        let theirs = text(&|at, value, owner| if owner == 2 { new(at) } else { value });
+        let both = text(&|at, value, owner| if owner == 1 || owner == 2 { new(at) } else { value });
+        prop_assert_eq!(marked(&merge(&base, &mine, &theirs)), both);
+    }
+}

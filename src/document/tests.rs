@@ -1,0 +1,271 @@
+use proptest::prelude::*;
+use proptest::sample::Index;
+
+use super::*;
+
+fn document(text: &str) -> Document {
+    Document::new(Format::Ray, text.to_owned())
+}
+
+/// Sets the leaf of an index; whatever happens, the tree must fit the text.
+fn set(document: &mut Document, leaf: usize, literal: &str) {
+    let span = document.tree().leaves()[leaf];
+    document.set(span, literal);
+}
+
+#[track_caller]
+fn check_tree(document: &Document) {
+    let fresh = format::parse(document.format(), document.text());
+    assert_eq!(document.tree().leaves(), fresh.leaves());
+}
+
+/// The texts that undoing everything passes through, the present one first.
+fn history(document: &Document) -> Vec<String> {
+    let mut document = document.clone();
+    let mut texts = vec![document.text().to_owned()];
+    while document.undo().is_some() {
+        check_tree(&document);
+        texts.push(document.text().to_owned());
+    }
+    texts
+}
+
+/// The texts that redoing everything passes through, the present one first.
+fn future(document: &Document) -> Vec<String> {
+    let mut document = document.clone();
+    let mut texts = vec![document.text().to_owned()];
+    while document.redo().is_some() {
+        texts.push(document.text().to_owned());
+    }
+    texts
+}
+
+#[test]
+fn consecutive_sets_of_one_leaf_are_one_step() {
+    let mut doc = document("1 2");
+    for literal in ["10", "100", "100", "9"] {
+        set(&mut doc, 0, literal);
+    }
+    assert_eq!(history(&doc), ["9 2", "1 2"]);
+    set(&mut doc, 1, "3");
+    set(&mut doc, 0, "8");
+    assert_eq!(history(&doc), ["8 3", "9 3", "9 2", "1 2"]);
+    doc.end_step();
+    set(&mut doc, 0, "7");
+    assert_eq!(history(&doc), ["7 3", "8 3", "9 3", "9 2", "1 2"]);
+}
+
+#[test]
+fn what_changes_nothing_is_no_step() {
+    let mut doc = document("1 2");
+    set(&mut doc, 0, "1");
+    doc.edit(&[]);
+    assert_eq!(history(&doc), ["1 2"]);
+    set(&mut doc, 0, "3");
+    set(&mut doc, 0, "1");
+    assert_eq!(history(&doc), ["1 2"]);
+    set(&mut doc, 0, "4");
+    assert_eq!(history(&doc), ["4 2", "1 2"]);
+}
+
+#[test]
+fn undo_and_redo_tell_where_the_text_changed() {
+    let mut doc = document("1 2 3");
+    let span = |start, end| Some(Span::new(start, end));
+    set(&mut doc, 1, "200");
+    assert_eq!(doc.undo(), span(2, 3));
+    assert_eq!(doc.redo(), span(2, 5));
+    assert_eq!(doc.redo(), None);
+    let edit = |at: Span, text: &str| Edit {
+        span: at,
+        text: text.to_owned(),
+    };
+    doc.edit(&[edit(Span::at(0), "0 "), edit(Span::new(5, 7), "")]);
+    assert_eq!(doc.text(), "0 1 200");
+    assert_eq!(doc.undo(), span(0, 7));
+    assert_eq!(doc.text(), "1 200 3");
+    assert_eq!(doc.redo(), span(0, 7));
+}
+
+#[test]
+fn new_edits_clear_redo() {
+    let mut doc = document("1 2");
+    set(&mut doc, 0, "3");
+    doc.undo();
+    assert_eq!(future(&doc), ["1 2", "3 2"]);
+    set(&mut doc, 1, "4");
+    assert_eq!(future(&doc), ["1 4"]);
+}
+
+#[test]
+fn reject_takes_back_one_call() {
+    let mut doc = document("1 2");
+    set(&mut doc, 1, "5");
+    doc.undo();
+    set(&mut doc, 0, "-");
+    doc.reject();
+    assert_eq!(
+        (history(&doc), future(&doc)),
+        (vec!["1 2".into()], vec!["1 2".into(), "1 5".into()])
+    );
+    doc.reject();
+    assert_eq!(doc.text(), "1 2", "there is one call to take back, not two");
+
+    // Inside a merged step; the run goes on as if nothing had happened.
+    set(&mut doc, 0, "3");
+    set(&mut doc, 0, "33");
+    doc.reject();
+    assert_eq!(history(&doc), ["3 2", "1 2"]);
+    set(&mut doc, 1, "x");
+    doc.reject();
+    set(&mut doc, 0, "4");
+    assert_eq!(history(&doc), ["4 2", "1 2"]);
+
+    // A call that came back to where the run began.
+    set(&mut doc, 0, "1");
+    doc.reject();
+    assert_eq!(history(&doc), ["4 2", "1 2"]);
+
+    // A call that changed nothing is a call.
+    set(&mut doc, 0, "4");
+    doc.reject();
+    assert_eq!(history(&doc), ["4 2", "1 2"]);
+    check_tree(&doc);
+}
+
+#[test]
+fn texts_from_outside_begin_a_new_history_where_nothing_is_unsaved() {
+    let mut doc = document("1 2");
+    set(&mut doc, 0, "3");
+    assert!(doc.is_dirty());
+    doc.mark_saved("3 2".to_owned());
+    assert!(!doc.is_dirty());
+    assert!(matches!(doc.replace("3 2".into()), Replaced::Unchanged));
+    assert!(matches!(doc.replace("0 3 2".into()), Replaced::Loaded));
+    assert!(!doc.is_dirty());
+    assert_eq!(history(&doc), ["0 3 2"]);
+    set(&mut doc, 0, "7");
+    doc.undo();
+    assert!(matches!(doc.replace("8 2".into()), Replaced::Loaded));
+    assert_eq!(
+        (history(&doc), future(&doc)),
+        (vec!["8 2".into()], vec!["8 2".into()])
+    );
+    assert!(matches!(doc.replace("0 3 2".into()), Replaced::Loaded));
+    doc.reject();
+    assert_eq!(
+        doc.text(),
+        "0 3 2",
+        "what came from outside is no call to reject"
+    );
+}
+
+#[test]
+fn unsaved_edits_merge_with_texts_from_outside() {
+    let mut doc = document("1 2 3");
+    set(&mut doc, 0, "9");
+    assert!(matches!(doc.replace("1 2 8".into()), Replaced::Merged));
+    assert_eq!((doc.text(), doc.saved()), ("9 2 8", "1 2 8"));
+    assert_eq!(history(&doc), ["9 2 8", "9 2 3", "1 2 3"]);
+    assert!(matches!(doc.replace("1 2 8".into()), Replaced::Unchanged));
+    assert_eq!(doc.text(), "9 2 8");
+    assert!(matches!(doc.replace("9 2 8".into()), Replaced::Unchanged));
+    assert!(!doc.is_dirty());
+    assert_eq!(history(&doc), ["9 2 8", "9 2 3", "1 2 3"]);
+}
+
+/// A document in which `1 2` is saved and the first leaf set to `3`, and the conflict with a file
+/// that says `theirs`.
+fn conflict(theirs: &str) -> (Document, Merge) {
+    let mut doc = document("1 2");
+    set(&mut doc, 0, "3");
+    let Replaced::Conflict(merge) = doc.replace(theirs.to_owned()) else {
+        panic!("both changed the first leaf");
+    };
+    assert_eq!((doc.text(), doc.saved()), ("3 2", "1 2"));
+    (doc, merge)
+}
+
+#[test]
+fn decided_conflicts_are_adopted_as_a_step() {
+    for (decision, text) in [(Side::Mine, "3 5"), (Side::Theirs, "4 5")] {
+        let (mut doc, mut merge) = conflict("4 5");
+        merge.conflicts[0].decision = Some(decision);
+        assert!(matches!(doc.adopt(merge), Replaced::Merged));
+        assert_eq!((doc.text(), doc.saved()), (text, "4 5"));
+        assert_eq!(history(&doc), [text, "3 2", "1 2"]);
+        assert!(matches!(doc.replace("4 5".into()), Replaced::Unchanged));
+    }
+}
+
+#[test]
+fn merges_out_of_date_do_no_harm() {
+    // Edited elsewhere since: the edit stays, the decision holds.
+    let (mut doc, mut merge) = conflict("4 2");
+    merge.conflicts[0].decision = Some(Side::Theirs);
+    set(&mut doc, 1, "7");
+    assert!(matches!(doc.adopt(merge), Replaced::Merged));
+    assert_eq!((doc.text(), doc.saved()), ("4 7", "4 2"));
+
+    // Edited at the conflict since: it is asked again.
+    let (mut doc, mut merge) = conflict("4 2");
+    merge.conflicts[0].decision = Some(Side::Theirs);
+    set(&mut doc, 0, "7");
+    let Replaced::Conflict(again) = doc.adopt(merge) else {
+        panic!("the decision was about another value");
+    };
+    assert_eq!((doc.text(), again.conflicts[0].mine.as_str()), ("7 2", "7"));
+
+    // Saved over since.
+    let (mut doc, merge) = conflict("4 2");
+    doc.mark_saved("3 2".to_owned());
+    assert!(matches!(doc.adopt(merge), Replaced::Unchanged));
+    assert_eq!((doc.text(), doc.saved()), ("3 2", "3 2"));
+
+    // Another text came while the conflict was undecided: the ancestor is still the same.
+    let (mut doc, _) = conflict("4 2");
+    assert!(matches!(doc.replace("1 6".into()), Replaced::Merged));
+    assert_eq!((doc.text(), doc.saved()), ("3 6", "1 6"));
+}
+
+/// Scenes with everything that a careless editor loses.
+fn scene() -> impl Strategy<Value = String> {
+    let pattern = "\u{FEFF}?(([0-9]{1,3}|[a-z]{1,4}|-?\\.[0-9]|// é[ a]{0,4}\r?\n|\\\\\\\\ x\n)\
+                   ( |\t|\r\n|\n|\u{A0}|\u{A0}\u{A0} ){1,2}){1,12}(5|// end)?";
+    proptest::string::string_regex(pattern).expect("the pattern is regular")
+}
+
+proptest! {
+    // 100 texts of 100 edits each.
+    #![proptest_config(ProptestConfig::with_cases(100))]
+
+    #[test]
+    fn edits_change_their_span_and_undo_restores_every_byte(
+        text in scene(),
+        edits in prop::collection::vec((any::<Index>(), "-?[0-9]{1,4}(\\.5)?", 0..8), 100),
+    ) {
+        let mut doc = document(&text);
+        for (leaf, literal, then) in edits {
+            let leaves = doc.tree().leaves();
+            let span = leaves[leaf.index(leaves.len())];
+            let before = doc.text().to_owned();
+            doc.set(span, &literal);
+            let (head, tail) = (&before[..span.start()], &before[span.end()..]);
+            prop_assert_eq!(doc.text(), format!("{head}{literal}{tail}"));
+            match then {
+                0 => doc.end_step(),
+                1 => {
+                    doc.reject();
+                    prop_assert_eq!(doc.text(), before);
+                }
+                _ => {}
+            }
+        }
+        let edited = doc.text().to_owned();
+        while doc.undo().is_some() {}
+        prop_assert_eq!(doc.text(), text);
+        while doc.redo().is_some() {}
+        prop_assert_eq!(doc.text(), edited);
+        check_tree(&doc);
+    }
+}

@@ -1,0 +1,161 @@
+//! Files whole or not at all: reading a scene's text, and replacing a file. Knows nothing of what
+//! the bytes mean.
+
+mod replace;
+
+use std::fs::{File, FileType, OpenOptions};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use crate::text::Position;
+
+pub use replace::{check_target, replace};
+
+/// The longest file that is read, in bytes: positions in a text are 32-bit numbers.
+pub const MAX_BYTES: u64 = u32::MAX as u64;
+
+/// Why a scene's text could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// Nothing has that name.
+    #[error("{path}: no such file", path = path.display())]
+    NotFound {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file system said no.
+    #[error("{path}: {source}", path = path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What it said.
+        source: io::Error,
+    },
+    /// It is a directory, a pipe, a device: something that is not read as a scene.
+    #[error("{path}: is {kind}, not a file", path = path.display())]
+    NotRegular {
+        /// The file.
+        path: PathBuf,
+        /// What it is, with its article: `a directory`.
+        kind: &'static str,
+    },
+    /// It is longer than [`MAX_BYTES`].
+    #[error("{path}: is 4 GiB or longer; scenes are shorter", path = path.display())]
+    TooLong {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Its bytes are not UTF-8.
+    #[error(
+        "{path}:{line}:{column}: the byte 0x{byte:02X} is not UTF-8 text; convert the file, for \
+         example with: iconv -f {encoding} -t UTF-8",
+        path = path.display(), line = position.line, column = position.column
+    )]
+    NotUtf8 {
+        /// The file.
+        path: PathBuf,
+        /// Where the first wrong byte stands.
+        position: Position,
+        /// That byte.
+        byte: u8,
+        /// The encoding that it is most likely in, by iconv's name.
+        encoding: &'static str,
+    },
+}
+
+/// Reads a scene file: a regular file of at most [`MAX_BYTES`] bytes in UTF-8.
+pub fn read_text(path: &Path) -> Result<String, ReadError> {
+    let file = open(path)?;
+    let bytes = read_bytes(&file).map_err(|source| match source.kind() {
+        io::ErrorKind::FileTooLarge => ReadError::TooLong {
+            path: path.to_owned(),
+        },
+        _ => ReadError::Io {
+            path: path.to_owned(),
+            source,
+        },
+    })?;
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let bytes = error.as_bytes();
+        ReadError::NotUtf8 {
+            path: path.to_owned(),
+            position: Position::of(&String::from_utf8_lossy(&bytes[..valid]), valid),
+            byte: bytes[valid],
+            encoding: match bytes {
+                [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => "UTF-16",
+                _ => "WINDOWS-1252",
+            },
+        }
+    })
+}
+
+/// Opens a regular file for reading. Never waits: opening a pipe would, until somebody writes.
+pub(crate) fn open(path: &Path) -> Result<File, ReadError> {
+    let told = |source: io::Error| match source.kind() {
+        io::ErrorKind::NotFound => ReadError::NotFound {
+            path: path.to_owned(),
+        },
+        _ => ReadError::Io {
+            path: path.to_owned(),
+            source,
+        },
+    };
+    let file = without_waiting().open(path).map_err(told)?;
+    // Asked of the open file, not of the name, which may mean another file by now.
+    let file_type = file.metadata().map_err(told)?.file_type();
+    if file_type.is_file() {
+        Ok(file)
+    } else {
+        Err(ReadError::NotRegular {
+            path: path.to_owned(),
+            kind: kind(file_type),
+        })
+    }
+}
+
+fn without_waiting() -> OpenOptions {
+    let mut options = OpenOptions::new();
+    options.read(true);
+    #[cfg(unix)]
+    {
+        use rustix::fs::OFlags;
+        use std::os::unix::fs::OpenOptionsExt;
+        // A terminal opened by its path must not become the one that controls the process.
+        let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
+        options.custom_flags(flags.bits() as i32);
+    }
+    options
+}
+
+fn kind(file_type: FileType) -> &'static str {
+    if file_type.is_dir() {
+        return "a directory";
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        if file_type.is_fifo() {
+            return "a pipe";
+        }
+    }
+    "a device"
+}
+
+fn read_bytes(file: &File) -> io::Result<Vec<u8>> {
+    let length = file.metadata()?.len();
+    if MAX_BYTES < length {
+        return Err(io::ErrorKind::FileTooLarge.into());
+    }
+    let mut bytes = Vec::new();
+    bytes.try_reserve_exact(length as usize)?;
+    // The file may grow while it is read.
+    file.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
+    if MAX_BYTES < bytes.len() as u64 {
+        return Err(io::ErrorKind::FileTooLarge.into());
+    }
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests;

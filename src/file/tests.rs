@@ -1,0 +1,258 @@
+use std::fs;
+
+use tempfile::TempDir;
+
+use super::*;
+
+fn directory() -> TempDir {
+    tempfile::tempdir().expect("a directory for a test")
+}
+
+/// The names in a directory, sorted.
+fn names(directory: &Path) -> Vec<String> {
+    let mut names: Vec<_> = fs::read_dir(directory)
+        .expect("a directory")
+        .map(|entry| {
+            entry
+                .expect("an entry")
+                .file_name()
+                .into_string()
+                .expect("UTF-8")
+        })
+        .collect();
+    names.sort();
+    names
+}
+
+fn replace_with(path: &Path, content: &str) -> io::Result<()> {
+    replace(path, |out| out.write_all(content.as_bytes()))
+}
+
+fn content(path: &Path) -> String {
+    fs::read_to_string(path).expect("a text file")
+}
+
+/// The message about a file `s` of these bytes, without its directory.
+fn refusal(bytes: &[u8]) -> String {
+    let directory = directory();
+    let path = directory.path().join("s");
+    fs::write(&path, bytes).expect("written");
+    let message = read_text(&path).expect_err("not UTF-8").to_string();
+    message.replace(&format!("{}", directory.path().join("").display()), "")
+}
+
+#[test]
+fn text_is_read_byte_for_byte() {
+    let directory = directory();
+    let path = directory.path().join("s");
+    for text in ["", "\u{feff}a\r\r\nb\u{a0}\0c", "no newline"] {
+        fs::write(&path, text).expect("written");
+        assert_eq!(read_text(&path).expect("text"), text);
+    }
+}
+
+#[test]
+fn the_first_byte_that_is_not_utf8_is_named() {
+    assert_eq!(
+        refusal(b"ab\n\xC3\xA9 \xE9t\xE9"),
+        "s:2:3: the byte 0xE9 is not UTF-8 text; convert the file, for example with: \
+         iconv -f WINDOWS-1252 -t UTF-8"
+    );
+    assert_eq!(
+        refusal(b"\xFF\xFEa\0"),
+        "s:1:1: the byte 0xFF is not UTF-8 text; convert the file, for example with: \
+         iconv -f UTF-16 -t UTF-8"
+    );
+}
+
+#[test]
+fn a_missing_file_is_told_from_a_directory() {
+    let directory = directory();
+    let missing = read_text(&directory.path().join("none"));
+    assert!(matches!(missing, Err(ReadError::NotFound { .. })));
+    let error = read_text(directory.path()).expect_err("a directory");
+    #[cfg(unix)]
+    assert!(error.to_string().ends_with(": is a directory, not a file"));
+    #[cfg(not(unix))]
+    assert!(matches!(error, ReadError::Io { .. }));
+}
+
+#[test]
+fn a_file_is_created_and_replaced_without_leftovers() {
+    let directory = directory();
+    let path = directory.path().join("s");
+    for text in ["first", "the second, longer", "3"] {
+        replace_with(&path, text).expect("replaced");
+        assert_eq!(content(&path), text);
+        assert_eq!(names(directory.path()), ["s"]);
+    }
+}
+
+#[test]
+fn a_failed_write_leaves_the_old_content() {
+    let directory = directory();
+    let path = directory.path().join("s");
+    let fail_midway = || {
+        replace(&path, |out| {
+            out.write_all(&vec![b'x'; 100_000])?;
+            Err(io::ErrorKind::StorageFull.into())
+        })
+    };
+    assert!(fail_midway().is_err());
+    assert_eq!(names(directory.path()), [""; 0]);
+    replace_with(&path, "old").expect("replaced");
+    assert!(fail_midway().is_err());
+    assert_eq!(content(&path), "old");
+    assert_eq!(names(directory.path()), ["s"]);
+}
+
+#[test]
+fn a_target_that_cannot_be_written_is_told_beforehand() {
+    let directory = directory();
+    let path = directory.path().join("s");
+    assert!(check_target(&path).is_ok());
+    assert!(check_target(&directory.path().join("none").join("s")).is_err());
+    assert!(check_target(directory.path()).is_err());
+    replace_with(&path, "old").expect("replaced");
+    assert!(check_target(&path).is_ok());
+    assert!(check_target(&path.join("s")).is_err());
+    assert!(replace_with(directory.path(), "").is_err());
+    assert_eq!(names(directory.path()), ["s"]);
+}
+
+#[cfg(unix)]
+mod unix {
+    use std::fs::Permissions;
+    use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
+
+    use rustix::fs::{CWD, FileType as NodeType, Mode, mknodat};
+
+    use super::*;
+
+    #[test]
+    fn a_pipe_or_a_device_is_refused_at_once() {
+        let directory = directory();
+        let pipe = directory.path().join("pipe");
+        mknodat(CWD, &pipe, NodeType::Fifo, Mode::RWXU, 0).expect("a pipe");
+        for (path, kind) in [
+            (pipe.as_path(), "a pipe"),
+            (Path::new("/dev/zero"), "a device"),
+        ] {
+            let message = read_text(path).expect_err("not a file").to_string();
+            assert!(
+                message.ends_with(&format!(": is {kind}, not a file")),
+                "{message}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_file_too_long_is_refused_unread() {
+        let directory = directory();
+        let path = directory.path().join("s");
+        let file = File::create(&path).expect("created");
+        // A hole: it takes no space.
+        file.set_len(MAX_BYTES + 1)
+            .expect("a file system with holes");
+        assert!(matches!(read_text(&path), Err(ReadError::TooLong { .. })));
+    }
+
+    #[test]
+    fn links_are_followed_and_stay_links() {
+        let directory = directory();
+        let at = |name: &str| directory.path().join(name);
+        fs::create_dir(at("real")).expect("created");
+        symlink("../middle", at("real/link")).expect("linked");
+        symlink("real/end", at("middle")).expect("linked");
+        for text in ["made at the end of dangling links", "replaced there"] {
+            replace_with(&at("real/link"), text).expect("replaced");
+            assert_eq!(content(&at("real/end")), text);
+            assert_eq!(names(&at("real")), ["end", "link"]);
+            assert!(at("real/link").is_symlink() && at("middle").is_symlink());
+        }
+        symlink("loop", at("loop")).expect("linked");
+        assert!(replace_with(&at("loop"), "x").is_err());
+        assert!(at("loop").is_symlink());
+    }
+
+    #[test]
+    fn the_mode_is_kept() {
+        let directory = directory();
+        let path = directory.path().join("s");
+        fs::write(&path, "old").expect("written");
+        for mode in [0o600, 0o644, 0o751, 0o666] {
+            fs::set_permissions(&path, Permissions::from_mode(mode)).expect("changed");
+            replace_with(&path, "new").expect("replaced");
+            let kept = fs::metadata(&path).expect("there").permissions().mode();
+            assert_eq!(kept & 0o7777, mode, "{mode:o}");
+        }
+    }
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn extended_attributes_are_kept() {
+        use rustix::fs::{XattrFlags, getxattr, setxattr};
+        let directory = directory();
+        let path = directory.path().join("s");
+        fs::write(&path, "old").expect("written");
+        if setxattr(&path, "user.note", b"mine", XattrFlags::empty()).is_err() {
+            // A file system without attributes has none to lose.
+            return;
+        }
+        replace_with(&path, "new").expect("replaced");
+        let mut value = [0; 4];
+        let length = getxattr(&path, "user.note", &mut value).expect("kept");
+        assert_eq!(&value[..length], b"mine");
+    }
+
+    #[test]
+    fn a_new_file_has_the_mode_of_any_new_file() {
+        let directory = directory();
+        let mode = |name: &str| {
+            let metadata = fs::metadata(directory.path().join(name)).expect("there");
+            metadata.permissions().mode()
+        };
+        fs::write(directory.path().join("theirs"), "").expect("written");
+        replace_with(&directory.path().join("ours"), "").expect("replaced");
+        assert_eq!(mode("ours"), mode("theirs"));
+    }
+
+    #[test]
+    fn hard_links_stay_together() {
+        let directory = directory();
+        let (one, two) = (directory.path().join("one"), directory.path().join("two"));
+        fs::write(&one, "old content, longer than the new").expect("written");
+        fs::hard_link(&one, &two).expect("linked");
+        let inode = fs::metadata(&one).expect("there").ino();
+        for text in ["new", "new, longer again", ""] {
+            replace_with(&two, text).expect("replaced");
+            assert_eq!(content(&one), text);
+            assert_eq!(fs::metadata(&two).expect("there").ino(), inode);
+            assert_eq!(names(directory.path()), ["one", "two"]);
+        }
+        let failed = replace(&one, |out| {
+            out.write_all(b"half")?;
+            Err(io::ErrorKind::StorageFull.into())
+        });
+        assert!(failed.is_err());
+        assert_eq!(
+            (content(&one), content(&two)),
+            (String::new(), String::new())
+        );
+    }
+
+    #[test]
+    fn a_pipe_is_written_to_and_stays() {
+        let directory = directory();
+        let pipe = directory.path().join("pipe");
+        mknodat(CWD, &pipe, NodeType::Fifo, Mode::RWXU, 0).expect("a pipe");
+        let reader = std::thread::spawn({
+            let pipe = pipe.clone();
+            move || fs::read_to_string(pipe)
+        });
+        replace_with(&pipe, "through").expect("written");
+        let read = reader.join().expect("no panic").expect("read");
+        assert_eq!(read, "through");
+        assert_eq!(names(directory.path()), ["pipe"]);
+    }
+}

@@ -1,0 +1,48 @@
+//! Text ⇄ tree, one language a file. Knows how a language is written, not what a scene is.
+
+pub mod ray;
+
+use std::path::Path;
+
+use crate::text::Span;
+
+/// The languages Halflight reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Rice University's `.ray`: a stream of tokens.
+    Ray,
+}
+
+impl Format {
+    /// The format a file name's extension says, in any case.
+    pub fn of_path(path: &Path) -> Option<Self> {
+        let extension = path.extension()?.to_str()?;
+        extension.eq_ignore_ascii_case("ray").then_some(Self::Ray)
+    }
+}
+
+/// The syntax of one text.
+#[derive(Clone, Debug)]
+pub enum Tree {
+    /// Tokens and comments.
+    Ray(ray::Tree),
+}
+
+/// Reads a text's syntax. Never fails: whatever stands in the text has a place in the tree.
+pub fn parse(format: Format, text: &str) -> Tree {
+    match format {
+        Format::Ray => Tree::Ray(ray::parse(text)),
+    }
+}
+
+impl Tree {
+    /// The parts of the text that carry meaning, in order: tokens, and comments whole. What lies
+    /// between them is white space.
+    pub fn leaves(&self) -> Vec<Span> {
+        let Self::Ray(tree) = self;
+        let comments = tree.comments.iter().map(|comment| comment.span);
+        let mut leaves: Vec<_> = tree.tokens.iter().copied().chain(comments).collect();
+        leaves.sort_unstable();
+        leaves
+    }
+}

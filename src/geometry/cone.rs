@@ -1,0 +1,121 @@
+//! Affine images of the cone x² + y² ≤ (1 − z)², 0 ≤ z ≤ 1.
+
+use glam::DVec3;
+
+use super::line::{roots, slab};
+use super::transform::normalise;
+use super::{Aabb, Affine, Crossings, Hit, Ray, Surface};
+
+const SIDE: u32 = 0;
+const BASE: u32 = 1;
+
+/// An affine image of the cone x² + y² ≤ (1 − z)², 0 ≤ z ≤ 1.
+///
+/// Part 0 is the side, 1 the base at z = 0; the apex is at z = 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone(pub Affine);
+
+impl Cone {
+    /// The tight axis-aligned box: of the base and the apex.
+    pub fn bounds(&self) -> Aabb {
+        let base = self.0.origin();
+        let [_, _, axis] = self.0.axes();
+        let half = self.0.reach_of_disc([0, 1]);
+        Aabb {
+            min: base + axis.min(-half),
+            max: base + axis.max(half),
+        }
+    }
+
+    /// Where the ray's line crosses the cone: where it is inside the endless side, and between base
+    /// and apex. The side has a second nappe above the apex, which that excludes.
+    #[inline]
+    pub fn crossings(&self, ray: &Ray) -> Option<Crossings> {
+        let line = self.0.line(ray);
+        slab(line.origin.z, line.direction.z, [BASE, SIDE])?
+            .overlap(inside_side(line.origin - DVec3::Z, line.direction)?)?
+            .after(line.start)
+    }
+
+    /// The surface at a hit. At the apex any normal would do; it is that of one generatrix.
+    pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
+        let place = self.0.place(ray.at(hit.t));
+        let flat = place.with_z(0.0);
+        if hit.part == BASE {
+            return self.0.surface(DVec3::NEG_Z, |margin| {
+                flat.clamp_length_max(1.0 - margin.element_sum())
+            });
+        }
+        let radial = normalise(flat).unwrap_or(DVec3::X);
+        self.0.surface(radial.with_z(1.0), |margin| {
+            // Drawn from the tip by all three margins, a ray that goes in has an inside to go to.
+            let z = place.z.max(margin.z).min(1.0 - margin.element_sum());
+            ((1.0 - z) * radial).with_z(z)
+        })
+    }
+}
+
+/// Where a line, as seen from the apex, is inside the endless cone x² + y² = z²; of two such
+/// parts the one in the lower nappe.
+///
+/// With the indefinite product ⟨u, v⟩ = ux vx + uy vy − uz vz the line is inside where
+/// a t² + 2 b t + c ≤ 0, a = ⟨d, d⟩, b = ⟨o, d⟩, c = ⟨o, o⟩. Lagrange's identity gives the
+/// discriminant from the cross product n = o × d: b² − ac = nx² + ny² − nz², here a product of a
+/// sum and a difference, exact relative to the line's distance from the apex.
+#[inline]
+fn inside_side(origin: DVec3, direction: DVec3) -> Option<Crossings> {
+    let normal = origin.cross(direction);
+    let discriminant = indefinite_square(normal);
+    let a = indefinite_square(direction);
+    let b = origin.x * direction.x + origin.y * direction.y - origin.z * direction.z;
+    let c = indefinite_square(origin);
+    if a == 0.0 {
+        return along_generatrix(b, c);
+    }
+    if 0.0 < a && discriminant < 0.0 {
+        return None;
+    }
+    // A line steeper than the side always crosses it: a negative discriminant is rounding.
+    let [first, second] = roots(a, b, c, discriminant.max(0.0).sqrt());
+    if 0.0 < a {
+        Some(between(first, second))
+    } else if 0.0 < direction.z {
+        Some(between(f64::NEG_INFINITY, first))
+    } else {
+        Some(between(second, f64::INFINITY))
+    }
+}
+
+/// Where 2 b t + c ≤ 0: a line parallel to a generatrix crosses the side once at most.
+fn along_generatrix(b: f64, c: f64) -> Option<Crossings> {
+    if b == 0.0 {
+        return (c <= 0.0).then_some(Crossings::EVERYWHERE);
+    }
+    let t = -0.5 * (c / b);
+    Some(if 0.0 < b {
+        between(f64::NEG_INFINITY, t)
+    } else {
+        between(t, f64::INFINITY)
+    })
+}
+
+/// x² + y² − z².
+#[inline]
+fn indefinite_square(v: DVec3) -> f64 {
+    let radius = v.with_z(0.0).length();
+    (radius - v.z) * (radius + v.z)
+}
+
+#[inline]
+fn between(enter: f64, exit: f64) -> Crossings {
+    Crossings {
+        enter: Hit {
+            t: enter,
+            part: SIDE,
+        },
+        exit: Hit {
+            t: exit,
+            part: SIDE,
+        },
+    }
+}

@@ -1,0 +1,85 @@
+//! Affine images of the cylinder x² + y² ≤ 1, 0 ≤ z ≤ 1.
+
+use glam::DVec3;
+
+use super::line::{ball, slab};
+use super::transform::normalise;
+use super::{Aabb, Affine, Crossings, Hit, Ray, Surface};
+
+const SIDE: u32 = 0;
+const BASE: u32 = 1;
+const TOP: u32 = 2;
+
+/// An affine image of the cylinder x² + y² ≤ 1, 0 ≤ z ≤ 1.
+///
+/// Part 0 is the side, 1 the base at z = 0, 2 the top at z = 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cylinder(pub Affine);
+
+impl Cylinder {
+    /// The tight axis-aligned box: of the base and of the top.
+    pub fn bounds(&self) -> Aabb {
+        let base = self.0.origin();
+        let [_, _, axis] = self.0.axes();
+        let half = self.0.reach_of_disc([0, 1]);
+        Aabb {
+            min: base + axis.min(DVec3::ZERO) - half,
+            max: base + axis.max(DVec3::ZERO) + half,
+        }
+    }
+
+    /// Where the ray's line crosses the cylinder: where it is inside the endless side, which is a
+    /// circle in the plane, and between the caps.
+    #[inline]
+    pub fn crossings(&self, ray: &Ray) -> Option<Crossings> {
+        let line = self.0.line(ray);
+        slab(line.origin.z, line.direction.z, [BASE, TOP])?
+            .overlap(inside_side(
+                line.origin.with_z(0.0),
+                line.direction.with_z(0.0),
+            )?)?
+            .after(line.start)
+    }
+
+    /// The surface at a hit.
+    pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
+        let place = self.0.place(ray.at(hit.t));
+        let flat = place.with_z(0.0);
+        match hit.part {
+            BASE | TOP => {
+                let z = if hit.part == TOP { 1.0 } else { 0.0 };
+                let outward = DVec3::new(0.0, 0.0, 2.0 * z - 1.0);
+                self.0.surface(outward, |margin| {
+                    let rim = 1.0 - (margin.x + margin.y);
+                    flat.clamp_length_max(rim).with_z(z)
+                })
+            }
+            _ => {
+                let outward = normalise(flat).unwrap_or(DVec3::X);
+                self.0.surface(outward, |margin| {
+                    outward.with_z(place.z.max(margin.z).min(1.0 - margin.z))
+                })
+            }
+        }
+    }
+}
+
+/// Where a line in the plane is inside the unit circle. A line along the cylinder's axis is a point
+/// there: always inside or never.
+#[inline]
+fn inside_side(origin: DVec3, direction: DVec3) -> Option<Crossings> {
+    if direction.length_squared() == 0.0 {
+        return (origin.length_squared() <= 1.0).then_some(Crossings::EVERYWHERE);
+    }
+    let [enter, exit] = ball(origin, direction, 1.0)?;
+    Some(Crossings {
+        enter: Hit {
+            t: enter,
+            part: SIDE,
+        },
+        exit: Hit {
+            t: exit,
+            part: SIDE,
+        },
+    })
+}

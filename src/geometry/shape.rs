@@ -1,0 +1,186 @@
+//! What rays, hits and shapes have in common.
+
+use glam::DVec3;
+
+use super::{Aabb, Cone, Cuboid, Cylinder, Ellipsoid, Sphere};
+
+/// A half line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where it starts.
+    pub origin: DVec3,
+    /// Where it goes; of unit length, so that distances along it are in world units.
+    pub direction: DVec3,
+}
+
+impl Ray {
+    /// The point at distance `t`.
+    pub fn at(&self, t: f64) -> DVec3 {
+        self.origin + t * self.direction
+    }
+}
+
+/// A crossing of a ray and a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Distance along the ray, in units of its direction.
+    pub t: f64,
+    /// Which of the shape's surfaces: numbered by each shape for itself.
+    pub part: u32,
+}
+
+/// Where a line enters and leaves a convex solid, as distances along a ray, either of which may be
+/// negative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossings {
+    /// Where the line goes in.
+    pub enter: Hit,
+    /// Where it comes out; not before `enter`.
+    pub exit: Hit,
+}
+
+impl Crossings {
+    /// The whole line, which no surface bounds.
+    pub(super) const EVERYWHERE: Self = Self {
+        enter: Hit {
+            t: f64::NEG_INFINITY,
+            part: 0,
+        },
+        exit: Hit {
+            t: f64::INFINITY,
+            part: 0,
+        },
+    };
+
+    /// The nearer crossing in the open interval `0 < t < limit`.
+    #[inline]
+    pub fn nearest(self, limit: f64) -> Option<Hit> {
+        [self.enter, self.exit]
+            .into_iter()
+            .find(|hit| 0.0 < hit.t && hit.t < limit)
+    }
+
+    /// The part of the line that is in both solids, if any.
+    #[inline]
+    pub(super) fn overlap(self, other: Self) -> Option<Self> {
+        let enter = if self.enter.t < other.enter.t {
+            other.enter
+        } else {
+            self.enter
+        };
+        let exit = if other.exit.t < self.exit.t {
+            other.exit
+        } else {
+            self.exit
+        };
+        (enter.t <= exit.t).then_some(Self { enter, exit })
+    }
+
+    /// The same crossings as seen from `start` farther back, or `None` if a distance is beyond
+    /// what `f64` holds: a line without direction, sizes near the ends of its range.
+    #[inline]
+    pub(super) fn after(self, start: f64) -> Option<Self> {
+        let Self {
+            mut enter,
+            mut exit,
+        } = self;
+        enter.t += start;
+        exit.t += start;
+        (enter.t.is_finite() && exit.t.is_finite()).then_some(Self { enter, exit })
+    }
+}
+
+/// A point on a surface, as exact as `f64` holds it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// The point, re-projected onto the surface.
+    pub point: DVec3,
+    /// The outward geometric normal, of unit length.
+    pub normal: DVec3,
+    /// The largest magnitude that entered the computation of the point (coordinates of the shape's
+    /// origin, its size), times the cancellation of a skewed frame: a few [`ulp`] of it bound how
+    /// far from the surface the point is.
+    pub scale: f64,
+}
+
+/// How many [`ulp`] of its scale a ray starts off the surface it leaves.
+///
+/// Rounding the point costs one, taking it into the shape's frame again a few more. Of the five
+/// million rays of the tests thousands come back from 1 and none from 2; 16 has a factor of eight
+/// in hand for frames that those do not meet, and is still far below any distance that shows.
+pub(super) const CLEARANCE: f64 = 16.0;
+
+impl Surface {
+    /// The start of a ray that leaves the surface toward `direction`: moved off it by a few units
+    /// in the last place of `scale`, to the side the direction points to.
+    pub fn leave(&self, direction: DVec3) -> DVec3 {
+        let clearance = CLEARANCE * ulp(self.scale);
+        if direction.dot(self.normal) < 0.0 {
+            self.point - clearance * self.normal
+        } else {
+            self.point + clearance * self.normal
+        }
+    }
+}
+
+/// The unit in the last place of `x`: the gap from |x| to the next larger `f64`. `x` is finite.
+pub fn ulp(x: f64) -> f64 {
+    x.abs().next_up() - x.abs()
+}
+
+/// A closed solid. All are convex.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A sphere.
+    Sphere(Sphere),
+    /// An affine image of the unit sphere.
+    Ellipsoid(Box<Ellipsoid>),
+    /// An affine image of the unit cube.
+    Cuboid(Box<Cuboid>),
+    /// An affine image of the unit cylinder.
+    Cylinder(Box<Cylinder>),
+    /// An affine image of the unit cone.
+    Cone(Box<Cone>),
+}
+
+impl Shape {
+    /// The tight axis-aligned box.
+    pub fn bounds(&self) -> Aabb {
+        match self {
+            Self::Sphere(sphere) => sphere.bounds(),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.bounds(),
+            Self::Cuboid(cuboid) => cuboid.bounds(),
+            Self::Cylinder(cylinder) => cylinder.bounds(),
+            Self::Cone(cone) => cone.bounds(),
+        }
+    }
+
+    /// Where the ray's line crosses the solid, or `None` if it misses it.
+    #[inline]
+    pub fn crossings(&self, ray: &Ray) -> Option<Crossings> {
+        match self {
+            Self::Sphere(sphere) => sphere.crossings(ray),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.crossings(ray),
+            Self::Cuboid(cuboid) => cuboid.crossings(ray),
+            Self::Cylinder(cylinder) => cylinder.crossings(ray),
+            Self::Cone(cone) => cone.crossings(ray),
+        }
+    }
+
+    /// The nearest crossing with `0 < t < limit`, entering or leaving.
+    #[inline]
+    pub fn hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
+        self.crossings(ray)?.nearest(limit)
+    }
+
+    /// The surface at a hit of this shape.
+    pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
+        match self {
+            Self::Sphere(sphere) => sphere.surface(ray, hit),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.surface(ray, hit),
+            Self::Cuboid(cuboid) => cuboid.surface(ray, hit),
+            Self::Cylinder(cylinder) => cylinder.surface(ray, hit),
+            Self::Cone(cone) => cone.surface(ray, hit),
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! What the shapes promise, checked against paper, against twice the precision, and by properties.
+
+mod double_double;
+mod exact;
+mod known;
+mod leaving;
+mod properties;
+mod random;
+mod scale;
+mod silhouettes;
+
+use glam::DVec3;
+
+use super::transform::normalise;
+use super::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Ray, Shape, Sphere};
+
+/// The solids there are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Kind {
+    Sphere,
+    Ellipsoid,
+    Cuboid,
+    Cylinder,
+    Cone,
+}
+
+const KINDS: [Kind; 5] = [
+    Kind::Sphere,
+    Kind::Ellipsoid,
+    Kind::Cuboid,
+    Kind::Cylinder,
+    Kind::Cone,
+];
+
+/// What a scene file says about where a solid stands. A sphere reads the first length only.
+#[derive(Clone, Copy, Debug)]
+struct Frame {
+    origin: DVec3,
+    directions: [DVec3; 3],
+    lengths: DVec3,
+}
+
+impl Frame {
+    fn upright(origin: DVec3, lengths: DVec3) -> Self {
+        Self {
+            origin,
+            directions: DVec3::AXES,
+            lengths,
+        }
+    }
+
+    fn affine(&self) -> Option<Affine> {
+        Affine::new(self.origin, self.directions, self.lengths)
+    }
+
+    fn shape(&self, kind: Kind) -> Shape {
+        let affine = || self.affine().expect("the frame spans a volume");
+        match kind {
+            Kind::Sphere => Shape::Sphere(Sphere {
+                centre: self.origin,
+                radius: self.lengths.x,
+            }),
+            Kind::Ellipsoid => Shape::Ellipsoid(Box::new(Ellipsoid(affine()))),
+            Kind::Cuboid => Shape::Cuboid(Box::new(Cuboid(affine()))),
+            Kind::Cylinder => Shape::Cylinder(Box::new(Cylinder(affine()))),
+            Kind::Cone => Shape::Cone(Box::new(Cone(affine()))),
+        }
+    }
+
+    /// The frame that a solid of this kind has.
+    fn of(self, kind: Kind) -> Self {
+        if kind == Kind::Sphere {
+            Self::upright(self.origin, DVec3::splat(self.lengths.x))
+        } else {
+            self
+        }
+    }
+
+    /// A unit solid's point in the world.
+    fn world(&self, place: DVec3) -> DVec3 {
+        let mut point = self.origin;
+        for axis in 0..3 {
+            point += place[axis] * self.lengths[axis] * unit(self.directions[axis]);
+        }
+        point
+    }
+}
+
+fn unit(v: DVec3) -> DVec3 {
+    normalise(v).expect("the vector has a direction")
+}
+
+fn ray(origin: DVec3, toward: DVec3) -> Ray {
+    Ray {
+        origin,
+        direction: unit(toward - origin),
+    }
+}

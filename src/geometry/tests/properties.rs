@@ -1,0 +1,133 @@
+//! Properties of spans, normals and bounds, for solids and rays of all kinds.
+
+use glam::DVec3;
+
+use super::exact::Exact;
+use super::random::{Random, excess, extremes, place};
+use super::{Frame, KINDS, Kind, Ray, ray};
+
+/// A ray toward a random solid, that may start inside it or miss it.
+fn encounter(random: &mut Random, kind: Kind) -> (Frame, Ray) {
+    let frame = random.frame().of(kind);
+    let target = frame.world(1.5 * random.inside(kind));
+    let origin = frame.world(random.magnitude(-1.0, 2.0) * random.direction());
+    (frame, ray(origin, target))
+}
+
+#[test]
+fn spans_are_what_is_inside() {
+    let mut random = Random(8);
+    for index in 0..20_000 {
+        let kind = KINDS[index % KINDS.len()];
+        let (frame, ray) = encounter(&mut random, kind);
+        let depth = |t: f64| excess(kind, place(&frame, ray.at(t)));
+        let Some(crossings) = frame.shape(kind).crossings(&ray) else {
+            let around = (frame.origin - ray.origin).dot(ray.direction);
+            for step in -20..20 {
+                let t = around + 0.3 * f64::from(step);
+                assert!(-1e-12 < depth(t), "{kind:?} {index}: missed at {t}");
+            }
+            continue;
+        };
+        let (enter, exit) = (crossings.enter.t, crossings.exit.t);
+        let length = exit - enter;
+        if length < 1e-3 {
+            continue;
+        }
+        let step = 1e-3 * length;
+        for (t, inside) in [
+            (enter - step, false),
+            (enter + step, true),
+            (0.5 * (enter + exit), true),
+            (exit - step, true),
+            (exit + step, false),
+        ] {
+            assert_eq!(depth(t) < 0.0, inside, "{kind:?} {index}: at {t}");
+        }
+    }
+}
+
+#[test]
+fn spans_agree_with_twice_the_precision() {
+    let mut random = Random(9);
+    for index in 0..20_000 {
+        let kind = KINDS[index % KINDS.len()];
+        let (frame, ray) = encounter(&mut random, kind);
+        let shape = frame.shape(kind);
+        let found = shape.crossings(&ray);
+        let exact = Exact::new(kind, &frame).span(&ray);
+        let (Some(found), Some([enter, exit])) = (found, exact) else {
+            assert!(found.is_none() && exact.is_none(), "{kind:?} {index}");
+            continue;
+        };
+        for (hit, exact) in [(found.enter, enter), (found.exit, exit)] {
+            // An error of the coordinates is one of the distance over the cosine.
+            let cosine = shape.surface(&ray, hit).normal.dot(ray.direction).abs();
+            let bound = 1e-14 * (10.0 + ray.origin.length()) / cosine;
+            let error = (hit.t - exact).abs();
+            assert!(
+                error < bound,
+                "{kind:?} {index}: {error} at {hit:?}, {bound}"
+            );
+        }
+    }
+}
+
+#[test]
+fn normals_are_gradients() {
+    let mut random = Random(10);
+    let mut checked = 0;
+    for index in 0..5_000 {
+        let kind = KINDS[index % KINDS.len()];
+        let (frame, ray) = encounter(&mut random, kind);
+        let shape = frame.shape(kind);
+        let Some(hit) = shape.hit(&ray, f64::INFINITY) else {
+            continue;
+        };
+        let surface = shape.surface(&ray, hit);
+        let on_ray = ray.at(hit.t);
+        assert!((surface.point - on_ray).length() < 1e-9 * (1.0 + hit.t));
+        let value = |p: DVec3| excess(kind, place(&frame, p));
+        assert!(value(surface.point).abs() < 1e-12, "{kind:?} {index}");
+        let step = 1e-6;
+        let slope = |h: f64| {
+            let along = |e: DVec3| (value(surface.point + h * e) - value(surface.point)) / h;
+            DVec3::new(along(DVec3::X), along(DVec3::Y), along(DVec3::Z))
+        };
+        let (forward, backward) = (slope(step).normalize(), slope(-step).normalize());
+        // At an edge the function has no gradient.
+        if (forward - backward).length() < 1e-4 {
+            checked += 1;
+            let gradient = 0.5 * (forward + backward);
+            assert!(
+                (surface.normal - gradient).length() < 1e-4,
+                "{kind:?} {index}: {} is not {gradient}",
+                surface.normal
+            );
+        }
+        assert!((surface.normal.length() - 1.0).abs() < 1e-15);
+    }
+    assert!(2_000 < checked, "{checked} checked");
+}
+
+#[test]
+fn bounds_are_tight() {
+    let mut random = Random(11);
+    for kind in KINDS {
+        let places = extremes(kind);
+        for _ in 0..20 {
+            let frame = random.frame().of(kind);
+            let bounds = frame.shape(kind).bounds();
+            let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+            for place in &places {
+                min = min.min(frame.world(*place));
+                max = max.max(frame.world(*place));
+            }
+            let tolerance = 1e-12;
+            assert!((min - bounds.min).min_element() > -tolerance, "{kind:?}");
+            assert!((bounds.max - max).min_element() > -tolerance, "{kind:?}");
+            let slack = (min - bounds.min).max(bounds.max - max) / bounds.size();
+            assert!(slack.max_element() < 1e-3, "{kind:?}: {slack}");
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! Which rays hit, and where, against the same rays in twice the precision.
+
+use glam::DVec3;
+
+use super::exact::Exact;
+use super::random::Random;
+use super::{Frame, Kind, Ray, ray};
+use crate::geometry::ulp;
+
+const SIDE: u32 = 256;
+
+/// A square of rays from `eye` that fills a window around `target`, whose half edges are given.
+fn window(eye: DVec3, target: DVec3, right: DVec3, up: DVec3) -> impl Iterator<Item = Ray> {
+    let fraction = |i: u32| (2.0 * f64::from(i) + 1.0) / f64::from(SIDE) - 1.0;
+    (0..SIDE * SIDE).map(move |i| {
+        let (x, y) = (fraction(i % SIDE), fraction(i / SIDE));
+        ray(eye, target + x * right + y * up)
+    })
+}
+
+struct Comparison {
+    hits: u32,
+    wrong: u32,
+    /// The largest difference of a distance.
+    error: f64,
+}
+
+fn compare(kind: Kind, frame: &Frame, rays: impl Iterator<Item = Ray>) -> Comparison {
+    let shape = frame.shape(kind);
+    let exact = Exact::new(kind, frame);
+    let mut result = Comparison {
+        hits: 0,
+        wrong: 0,
+        error: 0.0,
+    };
+    for ray in rays {
+        match (shape.crossings(&ray), exact.span(&ray)) {
+            (None, None) => {}
+            (Some(crossings), Some([enter, exit])) => {
+                result.hits += 1;
+                let error = (crossings.enter.t - enter).abs();
+                result.error = result.error.max(error);
+                result.error = result.error.max((crossings.exit.t - exit).abs());
+            }
+            _ => result.wrong += 1,
+        }
+    }
+    result
+}
+
+#[test]
+fn far_sphere() {
+    let mut random = Random(1);
+    for exponent in 1..=9 {
+        let distance = 10_f64.powi(exponent);
+        let [right, up, back] = random.rotation();
+        let away = distance * back;
+        // The sphere stands at the origin for one half of the distances, the eye for the other.
+        let (centre, eye) = if exponent % 2 == 0 {
+            (DVec3::ZERO, away)
+        } else {
+            (away, DVec3::ZERO)
+        };
+        let frame = Frame::upright(centre, DVec3::ONE);
+        let result = compare(
+            Kind::Sphere,
+            &frame,
+            window(eye, centre, 1.05 * right, 1.05 * up),
+        );
+        assert_eq!(result.wrong, 0, "distance {distance}");
+        assert!((40_000..60_000).contains(&result.hits), "{distance}");
+        let bound = 4.0 * ulp(distance) + 1e-7;
+        assert!(
+            result.error < bound,
+            "distance {distance}: {} of {bound}",
+            result.error
+        );
+    }
+}
+
+/// Needles and discs of 1 : `ratio`, seen from the side, along their axis and from between.
+fn needles(kind: Kind, ratio: f64, distance: f64, seed: u64) {
+    let mut random = Random(seed);
+    let rod = DVec3::new(1.0 / ratio, 1.0 / ratio, 1.0);
+    let disc = DVec3::new(1.0, 1.0, 1.0 / ratio);
+    let views = [(0, [1, 2]), (2, [0, 1])];
+    for lengths in [rod, disc] {
+        for (toward, edges) in views {
+            let directions = random.rotation();
+            let frame = Frame {
+                origin: DVec3::ZERO,
+                directions,
+                lengths,
+            };
+            let [right, up] = edges.map(|axis| 1.3 * lengths[axis] * directions[axis]);
+            let target = frame.world(DVec3::new(0.0, 0.0, 0.1));
+            let eye = target + distance * directions[toward];
+            let result = compare(kind, &frame, window(eye, target, right, up));
+            let message = format!("{kind:?} {lengths} along {toward} at {distance}");
+            assert_eq!(result.wrong, 0, "{message}");
+            assert!(8_000 < result.hits, "{message}: {} hits", result.hits);
+        }
+    }
+}
+
+#[test]
+fn ellipsoid_needle() {
+    for (ratio, distance) in [(1e3, 1e2), (1e6, 4.0), (1e6, 60.0), (1e6, 1e5)] {
+        needles(Kind::Ellipsoid, ratio, distance, 2);
+    }
+}
+
+#[test]
+fn cylinder_and_cone_needle() {
+    for kind in [Kind::Cylinder, Kind::Cone] {
+        needles(kind, 1e6, 1e4, 3);
+    }
+}
+
+#[test]
+fn far_solids() {
+    let mut random = Random(4);
+    for kind in [Kind::Ellipsoid, Kind::Cuboid, Kind::Cylinder, Kind::Cone] {
+        let frame = Frame {
+            origin: DVec3::ZERO,
+            ..random.frame()
+        };
+        let [right, up, back] = random.rotation();
+        let result = compare(
+            kind,
+            &frame,
+            window(1e9 * back, DVec3::ZERO, 4.0 * right, 4.0 * up),
+        );
+        assert_eq!(result.wrong, 0, "{kind:?}");
+        assert!(1_000 < result.hits, "{kind:?}: {} hits", result.hits);
+        assert!(result.error < 4.0 * ulp(1e9), "{kind:?}: {}", result.error);
+    }
+}
+
+/// Rays within 1e-12 of a tangent. With l the least distance from the centre, computed from
+/// coordinates up to D, the error of 1 − l² is at most 8 (1 + D) half units in the last place of 1
+/// (three products, their sums, the direction's component along itself); rays from far are moved
+/// close first, and D is 1.
+#[test]
+fn grazing() {
+    let mut random = Random(5);
+    let frame = Frame::upright(DVec3::ZERO, DVec3::ONE);
+    let shape = frame.shape(Kind::Sphere);
+    let exact = Exact::new(Kind::Sphere, &frame);
+    let mut decided = 0;
+    for index in 0..100_000 {
+        let [across, along, _] = random.rotation();
+        let distance = if index % 2 == 0 {
+            random.between(0.0, 64.0)
+        } else {
+            random.between(65.0, 1e4)
+        };
+        let gap = random.between(-1e-12, 1e-12);
+        let ray = ray(
+            (1.0 + gap) * across - distance * along,
+            (1.0 + gap) * across,
+        );
+        let loss = if distance < 64.0 { 1.0 + distance } else { 2.0 };
+        let bound = 8.0 * loss * 0.5 * f64::EPSILON;
+        if exact.clearance(&ray).abs() < bound {
+            continue;
+        }
+        decided += 1;
+        assert_eq!(
+            shape.crossings(&ray).is_some(),
+            exact.span(&ray).is_some(),
+            "gap {gap} at {distance}"
+        );
+    }
+    assert!(80_000 < decided, "{decided} decided");
+}

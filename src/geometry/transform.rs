@@ -1,0 +1,184 @@
+//! Affine frames: where a unit solid stands in the world.
+
+use glam::DVec3;
+
+use super::line::approach;
+use super::shape::CLEARANCE;
+use super::{Ray, Surface, ulp};
+
+/// The least |determinant| of a frame's unit directions.
+const FLATTEST: f64 = 1e-6;
+
+/// An affine frame: an origin, three directions of unit length (not necessarily orthogonal) and a
+/// length along each. A unit solid's point q is at `origin + Σ qᵢ lengthᵢ directionᵢ`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Affine {
+    origin: DVec3,
+    /// lengthᵢ · directionᵢ: the columns of the matrix to the world.
+    axes: [DVec3; 3],
+    /// The dual basis, dualᵢ · axisⱼ = 1 if i = j, else 0: the rows of the matrix from the world.
+    duals: [DVec3; 3],
+    /// No point of a unit solid is farther from the origin.
+    reach: f64,
+}
+
+/// A ray's line in the space of a unit solid. Distances along it are those along the ray.
+pub(super) struct Line {
+    /// The place at `start`.
+    pub(super) origin: DVec3,
+    /// The ray's direction, not of unit length here.
+    pub(super) direction: DVec3,
+    /// How far along the ray `origin` is.
+    pub(super) start: f64,
+}
+
+impl Affine {
+    /// Makes a frame. Directions are normalised; `None` if one is zero, or the determinant of the
+    /// unit directions is below 1e-6 in magnitude: then they span no volume. Lengths are above 0.
+    ///
+    /// A dual vector is the cross product of two directions, made one by its own product with the
+    /// third; both are computed as if with twice the precision. So the two matrices undo each other
+    /// to the last bits however flat the frame is.
+    pub fn new(origin: DVec3, directions: [DVec3; 3], lengths: DVec3) -> Option<Self> {
+        let [u, v, w] = directions.map(normalise);
+        let (u, v, w) = (u?, v?, w?);
+        let volume = exact_dot(u, exact_cross(v, w)).abs();
+        if volume.is_nan() || volume < FLATTEST {
+            return None;
+        }
+        let dual = |own: DVec3, next: DVec3, last: DVec3, length: f64| {
+            let across = exact_cross(next, last);
+            across / exact_dot(across, own) / length
+        };
+        Some(Self {
+            origin,
+            axes: [lengths.x * u, lengths.y * v, lengths.z * w],
+            duals: [
+                dual(u, v, w, lengths.x),
+                dual(v, w, u, lengths.y),
+                dual(w, u, v, lengths.z),
+            ],
+            reach: lengths.element_sum(),
+        })
+    }
+
+    /// Where the unit solid's origin is.
+    pub(super) fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    /// The images of the unit solid's axes.
+    pub(super) fn axes(&self) -> [DVec3; 3] {
+        self.axes
+    }
+
+    /// How far the image of the unit disc or ball in the given axes reaches along each axis of the
+    /// world: the length of that row of the matrix to the world.
+    pub(super) fn reach_of_disc<const N: usize>(&self, axes: [usize; N]) -> DVec3 {
+        let row = |world: usize| {
+            let mut row = DVec3::ZERO;
+            for axis in axes {
+                row[axis] = self.axes[axis][world];
+            }
+            let size = power_of_two(row.abs().max_element());
+            size * (row / size).length()
+        };
+        DVec3::new(row(0), row(1), row(2))
+    }
+
+    /// The ray's line in the space of the unit solid.
+    #[inline]
+    pub(super) fn line(&self, ray: &Ray) -> Line {
+        let (offset, start) = approach(ray.origin - self.origin, ray.direction, self.reach);
+        Line {
+            origin: self.dual_products(offset),
+            direction: self.dual_products(ray.direction),
+            start,
+        }
+    }
+
+    /// A point of the world in the space of the unit solid.
+    pub(super) fn place(&self, point: DVec3) -> DVec3 {
+        self.dual_products(point - self.origin)
+    }
+
+    /// The surface at a place of the unit solid where its outward normal is `outward`, of any
+    /// length. `project` gives that place, on the surface and at least a margin, in each
+    /// coordinate, from the solid's edges: a ray that leaves inward must start inside.
+    ///
+    /// Normals go to the world by the inverse transpose. Where the terms of that sum cancel, the
+    /// rounding of a place does not: it is as much larger beside the gradient, and so is the scale.
+    pub(super) fn surface(&self, outward: DVec3, project: impl FnOnce(DVec3) -> DVec3) -> Surface {
+        let [u, v, w] = self.duals;
+        let gradient = outward.x * u + outward.y * v + outward.z * w;
+        let terms = (outward.x * u).abs() + (outward.y * v).abs() + (outward.z * w).abs();
+        let cancellation = terms.max_element() / gradient.abs().max_element();
+        let scale = self.origin.abs().max_element().max(self.reach) * cancellation;
+        let margin = self
+            .duals
+            .map(|dual| (2.0 * CLEARANCE * ulp(scale) * dual.length()).min(0.25));
+        let place = project(DVec3::from_array(margin));
+        let [x, y, z] = self.axes;
+        Surface {
+            point: self.origin + (place.x * x + place.y * y + place.z * z),
+            normal: normalise(gradient).unwrap_or(DVec3::Z),
+            scale,
+        }
+    }
+
+    #[inline]
+    fn dual_products(&self, v: DVec3) -> DVec3 {
+        let [x, y, z] = self.duals;
+        DVec3::new(x.dot(v), y.dot(v), z.dot(v))
+    }
+}
+
+/// The vector of unit length in the direction of `v`, or `None` if `v` is zero or not finite.
+///
+/// Divided by a power of two first, which changes no bits of the result, no component is too large
+/// or too small to be squared.
+pub(super) fn normalise(v: DVec3) -> Option<DVec3> {
+    let largest = v.abs().max_element();
+    if !largest.is_finite() || largest == 0.0 {
+        return None;
+    }
+    let v = v / power_of_two(largest);
+    Some(v / v.length())
+}
+
+/// The largest power of two not above `x`, or the least normal number; `x` ≥ 0 and finite.
+fn power_of_two(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() & f64::INFINITY.to_bits()).max(f64::MIN_POSITIVE)
+}
+
+/// The cross product, each component rounded as if once. Kahan's difference of products: the error
+/// of one product is recovered by a fused multiply-add; C.-P. Jeannerod, N. Louvet, J.-M. Muller,
+/// "Further analysis of Kahan's algorithm", Mathematics of Computation 82 (2013).
+fn exact_cross(u: DVec3, v: DVec3) -> DVec3 {
+    let difference = |a: f64, b: f64, c: f64, d: f64| {
+        let product = c * d;
+        let error = (-c).mul_add(d, product);
+        a.mul_add(b, -product) + error
+    };
+    DVec3::new(
+        difference(u.y, v.z, u.z, v.y),
+        difference(u.z, v.x, u.x, v.z),
+        difference(u.x, v.y, u.y, v.x),
+    )
+}
+
+/// The dot product as if computed with twice the precision: T. Ogita, S. Rump, S. Oishi, "Accurate
+/// sum and dot product", SIAM Journal on Scientific Computing 26 (2005).
+fn exact_dot(u: DVec3, v: DVec3) -> f64 {
+    let mut sum = u.x * v.x;
+    let mut error = u.x.mul_add(v.x, -sum);
+    for (a, b) in [(u.y, v.y), (u.z, v.z)] {
+        let product = a * b;
+        error += a.mul_add(b, -product);
+        let total = sum + product;
+        let kept = total - sum;
+        error += (sum - (total - kept)) + (product - kept);
+        sum = total;
+    }
+    sum + error
+}

@@ -1,0 +1,62 @@
+//! Halflight: a progressive ray tracer that lives in the terminal.
+//!
+//! # The one idea
+//!
+//! The text is the truth. A scene is a text file; the tree is a view of the text, the scene a
+//! meaning of the tree, the picture a consequence of the scene. Every change, from any side, is
+//! an edit of text and flows one way:
+//!
+//! ```text
+//! text ─parse─▶ tree ─lower─▶ scene ─build─▶ world ─trace─▶ film ─tone─▶ frame ─draw─▶ cells
+//!   ▲                                                                               │
+//!   └───────── edit (span, text) ◀── action ◀── key, mouse, paste ◀─────────────────┘
+//! ```
+//!
+//! The one override outside the text is the working view: orbiting moves it in memory until the
+//! user saves it, which is an edit like any other.
+//!
+//! # The rooms, in reading order
+//!
+//! | room | what it is for | what it must not know |
+//! |---|---|---|
+//! | [`text`] | spans, edits, numbers and diagnostics: positions and changes in text | any language |
+//! | [`format`](mod@format) | text ⇄ tree, one language a file | what a scene is |
+//! | [`document`] | sole owner of text, tree, undo and the saved text | scenes, files |
+//! | [`geometry`] | rays against shapes in `f64`, one shape a file | lights, materials, text |
+//! | [`scene`] | plain comparable data, the table of fields, tree → scene | threads, pixels |
+//! | [`accel`] | boxes against rays | what the boxes hold |
+//! | [`render`] | pixels from a scene: worker, integrator, film, tone | documents, files, terminals |
+//! | [`file`](mod@file) | reading scenes and replacing files whole | what the bytes mean |
+//! | [`image_out`] | frames to picture files | scenes |
+//! | [`watch`] | a path that changes on disk | what is in it |
+//! | [`ui`] | the terminal: the only room that knows ratatui and crossterm | how pixels come about |
+//! | [`batch`] | headless work: check, render | terminals |
+//! | [`cli`] | arguments and exit codes | work |
+//!
+//! Arrows between rooms are held by `tests/rooms.rs`.
+//!
+//! # Invariants
+//!
+//! - Parsing never fails: it gives a tree and diagnostics. A scene that does not lower keeps the
+//!   last good picture.
+//! - Scene values hold no spans; [`scene::Origins`] sits beside the scene.
+//! - Every sample is a pure function of (scene, settings, pixel, sample index), and sums are added
+//!   in a fixed order: any thread count and any cancellation history gives the same bits.
+//! - `ui` changes documents, never scenes. `App::update` is a pure step that returns effects;
+//!   drawing never locks.
+//! - What threads share is a message, with three exceptions: a renderer's newest generation and its
+//!   frame slot, and the messages of panics, which a panic hook must be able to leave anywhere.
+
+pub mod accel;
+pub mod batch;
+pub mod cli;
+pub mod document;
+pub mod file;
+pub mod format;
+pub mod geometry;
+pub mod image_out;
+pub mod render;
+pub mod scene;
+pub mod text;
+pub mod ui;
+pub mod watch;

@@ -1,0 +1,156 @@
+//! Rays from the eye through the picture.
+
+use glam::DVec3;
+
+use crate::geometry::Ray;
+use crate::scene::{Camera, Size};
+
+/// A camera made ready to give rays for a raster of pixels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Projection {
+    eye: DVec3,
+    forward: DVec3,
+    right: DVec3,
+    up: DVec3,
+    /// Half extents of the picture on the plane one unit before the eye.
+    half_width: f64,
+    half_height: f64,
+    raster: Size,
+}
+
+impl Projection {
+    /// Frames what the camera frames, in `raster` pixels: the aspect is the camera's own, so that a
+    /// preview whose size can only come near it shows the same picture.
+    pub(crate) fn new(camera: &Camera, raster: Size) -> Self {
+        let forward = unit(camera.target - camera.eye);
+        let right = unit(forward.cross(upright(forward, unit(camera.up))));
+        let half_height = libm::tan(camera.fov * (std::f64::consts::PI / 360.0));
+        let aspect = f64::from(camera.size.width) / f64::from(camera.size.height);
+        Self {
+            eye: camera.eye,
+            forward,
+            right,
+            up: right.cross(forward),
+            half_width: half_height * aspect,
+            half_height,
+            raster,
+        }
+    }
+
+    /// The ray through a place of the raster, in pixels from its top left corner.
+    pub(crate) fn ray(&self, x: f64, y: f64) -> Ray {
+        let across = self.half_width * (2.0 * x / f64::from(self.raster.width) - 1.0);
+        let upward = self.half_height * (1.0 - 2.0 * y / f64::from(self.raster.height));
+        let direction = self.forward + across * self.right + upward * self.up;
+        Ray {
+            origin: self.eye,
+            direction: direction.normalize(),
+        }
+    }
+}
+
+/// The up direction to use: the camera's, or where the camera looks along it the world axis least
+/// aligned with the view (ties: x, then y, then z).
+fn upright(forward: DVec3, up: DVec3) -> DVec3 {
+    if 1e-9 <= forward.cross(up).length() {
+        return up;
+    }
+    let alignment = forward.abs();
+    if alignment.x <= alignment.y && alignment.x <= alignment.z {
+        DVec3::X
+    } else if alignment.y <= alignment.z {
+        DVec3::Y
+    } else {
+        DVec3::Z
+    }
+}
+
+/// The vector at unit length. Dividing by the largest component first keeps the squares within
+/// range, whatever the vector's length.
+fn unit(vector: DVec3) -> DVec3 {
+    (vector / vector.abs().max_element()).normalize()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn camera(up: DVec3) -> Camera {
+        Camera {
+            eye: DVec3::new(0.0, 0.0, 5.0),
+            target: DVec3::ZERO,
+            up,
+            fov: 90.0,
+            size: Size {
+                width: 4,
+                height: 2,
+            },
+        }
+    }
+
+    fn assert_near(a: DVec3, b: DVec3) {
+        assert!((a - b).length() < 1e-15, "{a} is not {b}");
+    }
+
+    /// With a right angle of view, the plane one unit ahead spans −1..1 upward and −2..2 across.
+    #[test]
+    fn pixel_centres_follow_the_formula() {
+        let projection = Projection::new(
+            &camera(DVec3::Y),
+            Size {
+                width: 4,
+                height: 2,
+            },
+        );
+        let through = |x, y, z| DVec3::new(x, y, z).normalize();
+        assert_near(projection.ray(0.5, 0.5).direction, through(-1.5, 0.5, -1.0));
+        assert_near(projection.ray(3.5, 1.5).direction, through(1.5, -0.5, -1.0));
+        assert_near(projection.ray(2.0, 1.0).direction, through(0.0, 0.0, -1.0));
+    }
+
+    #[test]
+    fn another_raster_keeps_the_framing() {
+        let fine = Projection::new(
+            &camera(DVec3::Y),
+            Size {
+                width: 4,
+                height: 2,
+            },
+        );
+        let coarse = Projection::new(
+            &camera(DVec3::Y),
+            Size {
+                width: 3,
+                height: 1,
+            },
+        );
+        assert_near(fine.ray(4.0, 2.0).direction, coarse.ray(3.0, 1.0).direction);
+    }
+
+    #[test]
+    fn an_up_along_the_view_is_replaced_by_the_least_aligned_axis() {
+        let projection = Projection::new(
+            &camera(DVec3::Z),
+            Size {
+                width: 4,
+                height: 2,
+            },
+        );
+        // n = −z; x and y are equally far from it, and x comes first.
+        assert_near(projection.up, DVec3::X);
+    }
+
+    #[test]
+    fn extreme_lengths_of_up_do_no_harm() {
+        for length in [1e-300, 1.0, 1e300] {
+            let projection = Projection::new(
+                &camera(DVec3::Y * length),
+                Size {
+                    width: 4,
+                    height: 2,
+                },
+            );
+            assert_near(projection.up, DVec3::Y);
+        }
+    }
+}

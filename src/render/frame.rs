@@ -1,0 +1,75 @@
+//! What goes into a renderer and what comes out: jobs and frames.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use crate::scene::{Camera, Scene, Size};
+
+/// Bounces unless the user says otherwise.
+pub const DEFAULT_DEPTH: u32 = 8;
+
+/// The most samples a pixel: the length of the sample sequence.
+pub const MAX_SPP: u32 = 65_536;
+
+/// The marker of a pixel under which no object lies, in [`Frame::objects`].
+pub const NO_OBJECT: u32 = u32::MAX;
+
+/// How a picture is traced: with the scene and the camera, all that its pixels depend on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// Pixels traced; the framing is the camera's own, whatever their number.
+    pub size: Size,
+    /// Samples a pixel, 1 to [`MAX_SPP`].
+    pub spp: u32,
+    /// Bounces; primary rays are bounce 0.
+    pub depth: u32,
+    /// Chooses among equally good sample patterns.
+    pub seed: u32,
+}
+
+/// A picture to trace.
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// What is seen.
+    pub scene: Arc<Scene>,
+    /// From where: the scene's own camera, or the working view.
+    pub camera: Camera,
+    /// How.
+    pub settings: Settings,
+}
+
+/// A picture as far as it is traced.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Which [`Renderer::restart`](super::Renderer::restart) it belongs to.
+    pub generation: u64,
+    /// Its size.
+    pub size: Size,
+    /// Red, green, blue of each pixel, row by row from the top left, as an export writes them.
+    pub pixels: Vec<[u8; 3]>,
+    /// Index of the object under each pixel's centre, or [`NO_OBJECT`].
+    pub objects: Vec<u32>,
+    /// How far it is.
+    pub progress: Progress,
+}
+
+/// How far a picture is traced.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// The pass under way, from 1; passes double the samples: 1, 1, 2, 4 …
+    pub pass: u32,
+    /// Passes in all.
+    pub passes: u32,
+    /// Samples that every pixel has; 0 while the picture is still coarse.
+    pub spp: u32,
+    /// Share of all samples taken, 0 to 1.
+    pub done: f64,
+    /// Time since the job was begun.
+    pub elapsed: Duration,
+    /// Rays traced, shadow rays included.
+    pub rays: u64,
+    /// Samples that ran out of their ray budget and lack the light of the rays not traced.
+    pub over_budget: u64,
+    /// Whether every sample is taken.
+    pub complete: bool,
+}

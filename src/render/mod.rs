@@ -1,0 +1,27 @@
+//! Pixels from a scene. Knows no documents, files or terminals.
+//!
+//! A [`Renderer`] is a handle on a worker thread that traces the newest [`Job`] it was given and
+//! shows its progress as [`Frame`]s. Every sample is a pure function of (scene, camera, settings,
+//! pixel, sample index) and each pixel's samples are added in the order of their indices, so a
+//! finished frame has the same bits for any number of threads and any history of cancelled jobs.
+//!
+//! The way of a picture: [`renderer`] hands a job to [`worker`], which builds a [`world`] and fills
+//! a [`film`] pass by pass; each sample asks [`sampler`] for its place in the pixel, [`camera`] for
+//! its ray and [`whitted`] for its radiance; [`tone`] makes the film a frame.
+
+mod camera;
+mod film;
+mod frame;
+mod renderer;
+mod sampler;
+mod shared;
+mod tone;
+mod whitted;
+mod worker;
+mod world;
+
+pub use frame::{DEFAULT_DEPTH, Frame, Job, MAX_SPP, NO_OBJECT, Progress, Settings};
+pub use renderer::{Renderer, Threads};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,64 @@
+//! Where in its pixel each sample lies.
+
+use sobol_burley::sample;
+
+/// The place of sample `index` (below [`MAX_SPP`](super::MAX_SPP)) in pixel (x, y), as fractions of
+/// the pixel from its top left, in 0..1: the centre for index 0, then a Sobol' sequence,
+/// Owen-scrambled by a seed of each pixel's own (Burley, "Practical Hash-based Owen Scrambling",
+/// JCGT 9(4), 2020).
+pub(crate) fn place_in_pixel(x: u32, y: u32, index: u32, seed: u32) -> [f64; 2] {
+    if index == 0 {
+        return [0.5, 0.5];
+    }
+    let scramble = pixel_seed(x, y, seed);
+    [0, 1].map(|dimension| f64::from(sample(index, dimension, scramble)))
+}
+
+/// Mixes coordinates and seed so that neighbouring pixels get unrelated patterns: three rounds of
+/// the finaliser of `MurmurHash3` (Appleby, public domain).
+fn pixel_seed(x: u32, y: u32, seed: u32) -> u32 {
+    let mix = |mut hash: u32| {
+        hash ^= hash >> 16;
+        hash = hash.wrapping_mul(0x85EB_CA6B);
+        hash ^= hash >> 13;
+        hash = hash.wrapping_mul(0xC2B2_AE35);
+        hash ^ (hash >> 16)
+    };
+    mix(mix(mix(seed ^ 0x9E37_79B9) ^ x).wrapping_add(0x9E37_79B9) ^ y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every prefix of 2^k points has exactly one in each of 2^k equal strips, across and down:
+    /// the property that makes a sequence a (0, 2)-sequence in base 2, seen in one dimension.
+    #[test]
+    fn power_of_two_prefixes_are_stratified_once_the_centre_is_replaced() {
+        for (x, y) in [(0, 0), (7, 3), (1919, 1079)] {
+            for count in [4u32, 16, 64, 256] {
+                for axis in 0..2 {
+                    let mut strips = vec![0; count as usize];
+                    // Points count..2·count are such a block that holds no centre sample.
+                    for index in count..2 * count {
+                        let place = place_in_pixel(x, y, index, 0)[axis];
+                        assert!((0.0..1.0).contains(&place));
+                        strips[(place * f64::from(count)) as usize] += 1;
+                    }
+                    assert_eq!(
+                        strips,
+                        vec![1; count as usize],
+                        "pixel ({x}, {y}), {count} points"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn sample_zero_is_the_centre_and_pixels_differ() {
+        assert_eq!(place_in_pixel(5, 9, 0, 3), [0.5, 0.5]);
+        assert_ne!(place_in_pixel(5, 9, 1, 3), place_in_pixel(9, 5, 1, 3));
+        assert_ne!(place_in_pixel(5, 9, 1, 3), place_in_pixel(5, 9, 1, 4));
+    }
+}

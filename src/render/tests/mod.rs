@@ -1,0 +1,161 @@
+//! Pictures whose pixels are known on paper.
+
+mod optics;
+mod progress;
+mod shading;
+mod visibility;
+
+use std::sync::Arc;
+use std::sync::mpsc;
+
+use glam::DVec3;
+
+use super::whitted::{Seen, Tracer};
+use super::world::World;
+use super::{Frame, Job, Renderer, Settings, Threads};
+use crate::geometry::{Affine, Cuboid, Ray, Shape, Sphere};
+use crate::scene::{Camera, Light, Material, Object, Rgb, Scene, Size};
+
+const BLACK: Material = Material {
+    ambient: Rgb::ZERO,
+    diffuse: Rgb::ZERO,
+    specular: Rgb::ZERO,
+    exponent: 1.0,
+    reflection: 0.0,
+    transmission: 0.0,
+    index: 1.0,
+};
+
+/// A material that only sends back this share of ambient light, which is 1 in [`scene`]: it shows
+/// as its own grey wherever it is seen, lit or not.
+fn grey(level: f64) -> Material {
+    Material {
+        ambient: Rgb::splat(level),
+        ..BLACK
+    }
+}
+
+fn sphere(centre: [f64; 3], radius: f64) -> Shape {
+    Shape::Sphere(Sphere {
+        centre: centre.into(),
+        radius,
+    })
+}
+
+/// A box along the axes.
+fn cuboid(corner: [f64; 3], size: [f64; 3]) -> Shape {
+    let frame = Affine::new(corner.into(), [DVec3::X, DVec3::Y, DVec3::Z], size.into());
+    Shape::Cuboid(Box::new(Cuboid(frame.expect("the axes span a volume"))))
+}
+
+/// A scene in white ambient light, seen from (0, 0, 5) toward the origin.
+fn scene(objects: &[(Shape, Material)], lights: &[Light]) -> Scene {
+    let material = |(index, (shape, _)): (usize, &(Shape, Material))| Object {
+        shape: shape.clone(),
+        material: index as u32,
+    };
+    Scene {
+        camera: Camera {
+            eye: DVec3::new(0.0, 0.0, 5.0),
+            target: DVec3::ZERO,
+            up: DVec3::Y,
+            fov: 45.0,
+            size: Size {
+                width: 40,
+                height: 30,
+            },
+        },
+        ambient: Rgb::ONE,
+        lights: lights.to_vec(),
+        materials: objects.iter().map(|(_, material)| *material).collect(),
+        objects: objects.iter().enumerate().map(material).collect(),
+    }
+}
+
+fn white_light(position: [f64; 3]) -> Light {
+    Light {
+        position: position.into(),
+        colour: Rgb::ONE,
+    }
+}
+
+fn world(scene: Scene) -> World {
+    World::build(Arc::new(scene), None, || false).expect("nothing cancels the building")
+}
+
+fn ray(origin: [f64; 3], toward: [f64; 3]) -> Ray {
+    let origin = DVec3::from(origin);
+    Ray {
+        origin,
+        direction: (DVec3::from(toward) - origin).normalize(),
+    }
+}
+
+/// What one ray sees, and the tracer's count of samples over budget.
+fn look(scene: Scene, depth: u32, ray: Ray) -> (Seen, u64) {
+    let world = world(scene);
+    let mut tracer = Tracer::new(&world, depth);
+    let seen = tracer.radiance(ray, || false);
+    (seen, tracer.counts.over_budget)
+}
+
+/// Grey level that a ray sees.
+fn level(scene: Scene, depth: u32, ray: Ray) -> f64 {
+    let radiance = look(scene, depth, ray).0.radiance;
+    assert!(
+        radiance.x == radiance.y && radiance.y == radiance.z,
+        "{radiance} is no grey"
+    );
+    radiance.x
+}
+
+fn assert_near(value: f64, expected: f64, tolerance: f64) {
+    assert!(
+        (value - expected).abs() <= tolerance,
+        "{value} is not {expected} ± {tolerance}"
+    );
+}
+
+fn settings(width: u32, height: u32, spp: u32) -> Settings {
+    Settings {
+        size: Size { width, height },
+        spp,
+        depth: 8,
+        seed: 0,
+    }
+}
+
+fn job(scene: &Arc<Scene>, settings: Settings) -> Job {
+    Job {
+        scene: Arc::clone(scene),
+        camera: scene.camera,
+        settings,
+    }
+}
+
+/// A renderer, and what it wakes.
+fn renderer(threads: usize) -> (Renderer, mpsc::Receiver<()>) {
+    let (wake, woken) = mpsc::channel();
+    let renderer = Renderer::new(Threads::Exactly(threads), move || {
+        let _ = wake.send(());
+    });
+    (renderer, woken)
+}
+
+/// Gives the renderer a job; its generation.
+fn restart(renderer: &Renderer, job: Job) -> u64 {
+    renderer.restart(job).expect("the worker runs")
+}
+
+/// Waits for the complete frame of a generation.
+fn finish(renderer: &Renderer, woken: &mpsc::Receiver<()>, generation: u64) -> Arc<Frame> {
+    loop {
+        woken.recv().expect("the worker runs until it is dropped");
+        if let Some(frame) = renderer.latest()
+            && frame.generation == generation
+            && frame.progress.complete
+        {
+            return frame;
+        }
+    }
+}

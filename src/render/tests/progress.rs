@@ -1,0 +1,186 @@
+//! The way to a finished picture: grids, passes, threads, cancelling.
+
+use super::super::film::{Step, steps};
+use super::*;
+
+/// Glass, a mirror and a matte ball on a floor.
+fn still() -> Arc<Scene> {
+    let matte = Material {
+        diffuse: Rgb::new(0.7, 0.3, 0.2),
+        specular: Rgb::splat(0.4),
+        exponent: 20.5,
+        ..grey(0.1)
+    };
+    let objects = [
+        (
+            cuboid([-9.0, -2.0, -9.0], [18.0, 1.0, 18.0]),
+            Material {
+                diffuse: Rgb::splat(0.6),
+                ..grey(0.1)
+            },
+        ),
+        (
+            sphere([-1.1, 0.0, 0.0], 1.0),
+            Material {
+                reflection: 0.8,
+                ..grey(0.05)
+            },
+        ),
+        (
+            sphere([1.0, 0.0, 1.0], 0.9),
+            Material {
+                transmission: 0.9,
+                index: 1.5,
+                ..matte
+            },
+        ),
+        (sphere([0.3, 0.4, -2.0], 1.2), matte),
+    ];
+    let mut still = scene(
+        &objects,
+        &[white_light([3.0, 5.0, 4.0]), white_light([-4.0, 6.0, 2.0])],
+    );
+    still.ambient = Rgb::splat(0.4);
+    Arc::new(still)
+}
+
+fn trace(scene: &Arc<Scene>, settings: Settings, threads: usize) -> Arc<Frame> {
+    let (renderer, woken) = renderer(threads);
+    let generation = restart(&renderer, job(scene, settings));
+    finish(&renderer, &woken, generation)
+}
+
+#[test]
+fn passes_double() {
+    let samples = |spp| {
+        let passes = steps(spp).into_iter().filter_map(|step| match step {
+            Step::Samples(indices) => Some(indices),
+            Step::Grid(_) => None,
+        });
+        passes.collect::<Vec<_>>()
+    };
+    assert_eq!(samples(1), []);
+    assert_eq!(samples(8), [1..2, 2..4, 4..8]);
+    assert_eq!(samples(11), [1..2, 2..4, 4..8, 8..11]);
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let scene = still();
+    let alone = trace(&scene, settings(61, 37, 6), 1);
+    for threads in [2, 8] {
+        let together = trace(&scene, settings(61, 37, 6), threads);
+        assert_eq!(together.pixels, alone.pixels);
+        assert_eq!(together.objects, alone.objects);
+        assert_eq!(together.progress.rays, alone.progress.rays);
+    }
+}
+
+#[test]
+fn cancelled_jobs_leave_no_trace() {
+    let scene = still();
+    let alone = trace(&scene, settings(40, 30, 4), 2);
+    let (renderer, woken) = renderer(2);
+    for spp in [512, 64, 300, 2, 1000] {
+        restart(&renderer, job(&scene, settings(40, 30, spp)));
+        // Each is under way when the next one comes: its first frame is there.
+        woken.recv().expect("a frame of every job");
+        renderer.latest();
+    }
+    let generation = restart(&renderer, job(&scene, settings(40, 30, 4)));
+    assert_eq!(finish(&renderer, &woken, generation).pixels, alone.pixels);
+}
+
+/// The sample at each pixel's centre is the first of any number of samples.
+#[test]
+fn one_sample_is_the_pixel_centre() {
+    let scene = still();
+    let frame = trace(&scene, settings(20, 15, 1), 1);
+    let projection = crate::render::camera::Projection::new(
+        &scene.camera,
+        Size {
+            width: 20,
+            height: 15,
+        },
+    );
+    let world = world(Scene::clone(&scene));
+    let mut tracer = Tracer::new(&world, 8);
+    for (y, x) in (0..15).flat_map(|y| (0..20).map(move |x| (y, x))) {
+        let centre = projection.ray(f64::from(x) + 0.5, f64::from(y) + 0.5);
+        let expected = crate::render::tone::to_bytes(tracer.radiance(centre, || false).radiance);
+        assert_eq!(frame.pixels[y as usize * 20 + x as usize], expected);
+    }
+}
+
+#[test]
+fn frames_tell_how_far_they_are() {
+    let scene = still();
+    let frame = trace(&scene, settings(30, 20, 5), 2);
+    assert_eq!(
+        frame.size,
+        Size {
+            width: 30,
+            height: 20
+        }
+    );
+    let progress = frame.progress;
+    assert_eq!((progress.pass, progress.passes, progress.spp), (4, 4, 5));
+    assert_eq!(
+        (progress.done, progress.complete, progress.over_budget),
+        (1.0, true, 0)
+    );
+    // Two lights: at least the camera rays, and not more than the budget allows.
+    assert!(30 * 20 * 5 <= progress.rays);
+}
+
+#[test]
+fn a_picture_smaller_than_a_tile_is_whole() {
+    let scene = still();
+    for (width, height) in [(1, 1), (1, 40), (17, 3)] {
+        let frame = trace(&scene, settings(width, height, 2), 2);
+        assert_eq!(frame.pixels.len(), (width * height) as usize);
+    }
+}
+
+/// Dropping a renderer whose picture would take hours ends it.
+#[test]
+fn dropping_a_renderer_cancels_its_work() {
+    let (renderer, woken) = renderer(1);
+    restart(&renderer, job(&still(), settings(4000, 4000, 60_000)));
+    woken.recv().expect("a first frame");
+    drop(renderer);
+}
+
+/// A scene with other colours but the same shapes keeps its tree; the picture is that of the new
+/// colours.
+#[test]
+fn an_edit_of_a_colour_shows_at_once_in_the_next_picture() {
+    let many = |level: f64| {
+        let ball = |k: u32| {
+            (
+                sphere([f64::from(k % 10) - 4.5, f64::from(k / 10) - 4.5, 0.0], 0.4),
+                grey(level),
+            )
+        };
+        let objects: Vec<_> = (0..100).map(ball).collect();
+        Arc::new(scene(&objects, &[]))
+    };
+    let (renderer, woken) = renderer(1);
+    for level in [0.25, 0.75] {
+        let generation = restart(&renderer, job(&many(level), settings(40, 30, 1)));
+        let frame = finish(&renderer, &woken, generation);
+        let brightest = frame.pixels.iter().map(|pixel| pixel[0]).max();
+        assert_eq!(brightest, Some((level * 255.0 + 0.5) as u8));
+    }
+}
+
+/// A panic on the way to a picture ends the worker, and is not waited for in vain.
+#[test]
+fn a_worker_that_panicked_says_so() {
+    let mut broken = Scene::clone(&still());
+    broken.materials.clear();
+    let (renderer, woken) = renderer(1);
+    restart(&renderer, job(&Arc::new(broken), settings(4, 3, 1)));
+    assert_eq!(woken.recv(), Err(mpsc::RecvError));
+    assert_eq!(renderer.restart(job(&still(), settings(4, 3, 1))), None);
+}

@@ -1,0 +1,193 @@
+//! Which object a ray meets: ties, trees, contact shadows, the background.
+
+use super::*;
+
+/// Deterministic numbers in 0..1 (Vigna's splitmix64).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut bits = self.0;
+        bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((bits ^ (bits >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn point(&mut self, size: f64) -> DVec3 {
+        size * (2.0 * DVec3::new(self.next(), self.next(), self.next()) - 1.0)
+    }
+}
+
+#[test]
+fn nothing_is_black() {
+    let (seen, _) = look(
+        scene(&[(sphere([0.0; 3], 1.0), grey(1.0))], &[]),
+        8,
+        ray([0.0, 0.0, 5.0], [0.0, 3.0, 0.0]),
+    );
+    assert_eq!(
+        seen,
+        Seen {
+            radiance: Rgb::ZERO,
+            object: crate::render::NO_OBJECT
+        }
+    );
+}
+
+/// Two boxes share the plane of their tops, off the axes so that rounding differs between them.
+/// Every ray onto the shared part sees the one that comes first in the file, with and without a
+/// tree.
+#[test]
+fn of_coincident_faces_the_first_in_the_file_is_seen() {
+    let turned = |corner: DVec3, size: f64| {
+        let along = DVec3::new(0.8, 0.0, -0.6);
+        let across = DVec3::new(0.6, 0.0, 0.8);
+        let frame = Affine::new(
+            corner,
+            [along, DVec3::Y, across],
+            DVec3::new(size, 0.3 * size, size),
+        );
+        Shape::Cuboid(Box::new(Cuboid(frame.expect("orthogonal"))))
+    };
+    let low = (turned(DVec3::new(-1.7, -0.3, -0.9), 3.3), grey(0.25));
+    let high = (turned(DVec3::new(-1.1, 0.39, -0.4), 1.0), grey(0.75));
+    // Tops at −0.3 + 0.99 and at 0.39 + 0.3, which rounding may tell apart.
+    let crowd = (0..20).map(|k| {
+        (
+            sphere([50.0 + 3.0 * f64::from(k), 0.0, 0.0], 1.0),
+            grey(0.1),
+        )
+    });
+    for (first, second, expected) in [(&low, &high, 0.25), (&high, &low, 0.75)] {
+        for others in [0, 20] {
+            let objects: Vec<_> = [first.clone(), second.clone()]
+                .into_iter()
+                .chain(crowd.clone().take(others))
+                .collect();
+            let world = world(scene(&objects, &[]));
+            let mut tracer = Tracer::new(&world, 0);
+            let mut random = Random(7);
+            for _ in 0..4000 {
+                let on_top = DVec3::new(-0.9, 0.69, -0.3)
+                    + random.next() * 0.5 * DVec3::new(0.8, 0.0, -0.6)
+                    + random.next() * 0.5 * DVec3::new(0.6, 0.0, 0.8);
+                let eye = DVec3::new(-3.0, 4.0, 5.0) + random.point(2.0);
+                let towards = Ray {
+                    origin: eye,
+                    direction: (on_top - eye).normalize(),
+                };
+                let seen = tracer.radiance(towards, || false).radiance.x;
+                assert_eq!(seen, expected, "toward {on_top}");
+            }
+        }
+    }
+}
+
+/// A hundred copies of one ball are one ball: the first.
+#[test]
+fn of_many_copies_the_first_is_seen() {
+    let mut objects = vec![(sphere([9.0, 0.0, 0.0], 1.0), grey(0.0))];
+    objects.extend((0..100).map(|_| (sphere([0.1, 0.2, 0.3], 1.0), grey(0.5))));
+    let world = world(scene(&objects, &[]));
+    let mut random = Random(3);
+    for _ in 0..500 {
+        let origin = DVec3::new(0.0, 0.0, 5.0);
+        let direction = (random.point(0.5) - origin).normalize();
+        let met = world
+            .nearest(&Ray { origin, direction })
+            .expect("the ball is in the way");
+        assert_eq!(met.object, 1);
+    }
+}
+
+/// The tree finds what trying every object finds.
+#[test]
+fn the_tree_finds_what_every_object_tried_finds() {
+    let mut random = Random(1);
+    let objects: Vec<_> = (0..300)
+        .map(|k| {
+            let (at, size) = (random.point(10.0).to_array(), 0.1 + random.next());
+            let shape = if k % 2 == 0 {
+                sphere(at, size)
+            } else {
+                cuboid(at, [size, 2.0 * size, 0.5 * size])
+            };
+            (shape, grey(0.5))
+        })
+        .collect();
+    let world = world(scene(&objects, &[]));
+    for _ in 0..5000 {
+        let origin = random.point(12.0);
+        let ray = Ray {
+            origin,
+            direction: random.point(1.0).normalize(),
+        };
+        let tried = objects
+            .iter()
+            .enumerate()
+            .filter_map(|(object, (shape, _))| {
+                Some((shape.hit(&ray, f64::INFINITY)?.t, object as u32))
+            })
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        let found = world
+            .nearest(&ray)
+            .map(|nearest| (nearest.hit.t, nearest.object));
+        assert_eq!(found, tried);
+    }
+}
+
+/// Points of a floor of 10⁶ next to a ball of radius r that rests on it, lit from above at an
+/// angle: the verdict is that of the exact geometry, whatever the ball's size.
+#[test]
+fn contact_shadows() {
+    for radius in [1.0, 1e-3] {
+        let floor = cuboid([-5e5, -1.0, -5e5], [1e6, 1.0, 1e6]);
+        let ball = sphere([0.0, radius, 0.0], radius);
+        let light = DVec3::new(3e3, 4e3, 0.0);
+        let matte = Material {
+            diffuse: Rgb::ONE,
+            ..BLACK
+        };
+        let world = world(scene(
+            &[(floor, matte), (ball, BLACK)],
+            &[white_light(light.to_array())],
+        ));
+        let mut tracer = Tracer::new(&world, 0);
+        let mut random = Random(5);
+        let mut shadowed = 0;
+        for _ in 0..20_000 {
+            // Within 2 r of the contact; the eye looks straight down on the point from below the
+            // ball's reach where it can.
+            let place =
+                DVec3::new(random.next() * 4.0 - 3.0, 0.0, random.next() * 4.0 - 2.0) * radius;
+            let to_light = light - place;
+            let centre = DVec3::new(0.0, radius, 0.0) - place;
+            let along = centre.dot(to_light) / to_light.length();
+            let off = (centre.length_squared() - along * along).max(0.0).sqrt();
+            // Rounding of the independent formula leaves these undecided.
+            if (off / radius - 1.0).abs() < 1e-6 {
+                continue;
+            }
+            let eye = DVec3::new(place.x, place.y + 1e-2 * radius, place.z);
+            let under = centre.with_y(radius - 1e-2 * radius).length() < radius;
+            let seen = tracer.radiance(
+                Ray {
+                    origin: eye,
+                    direction: DVec3::NEG_Y,
+                },
+                || false,
+            );
+            if under || seen.object != 0 {
+                continue;
+            }
+            shadowed += u32::from(off < radius);
+            assert_eq!(
+                seen.radiance.x == 0.0,
+                off < radius,
+                "floor at {place}, radius {radius}"
+            );
+        }
+        assert!(1000 < shadowed, "the test saw {shadowed} shadowed points");
+    }
+}

@@ -1,0 +1,226 @@
+//! The thread behind a renderer: traces one job at a time, the newest, and publishes its progress.
+
+use std::sync::Arc;
+use std::sync::mpsc::Receiver;
+use std::time::{Duration, Instant};
+
+use rayon::ThreadPool;
+
+use super::camera::Projection;
+use super::film::{Film, Shot, Step, steps};
+use super::frame::{Frame, Job, Progress};
+use super::shared::Shared;
+use super::whitted::Counts;
+use super::world::World;
+use crate::scene::Size;
+
+/// How long a first picture may be refined before it is shown: half of what passes for immediate,
+/// so that the picture of an edit that had to wait for the one before still comes in time.
+const FIRST_PICTURE: Duration = Duration::from_millis(20);
+
+/// How long a job is safe from newer ones while it has shown nothing. With naive cancelling a held
+/// key shows no picture at all; with this, one for every edit.
+const GRACE: Duration = Duration::from_millis(50);
+
+/// The work handed to the pool at once takes about this long; progress is published in between.
+const BATCH: Duration = Duration::from_millis(8);
+
+/// Traces jobs until the renderer is dropped, or a panic ends the thread.
+pub(crate) fn run<W: Fn() + Sync>(
+    jobs: &Receiver<(u64, Job)>,
+    shared: &Shared,
+    wake: &W,
+    pool: &ThreadPool,
+) {
+    let mut world = None;
+    while let Ok(newest) = jobs.recv() {
+        let (generation, job) = jobs.try_iter().last().unwrap_or(newest);
+        world = pool.install(|| trace(generation, &job, shared, wake, world.take()));
+    }
+}
+
+/// Traces a job to its end, unless it is cancelled; returns the world for the next job.
+fn trace<W: Fn() + Sync>(
+    generation: u64,
+    job: &Job,
+    shared: &Shared,
+    wake: &W,
+    previous: Option<World>,
+) -> Option<World> {
+    let begun = Instant::now();
+    // A newer job does not cancel the building: it may need the same structure, and if a held key
+    // moved the objects of a large scene, no structure would ever be finished.
+    let quit = || shared.is_quitting();
+    let Some(world) = World::build(Arc::clone(&job.scene), previous.as_ref(), quit) else {
+        return previous;
+    };
+    let shot = Shot {
+        world: &world,
+        projection: Projection::new(&job.camera, job.settings.size),
+        settings: job.settings,
+    };
+    let ticket = Ticket {
+        generation,
+        built: Instant::now(),
+        shared,
+    };
+    let mut picture = Picture::new(ticket, begun, job, wake);
+    for step in steps(job.settings.spp) {
+        if !picture.take(&step, &shot) {
+            break;
+        }
+    }
+    Some(world)
+}
+
+/// What says whether a job may go on.
+#[derive(Clone, Copy)]
+struct Ticket<'s> {
+    generation: u64,
+    /// When its world was ready.
+    built: Instant,
+    shared: &'s Shared,
+}
+
+impl Ticket<'_> {
+    /// Whether to stop: at once when the renderer is dropped; for a newer job once something of
+    /// this one was shown, or its grace is over.
+    fn cancelled(&self, shown: bool) -> bool {
+        self.shared.is_old(self.generation)
+            && (shown || GRACE <= self.built.elapsed() || self.shared.is_quitting())
+    }
+}
+
+/// The picture of a job, as far as it is.
+struct Picture<'s, W> {
+    ticket: Ticket<'s>,
+    wake: &'s W,
+    begun: Instant,
+    film: Film,
+    size: Size,
+    spp: u32,
+    counts: Counts,
+    /// Samples taken, in pixels' worth.
+    taken: f64,
+    pass: u32,
+    whole_samples: u32,
+    /// Tiles that go to the pool at once.
+    batch: usize,
+    /// When it was last published.
+    published: Option<Instant>,
+}
+
+impl<'s, W: Fn() + Sync> Picture<'s, W> {
+    fn new(ticket: Ticket<'s>, begun: Instant, job: &Job, wake: &'s W) -> Self {
+        Self {
+            ticket,
+            wake,
+            begun,
+            film: Film::new(job.settings.size),
+            size: job.settings.size,
+            spp: job.settings.spp,
+            counts: Counts::default(),
+            taken: 0.0,
+            pass: 1,
+            whole_samples: 0,
+            batch: 2 * rayon::current_num_threads(),
+            published: None,
+        }
+    }
+
+    /// Takes a step; `false` if it was cancelled.
+    fn take(&mut self, step: &Step, shot: &Shot<'_>) -> bool {
+        let (share, whole_after) = match step {
+            // A grid holds a quarter of the next finer one's points, itself included.
+            &Step::Grid(8) => (1.0 / 64.0, 0),
+            &Step::Grid(spacing) => (0.75 / f64::from(spacing * spacing), u32::from(spacing == 1)),
+            Step::Samples(indices) => (f64::from(indices.end - indices.start), indices.end),
+        };
+        if let Step::Samples(_) = step {
+            self.pass += 1;
+        }
+        let before = self.taken;
+        let tiles = self.film.tiles();
+        let mut next = 0;
+        while next < tiles {
+            let until = tiles.min(next + self.batch);
+            let begun = Instant::now();
+            let shown = self.published.is_some();
+            let ticket = self.ticket;
+            let cancelled = || ticket.cancelled(shown);
+            self.counts = self
+                .counts
+                .and(self.film.advance(next..until, step, shot, cancelled));
+            if cancelled() {
+                return false;
+            }
+            self.batch = next_batch(self.batch, begun.elapsed());
+            next = until;
+            self.taken = before + share * (next as f64 / tiles as f64);
+            if next < tiles && self.is_due() {
+                self.publish();
+            }
+        }
+        self.whole_samples = whole_after;
+        let complete = whole_after == self.spp;
+        if complete || self.is_due() || self.is_first_due(step) {
+            self.publish();
+        }
+        true
+    }
+
+    /// Whether the first picture is to be shown now, at the end of a grid: it is if the next grid,
+    /// with three times the points so far, would end after its time.
+    fn is_first_due(&self, step: &Step) -> bool {
+        let elapsed = self.ticket.built.elapsed();
+        self.published.is_none() && (*step == Step::Grid(1) || FIRST_PICTURE <= 4 * elapsed)
+    }
+
+    /// Whether it is time for another picture: often at first, ever more seldom later.
+    fn is_due(&self) -> bool {
+        let interval = match self.begun.elapsed().as_millis() {
+            0..1000 => 33,
+            1000..4000 => 100,
+            4000..16_000 => 250,
+            _ => 500,
+        };
+        self.published
+            .is_some_and(|last| Duration::from_millis(interval) <= last.elapsed())
+    }
+
+    fn publish(&mut self) {
+        let (pixels, objects) = self.film.develop();
+        let complete = self.whole_samples == self.spp;
+        let untaken = self.ticket.shared.publish(Frame {
+            generation: self.ticket.generation,
+            size: self.size,
+            pixels,
+            objects,
+            progress: Progress {
+                pass: self.pass,
+                passes: 1 + self.spp.next_power_of_two().ilog2(),
+                spp: self.whole_samples,
+                done: if complete {
+                    1.0
+                } else {
+                    self.taken / f64::from(self.spp)
+                },
+                elapsed: self.begun.elapsed(),
+                rays: self.counts.rays,
+                over_budget: self.counts.over_budget,
+                complete,
+            },
+        });
+        if untaken.is_none() {
+            (self.wake)();
+        }
+        self.published = Some(Instant::now());
+    }
+}
+
+/// How many tiles to hand out next, when this many took that long.
+fn next_batch(batch: usize, took: Duration) -> usize {
+    let ratio = BATCH.as_secs_f64() / took.as_secs_f64().max(1e-6);
+    let least = 2 * rayon::current_num_threads();
+    ((batch as f64 * ratio.min(4.0)) as usize).max(least)
+}

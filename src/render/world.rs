@@ -1,0 +1,168 @@
+//! A scene made ready for rays: which object a ray meets first, and how much light passes.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use crate::accel::Bvh;
+use crate::geometry::{Aabb, Hit, Ray, ulp};
+use crate::scene::{Object, Scene};
+
+/// Up to this many objects every ray tries every one. Measured on the scenes of `scenes/`: with two
+/// solids that is half as fast again as a tree, with six to eleven a tree is 1.2 to 1.7 times as
+/// fast.
+const FEW: usize = 4;
+
+/// Objects whose boxes are made without asking whether to stop: less than half a millisecond.
+const QUIET: usize = 16_384;
+
+/// A scene and its acceleration structure.
+#[derive(Clone, Debug)]
+pub(crate) struct World {
+    pub(crate) scene: Arc<Scene>,
+    tree: Option<Arc<Bvh>>,
+}
+
+/// The first object on a ray's way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Nearest {
+    /// Its index.
+    pub(crate) object: u32,
+    /// Where it is met.
+    pub(crate) hit: Hit,
+}
+
+impl World {
+    /// Makes a scene ready, keeping the tree of `previous` if its shapes are the same. `None` if
+    /// `cancelled` said so.
+    pub(crate) fn build(
+        scene: Arc<Scene>,
+        previous: Option<&Self>,
+        cancelled: impl Fn() -> bool + Sync,
+    ) -> Option<Self> {
+        if let Some(previous) = previous.filter(|world| same_shapes(&world.scene, &scene)) {
+            return Some(Self {
+                scene,
+                tree: previous.tree.clone(),
+            });
+        }
+        if scene.objects.len() <= FEW {
+            return Some(Self { scene, tree: None });
+        }
+        let boxes = boxes(&scene.objects, &cancelled)?;
+        let tree = Bvh::build(&boxes, cancelled)?;
+        Some(Self {
+            scene,
+            tree: Some(Arc::new(tree)),
+        })
+    }
+
+    /// The nearest object on the ray; of those that are met within 64 ulp of the least distance,
+    /// the first of the file, so that touching solids show no speckle.
+    pub(crate) fn nearest(&self, ray: &Ray) -> Option<Nearest> {
+        let reach = ray.origin.length();
+        let window = |t: f64| 64.0 * ulp(reach.max(t));
+        let mut best: Option<Nearest> = None;
+        let mut tied = false;
+        let mut limit = f64::INFINITY;
+        self.visit(ray, limit, |object| {
+            let Some(hit) = self.scene.objects[object as usize].shape.hit(ray, limit) else {
+                return limit;
+            };
+            match best {
+                Some(before) if before.hit.t <= hit.t => tied = true,
+                Some(before) => tied = before.hit.t <= hit.t + window(hit.t),
+                None => {}
+            }
+            if best.is_none_or(|before| hit.t < before.hit.t) {
+                best = Some(Nearest { object, hit });
+                limit = (hit.t + window(hit.t)).next_up();
+            }
+            limit
+        });
+        // Which of several hits in the window comes first depends on the order of the walk until
+        // the least distance is known, so ties are settled by a second walk. They are rare.
+        if tied {
+            self.first_in_file(ray, limit)
+        } else {
+            best
+        }
+    }
+
+    /// The part of light that passes along the ray up to `distance`: the product of kt over every
+    /// solid whose surface the way crosses, each once, in file order. `crossed` is scratch space.
+    pub(crate) fn transmittance(&self, ray: &Ray, distance: f64, crossed: &mut Vec<u32>) -> f64 {
+        crossed.clear();
+        let mut blocked = false;
+        self.visit(ray, distance, |object| {
+            let solid = &self.scene.objects[object as usize];
+            if solid.shape.hit(ray, distance).is_none() {
+                return distance;
+            }
+            if self.scene.materials[solid.material as usize].transmission == 0.0 {
+                blocked = true;
+                return -1.0;
+            }
+            crossed.push(object);
+            distance
+        });
+        if blocked {
+            return 0.0;
+        }
+        crossed.sort_unstable();
+        crossed
+            .iter()
+            .map(|&object| {
+                let material = self.scene.objects[object as usize].material;
+                self.scene.materials[material as usize].transmission
+            })
+            .product()
+    }
+
+    fn first_in_file(&self, ray: &Ray, limit: f64) -> Option<Nearest> {
+        let mut first: Option<Nearest> = None;
+        self.visit(ray, limit, |object| {
+            if first.is_none_or(|before| object < before.object)
+                && let Some(hit) = self.scene.objects[object as usize].shape.hit(ray, limit)
+            {
+                first = Some(Nearest { object, hit });
+            }
+            limit
+        });
+        first
+    }
+
+    fn visit(&self, ray: &Ray, limit: f64, mut visit: impl FnMut(u32) -> f64) {
+        match &self.tree {
+            Some(tree) => tree.traverse(ray, limit, visit),
+            None => {
+                for object in 0..self.scene.objects.len() as u32 {
+                    if visit(object) < 0.0 {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The box of each object; `None` if `cancelled` said so.
+fn boxes(objects: &[Object], cancelled: impl Fn() -> bool) -> Option<Vec<Aabb>> {
+    let mut boxes = Vec::with_capacity(objects.len());
+    for part in objects.chunks(QUIET) {
+        if cancelled() {
+            return None;
+        }
+        boxes.par_extend(part.par_iter().map(|object| object.shape.bounds()));
+    }
+    Some(boxes)
+}
+
+fn same_shapes(a: &Arc<Scene>, b: &Arc<Scene>) -> bool {
+    Arc::ptr_eq(a, b)
+        || (a.objects.len() == b.objects.len()
+            && a.objects
+                .iter()
+                .zip(&b.objects)
+                .all(|(a, b)| a.shape == b.shape))
+}

@@ -1,0 +1,451 @@
+//! The one table of fields: what can be said of each thing, in which order, within which range.
+//!
+//! Lowering reads its grammar from these tables, the editor its names, ranges and steps: there is
+//! no second list of what an object holds. The table knows neither text nor values.
+
+/// What a field's numbers are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// One number.
+    Number,
+    /// A point: x, y, z.
+    Point,
+    /// A direction: x, y, z; normalised when read.
+    Direction,
+    /// A colour: red, green, blue.
+    Colour,
+    /// Width and height, whole numbers.
+    Pixels,
+}
+
+impl Kind {
+    /// How many numbers it takes.
+    pub const fn components(self) -> usize {
+        match self {
+            Self::Number => 1,
+            Self::Pixels => 2,
+            Self::Point | Self::Direction | Self::Colour => 3,
+        }
+    }
+
+    /// What its numbers are called, one name a component; a single number has no name of its own.
+    pub const fn component_names(self) -> &'static [&'static str] {
+        match self {
+            Self::Number => &[""],
+            Self::Pixels => &["width", "height"],
+            Self::Point | Self::Direction => &["x", "y", "z"],
+            Self::Colour => &["red", "green", "blue"],
+        }
+    }
+}
+
+/// Bounds of a number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Range {
+    /// Any finite number.
+    Any,
+    /// Greater than 0.
+    Positive,
+    /// 0 or more.
+    NotNegative,
+    /// From 0 to 1, both included.
+    Unit,
+    /// Greater than the first, less than the second.
+    Between(f64, f64),
+    /// A whole number, 1 or more.
+    Count,
+}
+
+impl Range {
+    /// Whether `value` is within the bounds. Infinity and NaN never are.
+    pub fn contains(self, value: f64) -> bool {
+        value.is_finite()
+            && match self {
+                Self::Any => true,
+                Self::Positive => 0.0 < value,
+                Self::NotNegative => 0.0 <= value,
+                Self::Unit => (0.0..=1.0).contains(&value),
+                Self::Between(low, high) => low < value && value < high,
+                Self::Count => 1.0 <= value && value.fract() == 0.0,
+            }
+    }
+
+    /// The bounds as a noun: `a number greater than 0`.
+    pub fn words(self) -> String {
+        match self {
+            Self::Any => "a number".to_owned(),
+            Self::Count => self.limits(),
+            _ => format!("a number {}", self.limits()),
+        }
+    }
+
+    /// The bounds as they follow "must be": `greater than 0`.
+    pub fn limits(self) -> String {
+        match self {
+            Self::Any => "a number".to_owned(),
+            Self::Positive => "greater than 0".to_owned(),
+            Self::NotNegative => "0 or more".to_owned(),
+            Self::Unit => "from 0 to 1".to_owned(),
+            Self::Between(low, high) => format!("greater than {low} and less than {high}"),
+            Self::Count => "a whole number, 1 or more".to_owned(),
+        }
+    }
+}
+
+/// One field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Field {
+    /// Its name, as messages and the editor say it.
+    pub key: &'static str,
+    /// What its numbers are.
+    pub kind: Kind,
+    /// Outside of this it is an error.
+    pub allowed: Range,
+    /// Outside of this it is a warning.
+    pub usual: Range,
+    /// What one nudge adds.
+    pub step: f64,
+    /// Unit, or empty.
+    pub unit: &'static str,
+    /// What it does, in one sentence.
+    pub doc: &'static str,
+}
+
+impl Field {
+    const fn point(key: &'static str, doc: &'static str) -> Self {
+        Self {
+            key,
+            kind: Kind::Point,
+            allowed: Range::Any,
+            usual: Range::Any,
+            step: 0.1,
+            unit: "",
+            doc,
+        }
+    }
+
+    const fn direction(key: &'static str, doc: &'static str) -> Self {
+        Self {
+            kind: Kind::Direction,
+            step: 0.05,
+            ..Self::point(key, doc)
+        }
+    }
+
+    const fn colour(key: &'static str, doc: &'static str) -> Self {
+        Self {
+            kind: Kind::Colour,
+            step: 0.05,
+            ..Self::point(key, doc)
+        }
+    }
+
+    const fn size(key: &'static str, doc: &'static str) -> Self {
+        Self {
+            kind: Kind::Number,
+            allowed: Range::Positive,
+            usual: Range::Positive,
+            ..Self::point(key, doc)
+        }
+    }
+
+    const fn number(key: &'static str, usual: Range, step: f64, doc: &'static str) -> Self {
+        Self {
+            kind: Kind::Number,
+            usual,
+            step,
+            ..Self::point(key, doc)
+        }
+    }
+
+    const fn coefficients(key: &'static str, doc: &'static str) -> Self {
+        Self {
+            usual: Range::Unit,
+            ..Self::colour(key, doc)
+        }
+    }
+}
+
+/// The camera, as a view comment holds it.
+pub const VIEW: &[Field; 5] = &[
+    Field::point("eye", "Where the camera stands."),
+    Field::point("target", "The point the camera looks at."),
+    Field::direction("up", "Which way is up in the picture; of any length."),
+    Field {
+        kind: Kind::Number,
+        allowed: Range::Between(0.0, 180.0),
+        usual: Range::Between(0.0, 180.0),
+        step: 1.0,
+        unit: "degrees",
+        ..Field::point("fov", "The vertical full angle of view.")
+    },
+    Field {
+        kind: Kind::Pixels,
+        allowed: Range::Count,
+        usual: Range::Count,
+        step: 10.0,
+        unit: "pixels",
+        ..Field::point("size", "Width and height of the output picture.")
+    },
+];
+
+/// Ambient light.
+pub const AMBIENT: &[Field; 1] = &[Field::colour(
+    "colour",
+    "The light that reaches every surface from everywhere.",
+)];
+
+/// A light.
+pub const LIGHT: &[Field; 2] = &[
+    Field::point("position", "Where the light stands."),
+    Field::colour("colour", "What the light sends, at any distance."),
+];
+
+/// What every object is made of; follows its shape's fields.
+pub const MATERIAL: &[Field; 7] = &[
+    Field::coefficients(
+        "ka",
+        "Ambient coefficient: share of ambient light sent back.",
+    ),
+    Field::coefficients(
+        "kd",
+        "Diffuse coefficient: share of light sent back evenly.",
+    ),
+    Field::coefficients("ks", "Specular coefficient: strength of the highlight."),
+    Field::number(
+        "ns",
+        Range::NotNegative,
+        1.0,
+        "Specular exponent: how small the highlight is; below 0 reads as 0.",
+    ),
+    Field::number(
+        "kr",
+        Range::Unit,
+        0.05,
+        "Reflection coefficient: weight of what is mirrored.",
+    ),
+    Field::number(
+        "kt",
+        Range::Unit,
+        0.05,
+        "Transparency coefficient: weight of what is seen through it.",
+    ),
+    Field::number(
+        "ior",
+        Range::Positive,
+        0.05,
+        "Index of refraction; 0 or less reads as 1.",
+    ),
+];
+
+const SPHERE: &[Field; 2] = &[
+    Field::point("centre", "The sphere's centre."),
+    Field::size("radius", "The sphere's radius."),
+];
+
+const ELLIPSOID: &[Field; 7] = &[
+    Field::point("centre", "The ellipsoid's centre."),
+    Field::direction("v1", "Direction of the first axis."),
+    Field::direction("v2", "Direction of the second axis."),
+    Field::direction("v3", "Direction of the third axis, v1 × v2."),
+    Field::size("l1", "Semi-axis along v1."),
+    Field::size("l2", "Semi-axis along v2."),
+    Field::size("l3", "Semi-axis along v3."),
+];
+
+const BOX: &[Field; 7] = &[
+    Field::point("corner", "The corner where the three edges begin."),
+    Field::direction("vl", "Direction of the length."),
+    Field::direction("vw", "Direction of the width."),
+    Field::direction("vh", "Direction of the height, vl × vw."),
+    Field::size("length", "Edge along vl."),
+    Field::size("width", "Edge along vw."),
+    Field::size("height", "Edge along vh."),
+];
+
+const CYLINDER: &[Field; 7] = &[
+    Field::point("base", "Centre of the base."),
+    Field::direction("a1", "Direction of the base's first axis."),
+    Field::direction("a2", "Direction of the base's second axis."),
+    Field::direction("axis", "From the base to the top, a1 × a2."),
+    Field::size("l1", "Semi-axis of the base along a1."),
+    Field::size("l2", "Semi-axis of the base along a2."),
+    Field::size("height", "From the base to the top along the axis."),
+];
+
+const CONE: &[Field; 7] = &[
+    Field::point("base", "Centre of the base."),
+    Field::direction("a1", "Direction of the base's first axis."),
+    Field::direction("a2", "Direction of the base's second axis."),
+    Field::direction("axis", "From the base to the apex, a1 × a2."),
+    Field::size("l1", "Semi-axis of the base along a1."),
+    Field::size("l2", "Semi-axis of the base along a2."),
+    Field::size("height", "From the base to the apex along the axis."),
+];
+
+/// The kinds of object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ShapeKind {
+    /// A sphere.
+    Sphere,
+    /// An ellipsoid with any three axes.
+    Ellipsoid,
+    /// A box with any three edges.
+    Box,
+    /// A closed cylinder on an elliptic base.
+    Cylinder,
+    /// A closed cone on an elliptic base.
+    Cone,
+}
+
+impl ShapeKind {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Sphere,
+        Self::Ellipsoid,
+        Self::Box,
+        Self::Cylinder,
+        Self::Cone,
+    ];
+
+    /// The word that begins such an object.
+    pub const fn keyword(self) -> &'static str {
+        match self {
+            Self::Sphere => "sphere",
+            Self::Ellipsoid => "ellipsoid",
+            Self::Box => "box",
+            Self::Cylinder => "cylinder",
+            Self::Cone => "cone",
+        }
+    }
+
+    /// The kind a word names, in any case.
+    pub fn of_word(word: &str) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|kind| kind.keyword().eq_ignore_ascii_case(word))
+    }
+
+    /// The fields of its shape, in the order of the text.
+    pub const fn geometry(self) -> &'static [Field] {
+        match self {
+            Self::Sphere => SPHERE,
+            Self::Ellipsoid => ELLIPSOID,
+            Self::Box => BOX,
+            Self::Cylinder => CYLINDER,
+            Self::Cone => CONE,
+        }
+    }
+
+    /// All fields of such an object, in the order of the text: its shape's, then its material's.
+    pub fn fields(self) -> impl Iterator<Item = &'static Field> + Clone {
+        self.geometry().iter().chain(MATERIAL)
+    }
+
+    /// How many numbers follow its keyword.
+    pub const fn numbers(self) -> usize {
+        numbers(self.geometry()) + numbers(MATERIAL)
+    }
+}
+
+/// How many numbers these fields take together.
+pub const fn numbers(fields: &[Field]) -> usize {
+    let (mut sum, mut at) = (0, 0);
+    while at < fields.len() {
+        sum += fields[at].kind.components();
+        at += 1;
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn objects_take_as_many_numbers_as_the_format_says() {
+        let counts = ShapeKind::ALL.map(|kind| (kind.keyword(), kind.numbers()));
+        assert_eq!(
+            counts,
+            [
+                ("sphere", 4 + 13),
+                ("ellipsoid", 15 + 13),
+                ("box", 15 + 13),
+                ("cylinder", 15 + 13),
+                ("cone", 15 + 13)
+            ]
+        );
+        assert_eq!(
+            [numbers(AMBIENT), numbers(LIGHT), numbers(VIEW)],
+            [3, 6, 12]
+        );
+    }
+
+    #[test]
+    fn every_component_has_a_name() {
+        for kind in [
+            Kind::Number,
+            Kind::Point,
+            Kind::Direction,
+            Kind::Colour,
+            Kind::Pixels,
+        ] {
+            assert_eq!(kind.component_names().len(), kind.components(), "{kind:?}");
+        }
+    }
+
+    #[test]
+    fn ranges_hold_what_their_words_say() {
+        let cases: [(Range, &[f64], &[f64], &str); 6] = [
+            (Range::Any, &[-1e308, 0.0], &[], "a number"),
+            (
+                Range::Positive,
+                &[5e-324],
+                &[0.0, -0.0, -1.0],
+                "a number greater than 0",
+            ),
+            (
+                Range::NotNegative,
+                &[0.0, -0.0, 9.0],
+                &[-5e-324],
+                "a number 0 or more",
+            ),
+            (
+                Range::Unit,
+                &[0.0, 0.5, 1.0],
+                &[-0.1, 1.1],
+                "a number from 0 to 1",
+            ),
+            (
+                Range::Between(0.0, 180.0),
+                &[0.1, 179.9],
+                &[0.0, 180.0],
+                "a number greater than 0 and less than 180",
+            ),
+            (
+                Range::Count,
+                &[1.0, 1e18],
+                &[0.0, 1.5, -1.0],
+                "a whole number, 1 or more",
+            ),
+        ];
+        for (range, inside, outside, words) in cases {
+            assert!(inside.iter().all(|&x| range.contains(x)), "{words}");
+            assert!(!outside.iter().any(|&x| range.contains(x)), "{words}");
+            assert!(!range.contains(f64::NAN) && !range.contains(f64::INFINITY));
+            assert_eq!(range.words(), words);
+        }
+    }
+
+    #[test]
+    fn keywords_are_known_in_any_case() {
+        for kind in ShapeKind::ALL {
+            assert_eq!(ShapeKind::of_word(kind.keyword()), Some(kind));
+            assert_eq!(
+                ShapeKind::of_word(&kind.keyword().to_uppercase()),
+                Some(kind)
+            );
+        }
+        assert_eq!(ShapeKind::of_word("spere"), None);
+    }
+}

@@ -1,0 +1,220 @@
+//! The objects of a `.ray` text, and whether they are as many as it says.
+
+use super::ray::{Count, LEAST_NUMBERS, Reader, component, is_word};
+use super::record::{LONGEST, Record, takes};
+use super::report::{nearest_kind, plural, quoted};
+use crate::scene::fields::{MATERIAL, ShapeKind, numbers};
+use crate::scene::origins::{Name, ObjectPlace};
+use crate::scene::{Node, Object};
+use crate::text::{Diagnostic, Span};
+
+/// The words an object may begin with.
+const TYPES: &str = "sphere, ellipsoid, box, cylinder or cone";
+
+impl Reader<'_> {
+    /// Reads objects to the end of the text, and compares their number with the declared one.
+    pub(super) fn objects(&mut self, count: Option<Count>) {
+        let left = self.tokens.len() - self.at;
+        let declared = count.map_or(u64::MAX, |count| count.declared);
+        let holds = left / (1 + LEAST_NUMBERS);
+        self.objects.reserve(holds.min(declared as usize));
+        let mut seen = 0;
+        // Where the text made no sense for a while, the number of objects says nothing.
+        let mut lost = false;
+        while let Some(&token) = self.tokens.get(self.at) {
+            let word = token.of(self.text);
+            let kind = ShapeKind::of_word(word);
+            if kind.is_none() && seen == declared {
+                self.left_over(token);
+                break;
+            }
+            if let Some(kind) = kind {
+                seen += 1;
+                let complete = self.object(kind, count.filter(|count| seen <= count.declared));
+                lost |= !complete && self.at == self.tokens.len();
+                continue;
+            }
+            lost = true;
+            if is_word(word) {
+                seen += u64::from(self.unknown_type(token));
+            } else {
+                self.surplus(token);
+            }
+        }
+        if let Some(count) = count {
+            self.compare(count, lost);
+        }
+    }
+
+    /// Reports a number of objects that is not the one that was found.
+    fn compare(&mut self, count: Count, lost: bool) {
+        let found = self.origins.objects.len() as u64;
+        let says = quoted(count.token.of(self.text));
+        let message = if count.declared < found {
+            let more = match found - count.declared {
+                1 => "1 more object follows".to_owned(),
+                more => format!("{more} more objects follow"),
+            };
+            format!("nObjects: says {says}, but {more}")
+        } else if found < count.declared && !lost {
+            let after = match self.origins.objects.len().checked_sub(1) {
+                Some(last) => format!("after {}", self.origins.name(Node::Object(last))),
+                None => "before any object".to_owned(),
+            };
+            format!("nObjects: says {says}, but the text ends {after}")
+        } else {
+            return;
+        };
+        self.report.error(|| {
+            let hint = match found {
+                0 => format!("an object begins with {TYPES}"),
+                found => format!("there are {found}: write {found}"),
+            };
+            Diagnostic::error(count.token, message, "as many as there are objects").with_hint(hint)
+        });
+    }
+
+    /// Reads one object; whether all its numbers are there. `count` is the number of objects, if
+    /// it counts this one.
+    fn object(&mut self, kind: ShapeKind, count: Option<Count>) -> bool {
+        let keyword = self.at;
+        let token = self.tokens[keyword];
+        let word = token.of(self.text);
+        if word != kind.keyword() {
+            self.report.warning(|| {
+                let message = format!("{} is written in lower case", quoted(word));
+                Diagnostic::warning(token, message, format!("`{}`", kind.keyword()))
+                    .with_hint("other readers of the format may refuse it")
+            });
+        }
+        self.at += 1;
+        let name = Name::Object(self.origins.objects.len(), kind);
+        let mut values = [0.0; LONGEST];
+        let record = self.record(name, kind.fields(), &mut values);
+        self.origins.objects.push(ObjectPlace {
+            token: keyword as u32,
+            kind,
+            numbers: record.values.len() as u8,
+        });
+        record.check_frame(kind, &mut self.report);
+        if record.values.len() < kind.numbers() {
+            match count {
+                Some(count) if self.at == self.tokens.len() => self.cut(&record, kind, count),
+                _ => self.short(&record, kind.fields()),
+            }
+            return false;
+        }
+        if self.report.errors() == 0 {
+            self.keep(record, kind);
+        }
+        true
+    }
+
+    /// Adds an object without errors to the scene.
+    fn keep(&mut self, record: Record, kind: ShapeKind) {
+        let (geometry, material) = record.split_at(numbers(kind.geometry()));
+        let material = material.gather(MATERIAL.iter()).material();
+        let Some(shape) = geometry.gather(kind.geometry().iter()).shape(kind) else {
+            let span = record.spans[0].to(record.spans[record.spans.len() - 1]);
+            self.report.error(|| {
+                let message = format!("{}: its directions span no volume", record.name);
+                Diagnostic::error(span, message, "three directions at right angles")
+            });
+            return;
+        };
+        if self.materials.last() != Some(&material) {
+            self.materials.push(material);
+        }
+        self.objects.push(Object {
+            shape,
+            material: (self.materials.len() - 1) as u32,
+        });
+    }
+
+    /// Reports an object that the text's end cuts short.
+    fn cut(&mut self, record: &Record, kind: ShapeKind, count: Count) {
+        let Some((field, component)) = component(kind.fields(), record.values.len()) else {
+            return;
+        };
+        let says = quoted(count.token.of(self.text));
+        let space = if component.is_empty() { "" } else { " " };
+        self.report.error(|| {
+            let message = format!(
+                "nObjects: says {says}, but the text ends in {}, where {}{space}{component} is due",
+                record.name, field.key
+            );
+            Diagnostic::error(count.token, message, "as many as there are objects")
+                .with_hint(takes(kind))
+        });
+    }
+
+    /// Reports a word that names no type and passes over what follows it; whether that may have
+    /// been an object.
+    fn unknown_type(&mut self, token: Span) -> bool {
+        let word = token.of(self.text);
+        self.report.error(|| {
+            let object = self.origins.objects.len() + 1;
+            let message = format!("object {object}: unknown type {}", quoted(word));
+            let diagnostic = Diagnostic::error(token, message, TYPES);
+            match nearest_kind(word) {
+                Some(kind) => diagnostic.with_hint(format!("did you mean `{}`?", kind.keyword())),
+                None => diagnostic,
+            }
+        });
+        self.at += 1;
+        let from = self.at;
+        while self.at < self.tokens.len() && !self.resumes(self.at) {
+            self.at += 1;
+        }
+        from < self.at
+    }
+
+    /// Reports numbers that stand where an object should begin, and passes over them.
+    fn surplus(&mut self, first: Span) {
+        let from = self.at;
+        while self.at < self.tokens.len() && !is_word(self.tokens[self.at].of(self.text)) {
+            self.at += 1;
+        }
+        let surplus = self.at - from;
+        let span = first.to(self.tokens[self.at - 1]);
+        let previous = self.origins.objects.last().map(|object| object.kind);
+        self.report.error(|| {
+            let too_many = format!("{} too many", plural(surplus, "number"));
+            let message = match self.origins.objects.len().checked_sub(1) {
+                Some(last) => format!("{}: {too_many}", self.origins.name(Node::Object(last))),
+                None => format!("nObjects: {too_many} after it"),
+            };
+            let diagnostic = Diagnostic::error(span, message, TYPES);
+            match previous {
+                _ if LEAST_NUMBERS <= surplus => {
+                    diagnostic.with_hint("is the next object's type missing?")
+                }
+                Some(kind) => diagnostic.with_hint(takes(kind)),
+                None => {
+                    diagnostic.with_hint("the first object's type follows the number of objects")
+                }
+            }
+        });
+    }
+
+    /// Warns of text after the last object.
+    fn left_over(&mut self, token: Span) {
+        let word = token.of(self.text);
+        let ignored = plural(self.tokens.len() - self.at, "token");
+        self.report.warning(|| {
+            let message = format!("{ignored} after the last object ignored");
+            let diagnostic = Diagnostic::warning(token, message, "the end of the text");
+            match nearest_kind(word) {
+                Some(kind) => diagnostic.with_hint(format!("did you mean `{}`?", kind.keyword())),
+                None => diagnostic.with_hint("`//` begins a comment"),
+            }
+        });
+    }
+
+    /// Whether reading can go on at a token after text that made no sense: where an object
+    /// begins, of a known type or of one more that is unknown.
+    fn resumes(&self, at: usize) -> bool {
+        self.begins_object(at)
+            || (is_word(self.tokens[at].of(self.text)) && self.numbers_follow(at))
+    }
+}

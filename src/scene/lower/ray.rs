@@ -1,0 +1,349 @@
+//! The grammar of `.ray`: ambient light, lights, objects, as the table of fields lists them.
+//!
+//! After an error the reader goes on where the text makes sense again: after a token that is no
+//! number at the next token, everywhere else at the next object keyword.
+
+use super::record::{LONGEST, Record, what};
+use super::report::{Report, nearest_kind, no_number, plural, quoted};
+use super::{Lowered, view};
+use crate::format::ray;
+use crate::scene::fields::{self, AMBIENT, Field, LIGHT, Range, ShapeKind};
+use crate::scene::origins::Name;
+use crate::scene::{Light, Material, Object, Origins, Rgb, Scene, bounds};
+use crate::text::{Diagnostic, Severity, Span, parse_number};
+
+/// Numbers of the smallest object: where fewer follow a word, it does not begin an object.
+pub(super) const LEAST_NUMBERS: usize = ShapeKind::Sphere.numbers();
+
+/// Reads a scene.
+pub(super) fn lower(text: &str, tree: &ray::Tree) -> Lowered {
+    let mut report = Report::default();
+    let view = view::find(text, &tree.comments, &mut report);
+    let mut reader = Reader {
+        text,
+        tokens: &tree.tokens,
+        at: 0,
+        report,
+        origins: Origins::default(),
+        ambient: Rgb::ZERO,
+        lights: Vec::new(),
+        materials: Vec::new(),
+        objects: Vec::new(),
+    };
+    reader.origins.view = view.as_ref().map(view::View::place);
+    let objects = reader.read();
+    // A view that says both eye and target can be judged though the objects are not all known.
+    let judged = reader.report.errors() == 0 || view.as_ref().is_some_and(view::View::is_placed);
+    let camera = judged.then(|| {
+        let bounds = || bounds(&reader.objects);
+        view::camera(view.as_ref(), bounds, objects, &mut reader.report)
+    });
+    let camera = camera.filter(|_| reader.report.errors() == 0);
+    Lowered {
+        scene: camera.map(|camera| Scene {
+            camera,
+            ambient: reader.ambient,
+            lights: reader.lights,
+            materials: reader.materials,
+            objects: reader.objects,
+        }),
+        origins: reader.origins,
+        diagnostics: reader.report.finish(),
+    }
+}
+
+/// A count as the text declares it. Nothing is ever allocated by it.
+#[derive(Clone, Copy)]
+pub(super) struct Count {
+    pub(super) token: Span,
+    pub(super) declared: u64,
+}
+
+/// The tokens before the first object.
+struct Run {
+    len: usize,
+    /// The object's token, or `None` where the text ends first.
+    object: Option<Span>,
+}
+
+/// What was read so far.
+pub(super) struct Reader<'a> {
+    pub(super) text: &'a str,
+    pub(super) tokens: &'a [Span],
+    /// Index of the next token.
+    pub(super) at: usize,
+    pub(super) report: Report,
+    pub(super) origins: Origins,
+    ambient: Rgb,
+    lights: Vec<Light>,
+    /// Without repetitions in a row.
+    pub(super) materials: Vec<Material>,
+    /// Complete up to the first error.
+    pub(super) objects: Vec<Object>,
+}
+
+impl<'a> Reader<'a> {
+    /// Reads everything; returns where the number of objects stands.
+    fn read(&mut self) -> Span {
+        if self.tokens.is_empty() {
+            self.report.error(|| {
+                Diagnostic::error(
+                    Span::at(0),
+                    "the text holds no scene",
+                    "ambient light: red, green and blue",
+                )
+                .with_hint(
+                    "a scene is ambient light, the number of lights, lights, \
+                     the number of objects, objects",
+                )
+            });
+            return Span::at(0);
+        }
+        let count = self.header();
+        self.objects(count);
+        count.map_or_else(|| Span::at(0), |count| count.token)
+    }
+
+    /// Reads ambient light and lights; returns the number of objects, if it could be read. Stops
+    /// at the first object.
+    fn header(&mut self) -> Option<Count> {
+        let mut values = [0.0; LONGEST];
+        let ambient = self.record(Name::Ambient, AMBIENT.iter(), &mut values);
+        self.origins.ambient = ambient.values.len();
+        if ambient.values.len() < fields::numbers(AMBIENT) {
+            self.short(&ambient, AMBIENT.iter());
+            self.at += self.run(None).len;
+            return None;
+        }
+        self.ambient = ambient.gather(AMBIENT.iter()).colours[0];
+        let lights = self.count("nLights");
+        let at_end = self.at == self.tokens.len();
+        let lights_known = self.lights(lights);
+        if !lights_known || (lights.is_none() && at_end) {
+            return None;
+        }
+        self.count("nObjects")
+    }
+
+    /// Reads the lights; whether the number of objects is where it should be after them.
+    fn lights(&mut self, count: Option<Count>) -> bool {
+        let each = fields::numbers(LIGHT);
+        let due = count.map(|count| {
+            usize::try_from(count.declared).map_or(usize::MAX, |lights| lights.saturating_mul(each))
+        });
+        let run = self.run(due.map(|due| due.saturating_add(1)));
+        // The last number before the first object counts the objects, those before it are lights'.
+        let whole = run.object.is_some() && run.len % each == 1;
+        let (take, known) = match due {
+            Some(due) if whole && run.len - 1 != due => (run.len - 1, true),
+            Some(due) if run.len < due => (run.len, false),
+            Some(due) => (due, true),
+            None if whole => (run.len - 1, true),
+            None => (0, false),
+        };
+        if let (Some(count), Some(due)) = (count, due)
+            && take != due
+        {
+            self.wrong_lights(count, take, &run);
+        }
+        let (first, end) = (self.at, self.at + take);
+        while self.at < end {
+            let mut values = [0.0; LONGEST];
+            let name = Name::Light(self.lights.len());
+            let light = self.record(name, LIGHT.iter(), &mut values);
+            let gathered = light.gather(LIGHT.iter());
+            self.lights.push(Light {
+                position: gathered.point,
+                colour: gathered.colours[0],
+            });
+        }
+        self.origins.lights = (first, take);
+        if !known {
+            self.at = first + run.len;
+        }
+        known
+    }
+
+    /// Reports a number of lights that is not the one that follows.
+    fn wrong_lights(&mut self, count: Count, numbers: usize, run: &Run) {
+        let each = fields::numbers(LIGHT);
+        let (whole, rest) = (numbers / each, numbers % each);
+        let place = match run.object {
+            Some(word) => format!("before {}", quoted(word.of(self.text))),
+            None => "before the text ends".to_owned(),
+        };
+        let rest = match rest {
+            0 => String::new(),
+            rest => format!(" and {}", plural(rest, "number")),
+        };
+        let says = quoted(count.token.of(self.text));
+        let follow = format!("{}{rest}", plural(whole, "light"));
+        self.report.error(|| {
+            let message = format!("nLights: says {says}, but the text has {follow} {place}");
+            let expected = "as many as there are lights";
+            Diagnostic::error(count.token, message, expected).with_hint(format!(
+                "a light takes {each} numbers: position x y z, colour red green blue"
+            ))
+        });
+    }
+
+    /// The tokens from here to the first object. A word that is no keyword counts as an object at
+    /// `due`, where one should begin; elsewhere it stands for a number.
+    fn run(&self, due: Option<usize>) -> Run {
+        let rest = &self.tokens[self.at..];
+        let begins = |&offset: &usize| {
+            let at = self.at + offset;
+            self.begins_object(at)
+                || (due == Some(offset) && is_word(self.tokens[at].of(self.text)))
+        };
+        let first = (0..rest.len()).find(begins);
+        Run {
+            len: first.unwrap_or(rest.len()),
+            object: first.map(|offset| rest[offset]),
+        }
+    }
+
+    /// Reads how many there are of something; `None`, and an error, if that is not said.
+    fn count(&mut self, key: &str) -> Option<Count> {
+        let expected = Range::Count.words();
+        let Some(&token) = self.tokens.get(self.at) else {
+            let end = self.end();
+            self.report.error(|| {
+                Diagnostic::error(end, format!("{key}: missing, the text ends here"), expected)
+            });
+            return None;
+        };
+        let word = token.of(self.text);
+        if self.begins_object(self.at) {
+            self.report.error(|| {
+                let message = format!("{key}: missing before {}", quoted(word));
+                Diagnostic::error(token, message, expected)
+            });
+            return None;
+        }
+        self.at += 1;
+        let problem = match parse_number(word) {
+            Ok(value) if Range::Count.contains(value) => {
+                // A count beyond all integers saturates: no text holds that many.
+                let declared = value as u64;
+                return Some(Count { token, declared });
+            }
+            Ok(_) => {
+                let message = format!("{key}: must be {expected}, not {}", quoted(word));
+                Diagnostic::error(token, message, expected)
+            }
+            Err(error) => no_number(Severity::Error, token, word, key, &expected, error),
+        };
+        self.report.error(|| problem);
+        None
+    }
+
+    /// Reads the numbers of `fields` into `values` and checks them; NaN stands for a token that is
+    /// no number. Stops early where an object begins or the text ends.
+    pub(super) fn record<'v>(
+        &mut self,
+        name: Name,
+        fields: impl Iterator<Item = &'static Field> + Clone,
+        values: &'v mut [f64; LONGEST],
+    ) -> Record<'v>
+    where
+        'a: 'v,
+    {
+        let start = self.at;
+        'fields: for field in fields.clone() {
+            for component in field.kind.component_names() {
+                let Some(&token) = self.tokens.get(self.at) else {
+                    break 'fields;
+                };
+                let word = token.of(self.text);
+                values[self.at - start] = match parse_number(word) {
+                    Ok(value) => value,
+                    Err(_) if self.begins_object(self.at) => break 'fields,
+                    Err(error) => {
+                        self.report.error(|| {
+                            let what = what(name, field, component);
+                            let expected = field.allowed.words();
+                            no_number(Severity::Error, token, word, &what, &expected, error)
+                        });
+                        f64::NAN
+                    }
+                };
+                self.at += 1;
+            }
+        }
+        let record = Record {
+            name,
+            values: &values[..self.at - start],
+            spans: &self.tokens[start..self.at],
+        };
+        record.check(fields, &mut self.report);
+        record
+    }
+
+    /// Reports a record that breaks off here, before an object or the end of the text.
+    pub(super) fn short(
+        &mut self,
+        record: &Record,
+        fields: impl Iterator<Item = &'static Field> + Clone,
+    ) {
+        let have = record.values.len();
+        let Some((field, component)) = component(fields.clone(), have) else {
+            return;
+        };
+        let due: usize = fields.map(|field| field.kind.components()).sum();
+        let next = self.tokens.get(self.at).copied();
+        let end = self.end();
+        self.report.error(|| {
+            let what = what(record.name, field, component);
+            let more = plural(due - have, "more number");
+            let place = match next {
+                Some(token) => format!("before {}", quoted(token.of(self.text))),
+                None => "before the text ends".to_owned(),
+            };
+            let message = format!("{what}: missing; {more} due {place}");
+            Diagnostic::error(next.unwrap_or(end), message, field.allowed.words())
+        });
+    }
+
+    /// Whether an object begins at a token: at a keyword, or at a word much like one that has an
+    /// object's numbers after it.
+    pub(super) fn begins_object(&self, at: usize) -> bool {
+        let word = self.tokens[at].of(self.text);
+        ShapeKind::of_word(word).is_some()
+            || (is_word(word) && self.numbers_follow(at) && nearest_kind(word).is_some())
+    }
+
+    /// Whether as many tokens follow that could be numbers as the smallest object takes.
+    pub(super) fn numbers_follow(&self, at: usize) -> bool {
+        self.tokens
+            .get(at + 1..=at + LEAST_NUMBERS)
+            .is_some_and(|follow| follow.iter().all(|token| !is_word(token.of(self.text))))
+    }
+
+    /// The empty span behind the last token.
+    fn end(&self) -> Span {
+        let last = self.tokens.last();
+        Span::at(last.map_or(0, |token| token.end()))
+    }
+}
+
+/// Whether a token is rather a word than a number gone wrong.
+pub(super) fn is_word(token: &str) -> bool {
+    token.chars().next().is_some_and(char::is_alphabetic)
+}
+
+/// The field, and the name of its component, that the number at `index` is.
+pub(super) fn component(
+    fields: impl Iterator<Item = &'static Field>,
+    index: usize,
+) -> Option<(&'static Field, &'static str)> {
+    fields
+        .flat_map(|field| {
+            field
+                .kind
+                .component_names()
+                .iter()
+                .map(move |&name| (field, name))
+        })
+        .nth(index)
+}

@@ -1,0 +1,336 @@
+//! A run of numbers that the table of fields gives a meaning: checked against its ranges, then
+//! sorted into points, directions, colours and plain numbers.
+
+use glam::{DMat3, DVec3};
+
+use super::report::Report;
+use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
+use crate::scene::fields::{Field, Kind, Range, ShapeKind, numbers};
+use crate::scene::origins::Name;
+use crate::scene::{Material, Rgb};
+use crate::text::{Diagnostic, Span};
+
+/// How far a direction's length may be off 1, and the dot product of two of them off 0.
+const UNIT_TOLERANCE: f64 = 1e-3;
+
+/// Directions whose determinant is smaller span no volume.
+const LEAST_DETERMINANT: f64 = 1e-6;
+
+/// The most numbers that any record holds.
+pub(super) const LONGEST: usize = {
+    let (mut longest, mut at) = (0, 0);
+    while at < ShapeKind::ALL.len() {
+        let numbers = ShapeKind::ALL[at].numbers();
+        if longest < numbers {
+            longest = numbers;
+        }
+        at += 1;
+    }
+    longest
+};
+
+/// The numbers of one thing, as far as the text gives them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Record<'a> {
+    /// The thing.
+    pub(super) name: Name,
+    /// Its numbers; NaN where a token could not be read.
+    pub(super) values: &'a [f64],
+    /// The token of each number.
+    pub(super) spans: &'a [Span],
+}
+
+/// The numbers of one field of a record.
+struct Part<'a> {
+    field: &'static Field,
+    values: &'a [f64],
+    spans: &'a [Span],
+}
+
+impl<'a> Record<'a> {
+    /// The fields that are complete, with their numbers.
+    fn parts(self, fields: impl Iterator<Item = &'static Field>) -> impl Iterator<Item = Part<'a>> {
+        let mut at = 0;
+        fields.map_while(move |field| {
+            let range = at..at + field.kind.components();
+            at = range.end;
+            Some(Part {
+                field,
+                values: self.values.get(range.clone())?,
+                spans: self.spans.get(range)?,
+            })
+        })
+    }
+
+    /// The first `count` numbers and the rest, as records of their own.
+    pub(super) fn split_at(self, count: usize) -> (Self, Self) {
+        let (values, spans) = (self.values.split_at(count), self.spans.split_at(count));
+        let part = |values, spans| Self {
+            name: self.name,
+            values,
+            spans,
+        };
+        (part(values.0, spans.0), part(values.1, spans.1))
+    }
+
+    /// Reports numbers outside of their ranges and directions that are none.
+    pub(super) fn check(self, fields: impl Iterator<Item = &'static Field>, report: &mut Report) {
+        for part in self.parts(fields) {
+            if part.field.kind == Kind::Direction {
+                self.check_direction(&part, report);
+            } else {
+                self.check_numbers(&part, report);
+            }
+        }
+    }
+
+    fn check_numbers(self, part: &Part, report: &mut Report) {
+        let field = part.field;
+        let names = field.kind.component_names();
+        for ((&value, &span), component) in part.values.iter().zip(part.spans).zip(names) {
+            if value.is_nan() || field.usual.contains(value) {
+                continue;
+            }
+            // Spelled out only for a message that is kept.
+            let what = || what(self.name, field, component);
+            if field.allowed.contains(value) {
+                report.warning(|| {
+                    let message = format!("{}: {value} is not {}", what(), field.usual.limits());
+                    Diagnostic::warning(span, message, field.usual.words())
+                        .with_hint(reading(field.usual))
+                });
+            } else {
+                report.error(|| {
+                    let message = format!("{}: must be {}", what(), field.allowed.limits());
+                    Diagnostic::error(span, message, field.allowed.words())
+                });
+            }
+        }
+    }
+
+    fn check_direction(self, part: &Part, report: &mut Report) {
+        let vector = DVec3::from_slice(part.values);
+        if vector.is_nan() {
+            return;
+        }
+        let span = part.spans[0].to(part.spans[2]);
+        let what = || what(self.name, part.field, "");
+        let length = vector.length();
+        if unit(vector).is_none() {
+            report.error(|| {
+                let message = format!("{}: must not be zero", what());
+                Diagnostic::error(span, message, "a direction of unit length")
+            });
+        } else if UNIT_TOLERANCE < (length - 1.0).abs() {
+            report.warning(|| {
+                let message = format!("{}: has length {length:.4}, not 1", what());
+                Diagnostic::warning(span, message, "a direction of unit length")
+                    .with_hint("it is normalised; sizes have fields of their own")
+            });
+        }
+    }
+
+    /// Reports directions that are not those of a right-handed, right-angled frame.
+    pub(super) fn check_frame(self, kind: ShapeKind, report: &mut Report) {
+        let Some(frame) = self.frame(kind) else {
+            return;
+        };
+        let determinant = determinant(&frame);
+        if determinant.is_some_and(|det| det.abs() < LEAST_DETERMINANT) {
+            report.error(|| flat(self.name, &frame));
+            return;
+        }
+        let [a, b, c] = &frame;
+        for (first, second) in [(a, b), (a, c), (b, c)] {
+            self.check_angle(first, second, report);
+        }
+        if determinant.is_some_and(|det| det < 0.0) {
+            report.warning(|| {
+                let cross = format!("{} × {}", a.key, b.key);
+                let message = format!("{} {}: points against {cross}", self.name, c.key);
+                Diagnostic::warning(c.span, message, format!("the direction {cross}"))
+                    .with_hint("the left-handed frame is used as given")
+            });
+        }
+    }
+
+    fn check_angle(self, first: &Axis, second: &Axis, report: &mut Report) {
+        let dot = match (first.direction, second.direction) {
+            (Some(first), Some(second)) => first.dot(second),
+            _ => return,
+        };
+        if UNIT_TOLERANCE < dot.abs() {
+            report.warning(|| {
+                let message = format!(
+                    "{} {}: not at a right angle to {} (dot product {dot:.4})",
+                    self.name, second.key, first.key
+                );
+                let expected = format!("a direction at 90° to {}", first.key);
+                Diagnostic::warning(second.span, message, expected)
+                    .with_hint("the skewed frame is used as given")
+            });
+        }
+    }
+
+    /// The three directions of a shape that has them all.
+    fn frame(self, kind: ShapeKind) -> Option<[Axis; 3]> {
+        let mut axes = self
+            .parts(kind.geometry().iter())
+            .filter(|part| part.field.kind == Kind::Direction)
+            .map(|part| Axis {
+                key: part.field.key,
+                direction: unit(DVec3::from_slice(part.values)),
+                span: part.spans[0].to(part.spans[2]),
+            });
+        Some([axes.next()?, axes.next()?, axes.next()?])
+    }
+
+    /// The numbers by what they are; complete and readable, or fewer come out.
+    pub(super) fn gather(self, fields: impl Iterator<Item = &'static Field>) -> Gathered {
+        let mut gathered = Gathered::default();
+        let (mut directions, mut colours, mut numbers) = (0, 0, 0);
+        for Part { field, values, .. } in self.parts(fields) {
+            match field.kind {
+                Kind::Point => gathered.point = DVec3::from_slice(values),
+                Kind::Direction => {
+                    gathered.directions[directions] = DVec3::from_slice(values);
+                    directions += 1;
+                }
+                Kind::Colour => {
+                    gathered.colours[colours] = DVec3::from_slice(values);
+                    colours += 1;
+                }
+                Kind::Number => {
+                    gathered.numbers[numbers] = values[0];
+                    numbers += 1;
+                }
+                // Only the view has a size, and the view is no record.
+                Kind::Pixels => {}
+            }
+        }
+        gathered
+    }
+}
+
+/// The numbers of a record by what they are, each in the table's order.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Gathered {
+    pub(super) point: DVec3,
+    pub(super) directions: [DVec3; 3],
+    pub(super) colours: [Rgb; 3],
+    pub(super) numbers: [f64; 4],
+}
+
+impl Gathered {
+    /// The shape these numbers describe, or `None` if its directions span no volume.
+    pub(super) fn shape(&self, kind: ShapeKind) -> Option<Shape> {
+        let [first, second, third, _] = self.numbers;
+        let frame = || {
+            let lengths = DVec3::new(first, second, third);
+            Affine::new(self.point, self.directions, lengths)
+        };
+        Some(match kind {
+            ShapeKind::Sphere => Shape::Sphere(Sphere {
+                centre: self.point,
+                radius: first,
+            }),
+            ShapeKind::Ellipsoid => Shape::Ellipsoid(Box::new(Ellipsoid(frame()?))),
+            ShapeKind::Box => Shape::Cuboid(Box::new(Cuboid(frame()?))),
+            ShapeKind::Cylinder => Shape::Cylinder(Box::new(Cylinder(frame()?))),
+            ShapeKind::Cone => Shape::Cone(Box::new(Cone(frame()?))),
+        })
+    }
+
+    /// The material these numbers describe.
+    pub(super) fn material(&self) -> Material {
+        let [ambient, diffuse, specular] = self.colours;
+        let [exponent, reflection, transmission, index] = self.numbers;
+        Material {
+            ambient,
+            diffuse,
+            specular,
+            exponent,
+            reflection,
+            transmission,
+            index,
+        }
+    }
+}
+
+/// A direction of a frame; `None` if it is zero or unreadable.
+struct Axis {
+    key: &'static str,
+    direction: Option<DVec3>,
+    span: Span,
+}
+
+/// The determinant of the unit directions, if all three could be read.
+fn determinant([a, b, c]: &[Axis; 3]) -> Option<f64> {
+    Some(DMat3::from_cols(a.direction?, b.direction?, c.direction?).determinant())
+}
+
+/// The error for directions that span no volume, at the first that lies along another one, or
+/// else at the third.
+fn flat(name: Name, [a, b, c]: &[Axis; 3]) -> Diagnostic {
+    let parallel = |first: &Axis, second: &Axis| {
+        let across = first
+            .direction
+            .zip(second.direction)
+            .map(|(u, v)| u.cross(v));
+        across.is_some_and(|across| across.length() < LEAST_DETERMINANT)
+    };
+    let pair = [(a, b), (a, c), (b, c)]
+        .into_iter()
+        .find(|(first, second)| parallel(first, second));
+    match pair {
+        Some((first, second)) => Diagnostic::error(
+            second.span,
+            format!("{name} {}: is parallel to {}", second.key, first.key),
+            format!("a direction at 90° to {}", first.key),
+        ),
+        None => Diagnostic::error(
+            c.span,
+            format!("{name} {}: lies in the plane of the other two", c.key),
+            "a direction out of their plane",
+        ),
+    }
+}
+
+/// A field's component as messages name it: `object 2 (box) corner x`.
+pub(super) fn what(name: Name, field: &Field, component: &str) -> String {
+    let space = if component.is_empty() { "" } else { " " };
+    format!("{name} {}{space}{component}", field.key)
+}
+
+/// The direction of a vector, or `None` for a zero or unreadable one. Divides by the largest
+/// component first, so that no square overflows or vanishes.
+pub(super) fn unit(vector: DVec3) -> Option<DVec3> {
+    let largest = vector.abs().max_element();
+    if vector.is_nan() || largest == 0.0 {
+        return None;
+    }
+    let scaled = vector / largest;
+    Some(scaled / scaled.length())
+}
+
+/// What becomes of a value outside of its usual range.
+fn reading(usual: Range) -> &'static str {
+    match usual {
+        Range::NotNegative => "it reads as 0",
+        Range::Positive => "it reads as 1",
+        Range::Any | Range::Unit | Range::Between(..) | Range::Count => "it is used as given",
+    }
+}
+
+/// How many numbers a kind of object takes, in words.
+pub(super) fn takes(kind: ShapeKind) -> String {
+    let article = if kind == ShapeKind::Ellipsoid {
+        "an"
+    } else {
+        "a"
+    };
+    let keyword = kind.keyword();
+    let shape = numbers(kind.geometry());
+    let material = kind.numbers() - shape;
+    format!("{article} {keyword} takes {shape} numbers and {material} more for its material")
+}

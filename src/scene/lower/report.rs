@@ -1,0 +1,249 @@
+//! The diagnostics of one lowering, and the words they share.
+
+use crate::scene::fields::ShapeKind;
+use crate::text::{Diagnostic, NumberError, Severity, Span, parse_number};
+
+/// More messages than this of one severity say nothing new, and a hostile text could ask for
+/// millions.
+const LIMIT: usize = 100;
+
+/// Collects diagnostics, up to a limit of each severity.
+#[derive(Debug, Default)]
+pub(super) struct Report {
+    diagnostics: Vec<Diagnostic>,
+    errors: Tally,
+    warnings: Tally,
+}
+
+/// How many diagnostics of one severity there were, and where the first unshown one is.
+#[derive(Debug, Default)]
+struct Tally {
+    count: usize,
+    hidden: Option<Span>,
+}
+
+impl Report {
+    /// Adds an error, unless there are too many already.
+    pub(super) fn error(&mut self, make: impl FnOnce() -> Diagnostic) {
+        Self::add(&mut self.diagnostics, &mut self.errors, make);
+    }
+
+    /// Adds a warning, unless there are too many already.
+    pub(super) fn warning(&mut self, make: impl FnOnce() -> Diagnostic) {
+        Self::add(&mut self.diagnostics, &mut self.warnings, make);
+    }
+
+    /// How many errors there were, shown or not.
+    pub(super) fn errors(&self) -> usize {
+        self.errors.count
+    }
+
+    /// All in text order.
+    pub(super) fn finish(mut self) -> Vec<Diagnostic> {
+        if let Some(span) = self.errors.hidden {
+            let message = format!("{} more errors are not shown", self.errors.count - LIMIT);
+            self.diagnostics.push(Diagnostic::error(span, message, ""));
+        }
+        if let Some(span) = self.warnings.hidden {
+            let message = format!(
+                "{} more warnings are not shown",
+                self.warnings.count - LIMIT
+            );
+            self.diagnostics
+                .push(Diagnostic::warning(span, message, ""));
+        }
+        self.diagnostics
+            .sort_by_key(|diagnostic| diagnostic.span.start());
+        self.diagnostics
+    }
+
+    fn add(shown: &mut Vec<Diagnostic>, tally: &mut Tally, make: impl FnOnce() -> Diagnostic) {
+        tally.count += 1;
+        if tally.count <= LIMIT {
+            shown.push(make());
+        } else if tally.hidden.is_none() {
+            tally.hidden = Some(make().span);
+        }
+    }
+}
+
+/// A token as messages show it: in backticks, cut short, unprintable characters escaped.
+pub(super) fn quoted(token: &str) -> String {
+    const SHOWN: usize = 24;
+    let mut shown: String = token
+        .chars()
+        .take(SHOWN)
+        .flat_map(char::escape_debug)
+        .collect();
+    if token.chars().nth(SHOWN).is_some() {
+        shown.push('…');
+    }
+    format!("`{shown}`")
+}
+
+/// A number of things in words: `1 light`, `2 lights`.
+pub(super) fn plural(count: usize, noun: &str) -> String {
+    let s = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{s}")
+}
+
+/// The diagnostic for a token that stands where a number is due. `what` names the field.
+pub(super) fn no_number(
+    severity: Severity,
+    span: Span,
+    token: &str,
+    what: &str,
+    expected: &str,
+    error: NumberError,
+) -> Diagnostic {
+    let said = quoted(token);
+    let message = match error {
+        NumberError::NotANumber => format!("{what}: {said} is no number"),
+        NumberError::Overflow => format!("{what}: {said} is too large for any number"),
+    };
+    Diagnostic {
+        severity,
+        hint: number_hint(token, error),
+        ..Diagnostic::error(span, message, expected)
+    }
+}
+
+/// What was probably meant by a token that is no number.
+fn number_hint(token: &str, error: NumberError) -> Option<String> {
+    const LONGEST: usize = 64;
+    if LONGEST < token.len() {
+        return None;
+    }
+    if error == NumberError::Overflow {
+        return Some("numbers go up to about 1.8e308".to_owned());
+    }
+    let reads = |text: &str| parse_number(text).is_ok();
+    let unsigned = token.trim_start_matches(['+', '-']);
+    let unhexed = unsigned
+        .strip_prefix("0x")
+        .or_else(|| unsigned.strip_prefix("0X"));
+    if let Some(digits) = unhexed
+        && let Ok(value) = u64::from_str_radix(digits, 16)
+    {
+        let sign = if token.starts_with('-') { "-" } else { "" };
+        return Some(format!("numbers are decimal: write {sign}{value}"));
+    }
+    if token.matches(',').count() == 1 && reads(&token.replace(',', ".")) && !token.ends_with(',') {
+        let pointed = token.replace(',', ".");
+        return Some(format!("decimals follow a point: write {pointed}"));
+    }
+    if token.contains(',') && token.split(',').all(|part| part.is_empty() || reads(part)) {
+        return Some("numbers are separated by white space, without commas".to_owned());
+    }
+    let plain = token.replace(['−', '–', '—'], "-");
+    if plain != token && reads(&plain) {
+        return Some(format!("the minus sign is `-`: write {plain}"));
+    }
+    let word = unsigned.to_ascii_lowercase();
+    if matches!(word.as_str(), "nan" | "inf" | "infinity") {
+        return Some("numbers are finite".to_owned());
+    }
+    None
+}
+
+/// The kind whose keyword a word is most like, if a slip or two of the hand lie between them.
+pub(super) fn nearest_kind(word: &str) -> Option<ShapeKind> {
+    const LONGEST: usize = 12;
+    if LONGEST < word.len() || !word.is_ascii() {
+        return None;
+    }
+    let word = word.to_ascii_lowercase();
+    ShapeKind::ALL
+        .into_iter()
+        .map(|kind| (slips(&word, kind.keyword()), kind))
+        .filter(|&(slips, kind)| {
+            // In a short word two slips leave nothing to know it by.
+            let allowed = if kind.keyword().len() < 5 { 1 } else { 2 };
+            slips <= allowed
+        })
+        .min_by_key(|&(slips, _)| slips)
+        .map(|(_, kind)| kind)
+}
+
+/// How many bytes must be inserted, deleted or replaced to get from one word to the other
+/// (Levenshtein's distance, by rows).
+fn slips(from: &str, to: &str) -> usize {
+    let mut row: Vec<usize> = (0..=to.len()).collect();
+    for (i, a) in from.bytes().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, b) in to.bytes().enumerate() {
+            let replaced = diagonal + usize::from(a != b);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[to.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_typing_slip_is_known_by_its_keyword() {
+        for (word, kind) in [
+            ("spere", Some(ShapeKind::Sphere)),
+            ("Shpere", Some(ShapeKind::Sphere)),
+            ("elipsoid", Some(ShapeKind::Ellipsoid)),
+            ("cilinder", Some(ShapeKind::Cylinder)),
+            ("boxx", Some(ShapeKind::Box)),
+            ("cones", Some(ShapeKind::Cone)),
+            ("cube", None),
+            ("torus", None),
+            ("", None),
+            ("sphère", None),
+        ] {
+            assert_eq!(nearest_kind(word), kind, "{word}");
+        }
+    }
+
+    #[test]
+    fn a_number_gone_wrong_gets_the_way_out() {
+        for (token, hint) in [
+            ("1,5", Some("write 1.5")),
+            ("1,2,3", Some("without commas")),
+            ("1,", Some("without commas")),
+            ("-0x10", Some("write -16")),
+            ("−3", Some("write -3")),
+            ("NaN", Some("finite")),
+            ("1e999", Some("1.8e308")),
+            ("abc", None),
+            ("0x", None),
+            ("0xffffffffffffffffffffffff", None),
+        ] {
+            let error = parse_number(token).expect_err("no number");
+            let said = number_hint(token, error);
+            match hint {
+                Some(part) => assert!(said.is_some_and(|said| said.contains(part)), "{token}"),
+                None => assert_eq!(said, None, "{token}"),
+            }
+        }
+    }
+
+    #[test]
+    fn tokens_are_shown_short_and_printable() {
+        assert_eq!(quoted("ab"), "`ab`");
+        assert_eq!(quoted("a\u{1b}[2J"), "`a\\u{1b}[2J`");
+        assert_eq!(quoted(&"é".repeat(25)), format!("`{}…`", "é".repeat(24)));
+    }
+
+    #[test]
+    fn a_report_stops_at_a_hundred_of_each() {
+        let mut report = Report::default();
+        for at in 0..1000 {
+            report.error(|| Diagnostic::error(Span::at(at), "e", ""));
+            report.warning(|| Diagnostic::warning(Span::at(at), "w", ""));
+        }
+        assert_eq!(report.errors(), 1000);
+        let shown = report.finish();
+        assert_eq!(shown.len(), 202);
+        assert_eq!(shown[200].message, "900 more errors are not shown");
+        assert_eq!(shown[201].message, "900 more warnings are not shown");
+    }
+}

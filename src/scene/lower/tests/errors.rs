@@ -1,0 +1,279 @@
+//! One case a rule. Expected diagnostics stand beside the text that causes them, behind `//~`:
+//! column, severity, and how the message goes.
+
+use super::{read, shown, spelled};
+
+/// Checks the diagnostics of a text against those that its `//~` notes expect, all of them, in
+/// order, and that there is a scene exactly if none is an error.
+fn check(case: &str) {
+    let text = spelled(case);
+    let (_, lowered) = read(&text);
+    let said = shown(&text, &lowered);
+    let mut expected = Vec::new();
+    for (line, content) in text.split('\n').enumerate() {
+        for note in content.split("//~ ").skip(1) {
+            expected.push(format!("{}:{}", line + 1, note.trim_end()));
+        }
+    }
+    let matches = said.len() == expected.len()
+        && said
+            .iter()
+            .zip(&expected)
+            .all(|(said, start)| said.starts_with(start));
+    assert!(matches, "{text}\nsaid {said:#?}\nexpected {expected:#?}");
+    let errors = expected.iter().any(|line| line.contains(" error: "));
+    assert_eq!(lowered.scene.is_none(), errors, "{text}");
+    assert!(
+        lowered
+            .diagnostics
+            .iter()
+            .all(|diagnostic| !diagnostic.message.is_empty())
+    );
+}
+
+#[test]
+fn numbers_are_decimal_and_finite() {
+    for case in [
+        "HEAD 1 sphere 0 0 0\n1,5 //~ 1 error: object 1 (sphere) radius: `1,5` is no number\nMAT",
+        "HEAD 1 sphere 0\nabc //~ 1 error: object 1 (sphere) centre y: `abc` is no number\n0 1 MAT",
+        "HEAD 1 sphere 0 0 0\n0x10 //~ 1 error: object 1 (sphere) radius: `0x10` is no number\nMAT",
+        "HEAD 1 sphere 0 0 0\n1e999 //~ 1 error: object 1 (sphere) radius: `1e999` is too large\nMAT",
+        "HEAD 1 sphere 0 0 0\n inf //~ 2 error: object 1 (sphere) radius: `inf` is no number\nMAT",
+        "HEAD 1 sphere 0 0 0\n nan //~ 2 error: object 1 (sphere) radius: `nan` is no number\nMAT",
+        "1 é 1 //~ 3 error: ambient colour green: `é` is no number\n1 0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
+        "1 1 1 1 0\n5,0 //~ 1 error: light 1 position y: `5,0` is no number\n5 1 1 1 1 sphere 0 0 0 1 MAT",
+        "1 1 1 1 0 5 5 1\nx //~ 1 error: light 1 colour green: `x` is no number\n1 1 sphere 0 0 0 1 MAT",
+        "HEAD 1 sphere 0 0 0 +.5e-3 MAT",
+    ] {
+        check(case);
+    }
+}
+
+#[test]
+fn errors_that_can_be_told_apart_are_told_at_once() {
+    check(
+        "1 1 x //~ 5 error: ambient colour blue: `x` is no number
+1  0 5 5  1 1 1
+2
+sphere 0 0 0
+-1 //~ 1 error: object 1 (sphere) radius: must be greater than 0
+MAT
+box 0 0 0
+0 0 0 //~ 1 error: object 2 (box) vl: must not be zero
+0 1 0  0 0 1  1 1
+0 //~ 1 error: object 2 (box) height: must be greater than 0
+0.1 0.1 0.1  0.5 0.5
+y //~ 1 error: object 2 (box) kd blue: `y` is no number
+0.2 0.2 0.2  5 0 0 1",
+    );
+}
+
+#[test]
+fn sizes_are_greater_than_0() {
+    for case in [
+        "HEAD 1 sphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius: must be greater than 0\nMAT",
+        "HEAD 1 ellipsoid 0 0 0 AXES 1\n-1 //~ 1 error: object 1 (ellipsoid) l2: must be greater than 0\n1 MAT",
+        "HEAD 1 box 0 0 0 AXES\n-0 //~ 1 error: object 1 (box) length: must be greater than 0\n1 1 MAT",
+        "HEAD 1 cylinder 0 0 0 AXES 1 1\n-2 //~ 1 error: object 1 (cylinder) height: must be greater\nMAT",
+        "HEAD 1 cone 0 0 0 AXES\n0 0 //~ 1 error: object 1 (cone) l1: must be //~ 3 error: object 1 (cone) l2: must be\n1 MAT",
+    ] {
+        check(case);
+    }
+}
+
+#[test]
+fn coefficients_outside_their_usual_range_are_warned_of() {
+    for case in [
+        "HEAD 1 sphere 0 0 0 1\n2 0 0 //~ 1 warning: object 1 (sphere) ka red: 2 is not from 0 to 1\n1 1 1 1 1 1 5 0 0 1",
+        "HEAD 1 sphere 0 0 0 1 0 0 0\n0 -1 0 //~ 3 warning: object 1 (sphere) kd green: -1 is not\n1 1 1 5 0 0 1",
+        "HEAD 1 sphere 0 0 0 1 0 0 0 0 1 0\n1 1 1.5 //~ 5 warning: object 1 (sphere) ks blue: 1.5 is not\n5 0 0 1",
+        "HEAD 1 sphere 0 0 0 1 0 0 0 0 1 0 1 1 1\n-5 //~ 1 warning: object 1 (sphere) ns: -5 is not 0 or more\n0 0 1",
+        "HEAD 1 sphere 0 0 0 1 0 0 0 0 1 0 1 1 1 5\n-1 2 //~ 1 warning: object 1 (sphere) kr: -1 is //~ 4 warning: object 1 (sphere) kt: 2 is\n1",
+        "HEAD 1 sphere 0 0 0 1 0 0 0 0 1 0 1 1 1 5 0 0\n0 //~ 1 warning: object 1 (sphere) ior: 0 is not greater than 0",
+        "HEAD 1 sphere 0 0 0 1 0 0 0 1 1 1 1 1 1 0 1 1 1e-300",
+    ] {
+        check(case);
+    }
+}
+
+#[test]
+fn directions_are_of_unit_length_and_at_right_angles() {
+    for case in [
+        "HEAD 1 box 0 0 0 1 0 0 0 1 0\n0 0 0 //~ 1 error: object 1 (box) vh: must not be zero\n1 1 1 MAT",
+        "HEAD 1 box 0 0 0\n2 0 0 //~ 1 warning: object 1 (box) vl: has length 2.0000, not 1\n0 1 0 0 0 1 1 1 1 MAT",
+        "HEAD 1 box 0 0 0\n1.0009 0 0\n0 0.9991 0  0 0 1 1 1 1 MAT",
+        "HEAD 1 box 0 0 0\n1e200 0 0 //~ 1 warning: object 1 (box) vl: has length\n0 1 0  0 0 1 1 1 1 MAT",
+        "HEAD 1 cone 0 0 0 1 0 0\n.6 .8 0 //~ 1 warning: object 1 (cone) a2: not at a right angle to a1 (dot product 0.6000)\n0 0 1 1 1 1 MAT",
+        "HEAD 1 ellipsoid 0 0 0 1 0 0 0 1 0\n0 .6 .8 //~ 1 warning: object 1 (ellipsoid) v3: not at a right angle to v2\n1 1 1 MAT",
+        "HEAD 1 ellipsoid 0 0 0 1 0 0 0 1 0\n.6 0 .8 //~ 1 warning: object 1 (ellipsoid) v3: not at a right angle to v1\n1 1 1 MAT",
+        "HEAD 1 box 0 0 0 1 0 0 0 1 0\n0 0.0009 1\n1 1 1 MAT",
+        "HEAD 1 cylinder 0 0 0 1 0 0 0 1 0\n0 0 -1 //~ 1 warning: object 1 (cylinder) axis: points against a1 × a2\n1 1 1 MAT",
+        "HEAD 1 box 0 0 0 1 0 0\n-1 0 0 //~ 1 error: object 1 (box) vw: is parallel to vl\n0 0 1 1 1 1 MAT",
+        "HEAD 1 box 0 0 0 1 0 0 0 1 0\n0 1 0 //~ 1 error: object 1 (box) vh: is parallel to vw\n1 1 1 MAT",
+        "HEAD 1 box 0 0 0 1 0 0 0 1 0\n.6 .8 0 //~ 1 error: object 1 (box) vh: lies in the plane of the other two\n1 1 1 MAT",
+        // A direction that cannot be read leaves the other two to be compared.
+        "HEAD 1 box 0 0 0\n1 x 0 //~ 3 error: object 1 (box) vl y: `x` is no number\n0 1 0\n0 .6 .8 //~ 1 warning: object 1 (box) vh: not at a right angle to vw\n1 1 1 MAT",
+    ] {
+        check(case);
+    }
+}
+
+#[test]
+fn keywords_are_in_lower_case() {
+    check("HEAD 1\nSphere //~ 1 warning: `Sphere` is written in lower case\n0 0 0 1 MAT");
+    check("HEAD 1\nBOX //~ 1 warning: `BOX` is written in lower case\n0 0 0 AXES 1 1 1 MAT");
+}
+
+#[test]
+fn an_object_too_short_is_reported_where_the_next_begins() {
+    for case in [
+        "HEAD 2 box 0 0 0 AXES 1 1\nsphere //~ 1 error: object 1 (box) height: missing; 14 more numbers due before `sphere`\n0 0 0 1 MAT",
+        "HEAD 2 sphere 0 0\nbox //~ 1 error: object 1 (sphere) centre z: missing; 15 more numbers due before `box`\n0 0 0 AXES 1 1 1 MAT",
+        "HEAD 2 sphere\nsphere //~ 1 error: object 1 (sphere) centre x: missing; 17 more\n0 0 0\n0 //~ 1 error: object 2 (sphere) radius: must be\nMAT",
+        // The next object's keyword is known even with a slip in it.
+        "HEAD 2 sphere 0 0 0 1 0 0 0 0 0 0 0 0 0 5 0 0\nspere //~ 1 error: object 1 (sphere) ior: missing; 1 more number due before `spere` //~ 1 error: object 2: unknown type `spere`\n0 0 0 1 MAT",
+    ] {
+        check(case);
+    }
+}
+
+#[test]
+fn an_object_too_long_is_reported_at_what_is_too_much() {
+    for case in [
+        "HEAD 2 sphere 0 0 0 1 MAT\n7 8 9 //~ 1 error: object 1 (sphere): 3 numbers too many\nsphere 0 0 0 1 MAT",
+        "HEAD 2 sphere 0 0 0 1 MAT\n-7 //~ 1 error: object 1 (sphere): 1 number too many\nsphere 0 0 0 1 MAT",
+        "HEAD 2\n7 //~ 1 error: nObjects: 1 number too many after it\nsphere 0 0 0 1 MAT sphere 0 0 0 1 MAT",
+        // A keyword left out: its numbers are surplus, and no other error follows from that.
+        "HEAD 2 sphere 0 0 0 1 MAT\n0 0 0 1 MAT //~ 1 error: object 1 (sphere): 17 numbers too many",
+        "HEAD 3 sphere 0 0 0 1 MAT\n0 0 0 1 MAT //~ 1 error: object 1 (sphere): 17 numbers too many\nbox 0 0 0 AXES 1 1 1 MAT",
+    ] {
+        check(case);
+    }
+}
+
+#[test]
+fn unknown_types_are_passed_over() {
+    for case in [
+        "HEAD 1\nspere //~ 1 error: object 1: unknown type `spere`\n0 0 0 1 MAT",
+        "HEAD 2\ntorus //~ 1 error: object 1: unknown type `torus`\n0 0 0 1 MAT\nsphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius: must be\nMAT",
+        "HEAD 3\ntorus //~ 1 error: object 1: unknown type `torus`\n0 0 0 1 MAT\ntorus //~ 1 error: object 1: unknown type `torus`\n0 0 0 1 MAT sphere 0 0 0 1 MAT",
+        "HEAD 2 sphere 0 0 0 1 MAT\nfoo //~ 1 error: object 2: unknown type `foo`\nsphere 0 0 0 1 MAT",
+    ] {
+        check(case);
+    }
+}
+
+#[test]
+fn the_number_of_objects_is_that_of_the_objects() {
+    for case in [
+        "HEAD\n1 //~ 1 error: nObjects: says `1`, but 1 more object follows\nsphere 0 0 0 1 MAT sphere 0 0 0 1 MAT",
+        "HEAD\n1 //~ 1 error: nObjects: says `1`, but 2 more objects follow\nsphere 0 0 0 1 MAT sphere 0 0 0 1 MAT cone 0 0 0 AXES 1 1 1 MAT",
+        "HEAD 1 sphere 0 0 0 1 MAT\n7 8 //~ 1 warning: 2 tokens after the last object ignored",
+        "HEAD 1 sphere 0 0 0 1 MAT\nthe end //~ 1 warning: 2 tokens after the last object ignored",
+        "HEAD\n3 //~ 1 error: nObjects: says `3`, but the text ends after object 1 (sphere)\nsphere 0 0 0 1 MAT",
+        "HEAD\n2 //~ 1 error: nObjects: says `2`, but the text ends in object 2 (box), where length is due\nsphere 0 0 0 1 MAT box 0 0 0 AXES",
+        "HEAD\n1 //~ 1 error: nObjects: says `1`, but the text ends in object 1 (sphere), where centre y is due\nsphere 0",
+        "HEAD\n1 //~ 1 error: nObjects: says `1`, but the text ends before any object",
+        "HEAD\n0 //~ 1 error: nObjects: must be a whole number, 1 or more, not `0`\nsphere 0 0 0 1 MAT",
+        "HEAD\n1.5 //~ 1 error: nObjects: must be a whole number, 1 or more, not `1.5`\nsphere 0 0 0 1 MAT",
+        "HEAD\n-1 //~ 1 error: nObjects: must be\nsphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius: must be\nMAT",
+        "HEAD\nmany //~ 1 error: nObjects: `many` is no number\nsphere 0 0 0 1 MAT",
+        "HEAD\n99999999999999999999999 //~ 1 error: nObjects: says `99999999999999999999999`, but the text ends after\nsphere 0 0 0 1 MAT",
+        "HEAD\nsphere //~ 1 error: nObjects: missing before `sphere`\n0 0 0 1 MAT",
+        "HEAD //~ 23 error: nObjects: missing, the text ends here",
+        // A number of objects that cannot be read leaves a broken end to be told.
+        "HEAD\n0 //~ 1 error: nObjects: must be\nsphere 0 0\n0 //~ 2 error: object 1 (sphere) radius: missing; 14 more numbers due before the text ends",
+    ] {
+        check(case);
+    }
+}
+
+#[test]
+fn the_number_of_lights_is_that_of_the_lights() {
+    for case in [
+        // Too many declared: an object comes where a light's number is due.
+        "1 1 1\n2 //~ 1 error: nLights: says `2`, but the text has 1 light before `sphere`\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
+        "1 1 1\n2 //~ 1 error: nLights: says `2`, but the text has 1 light and 3 numbers before `sphere`\n0 5 5 1 1 1 0 0 1 sphere 0 0 0 1 MAT",
+        "1 1 1\n1 //~ 1 error: nLights: says `1`, but the text has 0 lights before `sphere`\n1 sphere 0 0 0 1 MAT",
+        // Too few declared.
+        "1 1 1\n1 //~ 1 error: nLights: says `1`, but the text has 2 lights before `sphere`\n0 5 5 1 1 1  3 5 5 1 1 1  1 sphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius\nMAT",
+        "1 1 1\n2 //~ 1 error: nLights: says `2`, but the text has 1 light and 2 numbers before the text ends\n0 5 5 1 1 1 1 2",
+        "1 1 1\n0 //~ 1 error: nLights: must be a whole number, 1 or more, not `0`\n0 5 5 1 1 1 1 sphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius\nMAT",
+        "1 1 1\nabc //~ 1 error: nLights: `abc` is no number\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
+        "1 1 1\n2.5 //~ 1 error: nLights: must be\n0 5 5 1 1 1 0 5 sphere 0 0 0 1 MAT",
+        "1 1 1\nsphere //~ 1 error: nLights: missing before `sphere`\n0 0 0 1 MAT",
+        "1 1 1 //~ 6 error: nLights: missing, the text ends here",
+        "1 1 1\n1e300 //~ 1 error: nLights: says `1e300`, but the text has 1 light before `sphere`\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
+    ] {
+        check(case);
+    }
+}
+
+#[test]
+fn a_scene_without_a_beginning_is_one_error() {
+    for case in [
+        " //~ 1 error: the text holds no scene",
+        "// nothing but words //~ 1 error: the text holds no scene",
+        "\u{FEFF}\r\n",
+        "1 1 //~ 4 error: ambient colour blue: missing; 1 more number due before the text ends",
+        "1\nsphere //~ 1 error: ambient colour green: missing; 2 more numbers due before `sphere`\n0 0 0 1 MAT",
+    ] {
+        if case.contains("//~") {
+            check(case);
+        } else {
+            let (_, lowered) = read(case);
+            assert_eq!(
+                shown(case, &lowered),
+                ["1:1 error: the text holds no scene"]
+            );
+        }
+    }
+}
+
+#[test]
+fn messages_say_what_is_expected_and_the_way_out() {
+    let text = spelled("HEAD 2 sphere 0 0 0 1,5 MAT spere 0 0 0 1 MAT");
+    let (_, lowered) = read(&text);
+    let said: Vec<_> = lowered
+        .diagnostics
+        .iter()
+        .map(|d| (d.expected.as_str(), d.hint.as_deref().unwrap_or_default()))
+        .collect();
+    assert_eq!(
+        said,
+        [
+            (
+                "a number greater than 0",
+                "decimals follow a point: write 1.5"
+            ),
+            (
+                "sphere, ellipsoid, box, cylinder or cone",
+                "did you mean `sphere`?"
+            ),
+        ]
+    );
+}
+
+#[test]
+fn a_hundred_errors_are_enough() {
+    let objects = "sphere x 0 0 1 MAT\n".repeat(1000);
+    let text = spelled(&format!("HEAD 1000\n{objects}"));
+    let (_, lowered) = read(&text);
+    assert_eq!(lowered.diagnostics.len(), 101);
+    assert_eq!(
+        shown(&text, &lowered)[100],
+        "102:8 error: 900 more errors are not shown"
+    );
+}
+
+#[test]
+fn a_declared_count_allocates_nothing() {
+    // Memory or time in proportion to the count would end this test.
+    for count in ["100000000", "18446744073709551616", "1e300"] {
+        for text in [format!("{} {count}", super::HEAD), format!("1 1 1 {count}")] {
+            let (_, lowered) = read(&text);
+            assert_eq!(lowered.diagnostics.len(), 1, "{text}");
+            assert!(lowered.scene.is_none());
+        }
+    }
+}

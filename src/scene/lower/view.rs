@@ -1,0 +1,262 @@
+//! The view comment of a `.ray` text, invisible to other readers of the format:
+//! `// view: eye x y z target x y z up x y z fov deg size w h`, any subset, in any order.
+
+use glam::DVec3;
+
+use super::record::{unit, what};
+use super::report::{Report, no_number, quoted};
+use crate::format::ray::{self, Comment, Marker};
+use crate::geometry::Aabb;
+use crate::scene::fields::{Field, Kind, Range, VIEW};
+use crate::scene::origins::{Name, ViewPlace};
+use crate::scene::{Camera, Size};
+use crate::text::{Diagnostic, Severity, Span, parse_number};
+
+/// Places in [`VIEW`].
+const EYE: usize = 0;
+const TARGET: usize = 1;
+const UP: usize = 2;
+
+/// From where the default view looks, seen from the centre of the scene.
+const DEFAULT_SIDE: DVec3 = DVec3::new(0.4, 0.3, 1.0);
+
+/// Below this sine of the angle between them, the view's direction leaves `up` no meaning.
+const LEAST_SINE: f64 = 1e-9;
+
+/// What a view comment says.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    comment: Span,
+    parts: [Option<Part>; VIEW.len()],
+}
+
+/// The numbers of one field; of the arrays, as many entries as the field has components.
+#[derive(Clone, Copy, Debug, Default)]
+struct Part {
+    spans: [Span; 3],
+    values: [f64; 3],
+}
+
+impl Part {
+    fn vector(&self) -> DVec3 {
+        DVec3::from_array(self.values)
+    }
+}
+
+impl View {
+    /// Where it stands.
+    pub(super) fn place(&self) -> ViewPlace {
+        ViewPlace {
+            comment: self.comment,
+            parts: self.parts.map(|part| part.map(|part| part.spans)),
+        }
+    }
+
+    /// Whether it says both where the camera stands and where it looks.
+    pub(super) fn is_placed(&self) -> bool {
+        self.parts[EYE].is_some() && self.parts[TARGET].is_some()
+    }
+
+    /// The text of a part, or of the whole comment if the part is missing.
+    fn span(&self, part: usize) -> Span {
+        self.parts[part].map_or(self.comment, |found| {
+            found.spans[0].to(found.spans[VIEW[part].kind.components() - 1])
+        })
+    }
+}
+
+/// The first well-formed view comment. Warns of malformed ones, which are ignored whole, and of
+/// well-formed ones after the first.
+pub(super) fn find(text: &str, comments: &[Comment], report: &mut Report) -> Option<View> {
+    let mut found = None;
+    for comment in comments {
+        let Some(body) = body(text, comment) else {
+            continue;
+        };
+        match read(text, comment.span, body) {
+            Err(malformed) => report.warning(|| Diagnostic {
+                message: format!("{}; the whole comment is ignored", malformed.message),
+                ..malformed
+            }),
+            Ok(view) if found.is_none() => found = Some(view),
+            Ok(_) => report.warning(|| {
+                let message = "view: said before, this comment is ignored";
+                Diagnostic::warning(comment.span, message, "one view comment")
+            }),
+        }
+    }
+    found
+}
+
+/// What follows `view:` in a comment that begins so.
+fn body(text: &str, comment: &Comment) -> Option<Span> {
+    const BLANK: [char; 7] = [' ', '\t', '\r', '\x0B', '\x0C', '\u{A0}', '\u{FEFF}'];
+    if comment.marker != Marker::Slashes {
+        return None;
+    }
+    let said = comment.span.of(text).strip_prefix("//")?;
+    let body = said.trim_start_matches(BLANK).strip_prefix("view:")?;
+    Some(Span::new(
+        comment.span.end() - body.len(),
+        comment.span.end(),
+    ))
+}
+
+/// Reads the parts of a view comment; the error is a warning.
+fn read(text: &str, comment: Span, body: Span) -> Result<View, Diagnostic> {
+    let mut parts = [None; VIEW.len()];
+    let words = ray::words(text, body);
+    let mut rest = words.iter().copied();
+    while let Some(key) = rest.next() {
+        let word = key.of(text);
+        let Some(index) = VIEW.iter().position(|field| field.key == word) else {
+            return Err(unknown_word(key, word));
+        };
+        let field = &VIEW[index];
+        if parts[index].is_some() {
+            let message = format!("view {word}: said twice");
+            return Err(Diagnostic::warning(key, message, "each part once"));
+        }
+        parts[index] = Some(read_part(text, field, &mut rest, comment.end())?);
+    }
+    Ok(View { comment, parts })
+}
+
+fn unknown_word(span: Span, word: &str) -> Diagnostic {
+    let message = format!("view: unknown word {}", quoted(word));
+    let diagnostic = Diagnostic::warning(span, message, "eye, target, up, fov or size");
+    let meant = VIEW
+        .iter()
+        .find(|field| field.key.eq_ignore_ascii_case(word));
+    match meant {
+        Some(field) => diagnostic.with_hint(format!("write `{}`", field.key)),
+        None => diagnostic,
+    }
+}
+
+/// Reads the numbers of one part from the words after its key.
+fn read_part(
+    text: &str,
+    field: &Field,
+    words: &mut impl Iterator<Item = Span>,
+    end: usize,
+) -> Result<Part, Diagnostic> {
+    let mut part = Part::default();
+    for (at, component) in field.kind.component_names().iter().enumerate() {
+        let what = what(Name::View, field, component);
+        let missing =
+            |span| Diagnostic::warning(span, format!("{what}: missing"), field.allowed.words());
+        let span = words.next().ok_or_else(|| missing(Span::at(end)))?;
+        let word = span.of(text);
+        let value = match parse_number(word) {
+            Ok(value) => value,
+            Err(_) if VIEW.iter().any(|field| field.key == word) => return Err(missing(span)),
+            Err(error) => {
+                let expected = field.allowed.words();
+                let severity = Severity::Warning;
+                return Err(no_number(severity, span, word, &what, &expected, error));
+            }
+        };
+        let fits = field.kind != Kind::Pixels || value <= f64::from(u32::MAX);
+        if !field.allowed.contains(value) || !fits {
+            let limits = if fits {
+                field.allowed.limits()
+            } else {
+                format!("{} at most", u32::MAX)
+            };
+            let message = format!("{what}: must be {limits}");
+            return Err(Diagnostic::warning(span, message, field.allowed.words()));
+        }
+        (part.spans[at], part.values[at]) = (span, value);
+    }
+    if field.kind == Kind::Direction && unit(part.vector()).is_none() {
+        let span = part.spans[0].to(part.spans[2]);
+        let message = format!("{}: must not be zero", what(Name::View, field, ""));
+        return Err(Diagnostic::warning(span, message, "a direction"));
+    }
+    Ok(part)
+}
+
+/// The camera: what the view says, and defaults for what it does not. `bounds` is asked for only
+/// if a default needs it. Reports a camera that cannot be used at the view or, without one, at
+/// `otherwise`.
+pub(super) fn camera(
+    view: Option<&View>,
+    bounds: impl FnOnce() -> Aabb,
+    otherwise: Span,
+    report: &mut Report,
+) -> Camera {
+    let [eye, target, up, fov, size] = view.map_or([None; VIEW.len()], |view| view.parts);
+    let fov = fov.map_or(45.0, |fov| fov.values[0]);
+    let (eye, target) = match (eye, target) {
+        (Some(eye), Some(target)) => (eye.vector(), target.vector()),
+        (eye, target) => {
+            let (default_eye, centre) = default_eye_and_target(bounds(), fov);
+            (
+                eye.map_or(default_eye, |eye| eye.vector()),
+                target.map_or(centre, |target| target.vector()),
+            )
+        }
+    };
+    let camera = Camera {
+        eye,
+        target,
+        up: up.map_or(DVec3::Y, |up| up.vector()),
+        fov,
+        size: size.map_or(
+            Size {
+                width: 800,
+                height: 600,
+            },
+            |size| Size {
+                width: size.values[0] as u32,
+                height: size.values[1] as u32,
+            },
+        ),
+    };
+    check(&camera, view, otherwise, report);
+    camera
+}
+
+/// The centre of the box, and the eye from which a sphere around the box fills the angle of view.
+fn default_eye_and_target(bounds: Aabb, fov: f64) -> (DVec3, DVec3) {
+    let centre = bounds.centre();
+    let radius = 0.5 * bounds.size().length();
+    let distance = radius / libm::sin((0.5 * fov).to_radians());
+    (centre + distance * DEFAULT_SIDE.normalize(), centre)
+}
+
+/// Reports a camera that looks nowhere, and one that looks along its `up`.
+fn check(camera: &Camera, view: Option<&View>, otherwise: Span, report: &mut Report) {
+    let span = |part| view.map_or(otherwise, |view: &View| view.span(part));
+    if !camera.eye.is_finite() || !camera.target.is_finite() {
+        report.error(|| {
+            let message = "view: the scene is too large for a default view";
+            Diagnostic::error(otherwise, message, Range::Any.words())
+                .with_hint("say eye and target in a comment: // view: eye x y z target x y z")
+        });
+        return;
+    }
+    // Halves, because the difference of two large numbers may overflow.
+    let Some(forward) = unit(0.5 * camera.target - 0.5 * camera.eye) else {
+        let said = |part: usize| view.is_some_and(|view| view.parts[part].is_some());
+        let place = match (said(EYE), said(TARGET)) {
+            (true, true) => span(EYE).to(span(TARGET)),
+            (false, true) => span(TARGET),
+            (_, false) => span(EYE),
+        };
+        report.error(|| {
+            let message = "view target: is where the eye is";
+            Diagnostic::error(place, message, "a point other than the eye")
+        });
+        return;
+    };
+    let sine = unit(camera.up).map_or(0.0, |up| forward.cross(up).length());
+    if sine < LEAST_SINE {
+        report.warning(|| {
+            let message = "view up: is the direction of view";
+            Diagnostic::warning(span(UP), message, "a direction across the view")
+                .with_hint("the world axis most across the view stands in for it")
+        });
+    }
+}

@@ -1,0 +1,138 @@
+//! Decimal numbers as scene files write them, read and written back in the same style.
+
+/// Why a token is no number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NumberError {
+    /// Not of the form: optional sign, digits with optional fraction, optional exponent.
+    NotANumber,
+    /// Of that form, but beyond the range of `f64`.
+    Overflow,
+}
+
+/// Reads a number: optional sign, decimal digits with optional fraction, optional exponent. No
+/// hex, `inf` or `nan`. Correctly rounded.
+pub fn parse_number(token: &str) -> Result<f64, NumberError> {
+    // The standard parser takes the same form, and beyond it only words for infinity and NaN.
+    let worded = token
+        .bytes()
+        .any(|b| b.is_ascii_alphabetic() && !matches!(b, b'e' | b'E'));
+    let value: f64 = match token.parse() {
+        Ok(value) if !worded => value,
+        _ => return Err(NumberError::NotANumber),
+    };
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(NumberError::Overflow)
+    }
+}
+
+/// How many digits `literal` has after its decimal point (an exponent does not count).
+pub fn decimals(literal: &str) -> usize {
+    let mantissa = literal.split(['e', 'E']).next().unwrap_or_default();
+    mantissa
+        .split_once('.')
+        .map_or(0, |(_, fraction)| fraction.len())
+}
+
+/// Spells `value` in the style of the literal it replaces: a leading `+`, a bare `.5`, the
+/// exponent letter and its number of decimals are kept where they can be; the result always reads
+/// back as exactly `value`.
+pub fn spell_like(old: &str, value: f64) -> String {
+    let plus = if old.starts_with('+') && value.is_sign_positive() {
+        "+"
+    } else {
+        ""
+    };
+    let digits = match old.find(['e', 'E']) {
+        Some(at) => {
+            let shortest = format!("{value:e}");
+            let (mantissa, exponent) = shortest.split_once('e').unwrap_or((&shortest, "0"));
+            let padded = pad_decimals(mantissa, decimals(old));
+            format!("{padded}{}{exponent}", &old[at..=at])
+        }
+        None => pad_decimals(&format!("{value}"), decimals(old)),
+    };
+    let unsigned = old.trim_start_matches(['+', '-']);
+    let (sign, digits) = match digits.strip_prefix('-') {
+        Some(rest) => ("-", rest),
+        None => (plus, digits.as_str()),
+    };
+    let digits = match digits.strip_prefix("0.") {
+        Some(fraction) if unsigned.starts_with('.') => format!(".{fraction}"),
+        _ => digits.to_owned(),
+    };
+    format!("{sign}{digits}")
+}
+
+/// Adds zeros until the number has at least `decimals` digits after its point.
+fn pad_decimals(number: &str, wanted: usize) -> String {
+    let have = decimals(number);
+    if have >= wanted {
+        return number.to_owned();
+    }
+    let point = if have == 0 { "." } else { "" };
+    format!("{number}{point}{}", "0".repeat(wanted - have))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn numbers_have_a_sign_digits_a_fraction_and_an_exponent() {
+        for (token, value) in [
+            ("0", 0.0),
+            ("-0", 0.0),
+            ("+1.5", 1.5),
+            (".5", 0.5),
+            ("5.", 5.0),
+            ("-2e3", -2000.0),
+            ("1E-2", 0.01),
+            ("1e-400", 0.0),
+        ] {
+            assert_eq!(parse_number(token), Ok(value), "{token}");
+        }
+        for token in [
+            "", "+", ".", "e1", "1e", "0x10", "inf", "-nan", "infinity", "1,5", "1.2.3", "½",
+        ] {
+            assert_eq!(parse_number(token), Err(NumberError::NotANumber), "{token}");
+        }
+        assert_eq!(parse_number("1e999"), Err(NumberError::Overflow));
+    }
+
+    #[test]
+    fn numbers_are_spelled_like_the_literal_they_replace() {
+        for (old, value, spelled) in [
+            ("0.45", 0.5, "0.50"),
+            (".5", 0.51, ".51"),
+            (".5", 1.0, "1.0"),
+            ("-.5", 0.25, ".25"),
+            ("5", 6.0, "6"),
+            ("5", 6.5, "6.5"),
+            ("+1", 2.0, "+2"),
+            ("+1", -2.0, "-2"),
+            ("1e3", 2500.0, "2.5e3"),
+            ("1.00E3", 2000.0, "2.00E3"),
+            ("0.1", 0.0, "0.0"),
+        ] {
+            assert_eq!(spell_like(old, value), spelled, "{old} → {value}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn spelled_numbers_read_back_exactly(
+            old in "[+-]?(0|[1-9][0-9]{0,2})?\\.?[0-9]{1,4}([eE]-?[0-9]{1,2})?",
+            value in proptest::num::f64::NORMAL | proptest::num::f64::ZERO,
+        ) {
+            prop_assert_eq!(parse_number(&spell_like(&old, value)), Ok(value));
+        }
+
+        #[test]
+        fn no_token_makes_the_reader_panic(token in ".{0,12}") {
+            let _ = parse_number(&token);
+        }
+    }
+}

@@ -1,0 +1,271 @@
+//! The line after `:`.
+
+use std::path::{Path, PathBuf};
+
+use super::{App, Disk, Help};
+use crate::image_out::ImageFormat;
+use crate::render::MAX_SPP;
+use crate::scene::{Camera, Size};
+use crate::ui::msg::{Effect, Existing, Guard};
+
+/// What a line says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Command {
+    /// Save, here or in another file.
+    Write(Option<PathBuf>, Force),
+    /// Quit.
+    Quit(Force),
+    /// Save and quit.
+    WriteQuit,
+    /// Read the file again.
+    Reread,
+    /// Write a picture.
+    Export {
+        path: Option<PathBuf>,
+        size: Option<Size>,
+        spp: Option<u32>,
+        force: Force,
+    },
+    /// Cancel the export.
+    ExportCancel,
+    /// Trace at full size.
+    Render,
+    /// Write the working view into the text.
+    ViewSave,
+    /// Go back to the text's view.
+    ViewReset,
+    /// Set the size of the output picture.
+    Size(Size),
+    /// Show the keys.
+    Help,
+}
+
+/// Whether a command ends in `!`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Force {
+    No,
+    Yes,
+}
+
+/// Every command as it is written, for the message about an unknown one.
+const NAMES: [&str; 13] = [
+    "w",
+    "w!",
+    "q",
+    "q!",
+    "wq",
+    "e",
+    "export",
+    "export!",
+    "render",
+    "view save",
+    "view reset",
+    "size",
+    "help",
+];
+
+/// Reads a line; the error says what would be right.
+pub(super) fn parse(line: &str) -> Result<Command, String> {
+    let line = line.trim();
+    let (name, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+    let rest = rest.trim();
+    let file = (!rest.is_empty()).then(|| PathBuf::from(rest));
+    let alone = |command| match rest {
+        "" => Ok(command),
+        _ => Err(format!("{name} takes nothing after it")),
+    };
+    match name {
+        "w" | "write" => Ok(Command::Write(file, Force::No)),
+        "w!" | "write!" => Ok(Command::Write(file, Force::Yes)),
+        "q" | "quit" => alone(Command::Quit(Force::No)),
+        "q!" | "quit!" => alone(Command::Quit(Force::Yes)),
+        "wq" | "x" => alone(Command::WriteQuit),
+        "e" | "reread" => alone(Command::Reread),
+        "render" => alone(Command::Render),
+        "help" => alone(Command::Help),
+        "export" if rest == "cancel" => Ok(Command::ExportCancel),
+        "export" => export(rest, Force::No),
+        "export!" => export(rest, Force::Yes),
+        "size" => size(rest)
+            .map(Command::Size)
+            .ok_or_else(|| "size takes two whole numbers: size 800x600".to_owned()),
+        "view" => match rest {
+            "save" => Ok(Command::ViewSave),
+            "reset" => Ok(Command::ViewReset),
+            _ => Err("view save, or view reset?".to_owned()),
+        },
+        _ => Err(unknown(name)),
+    }
+}
+
+/// `FILE [WxH] [spp]`; the file's name may hold blanks.
+fn export(rest: &str, force: Force) -> Result<Command, String> {
+    let mut words: Vec<_> = rest.split_whitespace().collect();
+    let mut spp = None;
+    if let Some(count) = words.last().and_then(|word| word.parse().ok()) {
+        if !(1..=MAX_SPP).contains(&count) {
+            return Err(format!("{count}: samples a pixel are 1 to {MAX_SPP}"));
+        }
+        spp = Some(count);
+        words.pop();
+    }
+    let size = words.last().and_then(|word| size(word));
+    if size.is_some() {
+        words.pop();
+    }
+    if let Some(wrong) = wrong_word(&words) {
+        return Err(wrong);
+    }
+    let path = (!words.is_empty()).then(|| PathBuf::from(words.join(" ")));
+    Ok(Command::Export {
+        path,
+        size,
+        spp,
+        force,
+    })
+}
+
+/// What is wrong with the word behind a picture's name, if one is left there.
+fn wrong_word(words: &[&str]) -> Option<String> {
+    let is_picture = |word: &&str| ImageFormat::of_path(Path::new(word)).is_some();
+    let word = match words.iter().rposition(is_picture) {
+        Some(name) => words.get(name + 1)?,
+        None => words.last()?,
+    };
+    let numbers = |extra: &str| {
+        let known = |c: char| c.is_ascii_digit() || extra.contains(c);
+        word.starts_with(|c: char| c.is_ascii_digit()) && word.chars().all(known)
+    };
+    if numbers("") {
+        Some(format!("{word}: samples a pixel are 1 to {MAX_SPP}"))
+    } else if numbers("xX×*") {
+        Some(format!("`{word}` is no size: 800x600 is one"))
+    } else if words.last().is_some_and(is_picture) || !words.iter().any(is_picture) {
+        None
+    } else {
+        Some(format!("`{word}` is neither a size nor samples a pixel"))
+    }
+}
+
+fn size(said: &str) -> Option<Size> {
+    let number = |digits: &str| {
+        let digits = digits.trim();
+        let plain = digits.bytes().all(|b| b.is_ascii_digit());
+        digits.parse().ok().filter(|&n: &u32| plain && 0 < n)
+    };
+    let (width, height) = said.split_once(['x', ' '])?;
+    Some(Size {
+        width: number(width)?,
+        height: number(height)?,
+    })
+}
+
+fn unknown(name: &str) -> String {
+    let nearest = NAMES
+        .iter()
+        .min_by_key(|known| distance(name, known))
+        .filter(|known| distance(name, known) <= 2);
+    match nearest {
+        Some(nearest) => format!("{name} is no command; {nearest} is"),
+        None => format!(
+            "{name} is no command; the commands are {}",
+            NAMES.join(", ")
+        ),
+    }
+}
+
+/// How many characters must be put in, taken out or replaced (Wagner and Fischer, 1974).
+fn distance(a: &str, b: &str) -> usize {
+    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.chars().enumerate() {
+            let replaced = diagonal + usize::from(x != y);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row.last().copied().unwrap_or_default()
+}
+
+impl App {
+    /// Does what a line says.
+    pub(super) fn command(&mut self, line: &str) -> Vec<Effect> {
+        if line.trim().is_empty() {
+            return Vec::new();
+        }
+        match parse(line) {
+            Ok(command) => self.run(command),
+            Err(reason) => {
+                self.fail(reason);
+                Vec::new()
+            }
+        }
+    }
+
+    fn run(&mut self, command: Command) -> Vec<Effect> {
+        match command {
+            Command::Write(file, force) => return self.write(file, force),
+            Command::Quit(Force::No) => return self.quit(),
+            Command::Quit(Force::Yes) => return vec![Effect::DropRecovery, Effect::Quit],
+            Command::WriteQuit => {
+                self.pending.quit = self.path.is_some();
+                if self.pending.quit && !self.document.is_dirty() && self.disk == Disk::Known {
+                    return self.quit_when_done();
+                }
+                return self.save();
+            }
+            Command::Reread => return self.reread(),
+            Command::Export {
+                path,
+                size,
+                spp,
+                force,
+            } => {
+                let path = path.unwrap_or_else(|| self.export_path());
+                let existing = match force {
+                    Force::No => Existing::Kept,
+                    Force::Yes => Existing::Overwritten,
+                };
+                return self.start_export(&path, size, spp, existing);
+            }
+            Command::ExportCancel => return self.cancel_export(),
+            Command::Render => return self.start_trace(),
+            Command::ViewSave => self.save_view(),
+            Command::ViewReset => self.reset_view(),
+            Command::Size(size) => self.set_size(size),
+            Command::Help => self.help = Some(Help::default()),
+        }
+        Vec::new()
+    }
+
+    fn write(&mut self, file: Option<PathBuf>, force: Force) -> Vec<Effect> {
+        match (file.or_else(|| self.path.clone()), force) {
+            (Some(path), Force::Yes) => self.save_to(path, Guard::Anything),
+            (Some(path), Force::No) if !self.is_own_path(&path) => {
+                if self.refuses_errors(&path) {
+                    return Vec::new();
+                }
+                self.save_to(path, Guard::Absent)
+            }
+            (_, Force::No | Force::Yes) => self.save(),
+        }
+    }
+
+    fn set_size(&mut self, size: Size) {
+        let Some(scene) = self.scene.clone().filter(|_| self.error_count() == 0) else {
+            self.fail("the size can't be written while the scene has errors");
+            return;
+        };
+        let camera = Camera {
+            size,
+            ..scene.camera
+        };
+        self.document.end_step();
+        if let Err(refused) = self.write_camera(&camera, &scene.camera) {
+            self.fail(refused.message);
+        }
+        self.document.end_step();
+    }
+}

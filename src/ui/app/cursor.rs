@@ -1,0 +1,60 @@
+//! The cursor while the text changes under it.
+
+use super::App;
+use crate::text::{Span, smallest_edit};
+
+/// Where the cursor was before a text came from outside.
+#[derive(Debug)]
+pub(super) struct Held {
+    /// The text it was in.
+    pub(super) text: String,
+    /// The field it was on, and the place of its component where the text says it.
+    field: Option<(&'static str, Option<Span>)>,
+}
+
+impl App {
+    /// Notes where the cursor is.
+    pub(super) fn hold(&self) -> Held {
+        let field = self.placed().get(self.field).map(|placed| {
+            let span = placed.spans.get(self.component).copied();
+            (placed.field.key, span)
+        });
+        Held {
+            text: self.document.text().to_owned(),
+            field,
+        }
+    }
+
+    /// Puts the cursor back on the number that it was on, and keeps what is typed there; whether
+    /// that had to be dropped because the field is gone.
+    pub(super) fn follow_cursor(&mut self, held: &Held) -> bool {
+        let Some((key, span)) = held.field else {
+            return self.typing.take().is_some();
+        };
+        let edit = smallest_edit(&held.text, self.document.text());
+        let moved = span.zip(edit).and_then(|(span, edit)| {
+            if edit.span.end() <= span.start() {
+                let by = |at: usize| at + edit.text.len() - edit.span.len();
+                Some(Span::new(by(span.start()), by(span.end())))
+            } else {
+                (span.end() <= edit.span.start()).then_some(span)
+            }
+        });
+        let node = moved.and_then(|span| self.origins.node_at(self.document.tree(), span));
+        let component = self.component;
+        if let Some(node) = node
+            && node != self.selected
+        {
+            self.selected = node;
+        }
+        let placed = self.placed();
+        let field = placed.iter().position(|placed| placed.field.key == key);
+        if let Some(field) = field {
+            self.field = field;
+            self.component = component.min(placed[field].field.kind.components() - 1);
+            return false;
+        }
+        self.keep_cursor();
+        self.typing.take().is_some()
+    }
+}

@@ -1,0 +1,339 @@
+//! The text and the file: reading again, saving, deciding conflicts, recovering.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::cursor::Held;
+use super::model::{Reader, Settle};
+use super::{App, Broken, Dialog, Disk, PromptKind};
+use crate::document::{Document, Replaced, Side};
+use crate::file::ReadError;
+use crate::scene;
+use crate::text::{Position, Span, smallest_edit};
+use crate::ui::keymap::Action;
+use crate::ui::msg::{Effect, Guard, SaveOutcome, Timer};
+
+/// Many programs empty a file before they write it: what is wrong with it must last so long.
+const QUIET: Duration = Duration::from_millis(100);
+/// Others move the old file away before the new one is there.
+const GONE: Duration = Duration::from_millis(500);
+
+impl App {
+    pub(super) fn read_again(&mut self) -> Vec<Effect> {
+        // The file is not quiet yet.
+        self.pending.settle = Settle::Idle;
+        self.read_effect()
+    }
+
+    /// `:e`.
+    pub(super) fn reread(&mut self) -> Vec<Effect> {
+        if self.path.is_none() {
+            self.fail("this scene has no file to read: :w FILE makes one");
+        }
+        self.pending.reader = Reader::User;
+        self.read_again()
+    }
+
+    fn read_effect(&self) -> Vec<Effect> {
+        self.path.iter().cloned().map(Effect::Read).collect()
+    }
+
+    pub(super) fn settled(&mut self) -> Vec<Effect> {
+        if self.pending.settle != Settle::Waiting {
+            return Vec::new();
+        }
+        self.pending.settle = Settle::Final;
+        self.read_effect()
+    }
+
+    pub(super) fn was_read(&mut self, read: Result<String, ReadError>) -> Vec<Effect> {
+        let is_final = std::mem::take(&mut self.pending.settle) == Settle::Final;
+        match read {
+            Ok(text) => self.take_text(text, is_final),
+            Err(error) if !is_final => self.wait(match error {
+                ReadError::NotFound { .. } => GONE,
+                _ => QUIET,
+            }),
+            Err(error) => {
+                if let ReadError::NotFound { .. } = error {
+                    self.disk = Disk::Missing;
+                }
+                self.fail(error.to_string());
+                Vec::new()
+            }
+        }
+    }
+
+    fn wait(&mut self, time: Duration) -> Vec<Effect> {
+        self.pending.settle = Settle::Waiting;
+        vec![Effect::Later(time, Timer::Settled)]
+    }
+
+    fn take_text(&mut self, text: String, is_final: bool) -> Vec<Effect> {
+        let reader = std::mem::take(&mut self.pending.reader);
+        // A merge that was being decided is out of date, whatever the file holds now.
+        if let Some(Dialog::Conflict { .. }) = self.dialog {
+            self.dialog = None;
+        }
+        if text == self.document.saved() {
+            if self.disk != Disk::Known {
+                self.disk = Disk::Known;
+                self.broken = None;
+                self.say("the file is as it was again");
+            } else if reader == Reader::User {
+                self.say(format!("{} holds nothing new", self.file_name()));
+            }
+            return Vec::new();
+        }
+        let dirty = self.document.is_dirty();
+        if !is_sound(&self.document, &text) {
+            if !is_final {
+                return self.wait(QUIET);
+            }
+            if dirty {
+                self.keep_apart(text);
+                return Vec::new();
+            }
+        }
+        let held = self.hold();
+        self.disk = Disk::Known;
+        self.broken = None;
+        match self.document.replace(text) {
+            Replaced::Unchanged => {}
+            Replaced::Loaded => self.show_reload(&held, "read again"),
+            Replaced::Merged => {
+                self.show_reload(&held, "the file's changes are merged; u undoes");
+            }
+            Replaced::Conflict(merge) => {
+                self.disk = Disk::Changed;
+                self.dialog = Some(Dialog::Conflict { merge, at: 0 });
+            }
+        }
+        Vec::new()
+    }
+
+    /// Keeps a text with errors apart from unsaved edits.
+    fn keep_apart(&mut self, text: String) {
+        let tree = crate::format::parse(self.document.format(), &text);
+        let diagnostics = scene::lower(&text, &tree).diagnostics;
+        let first = diagnostics.iter().find(|d| d.is_error());
+        let line = first.map_or(1, |d| Position::of(&text, d.span.start()).line);
+        self.pending.quit = false;
+        self.disk = Disk::Broken;
+        self.broken = Some(Broken { text, diagnostics });
+        self.fail(format!(
+            "line {line} of the file on disk has an error: E opens it, :w! overwrites it"
+        ));
+    }
+
+    /// Reads the text's meaning again, keeps the cursor where it was and says what changed.
+    fn show_reload(&mut self, held: &Held, words: &str) {
+        let (scene, sound) = (self.scene.clone(), self.error_count() == 0);
+        self.relower();
+        let lost = self.follow_cursor(held);
+        if 0 < self.error_count() {
+            if sound {
+                self.pending.sound = Some(held.text.clone());
+            }
+            self.fail(format!("the scene has errors: {}", self.error_count()));
+        } else {
+            let sound = self.pending.sound.take();
+            let before = sound.as_ref().unwrap_or(&held.text);
+            let place = smallest_edit(before, self.document.text())
+                .map(|edit| (edit.span.start(), edit.text.len()))
+                .and_then(|(start, len)| self.place_name(Span::new(start, start + len)));
+            let same = match (&scene, &self.scene) {
+                (Some(before), Some(after)) => Arc::ptr_eq(before, after),
+                _ => false,
+            };
+            match place {
+                _ if same => self.say(format!("{words}: the scene is as it was")),
+                Some(place) => self.say(format!("{words}: {place}")),
+                None => self.say(words),
+            }
+        }
+        if lost {
+            self.warn("what was being typed is dropped: its field is gone");
+        }
+    }
+
+    /// `w` and `:w`.
+    pub(super) fn save(&mut self) -> Vec<Effect> {
+        let Some(path) = self.path.clone() else {
+            self.open_prompt(PromptKind::Command, "w ");
+            self.say("this scene has no file yet: name one");
+            return Vec::new();
+        };
+        if !self.document.is_dirty() && self.disk == Disk::Known {
+            self.say("nothing to save");
+            // Unless something was missed.
+            return self.read_effect();
+        }
+        if let Disk::Changed | Disk::Broken = self.disk {
+            // The question comes again with what the file holds now.
+            return self.read_effect();
+        }
+        if self.refuses_errors(&path) {
+            return Vec::new();
+        }
+        let guard = Guard::Holding(self.document.saved().to_owned());
+        self.save_to(path, guard)
+    }
+
+    /// Says that a text with errors is not written unless forced; whether it has any.
+    pub(super) fn refuses_errors(&mut self, path: &Path) -> bool {
+        let Some(errors) = self.error_place() else {
+            return false;
+        };
+        self.pending.quit = false;
+        let force = if self.is_own_path(path) {
+            ":w!".to_owned()
+        } else {
+            format!(":w! {}", path.display())
+        };
+        self.fail(format!("{errors}: {force} writes it anyway"));
+        true
+    }
+
+    pub(super) fn save_to(&mut self, path: PathBuf, guard: Guard) -> Vec<Effect> {
+        self.document.end_step();
+        vec![Effect::Save {
+            path,
+            text: self.document.text().to_owned(),
+            guard,
+        }]
+    }
+
+    pub(super) fn was_saved(&mut self, outcome: SaveOutcome) -> Vec<Effect> {
+        let quit = std::mem::take(&mut self.pending.quit);
+        match outcome {
+            SaveOutcome::Saved { path, text } => {
+                self.document.mark_saved(text);
+                self.disk = Disk::Known;
+                self.broken = None;
+                self.say(format!("wrote {}", path.display()));
+                let mut effects = vec![Effect::DropRecovery];
+                if self.path.as_ref() != Some(&path) {
+                    self.path = Some(path.clone());
+                    effects.push(Effect::Watch(path));
+                }
+                self.pending.quit = quit;
+                effects.extend(self.quit_when_done());
+                effects
+            }
+            SaveOutcome::ChangedOnDisk(text) => {
+                self.warn("the file has changed: nothing was written yet");
+                self.pending.settle = Settle::Final;
+                self.was_read(Ok(text))
+            }
+            SaveOutcome::Failed(reason) => {
+                self.fail(reason);
+                Vec::new()
+            }
+        }
+    }
+
+    pub(super) fn decide(&mut self, action: Action) {
+        let Some(Dialog::Conflict { merge, at }) = &mut self.dialog else {
+            return;
+        };
+        let side = match action {
+            Action::Mine | Action::AllMine => Side::Mine,
+            _ => Side::Theirs,
+        };
+        if let Action::AllMine | Action::AllTheirs = action {
+            for conflict in &mut merge.conflicts {
+                conflict.decision = Some(side);
+            }
+        } else if let Some(conflict) = merge.conflicts.get_mut(*at) {
+            conflict.decision = Some(side);
+            *at = (*at + 1).min(merge.conflicts.len() - 1);
+        }
+    }
+
+    /// Takes a merge once all is decided.
+    pub(super) fn adopt(&mut self) {
+        let Some(Dialog::Conflict { merge, .. }) = &mut self.dialog else {
+            return;
+        };
+        if let Some(open) = merge.conflicts.iter().position(|c| c.decision.is_none()) {
+            if let Some(Dialog::Conflict { at, .. }) = &mut self.dialog {
+                *at = open;
+            }
+            self.warn("decide every conflict first: m mine, t the file's");
+            return;
+        }
+        let Some(Dialog::Conflict { merge, .. }) = self.dialog.take() else {
+            return;
+        };
+        let held = self.hold();
+        match self.document.adopt(merge) {
+            Replaced::Conflict(merge) => self.dialog = Some(Dialog::Conflict { merge, at: 0 }),
+            Replaced::Unchanged | Replaced::Loaded | Replaced::Merged => {
+                self.disk = Disk::Known;
+                self.show_reload(&held, "merged; u undoes");
+            }
+        }
+    }
+
+    /// Takes the edits of an earlier run, as an edit like any other.
+    pub(super) fn restore(&mut self) -> Vec<Effect> {
+        if let Some(Dialog::Recover(text)) = self.dialog.take() {
+            let edits: Vec<_> = smallest_edit(self.document.text(), &text)
+                .into_iter()
+                .collect();
+            self.document.edit(&edits);
+            self.relower();
+            self.say("restored; u undoes");
+        }
+        Vec::new()
+    }
+
+    /// Throws the edits of an earlier run away.
+    pub(super) fn decline(&mut self) -> Vec<Effect> {
+        self.dialog = None;
+        vec![Effect::DropRecovery]
+    }
+
+    /// Opens the user's editor where the cursor is.
+    pub(super) fn open_editor(&mut self) -> Vec<Effect> {
+        let Some(path) = self.path.clone() else {
+            self.fail("there is no file yet: :w FILE");
+            return Vec::new();
+        };
+        // A file with errors that the edits are kept apart from must be mended first of all.
+        if self.document.is_dirty() && self.disk != Disk::Broken {
+            self.warn("there are unsaved edits: w saves them, then E");
+            return Vec::new();
+        }
+        let (text, diagnostics) = self.wrong();
+        let error = match self.errors {
+            Some(at) => diagnostics.get(at),
+            None if self.disk == Disk::Broken => diagnostics.iter().find(|d| d.is_error()),
+            None => None,
+        };
+        let tree = self.document.tree();
+        let span = error.map_or_else(|| self.origins.span(tree, self.selected), |d| d.span);
+        let line = Position::of(text, span.start()).line;
+        vec![Effect::OpenEditor { path, line }]
+    }
+
+    pub(super) fn editor_closed(&mut self, outcome: Result<(), String>) -> Vec<Effect> {
+        if let Err(reason) = outcome {
+            self.fail(reason);
+        }
+        self.read_again()
+    }
+
+    /// Whether a path is that of the scene.
+    pub(super) fn is_own_path(&self, path: &Path) -> bool {
+        self.path.as_deref() == Some(path)
+    }
+}
+
+/// Whether a text is a scene without errors.
+fn is_sound(document: &Document, text: &str) -> bool {
+    let tree = crate::format::parse(document.format(), text);
+    scene::lower(text, &tree).scene.is_some()
+}

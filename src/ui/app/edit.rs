@@ -1,0 +1,213 @@
+//! Changing fields: every change is an edit of the text, and one that makes an error is refused.
+
+use super::derived::view_numbers;
+use super::{App, Mode};
+use crate::scene::fields::{Field, VIEW};
+use crate::scene::{self, Camera, Lowered, Node, Size};
+use crate::text::{Diagnostic, Edit, Span, parse_number};
+
+impl App {
+    /// Reads the text's meaning again.
+    pub(super) fn relower(&mut self) {
+        let lowered = scene::lower(self.document.text(), self.document.tree());
+        self.install(lowered);
+    }
+
+    fn install(&mut self, lowered: Lowered) {
+        self.nodes = lowered.origins.nodes();
+        self.origins = lowered.origins;
+        self.diagnostics = lowered.diagnostics;
+        if let Some(scene) = lowered.scene {
+            if let Some(view) = &mut self.view {
+                view.size = scene.camera.size;
+            }
+            if self.view == Some(scene.camera) {
+                self.view = None;
+            }
+            if self.scene.as_deref() != Some(&scene) {
+                self.scene = Some(scene.into());
+                self.pending.scene = true;
+            }
+        }
+        if let Some(&node) = self.nodes.get(self.row_of(self.selected)) {
+            self.selected = node;
+        }
+        self.keep_cursor();
+    }
+
+    /// Keeps the cursor on a component that is there.
+    pub(super) fn keep_cursor(&mut self) {
+        let placed = self.placed();
+        self.field = self.field.min(placed.len().saturating_sub(1));
+        let components = placed
+            .get(self.field)
+            .map_or(1, |placed| placed.field.kind.components());
+        self.component = self.component.min(components - 1);
+        if placed.is_empty() && self.mode == Mode::Edit {
+            self.mode = Mode::Select;
+        }
+    }
+
+    /// Makes edits, unless they leave more errors than there were or one where they were made:
+    /// that one comes back, and the text is as before.
+    pub(super) fn try_edits(&mut self, edits: &[Edit]) -> Result<(), Diagnostic> {
+        let said = self.said_view_parts(&self.origins);
+        let errors = self.error_count();
+        match edits {
+            [edit] if !edit.span.is_empty() => self.document.set(edit.span, &edit.text),
+            _ => self.document.edit(edits),
+        }
+        let lowered = scene::lower(self.document.text(), self.document.tree());
+        let touched = spans_after(edits);
+        let touches = |d: &&Diagnostic| touched.iter().any(|span| d.span.touches(*span));
+        let found = &lowered.diagnostics;
+        let mut refused = found.iter().filter(|d| d.is_error()).find(touches);
+        if refused.is_none() && errors < found.iter().filter(|d| d.is_error()).count() {
+            refused = found.iter().find(|d| d.is_error());
+        }
+        // What is wrong in a view comment is a warning, but the whole view goes with it.
+        if refused.is_none() && self.said_view_parts(&lowered.origins) < said {
+            refused = found.iter().find(touches).or_else(|| found.first());
+        }
+        if let Some(refused) = refused.cloned() {
+            self.document.reject();
+            return Err(refused);
+        }
+        self.install(lowered);
+        Ok(())
+    }
+
+    fn said_view_parts(&self, origins: &scene::Origins) -> usize {
+        let fields = origins.fields(self.document.tree(), Node::View);
+        fields.iter().filter(|part| !part.spans.is_empty()).count()
+    }
+
+    /// Sets components of the current field.
+    pub(super) fn assign(&mut self, values: &[(usize, String)]) -> Result<(), Diagnostic> {
+        let placed = self.placed();
+        let Some(placed) = placed.get(self.field) else {
+            return Ok(());
+        };
+        let works = self.view.is_some() && placed.field.key != "size";
+        if self.selected == Node::View && (works || placed.spans.is_empty()) {
+            return self.assign_view(placed.field, values);
+        }
+        let edits: Vec<_> = values
+            .iter()
+            .filter_map(|(component, literal)| {
+                Some(Edit {
+                    span: *placed.spans.get(*component)?,
+                    text: literal.clone(),
+                })
+            })
+            .collect();
+        self.try_edits(&edits)
+    }
+
+    /// Sets components of the working view, or of a part of the view that the text does not say.
+    fn assign_view(&mut self, field: &Field, values: &[(usize, String)]) -> Result<(), Diagnostic> {
+        let refuse = |said: &str| {
+            let message = format!("view {}: {said}", field.key);
+            Diagnostic::error(Span::at(0), message, field.allowed.words())
+        };
+        let scene = self.scene.clone().filter(|_| self.error_count() == 0);
+        let (Some(scene), Some(camera)) = (scene, self.camera()) else {
+            return Err(refuse("can't be said while the scene has errors"));
+        };
+        // The picture's size is the text's alone: setting it must not write the working view.
+        let is_size = field.key == "size";
+        let camera = if is_size { scene.camera } else { camera };
+        let mut numbers = view_numbers(&camera);
+        for (component, literal) in values {
+            let value = parse_number(literal).map_err(|_| refuse("must be a number"))?;
+            if !field.allowed.contains(value) {
+                return Err(refuse(&format!("must be {}", field.allowed.limits())));
+            }
+            numbers[self.field][*component] = value;
+        }
+        let camera = camera_of(&numbers);
+        if camera.eye == camera.target {
+            return Err(refuse("eye and target must differ"));
+        }
+        if self.view.is_some() && !is_size {
+            self.set_view(camera);
+            return Ok(());
+        }
+        self.write_camera(&camera, &scene.camera)
+    }
+
+    /// Makes the text say a camera where it differs from the text's own.
+    pub(super) fn write_camera(
+        &mut self,
+        camera: &Camera,
+        before: &Camera,
+    ) -> Result<(), Diagnostic> {
+        let (text, tree) = (self.document.text(), self.document.tree());
+        let edits = scene::view_edits(text, tree, &self.origins, before, camera);
+        self.try_edits(&edits)
+    }
+
+    pub(super) fn undo(&mut self) {
+        let changed = self.document.undo();
+        self.show_change(changed, "undone", "nothing to undo");
+    }
+
+    pub(super) fn redo(&mut self) {
+        let changed = self.document.redo();
+        self.show_change(changed, "redone", "nothing to redo");
+    }
+
+    /// Reads the text again, goes to the thing that changed and says which it is.
+    fn show_change(&mut self, changed: Option<Span>, done: &str, otherwise: &str) {
+        let Some(span) = changed else {
+            self.say(otherwise);
+            return;
+        };
+        self.relower();
+        if let Some(node) = self.origins.node_at(self.document.tree(), span)
+            && node != self.selected
+        {
+            self.select(node);
+        }
+        if let Some(field) = self
+            .placed()
+            .iter()
+            .position(|placed| placed.spans.iter().any(|s| s.touches(span)))
+        {
+            self.field = field;
+            self.keep_cursor();
+        }
+        match self.place_name(span) {
+            Some(place) => self.say(format!("{done}: {place}")),
+            None => self.say(done),
+        }
+    }
+}
+
+/// Where edits stand in the text after they were made.
+fn spans_after(edits: &[Edit]) -> Vec<Span> {
+    let (mut removed, mut inserted) = (0, 0);
+    edits
+        .iter()
+        .map(|edit| {
+            let start = edit.span.start() + inserted - removed;
+            removed += edit.span.len();
+            inserted += edit.text.len();
+            Span::new(start, start + edit.text.len())
+        })
+        .collect()
+}
+
+fn camera_of(numbers: &[[f64; 3]; VIEW.len()]) -> Camera {
+    let [eye, target, up, [fov, ..], [width, height, _]] = *numbers;
+    Camera {
+        eye: eye.into(),
+        target: target.into(),
+        up: up.into(),
+        fov,
+        size: Size {
+            width: width as u32,
+            height: height as u32,
+        },
+    }
+}

@@ -1,0 +1,259 @@
+//! What is traced: the preview, the full-size trace, exports.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::{App, Export, Mode, Picture};
+use crate::image_out::{ImageFormat, known_extensions};
+use crate::render::{Frame, Job, Settings};
+use crate::scene::{Camera, Size};
+use crate::ui::msg::{Effect, Existing, Target};
+
+/// Samples a pixel at which the preview comes to rest.
+const PREVIEW_SPP: u32 = 64;
+
+impl App {
+    /// Has traced anew what no longer shows the scene.
+    pub(super) fn follow(&mut self) -> Vec<Effect> {
+        let changed = std::mem::take(&mut self.pending.scene);
+        let mut effects = Vec::new();
+        if changed {
+            self.preview.asked = None;
+            effects.extend(self.follow_trace());
+        }
+        let size = self.preview_size();
+        if self.mode != Mode::Trace && self.preview.asked != size {
+            self.preview.asked = size;
+            let job = size.and_then(|size| self.job(size, PREVIEW_SPP));
+            effects.extend(job.map(|job| Effect::Trace(Target::Preview, job)));
+        }
+        effects
+    }
+
+    fn follow_trace(&mut self) -> Option<Effect> {
+        self.trace.as_ref()?;
+        if self.mode == Mode::Trace {
+            return self
+                .trace_job()
+                .map(|job| Effect::Trace(Target::Trace, job));
+        }
+        self.trace = None;
+        Some(Effect::Stop(Target::Trace))
+    }
+
+    fn job(&self, size: Size, spp: u32) -> Option<Job> {
+        Some(Job {
+            scene: Arc::clone(self.scene.as_ref()?),
+            camera: self.camera()?,
+            settings: Settings {
+                size,
+                spp,
+                depth: self.quality.depth,
+                seed: 0,
+            },
+        })
+    }
+
+    fn trace_job(&self) -> Option<Job> {
+        self.job(self.output(), self.quality.spp)
+    }
+
+    pub(super) fn start_trace(&mut self) -> Vec<Effect> {
+        if self.mode == Mode::Trace {
+            return Vec::new();
+        }
+        let Some(job) = self.trace_job() else {
+            self.fail("there is no picture: the scene has errors");
+            return Vec::new();
+        };
+        // What a picture file can't hold is too large to be looked at, too.
+        if let Some(reason) = ImageFormat::Bmp.refuses(job.settings.size) {
+            self.fail(reason);
+            return Vec::new();
+        }
+        self.pending.before_trace = Some(self.mode);
+        self.mode = Mode::Trace;
+        if 0 < self.error_count() {
+            self.warn("the text has errors: this is the last scene without");
+        }
+        if self
+            .trace
+            .as_ref()
+            .is_some_and(|trace| trace.wanted.is_some())
+        {
+            return Vec::new();
+        }
+        self.trace = Some(Picture::default());
+        vec![Effect::Trace(Target::Trace, job)]
+    }
+
+    pub(super) fn started(&mut self, target: Target, generation: u64) {
+        match (target, &mut self.trace) {
+            (Target::Preview, _) => self.preview.wanted = Some(generation),
+            (Target::Trace, Some(trace)) => trace.wanted = Some(generation),
+            (Target::Trace | Target::Export, _) => {}
+        }
+    }
+
+    pub(super) fn frame(&mut self, target: Target, frame: Arc<Frame>) -> Vec<Effect> {
+        match target {
+            Target::Preview => self.preview.take(frame),
+            Target::Trace => {
+                if let Some(trace) = &mut self.trace {
+                    trace.take(frame);
+                }
+            }
+            Target::Export => return self.export_frame(frame),
+        }
+        Vec::new()
+    }
+
+    fn export_frame(&mut self, frame: Arc<Frame>) -> Vec<Effect> {
+        let Some(export) = &mut self.export else {
+            return Vec::new();
+        };
+        export.progress = Some(frame.progress);
+        if !frame.progress.complete {
+            return Vec::new();
+        }
+        vec![
+            Effect::WriteImage(frame, export.path.clone(), export.existing),
+            Effect::Stop(Target::Export),
+        ]
+    }
+
+    pub(super) fn exported(&mut self, outcome: Result<PathBuf, String>) -> Vec<Effect> {
+        let export = self.export.take();
+        let mut effects = vec![Effect::Stop(Target::Export)];
+        match outcome {
+            Ok(path) => {
+                let what = export.map_or_else(String::new, |export| summary(&export));
+                self.say(format!("wrote {}{what}", path.display()));
+                self.pending.written.push(path);
+                effects.extend(self.quit_when_done());
+            }
+            Err(reason) => {
+                self.pending.quit = false;
+                self.fail(reason);
+            }
+        }
+        effects
+    }
+
+    /// What may become of a file where a picture is to be written: this session's own pictures are
+    /// overwritten.
+    fn existing(&self, path: &Path) -> Existing {
+        if self.pending.written.iter().any(|written| written == path) {
+            Existing::Overwritten
+        } else {
+            Existing::Kept
+        }
+    }
+
+    /// Exports under the scene's name, in its folder.
+    pub(super) fn export_default(&mut self) -> Vec<Effect> {
+        self.start_export(&self.export_path(), None, None, Existing::Kept)
+    }
+
+    pub(super) fn export_path(&self) -> PathBuf {
+        self.path.as_ref().map_or_else(
+            || PathBuf::from("halflight.bmp"),
+            |path| path.with_extension("bmp"),
+        )
+    }
+
+    /// Exports the scene as it is seen now. [`Existing::Kept`] keeps only what others wrote.
+    pub(super) fn start_export(
+        &mut self,
+        path: &Path,
+        size: Option<Size>,
+        spp: Option<u32>,
+        existing: Existing,
+    ) -> Vec<Effect> {
+        let size = size.unwrap_or_else(|| self.output());
+        let spp = spp.unwrap_or(self.quality.spp);
+        let job = self.job(size, spp);
+        let refused = match (ImageFormat::of_path(path), &job) {
+            _ if self.export.is_some() => Some("an export is under way: x cancels it".to_owned()),
+            (None, _) => Some(format!(
+                "{}: pictures end in {}",
+                path.display(),
+                known_extensions()
+            )),
+            (_, None) => Some("there is no picture: the scene has errors".to_owned()),
+            (Some(format), Some(_)) => format.refuses(size),
+        };
+        let job = match (refused, job) {
+            (None, Some(job)) => job,
+            (reason, _) => {
+                self.fail(reason.unwrap_or_default());
+                return Vec::new();
+            }
+        };
+        let existing = match existing {
+            Existing::Kept => self.existing(path),
+            Existing::Overwritten => existing,
+        };
+        let traced = self.traced(size, spp);
+        self.export = Some(Export {
+            path: path.to_owned(),
+            size,
+            spp,
+            existing,
+            progress: traced.as_ref().map(|frame| frame.progress),
+        });
+        if self.error_count() == 0 {
+            self.say(format!("exporting to {}", path.display()));
+        } else {
+            let path = path.display();
+            self.warn(format!("exporting the last scene without errors to {path}"));
+        }
+        if let Some(frame) = traced {
+            return vec![Effect::WriteImage(frame, path.to_owned(), existing)];
+        }
+        // The framing is that of the size that is written.
+        let camera = Camera { size, ..job.camera };
+        vec![
+            Effect::CheckTarget(path.to_owned(), existing),
+            Effect::Trace(Target::Export, Job { camera, ..job }),
+        ]
+    }
+
+    /// The full-size trace, if it is finished and just what is to be exported.
+    fn traced(&self, size: Size, spp: u32) -> Option<Arc<Frame>> {
+        let trace = self.trace.as_ref()?;
+        let frame = trace.latest.as_ref().filter(|_| trace.is_complete())?;
+        let same = frame.size == size && size == self.output() && spp == self.quality.spp;
+        same.then(|| Arc::clone(frame))
+    }
+
+    /// Stops the full-size trace, or else the export.
+    pub(super) fn stop(&mut self) -> Vec<Effect> {
+        let seen = self.trace.as_mut().filter(|_| self.mode == Mode::Trace);
+        if let Some(trace) = seen.filter(|trace| trace.wanted.is_some() && !trace.is_complete()) {
+            trace.wanted = None;
+            self.say("stopped; F5 starts anew");
+            return vec![Effect::Stop(Target::Trace)];
+        }
+        self.cancel_export()
+    }
+
+    pub(super) fn cancel_export(&mut self) -> Vec<Effect> {
+        if self.export.take().is_none() {
+            self.say("nothing is under way");
+            return Vec::new();
+        }
+        self.pending.quit = false;
+        self.say("export cancelled");
+        vec![Effect::Stop(Target::Export)]
+    }
+}
+
+/// How large and how fine an exported picture is, and how long it took.
+fn summary(export: &Export) -> String {
+    let Size { width, height } = export.size;
+    let took = export.progress.map_or_else(String::new, |progress| {
+        format!(", {:.1} s", progress.elapsed.as_secs_f64())
+    });
+    format!(": {width}×{height}, {} spp{took}", export.spp)
+}

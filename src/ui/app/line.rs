@@ -1,0 +1,41 @@
+//! Keys typed into a line.
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use tui_input::{Input, InputRequest};
+
+/// Changes a line as the key says; keys that mean nothing in a line do nothing.
+pub(super) fn edit(input: &mut Input, key: KeyEvent) {
+    use InputRequest as R;
+    let control = key.modifiers.contains(KeyModifiers::CONTROL);
+    let request = match key.code {
+        KeyCode::Char('a') if control => R::GoToStart,
+        KeyCode::Char('e') if control => R::GoToEnd,
+        KeyCode::Char('k') if control => R::DeleteTillEnd,
+        KeyCode::Char('u') if control => R::DeleteLine,
+        KeyCode::Char('w') if control => R::DeletePrevWord,
+        KeyCode::Char(_) if control || key.modifiers.contains(KeyModifiers::ALT) => return,
+        KeyCode::Char(character) => R::InsertChar(character),
+        KeyCode::Backspace => R::DeletePrevChar,
+        KeyCode::Delete => R::DeleteNextChar,
+        KeyCode::Left if control => R::GoToPrevWord,
+        KeyCode::Right if control => R::GoToNextWord,
+        KeyCode::Left => R::GoToPrevChar,
+        KeyCode::Right => R::GoToNextChar,
+        KeyCode::Home => R::GoToStart,
+        KeyCode::End => R::GoToEnd,
+        _ => return,
+    };
+    input.handle(request);
+}
+
+/// Inserts a pasted text; line breaks become blanks.
+pub(super) fn insert(input: &mut Input, text: &str) {
+    for character in text.trim_end().chars() {
+        let character = if character.is_control() {
+            ' '
+        } else {
+            character
+        };
+        input.handle(InputRequest::InsertChar(character));
+    }
+}

@@ -1,0 +1,213 @@
+//! Moving cursors: through the list, the fields, the help, the errors; searching and picking.
+
+use super::{App, Dialog, Mode};
+use crate::scene::Node;
+use crate::ui::keymap::{self, Context};
+use crate::ui::view::layout;
+
+impl App {
+    /// Selects a thing.
+    pub(super) fn select(&mut self, node: Node) {
+        self.document.end_step();
+        self.typing = None;
+        if node != self.selected {
+            self.selected = node;
+            self.field = 0;
+            self.component = 0;
+            self.field_top = 0;
+        }
+    }
+
+    pub(super) fn move_cursor(&mut self, context: Context, rows: isize) {
+        match context {
+            Context::In(Mode::Select) => {
+                let row = moved(self.row_of(self.selected), rows, self.nodes.len());
+                if let Some(&node) = self.nodes.get(row) {
+                    self.select(node);
+                }
+            }
+            Context::In(Mode::Edit) => {
+                let count = self.placed().len();
+                self.focus_field(moved(self.field, rows, count), self.component);
+            }
+            Context::Errors => {
+                let at = self.errors.unwrap_or(0);
+                self.errors = Some(moved(at, rows, self.wrong().1.len()));
+            }
+            Context::Help => {
+                if let Some(help) = &mut self.help {
+                    let lines = keymap::help(help.search.value(), self.mode).len();
+                    help.top = moved(help.top, rows, lines);
+                }
+            }
+            Context::Conflict => {
+                if let Some(Dialog::Conflict { merge, at }) = &mut self.dialog {
+                    *at = moved(*at, rows, merge.conflicts.len());
+                }
+            }
+            Context::In(_) | Context::Quit | Context::Recover => {}
+        }
+    }
+
+    /// Lines that go by with one Page Down.
+    pub(super) fn page(&self, context: Context) -> isize {
+        let areas = self.areas();
+        let panel = match context {
+            Context::Errors => areas.errors,
+            Context::Help => areas.picture,
+            _ => areas.list,
+        };
+        (layout::contents(panel).height as isize - 1).max(1)
+    }
+
+    /// Puts the cursor on a component of a field.
+    pub(super) fn focus_field(&mut self, field: usize, component: usize) {
+        self.document.end_step();
+        let placed = self.placed();
+        if let Some(placed) = placed.get(field) {
+            self.field = field;
+            self.component = component.min(placed.field.kind.components() - 1);
+        }
+    }
+
+    /// Keeps the cursors among what is shown.
+    pub(super) fn scroll(&mut self) {
+        let wrong = self.wrong().1.len();
+        self.errors = self.errors.filter(|_| 0 < wrong);
+        self.errors = self.errors.map(|at| at.min(wrong - 1));
+        let areas = self.areas();
+        let fields = usize::from(layout::field_rows(areas.fields).height);
+        let count = self.placed().len();
+        self.field_top = layout::first_shown(self.field_top, self.field, count, fields);
+        let rows = usize::from(layout::contents(areas.list).height);
+        let row = self.row_of(self.selected);
+        self.list_top = layout::first_shown(self.list_top, row, self.nodes.len(), rows);
+    }
+
+    /// Selects the next light or object, or the one before, and around.
+    pub(super) fn cycle(&mut self, step: isize) {
+        let first = self.row_of(Node::Light(0));
+        let count = self.nodes.len() - first.min(self.nodes.len());
+        let holds_any = matches!(
+            self.nodes.get(first),
+            Some(Node::Light(_) | Node::Object(_))
+        );
+        if !holds_any {
+            return;
+        }
+        let row = match self.row_of(self.selected).checked_sub(first) {
+            Some(at) => (at as isize + step).rem_euclid(count as isize) as usize,
+            None if step < 0 => count - 1,
+            None => 0,
+        };
+        self.select(self.nodes[first + row]);
+    }
+
+    /// Selects the next thing whose name holds what was searched for, or the one before.
+    pub(super) fn search(&mut self, step: isize) {
+        let wanted = self.searched.to_lowercase();
+        let count = self.nodes.len() as isize;
+        if wanted.is_empty() || count == 0 {
+            return;
+        }
+        let from = self.row_of(self.selected) as isize;
+        let found = (1..=count)
+            .map(|distance| (from + step * distance).rem_euclid(count) as usize)
+            .map(|row| self.nodes[row])
+            .find(|&node| self.origins.name(node).to_lowercase().contains(&wanted));
+        match found {
+            Some(node) => self.select(node),
+            None => self.fail(format!("nothing is called {}", self.searched)),
+        }
+    }
+
+    pub(super) fn toggle_errors(&mut self) {
+        self.errors = match self.errors {
+            Some(_) => None,
+            None if self.wrong().1.is_empty() => {
+                self.say("no errors, no warnings");
+                None
+            }
+            None => Some(0),
+        };
+    }
+
+    /// Selects the thing that the diagnostic under the cursor is about.
+    pub(super) fn go_to_error(&mut self) {
+        let Some(at) = self.errors else {
+            return;
+        };
+        if self.is_disk_wrong() {
+            self.warn("it stands in the file on disk: E opens the editor at the line");
+            return;
+        }
+        let Some(span) = self.diagnostics.get(at).map(|diagnostic| diagnostic.span) else {
+            return;
+        };
+        match self.origins.node_at(self.document.tree(), span) {
+            Some(node) => {
+                self.errors = None;
+                self.select(node);
+                let placed = self.placed();
+                let field = placed
+                    .iter()
+                    .position(|placed| placed.spans.iter().any(|s| s.touches(span)));
+                self.focus_field(field.unwrap_or(0), 0);
+            }
+            None => self.warn("no thing stands there: E opens the editor at the line"),
+        }
+    }
+
+    /// Begins to pick, in the middle of the picture or where the last pick was.
+    pub(super) fn start_pick(&mut self) {
+        let Some((cells, _)) = self.raster() else {
+            self.fail("there is no room for a picture");
+            return;
+        };
+        if self.cross == (0, 0) {
+            self.cross = (cells.width / 2, cells.height / 2);
+        }
+        self.mode = Mode::Pick;
+        self.move_cross(0, 0);
+    }
+
+    pub(super) fn move_cross(&mut self, right: i32, down: i32) {
+        let Some((cells, _)) = self.raster() else {
+            return;
+        };
+        let moved = |at: u16, by: i32, cells: u16| {
+            (i32::from(at) + by).clamp(0, i32::from(cells.max(1)) - 1) as u16
+        };
+        self.cross = (
+            moved(self.cross.0, right, cells.width),
+            moved(self.cross.1, down, cells.height),
+        );
+    }
+
+    pub(super) fn pick_cross(&mut self) {
+        let (column, row) = self.cross;
+        if self.pick(u32::from(column), 2 * u32::from(row)) {
+            self.mode = Mode::Select;
+        }
+    }
+
+    /// Selects what lies under a pixel of the picture on screen; whether there is anything.
+    pub(super) fn pick(&mut self, x: u32, y: u32) -> bool {
+        let node = self
+            .picture()
+            .shown
+            .object_at(x, y)
+            .map(|object| Node::Object(object as usize))
+            .filter(|node| self.nodes.get(self.row_of(*node)) == Some(node));
+        match node {
+            Some(node) => self.select(node),
+            None => self.say("nothing is there"),
+        }
+        node.is_some()
+    }
+}
+
+/// A cursor after a move, kept among `count` places.
+fn moved(at: usize, by: isize, count: usize) -> usize {
+    at.saturating_add_signed(by).min(count.saturating_sub(1))
+}

@@ -1,0 +1,108 @@
+//! Numbers as people type, paste and nudge them.
+
+use crate::scene::fields::Kind;
+use crate::text::{decimals, parse_number, spell_like};
+
+/// The literal after adding `change`, a multiple of `step`, spelled like the old one. It has the
+/// decimals of the old number or of the step, whichever has more, so that no trace of binary
+/// fractions appears. `None` if it is no number.
+pub(super) fn nudged(literal: &str, change: f64, step: f64) -> Option<String> {
+    let old = parse_number(literal).ok()?;
+    let places = decimals(&old.to_string()).max(decimals(&step.to_string()));
+    let sum: f64 = format!("{:.places$}", old + change).parse().ok()?;
+    // The sum with 0 is the same number, and 0 for −0.
+    sum.is_finite().then(|| {
+        if sum.to_bits() == old.to_bits() {
+            literal.to_owned()
+        } else {
+            spell_like(literal, sum + 0.0)
+        }
+    })
+}
+
+/// Whether a text can stand for one number: whether it is one is for the parser to say.
+pub(super) fn is_one(said: &str) -> bool {
+    !said.is_empty()
+        && !said.contains(|c: char| c.is_whitespace() || c.is_control())
+        && !said.contains("//")
+        && !said.contains("\\\\")
+}
+
+/// The literals of all components of a field with more than one: `0.1 0.2 0.3` with blanks or
+/// commas between, `#rrggbb` for a colour, `800x600` for a size.
+pub(super) fn all_of(kind: Kind, said: &str) -> Option<Vec<String>> {
+    if let (Kind::Colour, Some(digits)) = (kind, said.strip_prefix('#')) {
+        return colour(digits);
+    }
+    let split =
+        |c: char| c.is_whitespace() || matches!(c, ',' | ';') || (kind == Kind::Pixels && c == 'x');
+    let bare = said.trim_matches(['(', ')', '[', ']', '<', '>']);
+    let words: Vec<_> = bare
+        .split(split)
+        .filter(|word| !word.is_empty())
+        .map(str::to_owned)
+        .collect();
+    let numbers = words.iter().all(|word| parse_number(word).is_ok());
+    (1 < words.len() && words.len() == kind.components() && numbers).then_some(words)
+}
+
+/// Six hexadecimal digits as shares of 1, to four decimals: finer than a 255th.
+fn colour(digits: &str) -> Option<Vec<String>> {
+    if digits.len() != 6 || !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
+        return None;
+    }
+    (0..3)
+        .map(|channel| {
+            let value = u8::from_str_radix(&digits[2 * channel..2 * channel + 2], 16).ok()?;
+            let share = (f64::from(value) / 255.0 * 1e4).round() / 1e4;
+            Some(share.to_string())
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nudged_numbers_have_no_more_decimals_than_number_and_step() {
+        for (literal, change, step, nudged_to) in [
+            ("0.1", 0.2, 0.1, "0.3"),
+            ("0.10", 0.05, 0.05, "0.15"),
+            ("1", 0.1, 0.1, "1.1"),
+            ("1.5", -0.1, 0.1, "1.4"),
+            ("0.1", -0.1, 0.1, "0.0"),
+            ("-0.1", 0.1, 0.1, "0.0"),
+            (".5", 0.01, 0.01, ".51"),
+            ("1e3", 100.0, 100.0, "1.1e3"),
+            ("1e30", 0.1, 0.1, "1e30"),
+            ("5", 1.0, 1.0, "6"),
+        ] {
+            let nudged = nudged(literal, change, step);
+            assert_eq!(nudged.as_deref(), Some(nudged_to), "{literal} + {change}");
+        }
+        assert_eq!(nudged("x", 1.0, 1.0), None);
+        assert_eq!(nudged("1.7e308", 1.7e308, 1.0), None);
+    }
+
+    #[test]
+    fn triples_colours_and_sizes_fill_all_components() {
+        for (kind, said, expected) in [
+            (Kind::Point, "0.1 0.2 0.3", Some("0.1 0.2 0.3")),
+            (Kind::Point, "(1, -2e3, .5)", Some("1 -2e3 .5")),
+            (Kind::Colour, "1;1;1", Some("1 1 1")),
+            (Kind::Colour, "#ff8000", Some("1 0.502 0")),
+            (Kind::Colour, "#FFFFFF", Some("1 1 1")),
+            (Kind::Point, "#ff8000", None),
+            (Kind::Colour, "#ff800", None),
+            (Kind::Colour, "#ffé00", None),
+            (Kind::Pixels, "800x600", Some("800 600")),
+            (Kind::Point, "1 2", None),
+            (Kind::Point, "1 2 x", None),
+            (Kind::Number, "1", None),
+        ] {
+            let all = all_of(kind, said).map(|all| all.join(" "));
+            assert_eq!(all.as_deref(), expected, "{said}");
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! What the interface knows, and how it changes: a pure step from (state, message) to (state,
+//! effects).
+//!
+//! The step is split by concern; nothing here touches files, threads or clocks.
+
+mod command;
+mod cursor;
+mod derived;
+mod disk;
+mod edit;
+mod jobs;
+mod line;
+mod list;
+mod literals;
+mod model;
+mod navigate;
+mod picture;
+mod places;
+mod pointer;
+#[cfg(test)]
+mod tests;
+mod typing;
+mod update;
+
+use std::time::Duration;
+
+pub use model::{
+    App, Broken, Dialog, Disk, Export, FieldRow, Help, HelpFocus, Message, Mode, Outline, Prompt,
+    PromptKind, Quality, Source, Stride, Typing,
+};
+pub use picture::{Picture, Shown};
+pub use update::Opening;
+
+/// How soon a second Ctrl-C ends the program.
+const INTERRUPT_AGAIN: Duration = Duration::from_secs(2);
+/// How soon a second click is the same as the first one's.
+const DOUBLE_CLICK: Duration = Duration::from_millis(400);

@@ -1,0 +1,320 @@
+//! What the interface knows.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use tui_input::Input;
+
+use super::picture::Picture;
+use crate::document::{Document, Merge};
+use crate::render::Progress;
+use crate::scene::fields::Field;
+use crate::scene::{Camera, Node, Origins, Scene, Size};
+use crate::text::{Diagnostic, Severity};
+use crate::ui::keymap::Action;
+use crate::ui::msg::Existing;
+use crate::ui::terminal::Mouse;
+use crate::ui::view::layout::Zoom;
+
+/// What keys mean; the status line always shows it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Mode {
+    /// Choosing a thing in the list or in the picture.
+    Select,
+    /// Moving the camera.
+    View,
+    /// Changing the selected thing's fields.
+    Edit,
+    /// Watching the full-size trace.
+    Trace,
+    /// Moving a cross over the picture to pick what lies under it.
+    Pick,
+}
+
+/// The interface's whole state.
+#[derive(Debug)]
+pub struct App {
+    /// Where the scene is read from and saved to; `None` for the embedded one until it is saved.
+    pub path: Option<PathBuf>,
+    /// The text.
+    pub document: Document,
+    /// Where in the text as it stands each thing is.
+    pub origins: Origins,
+    /// What is wrong with the text as it stands.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The things of the text as it stands: the list's rows.
+    pub nodes: Vec<Node>,
+    /// The scene of the last text that had no errors: what the pictures show.
+    pub scene: Option<Arc<Scene>>,
+    /// The working view, where it differs from the scene's camera.
+    pub view: Option<Camera>,
+    /// How pictures are traced, as the user said at the start.
+    pub quality: Quality,
+    /// What keys mean.
+    pub mode: Mode,
+    /// How much of the screen the picture takes, outside of the full-size trace.
+    pub zoom: Zoom,
+    /// The selected thing.
+    pub selected: Node,
+    /// The first row of the list that is shown.
+    pub list_top: usize,
+    /// The selected field of the selected thing.
+    pub field: usize,
+    /// The first field that is shown.
+    pub field_top: usize,
+    /// The selected component of that field.
+    pub component: usize,
+    /// How far one nudge goes.
+    pub stride: Stride,
+    /// A value being typed.
+    pub typing: Option<Typing>,
+    /// A line being typed at the bottom.
+    pub prompt: Option<Prompt>,
+    /// What was last searched for in the list.
+    pub searched: String,
+    /// A question that must be answered first.
+    pub dialog: Option<Dialog>,
+    /// The help page.
+    pub help: Option<Help>,
+    /// The list of diagnostics has the keys, with the cursor on this one. Errors are shown even
+    /// without.
+    pub errors: Option<usize>,
+    /// The last thing worth saying.
+    pub message: Option<Message>,
+    /// How the file on disk stands to the text.
+    pub disk: Disk,
+    /// What is wrong with the file on disk while it is [`Disk::Broken`].
+    pub broken: Option<Broken>,
+    /// Whether the selected object's outline is marked while choosing.
+    pub outline: Outline,
+    /// The cell of the picture that the cross of [`Mode::Pick`] is on, from its upper left corner.
+    pub cross: (u16, u16),
+    /// The preview.
+    pub preview: Picture,
+    /// The full-size trace, once it was asked for.
+    pub trace: Option<Picture>,
+    /// The export under way.
+    pub export: Option<Export>,
+    /// Bytes sent to the terminal during the last second, while a picture waits for a slow link.
+    pub net: Option<usize>,
+    /// Who has the mouse.
+    pub mouse: Mouse,
+    /// Size of the terminal in cells.
+    pub terminal: (u16, u16),
+    /// What a sequence of messages has led to so far.
+    pub(super) pending: Pending,
+}
+
+/// How pictures are traced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quality {
+    /// Samples a pixel of the full-size trace and of exports.
+    pub spp: u32,
+    /// Bounces.
+    pub depth: u32,
+}
+
+/// How far one nudge goes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Stride {
+    /// A tenth of the field's step.
+    Fine,
+    /// The field's step.
+    #[default]
+    Plain,
+    /// Ten steps.
+    Coarse,
+}
+
+/// Whether the selected object is marked in the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Outline {
+    /// While choosing.
+    #[default]
+    Marked,
+    /// Never.
+    Hidden,
+}
+
+/// A value being typed into a component.
+#[derive(Debug, Default)]
+pub struct Typing {
+    /// The line.
+    pub input: Input,
+    /// Why the last try was refused: the parser's own message.
+    pub refused: Option<Diagnostic>,
+}
+
+/// A line being typed at the bottom.
+#[derive(Debug)]
+pub struct Prompt {
+    /// What it is for.
+    pub kind: PromptKind,
+    /// The line.
+    pub input: Input,
+}
+
+/// What a prompt's line is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PromptKind {
+    /// A command, after `:`.
+    Command,
+    /// A part of a name to jump to, after `/`.
+    Search,
+}
+
+/// A question.
+#[derive(Debug)]
+pub enum Dialog {
+    /// Quit though edits are unsaved or an export is under way?
+    Quit,
+    /// The file and the interface changed the same places.
+    Conflict {
+        /// What to decide.
+        merge: Merge,
+        /// The conflict the cursor is on.
+        at: usize,
+    },
+    /// The edits of an earlier run that were never saved: take them?
+    Recover(String),
+}
+
+/// The help page.
+#[derive(Debug, Default)]
+pub struct Help {
+    /// The first line shown; at most [`crate::ui::keymap::help`]'s last.
+    pub top: usize,
+    /// Only lines that hold this are shown.
+    pub search: Input,
+    /// Whether keys are typed into the search.
+    pub focus: HelpFocus,
+}
+
+/// What keys do on the help page.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum HelpFocus {
+    /// They scroll.
+    #[default]
+    Lines,
+    /// They are typed into the search.
+    Search,
+}
+
+/// Something worth saying.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Message {
+    /// `None` for good news.
+    pub severity: Option<Severity>,
+    /// What.
+    pub text: String,
+}
+
+/// How the file on disk stands to the text.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Disk {
+    /// It holds what was last read or written.
+    #[default]
+    Known,
+    /// It holds something else, which waits for a decision.
+    Changed,
+    /// It holds something with errors, which waits until it has none because there are unsaved
+    /// edits.
+    Broken,
+    /// It is not there.
+    Missing,
+}
+
+/// A file on disk with errors that unsaved edits are kept apart from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Broken {
+    /// What it holds.
+    pub text: String,
+    /// What is wrong with it.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// An export under way.
+#[derive(Debug)]
+pub struct Export {
+    /// Where to.
+    pub path: PathBuf,
+    /// How large.
+    pub size: Size,
+    /// Samples a pixel.
+    pub spp: u32,
+    /// What becomes of a file that is there already.
+    pub existing: Existing,
+    /// How far.
+    pub progress: Option<Progress>,
+}
+
+/// A field of the selected thing as it is shown: see [`App::fields`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct FieldRow {
+    /// What it is.
+    pub field: &'static Field,
+    /// One literal a component.
+    pub literals: Vec<String>,
+    /// Where they come from.
+    pub source: Source,
+}
+
+/// Where the literals of a field come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// They stand in the text.
+    Text,
+    /// The text does not say them.
+    Default,
+    /// They are the working view's and differ from the text's.
+    WorkingView,
+}
+
+/// What a sequence of messages has led to so far.
+#[derive(Debug, Default)]
+pub(super) struct Pending {
+    /// The first key of two, until the second one comes.
+    pub(super) prefix: Option<Action>,
+    /// Ctrl-C was pressed a moment ago.
+    pub(super) interrupt: bool,
+    /// The file was read and could not be used as it was.
+    pub(super) settle: Settle,
+    /// The program ends once the text is saved and the export written.
+    pub(super) quit: bool,
+    /// Who wants the file to be read.
+    pub(super) reader: Reader,
+    /// The last text without errors, while the text has some.
+    pub(super) sound: Option<String>,
+    /// The pictures written so far: they may be overwritten.
+    pub(super) written: Vec<PathBuf>,
+    /// The scene or the view changed: pictures are to be traced anew.
+    pub(super) scene: bool,
+    /// The component that was clicked a moment ago.
+    pub(super) click: Option<(usize, usize)>,
+    /// Where the pointer was when the camera was last dragged.
+    pub(super) drag: Option<(u16, u16)>,
+    /// The mode to go back to from the full-size trace.
+    pub(super) before_trace: Option<Mode>,
+}
+
+/// Who wants the file to be read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Reader {
+    /// The interface, because it may have changed.
+    #[default]
+    Interface,
+    /// The user, who is to be told even if it is the same.
+    User,
+}
+
+/// How far the wait for a file that is being written has come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Settle {
+    /// Nothing is awaited.
+    #[default]
+    Idle,
+    /// The file is to be quiet for a while.
+    Waiting,
+    /// What is read next counts.
+    Final,
+}

@@ -1,0 +1,339 @@
+//! A picture on screen, and the newer one that replaces it as fast as the link allows.
+
+use std::sync::Arc;
+
+use crate::render::{Frame, NO_OBJECT, Progress};
+use crate::scene::Size;
+
+/// What a changed cell costs on the way to the terminal, in bytes, as a mean.
+const BYTES_PER_CELL: usize = 24;
+
+/// How far a channel of an unfinished picture may be off before it is sent over a slow link.
+const HYSTERESIS: u8 = 3;
+
+/// A picture of a scene: what is on screen, and the newest frame.
+#[derive(Debug, Default)]
+pub struct Picture {
+    /// The generation that was asked for last, as older frames show an older scene; `None` when
+    /// nothing is under way, before a start or after a stop.
+    pub wanted: Option<u64>,
+    /// The size that was asked for last.
+    pub asked: Option<Size>,
+    /// The newest frame.
+    pub latest: Option<Arc<Frame>>,
+    /// What is on screen.
+    pub shown: Shown,
+    target: Shown,
+    /// The pair of pixel rows to look at next.
+    cursor: usize,
+    /// How many pairs of rows are yet to be compared with the target.
+    left: usize,
+}
+
+/// Pixels as they are on screen: two a cell, one above the other.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Shown {
+    /// Their number: what [`raster`](crate::ui::view::layout::raster) gave for the picture's area.
+    pub size: Size,
+    /// Red, green, blue, row by row.
+    pub pixels: Vec<[u8; 3]>,
+    /// The object under each pixel, or [`NO_OBJECT`].
+    pub objects: Vec<u32>,
+}
+
+impl Default for Shown {
+    fn default() -> Self {
+        Self {
+            size: Size {
+                width: 0,
+                height: 0,
+            },
+            pixels: Vec::new(),
+            objects: Vec::new(),
+        }
+    }
+}
+
+impl Shown {
+    /// The object under a pixel.
+    pub fn object_at(&self, x: u32, y: u32) -> Option<u32> {
+        if self.size.width <= x {
+            return None;
+        }
+        let at = y as usize * self.size.width as usize + x as usize;
+        let object = self.objects.get(at).copied()?;
+        (object != NO_OBJECT).then_some(object)
+    }
+
+    /// The same picture at another size: means going down, the nearest pixels going up.
+    #[must_use]
+    pub fn resampled(&self, size: Size) -> Self {
+        resample(&self.pixels, &self.objects, self.size, size)
+    }
+}
+
+impl Picture {
+    /// Takes a frame. Frames come in the order in which they were made.
+    pub fn take(&mut self, frame: Arc<Frame>) {
+        self.latest = Some(frame);
+        self.target = Shown::default();
+    }
+
+    /// Whether a frame is the first of its generation, the answer to an edit.
+    pub fn is_first(&self, frame: &Frame) -> bool {
+        let latest = self.latest.as_ref();
+        latest.is_none_or(|latest| latest.generation != frame.generation)
+    }
+
+    /// How far the newest frame is, if it is one of what was asked for last.
+    pub fn progress(&self) -> Option<&Progress> {
+        self.latest
+            .as_ref()
+            .filter(|frame| self.wanted == Some(frame.generation))
+            .map(|frame| &frame.progress)
+    }
+
+    /// Whether every sample of what was asked for last is taken and on its way to the screen.
+    pub fn is_complete(&self) -> bool {
+        self.progress().is_some_and(|progress| progress.complete)
+    }
+
+    /// Brings rows of the newest frame to the screen until `budget` bytes are used up; goes on
+    /// next time where it stopped. With `usize::MAX` the whole frame.
+    /// Over a limited link pixels of an unfinished frame that are almost right are left alone; a
+    /// finished one is shown exactly.
+    pub fn advance(&mut self, size: Size, budget: usize) {
+        self.aim(size);
+        let tolerance = match budget {
+            usize::MAX => 0,
+            _ if self.latest.as_ref().is_some_and(|f| f.progress.complete) => 0,
+            _ => HYSTERESIS,
+        };
+        let rows = size.height.div_ceil(2) as usize;
+        let mut spent = 0;
+        while 0 < self.left && spent < budget {
+            spent += BYTES_PER_CELL * self.bring_row(self.cursor, tolerance);
+            self.cursor = (self.cursor + 1) % rows;
+            self.left -= 1;
+        }
+    }
+
+    /// Whether parts of the newest frame are not on screen yet.
+    pub fn is_pending(&self) -> bool {
+        0 < self.left
+    }
+
+    /// Makes the newest frame at this size the target.
+    fn aim(&mut self, size: Size) {
+        let Some(frame) = &self.latest else {
+            return;
+        };
+        if self.shown.size != size {
+            self.shown = if self.shown.pixels.is_empty() {
+                Shown {
+                    size,
+                    pixels: vec![[0; 3]; size.pixels()],
+                    objects: vec![NO_OBJECT; size.pixels()],
+                }
+            } else {
+                self.shown.resampled(size)
+            };
+            self.cursor = 0;
+        }
+        if self.target.size != size {
+            self.target = resample(&frame.pixels, &frame.objects, frame.size, size);
+            // What lies under a pixel costs nothing to send.
+            self.shown.objects.clone_from(&self.target.objects);
+            self.left = size.height.div_ceil(2) as usize;
+        }
+    }
+
+    /// Brings one row of cells to the screen; how many cells changed.
+    fn bring_row(&mut self, row: usize, tolerance: u8) -> usize {
+        let width = self.shown.size.width as usize;
+        let start = 2 * row * width;
+        let end = (start + 2 * width).min(self.shown.pixels.len());
+        let mut changed = 0usize;
+        for (shown, target) in self.shown.pixels[start..end]
+            .iter_mut()
+            .zip(&self.target.pixels[start..end])
+        {
+            let differs = shown
+                .iter()
+                .zip(target)
+                .any(|(shown, target)| tolerance < shown.abs_diff(*target));
+            if differs {
+                *shown = *target;
+                changed += 1;
+            }
+        }
+        // Two pixels make a cell, and mostly change together.
+        changed.div_ceil(2)
+    }
+}
+
+fn resample(pixels: &[[u8; 3]], objects: &[u32], from: Size, to: Size) -> Shown {
+    if from == to || from.pixels() == 0 {
+        return Shown {
+            size: from,
+            pixels: pixels.to_vec(),
+            objects: objects.to_vec(),
+        };
+    }
+    let width = from.width as usize;
+    let mut shown = Shown {
+        size: to,
+        pixels: Vec::with_capacity(to.pixels()),
+        objects: Vec::with_capacity(to.pixels()),
+    };
+    for y in 0..to.height {
+        let rows = covered(y, to.height, from.height);
+        for x in 0..to.width {
+            let columns = covered(x, to.width, from.width);
+            let mut sum = [0u64; 3];
+            for row in rows.clone() {
+                for pixel in &pixels[row * width + columns.start..row * width + columns.end] {
+                    for (sum, channel) in sum.iter_mut().zip(pixel) {
+                        *sum += u64::from(*channel);
+                    }
+                }
+            }
+            let count = (rows.len() * columns.len()) as u64;
+            shown
+                .pixels
+                .push(sum.map(|sum| ((sum + count / 2) / count) as u8));
+            let middle = |range: &std::ops::Range<usize>| range.start + range.len() / 2;
+            shown
+                .objects
+                .push(objects[middle(&rows) * width + middle(&columns)]);
+        }
+    }
+    shown
+}
+
+/// The pixels of `from` that pixel `at` of `to` covers: at least one.
+fn covered(at: u32, to: u32, from: u32) -> std::ops::Range<usize> {
+    let scaled = |at: u32| (u64::from(at) * u64::from(from) / u64::from(to)) as usize;
+    let start = scaled(at);
+    start..scaled(at + 1).max(start + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+
+    const GREY: [u8; 3] = [100; 3];
+
+    fn size(width: u32, height: u32) -> Size {
+        Size { width, height }
+    }
+
+    /// A frame of one colour.
+    fn frame(generation: u64, size: Size, pixel: [u8; 3], complete: bool) -> Arc<Frame> {
+        Arc::new(Frame {
+            generation,
+            size,
+            pixels: vec![pixel; size.pixels()],
+            objects: vec![7; size.pixels()],
+            progress: Progress {
+                pass: 1,
+                passes: 2,
+                spp: 1,
+                done: 0.5,
+                elapsed: Duration::ZERO,
+                rays: 1,
+                over_budget: 0,
+                complete,
+            },
+        })
+    }
+
+    /// How many pixels of each row are on screen, from the top.
+    fn rows_shown(picture: &Picture, pixel: [u8; 3]) -> Vec<usize> {
+        let rows = picture
+            .shown
+            .pixels
+            .chunks(picture.shown.size.width as usize);
+        rows.map(|row| row.iter().filter(|&&shown| shown == pixel).count())
+            .collect()
+    }
+
+    #[test]
+    fn a_budget_brings_rows_in_turn_and_the_next_one_goes_on() {
+        let size = size(10, 6);
+        let mut picture = Picture::default();
+        picture.take(frame(1, size, GREY, true));
+        // A row of ten cells fits, and a row begun is brought whole.
+        picture.advance(size, 10 * BYTES_PER_CELL);
+        assert_eq!(rows_shown(&picture, GREY), [10, 10, 0, 0, 0, 0]);
+        assert!(picture.is_pending());
+        picture.advance(size, 0);
+        assert_eq!(rows_shown(&picture, GREY), [10, 10, 0, 0, 0, 0]);
+        picture.advance(size, usize::MAX);
+        assert_eq!(rows_shown(&picture, GREY), [10; 6]);
+        assert!(!picture.is_pending());
+    }
+
+    #[test]
+    fn a_newer_frame_goes_on_where_the_superseded_one_stopped() {
+        let size = size(10, 6);
+        let newer = [200; 3];
+        let mut picture = Picture::default();
+        picture.take(frame(1, size, GREY, true));
+        picture.advance(size, 1);
+        picture.take(frame(2, size, newer, true));
+        picture.advance(size, 1);
+        assert_eq!(rows_shown(&picture, newer), [0, 0, 10, 10, 0, 0]);
+        picture.advance(size, usize::MAX);
+        assert_eq!(rows_shown(&picture, newer), [10; 6]);
+    }
+
+    #[test]
+    fn almost_right_pixels_wait_for_the_finished_frame_on_a_slow_link() {
+        let size = size(4, 4);
+        let shown_after = |pixel, complete, budget| {
+            let mut picture = Picture::default();
+            picture.take(frame(1, size, GREY, true));
+            picture.advance(size, usize::MAX);
+            picture.take(frame(1, size, pixel, complete));
+            picture.advance(size, budget);
+            picture.shown.pixels[0]
+        };
+        for (pixel, complete, budget, shown) in [
+            ([103, 97, 100], false, 1000, GREY),
+            ([104, 100, 100], false, 1000, [104, 100, 100]),
+            ([103, 97, 100], true, 1000, [103, 97, 100]),
+            ([103, 97, 100], false, usize::MAX, [103, 97, 100]),
+        ] {
+            assert_eq!(shown_after(pixel, complete, budget), shown);
+        }
+    }
+
+    #[test]
+    fn smaller_pictures_are_means_and_larger_ones_repeat_pixels() {
+        let shown = Shown {
+            size: size(2, 2),
+            pixels: vec![[0, 0, 0], [100, 0, 0], [0, 50, 0], [101, 51, 8]],
+            objects: vec![1, 2, 3, 4],
+        };
+        let one = shown.resampled(size(1, 1));
+        // 201/4, 101/4 and 8/4, rounded.
+        assert_eq!(one.pixels, [[50, 25, 2]]);
+        let four = shown.resampled(size(4, 4));
+        assert_eq!(four.objects[..8], [1, 1, 2, 2, 1, 1, 2, 2]);
+        assert_eq!(four.resampled(size(2, 2)), shown);
+        assert_eq!(shown.resampled(size(2, 2)), shown);
+    }
+
+    #[test]
+    fn a_picture_of_a_full_size_trace_is_shown_at_the_size_of_the_screen() {
+        let mut picture = Picture::default();
+        picture.take(frame(1, size(640, 480), GREY, true));
+        picture.advance(size(64, 48), usize::MAX);
+        assert_eq!(rows_shown(&picture, GREY), [64; 48]);
+        assert_eq!(picture.shown.object_at(63, 47), Some(7));
+        assert_eq!(picture.shown.object_at(64, 0), None);
+    }
+}

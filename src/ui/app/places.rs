@@ -1,0 +1,136 @@
+//! What a place of the text is called.
+
+use super::App;
+use crate::format::Tree;
+use crate::scene::{Node, Origins};
+use crate::text::{Position, Span};
+
+/// How many things are named before they are only counted.
+const NAMED: usize = 2;
+
+impl App {
+    /// What a place of the text is called: `object 4 (sphere) centre x`, or the things that it
+    /// covers; `None` where none is.
+    pub fn place_name(&self, span: Span) -> Option<String> {
+        name_of(&self.origins, self.document.tree(), &self.nodes, span)
+    }
+
+    /// Says how many errors a text has and where the first one is.
+    pub(super) fn error_place(&self) -> Option<String> {
+        let mut errors = self.diagnostics.iter().filter(|d| d.is_error());
+        let first = errors.next()?;
+        let line = Position::of(self.document.text(), first.span.start()).line;
+        Some(match errors.count() {
+            0 => format!("line {line} has an error"),
+            more => format!("{} errors, the first in line {line}", more + 1),
+        })
+    }
+}
+
+/// What a place of any text is called; `nodes` are those of `origins`.
+pub(super) fn name_of(
+    origins: &Origins,
+    tree: &Tree,
+    nodes: &[Node],
+    span: Span,
+) -> Option<String> {
+    // Its comment may stand inside another node's text.
+    let view = origins.span(tree, Node::View);
+    if view.start() <= span.start() && span.end() <= view.end() && !view.is_empty() {
+        return Some(name_in(origins, tree, Node::View, span));
+    }
+    let touched = touched(origins, tree, nodes, span);
+    match touched {
+        [] => {
+            let node = origins.node_at(tree, span)?;
+            Some(name_in(origins, tree, node, span))
+        }
+        [node] => Some(name_in(origins, tree, *node, span)),
+        [first, .., last] if NAMED < touched.len() => Some(format!(
+            "{} things, {} to {}",
+            touched.len(),
+            origins.name(*first),
+            origins.name(*last)
+        )),
+        several => {
+            let names: Vec<_> = several.iter().map(|&node| origins.name(node)).collect();
+            Some(names.join(", "))
+        }
+    }
+}
+
+/// The nodes whose text a span covers in part: none if it is empty. The view is left out, because
+/// its comment may stand anywhere.
+fn touched<'a>(origins: &Origins, tree: &Tree, nodes: &'a [Node], span: Span) -> &'a [Node] {
+    let in_order = nodes.strip_prefix(&[Node::View]).unwrap_or(nodes);
+    let from = in_order.partition_point(|&node| origins.span(tree, node).end() <= span.start());
+    let rest = &in_order[from..];
+    let count = rest.partition_point(|&node| origins.span(tree, node).start() < span.end());
+    &rest[..count]
+}
+
+/// A node's name, with the field and the component where the span meets just one.
+fn name_in(origins: &Origins, tree: &Tree, node: Node, span: Span) -> String {
+    let meets = |place: &Span| {
+        if span.is_empty() {
+            place.touches(span)
+        } else {
+            place.start() < span.end() && span.start() < place.end()
+        }
+    };
+    let name = origins.name(node);
+    let fields = origins.fields(tree, node);
+    let mut met = fields
+        .iter()
+        .filter(|placed| placed.spans.iter().any(meets));
+    let (Some(placed), None) = (met.next(), met.next()) else {
+        return name;
+    };
+    let names = placed.field.kind.component_names();
+    let mut components = placed.spans.iter().zip(names).filter(|(at, _)| meets(at));
+    match (components.next(), components.next()) {
+        (Some((_, component)), None) if 1 < names.len() => {
+            format!("{name} {} {component}", placed.field.key)
+        }
+        _ => format!("{name} {}", placed.field.key),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::format::{Format, parse};
+
+    #[test]
+    fn places_are_called_by_what_stands_there() {
+        let text = "\
+.1 .1 .1 // view: eye 0 0 9 fov 40
+1 5 5 5 1 1 1
+3
+sphere 0 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1
+sphere 1 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1
+sphere 2 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1
+";
+        let tree = parse(Format::Ray, text);
+        let lowered = crate::scene::lower(text, &tree);
+        let nodes = lowered.origins.nodes();
+        let at = |part: &str| text.find(part).expect("a part of the text");
+        for (from, until, name) in [
+            (0, 2, "ambient colour red"),
+            (at("40"), at("40") + 2, "view fov"),
+            (0, 5, "ambient colour"),
+            (at("5 5 5") + 2, at("5 5 5") + 2, "light 1 position y"),
+            (at("sphere 1") + 7, at("sphere 1") + 14, "object 2 (sphere)"),
+            (
+                at("sphere 1"),
+                at("sphere 2") + 3,
+                "object 2 (sphere), object 3 (sphere)",
+            ),
+            (0, text.len(), "5 things, ambient to object 3 (sphere)"),
+        ] {
+            let span = Span::new(from, until);
+            let found = name_of(&lowered.origins, &tree, &nodes, span);
+            assert_eq!(found.as_deref(), Some(name), "{from}..{until}");
+        }
+    }
+}

@@ -1,0 +1,393 @@
+//! Reading again, saving, conflicts, quitting, recovering.
+
+use super::*;
+use crate::document::Side;
+use crate::file::ReadError;
+use crate::ui::msg::{Guard, SaveOutcome, Timer};
+
+#[test]
+fn a_save_may_only_replace_what_was_last_seen() {
+    let mut app = open(SCENE);
+    let effects = press(&mut app, "jjjelw");
+    let [.., Effect::Save { path, text, guard }] = effects.as_slice() else {
+        panic!("{effects:?}");
+    };
+    assert_eq!(path, &PathBuf::from("scene.ray"));
+    assert_eq!(text, app.document.text());
+    assert_eq!(guard, &Guard::Holding(SCENE.to_owned()));
+    let outcome = SaveOutcome::Saved {
+        path: path.clone(),
+        text: text.clone(),
+    };
+    app.update(Msg::Saved(outcome));
+    assert!(!app.document.is_dirty());
+}
+
+#[test]
+fn a_save_over_a_changed_file_asks() {
+    let mut app = open(SCENE);
+    press(&mut app, "jjjelw");
+    let theirs = SCENE.replace("sphere\n0 0 0", "sphere\n9 0 0");
+    app.update(Msg::Saved(SaveOutcome::ChangedOnDisk(theirs.clone())));
+    let Some(Dialog::Conflict { merge, .. }) = &app.dialog else {
+        panic!("{:?}", app.dialog);
+    };
+    assert_eq!(merge.conflicts.len(), 1);
+    assert_eq!(app.disk, Disk::Changed);
+    press(&mut app, "<Enter>");
+    assert!(app.dialog.is_some(), "nothing is decided yet");
+    press(&mut app, "t<Enter>");
+    assert_eq!(app.document.text(), theirs);
+    assert_eq!(app.disk, Disk::Known);
+}
+
+#[test]
+fn a_conflict_put_off_comes_back_with_the_next_save() {
+    let mut app = open(SCENE);
+    press(&mut app, "jjjel");
+    outside(&mut app, &SCENE.replace("sphere\n0 0 0", "sphere\n9 0 0"));
+    press(&mut app, "<Esc>");
+    assert!(app.dialog.is_none());
+    assert_eq!(changed_lines(&app), ["0.1 0 0"], "mine is kept");
+    let effects = press(&mut app, "w");
+    assert!(wants(&effects, |effect| matches!(effect, Effect::Read(_))));
+}
+
+#[test]
+fn all_conflicts_can_be_decided_at_once() {
+    for (key, decided) in [("M", Side::Mine), ("T", Side::Theirs)] {
+        let mut app = open(SCENE);
+        press(&mut app, "jjjeljl");
+        let theirs = SCENE.replace("sphere\n0 0 0", "sphere\n9 0 0");
+        outside(&mut app, &theirs.replace("1.5", "1.9"));
+        press(&mut app, key);
+        let Some(Dialog::Conflict { merge, .. }) = &app.dialog else {
+            panic!("{:?}", app.dialog);
+        };
+        assert!(merge.conflicts.iter().all(|c| c.decision == Some(decided)));
+        press(&mut app, "<Enter>");
+        let mine = app.document.text().contains("0.1 0 0");
+        assert_eq!(mine, decided == Side::Mine);
+    }
+}
+
+#[test]
+fn a_changed_file_is_taken_when_nothing_is_unsaved() {
+    let mut app = open(SCENE);
+    let theirs = SCENE.replace("1.5", "1.7");
+    let effects = app.update(Msg::FileChanged);
+    assert!(wants(&effects, |effect| matches!(effect, Effect::Read(_))));
+    let effects = outside(&mut app, &theirs);
+    assert!(wants(&effects, |effect| matches!(
+        effect,
+        Effect::Trace(..)
+    )));
+    assert_eq!(app.document.text(), theirs);
+    assert!(!app.document.is_dirty());
+    assert!(outside(&mut app, &theirs).is_empty(), "nothing is new");
+}
+
+#[test]
+fn changes_of_different_places_are_merged_as_one_step() {
+    let mut app = open(SCENE);
+    press(&mut app, "jjjel");
+    outside(&mut app, &SCENE.replace("1.5", "1.7"));
+    assert_eq!(changed_lines(&app), ["0.1 0 0", "1.7 // the radius"]);
+    assert!(app.dialog.is_none() && app.document.is_dirty());
+    press(&mut app, "u");
+    assert_eq!(changed_lines(&app), ["0.1 0 0"]);
+}
+
+#[test]
+fn a_text_with_errors_must_last_before_it_is_shown() {
+    for broken in ["", "1 1 1 2", "nonsense"] {
+        let mut app = open(SCENE);
+        let effects = outside(&mut app, broken);
+        assert!(matches!(effects[..], [Effect::Later(_, Timer::Settled)]));
+        assert_eq!(app.document.text(), SCENE, "not yet");
+        let effects = app.update(Msg::Elapsed(Timer::Settled));
+        assert!(matches!(effects[..], [Effect::Read(_)]));
+        outside(&mut app, broken);
+        assert_eq!(app.document.text(), broken);
+        assert!(0 < app.error_count());
+        let scene = app.scene.as_ref().expect("the last good scene is kept");
+        assert_eq!(scene.objects.len(), 2);
+        outside(&mut app, SCENE);
+        assert_eq!(app.error_count(), 0);
+    }
+}
+
+#[test]
+fn a_text_with_errors_is_kept_apart_from_unsaved_edits() {
+    let mut app = open(SCENE);
+    press(&mut app, "jjjel");
+    outside(&mut app, "nonsense");
+    app.update(Msg::Elapsed(Timer::Settled));
+    outside(&mut app, "nonsense");
+    assert_eq!(app.disk, Disk::Broken);
+    assert_eq!(changed_lines(&app), ["0.1 0 0"]);
+    assert!(
+        words(&app).starts_with("line 1 of the file"),
+        "{}",
+        words(&app)
+    );
+    assert!(words(&app).contains(":w!"), "{}", words(&app));
+    let (text, wrong) = app.wrong();
+    assert_eq!((text, wrong.is_empty()), ("nonsense", false));
+    press(&mut app, "!");
+    assert_eq!(app.errors, Some(0));
+    let effects = press(&mut app, "E");
+    assert!(matches!(effects[..], [Effect::OpenEditor { line: 1, .. }]));
+    outside(&mut app, SCENE);
+    assert_eq!(app.disk, Disk::Known);
+    assert_eq!((app.errors, app.wrong().1.len()), (None, 0));
+}
+
+#[test]
+fn a_missing_file_is_told_after_a_while_and_forgotten_when_it_is_back() {
+    let missing = || {
+        Msg::Read(Err(ReadError::NotFound {
+            path: PathBuf::from("scene.ray"),
+        }))
+    };
+    let mut app = open(SCENE);
+    app.update(missing());
+    assert_eq!(app.disk, Disk::Known, "another name may be on its way");
+    app.update(Msg::Elapsed(Timer::Settled));
+    app.update(missing());
+    assert_eq!(app.disk, Disk::Missing);
+    outside(&mut app, SCENE);
+    assert_eq!(app.disk, Disk::Known);
+    assert_eq!(words(&app), "the file is as it was again");
+}
+
+#[test]
+fn quitting_asks_only_about_unsaved_edits() {
+    let quits = |said: &str| {
+        let mut app = open(SCENE);
+        let effects = press(&mut app, said);
+        wants(&effects, |effect| matches!(effect, Effect::Quit))
+    };
+    for said in [
+        "q",
+        "<Ctrl-c>",
+        ":q<Enter>",
+        "vhq",
+        "jjjelq", /* asks */
+    ] {
+        assert_eq!(quits(said), !said.starts_with("jjjel"), "{said}");
+    }
+    assert!(quits("jjjelqy"));
+    assert!(quits("jjjel:q!<Enter>"));
+    assert!(!quits("jjjelqn"));
+    assert!(!quits("jjjelq<Esc>"));
+}
+
+#[test]
+fn a_second_interrupt_quits_and_keeps_the_edits() {
+    let mut app = open(SCENE);
+    press(&mut app, "jjjel<Ctrl-c>");
+    let effects = press(&mut app, "<Ctrl-c>");
+    assert!(matches!(
+        &effects[..],
+        [Effect::WriteRecovery(text), Effect::Quit] if text == app.document.text()
+    ));
+    let mut app = open(SCENE);
+    press(&mut app, "jjjel<Ctrl-c><Esc>");
+    app.update(Msg::Elapsed(Timer::Interrupt));
+    let effects = press(&mut app, "<Ctrl-c>");
+    assert!(!wants(&effects, |effect| matches!(effect, Effect::Quit)));
+}
+
+#[test]
+fn kept_edits_can_be_restored_and_undone() {
+    let mut app = open(SCENE);
+    let kept = SCENE.replace("1.5", "1.7");
+    app.update(Msg::Recovered(kept.clone()));
+    press(&mut app, "r");
+    assert_eq!(app.document.text(), kept);
+    press(&mut app, "u");
+    assert_eq!(app.document.text(), SCENE);
+    let mut app = open(SCENE);
+    app.update(Msg::Recovered(kept));
+    let effects = press(&mut app, "d");
+    assert!(matches!(effects[..], [Effect::DropRecovery]));
+    assert_eq!(app.document.text(), SCENE);
+}
+
+#[test]
+fn a_scene_without_a_file_asks_for_one() {
+    let mut app = open(SCENE);
+    app.path = None;
+    press(&mut app, "w");
+    let effects = press(&mut app, "new.ray<Enter>");
+    assert!(matches!(
+        &effects[..],
+        [Effect::Save { path, guard: Guard::Absent, .. }] if path == &PathBuf::from("new.ray")
+    ));
+}
+
+#[test]
+fn a_reload_without_unsaved_edits_cannot_be_undone() {
+    let mut app = open(SCENE);
+    let theirs = SCENE.replace("1.5", "1.7");
+    press(&mut app, "jjjelu");
+    outside(&mut app, &theirs);
+    for key in ["u", "<Ctrl-r>"] {
+        press(&mut app, key);
+        assert_eq!(app.document.text(), theirs, "{key}");
+        assert!(words(&app).starts_with("nothing to "), "{}", words(&app));
+    }
+}
+
+#[test]
+fn a_text_with_errors_is_written_by_force_only() {
+    let saves = |said: &str| {
+        let mut app = open(&SCENE.replace("\n4 0 0\n1\n", "\n4 0 0\n-1\n"));
+        let effects = press(&mut app, said);
+        let saves = wants(&effects, |effect| matches!(effect, Effect::Save { .. }));
+        (saves, words(&app).to_owned())
+    };
+    let refused = "line 13 has an error: :w! writes it anyway";
+    assert_eq!(saves("jelw"), (false, refused.to_owned()));
+    assert_eq!(saves("jel:wq<Enter>"), (false, refused.to_owned()));
+    let other = "line 13 has an error: :w! b.ray writes it anyway";
+    assert_eq!(saves("jel:w b.ray<Enter>"), (false, other.to_owned()));
+    assert!(saves("jel:w!<Enter>").0);
+    assert!(saves("jel:w! b.ray<Enter>").0);
+}
+
+#[test]
+fn a_value_being_typed_outlives_a_reload() {
+    let first = SCENE.find("sphere").expect("an object");
+    let rest = &SCENE[first..];
+    let longer = SCENE.replace(
+        "1\n5 5 5 // the light\n1 1 1\n2\n",
+        "2\n5 5 5\n1 1 1\n9 9 9\n1 1 1\n2\n",
+    );
+    let more = SCENE.replacen("\n2\nsphere", "\n3\nsphere", 1);
+    let (head, tail) = more.split_at(first);
+    let with_another = format!(
+        "{head}{rest_first}{tail}",
+        rest_first = &rest[..=rest.find("\nsphere").expect("two")]
+    );
+    for theirs in [SCENE.replace("1.5", "1.7"), longer, with_another] {
+        for dirty in ["", "jjj<Enter>jl<Esc>gg"] {
+            let mut app = open(SCENE);
+            press(&mut app, dirty);
+            press(&mut app, "Ge<Tab>42");
+            outside(&mut app, &theirs);
+            if app.dialog.is_some() {
+                press(&mut app, "T<Enter>");
+            }
+            assert_eq!(app.mode, Mode::Edit);
+            press(&mut app, "<Enter>");
+            assert!(
+                app.document.text().contains("sphere\n4 42 0\n"),
+                "{}",
+                app.document.text()
+            );
+        }
+    }
+}
+
+#[test]
+fn a_value_being_typed_goes_with_its_field() {
+    let mut app = open(SCENE);
+    press(&mut app, "Gejjj7");
+    let objects = SCENE.find("2\nsphere").expect("a count of objects");
+    let theirs = format!("{}0\n", &SCENE[..objects]);
+    outside(&mut app, &theirs);
+    app.update(Msg::Elapsed(Timer::Settled));
+    outside(&mut app, &theirs);
+    assert!(app.typing.is_none(), "{:?}", app.selected);
+    assert!(words(&app).contains("dropped"), "{}", words(&app));
+}
+
+#[test]
+fn the_list_of_errors_follows_what_is_wrong() {
+    let wrong = |text: &str| {
+        let mut app = open(
+            &SCENE
+                .replace("1.5", "-1")
+                .replace("\n4 0 0\n1\n", "\n4 0 0\n-1\n"),
+        );
+        assert_eq!(app.error_count(), 2);
+        press(&mut app, "!j");
+        assert_eq!(app.errors, Some(1));
+        app.update(Msg::Read(Ok(text.to_owned())));
+        app.update(Msg::Elapsed(Timer::Settled));
+        outside(&mut app, text);
+        app.errors
+    };
+    assert_eq!(wrong(&SCENE.replace("1.5", "-1")), Some(0));
+    assert_eq!(wrong(SCENE), None);
+}
+
+#[test]
+fn a_reload_names_what_differs_from_the_last_good_text() {
+    let mut app = open(SCENE);
+    let broken = |app: &mut App, text: &str| {
+        app.update(Msg::Read(Ok(text.to_owned())));
+        app.update(Msg::Elapsed(Timer::Settled));
+        outside(app, text);
+    };
+    broken(&mut app, "x");
+    broken(&mut app, "x y");
+    outside(&mut app, SCENE);
+    assert_eq!(words(&app), "read again: the scene is as it was");
+    broken(&mut app, "x");
+    outside(&mut app, &SCENE.replace("1.5", "1.7"));
+    assert_eq!(words(&app), "read again: object 1 (sphere) radius");
+}
+
+#[test]
+fn nothing_is_written_where_nothing_is_to_be_saved() {
+    let saves = |effects: &[Effect]| wants(effects, |effect| matches!(effect, Effect::Save { .. }));
+    let mut app = open(SCENE);
+    assert!(!saves(&press(&mut app, "w")));
+    assert_eq!(words(&app), "nothing to save");
+    assert!(saves(&press(&mut app, ":w!<Enter>")));
+    app.disk = Disk::Missing;
+    assert!(saves(&press(&mut app, "w")));
+    let effects = press(&mut open(SCENE), ":wq<Enter>");
+    assert!(matches!(effects[..], [Effect::Quit]));
+}
+
+#[test]
+fn commands_without_a_change_say_so() {
+    let mut app = open(SCENE);
+    press(&mut app, ":e<Enter>");
+    outside(&mut app, SCENE);
+    assert_eq!(words(&app), "scene.ray holds nothing new");
+    app.path = None;
+    press(&mut app, "w");
+    assert!(app.prompt.is_some() && words(&app).contains("no file yet"));
+    press(&mut app, "<Esc>");
+    app.update(Msg::Paste("1 2 3".to_owned()));
+    assert!(words(&app).contains("pasted into fields"));
+}
+
+/// What was asked about no longer is: the file holds again what the edits began from.
+#[test]
+fn a_conflict_ends_with_the_change_that_made_it() {
+    let mut app = open(SCENE);
+    press(&mut app, "jjjel");
+    outside(&mut app, &SCENE.replace("sphere\n0 0 0", "sphere\n9 0 0"));
+    assert!(app.dialog.is_some());
+    outside(&mut app, SCENE);
+    assert!(app.dialog.is_none());
+    assert_eq!(app.disk, Disk::Known);
+    assert!(app.document.is_dirty());
+}
+
+#[test]
+fn a_save_that_was_given_up_does_not_quit_later() {
+    let mut app = open(SCENE);
+    app.path = None;
+    press(&mut app, "jjjel");
+    // The question's answer asks for a name, which is not given.
+    press(&mut app, "qw<Esc>");
+    assert!(app.prompt.is_none());
+    assert!(!app.pending.quit);
+}

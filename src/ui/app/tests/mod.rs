@@ -1,0 +1,122 @@
+//! Keys, pastes and files in; text, state and effects out.
+
+mod disk;
+mod editing;
+mod moving;
+mod pictures;
+
+use std::path::PathBuf;
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+use super::*;
+use crate::ui::msg::{Effect, Msg};
+use crate::ui::terminal::Mouse;
+
+/// Two spheres, far apart, without a view comment.
+const SCENE: &str = "\
+0.1 0.1 0.1
+1
+5 5 5 // the light
+1 1 1
+2
+sphere
+0 0 0
+1.5 // the radius
+.1 .1 .1 .45 .45 .45 .5 .5 .5
+5 0.50 0 1
+sphere
+4 0 0
+1
+.1 .1 .1 .45 .45 .45 .5 .5 .5
+5 0 0 1
+";
+
+/// Rows of the list: view, ambient, light 1, object 1, object 2.
+const TO_FIRST_OBJECT: &str = "jjj";
+
+fn open(text: &str) -> App {
+    let (app, _) = App::open(Opening {
+        path: Some(PathBuf::from("scene.ray")),
+        text: text.to_owned(),
+        quality: Quality { spp: 4, depth: 8 },
+        mouse: Mouse::On,
+        terminal: (120, 40),
+    });
+    app
+}
+
+/// Keys written as characters, others by name: `jje<Right><Shift-Right><Ctrl-r>`.
+fn keys(said: &str) -> Vec<KeyEvent> {
+    let mut events = Vec::new();
+    let mut rest = said;
+    while let Some(first) = rest.chars().next() {
+        if let Some((name, after)) = rest.strip_prefix('<').and_then(|r| r.split_once('>')) {
+            events.push(named(name));
+            rest = after;
+        } else {
+            events.push(KeyEvent::from(KeyCode::Char(first)));
+            rest = &rest[first.len_utf8()..];
+        }
+    }
+    events
+}
+
+fn named(name: &str) -> KeyEvent {
+    for (prefix, modifier) in [
+        ("Shift-", KeyModifiers::SHIFT),
+        ("Ctrl-", KeyModifiers::CONTROL),
+        ("Alt-", KeyModifiers::ALT),
+    ] {
+        if let Some(rest) = name.strip_prefix(prefix) {
+            return KeyEvent::new(named(rest).code, modifier);
+        }
+    }
+    KeyEvent::from(match name {
+        "Right" => KeyCode::Right,
+        "Left" => KeyCode::Left,
+        "Down" => KeyCode::Down,
+        "Up" => KeyCode::Up,
+        "Enter" => KeyCode::Enter,
+        "Esc" => KeyCode::Esc,
+        "Tab" => KeyCode::Tab,
+        "Back" => KeyCode::Backspace,
+        "F5" => KeyCode::F(5),
+        one => KeyCode::Char(one.chars().next().expect("a key has a name")),
+    })
+}
+
+fn press(app: &mut App, said: &str) -> Vec<Effect> {
+    let keys = keys(said);
+    keys.into_iter()
+        .flat_map(|key| app.update(Msg::Key(key)))
+        .collect()
+}
+
+/// The lines of the text that differ from [`SCENE`]'s.
+fn changed_lines(app: &App) -> Vec<String> {
+    let old: Vec<_> = SCENE.lines().collect();
+    let new = app.document.text().lines();
+    new.filter(|line| !old.contains(line))
+        .map(str::to_owned)
+        .collect()
+}
+
+/// What the scene's text says after these keys, as far as it is new.
+fn typed(said: &str) -> String {
+    let mut app = open(SCENE);
+    press(&mut app, said);
+    changed_lines(&app).join("|")
+}
+
+fn words(app: &App) -> &str {
+    app.message.as_ref().map_or("", |message| &message.text)
+}
+
+fn outside(app: &mut App, text: &str) -> Vec<Effect> {
+    app.update(Msg::Read(Ok(text.to_owned())))
+}
+
+fn wants(effects: &[Effect], wanted: fn(&Effect) -> bool) -> bool {
+    effects.iter().any(wanted)
+}

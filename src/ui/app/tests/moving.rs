@@ -1,0 +1,153 @@
+//! Moving through the list, over the picture and around the scene.
+
+use std::sync::Arc;
+
+use super::pictures::frame;
+use super::*;
+use crate::render::NO_OBJECT;
+use crate::scene::{Node, Size};
+use crate::ui::msg::Target;
+
+#[test]
+fn a_saved_view_is_the_view_on_screen() {
+    let mut app = open(SCENE);
+    press(&mut app, "vhhk+]");
+    let view = app.view.expect("the camera was moved");
+    assert!(!app.document.is_dirty());
+    press(&mut app, "S");
+    assert!(app.view.is_none() && app.document.is_dirty());
+    assert_eq!(app.scene.as_ref().expect("a scene").camera, view);
+    let first = app.document.text().lines().next().expect("a line");
+    assert!(first.starts_with("// view: eye "), "{first}");
+    press(&mut app, "u");
+    assert_eq!(app.document.text(), SCENE);
+}
+
+#[test]
+fn orbiting_there_and_back_is_the_old_view_nearly_and_never_crosses_the_pole() {
+    let mut app = open(SCENE);
+    let own = app.camera().expect("a camera");
+    press(&mut app, "vhhll");
+    let back = app.camera().expect("a camera");
+    assert!((back.eye - own.eye).length() < 1e-3 * own.eye.length());
+    press(&mut app, &"k".repeat(60));
+    let top = app.camera().expect("a camera");
+    let offset = top.eye - top.target;
+    assert!(0.9 < offset.normalize().y && offset.y < offset.length());
+    press(&mut app, "0");
+    assert_eq!(app.view, None);
+}
+
+#[test]
+fn missing_parts_of_the_view_are_written_when_they_are_set() {
+    let mut app = open(SCENE);
+    press(&mut app, "ejjj40<Enter>");
+    let scene = app.scene.as_ref().expect("a scene");
+    assert!((scene.camera.fov - 40.0).abs() < f64::EPSILON);
+    press(&mut app, "jll");
+    assert_eq!(
+        app.output(),
+        Size {
+            width: 820,
+            height: 600
+        }
+    );
+    press(&mut app, ":size 64x48<Enter>");
+    assert_eq!(
+        app.output(),
+        Size {
+            width: 64,
+            height: 48
+        }
+    );
+}
+
+/// A finished frame of the preview in which the left half is object 1, the right one nothing.
+fn show_half(app: &mut App) {
+    let size = app.raster().expect("there is room").1;
+    let objects = (0..size.pixels() as u32)
+        .map(|at| {
+            if at % size.width < size.width / 2 {
+                1
+            } else {
+                NO_OBJECT
+            }
+        })
+        .collect();
+    app.update(Msg::Frame(Target::Preview, Arc::new(frame(size, objects))));
+    app.picture_mut().advance(size, usize::MAX);
+}
+
+#[test]
+fn picking_selects_what_lies_under_the_cross() {
+    let mut app = open(SCENE);
+    show_half(&mut app);
+    press(&mut app, "pHH<Enter>");
+    assert_eq!((app.mode, app.selected), (Mode::Select, Node::Object(1)));
+    press(&mut app, "ggp");
+    press(&mut app, &"L".repeat(9));
+    press(&mut app, "<Enter>");
+    assert_eq!((app.mode, app.selected), (Mode::Pick, Node::View));
+}
+
+#[test]
+fn the_list_is_walked_searched_and_cycled() {
+    for (said, selected) in [
+        ("j", Node::Ambient),
+        ("G", Node::Object(1)),
+        ("Ggg", Node::View),
+        ("Gg", Node::Object(1)),
+        ("<Tab>", Node::Light(0)),
+        ("<Tab><Tab><Tab><Tab>", Node::Light(0)),
+        ("/sphere<Enter>", Node::Object(0)),
+        ("/sphere<Enter>n", Node::Object(1)),
+        ("/SPHERE<Enter>N", Node::Object(1)),
+        ("/amb<Enter>", Node::Ambient),
+        ("/nothing<Enter>", Node::View),
+        ("/amb<Esc>", Node::View),
+    ] {
+        let mut app = open(SCENE);
+        press(&mut app, said);
+        assert_eq!(app.selected, selected, "{said}");
+    }
+}
+
+#[test]
+fn a_scene_that_opens_with_errors_has_no_picture_but_can_be_mended() {
+    let mut app = open("nonsense");
+    assert!(app.scene.is_none() && 0 < app.error_count());
+    assert!(press(&mut app, "v<F5>pb").is_empty());
+    let effects = outside(&mut app, SCENE);
+    assert!(wants(&effects, |effect| matches!(
+        effect,
+        Effect::Trace(..)
+    )));
+}
+
+#[test]
+fn no_key_and_no_size_makes_it_panic() {
+    let all = "jkgGnN/a\u{1b}evpohlHLJK,.i9+-[]f0S?!xwbruEzmq:y".chars();
+    let all: Vec<_> = all.map(|key| KeyEvent::from(KeyCode::Char(key))).collect();
+    for text in [SCENE, "", "nonsense", "0 0 0 0 0"] {
+        for terminal in [(0, 0), (1, 1), (20, 6), (40, 16), (120, 40)] {
+            let mut app = open(text);
+            app.update(Msg::Resize(terminal.0, terminal.1));
+            for first in &all {
+                for second in ["<Esc>", "<Enter>", "<Tab>", "<Down>", "<Right>", "<Back>"] {
+                    app.update(Msg::Key(*first));
+                    press(&mut app, second);
+                }
+            }
+        }
+    }
+}
+
+/// The working view stays out of the text when only the picture's size is set.
+#[test]
+fn setting_the_size_does_not_write_the_working_view() {
+    let mut app = open(&format!("// view: fov 40\n{SCENE}"));
+    press(&mut app, "vhhh<Esc>ggejjjjl");
+    assert!(app.view.is_some());
+    let first = app.document.text().lines().next();
+    assert_eq!(first, Some("// view: fov 40 size 810 600"));
+}

@@ -1,0 +1,195 @@
+//! What is traced and exported.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::*;
+use crate::render::{Frame, Progress};
+use crate::scene::Size;
+use crate::ui::msg::{Existing, Target, Timer};
+
+pub(super) fn frame(size: Size, objects: Vec<u32>) -> Frame {
+    Frame {
+        generation: 1,
+        size,
+        pixels: vec![[9; 3]; size.pixels()],
+        objects,
+        progress: Progress {
+            pass: 1,
+            passes: 1,
+            spp: 1,
+            done: 1.0,
+            elapsed: Duration::ZERO,
+            rays: 1,
+            over_budget: 0,
+            complete: true,
+        },
+    }
+}
+
+#[test]
+fn an_edit_restarts_the_preview_and_a_refused_one_does_not() {
+    let traces = |said: &str| {
+        let mut app = open(SCENE);
+        press(&mut app, TO_FIRST_OBJECT);
+        let effects = press(&mut app, said);
+        let preview = |effect: &&Effect| matches!(effect, Effect::Trace(Target::Preview, _));
+        effects.iter().filter(preview).count()
+    };
+    assert_eq!(traces("el"), 1);
+    assert_eq!(traces("ejHH"), 1);
+    assert_eq!(traces("vh"), 1);
+    assert_eq!(traces("z"), 1);
+    assert_eq!(traces("?"), 0);
+}
+
+#[test]
+fn exports_are_refused_before_anything_is_traced() {
+    for (said, reason) in [
+        (":export a.gif<Enter>", ".bmp"),
+        (":export a.bmp 99999x99999<Enter>", "99999x99999"),
+        (":export a.bmp 70000<Enter>", "samples"),
+        (
+            ":export a.bmp 10x<Enter>",
+            "`10x` is no size: 800x600 is one",
+        ),
+        (":export a.bmp 10x 4<Enter>", "`10x` is no size"),
+        (":export 10x<Enter>", "`10x` is no size"),
+        (":export a.bmp 99999999999<Enter>", "99999999999: samples"),
+        (":export a.bmp fine<Enter>", "`fine` is neither"),
+        (":export cancel<Enter>", "nothing is under way"),
+        (":expoort<Enter>", "export is"),
+    ] {
+        let mut app = open(SCENE);
+        let effects = press(&mut app, said);
+        assert!(effects.is_empty(), "{said}: {effects:?}");
+        assert!(words(&app).contains(reason), "{said}: {}", words(&app));
+    }
+}
+
+#[test]
+fn an_export_is_traced_written_and_told() {
+    let mut app = open(SCENE);
+    let effects = press(&mut app, ":export b c.png 32x8 2<Enter>");
+    let [
+        Effect::CheckTarget(path, Existing::Kept),
+        Effect::Trace(Target::Export, job),
+    ] = &effects[..]
+    else {
+        panic!("{effects:?}");
+    };
+    let size = Size {
+        width: 32,
+        height: 8,
+    };
+    assert_eq!(path, &PathBuf::from("b c.png"));
+    assert_eq!((job.settings.size, job.settings.spp), (size, 2));
+    assert_eq!(job.camera.size, size);
+    let done = Arc::new(frame(size, vec![0; size.pixels()]));
+    let effects = app.update(Msg::Frame(Target::Export, done));
+    assert!(
+        matches!(&effects[..], [Effect::WriteImage(_, to, Existing::Kept), Effect::Stop(_)] if to == path)
+    );
+    app.update(Msg::Exported(Ok(path.clone())));
+    assert!(app.export.is_none());
+    assert_eq!(words(&app), "wrote b c.png: 32×8, 2 spp, 0.0 s");
+}
+
+#[test]
+fn the_full_size_trace_goes_on_behind_until_the_scene_changes() {
+    let mut app = open(SCENE);
+    let effects = press(&mut app, "<F5>");
+    let [Effect::Trace(Target::Trace, job)] = &effects[..] else {
+        panic!("{effects:?}");
+    };
+    assert_eq!((job.settings.size, job.settings.spp), (app.output(), 4));
+    app.update(Msg::Started(Target::Trace, 1));
+    assert!(press(&mut app, "<Esc>").is_empty());
+    assert_eq!(app.mode, Mode::Select);
+    assert!(press(&mut app, "r").is_empty(), "it is still under way");
+    let theirs = SCENE.replace("1.5", "1.7");
+    let effects = outside(&mut app, &theirs);
+    assert!(matches!(effects[..], [Effect::Trace(Target::Trace, _)]));
+    let effects = press(&mut app, "<Esc>");
+    assert!(matches!(effects[..], [Effect::Trace(Target::Preview, _)]));
+    let effects = outside(&mut app, SCENE);
+    assert!(wants(&effects, |effect| matches!(
+        effect,
+        Effect::Stop(Target::Trace)
+    )));
+}
+
+#[test]
+fn only_a_session_s_own_pictures_are_overwritten_unasked() {
+    let existing = |app: &mut App, said: &str| {
+        let effects = press(app, said);
+        let Some(Effect::CheckTarget(path, existing)) = effects.first() else {
+            panic!("{effects:?}");
+        };
+        let (path, existing) = (path.clone(), *existing);
+        app.update(Msg::Exported(Ok(path)));
+        existing
+    };
+    let mut app = open(SCENE);
+    assert_eq!(existing(&mut app, "b"), Existing::Kept);
+    assert_eq!(existing(&mut app, "b"), Existing::Overwritten);
+    let to_another = ":export a.bmp<Enter>";
+    assert_eq!(existing(&mut app, to_another), Existing::Kept);
+    assert_eq!(existing(&mut app, to_another), Existing::Overwritten);
+    let by_force = ":export! c.bmp<Enter>";
+    assert_eq!(existing(&mut app, by_force), Existing::Overwritten);
+}
+
+#[test]
+fn pictures_of_a_text_with_errors_say_that_they_are_of_the_last_one_without() {
+    for said in ["b", "<F5>"] {
+        let mut app = open(SCENE);
+        app.update(Msg::Read(Ok("x".to_owned())));
+        app.update(Msg::Elapsed(Timer::Settled));
+        outside(&mut app, "x");
+        assert!(0 < app.error_count());
+        press(&mut app, said);
+        assert!(words(&app).contains("without"), "{said}: {}", words(&app));
+    }
+}
+
+#[test]
+fn quitting_asks_about_an_export_and_can_wait_for_it() {
+    let quits = |effects: &[Effect]| wants(effects, |effect| matches!(effect, Effect::Quit));
+    for said in ["q", "<Ctrl-c>", ":q<Enter>"] {
+        let mut app = open(SCENE);
+        press(&mut app, "b");
+        assert!(!quits(&press(&mut app, said)), "{said}");
+        assert!(matches!(app.dialog, Some(Dialog::Quit)), "{said}");
+        assert!(quits(&press(&mut app, "y")));
+    }
+    let mut app = open(SCENE);
+    press(&mut app, "bqw");
+    assert!(quits(&app.update(Msg::Exported(Ok("a.bmp".into())))));
+    let mut app = open(SCENE);
+    press(&mut app, "bqn");
+    assert!(!quits(&app.update(Msg::Exported(Ok("a.bmp".into())))));
+    let mut app = open(SCENE);
+    press(&mut app, "bqw");
+    assert!(!quits(&app.update(Msg::Exported(Err("full".into())))));
+    assert!(!app.pending.quit && words(&app) == "full");
+}
+
+#[test]
+fn a_stopped_trace_starts_anew() {
+    let traces = |effects: &[Effect]| {
+        wants(effects, |effect| {
+            matches!(effect, Effect::Trace(Target::Trace, _))
+        })
+    };
+    let mut app = open(SCENE);
+    assert!(traces(&press(&mut app, "<F5>")));
+    app.update(Msg::Started(Target::Trace, 1));
+    assert!(!traces(&press(&mut app, "<Esc><F5>")), "it runs on");
+    let effects = press(&mut app, "x");
+    assert!(wants(&effects, |effect| matches!(
+        effect,
+        Effect::Stop(Target::Trace)
+    )));
+    assert!(traces(&press(&mut app, "<Esc><F5>")));
+}

@@ -1,0 +1,410 @@
+//! The step from one state to the next: who takes a message.
+
+use std::path::PathBuf;
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use tui_input::Input;
+
+use super::model::Pending;
+use super::{
+    App, Dialog, Disk, Help, HelpFocus, Message, Mode, Outline, Picture, Prompt, PromptKind,
+    Quality, Stride, line,
+};
+use crate::document::Document;
+use crate::format::Format;
+use crate::scene::{Node, Origins};
+use crate::text::Severity;
+use crate::ui::keymap::{self, Action, Context};
+use crate::ui::msg::{Effect, Msg, Timer};
+use crate::ui::terminal::Mouse;
+use crate::ui::view::layout::Zoom;
+
+/// What the interface starts from.
+#[derive(Clone, Debug)]
+pub struct Opening {
+    /// Where the scene was read from; `None` for the embedded one.
+    pub path: Option<PathBuf>,
+    /// Its text.
+    pub text: String,
+    /// How pictures are traced.
+    pub quality: Quality,
+    /// Who has the mouse.
+    pub mouse: Mouse,
+    /// Size of the terminal in cells.
+    pub terminal: (u16, u16),
+}
+
+impl App {
+    /// The interface as it opens, and what is to be done first.
+    pub fn open(opening: Opening) -> (Self, Vec<Effect>) {
+        let mut app = Self {
+            path: opening.path,
+            document: Document::new(Format::Ray, opening.text),
+            origins: Origins::default(),
+            diagnostics: Vec::new(),
+            nodes: Vec::new(),
+            scene: None,
+            view: None,
+            quality: opening.quality,
+            mode: Mode::Select,
+            zoom: Zoom::default(),
+            selected: Node::View,
+            list_top: 0,
+            field: 0,
+            field_top: 0,
+            component: 0,
+            stride: Stride::default(),
+            typing: None,
+            prompt: None,
+            searched: String::new(),
+            dialog: None,
+            help: None,
+            errors: None,
+            message: None,
+            disk: Disk::default(),
+            broken: None,
+            outline: Outline::default(),
+            cross: (0, 0),
+            preview: Picture::default(),
+            trace: None,
+            export: None,
+            net: None,
+            mouse: opening.mouse,
+            terminal: opening.terminal,
+            pending: Pending::default(),
+        };
+        app.relower();
+        let mut effects: Vec<_> = app.path.iter().cloned().map(Effect::Watch).collect();
+        effects.extend(app.follow());
+        (app, effects)
+    }
+
+    /// Takes a message; says what is to be done about it.
+    pub fn update(&mut self, msg: Msg) -> Vec<Effect> {
+        let mut effects = self.take(msg);
+        self.scroll();
+        effects.extend(self.follow());
+        effects
+    }
+
+    fn take(&mut self, msg: Msg) -> Vec<Effect> {
+        match msg {
+            Msg::Key(key) => return self.key(key),
+            Msg::Paste(text) => self.paste(&text),
+            Msg::Mouse(event) => return self.pointer(event),
+            Msg::Resize(columns, rows) => self.terminal = (columns, rows),
+            Msg::Started(target, generation) => self.started(target, generation),
+            Msg::Frame(target, frame) => return self.frame(target, frame),
+            Msg::FileChanged => return self.read_again(),
+            Msg::Read(read) => return self.was_read(read),
+            Msg::Elapsed(Timer::Settled) => return self.settled(),
+            Msg::Elapsed(Timer::Interrupt) => self.pending.interrupt = false,
+            Msg::Elapsed(Timer::Click) => self.pending.click = None,
+            Msg::Saved(outcome) => return self.was_saved(outcome),
+            Msg::Exported(outcome) => return self.exported(outcome),
+            Msg::EditorClosed(outcome) => return self.editor_closed(outcome),
+            Msg::Recovered(text) if text != self.document.text() => {
+                self.dialog = Some(Dialog::Recover(text));
+            }
+            Msg::Recovered(_) => return vec![Effect::DropRecovery],
+            Msg::Suspend => return vec![Effect::Suspend],
+            Msg::Continued => return vec![Effect::TakeTerminal],
+            Msg::Interrupt => return self.interrupt(),
+            Msg::Terminate | Msg::HangUp => return self.quit_keeping_edits(),
+            Msg::Failed(reason) => self.fail(reason),
+        }
+        Vec::new()
+    }
+
+    fn key(&mut self, key: KeyEvent) -> Vec<Effect> {
+        self.message = None;
+        let context = keymap::context(self);
+        let action = keymap::action(context, key);
+        let is_line = self.typing.is_some()
+            || self.prompt.is_some()
+            || self
+                .help
+                .as_ref()
+                .is_some_and(|h| h.focus == HelpFocus::Search);
+        let controls = key.modifiers.contains(KeyModifiers::CONTROL);
+        let reserved = matches!(
+            action,
+            Some(Action::Interrupt | Action::Suspend | Action::Repaint)
+        );
+        // Only a dialog comes before a line that is being typed.
+        if is_line && self.dialog.is_none() && !(reserved && controls) {
+            return self.type_key(key);
+        }
+        let second_g = self.pending.prefix.take() == Some(Action::G);
+        match action {
+            Some(Action::G) if second_g => self.act(Action::First, context),
+            Some(action) => self.act(action, context),
+            None => self.start_typing_with(context, key),
+        }
+    }
+
+    /// A digit, sign or point begins to type a value.
+    fn start_typing_with(&mut self, context: Context, key: KeyEvent) -> Vec<Effect> {
+        if let (Context::In(Mode::Edit), KeyCode::Char(first)) = (context, key.code)
+            && (first.is_ascii_digit() || matches!(first, '-' | '+'))
+        {
+            self.type_value(Input::from(first.to_string()));
+        }
+        Vec::new()
+    }
+
+    fn type_key(&mut self, key: KeyEvent) -> Vec<Effect> {
+        if self.prompt.is_some() {
+            return self.prompt_key(key);
+        }
+        if self.typing.is_some() {
+            self.typing_key(key);
+        } else if let Some(help) = &mut self.help {
+            match key.code {
+                KeyCode::Enter | KeyCode::Esc => help.focus = HelpFocus::Lines,
+                _ => line::edit(&mut help.search, key),
+            }
+            help.top = 0;
+        }
+        Vec::new()
+    }
+
+    fn prompt_key(&mut self, key: KeyEvent) -> Vec<Effect> {
+        let Some(prompt) = &mut self.prompt else {
+            return Vec::new();
+        };
+        match key.code {
+            KeyCode::Esc => self.close_prompt(),
+            // As in other programs: rubbing out nothing closes the line.
+            KeyCode::Backspace if prompt.input.value().is_empty() => self.close_prompt(),
+            KeyCode::Enter => {
+                let (kind, said) = (prompt.kind, prompt.input.value().to_owned());
+                self.prompt = None;
+                match kind {
+                    PromptKind::Command => return self.command(&said),
+                    PromptKind::Search => {
+                        self.searched = said;
+                        self.search(1);
+                    }
+                }
+            }
+            _ => line::edit(&mut prompt.input, key),
+        }
+        Vec::new()
+    }
+
+    fn act(&mut self, action: Action, context: Context) -> Vec<Effect> {
+        match action {
+            Action::Move(rows) => self.move_cursor(context, rows),
+            Action::Page(pages) => self.move_cursor(context, pages * self.page(context)),
+            Action::First => self.move_cursor(context, isize::MIN),
+            Action::Last => self.move_cursor(context, isize::MAX),
+            Action::G => self.pending.prefix = Some(action),
+            Action::Cycle(step) => self.cycle(step),
+            Action::Go(mode) => return self.go(mode),
+            Action::Back => return self.back(context),
+            Action::Accept => return self.accept(context),
+            Action::No => return self.decline(),
+            Action::Search => self.open_search(),
+            Action::SearchAgain(step) => self.search(step),
+            Action::Command => self.open_prompt(PromptKind::Command, ""),
+            Action::Outline => self.toggle_outline(),
+            Action::Type => self.type_current(),
+            Action::Nudge(steps, stride) => self.nudge(steps, stride),
+            Action::Stride(step) => self.change_stride(step),
+            Action::Component(step) => self.next_component(step),
+            Action::Orbit(left, up) => self.orbit_steps(left, up),
+            Action::Pan(left, up) => self.pan(left, up),
+            Action::Dolly(steps) => self.dolly(steps),
+            Action::Widen(steps) => self.widen(steps),
+            Action::ResetView => self.reset_view(),
+            Action::FrameSelected => self.frame_selected(),
+            Action::SaveView => self.save_view(),
+            Action::Cross(right, down) => self.move_cross(right, down),
+            Action::Mine | Action::Theirs | Action::AllMine | Action::AllTheirs => {
+                self.decide(action);
+            }
+            Action::Undo => self.undo(),
+            Action::Redo => self.redo(),
+            Action::Errors => self.toggle_errors(),
+            Action::Help => self.help = Some(Help::default()),
+            Action::Zoom => self.toggle_zoom(),
+            Action::Stop => return self.stop(),
+            Action::Export => return self.export_default(),
+            Action::Save => return self.save_key(),
+            Action::Editor => return self.open_editor(),
+            Action::Mouse => return self.toggle_mouse(),
+            Action::Repaint => return vec![Effect::Repaint],
+            Action::Suspend => return vec![Effect::Suspend],
+            Action::Quit => return self.quit(),
+            Action::Interrupt => return self.interrupt(),
+        }
+        Vec::new()
+    }
+
+    fn go(&mut self, mode: Mode) -> Vec<Effect> {
+        self.document.end_step();
+        match mode {
+            Mode::Trace => return self.start_trace(),
+            Mode::View | Mode::Pick if self.scene.is_none() => {
+                self.fail("there is no picture: the scene has errors");
+            }
+            Mode::Edit if self.placed().is_empty() => self.fail("nothing to edit here"),
+            Mode::Pick => self.start_pick(),
+            Mode::Select | Mode::View | Mode::Edit => self.mode = mode,
+        }
+        Vec::new()
+    }
+
+    /// Leaves a line without taking it; a quit that waited for the name in it is off.
+    fn close_prompt(&mut self) {
+        self.prompt = None;
+        self.pending.quit = false;
+    }
+
+    fn back(&mut self, context: Context) -> Vec<Effect> {
+        match context {
+            Context::Help => self.help = None,
+            Context::Errors => self.errors = None,
+            Context::Conflict | Context::Quit | Context::Recover => {
+                self.dialog = None;
+                self.pending.quit = false;
+            }
+            Context::In(Mode::Trace) => {
+                self.mode = self.pending.before_trace.take().unwrap_or(Mode::Select);
+            }
+            Context::In(_) => {
+                self.document.end_step();
+                self.mode = Mode::Select;
+            }
+        }
+        Vec::new()
+    }
+
+    fn accept(&mut self, context: Context) -> Vec<Effect> {
+        match context {
+            Context::Errors => self.go_to_error(),
+            Context::Conflict => self.adopt(),
+            Context::Quit => return vec![Effect::DropRecovery, Effect::Quit],
+            Context::Recover => return self.restore(),
+            Context::In(Mode::Pick) => self.pick_cross(),
+            Context::In(_) | Context::Help => {}
+        }
+        Vec::new()
+    }
+
+    /// `w`: also the answer that saves before it quits.
+    fn save_key(&mut self) -> Vec<Effect> {
+        if let Some(Dialog::Quit) = self.dialog {
+            self.dialog = None;
+            self.pending.quit = true;
+            if !self.document.is_dirty() {
+                return self.quit_when_done();
+            }
+        }
+        self.save()
+    }
+
+    /// Whether unsaved edits or an export would be lost with the program.
+    fn would_lose(&self) -> bool {
+        self.document.is_dirty() || self.export.is_some()
+    }
+
+    pub(super) fn quit(&mut self) -> Vec<Effect> {
+        if self.would_lose() {
+            self.dialog = Some(Dialog::Quit);
+            return Vec::new();
+        }
+        vec![Effect::Quit]
+    }
+
+    /// Quits, once nothing is lost, as was asked for before a save or an export was done.
+    pub(super) fn quit_when_done(&mut self) -> Vec<Effect> {
+        if !self.pending.quit {
+            return Vec::new();
+        }
+        if self.export.is_some() {
+            self.say("quits when the export is written; x cancels it");
+            return Vec::new();
+        }
+        self.pending.quit = false;
+        if self.document.is_dirty() {
+            return Vec::new();
+        }
+        vec![Effect::Quit]
+    }
+
+    fn interrupt(&mut self) -> Vec<Effect> {
+        if self.pending.interrupt || !self.would_lose() {
+            return self.quit_keeping_edits();
+        }
+        self.pending.interrupt = true;
+        self.dialog = Some(Dialog::Quit);
+        vec![Effect::Later(super::INTERRUPT_AGAIN, Timer::Interrupt)]
+    }
+
+    fn quit_keeping_edits(&self) -> Vec<Effect> {
+        let unsaved = self.document.is_dirty();
+        let text = unsaved.then(|| Effect::WriteRecovery(self.document.text().to_owned()));
+        text.into_iter().chain([Effect::Quit]).collect()
+    }
+
+    fn toggle_outline(&mut self) {
+        self.outline = match self.outline {
+            Outline::Marked => Outline::Hidden,
+            Outline::Hidden => Outline::Marked,
+        };
+    }
+
+    fn toggle_zoom(&mut self) {
+        self.zoom = match self.zoom {
+            Zoom::Panels => Zoom::Picture,
+            Zoom::Picture => Zoom::Panels,
+        };
+    }
+
+    fn toggle_mouse(&mut self) -> Vec<Effect> {
+        let (mouse, words) = match self.mouse {
+            Mouse::On => (Mouse::Off, "mouse off: the terminal selects text again"),
+            Mouse::Off => (Mouse::On, "mouse on: hold Shift to select text"),
+        };
+        self.mouse = mouse;
+        self.say(words);
+        vec![Effect::SetMouse(mouse)]
+    }
+
+    pub(super) fn open_prompt(&mut self, kind: PromptKind, said: &str) {
+        self.prompt = Some(Prompt {
+            kind,
+            input: Input::from(said),
+        });
+    }
+
+    fn open_search(&mut self) {
+        match &mut self.help {
+            Some(help) => help.focus = HelpFocus::Search,
+            None => self.open_prompt(PromptKind::Search, ""),
+        }
+    }
+
+    pub(super) fn say(&mut self, text: impl Into<String>) {
+        self.message = Some(Message {
+            severity: None,
+            text: text.into(),
+        });
+    }
+
+    pub(super) fn warn(&mut self, text: impl Into<String>) {
+        self.message = Some(Message {
+            severity: Some(Severity::Warning),
+            text: text.into(),
+        });
+    }
+
+    pub(super) fn fail(&mut self, text: impl Into<String>) {
+        self.message = Some(Message {
+            severity: Some(Severity::Error),
+            text: text.into(),
+        });
+    }
+}

@@ -1,0 +1,418 @@
+//! What touches the world: files, renderers, timers, the terminal.
+
+use std::io;
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::thread;
+use std::time::Instant;
+
+use super::Options;
+use super::msg::{Effect, Existing, Guard, Msg, SaveOutcome, Target, Timer};
+use super::recovery;
+use super::terminal::{self, Input, Terminal};
+#[cfg(unix)]
+use super::terminal::{Signals, suspend_process};
+use crate::file::{self, ReadError};
+use crate::image_out;
+use crate::render::{Frame, Job, Renderer, Threads};
+use crate::watch::{Method, Watcher};
+
+/// Something that came in.
+#[derive(Debug)]
+pub(crate) enum Event {
+    /// A message.
+    Msg(Msg),
+    /// A renderer has a newer frame.
+    Ready(Target),
+}
+
+/// What outlives a step: the terminal, the renderers, the timers, the file under watch.
+pub(crate) struct World {
+    // Given back first of all when the program ends.
+    terminal: Terminal,
+    input: Input,
+    #[cfg(unix)]
+    _signals: Signals,
+    sender: Sender<Event>,
+    files: Sender<FileTask>,
+    threads: Option<usize>,
+    preview: Option<Renderer>,
+    trace: Option<Renderer>,
+    export: Option<Renderer>,
+    method: Method,
+    watcher: Option<Watcher>,
+    watched: Option<PathBuf>,
+    timers: Vec<(Instant, Timer)>,
+    ended: bool,
+}
+
+impl World {
+    /// Takes the terminal over and starts everything that sends messages.
+    pub(crate) fn new(options: &Options, sender: Sender<Event>) -> io::Result<Self> {
+        let terminal = Terminal::enter(options.colours(), options.mouse)?;
+        let tell = |sender: &Sender<Event>| {
+            let sender = sender.clone();
+            move |event| {
+                // An inbox that is gone belongs to a program that ends.
+                let _ = sender.send(Event::Msg(message(event)));
+            }
+        };
+        Ok(Self {
+            terminal,
+            input: Input::start(tell(&sender))?,
+            #[cfg(unix)]
+            _signals: Signals::start(tell(&sender))?,
+            files: start_files(sender.clone())?,
+            threads: options.threads,
+            preview: None,
+            trace: None,
+            export: None,
+            method: options.poll.map_or(Method::Native, Method::Poll),
+            watcher: None,
+            watched: None,
+            timers: Vec::new(),
+            ended: false,
+            sender,
+        })
+    }
+
+    /// The terminal, to draw on.
+    pub(crate) fn terminal(&mut self) -> &mut Terminal {
+        &mut self.terminal
+    }
+
+    /// Whether the program is to end.
+    pub(crate) fn is_over(&self) -> bool {
+        self.ended
+    }
+
+    /// What an event says; nothing where its frame was taken before.
+    pub(crate) fn message(&self, event: Event) -> Option<Msg> {
+        match event {
+            Event::Msg(msg) => Some(msg),
+            Event::Ready(target) => {
+                let frame = self.renderer(target)?.latest()?;
+                Some(Msg::Frame(target, frame))
+            }
+        }
+    }
+
+    /// When the next timer is due.
+    pub(crate) fn next_timer(&self) -> Option<Instant> {
+        self.timers.iter().map(|&(at, _)| at).min()
+    }
+
+    /// The timers that are due, as messages.
+    pub(crate) fn due(&mut self, now: Instant) -> Vec<Msg> {
+        self.timers
+            .extract_if(.., |&mut (at, _)| at <= now)
+            .map(|(_, timer)| Msg::Elapsed(timer))
+            .collect()
+    }
+
+    /// Does what a step asks for; what comes of it at once.
+    pub(crate) fn perform(&mut self, effect: Effect) -> Option<Msg> {
+        let outcome = match effect {
+            Effect::Trace(target, job) => return Some(self.trace(target, job)),
+            Effect::Stop(target) => {
+                self.stop(target);
+                Ok(())
+            }
+            Effect::WriteImage(frame, path, existing) => self.write_image(frame, path, existing),
+            Effect::CheckTarget(path, existing) => {
+                let refused = check_target(&path, existing).err()?;
+                return Some(Msg::Exported(Err(refused)));
+            }
+            Effect::Read(path) => self.file(FileTask::Read(path)),
+            Effect::Save { path, text, guard } => self.file(FileTask::Save { path, text, guard }),
+            Effect::Watch(path) => self.watch(path),
+            Effect::Later(time, timer) => {
+                self.timers.retain(|&(_, set)| set != timer);
+                self.timers.push((Instant::now() + time, timer));
+                Ok(())
+            }
+            Effect::WriteRecovery(text) => recovery::write(self.watched.as_deref(), &text)
+                .map_err(|error| format!("the unsaved edits can't be kept: {error}")),
+            Effect::DropRecovery => recovery::remove(self.watched.as_deref())
+                .map_err(|error| format!("the kept edits can't be removed: {error}")),
+            Effect::OpenEditor { path, line } => {
+                return Some(Msg::EditorClosed(self.open_editor(&path, line)));
+            }
+            Effect::SetMouse(mouse) => terminal_outcome(self.terminal.set_mouse(mouse)),
+            Effect::Repaint => {
+                self.terminal.repaint();
+                Ok(())
+            }
+            Effect::TakeTerminal => terminal_outcome(self.terminal.reenter()),
+            Effect::Suspend => self.suspend(),
+            Effect::Quit => {
+                self.ended = true;
+                Ok(())
+            }
+        };
+        outcome.err().map(Msg::Failed)
+    }
+
+    fn renderer(&self, target: Target) -> Option<&Renderer> {
+        match target {
+            Target::Preview => self.preview.as_ref(),
+            Target::Trace => self.trace.as_ref(),
+            Target::Export => self.export.as_ref(),
+        }
+    }
+
+    fn trace(&mut self, target: Target, job: Job) -> Msg {
+        let cores = || thread::available_parallelism().map_or(1, NonZero::get);
+        let threads = match (target, self.threads) {
+            (Target::Preview, None) => Threads::Preview,
+            (Target::Preview, Some(count)) => Threads::Exactly(count),
+            (Target::Trace | Target::Export, count) => {
+                Threads::Background(count.unwrap_or_else(cores))
+            }
+        };
+        let start = || Renderer::new(threads, waker(&self.sender, target));
+        let slot = match target {
+            Target::Preview => &mut self.preview,
+            Target::Trace => &mut self.trace,
+            Target::Export => &mut self.export,
+        };
+        let generation = slot.get_or_insert_with(start).restart(job.clone());
+        // A worker that a panic has ended is replaced: the panic has cost one picture only.
+        let generation = generation.or_else(|| slot.insert(start()).restart(job));
+        generation.map_or_else(
+            || Msg::Failed("the system gives no threads to trace with".into()),
+            |generation| Msg::Started(target, generation),
+        )
+    }
+
+    fn stop(&mut self, target: Target) {
+        match target {
+            // It comes to rest by itself.
+            Target::Preview => {}
+            Target::Trace => self.trace = None,
+            Target::Export => self.export = None,
+        }
+    }
+
+    fn write_image(
+        &self,
+        frame: Arc<Frame>,
+        path: PathBuf,
+        existing: Existing,
+    ) -> Result<(), String> {
+        let sender = self.sender.clone();
+        let write = move || {
+            let outcome = check_target(&path, existing).and_then(|()| {
+                let saved = image_out::save(&frame, &path);
+                saved.map_err(|error| format!("{}: {error}", path.display()))
+            });
+            let _ = sender.send(Event::Msg(Msg::Exported(outcome.map(|()| path))));
+        };
+        let spawned = thread::Builder::new()
+            .name("export".to_owned())
+            .spawn(write);
+        spawned.map(drop).map_err(|error| error.to_string())
+    }
+
+    fn file(&self, task: FileTask) -> Result<(), String> {
+        let sent = self.files.send(task);
+        sent.map_err(|_| "the thread that reads and writes files has ended".to_owned())
+    }
+
+    fn watch(&mut self, path: PathBuf) -> Result<(), String> {
+        let sender = self.sender.clone();
+        let changed = move || {
+            let _ = sender.send(Event::Msg(Msg::FileChanged));
+        };
+        // The old watch ends first: its notices would be taken for the new file's.
+        self.watcher = None;
+        let watcher = Watcher::new(&path, self.method, changed).map_err(|error| {
+            format!(
+                "changes of {} go unnoticed: {error}; try --poll",
+                path.display()
+            )
+        })?;
+        self.watcher = Some(watcher);
+        self.watched = Some(path);
+        Ok(())
+    }
+
+    fn open_editor(&mut self, path: &Path, line: usize) -> Result<(), String> {
+        self.input.park();
+        let ran = self.terminal.leave().and_then(|()| {
+            let mut editor = editor(path, line);
+            let name = editor.get_program().to_string_lossy().into_owned();
+            let told = |error: io::Error| io::Error::new(error.kind(), format!("{name}: {error}"));
+            let status = editor.status().map_err(told)?;
+            if status.success() {
+                Ok(())
+            } else {
+                Err(io::Error::other(format!("{name} ended with {status}")))
+            }
+        });
+        let taken = self.terminal.reenter();
+        self.input.resume();
+        terminal_outcome(taken)?;
+        ran.map_err(|error| format!("the editor can't be used: {error} (see $VISUAL, $EDITOR)"))
+    }
+
+    #[cfg(unix)]
+    fn suspend(&mut self) -> Result<(), String> {
+        self.input.park();
+        let stopped = self.terminal.leave().and_then(|()| suspend_process());
+        let taken = self.terminal.reenter();
+        self.input.resume();
+        terminal_outcome(stopped.and(taken))
+    }
+
+    #[cfg(not(unix))]
+    fn suspend(&mut self) -> Result<(), String> {
+        Err("this system can't stop a program until it is continued".to_owned())
+    }
+}
+
+/// Work for the thread that reads and writes scene files, one after the other.
+enum FileTask {
+    Read(PathBuf),
+    Save {
+        path: PathBuf,
+        text: String,
+        guard: Guard,
+    },
+}
+
+fn start_files(sender: Sender<Event>) -> io::Result<Sender<FileTask>> {
+    let (tasks, inbox) = mpsc::channel();
+    let work = move || do_files(&inbox, &sender);
+    thread::Builder::new()
+        .name("files".to_owned())
+        .spawn(work)?;
+    Ok(tasks)
+}
+
+fn do_files(tasks: &Receiver<FileTask>, sender: &Sender<Event>) {
+    for task in tasks {
+        let msg = match task {
+            FileTask::Read(path) => Msg::Read(file::read_text(&path)),
+            FileTask::Save { path, text, guard } => Msg::Saved(save(path, text, &guard)),
+        };
+        if sender.send(Event::Msg(msg)).is_err() {
+            return;
+        }
+    }
+}
+
+/// Writes a scene, unless that would lose what somebody else wrote.
+fn save(path: PathBuf, text: String, guard: &Guard) -> SaveOutcome {
+    match (guard, file::read_text(&path)) {
+        (Guard::Holding(held), Ok(found)) if found != *held && found != text => {
+            return SaveOutcome::ChangedOnDisk(found);
+        }
+        (Guard::Anything, _)
+        | (Guard::Holding(_), Ok(_))
+        | (_, Err(ReadError::NotFound { .. })) => {}
+        (Guard::Holding(_), Err(error)) => return SaveOutcome::Failed(error.to_string()),
+        (Guard::Absent, _) => {
+            let path = path.display();
+            return SaveOutcome::Failed(format!("{path} exists: :w! {path} overwrites it"));
+        }
+    }
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    if let Some(folder) = folder.filter(|folder| !folder.exists()) {
+        return SaveOutcome::Failed(format!("{}: no such folder", folder.display()));
+    }
+    match file::replace(&path, |out| out.write_all(text.as_bytes())) {
+        Ok(()) => SaveOutcome::Saved { path, text },
+        Err(error) => SaveOutcome::Failed(format!("{}: {error}", path.display())),
+    }
+}
+
+/// Whether a picture may be written there; else why not.
+fn check_target(path: &Path, existing: Existing) -> Result<(), String> {
+    let shown = path.display();
+    if existing == Existing::Kept && path.symlink_metadata().is_ok() {
+        return Err(format!("{shown} exists: :export! {shown} overwrites it"));
+    }
+    file::check_target(path).map_err(|error| format!("{shown}: {error}"))
+}
+
+/// The user's editor, told to go to a line in the way it understands.
+fn editor(path: &Path, line: usize) -> Command {
+    let set = |name| {
+        std::env::var(name)
+            .ok()
+            .filter(|said| !said.trim().is_empty())
+    };
+    let said = set("VISUAL").or_else(|| set("EDITOR"));
+    let said = said.unwrap_or_else(|| "vi".to_owned());
+    let mut words = said.split_whitespace();
+    let program = words.next().unwrap_or("vi");
+    let mut command = Command::new(program);
+    command.args(words);
+    let name = Path::new(program).file_stem().unwrap_or_default();
+    let mut place = path.as_os_str().to_owned();
+    place.push(format!(":{line}"));
+    match name.to_str().unwrap_or_default() {
+        "hx" | "helix" | "subl" | "zed" => command.arg(place),
+        "code" | "codium" => command.arg("--goto").arg(place),
+        _ => command.arg(format!("+{line}")).arg(path),
+    };
+    command
+}
+
+fn waker(sender: &Sender<Event>, target: Target) -> impl Fn() + Send + Sync + 'static {
+    let sender = sender.clone();
+    move || {
+        let _ = sender.send(Event::Ready(target));
+    }
+}
+
+fn terminal_outcome(outcome: io::Result<()>) -> Result<(), String> {
+    outcome.map_err(|error| format!("terminal: {error}"))
+}
+
+fn message(event: terminal::Event) -> Msg {
+    use terminal::Event as E;
+    match event {
+        E::Key(key) => Msg::Key(key),
+        E::Paste(text) => Msg::Paste(text),
+        E::Mouse(event) => Msg::Mouse(event),
+        E::Resize { columns, rows } => Msg::Resize(columns, rows),
+        E::Suspend => Msg::Suspend,
+        E::Continue => Msg::Continued,
+        E::HangUp => Msg::HangUp,
+        E::Terminate => Msg::Terminate,
+        E::Interrupt => Msg::Interrupt,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scene_is_not_saved_in_a_folder_that_is_not_there() {
+        let place = tempfile::tempdir().expect("a folder");
+        let path = place.path().join("none").join("x.ray");
+        let outcome = save(path, String::new(), &Guard::Absent);
+        assert!(
+            matches!(outcome, SaveOutcome::Failed(said) if said.ends_with("none: no such folder"))
+        );
+    }
+
+    #[test]
+    fn a_picture_that_others_wrote_is_kept() {
+        let place = tempfile::tempdir().expect("a folder");
+        let path = place.path().join("a.bmp");
+        assert_eq!(check_target(&path, Existing::Kept), Ok(()));
+        std::fs::write(&path, "").expect("the folder is new");
+        let refused = check_target(&path, Existing::Kept).expect_err("it exists");
+        assert!(refused.contains(":export! "), "{refused}");
+        assert_eq!(check_target(&path, Existing::Overwritten), Ok(()));
+    }
+}

@@ -1,0 +1,285 @@
+//! The table of keys as text: the page of help, and the line of hints.
+
+use super::{A, Action, Binding, Chord, Context, Edit, Pick, Plain, Select, TABLE, Trace, View};
+use super::{ALL, EVERYWHERE};
+use crate::ui::app::Mode;
+
+/// A line of help.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum HelpLine {
+    /// Where the lines below it hold: `SELECT`, `anywhere`.
+    Heading(&'static str),
+    /// What does what.
+    Entry {
+        /// The keys, or what else is typed or done: `j ↓`.
+        keys: String,
+        /// What they do.
+        words: &'static str,
+    },
+}
+
+/// Groups of help after the keys that mean something anywhere, by name.
+const MODES: [(&str, Context); 5] = [
+    ("SELECT", Context::In(Select)),
+    ("EDIT", Context::In(Edit)),
+    ("VIEW", Context::In(View)),
+    ("PICK", Context::In(Pick)),
+    ("TRACE", Context::In(Trace)),
+];
+const DIALOGS: [(&str, Context); 5] = [
+    ("the list of errors", Context::Errors),
+    ("this page", Context::Help),
+    ("when the file changed too", Context::Conflict),
+    ("when asked whether to quit", Context::Quit),
+    ("when edits were found", Context::Recover),
+];
+
+/// What can be typed after `:`.
+const COMMANDS: [(&str, &str); 12] = [
+    (":w  :w FILE", "save the scene, or under another name"),
+    (":w!", "save over changes of the file"),
+    (":q  :q!", "quit; with ! without asking"),
+    (":wq", "save and quit"),
+    (":e", "read the file again"),
+    (":export [FILE] [WxH] [spp]", "write a picture"),
+    (":export cancel", "stop writing it"),
+    (":render", "trace at full size"),
+    (":view save", "write the view into the scene"),
+    (":view reset", "back to the scene's view"),
+    (":size WxH", "size of the picture in the scene"),
+    (":help", "this page"),
+];
+
+const MOUSE: [(&str, &str); 6] = [
+    ("click the list", "select"),
+    ("click a field", "put the cursor there"),
+    ("click it again", "type a value"),
+    ("click the picture", "select what is there"),
+    ("drag it in VIEW", "orbit"),
+    ("wheel", "scroll; in VIEW nearer or farther"),
+];
+
+/// Help for someone in `mode`, whose keys come first: groups of lines whose keys, words or heading
+/// hold `search`, in any case.
+pub fn help(search: &str, mode: Mode) -> Vec<HelpLine> {
+    let search = search.to_lowercase();
+    let mut lines = Vec::new();
+    let mut add = |heading: &'static str, entries: Vec<(String, &'static str)>| {
+        let all = holds(heading, &search);
+        let found = entries
+            .into_iter()
+            .filter(|(keys, words)| all || holds(keys, &search) || holds(words, &search))
+            .map(|(keys, words)| HelpLine::Entry { keys, words });
+        let start = lines.len();
+        lines.extend(found);
+        if start < lines.len() {
+            lines.insert(start, HelpLine::Heading(heading));
+        }
+    };
+    let of = |context: Context| entries(|row| !is_common(row) && row.contexts.contains(&context));
+    let here = |&(_, context): &(&str, Context)| context == Context::In(mode);
+    for (heading, context) in MODES.into_iter().filter(here) {
+        add(heading, of(context));
+    }
+    add("anywhere", entries(is_common));
+    for (heading, context) in MODES.into_iter().filter(|group| !here(group)) {
+        add(heading, of(context));
+    }
+    for (heading, context) in DIALOGS {
+        add(heading, of(context));
+    }
+    let owned = |(keys, words): &(&str, &'static str)| ((*keys).to_owned(), *words);
+    add("commands", COMMANDS.iter().map(owned).collect());
+    add("mouse", MOUSE.iter().map(owned).collect());
+    lines
+}
+
+/// The keys for the line of hints, most telling first. A dialog's are all its own.
+pub fn hints(context: Context) -> Vec<(String, &'static str)> {
+    let own: &[Hint] = match context {
+        Context::In(Select) => SELECT_HINTS,
+        Context::In(Edit) => EDIT_HINTS,
+        Context::In(View) => VIEW_HINTS,
+        Context::In(Pick) => PICK_HINTS,
+        Context::In(Trace) => TRACE_HINTS,
+        Context::Errors => ERROR_HINTS,
+        Context::Help | Context::Conflict | Context::Quit | Context::Recover => {
+            return TABLE
+                .iter()
+                .filter(|row| row.contexts.contains(&context) && !is_common(row))
+                .filter(|row| row.contexts.len() == 1 || matches!(row.action, A::Move(_)))
+                .map(|row| (first_key(row), row.words))
+                .collect();
+        }
+    };
+    own.iter()
+        .chain(COMMON_HINTS)
+        .map(|(actions, words)| {
+            let keys: Vec<_> = actions
+                .iter()
+                .filter_map(|action| binding(context, *action).map(first_key))
+                .collect();
+            (keys.join("/"), *words)
+        })
+        .collect()
+}
+
+/// Actions whose keys are shown together, and what they do in a word or two.
+type Hint = (&'static [Action], &'static str);
+
+const SELECT_HINTS: &[Hint] = &[
+    (&[A::Move(1), A::Move(-1)], "move"),
+    (&[A::Go(Edit)], "edit"),
+    (&[A::Go(View)], "camera"),
+    (&[A::Go(Pick)], "pick"),
+    (&[A::Search], "search"),
+];
+const EDIT_HINTS: &[Hint] = &[
+    (&[A::Move(1), A::Move(-1)], "field"),
+    (&[A::Nudge(-1, Plain), A::Nudge(1, Plain)], "nudge"),
+    (&[A::Stride(-1), A::Stride(1)], "step"),
+    (&[A::Type], "type"),
+    (&[A::Component(1)], "next number"),
+    (&[A::Back], "back"),
+];
+const VIEW_HINTS: &[Hint] = &[
+    (
+        &[
+            A::Orbit(1, 0),
+            A::Orbit(0, -1),
+            A::Orbit(0, 1),
+            A::Orbit(-1, 0),
+        ],
+        "orbit",
+    ),
+    (&[A::Dolly(1), A::Dolly(-1)], "near/far"),
+    (&[A::FrameSelected], "frame"),
+    (&[A::ResetView], "reset"),
+    (&[A::SaveView], "save view"),
+    (&[A::Back], "back"),
+];
+const PICK_HINTS: &[Hint] = &[
+    (
+        &[
+            A::Cross(-1, 0),
+            A::Cross(0, 1),
+            A::Cross(0, -1),
+            A::Cross(1, 0),
+        ],
+        "move",
+    ),
+    (&[A::Accept], "select"),
+    (&[A::Back], "back"),
+];
+const TRACE_HINTS: &[Hint] = &[(&[A::Stop], "stop"), (&[A::Back], "back")];
+const ERROR_HINTS: &[Hint] = &[
+    (&[A::Move(1), A::Move(-1)], "move"),
+    (&[A::Accept], "go there"),
+    (&[A::Editor], "editor"),
+    (&[A::Back], "close"),
+];
+const COMMON_HINTS: &[Hint] = &[
+    (&[A::Save], "save"),
+    (&[A::Undo], "undo"),
+    (&[A::Export], "export"),
+    (&[A::Go(Trace)], "trace"),
+    (&[A::Command], "command"),
+    (&[A::Quit], "quit"),
+];
+
+fn holds(text: &str, lower_case: &str) -> bool {
+    text.to_lowercase().contains(lower_case)
+}
+
+/// Whether a key means the same wherever it means anything.
+fn is_common(row: &Binding) -> bool {
+    [EVERYWHERE.len(), ALL.len()].contains(&row.contexts.len())
+}
+
+fn binding(context: Context, action: Action) -> Option<&'static Binding> {
+    TABLE
+        .iter()
+        .find(|row| row.action == action && row.contexts.contains(&context))
+}
+
+fn entries(shown: impl Fn(&Binding) -> bool) -> Vec<(String, &'static str)> {
+    let rows = TABLE.iter().filter(|row| shown(row));
+    rows.map(|row| (keys(row), row.words)).collect()
+}
+
+fn keys(row: &Binding) -> String {
+    match row.action {
+        A::G => "gg".to_owned(),
+        _ => row
+            .chords
+            .iter()
+            .map(Chord::name)
+            .collect::<Vec<_>>()
+            .join(" "),
+    }
+}
+
+fn first_key(row: &Binding) -> String {
+    row.chords.first().map_or_else(String::new, Chord::name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn headings(lines: &[HelpLine]) -> Vec<&'static str> {
+        let heading = |line: &HelpLine| match line {
+            HelpLine::Heading(heading) => Some(*heading),
+            HelpLine::Entry { .. } => None,
+        };
+        lines.iter().filter_map(heading).collect()
+    }
+
+    fn entry(keys: &str, words: &'static str) -> HelpLine {
+        HelpLine::Entry {
+            keys: keys.to_owned(),
+            words,
+        }
+    }
+
+    #[test]
+    fn the_keys_of_the_mode_come_first_and_every_key_is_there() {
+        let lines = help("", View);
+        assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
+        assert_eq!(headings(&lines).len(), 13);
+        assert!(lines.contains(&entry("gg", "first")));
+        for row in TABLE {
+            assert!(lines.contains(&entry(&keys(row), row.words)), "{row:?}");
+        }
+    }
+
+    #[test]
+    fn lines_are_found_by_any_part() {
+        let undo = help("UNDO", Select);
+        assert_eq!(undo, [HelpLine::Heading("anywhere"), entry("u", "undo")]);
+        assert!(help("ctrl-r", Select).contains(&entry("Ctrl-R", "redo")));
+        assert_eq!(headings(&help("mouse", Edit)), ["anywhere", "mouse"]);
+        assert_eq!(headings(&help("[wxh]", Edit)), ["commands"]);
+        assert!(help("no such words", Select).is_empty());
+    }
+
+    #[test]
+    fn every_hint_has_a_key() {
+        for (_, context) in MODES.into_iter().chain(DIALOGS) {
+            for (keys, words) in hints(context) {
+                let whole = keys.split('/').all(|key| !key.is_empty());
+                assert!(keys == "/" || whole, "{context:?} {words}");
+            }
+        }
+        assert_eq!(hints(Context::In(View))[0], ("h/j/k/l".to_owned(), "orbit"));
+    }
+
+    #[test]
+    fn a_question_shows_its_answers_only() {
+        let keys: Vec<_> = hints(Context::Quit)
+            .into_iter()
+            .map(|hint| hint.0)
+            .collect();
+        assert_eq!(keys, ["y", "w", "n"]);
+    }
+}

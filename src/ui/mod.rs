@@ -1,0 +1,169 @@
+//! The terminal: the only room that knows ratatui and crossterm.
+//!
+//! ```text
+//! input, signals, watcher, renderers ──Msg──▶ inbox ──▶ App::update ──Effect──▶ World::perform
+//!                                                          │                        │
+//!                                                          ▼                        └──Msg──▶ inbox
+//!                                                      view::draw ──▶ cells
+//! ```
+//!
+//! One inbox. [`App::update`] is a pure step; effects do what touches the world; drawing reads the
+//! app and nothing else.
+
+pub mod app;
+mod effects;
+pub mod keymap;
+pub mod msg;
+mod recovery;
+mod session;
+pub mod terminal;
+pub mod view;
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use crate::file::{self, ReadError};
+use crate::format::Format;
+use crate::render::DEFAULT_DEPTH;
+use app::{App, Opening, Quality};
+use terminal::{Choice, ColourDepth, Mouse};
+
+/// Samples a pixel of full-size traces and exports unless the user says otherwise.
+pub const DEFAULT_SPP: u32 = 16;
+
+/// The scene that is opened without a name, if the current folder has one.
+const DEFAULT_SCENE: &str = "default.ray";
+
+/// The scene that is opened where there is no other.
+const EMBEDDED_SCENE: &str = include_str!("../../scenes/default.ray");
+
+/// What the user said about the interface; `None` is left to it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// The scene to open; without one `default.ray` of the current folder, or else a built-in one.
+    pub scene: Option<PathBuf>,
+    /// Compare the file's content at this interval instead of waiting for the system's notices.
+    pub poll: Option<Duration>,
+    /// Bytes a second that may be sent to the terminal; 0 is no limit.
+    pub bandwidth: Option<u32>,
+    /// The colours to use.
+    pub colour: Choice,
+    /// Whether the mouse is taken from the terminal.
+    pub mouse: Mouse,
+    /// Samples a pixel.
+    pub spp: Option<u32>,
+    /// Bounces.
+    pub depth: Option<u32>,
+    /// Threads that trace.
+    pub threads: Option<usize>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            scene: None,
+            poll: None,
+            bandwidth: None,
+            colour: Choice::Auto,
+            mouse: Mouse::On,
+            spp: None,
+            depth: None,
+            threads: None,
+        }
+    }
+}
+
+impl Options {
+    fn colours(&self) -> ColourDepth {
+        ColourDepth::detect(self.colour)
+    }
+}
+
+/// How the interface ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// The user left it.
+    Quit,
+    /// It was interrupted from outside.
+    Interrupted,
+    /// It was asked from outside to end.
+    Terminated,
+    /// The terminal is gone.
+    HungUp,
+}
+
+/// Why the interface could not be opened, or ended.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The scene can't be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// A file whose name does not say which language it is written in.
+    #[error("{path}: not a scene: scenes end in .ray", path = path.display())]
+    UnknownLanguage {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A folder.
+    #[error("{path}: is a folder, not a scene", path = path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Neither a file nor, by its name, a scene.
+    #[error(
+        "no such file or command `{path}`; the commands are render and check, scenes end in .ray",
+        path = path.display()
+    )]
+    NoSuch {
+        /// What was said.
+        path: PathBuf,
+    },
+    /// The terminal can't be used.
+    #[error("terminal: {0}")]
+    Terminal(#[from] io::Error),
+}
+
+/// Opens the interface and stays until the user leaves it. The terminal is touched only once the
+/// scene is read.
+pub fn run(options: &Options) -> Result<Ending, Error> {
+    let (path, text) = read_scene(options.scene.as_deref())?;
+    let size = terminal::size();
+    let opening = Opening {
+        path,
+        text,
+        quality: Quality {
+            spp: options.spp.unwrap_or(DEFAULT_SPP),
+            depth: options.depth.unwrap_or(DEFAULT_DEPTH),
+        },
+        mouse: options.mouse,
+        terminal: (size.width, size.height),
+    };
+    let recovered = recovery::read(opening.path.as_deref());
+    let (app, effects) = App::open(opening);
+    Ok(session::run(options, app, effects, recovered)?)
+}
+
+/// The scene to open: its path, unless it is the built-in one, and its text.
+fn read_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, String), Error> {
+    let path = named.unwrap_or_else(|| Path::new(DEFAULT_SCENE));
+    if path.is_dir() {
+        return Err(Error::Folder {
+            path: path.to_owned(),
+        });
+    }
+    if Format::of_path(path).is_none() {
+        let path = path.to_owned();
+        return Err(if path.exists() {
+            Error::UnknownLanguage { path }
+        } else {
+            Error::NoSuch { path }
+        });
+    }
+    match file::read_text(path) {
+        Ok(text) => Ok((Some(path.to_owned()), text)),
+        Err(ReadError::NotFound { .. }) if named.is_none() => Ok((None, EMBEDDED_SCENE.to_owned())),
+        Err(error) => Err(error.into()),
+    }
+}

@@ -1,0 +1,161 @@
+//! Everything that can happen to the interface, and everything it asks for.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use crossterm::event::{KeyEvent, MouseEvent};
+
+use crate::file::ReadError;
+use crate::render::{Frame, Job};
+use crate::ui::terminal::Mouse;
+
+/// Which picture a frame belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// The preview beside the list.
+    Preview,
+    /// The full-size trace of F5.
+    Trace,
+    /// An export in the background.
+    Export,
+}
+
+/// One event.
+#[derive(Debug)]
+pub enum Msg {
+    /// A key was pressed.
+    Key(KeyEvent),
+    /// Text was pasted.
+    Paste(String),
+    /// The mouse did something over a cell.
+    Mouse(MouseEvent),
+    /// The terminal has a new size, in cells.
+    Resize(u16, u16),
+    /// A picture was begun; its generation.
+    Started(Target, u64),
+    /// A newer frame is there.
+    Frame(Target, Arc<Frame>),
+    /// Something happened to the scene file.
+    FileChanged,
+    /// The scene file was read.
+    Read(Result<String, ReadError>),
+    /// The time that [`Effect::Later`] asked for has passed.
+    Elapsed(Timer),
+    /// The scene was written, or not.
+    Saved(SaveOutcome),
+    /// The export ended.
+    Exported(Result<PathBuf, String>),
+    /// The external editor has ended.
+    EditorClosed(Result<(), String>),
+    /// Edits of an earlier run that were never saved were found.
+    Recovered(String),
+    /// Someone outside asks the process to stop for a while.
+    Suspend,
+    /// The process goes on after a stop.
+    Continued,
+    /// Someone outside interrupts the process.
+    Interrupt,
+    /// The process was asked to end.
+    Terminate,
+    /// The terminal is gone.
+    HangUp,
+    /// A worker panicked, or the world around failed otherwise; the message.
+    Failed(String),
+}
+
+/// What a while was awaited for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Timer {
+    /// The scene file to be quiet.
+    Settled,
+    /// A second Ctrl-C.
+    Interrupt,
+    /// A second click.
+    Click,
+}
+
+/// What became of a save.
+#[derive(Debug)]
+pub enum SaveOutcome {
+    /// The file holds this text now.
+    Saved {
+        /// Where.
+        path: PathBuf,
+        /// What.
+        text: String,
+    },
+    /// The file holds something that neither we wrote nor read: nothing was written.
+    ChangedOnDisk(String),
+    /// Nothing was written; why.
+    Failed(String),
+}
+
+/// Something that touches the world.
+#[derive(Clone, Debug)]
+pub enum Effect {
+    /// Trace this picture from here on: [`Msg::Started`], [`Msg::Frame`].
+    Trace(Target, Job),
+    /// Trace it no longer.
+    Stop(Target),
+    /// Write a frame to a picture file: [`Msg::Exported`].
+    WriteImage(Arc<Frame>, PathBuf, Existing),
+    /// Say whether a picture can be written there, if not: [`Msg::Exported`].
+    CheckTarget(PathBuf, Existing),
+    /// Read the scene file: [`Msg::Read`].
+    Read(PathBuf),
+    /// Write the scene file: [`Msg::Saved`].
+    Save {
+        /// Where.
+        path: PathBuf,
+        /// What.
+        text: String,
+        /// What may be overwritten.
+        guard: Guard,
+    },
+    /// Watch this file from here on: [`Msg::FileChanged`].
+    Watch(PathBuf),
+    /// Send [`Msg::Elapsed`] after a while; the same timer set again starts anew.
+    Later(Duration, Timer),
+    /// Keep the text of unsaved edits for the next run.
+    WriteRecovery(String),
+    /// Forget what was kept for the next run.
+    DropRecovery,
+    /// Lend the terminal to the user's editor, at a line: [`Msg::EditorClosed`].
+    OpenEditor {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+    },
+    /// Take the mouse or leave it to the terminal.
+    SetMouse(Mouse),
+    /// Draw the whole screen anew.
+    Repaint,
+    /// Take the terminal back from whoever ran in between.
+    TakeTerminal,
+    /// Stop the process until it is continued.
+    Suspend,
+    /// End.
+    Quit,
+}
+
+/// What a save may overwrite.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Guard {
+    /// A file that holds this text, or none.
+    Holding(String),
+    /// None.
+    Absent,
+    /// Any.
+    Anything,
+}
+
+/// What becomes of a file that stands where a picture is to be written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Existing {
+    /// It stays, and nothing is written.
+    Kept,
+    /// The picture takes its place.
+    Overwritten,
+}

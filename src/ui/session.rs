@@ -1,0 +1,207 @@
+//! The loop: waits for events, takes steps, draws.
+
+use std::collections::VecDeque;
+use std::io;
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::time::{Duration, Instant};
+
+use super::app::App;
+use super::effects::{Event, World};
+use super::msg::{Effect, Msg, Target};
+use super::terminal::{Link, default_bandwidth};
+use super::view::{self, Glyphs};
+use super::{Ending, Options};
+
+/// The least time between two drawings that only bring finer frames.
+const FRAME_TIME: Duration = Duration::from_millis(33);
+
+/// What is worth waiting for on a slow link, in bytes: less than this is not drawn by itself.
+const MORSEL: usize = 4096;
+
+/// Runs the interface until it is left.
+pub(crate) fn run(
+    options: &Options,
+    app: App,
+    effects: Vec<Effect>,
+    recovered: Option<String>,
+) -> io::Result<Ending> {
+    let (sender, inbox) = mpsc::channel();
+    let bandwidth = options
+        .bandwidth
+        .or_else(|| default_bandwidth(|name| std::env::var(name).ok()));
+    let mut session = Session {
+        app,
+        world: World::new(options, sender)?,
+        link: Link::new(bandwidth),
+        glyphs: Glyphs::for_depth(options.colours()),
+        inbox,
+        refined: None,
+        ending: Ending::Quit,
+    };
+    session.perform(effects);
+    if let Some(text) = recovered {
+        session.step(Msg::Recovered(text));
+    }
+    Ok(session.run())
+}
+
+struct Session {
+    app: App,
+    world: World,
+    link: Link,
+    glyphs: Glyphs,
+    inbox: Receiver<Event>,
+    /// When a finer frame was last waited for and drawn.
+    refined: Option<Instant>,
+    /// What the program's end came of.
+    ending: Ending,
+}
+
+/// How soon the screen is to be drawn.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Urgency {
+    /// Nothing changed.
+    Never,
+    /// A finer frame came.
+    Soon,
+    /// The user waits for an answer, of which the first frame of a picture is a part.
+    Now,
+}
+
+impl Session {
+    fn run(mut self) -> Ending {
+        let mut urgency = Urgency::Now;
+        while !self.world.is_over() {
+            let now = Instant::now();
+            let draw_at = match urgency {
+                Urgency::Now => Some(now),
+                Urgency::Soon => Some(self.refined.map_or(now, |refined| refined + FRAME_TIME)),
+                Urgency::Never => self.rest_at(now),
+            };
+            if draw_at.is_some_and(|at| at <= now) {
+                if urgency == Urgency::Soon {
+                    self.refined = Some(now);
+                }
+                if self.draw().is_err() {
+                    // A terminal that can't be written to is gone; what must survive is kept.
+                    self.step(Msg::HangUp);
+                    return self.ending;
+                }
+                urgency = Urgency::Never;
+                continue;
+            }
+            urgency = urgency.max(self.wait(draw_at));
+        }
+        self.ending
+    }
+
+    /// When the rest of a picture may go over the link, if one is left.
+    fn rest_at(&self, now: Instant) -> Option<Instant> {
+        if !self.app.picture().is_pending() {
+            return None;
+        }
+        Some(self.link.ready_at(now, MORSEL).unwrap_or(now))
+    }
+
+    /// Takes everything that came in, after waiting for it until `deadline` at most.
+    fn wait(&mut self, deadline: Option<Instant>) -> Urgency {
+        let deadline = deadline.into_iter().chain(self.world.next_timer()).min();
+        let first = match deadline {
+            None => self
+                .inbox
+                .recv()
+                .map_err(|_| RecvTimeoutError::Disconnected),
+            Some(deadline) => {
+                let time = deadline.saturating_duration_since(Instant::now());
+                self.inbox.recv_timeout(time)
+            }
+        };
+        let mut urgency = Urgency::Never;
+        let events: Vec<_> = first.into_iter().chain(self.inbox.try_iter()).collect();
+        // Of several readings of the file only the last is worth understanding: a large scene that
+        // is written in many pieces is read after each.
+        let last_read = events.iter().rposition(is_read);
+        let is_outdated = |at, event: &Event| is_read(event) && Some(at) != last_read;
+        for (at, event) in events.into_iter().enumerate() {
+            if is_outdated(at, &event) {
+                continue;
+            }
+            if let Some(msg) = self.world.message(event) {
+                urgency = urgency.max(self.urgency_of(&msg));
+                self.step(msg);
+            }
+        }
+        for msg in self.world.due(Instant::now()) {
+            urgency = Urgency::Now;
+            self.step(msg);
+        }
+        for panic in self.world.terminal().take_panics() {
+            urgency = Urgency::Now;
+            self.step(Msg::Failed(panic));
+        }
+        urgency
+    }
+
+    fn urgency_of(&self, msg: &Msg) -> Urgency {
+        match msg {
+            Msg::Frame(Target::Preview, frame) if self.app.preview.is_first(frame) => Urgency::Now,
+            Msg::Frame(..) => Urgency::Soon,
+            _ => Urgency::Now,
+        }
+    }
+
+    fn step(&mut self, msg: Msg) {
+        if !self.world.is_over() {
+            self.ending = ending(&msg);
+        }
+        let effects = self.app.update(msg);
+        self.perform(effects);
+    }
+
+    fn perform(&mut self, effects: Vec<Effect>) {
+        let mut left = VecDeque::from(effects);
+        while let Some(effect) = left.pop_front() {
+            if let Some(msg) = self.world.perform(effect) {
+                left.extend(self.app.update(msg));
+            }
+        }
+    }
+
+    fn draw(&mut self) -> io::Result<()> {
+        let now = Instant::now();
+        if let Some((_, size)) = self.app.raster() {
+            let allowance = self.link.allowance(now);
+            let picture = self.app.picture_mut();
+            picture.advance(size, allowance);
+            let rests = !picture.is_pending() && picture.is_complete();
+            let limited = allowance != usize::MAX;
+            self.app.net = (limited && !rests).then(|| self.link.rate(now));
+        }
+        let (app, glyphs) = (&self.app, self.glyphs);
+        let mut area = app.terminal;
+        let bytes = self.world.terminal().draw(|frame| {
+            area = (frame.area().width, frame.area().height);
+            view::draw(app, glyphs, frame);
+        })?;
+        self.link.spent(bytes, now);
+        if area != self.app.terminal {
+            self.step(Msg::Resize(area.0, area.1));
+            return self.draw();
+        }
+        Ok(())
+    }
+}
+
+/// How the program ends if this message ends it.
+fn ending(msg: &Msg) -> Ending {
+    match msg {
+        Msg::Interrupt => Ending::Interrupted,
+        Msg::Terminate => Ending::Terminated,
+        Msg::HangUp => Ending::HungUp,
+        _ => Ending::Quit,
+    }
+}
+
+fn is_read(event: &Event) -> bool {
+    matches!(event, Event::Msg(Msg::Read(_)))
+}

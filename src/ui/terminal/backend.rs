@@ -1,0 +1,436 @@
+//! Cells as bytes.
+//!
+//! On a picture of half blocks the colours are nearly all the bytes there are, so each cell is
+//! sent as whichever of its equal-looking forms changes the fewer of them: `▀` and `▄` with the
+//! colours exchanged, a blank or `█` where both halves are equal.
+//!
+//! Nothing in a cell can reach the terminal as a command: control characters are replaced, and a
+//! cell shows one character with at most one mark upon it.
+
+use std::collections::BTreeSet;
+use std::convert::Infallible;
+
+use ratatui::backend::{Backend, ClearType, WindowSize};
+use ratatui::buffer::{Cell, CellWidth};
+use ratatui::layout::{Position, Size};
+use ratatui::style::Modifier;
+use unicode_width::UnicodeWidthChar;
+
+use super::colour::{ColourDepth, Ink};
+use super::pen::{Pen, Style, VISIBLE_ON_BLANK, push_number};
+
+/// Synchronized output, DEC private mode 2026: the terminal shows the frame when all is there.
+const BEGIN: &[u8] = b"\x1b[?2026h";
+const END: &[u8] = b"\x1b[?2026l";
+
+/// Encodes cells into one buffer of bytes a frame; writes nothing itself and asks nothing.
+///
+/// Expects a terminal in raw mode that does not wrap lines.
+#[derive(Debug)]
+pub struct AnsiBackend {
+    depth: ColourDepth,
+    size: Size,
+    /// The frame so far, from the first byte on in its bracket.
+    out: Vec<u8>,
+    pen: Pen,
+    place: Place,
+    cursor: Cursor,
+    /// Where wide characters begin on the screen, row before column.
+    wide: BTreeSet<(u16, u16)>,
+}
+
+/// Where the terminal's cursor is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Place {
+    Unknown,
+    /// In this row; terminals differ on the column, as after the last one or a wide character.
+    Row(u16),
+    At(Position),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Cursor {
+    Shown,
+    Hidden,
+    Unknown,
+}
+
+impl AnsiBackend {
+    /// Starts with a terminal of which nothing is known.
+    pub fn new(depth: ColourDepth, size: Size) -> Self {
+        Self {
+            depth,
+            size,
+            out: BEGIN.to_vec(),
+            pen: Pen::UNKNOWN,
+            place: Place::Unknown,
+            cursor: Cursor::Unknown,
+            wide: BTreeSet::new(),
+        }
+    }
+
+    /// Takes over the size of the window; the next frame is laid out for it.
+    pub fn fit(&mut self, size: Size) {
+        self.size = size;
+    }
+
+    /// Forgets what the terminal was told, as after somebody else has used it.
+    pub fn forget(&mut self) {
+        self.pen = Pen::UNKNOWN;
+        self.place = Place::Unknown;
+        self.cursor = Cursor::Unknown;
+        self.wide.clear();
+    }
+
+    /// Hands the bytes of a frame to `write` in one piece, in the brackets of synchronized
+    /// output, and starts the next; a frame without bytes is not handed over.
+    pub fn finish<E>(&mut self, write: impl FnOnce(&[u8]) -> Result<(), E>) -> Result<usize, E> {
+        if self.out.len() == BEGIN.len() {
+            return Ok(0);
+        }
+        self.out.extend_from_slice(END);
+        let bytes = self.out.len();
+        let written = write(&self.out);
+        self.out.truncate(BEGIN.len());
+        written.map(|()| bytes)
+    }
+
+    fn move_to(&mut self, to: Position) {
+        match self.place {
+            Place::At(at) if at == to => return,
+            Place::At(at) if at.y == to.y && at.x < to.x => self.forward(to.x - at.x),
+            Place::At(Position { y, .. }) | Place::Row(y) if y == to.y => {
+                if to.x == 0 {
+                    self.out.push(b'\r');
+                } else {
+                    self.command(&[to.x + 1], b'G');
+                }
+            }
+            Place::At(Position { y, .. }) | Place::Row(y) if y + 1 == to.y => {
+                self.out.extend_from_slice(b"\r\n");
+                self.forward(to.x);
+            }
+            _ => self.command(&[to.y + 1, to.x + 1], b'H'),
+        }
+        self.place = Place::At(to);
+    }
+
+    fn forward(&mut self, columns: u16) {
+        match columns {
+            0 => {}
+            1 => self.command(&[], b'C'),
+            _ => self.command(&[columns], b'C'),
+        }
+    }
+
+    fn command(&mut self, parameters: &[u16], end: u8) {
+        self.out.extend_from_slice(b"\x1b[");
+        for (index, &parameter) in parameters.iter().enumerate() {
+            if index != 0 {
+                self.out.push(b';');
+            }
+            push_number(&mut self.out, parameter);
+        }
+        self.out.push(end);
+    }
+
+    /// Blanks both halves of a wide character before something else is put on its first: terminals
+    /// give the half that is left over the colours of whatever comes, and a cell that is blank
+    /// before and after is not sent again.
+    fn blank_wide(&mut self, at: Position) {
+        if self.wide.remove(&(at.y, at.x)) {
+            self.move_to(at);
+            self.pen.reset(&mut self.out);
+            self.out.extend_from_slice(b"  ");
+            self.place = Place::Row(at.y);
+        }
+    }
+
+    fn put(&mut self, at: Position, cell: &Cell) {
+        self.blank_wide(at);
+        if is_wide(cell) {
+            self.blank_wide(Position { x: at.x + 1, ..at });
+            self.wide.insert((at.y, at.x));
+        }
+        self.move_to(at);
+        let fg = self.depth.ink(cell.fg);
+        let bg = self.depth.ink(cell.bg);
+        let advance = if let Some(halves) = Halves::of(cell, fg, bg) {
+            let (glyph, style) = halves.cheapest(&self.pen);
+            self.pen.apply(&style, &mut self.out);
+            self.out.extend_from_slice(glyph.as_bytes());
+            Advance::Sure(1)
+        } else {
+            let style = Style {
+                fg: Some(fg),
+                bg: Some(bg),
+                modifier: cell.modifier,
+                indifferent: Modifier::empty(),
+            };
+            self.pen.apply(&style, &mut self.out);
+            push_character(&mut self.out, cell)
+        };
+        self.place = match advance {
+            Advance::Sure(columns) if at.x + columns < self.size.width => Place::At(Position {
+                x: at.x + columns,
+                ..at
+            }),
+            _ => Place::Row(at.y),
+        };
+    }
+}
+
+impl Backend for AnsiBackend {
+    type Error = Infallible;
+
+    fn draw<'a, I>(&mut self, content: I) -> Result<(), Infallible>
+    where
+        I: Iterator<Item = (u16, u16, &'a Cell)>,
+    {
+        for (x, y, cell) in content {
+            self.put(Position { x, y }, cell);
+        }
+        Ok(())
+    }
+
+    fn hide_cursor(&mut self) -> Result<(), Infallible> {
+        if self.cursor != Cursor::Hidden {
+            self.out.extend_from_slice(b"\x1b[?25l");
+            self.cursor = Cursor::Hidden;
+        }
+        Ok(())
+    }
+
+    fn show_cursor(&mut self) -> Result<(), Infallible> {
+        if self.cursor != Cursor::Shown {
+            self.out.extend_from_slice(b"\x1b[?25h");
+            self.cursor = Cursor::Shown;
+        }
+        Ok(())
+    }
+
+    fn get_cursor_position(&mut self) -> Result<Position, Infallible> {
+        Ok(match self.place {
+            Place::At(at) => at,
+            Place::Row(y) => Position { x: 0, y },
+            Place::Unknown => Position::ORIGIN,
+        })
+    }
+
+    fn set_cursor_position<P: Into<Position>>(&mut self, position: P) -> Result<(), Infallible> {
+        self.move_to(position.into());
+        Ok(())
+    }
+
+    fn clear(&mut self) -> Result<(), Infallible> {
+        self.clear_region(ClearType::All)
+    }
+
+    fn clear_region(&mut self, region: ClearType) -> Result<(), Infallible> {
+        // Cleared cells take the background of the pen.
+        self.pen.reset(&mut self.out);
+        self.out.extend_from_slice(match region {
+            ClearType::All => b"\x1b[2J",
+            ClearType::AfterCursor => b"\x1b[J",
+            ClearType::BeforeCursor => b"\x1b[1J",
+            ClearType::CurrentLine => b"\x1b[2K",
+            ClearType::UntilNewLine => b"\x1b[K",
+        });
+        Ok(())
+    }
+
+    fn size(&self) -> Result<Size, Infallible> {
+        Ok(self.size)
+    }
+
+    fn window_size(&mut self) -> Result<WindowSize, Infallible> {
+        Ok(WindowSize {
+            columns_rows: self.size,
+            pixels: Size::default(),
+        })
+    }
+
+    fn flush(&mut self) -> Result<(), Infallible> {
+        Ok(())
+    }
+}
+
+/// A cell that is nothing but its upper and its lower half.
+#[derive(Clone, Copy, Debug)]
+struct Halves {
+    upper: Tone,
+    lower: Tone,
+    /// Blocks are ambiguous in width, so a blank stays one.
+    blocks: Blocks,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Blocks {
+    Welcome,
+    Unwelcome,
+}
+
+/// A visible colour. The terminal's two own colours are neither equal nor exchangeable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Tone {
+    OwnForeground,
+    OwnBackground,
+    Ink(Ink),
+}
+
+impl Halves {
+    fn of(cell: &Cell, fg: Ink, bg: Ink) -> Option<Self> {
+        let fg = if fg == Ink::Default {
+            Tone::OwnForeground
+        } else {
+            Tone::Ink(fg)
+        };
+        let bg = if bg == Ink::Default {
+            Tone::OwnBackground
+        } else {
+            Tone::Ink(bg)
+        };
+        let (upper, lower, visible) = match cell.symbol() {
+            " " => (bg, bg, VISIBLE_ON_BLANK),
+            "▀" => (fg, bg, Modifier::all()),
+            "▄" => (bg, fg, Modifier::all()),
+            "█" => (fg, fg, Modifier::all()),
+            _ => return None,
+        };
+        let blocks = if cell.symbol() == " " {
+            Blocks::Unwelcome
+        } else {
+            Blocks::Welcome
+        };
+        (!cell.modifier.intersects(visible)).then_some(Self {
+            upper,
+            lower,
+            blocks,
+        })
+    }
+
+    /// Returns the character and style that show these halves with the fewest bytes.
+    fn cheapest(self, pen: &Pen) -> (&'static str, Style) {
+        let Self {
+            upper,
+            lower,
+            blocks,
+        } = self;
+        let candidates = if upper == lower {
+            let solid = upper.as_foreground().filter(|_| blocks == Blocks::Welcome);
+            [
+                upper.as_background().map(|bg| (" ", blank(bg))),
+                solid.map(|fg| ("█", block(fg, None))),
+            ]
+        } else {
+            [("▀", upper, lower), ("▄", lower, upper)].map(|(glyph, fg, bg)| {
+                Some((glyph, block(fg.as_foreground()?, Some(bg.as_background()?))))
+            })
+        };
+        let cost = |(glyph, style): &(&str, Style)| glyph.len() + pen.colour_cost(style);
+        let cheapest = candidates.into_iter().flatten().min_by_key(cost);
+        cheapest.expect("the form the cell came in is one of the candidates")
+    }
+}
+
+impl Tone {
+    fn as_foreground(self) -> Option<Ink> {
+        match self {
+            Self::OwnForeground => Some(Ink::Default),
+            Self::OwnBackground => None,
+            Self::Ink(ink) => Some(ink),
+        }
+    }
+
+    fn as_background(self) -> Option<Ink> {
+        match self {
+            Self::OwnForeground => None,
+            Self::OwnBackground => Some(Ink::Default),
+            Self::Ink(ink) => Some(ink),
+        }
+    }
+}
+
+const fn blank(bg: Ink) -> Style {
+    Style {
+        fg: None,
+        bg: Some(bg),
+        modifier: Modifier::empty(),
+        indifferent: VISIBLE_ON_BLANK.complement(),
+    }
+}
+
+const fn block(fg: Ink, bg: Option<Ink>) -> Style {
+    Style {
+        fg: Some(fg),
+        bg,
+        modifier: Modifier::empty(),
+        indifferent: Modifier::empty(),
+    }
+}
+
+/// How far the cursor has moved.
+enum Advance {
+    Sure(u16),
+    /// Terminals differ on the width of what was written.
+    Unsure,
+}
+
+/// Whether the cell's character takes two columns.
+fn is_wide(cell: &Cell) -> bool {
+    cell.symbol()
+        .chars()
+        .next()
+        .and_then(UnicodeWidthChar::width)
+        == Some(2)
+}
+
+/// Writes what may be shown of a cell, and blanks up to its width.
+fn push_character(out: &mut Vec<u8>, cell: &Cell) -> Advance {
+    let symbol = cell.symbol();
+    if let [byte @ b' '..=b'~'] = symbol.as_bytes() {
+        out.push(*byte);
+        return Advance::Sure(1);
+    }
+    let mut characters = symbol.chars();
+    let base = match characters.next() {
+        Some(character) if character.is_control() => '\u{fffd}',
+        Some(character) if character.width().is_some_and(|width| width != 0) => character,
+        _ => ' ',
+    };
+    let mark = characters
+        .next()
+        .filter(|&next| base != '\u{fffd}' && is_mark(next));
+    for character in [Some(base), mark].into_iter().flatten() {
+        out.extend_from_slice(character.encode_utf8(&mut [0; 4]).as_bytes());
+    }
+    let width = base.width().map_or(1, |width| width as u16);
+    // The width of a lone control character must not be asked for.
+    let room = if symbol.len() < 2 {
+        1
+    } else {
+        cell.cell_width().max(1)
+    };
+    for _ in width..room {
+        out.push(b' ');
+    }
+    if width == 1 && room == 1 && mark.is_none() {
+        Advance::Sure(1)
+    } else {
+        Advance::Unsure
+    }
+}
+
+/// Tells accents and the like from the invisible characters that join, direct or vary others.
+fn is_mark(character: char) -> bool {
+    let invisible = matches!(
+        character,
+        '\u{34f}' | '\u{61c}' | '\u{180b}'..='\u{180f}' | '\u{200b}'..='\u{200f}'
+            | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{fe00}'..='\u{fe0f}'
+            | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e0fff}'
+    );
+    character.width() == Some(0) && !character.is_control() && !invisible
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,418 @@
+//! Frames drawn as the interface draws them and replayed into a model of a terminal, which must
+//! then look like the buffer.
+
+use std::num::NonZeroU16;
+
+use proptest::prelude::*;
+use ratatui::Terminal;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Color;
+
+use super::*;
+
+const SIZE: Size = Size {
+    width: 12,
+    height: 5,
+};
+
+/// Our encoder before a model of a terminal.
+struct Rig {
+    terminal: Terminal<AnsiBackend>,
+    model: vt100::Parser,
+}
+
+impl Rig {
+    fn new(depth: ColourDepth, size: Size) -> Self {
+        let Ok(mut terminal) = Terminal::new(AnsiBackend::new(depth, size));
+        // A new interface begins with a clear screen, as the guard's does.
+        let Ok(()) = terminal.resize(Rect::from((Position::ORIGIN, size)));
+        let cells = |count| NonZeroU16::new(count).expect("the size is not zero");
+        let model = vt100::Parser::new(cells(size.height), cells(size.width), 0);
+        Self { terminal, model }
+    }
+
+    /// Draws a frame that shows the buffer and returns its bytes.
+    fn draw(&mut self, buffer: &Buffer) -> Vec<u8> {
+        let Ok(_) = self
+            .terminal
+            .draw(|frame| frame.buffer_mut().clone_from(buffer));
+        self.take()
+    }
+
+    fn take(&mut self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let Ok(_) = self.terminal.backend_mut().finish(|frame| {
+            bytes.extend_from_slice(frame);
+            Ok::<(), Infallible>(())
+        });
+        self.model.process(&bytes);
+        bytes
+    }
+}
+
+/// What the eye sees of a cell: text with its looks, or two halves.
+#[derive(Debug, PartialEq, Eq)]
+enum Seen {
+    Halves(vt100::Color, vt100::Color),
+    Text(String, vt100::Color, vt100::Color, Modifier),
+}
+
+/// The override that shows text in the reverse of its order.
+const BIDI: char = '\u{202e}';
+
+/// Stands for the terminal's own foreground, which must not pass for its own background.
+const OWN_FOREGROUND: vt100::Color = vt100::Color::Rgb(1, 2, 3);
+
+fn seen(text: &str, fg: vt100::Color, bg: vt100::Color, modifier: Modifier) -> Seen {
+    let fg = if fg == vt100::Color::Default {
+        OWN_FOREGROUND
+    } else {
+        fg
+    };
+    let visible = if text == " " {
+        VISIBLE_ON_BLANK
+    } else {
+        Modifier::all()
+    };
+    match text {
+        _ if modifier.intersects(visible) => Seen::Text(text.to_owned(), fg, bg, modifier),
+        " " => Seen::Halves(bg, bg),
+        "▀" => Seen::Halves(fg, bg),
+        "▄" => Seen::Halves(bg, fg),
+        "█" => Seen::Halves(fg, fg),
+        _ => Seen::Text(text.to_owned(), fg, bg, modifier),
+    }
+}
+
+fn seen_in_model(model: &vt100::Parser, x: u16, y: u16) -> Seen {
+    let cell = model
+        .screen()
+        .cell(y, x)
+        .expect("the cell is on the screen");
+    let mut modifier = Modifier::empty();
+    modifier.set(Modifier::BOLD, cell.bold());
+    modifier.set(Modifier::DIM, cell.dim());
+    modifier.set(Modifier::ITALIC, cell.italic());
+    modifier.set(Modifier::UNDERLINED, cell.underline());
+    modifier.set(Modifier::REVERSED, cell.inverse());
+    let text = if cell.has_contents() {
+        cell.contents()
+    } else {
+        " "
+    };
+    seen(text, cell.fgcolor(), cell.bgcolor(), modifier)
+}
+
+fn seen_in_buffer(cell: &Cell, depth: ColourDepth) -> Seen {
+    let colour = |colour| match depth.ink(colour) {
+        Ink::Default => vt100::Color::Default,
+        Ink::Index(index) => vt100::Color::Idx(index),
+        Ink::Rgb(red, green, blue) => vt100::Color::Rgb(red, green, blue),
+    };
+    seen(
+        cell.symbol(),
+        colour(cell.fg),
+        colour(cell.bg),
+        cell.modifier,
+    )
+}
+
+fn colours() -> impl Strategy<Value = Color> {
+    prop_oneof![
+        Just(Color::Reset),
+        Just(Color::Red),
+        Just(Color::White),
+        Just(Color::Indexed(200)),
+        (0..3_u8, 0..3_u8).prop_map(|(a, b)| Color::Rgb(a * 100, b * 7, 40)),
+    ]
+}
+
+fn cells() -> impl Strategy<Value = Cell> {
+    let symbols = prop_oneof![
+        4 => Just("▀"), 2 => Just("▄"), 1 => Just("█"), 4 => Just(" "),
+        2 => Just("x"), 1 => Just("é"), 1 => Just("e\u{301}"), 1 => Just("│"),
+    ];
+    let modifiers = prop_oneof![
+        4 => Just(Modifier::empty()),
+        1 => Just(Modifier::BOLD),
+        1 => Just(Modifier::DIM | Modifier::ITALIC),
+        1 => Just(Modifier::UNDERLINED),
+        1 => Just(Modifier::REVERSED | Modifier::BOLD),
+    ];
+    (symbols, colours(), colours(), modifiers).prop_map(|(symbol, fg, bg, modifier)| {
+        let mut cell = Cell::new(symbol);
+        cell.set_fg(fg).set_bg(bg);
+        cell.modifier = modifier;
+        cell
+    })
+}
+
+fn buffer_of(cells: Vec<Cell>) -> Buffer {
+    let mut buffer = Buffer::empty(Rect::from((Position::ORIGIN, SIZE)));
+    buffer.content = cells;
+    buffer
+}
+
+fn buffers() -> impl Strategy<Value = Buffer> {
+    let area = usize::from(SIZE.width * SIZE.height);
+    proptest::collection::vec(cells(), area).prop_map(buffer_of)
+}
+
+fn depths() -> impl Strategy<Value = ColourDepth> {
+    use ColourDepth::{Mono, Palette16, Palette256, TrueColour};
+    prop_oneof![
+        Just(Mono),
+        Just(Palette16),
+        Just(Palette256),
+        Just(TrueColour)
+    ]
+}
+
+proptest! {
+    #[test]
+    fn the_screen_looks_like_the_buffer(
+        depth in depths(),
+        frames in proptest::collection::vec((buffers(), 0..4_u8), 1..4),
+    ) {
+        let mut rig = Rig::new(depth, SIZE);
+        let mut last = Buffer::empty(Rect::from((Position::ORIGIN, SIZE)));
+        for (mut buffer, change) in frames {
+            if change == 0 {
+                // Most frames change a few cells only.
+                let kept = buffer.content[..40].to_vec();
+                buffer = last.clone();
+                buffer.content[7..47].clone_from_slice(&kept);
+            }
+            rig.draw(&buffer);
+            for position in buffer.area.positions() {
+                let cell = &buffer[position];
+                prop_assert_eq!(
+                    seen_in_model(&rig.model, position.x, position.y),
+                    seen_in_buffer(cell, depth),
+                    "at {}", position
+                );
+            }
+            prop_assert_eq!(rig.draw(&buffer), b"", "nothing has changed");
+            last = buffer;
+        }
+    }
+
+    #[test]
+    fn no_symbol_can_command_the_terminal(symbol in "[\\x00-\\x1f\\x7f-\\x9f\u{202e}a\u{301}界]{0,4}") {
+        let mut backend = AnsiBackend::new(ColourDepth::TrueColour, SIZE);
+        let mut cell = Cell::EMPTY;
+        cell.set_symbol(&symbol);
+        backend.put(Position::ORIGIN, &cell);
+        let text = String::from_utf8(backend.out).expect("symbols are text");
+        // The bracket, the move to the cell, and the reset of an unknown pen.
+        let expected = "\u{1b}[?2026h\u{1b}[1;1H\u{1b}[m";
+        let shown = text.strip_prefix(expected).expect("the frame begins as any other");
+        prop_assert!(!shown.chars().any(char::is_control), "{:?}", shown);
+        prop_assert!(!shown.contains(BIDI), "{:?}", shown);
+    }
+}
+
+#[test]
+fn a_frame_is_bracketed_once_and_an_unchanged_one_is_nothing() {
+    let mut rig = Rig::new(ColourDepth::TrueColour, SIZE);
+    let mut buffer = Buffer::empty(Rect::from((Position::ORIGIN, SIZE)));
+    buffer[(3, 2)].set_symbol("x").set_fg(Color::Red);
+    let first = String::from_utf8(rig.draw(&buffer)).expect("frames are text");
+    assert!(
+        first.starts_with("\x1b[?2026h") && first.ends_with("\x1b[?2026l"),
+        "{first:?}"
+    );
+    assert_eq!(first.matches("2026").count(), 2);
+    assert_eq!(rig.draw(&buffer), b"");
+    buffer[(4, 2)].set_symbol("y").set_fg(Color::Red);
+    assert_eq!(
+        rig.draw(&buffer).escape_ascii().to_string(),
+        "\\x1b[?2026hy\\x1b[?2026l"
+    );
+}
+
+#[test]
+fn the_cursor_is_moved_by_the_shortest_way() {
+    let at = |x, y| Position { x, y };
+    for (from, to, bytes) in [
+        (at(3, 1), at(3, 1), ""),
+        (at(3, 1), at(4, 1), "\x1b[C"),
+        (at(3, 1), at(9, 1), "\x1b[6C"),
+        (at(3, 1), at(0, 1), "\r"),
+        (at(3, 1), at(1, 1), "\x1b[2G"),
+        (at(3, 1), at(0, 2), "\r\n"),
+        (at(3, 1), at(2, 2), "\r\n\x1b[2C"),
+        (at(3, 1), at(2, 4), "\x1b[5;3H"),
+        (at(3, 1), at(2, 0), "\x1b[1;3H"),
+    ] {
+        let mut backend = AnsiBackend::new(ColourDepth::Mono, SIZE);
+        backend.move_to(from);
+        let start = backend.out.len();
+        backend.move_to(to);
+        let moved = backend.out[start..].escape_ascii().to_string();
+        assert_eq!(
+            moved,
+            bytes.as_bytes().escape_ascii().to_string(),
+            "{from} to {to}"
+        );
+    }
+}
+
+#[test]
+fn a_shown_cursor_stays_where_it_is_put() {
+    let mut rig = Rig::new(ColourDepth::TrueColour, SIZE);
+    let mut draw = |text: &'static str| {
+        let Ok(_) = rig.terminal.draw(|frame| {
+            frame.buffer_mut()[(0, 0)].set_symbol(text);
+            frame.set_cursor_position((5, 3));
+        });
+        let bytes = rig.take();
+        assert_eq!(rig.model.screen().cursor_position(), (3, 5));
+        assert!(!rig.model.screen().hide_cursor());
+        bytes
+    };
+    draw("x");
+    assert_eq!(draw("x"), b"");
+    draw("y");
+}
+
+#[test]
+fn a_smaller_window_is_drawn_afresh() {
+    let mut rig = Rig::new(ColourDepth::Mono, SIZE);
+    let text = |frame: &mut ratatui::Frame| {
+        let area = frame.area();
+        frame
+            .buffer_mut()
+            .set_string(0, area.height - 1, "below", ratatui::style::Style::new());
+    };
+    let Ok(_) = rig.terminal.draw(text);
+    rig.take();
+    rig.terminal.backend_mut().fit(Size {
+        width: 10,
+        height: 3,
+    });
+    let Ok(_) = rig.terminal.draw(text);
+    rig.take();
+    assert_eq!(rig.model.screen().contents().trim_end(), "\n\nbelow");
+}
+
+#[test]
+fn wide_characters_and_what_replaces_them_stay_in_their_columns() {
+    let mut rig = Rig::new(ColourDepth::TrueColour, SIZE);
+    for text in [
+        "a界b界c",
+        "界界界x",
+        "aabbcc",
+        "👩\u{200d}🚀.❤\u{fe0f}.",
+        "e\u{301}e\u{301}x",
+        "🇩🇪!",
+    ] {
+        let mut buffer = Buffer::empty(Rect::from((Position::ORIGIN, SIZE)));
+        buffer.set_string(0, 1, text, ratatui::style::Style::new());
+        buffer.set_string(0, 2, "|", ratatui::style::Style::new());
+        rig.draw(&buffer);
+        for x in 0..SIZE.width {
+            let cell = &buffer[(x, 1)];
+            // Only the plain characters are compared: the rest may be shown more simply.
+            if cell.symbol() != " " && cell.symbol().len() <= 3 {
+                let Some(shown) = rig.model.screen().cell(1, x) else {
+                    panic!("column {x}")
+                };
+                assert_eq!(shown.contents(), cell.symbol(), "column {x} of {text}");
+            }
+        }
+        assert_eq!(
+            rig.model.screen().cell(2, 0).map(vt100::Cell::contents),
+            Some("|")
+        );
+    }
+}
+
+/// Bytes of a whole frame of half blocks, a cell.
+fn bytes_a_cell(depth: ColourDepth, size: Size, pixel: impl Fn(u16, u16) -> [u8; 3]) -> f64 {
+    let mut buffer = Buffer::empty(Rect::from((Position::ORIGIN, size)));
+    let colour = |x, y| {
+        let [red, green, blue] = pixel(x, y);
+        Color::Rgb(red, green, blue)
+    };
+    for Position { x, y } in buffer.area.positions() {
+        buffer[(x, y)]
+            .set_symbol("▀")
+            .set_fg(colour(x, 2 * y))
+            .set_bg(colour(x, 2 * y + 1));
+    }
+    let mut rig = Rig::new(depth, size);
+    rig.draw(&buffer).len() as f64 / f64::from(size.area())
+}
+
+/// A lit ball on a chequered floor under an even sky, in steps of `step`.
+fn ball(size: Size, step: u8) -> impl Fn(u16, u16) -> [u8; 3] {
+    move |x, y| {
+        let radius = f64::from(size.height) * 0.7;
+        let u = (f64::from(x) - f64::from(size.width) / 2.0) / radius;
+        let v = (f64::from(y) - f64::from(size.height)) / radius;
+        let inside = 1.0 - u * u - v * v;
+        let colour = if 0.0 < inside {
+            let light = (inside.sqrt() * 0.8 - u * 0.4 - v * 0.4).max(0.05);
+            [230.0 * light, 120.0 * light, 60.0 * light]
+        } else if y < size.height {
+            [90.0, 130.0, 200.0]
+        } else if (x / 9 + y / 7) % 2 == 0 {
+            [200.0, 200.0, 190.0]
+        } else {
+            [60.0, 50.0, 50.0]
+        };
+        colour.map(|channel| (channel as u8 / step) * step)
+    }
+}
+
+#[test]
+fn pictures_are_cheap() {
+    use ColourDepth::{Mono, Palette16, Palette256, TrueColour};
+    let size = Size {
+        width: 200,
+        height: 50,
+    };
+    // Neighbours of one colour, pictures of flat and shaded parts, and the worst there is: two
+    // colours of nine digits, four bytes that frame them and three of the block.
+    let noise = |x: u16, y: u16| {
+        let mix = (u32::from(x) * 7919 + u32::from(y) * 104_729).wrapping_mul(2_654_435_761);
+        [
+            100 + (mix >> 25) as u8,
+            100 + (mix >> 17 & 127) as u8,
+            100 + (mix >> 9 & 127) as u8,
+        ]
+    };
+    for (depth, bytes, limit) in [
+        (
+            TrueColour,
+            bytes_a_cell(TrueColour, size, |_, _| [10, 200, 30]),
+            1.1,
+        ),
+        (
+            TrueColour,
+            bytes_a_cell(TrueColour, size, ball(size, 4)),
+            24.0,
+        ),
+        (
+            TrueColour,
+            bytes_a_cell(TrueColour, size, ball(size, 1)),
+            24.0,
+        ),
+        (TrueColour, bytes_a_cell(TrueColour, size, noise), 39.5),
+        (
+            Palette256,
+            bytes_a_cell(Palette256, size, ball(size, 1)),
+            5.0,
+        ),
+        (Palette256, bytes_a_cell(Palette256, size, noise), 27.5),
+        (Palette16, bytes_a_cell(Palette16, size, ball(size, 1)), 3.0),
+        (Mono, bytes_a_cell(Mono, size, noise), 3.1),
+    ] {
+        assert!(
+            bytes < limit,
+            "{bytes} bytes a cell at {depth:?}, not below {limit}"
+        );
+    }
+}

@@ -1,0 +1,230 @@
+//! How many colours the terminal shows, and the nearest one it has.
+//!
+//! Decided from the environment alone; the terminal itself is never asked.
+
+use std::env;
+
+use ratatui::style::Color;
+use termprofile::anstyle::RgbColor;
+use termprofile::{DetectorSettings, EnvVarSource, IsTerminal, TermProfile, TermVars};
+
+/// The colours a terminal can show, poorest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ColourDepth {
+    /// No colours, only bold, underlined and the like.
+    Mono,
+    /// The sixteen colours of the terminal's theme.
+    Palette16,
+    /// Those and 240 fixed ones: a 6×6×6 cube and a grey ramp.
+    Palette256,
+    /// Red, green and blue of eight bits each.
+    TrueColour,
+}
+
+/// What the user says about colours.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Choice {
+    /// The environment decides.
+    #[default]
+    Auto,
+    /// Always this depth.
+    Fixed(ColourDepth),
+}
+
+impl ColourDepth {
+    /// Returns the depth for the standard output of this process.
+    pub fn detect(choice: Choice) -> Self {
+        Self::detect_from(choice, |name| env::var(name).ok())
+    }
+
+    /// Returns the depth for a terminal described by these variables of the environment.
+    ///
+    /// `NO_COLOR` with any value turns colours off unless the user fixed a depth. Inside tmux,
+    /// 256 colours are all that is certain, unless `COLORTERM` promises all: tmux takes them, and
+    /// maps them down for a client that has fewer.
+    pub fn detect_from(choice: Choice, variable: impl Fn(&str) -> Option<String>) -> Self {
+        if let Choice::Fixed(depth) = choice {
+            return depth;
+        }
+        let set = |name: &str| variable(name).is_some_and(|value| !value.is_empty());
+        if set("NO_COLOR") {
+            return Self::Mono;
+        }
+        if cfg!(windows) && !set("TERM") {
+            // Every console since Windows 10 shows all colours and none of them says so.
+            return Self::TrueColour;
+        }
+        let promised = variable("COLORTERM");
+        if set("TMUX") && matches!(promised.as_deref(), Some("truecolor" | "24bit")) {
+            return Self::TrueColour;
+        }
+        // tmux would be asked through a child process, which is a query too.
+        let settings = DetectorSettings::new().enable_tmux_info(false);
+        let source = Environment(variable);
+        match TermProfile::detect_with_vars(TermVars::from_source(&source, &Screen, settings)) {
+            TermProfile::NoTty | TermProfile::NoColor => Self::Mono,
+            TermProfile::Ansi16 => Self::Palette16,
+            TermProfile::Ansi256 => Self::Palette256,
+            TermProfile::TrueColor => Self::TrueColour,
+        }
+    }
+
+    /// Returns the nearest colour this depth has.
+    pub(super) fn ink(self, colour: Color) -> Ink {
+        let ink = match colour {
+            Color::Reset => return Ink::Default,
+            Color::Rgb(red, green, blue) => Ink::Rgb(red, green, blue),
+            Color::Indexed(index) => Ink::Index(index),
+            basic => Ink::Index(basic_index(basic)),
+        };
+        match (self, ink) {
+            (Self::Mono, _) => Ink::Default,
+            (Self::Palette256, Ink::Rgb(red, green, blue)) => {
+                Ink::Index(nearest_of_256(red, green, blue))
+            }
+            (Self::Palette16, Ink::Rgb(red, green, blue)) => {
+                Ink::Index(nearest_of_16(nearest_of_256(red, green, blue)))
+            }
+            (Self::Palette16, Ink::Index(index)) => Ink::Index(nearest_of_16(index)),
+            _ => ink,
+        }
+    }
+}
+
+/// A colour as the terminal is told it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Ink {
+    /// The terminal's own foreground or background, whichever is being set.
+    Default,
+    /// A colour of the palette; the first sixteen are the theme's.
+    Index(u8),
+    /// Red, green, blue.
+    Rgb(u8, u8, u8),
+}
+
+fn nearest_of_256(red: u8, green: u8, blue: u8) -> u8 {
+    termprofile::rgb_to_ansi256(RgbColor(red, green, blue))
+}
+
+fn nearest_of_16(index: u8) -> u8 {
+    match index {
+        0..16 => index,
+        _ => termprofile::ansi256_to_ansi16(index) as u8,
+    }
+}
+
+fn basic_index(colour: Color) -> u8 {
+    const BASIC: [Color; 16] = [
+        Color::Black,
+        Color::Red,
+        Color::Green,
+        Color::Yellow,
+        Color::Blue,
+        Color::Magenta,
+        Color::Cyan,
+        Color::Gray,
+        Color::DarkGray,
+        Color::LightRed,
+        Color::LightGreen,
+        Color::LightYellow,
+        Color::LightBlue,
+        Color::LightMagenta,
+        Color::LightCyan,
+        Color::White,
+    ];
+    BASIC.iter().position(|&basic| basic == colour).unwrap_or(7) as u8
+}
+
+struct Environment<F>(F);
+
+impl<F: Fn(&str) -> Option<String>> EnvVarSource for Environment<F> {
+    fn var(&self, key: &str) -> Option<String> {
+        (self.0)(key)
+    }
+}
+
+/// Stands for an output that is known to be a terminal: the interface runs nowhere else.
+struct Screen;
+
+impl IsTerminal for Screen {
+    fn is_terminal(&self) -> bool {
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn detect(choice: Choice, variables: &str) -> ColourDepth {
+        ColourDepth::detect_from(choice, |asked| {
+            let mut pairs = variables
+                .split_whitespace()
+                .filter_map(|pair| pair.split_once('='));
+            pairs
+                .find(|&(name, _)| name == asked)
+                .map(|(_, value)| value.to_owned())
+        })
+    }
+
+    #[test]
+    fn reads_the_environment() {
+        use ColourDepth::{Mono, Palette16, Palette256, TrueColour};
+        for (variables, depth) in [
+            ("TERM=xterm-256color COLORTERM=truecolor", TrueColour),
+            ("TERM=xterm-256color", Palette256),
+            ("TERM=xterm-kitty", TrueColour),
+            ("TERM=linux", Palette16),
+            ("TERM=dumb", Mono),
+            ("TERM=tmux-256color TMUX=/x,1,0", Palette256),
+            (
+                "TERM=screen-256color TMUX=/x,1,0 COLORTERM=truecolor",
+                TrueColour,
+            ),
+            ("TERM=tmux-256color TMUX=/x,1,0 COLORTERM=24bit", TrueColour),
+            ("TERM=tmux-256color TMUX=/x,1,0 COLORTERM=yes", Palette256),
+            (
+                "TERM=xterm-256color TERM_PROGRAM=Apple_Terminal",
+                Palette256,
+            ),
+            ("TERM=xterm-256color COLORTERM=truecolor NO_COLOR=0", Mono),
+            (
+                "TERM=xterm-256color COLORTERM=truecolor NO_COLOR=",
+                TrueColour,
+            ),
+        ] {
+            assert_eq!(detect(Choice::Auto, variables), depth, "{variables}");
+        }
+    }
+
+    #[test]
+    fn the_user_has_the_last_word() {
+        let fixed = Choice::Fixed(ColourDepth::Palette256);
+        assert_eq!(
+            detect(fixed, "TERM=dumb NO_COLOR=1"),
+            ColourDepth::Palette256
+        );
+    }
+
+    #[test]
+    fn colours_become_the_nearest_of_the_depth() {
+        let red = Color::Rgb(255, 0, 0);
+        for (depth, colour, ink) in [
+            (ColourDepth::TrueColour, red, Ink::Rgb(255, 0, 0)),
+            (ColourDepth::Palette256, red, Ink::Index(196)),
+            (
+                ColourDepth::Palette256,
+                Color::Rgb(128, 128, 128),
+                Ink::Index(244),
+            ),
+            (ColourDepth::Palette256, Color::LightBlue, Ink::Index(12)),
+            (ColourDepth::Palette16, red, Ink::Index(9)),
+            (ColourDepth::Palette16, Color::Indexed(196), Ink::Index(9)),
+            (ColourDepth::Palette16, Color::Gray, Ink::Index(7)),
+            (ColourDepth::Mono, red, Ink::Default),
+            (ColourDepth::TrueColour, Color::Reset, Ink::Default),
+        ] {
+            assert_eq!(depth.ink(colour), ink, "{depth:?} {colour:?}");
+        }
+    }
+}

@@ -1,0 +1,362 @@
+//! Bytes from the keyboard as events: a pure machine, bytes and moments in, events out.
+//!
+//! The grammar is that of xterm's control sequences (`ctlseqs`, sections "PC-Style Function Keys"
+//! and "Extended coordinates") and of the Linux console. An escape sequence may arrive in pieces;
+//! what begins like one is held for [`PATIENCE`] before it is taken for the Esc key.
+
+use std::time::{Duration, Instant};
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+
+use super::Event;
+
+/// How long the rest of an escape sequence may take: longer than a network splits one for, and
+/// shorter than anybody notices on the Esc key.
+pub(super) const PATIENCE: Duration = Duration::from_millis(25);
+
+/// How long a paste may pause before it is taken as it is.
+const PASTE_PATIENCE: Duration = Duration::from_secs(1);
+
+/// The longest sequence that is waited for; anything longer is noise.
+const LONGEST: usize = 64;
+
+const PASTE_END: &[u8] = b"\x1b[201~";
+
+/// Turns bytes into events.
+#[derive(Debug, Default)]
+pub(super) struct Decoder {
+    pending: Vec<u8>,
+    mode: Mode,
+    /// When the last bytes came.
+    fed: Option<Instant>,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Mode {
+    #[default]
+    Keys,
+    /// Between the brackets of a paste.
+    Paste,
+}
+
+/// What the pending bytes begin with.
+#[derive(Debug, PartialEq, Eq)]
+enum Token {
+    /// Not yet to be told.
+    Unfinished,
+    /// So many bytes that mean this.
+    Event(usize, Event),
+    /// So many bytes that mean nothing.
+    Noise(usize),
+    /// So many bytes that open a paste.
+    PasteBegin(usize),
+}
+
+impl Decoder {
+    /// Takes bytes and tells the events they complete.
+    pub(super) fn feed(&mut self, bytes: &[u8], now: Instant, mut tell: impl FnMut(Event)) {
+        self.pending.extend_from_slice(bytes);
+        self.fed = Some(now);
+        self.advance(&mut tell);
+    }
+
+    /// Returns when [`Decoder::expire`] is due, `None` if nothing is held back.
+    pub(super) fn deadline(&self) -> Option<Instant> {
+        let patience = match self.mode {
+            Mode::Paste => PASTE_PATIENCE,
+            Mode::Keys if self.pending.is_empty() => return None,
+            Mode::Keys => PATIENCE,
+        };
+        self.fed.map(|fed| fed + patience)
+    }
+
+    /// Tells what is held back if its time is over: the Esc key, Alt with a key, or a paste whose
+    /// end got lost.
+    pub(super) fn expire(&mut self, now: Instant, mut tell: impl FnMut(Event)) {
+        if self.deadline().is_none_or(|deadline| now < deadline) {
+            return;
+        }
+        if self.mode == Mode::Paste {
+            self.mode = Mode::Keys;
+            tell(Event::Paste(pasted(&self.pending)));
+        } else {
+            match self.pending[..] {
+                [0x1b] => tell(key(KeyCode::Esc, KeyModifiers::NONE)),
+                [0x1b, introducer @ (b'[' | b'O')] => {
+                    tell(with_alt(character(introducer.into())));
+                }
+                _ => {}
+            }
+        }
+        self.pending.clear();
+    }
+
+    fn advance(&mut self, tell: &mut impl FnMut(Event)) {
+        let mut start = 0;
+        while start < self.pending.len() {
+            let rest = &self.pending[start..];
+            if self.mode == Mode::Paste {
+                let Some(end) = find(rest, PASTE_END) else {
+                    break;
+                };
+                tell(Event::Paste(pasted(&rest[..end])));
+                self.mode = Mode::Keys;
+                start += end + PASTE_END.len();
+                continue;
+            }
+            match token(rest) {
+                Token::Unfinished if rest.len() < LONGEST => break,
+                Token::Unfinished => start += rest.len(),
+                Token::Noise(length) => start += length,
+                Token::PasteBegin(length) => {
+                    self.mode = Mode::Paste;
+                    start += length;
+                }
+                Token::Event(length, event) => {
+                    tell(event);
+                    start += length;
+                }
+            }
+        }
+        self.pending.drain(..start);
+    }
+}
+
+fn token(bytes: &[u8]) -> Token {
+    match bytes {
+        [0x1b, b'[', ..] => control_sequence(bytes),
+        [0x1b, b'O', rest @ ..] => match rest.first() {
+            None => Token::Unfinished,
+            Some(&end) => match function_key(end) {
+                Some(code) => Token::Event(3, key(code, KeyModifiers::NONE)),
+                None => Token::Noise(3),
+            },
+        },
+        [0x1b] => Token::Unfinished,
+        [0x1b, 0x1b, ..] => Token::Event(1, key(KeyCode::Esc, KeyModifiers::NONE)),
+        [0x1b, rest @ ..] => match plain(rest) {
+            Token::Event(length, event) => Token::Event(length + 1, with_alt(event)),
+            Token::Noise(length) => Token::Noise(length + 1),
+            other => other,
+        },
+        _ => plain(bytes),
+    }
+}
+
+/// Reads a character or a control character.
+fn plain(bytes: &[u8]) -> Token {
+    let control = |code: char| key(KeyCode::Char(code), KeyModifiers::CONTROL);
+    let event = match bytes[0] {
+        0 => control(' '),
+        b'\t' => key(KeyCode::Tab, KeyModifiers::NONE),
+        b'\r' => key(KeyCode::Enter, KeyModifiers::NONE),
+        0x08 | 0x7f => key(KeyCode::Backspace, KeyModifiers::NONE),
+        byte @ 0x01..=0x1f => control((byte + 0x40).to_ascii_lowercase().into()),
+        byte @ b' '..=b'~' => character(byte.into()),
+        _ => return beyond_ascii(bytes),
+    };
+    Token::Event(1, event)
+}
+
+fn beyond_ascii(bytes: &[u8]) -> Token {
+    let length = match bytes[0] {
+        0xc2..=0xdf => 2,
+        0xe0..=0xef => 3,
+        0xf0..=0xf4 => 4,
+        _ => return Token::Noise(1),
+    };
+    let available = &bytes[..length.min(bytes.len())];
+    match std::str::from_utf8(available) {
+        Ok(text) => match text.chars().next() {
+            Some(c) if !c.is_control() => Token::Event(length, character(c)),
+            _ => Token::Noise(length),
+        },
+        Err(error) if error.error_len().is_none() => Token::Unfinished,
+        Err(_) => Token::Noise(1),
+    }
+}
+
+/// Reads `ESC [`, parameters, and the byte that ends them (ECMA-48, 5.4).
+fn control_sequence(bytes: &[u8]) -> Token {
+    if let [_, _, b'[', rest @ ..] = bytes {
+        // The Linux console's first five function keys.
+        return match rest.first() {
+            None => Token::Unfinished,
+            Some(&end @ b'A'..=b'E') => {
+                Token::Event(4, key(KeyCode::F(end - b'A' + 1), KeyModifiers::NONE))
+            }
+            Some(_) => Token::Noise(3),
+        };
+    }
+    let body = &bytes[2..];
+    let Some(end) = body.iter().position(|byte| !(0x20..0x40).contains(byte)) else {
+        return Token::Unfinished;
+    };
+    let length = end + 3;
+    let parameters = &body[..end];
+    match body[end] {
+        b'M' if parameters.is_empty() => {
+            // A mouse report of the old form: three more bytes that are no keys.
+            if bytes.len() < length + 3 {
+                Token::Unfinished
+            } else {
+                Token::Noise(length + 3)
+            }
+        }
+        b'~' if parameters == b"200" => Token::PasteBegin(length),
+        last @ (b'M' | b'm') if parameters.first() == Some(&b'<') => {
+            event_or_noise(mouse(&parameters[1..], last), length)
+        }
+        last @ 0x40..=0x7e => event_or_noise(sequence_key(parameters, last), length),
+        // Something else broke in; it is read on its own.
+        _ => Token::Noise(length - 1),
+    }
+}
+
+fn event_or_noise(event: Option<Event>, length: usize) -> Token {
+    event.map_or(Token::Noise(length), |event| Token::Event(length, event))
+}
+
+fn sequence_key(parameters: &[u8], last: u8) -> Option<Event> {
+    let numbers = numbers(parameters)?;
+    let modifiers = modifiers(numbers.get(1).copied().unwrap_or(1));
+    let code = match (last, numbers.first()) {
+        (b'Z', _) => return Some(key(KeyCode::BackTab, modifiers | KeyModifiers::SHIFT)),
+        (b'~', Some(&number)) => numbered_key(number)?,
+        // With another number it is a report, such as the position of a cursor.
+        (_, None | Some(1)) => function_key(last)?,
+        _ => return None,
+    };
+    Some(key(code, modifiers))
+}
+
+fn function_key(last: u8) -> Option<KeyCode> {
+    Some(match last {
+        b'A' => KeyCode::Up,
+        b'B' => KeyCode::Down,
+        b'C' => KeyCode::Right,
+        b'D' => KeyCode::Left,
+        b'F' => KeyCode::End,
+        b'H' => KeyCode::Home,
+        b'M' => KeyCode::Enter,
+        b'P'..=b'S' => KeyCode::F(last - b'P' + 1),
+        _ => return None,
+    })
+}
+
+fn numbered_key(number: u16) -> Option<KeyCode> {
+    Some(match number {
+        1 | 7 => KeyCode::Home,
+        2 => KeyCode::Insert,
+        3 => KeyCode::Delete,
+        4 | 8 => KeyCode::End,
+        5 => KeyCode::PageUp,
+        6 => KeyCode::PageDown,
+        // The numbers skip one after every fifth function key or so.
+        11..=15 => KeyCode::F(number as u8 - 10),
+        17..=21 => KeyCode::F(number as u8 - 11),
+        23..=26 => KeyCode::F(number as u8 - 12),
+        28 | 29 => KeyCode::F(number as u8 - 13),
+        31..=34 => KeyCode::F(number as u8 - 14),
+        _ => return None,
+    })
+}
+
+/// Reads a report of mode 1006: button and modifiers, column, row.
+fn mouse(parameters: &[u8], last: u8) -> Option<Event> {
+    let &[code, column, row] = numbers(parameters)?.as_slice() else {
+        return None;
+    };
+    let button = match code & 3 {
+        0 => MouseButton::Left,
+        1 => MouseButton::Middle,
+        _ => MouseButton::Right,
+    };
+    let kind = match (code & 0b1100_0011, code & 32 != 0, last) {
+        (64, ..) => MouseEventKind::ScrollUp,
+        (65, ..) => MouseEventKind::ScrollDown,
+        (66, ..) => MouseEventKind::ScrollLeft,
+        (67, ..) => MouseEventKind::ScrollRight,
+        (0..=2, true, _) => MouseEventKind::Drag(button),
+        (0..=2, false, b'm') => MouseEventKind::Up(button),
+        (0..=2, false, _) => MouseEventKind::Down(button),
+        _ => return None,
+    };
+    let mut modifiers = KeyModifiers::NONE;
+    modifiers.set(KeyModifiers::SHIFT, code & 4 != 0);
+    modifiers.set(KeyModifiers::ALT, code & 8 != 0);
+    modifiers.set(KeyModifiers::CONTROL, code & 16 != 0);
+    let (column, row) = (column.checked_sub(1)?, row.checked_sub(1)?);
+    Some(Event::Mouse(MouseEvent {
+        kind,
+        column,
+        row,
+        modifiers,
+    }))
+}
+
+/// Reads numbers between semicolons; an empty one is 1, xterm's default for keys.
+fn numbers(parameters: &[u8]) -> Option<Vec<u16>> {
+    if parameters.is_empty() {
+        return Some(Vec::new());
+    }
+    let text = std::str::from_utf8(parameters).ok()?;
+    text.split(';')
+        .map(|part| {
+            if part.is_empty() {
+                Some(1)
+            } else {
+                part.parse().ok()
+            }
+        })
+        .collect()
+}
+
+/// Reads xterm's modifier parameter: one more than shift 1, alt 2 and control 4 together.
+fn modifiers(parameter: u16) -> KeyModifiers {
+    let bits = parameter.saturating_sub(1);
+    let mut modifiers = KeyModifiers::NONE;
+    modifiers.set(KeyModifiers::SHIFT, bits & 1 != 0);
+    modifiers.set(KeyModifiers::ALT, bits & 2 != 0);
+    modifiers.set(KeyModifiers::CONTROL, bits & 4 != 0);
+    modifiers
+}
+
+fn character(character: char) -> Event {
+    let shift = if character.is_uppercase() {
+        KeyModifiers::SHIFT
+    } else {
+        KeyModifiers::NONE
+    };
+    key(KeyCode::Char(character), shift)
+}
+
+const fn key(code: KeyCode, modifiers: KeyModifiers) -> Event {
+    Event::Key(KeyEvent::new(code, modifiers))
+}
+
+fn with_alt(event: Event) -> Event {
+    match event {
+        Event::Key(mut key) => {
+            key.modifiers |= KeyModifiers::ALT;
+            Event::Key(key)
+        }
+        other => other,
+    }
+}
+
+/// Terminals send the Enter key's byte for the ends of lines.
+fn pasted(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes)
+        .replace("\r\n", "\n")
+        .replace('\r', "\n")
+}
+
+fn find(bytes: &[u8], wanted: &[u8]) -> Option<usize> {
+    bytes
+        .windows(wanted.len())
+        .position(|window| window == wanted)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,134 @@
+//! Bytes beside the events they mean, in one piece and in two.
+
+use super::*;
+
+/// Feeds pieces, each so many milliseconds after the start, then lets all time pass; returns
+/// the events in short.
+fn decode(pieces: &[(u64, &[u8])]) -> Vec<String> {
+    let start = Instant::now();
+    let mut decoder = Decoder::default();
+    let mut events = Vec::new();
+    for &(after, bytes) in pieces {
+        let now = start + Duration::from_millis(after);
+        decoder.expire(now, |event| events.push(short(&event)));
+        decoder.feed(bytes, now, |event| events.push(short(&event)));
+    }
+    decoder.expire(start + Duration::from_hours(1), |event| {
+        events.push(short(&event));
+    });
+    assert_eq!(decoder.deadline(), None, "everything is told in the end");
+    events
+}
+
+fn short(event: &Event) -> String {
+    match event {
+        Event::Key(key) if key.modifiers.is_empty() => format!("{:?}", key.code),
+        Event::Key(key) => {
+            let names: Vec<_> = key.modifiers.iter_names().map(|(name, _)| name).collect();
+            format!("{}+{:?}", names.join("+"), key.code)
+        }
+        Event::Mouse(mouse) => format!("{:?} {},{}", mouse.kind, mouse.column, mouse.row),
+        other => format!("{other:?}"),
+    }
+}
+
+#[test]
+fn whole_sequences() {
+    for (bytes, events) in [
+        (&b"a"[..], &["Char('a')"][..]),
+        (b"A", &["SHIFT+Char('A')"]),
+        (b"\r\t\x7f\x08", &["Enter", "Tab", "Backspace", "Backspace"]),
+        (
+            b"\x03\x0c\x00\x1c",
+            &[
+                "CONTROL+Char('c')",
+                "CONTROL+Char('l')",
+                "CONTROL+Char(' ')",
+                "CONTROL+Char('\\\\')",
+            ],
+        ),
+        ("é€𝄞".as_bytes(), &["Char('é')", "Char('€')", "Char('𝄞')"]),
+        (
+            b"\x1b[A\x1bOB\x1b[H\x1b[4~\x1b[5~\x1b[6~",
+            &["Up", "Down", "Home", "End", "PageUp", "PageDown"],
+        ),
+        (
+            b"\x1b[1;5C\x1b[3;2~\x1b[Z",
+            &["CONTROL+Right", "SHIFT+Delete", "SHIFT+BackTab"],
+        ),
+        (
+            b"\x1bOP\x1b[15~\x1b[24~\x1b[[E",
+            &["F(1)", "F(5)", "F(12)", "F(5)"],
+        ),
+        (b"\x1bx\x1b\x7f", &["ALT+Char('x')", "ALT+Backspace"]),
+        (
+            b"\x1b[<0;1;2M\x1b[<0;3;4m",
+            &["Down(Left) 0,1", "Up(Left) 2,3"],
+        ),
+        (
+            b"\x1b[<34;9;9M\x1b[<65;1;1M",
+            &["Drag(Right) 8,8", "ScrollDown 0,0"],
+        ),
+        (b"\x1b[<35;9;9M\x1b[M !!x", &["Char('x')"]),
+        (
+            b"\x1b[?62;4cx\x1b[12;40Ry\x1b[Iz",
+            &["Char('x')", "Char('y')", "Char('z')"],
+        ),
+        (
+            b"\x1b[200~a\rb\x1b[201~c",
+            &["Paste(\"a\\nb\")", "Char('c')"],
+        ),
+        (b"\xff\xc3(", &["Char('(')"]),
+        (b"\x1b\x1b", &["Esc", "Esc"]),
+        (b"\x1b[12\x1b[A", &["Up"]),
+    ] {
+        assert_eq!(decode(&[(0, bytes)]), events, "{}", bytes.escape_ascii());
+    }
+}
+
+#[test]
+fn a_sequence_may_be_split_anywhere() {
+    for sequence in [
+        &b"\x1b[A"[..],
+        b"\x1bOA",
+        b"\x1b[5~",
+        b"\x1b[1;2D",
+        b"\x1b[[B",
+        b"\x1b[<0;10;20M",
+        b"\x1b[M !!",
+        b"\x1b[200~paste\x1b[201~",
+        "𝄞".as_bytes(),
+    ] {
+        let whole = decode(&[(0, sequence)]);
+        for split in 1..sequence.len() {
+            let (head, tail) = sequence.split_at(split);
+            let halves = decode(&[(0, head), (20, tail)]);
+            assert_eq!(halves, whole, "{} at {split}", sequence.escape_ascii());
+        }
+    }
+}
+
+#[test]
+fn a_lone_escape_is_a_key_after_its_time() {
+    assert_eq!(decode(&[(0, b"\x1b")]), ["Esc"]);
+    assert_eq!(decode(&[(0, b"\x1b"), (24, b"[A")]), ["Up"]);
+    assert_eq!(
+        decode(&[(0, b"\x1b"), (25, b"[A")]),
+        ["Esc", "Char('[')", "SHIFT+Char('A')"]
+    );
+    assert_eq!(decode(&[(0, b"\x1b[")]), ["ALT+Char('[')"]);
+}
+
+#[test]
+fn a_paste_without_an_end_is_told_after_a_while() {
+    assert_eq!(
+        decode(&[(0, b"\x1b[200~a"), (500, b"b")]),
+        ["Paste(\"ab\")"]
+    );
+}
+
+#[test]
+fn endless_sequences_are_dropped() {
+    let noise = [&b"\x1b["[..], &[b'1'; 80]].concat();
+    assert_eq!(decode(&[(0, &noise), (1, b"x")]), ["Char('x')"]);
+}

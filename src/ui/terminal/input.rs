@@ -1,0 +1,268 @@
+//! The thread that reads the keyboard, and can let go of it.
+//!
+//! On Unix the bytes are read here, not by crossterm 0.29: its reader blocks in the middle of a
+//! sequence, where it cannot be parked, and spins when the terminal is gone (crossterm#793).
+
+use std::io;
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::thread::{self, JoinHandle};
+
+use super::Event;
+
+#[cfg(unix)]
+use unix::{Keyboard, Waker};
+#[cfg(not(unix))]
+use windows::{Keyboard, Waker};
+
+/// Reads the keyboard on a thread of its own until it is dropped.
+#[derive(Debug)]
+pub struct Input {
+    orders: Sender<Order>,
+    waker: Waker,
+    thread: Option<JoinHandle<()>>,
+}
+
+#[derive(Debug)]
+enum Order {
+    /// Let go of the keyboard and acknowledge.
+    Park(Sender<()>),
+    Resume,
+    Stop,
+}
+
+/// Why a keyboard stopped waiting.
+#[derive(Debug, PartialEq, Eq)]
+enum Wake {
+    /// Something was read, or a deadline passed, or it is time to look for orders.
+    Again,
+    /// No more keys will come.
+    Gone,
+}
+
+impl Input {
+    /// Starts reading; `send` is called on the reading thread. The thread ends by itself when the
+    /// terminal is gone.
+    pub fn start(send: impl Fn(Event) + Send + 'static) -> io::Result<Self> {
+        let (keyboard, waker) = Keyboard::open()?;
+        let (orders, inbox) = mpsc::channel();
+        let thread = thread::Builder::new()
+            .name("keyboard".to_owned())
+            .spawn(move || read(keyboard, &inbox, &send))?;
+        Ok(Self {
+            orders,
+            waker,
+            thread: Some(thread),
+        })
+    }
+
+    /// Stops reading and returns once the keyboard is free for others.
+    pub fn park(&self) {
+        let (done, parked) = mpsc::channel();
+        self.order(Order::Park(done));
+        // An error means that the thread has ended, which frees the keyboard as well.
+        let _ = parked.recv();
+    }
+
+    /// Reads again after [`Input::park`].
+    pub fn resume(&self) {
+        self.order(Order::Resume);
+    }
+
+    fn order(&self, order: Order) {
+        // A thread that has ended needs no orders.
+        let _ = self.orders.send(order);
+        self.waker.wake();
+    }
+}
+
+impl Drop for Input {
+    fn drop(&mut self) {
+        self.order(Order::Stop);
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+fn read(mut keyboard: Keyboard, inbox: &Receiver<Order>, send: &impl Fn(Event)) {
+    loop {
+        match inbox.try_recv() {
+            Ok(Order::Park(done)) => {
+                let _ = done.send(());
+                if !wait_for_resume(inbox) {
+                    return;
+                }
+            }
+            Ok(Order::Resume) => {}
+            Ok(Order::Stop) | Err(mpsc::TryRecvError::Disconnected) => return,
+            Err(mpsc::TryRecvError::Empty) => {
+                if keyboard.wait(send) == Wake::Gone {
+                    return;
+                }
+            }
+        }
+    }
+}
+
+/// Returns whether to go on reading.
+fn wait_for_resume(inbox: &Receiver<Order>) -> bool {
+    loop {
+        match inbox.recv() {
+            Ok(Order::Park(done)) => {
+                let _ = done.send(());
+            }
+            Ok(Order::Resume) => return true,
+            Ok(Order::Stop) | Err(_) => return false,
+        }
+    }
+}
+
+#[cfg(unix)]
+mod unix {
+    use std::io::{self, Read, Write};
+    use std::os::fd::OwnedFd;
+    use std::os::unix::net::UnixStream;
+    use std::time::Instant;
+
+    use rustix::event::{PollFd, PollFlags, Timespec, poll};
+    use rustix::io::Errno;
+
+    use super::Wake;
+    use crate::ui::terminal::decode::Decoder;
+    use crate::ui::terminal::{Event, tty};
+
+    /// The keyboard's end of the terminal.
+    #[derive(Debug)]
+    pub(super) struct Keyboard {
+        tty: OwnedFd,
+        woken: UnixStream,
+        decoder: Decoder,
+    }
+
+    /// Ends a wait from another thread.
+    #[derive(Debug)]
+    pub(super) struct Waker(UnixStream);
+
+    impl Waker {
+        pub(super) fn wake(&self) {
+            // A full pipe wakes as well as one more byte would.
+            let _ = (&self.0).write(&[0]);
+        }
+    }
+
+    impl Keyboard {
+        pub(super) fn open() -> io::Result<(Self, Waker)> {
+            let (woken, waker) = UnixStream::pair()?;
+            woken.set_nonblocking(true)?;
+            waker.set_nonblocking(true)?;
+            let keyboard = Self {
+                tty: tty::keyboard()?,
+                woken,
+                decoder: Decoder::default(),
+            };
+            Ok((keyboard, Waker(waker)))
+        }
+
+        /// Waits for keys, for the end of a held-back key's time, or for the waker.
+        pub(super) fn wait(&mut self, send: &impl Fn(Event)) -> Wake {
+            let timeout = self.decoder.deadline().and_then(|deadline| {
+                Timespec::try_from(deadline.saturating_duration_since(Instant::now())).ok()
+            });
+            let mut sources = [
+                PollFd::new(&self.tty, PollFlags::IN),
+                PollFd::new(&self.woken, PollFlags::IN),
+            ];
+            match poll(&mut sources, timeout.as_ref()) {
+                Ok(_) => {}
+                Err(Errno::INTR) => return Wake::Again,
+                Err(_) => return Wake::Gone,
+            }
+            let [keys, woken] = sources.map(|source| source.revents());
+            if !woken.is_empty() {
+                while (&self.woken)
+                    .read(&mut [0; 64])
+                    .is_ok_and(|bytes| bytes != 0)
+                {}
+            }
+            if keys.intersects(PollFlags::HUP | PollFlags::ERR | PollFlags::NVAL) {
+                return Wake::Gone;
+            }
+            // Bytes that wait already come before the verdict that there are none.
+            if keys.contains(PollFlags::IN) {
+                return self.read(send);
+            }
+            self.decoder.expire(Instant::now(), send);
+            Wake::Again
+        }
+
+        fn read(&mut self, send: &impl Fn(Event)) -> Wake {
+            let mut bytes = [0; 4096];
+            match rustix::io::read(&self.tty, &mut bytes) {
+                Ok(0) => Wake::Gone,
+                Ok(count) => {
+                    self.decoder.feed(&bytes[..count], Instant::now(), send);
+                    Wake::Again
+                }
+                Err(Errno::INTR | Errno::AGAIN) => Wake::Again,
+                Err(_) => Wake::Gone,
+            }
+        }
+    }
+}
+
+#[cfg(not(unix))]
+mod windows {
+    use std::io;
+    use std::time::Duration;
+
+    use crossterm::event::{self, KeyEventKind, MouseEventKind};
+
+    use super::Wake;
+    use crate::ui::terminal::Event;
+
+    /// How long a wait lasts: parking takes no longer.
+    const PATIENCE: Duration = Duration::from_millis(20);
+
+    /// The console, read by crossterm.
+    #[derive(Debug)]
+    pub(super) struct Keyboard;
+
+    /// Nothing to wake: waits are short.
+    #[derive(Debug)]
+    pub(super) struct Waker;
+
+    impl Waker {
+        pub(super) fn wake(&self) {}
+    }
+
+    impl Keyboard {
+        pub(super) fn open() -> io::Result<(Self, Waker)> {
+            Ok((Self, Waker))
+        }
+
+        pub(super) fn wait(&mut self, send: &impl Fn(Event)) -> Wake {
+            match event::poll(PATIENCE) {
+                Ok(false) => return Wake::Again,
+                Ok(true) => {}
+                Err(_) => return Wake::Gone,
+            }
+            match event::read() {
+                Ok(event) => told(event).into_iter().for_each(send),
+                Err(_) => return Wake::Gone,
+            }
+            Wake::Again
+        }
+    }
+
+    fn told(event: event::Event) -> Option<Event> {
+        match event {
+            event::Event::Key(key) if key.kind != KeyEventKind::Release => Some(Event::Key(key)),
+            event::Event::Mouse(mouse) if mouse.kind != MouseEventKind::Moved => {
+                Some(Event::Mouse(mouse))
+            }
+            event::Event::Paste(text) => Some(Event::Paste(text)),
+            event::Event::Resize(columns, rows) => Some(Event::Resize { columns, rows }),
+            _ => None,
+        }
+    }
+}

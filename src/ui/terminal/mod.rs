@@ -1,0 +1,59 @@
+//! Everything between the bytes of the terminal and the interface: the guard that borrows the
+//! screen and gives it back, the encoder of cells, the reader of keys, the signals, and the
+//! measure of the link.
+//!
+//! It must not know what is drawn or what a key means. It never asks the terminal anything: a
+//! reply would mix with what the user types, and a terminal that stays silent would hold up the
+//! first frame.
+
+mod backend;
+mod colour;
+#[cfg(unix)]
+mod decode;
+mod guard;
+mod input;
+mod link;
+mod panics;
+mod pen;
+#[cfg(unix)]
+mod signals;
+mod tty;
+
+pub use backend::AnsiBackend;
+pub use colour::{Choice, ColourDepth};
+pub use guard::{Mouse, Terminal};
+pub use input::Input;
+pub use link::{Link, default_bandwidth};
+#[cfg(unix)]
+pub use signals::{Signals, suspend_process};
+pub(crate) use tty::size;
+
+use crossterm::event::{KeyEvent, MouseEvent};
+
+/// Something the terminal or the system tells the interface.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// A key was pressed or repeats; releases are never told.
+    Key(KeyEvent),
+    /// Text arrived in one piece, its line ends as `\n`.
+    Paste(String),
+    /// A button, a drag or the wheel; bare motion is never told.
+    Mouse(MouseEvent),
+    /// The window has a new size, in cells.
+    Resize {
+        /// Cells in a row.
+        columns: u16,
+        /// Rows of cells.
+        rows: u16,
+    },
+    /// Somebody asks the process to stop until it is continued.
+    Suspend,
+    /// The process runs again; whoever ran in between may have changed the terminal's modes.
+    Continue,
+    /// The terminal is gone: 500 ms remain to save what must survive.
+    HangUp,
+    /// The system asks the process to end, as by `kill`.
+    Terminate,
+    /// Somebody interrupts the process from outside; Ctrl-C on the keyboard is a key.
+    Interrupt,
+}

@@ -1,0 +1,122 @@
+//! What panics do to the screen.
+//!
+//! A panic on the interface's thread gives the terminal back before it is told; one on any other
+//! thread is kept, because the interface is still drawing.
+
+use std::backtrace::{Backtrace, BacktraceStatus};
+use std::io::{self, Write};
+use std::panic::{self, PanicHookInfo};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::thread::{self, ThreadId};
+
+/// Who has the terminal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Tenure {
+    /// The interface.
+    Ours,
+    /// Another program, for a while.
+    Lent,
+    /// Whoever started us.
+    GivenBack,
+}
+
+/// What the guard of the terminal shares with the panic hook.
+#[derive(Debug)]
+pub(super) struct Shared {
+    interface: ThreadId,
+    tenure: Mutex<Tenure>,
+    panics: Mutex<Vec<String>>,
+}
+
+impl Shared {
+    /// Makes the calling thread the interface's, and catches panics while the result lives.
+    pub(super) fn install(restore: fn(&Self)) -> Arc<Self> {
+        let shared = Arc::new(Self {
+            interface: thread::current().id(),
+            tenure: Mutex::new(Tenure::GivenBack),
+            panics: Mutex::new(Vec::new()),
+        });
+        let previous = panic::take_hook();
+        let weak = Arc::downgrade(&shared);
+        panic::set_hook(Box::new(move |panic| match Weak::upgrade(&weak) {
+            Some(shared) => shared.caught(panic, restore),
+            None => previous(panic),
+        }));
+        shared
+    }
+
+    /// Locks who has the terminal; held while it changes hands.
+    pub(super) fn tenure(&self) -> MutexGuard<'_, Tenure> {
+        // Whoever panicked with the lock has left a valid value.
+        self.tenure.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Returns the panics of other threads that nobody has taken yet.
+    pub(super) fn take_panics(&self) -> Vec<String> {
+        std::mem::take(&mut *self.panics.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    fn caught(&self, panic: &PanicHookInfo, restore: fn(&Self)) {
+        let text = description(panic);
+        let told_at_once = if thread::current().id() == self.interface {
+            restore(self);
+            true
+        } else {
+            *self.tenure() == Tenure::GivenBack
+        };
+        if told_at_once {
+            tell(&text);
+        } else {
+            self.panics
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .push(text);
+        }
+    }
+}
+
+/// Prints a panic; there is nowhere to report it if that fails.
+pub(super) fn tell(text: &str) {
+    let _ = writeln!(io::stderr(), "{text}");
+}
+
+fn description(panic: &PanicHookInfo) -> String {
+    let thread = thread::current();
+    let mut text = format!("thread '{}' {panic}", thread.name().unwrap_or("<unnamed>"));
+    let backtrace = Backtrace::capture();
+    if backtrace.status() == BacktraceStatus::Captured {
+        let backtrace = backtrace.to_string();
+        text.push('\n');
+        text.push_str(&backtrace);
+    }
+    visible(&text)
+}
+
+/// Shows characters that would command or deceive the terminal as escapes. A panic may quote a
+/// hostile file.
+fn visible(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '\n' | '\'' | '"' | '\\' => shown.push(character),
+            _ => shown.extend(character.escape_debug()),
+        }
+    }
+    shown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn commands_to_the_terminal_become_visible() {
+        for (text, shown) in [
+            ("plain 'é'\n\"ok\" \\", "plain 'é'\n\"ok\" \\"),
+            ("\x1b]52;c;eA==\x07", "\\u{1b}]52;c;eA==\\u{7}"),
+            ("a\u{9b}2J\u{202e}b", "a\\u{9b}2J\\u{202e}b"),
+        ] {
+            assert_eq!(visible(text), shown);
+        }
+    }
+}

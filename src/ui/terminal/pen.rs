@@ -1,0 +1,322 @@
+//! The terminal's pen: which colours and attributes the next character gets, and the fewest bytes
+//! that change them.
+
+use ratatui::style::Modifier;
+
+use super::colour::Ink;
+
+/// The attributes that show on an empty cell.
+pub(super) const VISIBLE_ON_BLANK: Modifier = Modifier::REVERSED
+    .union(Modifier::UNDERLINED)
+    .union(Modifier::SLOW_BLINK)
+    .union(Modifier::RAPID_BLINK)
+    .union(Modifier::CROSSED_OUT);
+
+/// What a character needs of the pen; `None` where it looks the same in any colour.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Style {
+    pub(super) fg: Option<Ink>,
+    pub(super) bg: Option<Ink>,
+    pub(super) modifier: Modifier,
+    /// The attributes that may be on or off, whatever `modifier` says.
+    pub(super) indifferent: Modifier,
+}
+
+/// The state of the terminal's pen as far as it is known.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pen {
+    fg: Ink,
+    bg: Ink,
+    modifier: Modifier,
+    knowledge: Knowledge,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Knowledge {
+    Known,
+    /// Somebody else may have used the terminal.
+    Unknown,
+}
+
+impl Pen {
+    /// A pen of which nothing is known; its first use resets it.
+    pub(super) const UNKNOWN: Self = Self {
+        fg: Ink::Default,
+        bg: Ink::Default,
+        modifier: Modifier::empty(),
+        knowledge: Knowledge::Unknown,
+    };
+
+    /// Puts the pen back to the terminal's defaults.
+    pub(super) fn reset(&mut self, out: &mut Vec<u8>) {
+        out.extend_from_slice(b"\x1b[m");
+        *self = Self {
+            knowledge: Knowledge::Known,
+            ..Self::UNKNOWN
+        };
+    }
+
+    /// Returns the bytes the colours of a style would take, but for the frame of the sequence.
+    pub(super) fn colour_cost(&self, style: &Style) -> usize {
+        let cost = |wanted: Option<Ink>, current| match wanted {
+            Some(ink) if ink != current => ink_length(ink),
+            _ => 0,
+        };
+        match (cost(style.fg, self.fg), cost(style.bg, self.bg)) {
+            (0, 0) => 0,
+            (0, one) | (one, 0) => one + 3,
+            (fg, bg) => fg + bg + 4,
+        }
+    }
+
+    /// Makes the pen fit for a character, sending only what differs.
+    pub(super) fn apply(&mut self, style: &Style, out: &mut Vec<u8>) {
+        if self.knowledge == Knowledge::Unknown {
+            self.reset(out);
+        }
+        let kept = self.modifier & style.indifferent;
+        let modifier = (style.modifier - style.indifferent) | kept;
+        let wanted = Self {
+            fg: style.fg.unwrap_or(self.fg),
+            bg: style.bg.unwrap_or(self.bg),
+            modifier,
+            knowledge: Knowledge::Known,
+        };
+        if wanted.is_plain() && !self.is_plain() {
+            return self.reset(out);
+        }
+        let mut sequence = Sequence { out, parameters: 0 };
+        attributes(self.modifier, wanted.modifier, &mut sequence);
+        if wanted.fg != self.fg {
+            ink_parameters(wanted.fg, 30, &mut sequence);
+        }
+        if wanted.bg != self.bg {
+            ink_parameters(wanted.bg, 40, &mut sequence);
+        }
+        if sequence.parameters != 0 {
+            out.push(b'm');
+        }
+        *self = wanted;
+    }
+
+    fn is_plain(&self) -> bool {
+        self.fg == Ink::Default && self.bg == Ink::Default && self.modifier.is_empty()
+    }
+}
+
+/// Writes a number in decimal.
+pub(super) fn push_number(out: &mut Vec<u8>, number: u16) {
+    let start = out.len();
+    let mut rest = number;
+    loop {
+        out.push(b'0' + (rest % 10) as u8);
+        rest /= 10;
+        if rest == 0 {
+            break;
+        }
+    }
+    out[start..].reverse();
+}
+
+/// The parameters of one SGR sequence, opened by the first of them.
+struct Sequence<'a> {
+    out: &'a mut Vec<u8>,
+    parameters: usize,
+}
+
+impl Sequence<'_> {
+    fn push(&mut self, parameter: u16) {
+        self.out
+            .extend_from_slice(if self.parameters == 0 { b"\x1b[" } else { b";" });
+        self.parameters += 1;
+        push_number(self.out, parameter);
+    }
+}
+
+/// Attributes with the codes that turn them on and off. Some share the code that turns them off.
+const ATTRIBUTES: [(Modifier, u16, u16); 9] = [
+    (Modifier::BOLD, 1, 22),
+    (Modifier::DIM, 2, 22),
+    (Modifier::ITALIC, 3, 23),
+    (Modifier::UNDERLINED, 4, 24),
+    (Modifier::SLOW_BLINK, 5, 25),
+    (Modifier::RAPID_BLINK, 6, 25),
+    (Modifier::REVERSED, 7, 27),
+    (Modifier::HIDDEN, 8, 28),
+    (Modifier::CROSSED_OUT, 9, 29),
+];
+
+fn attributes(from: Modifier, to: Modifier, sequence: &mut Sequence) {
+    if from == to {
+        return;
+    }
+    let mut current = from;
+    for (attribute, _, off) in ATTRIBUTES {
+        if (current - to).contains(attribute) {
+            sequence.push(off);
+            for (other, _, same) in ATTRIBUTES {
+                if same == off {
+                    current -= other;
+                }
+            }
+        }
+    }
+    for (attribute, on, _) in ATTRIBUTES {
+        if (to - current).contains(attribute) {
+            sequence.push(on);
+        }
+    }
+}
+
+/// Writes a colour; `base` is 30 for the foreground and 40 for the background.
+fn ink_parameters(ink: Ink, base: u16, sequence: &mut Sequence) {
+    match ink {
+        Ink::Default => sequence.push(base + 9),
+        Ink::Index(index @ 0..8) => sequence.push(base + u16::from(index)),
+        Ink::Index(index @ 8..16) => sequence.push(base + 52 + u16::from(index)),
+        Ink::Index(index) => {
+            for parameter in [base + 8, 5, u16::from(index)] {
+                sequence.push(parameter);
+            }
+        }
+        Ink::Rgb(red, green, blue) => {
+            for parameter in [base + 8, 2, red.into(), green.into(), blue.into()] {
+                sequence.push(parameter);
+            }
+        }
+    }
+}
+
+fn ink_length(ink: Ink) -> usize {
+    let digits = |value: u8| match value {
+        0..10 => 1,
+        10..100 => 2,
+        _ => 3,
+    };
+    match ink {
+        // Bright backgrounds take a third digit, too little to tell the two sides apart for.
+        Ink::Default | Ink::Index(0..16) => 2,
+        Ink::Index(index) => 5 + digits(index),
+        Ink::Rgb(red, green, blue) => 7 + digits(red) + digits(green) + digits(blue),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLAIN: Style = Style {
+        fg: Some(Ink::Default),
+        bg: Some(Ink::Default),
+        modifier: Modifier::empty(),
+        indifferent: Modifier::empty(),
+    };
+
+    /// Applies styles one after another to a fresh pen and returns the bytes of the last.
+    fn last_change(styles: &[Style]) -> String {
+        let mut pen = Pen::UNKNOWN;
+        let mut out = Vec::new();
+        pen.reset(&mut out);
+        for style in styles {
+            out.clear();
+            pen.apply(style, &mut out);
+        }
+        String::from_utf8(out).expect("sequences are ASCII")
+    }
+
+    #[test]
+    fn sends_only_what_changes() {
+        let red = Style {
+            fg: Some(Ink::Index(1)),
+            ..PLAIN
+        };
+        let rgb = Style {
+            bg: Some(Ink::Rgb(1, 20, 255)),
+            ..red
+        };
+        let bold = Style {
+            modifier: Modifier::BOLD,
+            ..rgb
+        };
+        let dim = Style {
+            modifier: Modifier::DIM,
+            ..rgb
+        };
+        let both = Style {
+            modifier: Modifier::BOLD | Modifier::DIM,
+            ..rgb
+        };
+        for (styles, bytes) in [
+            (&[PLAIN][..], ""),
+            (&[red], "\x1b[31m"),
+            (&[red, red], ""),
+            (&[red, rgb], "\x1b[48;2;1;20;255m"),
+            (&[rgb, bold], "\x1b[1m"),
+            (&[bold, dim], "\x1b[22;2m"),
+            (&[both, dim], "\x1b[22;2m"),
+            (&[bold, PLAIN], "\x1b[m"),
+            (&[rgb, red], "\x1b[49m"),
+            (&[PLAIN, rgb], "\x1b[31;48;2;1;20;255m"),
+        ] {
+            assert_eq!(last_change(styles), bytes, "{styles:?}");
+        }
+    }
+
+    #[test]
+    fn what_does_not_show_is_left_as_it_is() {
+        let bold = Style {
+            fg: Some(Ink::Index(9)),
+            modifier: Modifier::BOLD,
+            ..PLAIN
+        };
+        let blank = Style {
+            fg: None,
+            indifferent: Modifier::all() - VISIBLE_ON_BLANK,
+            ..PLAIN
+        };
+        assert_eq!(last_change(&[bold]), "\x1b[1;91m");
+        assert_eq!(last_change(&[bold, blank]), "");
+        assert_eq!(last_change(&[bold, blank, bold]), "");
+        let line = Style {
+            modifier: Modifier::UNDERLINED,
+            ..bold
+        };
+        assert_eq!(last_change(&[line, blank]), "\x1b[24m");
+    }
+
+    #[test]
+    fn the_cost_of_colours_is_what_they_take() {
+        let inks = [
+            Ink::Default,
+            Ink::Index(3),
+            Ink::Index(77),
+            Ink::Rgb(0, 50, 200),
+        ];
+        for fg in inks {
+            for bg in inks {
+                let style = Style {
+                    fg: Some(fg),
+                    bg: Some(bg),
+                    ..PLAIN
+                };
+                let mut pen = Pen::UNKNOWN;
+                let mut out = Vec::new();
+                // Another attribute keeps the pen from being reset as a whole.
+                let start = Style {
+                    fg: Some(Ink::Index(1)),
+                    modifier: Modifier::BOLD,
+                    ..PLAIN
+                };
+                pen.apply(&start, &mut out);
+                out.clear();
+                let style = Style {
+                    modifier: Modifier::BOLD,
+                    ..style
+                };
+                let cost = pen.colour_cost(&style);
+                pen.apply(&style, &mut out);
+                assert_eq!(cost, out.len(), "{style:?}");
+            }
+        }
+    }
+}

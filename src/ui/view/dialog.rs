@@ -1,0 +1,207 @@
+//! Questions that must be answered first.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use ratatui::widgets::{Block, BorderType, Clear, Widget};
+use unicode_width::UnicodeWidthStr;
+
+use super::layout;
+use super::row::{Row, wrap};
+use super::status::counted;
+use super::theme;
+use crate::document::{Merge, Side};
+use crate::text::Position;
+use crate::ui::app::{App, Dialog};
+use crate::ui::keymap;
+
+/// The least room for one side of a conflict, in columns.
+const SIDE: usize = 12;
+
+/// Draws the question that is open, if any.
+pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
+    match &app.dialog {
+        None => {}
+        Some(Dialog::Quit) => {
+            let text = format!("{}. Quit?", app.losses().unwrap_or_default());
+            ask(app, " Quit ", &text, area, buffer);
+        }
+        Some(Dialog::Recover(text)) => {
+            let places = counted(app.document.differences(text), "place");
+            let text = format!(
+                "Edits of an earlier run of {} were never saved: {places} differ from the file. \
+                 Take them?",
+                app.file_name()
+            );
+            ask(app, " Recover ", &text, area, buffer);
+        }
+        Some(Dialog::Conflict { merge, at }) => conflict(app, merge, *at, area, buffer),
+    }
+}
+
+/// Draws a question and the keys that answer it.
+fn ask(app: &App, title: &str, text: &str, area: Rect, buffer: &mut Buffer) {
+    let width = area.width.saturating_sub(4).min(60);
+    let lines = wrap(text, usize::from(width.saturating_sub(4)));
+    let keys = answers(app, width.saturating_sub(4));
+    let height = lines.len() + keys.len() + 3;
+    let inner = frame(title, (width, height), area, buffer);
+    for (index, line) in lines.iter().enumerate() {
+        let mut row = Row::new(buffer, inner, index as u16);
+        row.skip(1).put(line, Style::new());
+    }
+    draw_answers(&keys, inner, buffer);
+}
+
+/// Draws the conflicts with what was decided, and both texts of the one under the cursor.
+fn conflict(app: &App, merge: &Merge, at: usize, area: Rect, buffer: &mut Buffer) {
+    let width = area.width.saturating_sub(4).min(90);
+    let keys = answers(app, width.saturating_sub(4));
+    let conflicts = &merge.conflicts;
+    let height = conflicts.len() + keys.len() + 4;
+    let inner = frame(" The file changed too ", (width, height), area, buffer);
+    let (list, _) = layout::split_bottom(inner, keys.len() as u16);
+    let head = "Both the file and unsaved edits changed these. Which is to stand?";
+    Row::new(buffer, list, 0).skip(1).put(head, Style::new());
+
+    let list = layout::contents(list);
+    let rows = usize::from(list.height);
+    let top = layout::first_shown(0, at, conflicts.len(), rows);
+    for (index, conflict) in conflicts.iter().enumerate().skip(top).take(rows) {
+        let line = Position::of(app.document.text(), conflict.span.start()).line;
+        let mut row = Row::new(buffer, list, (index - top) as u16);
+        let here = if index == at {
+            theme::BOLD
+        } else {
+            Style::new()
+        };
+        row.put(if index == at { "▸ " } else { "  " }, here);
+        let place = app.place_name(conflict.span);
+        let place = place.map_or_else(
+            || format!("line {line}"),
+            |name| format!("{name} (line {line})"),
+        );
+        row.put(&format!("{place}: "), here);
+        let was = format!("was {}", one_line(&conflict.base));
+        let was = Some(was).filter(|was| was.width() + 2 * SIDE <= row.room());
+        let each = (row.room() - was.as_ref().map_or(0, |was| was.width())) / 2;
+        for (side, text) in [
+            (Side::Mine, &conflict.mine),
+            (Side::Theirs, &conflict.theirs),
+        ] {
+            let name = match side {
+                Side::Mine => "mine ",
+                Side::Theirs => "file ",
+            };
+            let chosen = conflict.decision == Some(side);
+            let mark = if chosen { "● " } else { "○ " };
+            let style = if chosen { theme::GOOD } else { theme::DIM };
+            let room = each.saturating_sub(mark.width() + name.len() + 1);
+            row.put(mark, style).put(name, style);
+            row.put_in(&one_line(text), room, here).skip(1);
+        }
+        if let Some(was) = was {
+            row.put(&was, theme::DIM);
+        }
+    }
+    draw_answers(&keys, inner, buffer);
+}
+
+/// Clears room for a question and frames it; the area inside.
+fn frame(title: &str, size: (u16, usize), area: Rect, buffer: &mut Buffer) -> Rect {
+    let height = u16::try_from(size.1).unwrap_or(u16::MAX);
+    let area = layout::centred(area, Rect::new(0, 0, size.0, height)).intersection(buffer.area);
+    Clear.render(area, buffer);
+    let block = Block::bordered()
+        .border_type(BorderType::Rounded)
+        .border_style(theme::WARNING)
+        .title(title);
+    let inner = block.inner(area);
+    block.render(area, buffer);
+    inner
+}
+
+/// A line of keys and what they answer.
+type Answers = Vec<(String, &'static str)>;
+
+/// The keys that answer, broken into lines of at most `width` cells.
+fn answers(app: &App, width: u16) -> Vec<Answers> {
+    let mut lines: Vec<Answers> = Vec::new();
+    let mut left = 0;
+    let context = keymap::context(app);
+    for (key, words) in keymap::hints(context) {
+        let room = key.width() + words.width() + 3;
+        if lines.is_empty() || left < room {
+            left = usize::from(width);
+            lines.push(Vec::new());
+        }
+        if let Some(line) = lines.last_mut() {
+            line.push((key, words));
+        }
+        left = left.saturating_sub(room);
+    }
+    lines
+}
+
+fn draw_answers(lines: &[Answers], area: Rect, buffer: &mut Buffer) {
+    let (_, area) = layout::split_bottom(area, lines.len() as u16);
+    for (index, line) in lines.iter().enumerate() {
+        let mut row = Row::new(buffer, area, index as u16);
+        row.skip(1);
+        for (key, words) in line {
+            row.put(key, theme::ACCENT).put(" ", Style::new());
+            row.put(words, Style::new()).skip(2);
+        }
+    }
+}
+
+/// A text on one line, its white space as single blanks; nothing reads as such.
+fn one_line(text: &str) -> String {
+    let words: Vec<_> = text.split_whitespace().take(50).collect();
+    if words.is_empty() {
+        "(nothing)".to_owned()
+    } else {
+        words.join(" ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::document::Replaced;
+    use crate::document::Side;
+    use crate::ui::app::Dialog;
+    use crate::ui::view::tests::{SCENE, app, drawn, retype};
+
+    #[test]
+    fn quitting_says_what_would_be_lost_and_how_to_answer() {
+        let mut app = app();
+        retype(&mut app, " 0.25 //", " 0.5 //");
+        app.dialog = Some(Dialog::Quit);
+        let text = drawn(&app, super::render, 80, 24).join("\n");
+        for part in ["test.ray has edits", "y quit", "w save and quit", "n stay"] {
+            assert!(text.contains(part), "{part:?} in\n{text}");
+        }
+    }
+
+    #[test]
+    fn conflicts_show_both_texts_and_the_decision() {
+        let mut app = app();
+        retype(&mut app, " 0.25 //", " 0.5 //");
+        let theirs = SCENE.replace(" 0.25 //", " 0.75 //");
+        let Replaced::Conflict(mut merge) = app.document.replace(theirs) else {
+            panic!("the same number was changed twice");
+        };
+        merge.conflicts[0].decision = Some(Side::Theirs);
+        app.dialog = Some(Dialog::Conflict { merge, at: 0 });
+        let lines = drawn(&app, super::render, 80, 24);
+        let line = lines.iter().find(|line| line.contains('▸'));
+        let line = line.expect("a cursor");
+        for part in [
+            "object 1 (sphere) radius (line 6):",
+            "○ mine 0.5",
+            "● file 0.75",
+        ] {
+            assert!(line.contains(part), "{part:?} in {line}");
+        }
+    }
+}

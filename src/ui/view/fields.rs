@@ -1,0 +1,226 @@
+//! The fields of the selected thing, with the value being typed and what the selected field means.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Modifier, Style};
+use ratatui::widgets::{Clear, Widget};
+
+use super::layout;
+use super::row::{self, Row};
+use super::theme;
+use crate::scene::Rgb;
+use crate::scene::fields::Kind;
+use crate::text::parse_number;
+use crate::ui::app::{App, FieldRow, Mode, Source, Stride, Typing};
+
+/// Draws the fields.
+pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
+    let focused = app.mode == Mode::Edit;
+    let stride = match app.stride {
+        Stride::Fine => "step × 0.1",
+        Stride::Plain => "",
+        Stride::Coarse => "step × 10",
+    };
+    let name = app.origins.name(app.selected);
+    row::title(
+        &name,
+        stride,
+        focused.then_some(theme::ACCENT),
+        area,
+        buffer,
+    );
+
+    let fields = app.fields();
+    let lines = layout::field_rows(area);
+    let rows = usize::from(lines.height);
+    let top = app.field_top.min(fields.len().saturating_sub(rows));
+    for (line, (index, field)) in fields.iter().enumerate().skip(top).take(rows).enumerate() {
+        let line = Rect {
+            y: lines.y + line as u16,
+            height: 1,
+            ..lines
+        };
+        let cursor = (focused && index == app.field).then_some(app.component);
+        field_line(app, field, cursor, line, buffer);
+    }
+    if let Some(field) = fields.get(app.field).filter(|_| focused) {
+        explain(app, field, layout::field_notes(area), buffer);
+    }
+}
+
+/// Draws a field: its name and its literals in columns, the one under the cursor marked.
+fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, buffer: &mut Buffer) {
+    let (name, columns) = layout::field_columns(line, field.literals.len());
+    let mut row = Row::new(buffer, name, 0);
+    let selected = cursor.map_or(Style::new(), |_| theme::BOLD);
+    row.put(if cursor.is_some() { "▸" } else { " " }, selected);
+    row.put_in(field.field.key, row.room().saturating_sub(2), selected);
+    row.skip_to(name.right().saturating_sub(2));
+    match (field.source, swatch(field)) {
+        (Source::WorkingView, _) => row.put("*", theme::WARNING),
+        (_, Some(colour)) => row.put("●", theme::swatch(colour)),
+        _ => row.put(" ", Style::new()),
+    };
+    let style = match field.source {
+        Source::Text => Style::new(),
+        Source::Default => theme::DIM,
+        Source::WorkingView => theme::WARNING,
+    };
+    for (component, (literal, column)) in field.literals.iter().zip(&columns).enumerate() {
+        let mut row = Row::new(buffer, *column, 0);
+        // The last cell keeps a gap to the next number.
+        let room = row.room().saturating_sub(1);
+        if cursor == Some(component) {
+            row.put_in(literal, room, style.patch(theme::CURSOR));
+        } else {
+            row.put_in(literal, room, style);
+        }
+        if field.source == Source::Default && "  (default)".len() < row.room() {
+            row.put("  (default)", style);
+        }
+    }
+    if let (Some(component), Some(typing)) = (cursor, &app.typing)
+        && let Some(column) = columns.get(component)
+    {
+        // The last cell keeps a gap to the next number.
+        let room = Rect {
+            width: column.width.saturating_sub(1),
+            ..*column
+        };
+        typed(typing, room, buffer);
+    }
+}
+
+/// Draws the value being typed, over the one that stands there.
+fn typed(typing: &Typing, area: Rect, buffer: &mut Buffer) {
+    Clear.render(area.intersection(buffer.area), buffer);
+    let style = theme::ACCENT.add_modifier(Modifier::UNDERLINED);
+    let mut row = Row::new(buffer, area, 0);
+    let room = row.room();
+    row.put_input(&typing.input, room, style, theme::CURSOR);
+}
+
+/// Says below the fields why a value was refused, within which range it is, and what it does.
+fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
+    let width = usize::from(area.width.saturating_sub(1));
+    let mut lines: Vec<(String, Style)> = Vec::new();
+    let mut say = |text: &str, style| {
+        lines.extend(row::wrap(text, width).into_iter().map(|line| (line, style)));
+    };
+    if let Some(refused) = app
+        .typing
+        .as_ref()
+        .and_then(|typing| typing.refused.as_ref())
+    {
+        say(&refused.message, theme::ERROR);
+    }
+    let names = field.field.kind.component_names();
+    let component = names.get(app.component).copied().unwrap_or_default();
+    let range = field.field.allowed.words();
+    let what = [component, &range].join(if component.is_empty() { "" } else { ": " });
+    let unit = if field.field.unit.is_empty() {
+        String::new()
+    } else {
+        format!(" {}", field.field.unit)
+    };
+    say(
+        &format!("{what} · step {}{unit}", app.step(field.field)),
+        Style::new(),
+    );
+    say(field.field.doc, theme::DIM);
+    if field.source == Source::Default {
+        say("Not in the text: this is the default.", theme::DIM);
+    }
+    if field.source == Source::WorkingView {
+        say("The working view differs from the text.", theme::WARNING);
+    }
+    for (index, (line, style)) in lines.iter().enumerate() {
+        Row::new(buffer, area, index as u16)
+            .skip(1)
+            .put(line, *style);
+    }
+}
+
+/// The colour that a field's literals say.
+fn swatch(field: &FieldRow) -> Option<Rgb> {
+    let channel = |at: usize| parse_number(field.literals.get(at)?).ok();
+    match field.field.kind {
+        Kind::Colour => Some(Rgb::new(channel(0)?, channel(1)?, channel(2)?)),
+        Kind::Number | Kind::Point | Kind::Direction | Kind::Pixels => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Node;
+    use crate::text::{Diagnostic, Span};
+    use crate::ui::view::tests::{app, drawn};
+    use tui_input::Input;
+
+    fn editing(selected: Node) -> App {
+        let mut app = app();
+        app.mode = Mode::Edit;
+        app.selected = selected;
+        app
+    }
+
+    #[test]
+    fn literals_stand_as_they_do_in_the_text() {
+        let lines = drawn(&editing(Node::Object(0)), render, 34, 20);
+        assert!(lines[0].starts_with("object 1 (sphere) ─"), "{}", lines[0]);
+        assert_eq!(lines[1], "▸centre    0      .5     -1e0");
+        assert_eq!(lines[2], " radius    0.25");
+        assert_eq!(lines[3], " ka      ● 0.1    0.1    0.1");
+    }
+
+    #[test]
+    fn missing_parts_of_the_view_are_shown_as_defaults() {
+        let lines = drawn(&editing(Node::View), render, 34, 20);
+        assert_eq!(lines[4], " fov       45  (default)");
+    }
+
+    #[test]
+    fn a_refused_value_stays_and_is_explained() {
+        let mut app = editing(Node::Object(0));
+        app.field = 1;
+        app.typing = Some(Typing {
+            input: Input::new("-3".to_owned()),
+            refused: Some(Diagnostic::error(
+                Span::at(0),
+                "radius: must be greater than 0",
+                "a number greater than 0",
+            )),
+        });
+        let lines = drawn(&app, render, 34, 20);
+        assert_eq!(lines[2], "▸radius    -3");
+        assert_eq!(lines[16], " radius: must be greater than 0");
+        assert!(lines[17].starts_with(" a number greater than 0 · step"));
+    }
+
+    #[test]
+    fn the_other_components_stay_while_one_is_typed() {
+        let mut app = editing(Node::Object(0));
+        app.component = 1;
+        app.typing = Some(Typing {
+            input: Input::new("0.123456789".to_owned()),
+            refused: None,
+        });
+        let line = drawn(&app, render, 34, 20)[1].clone();
+        assert!(line.starts_with("▸centre    0 "), "{line}");
+        assert!(line.contains("6789") && line.ends_with(" -1e0"), "{line}");
+    }
+
+    #[test]
+    fn the_cursor_is_on_one_component() {
+        let mut app = editing(Node::Object(0));
+        app.component = 1;
+        let area = Rect::new(0, 0, 34, 20);
+        let mut buffer = Buffer::empty(area);
+        render(&app, area, &mut buffer);
+        let reversed: Vec<u16> = (0..34)
+            .filter(|&x| buffer[(x, 1)].modifier.contains(Modifier::REVERSED))
+            .collect();
+        assert_eq!(reversed, [18, 19], "the cells of .5");
+    }
+}

@@ -1,0 +1,443 @@
+//! Where things are on the screen: used by drawing, by the mouse and for the preview's size, so
+//! that the three can't disagree.
+//!
+//! Everything here is arithmetic on rectangles; it holds for any size from 0×0 up.
+
+use ratatui::layout::{Position, Rect};
+
+use crate::scene::Size;
+
+/// How much of the screen the picture takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Zoom {
+    /// The picture beside the list and the fields.
+    #[default]
+    Panels,
+    /// The picture alone.
+    Picture,
+}
+
+/// The lines that explain a field where there is room for them.
+const NOTES: u16 = 4;
+/// The least height of fields and notes at which there is.
+const ROOMY: u16 = 12;
+
+/// Where each panel is; a panel for which there is no room has an empty area.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Areas {
+    /// The picture with the margins around it.
+    pub picture: Rect,
+    /// The line between the picture and the panels.
+    pub rule: Rect,
+    /// The list, its title line first.
+    pub list: Rect,
+    /// The fields, their title line first.
+    pub fields: Rect,
+    /// The errors, over the lower part of the picture, so that the picture keeps its size when
+    /// they come and go.
+    pub errors: Rect,
+    /// The line of keys.
+    pub hint: Rect,
+    /// The line at the bottom.
+    pub status: Rect,
+}
+
+/// The least width and height, in cells, of the picture with the panels beside it.
+const FULL: (u16, u16) = (80, 24);
+/// The least size of the picture with the panels below it, and with a line of keys.
+const STACKED: (u16, u16) = (40, 16);
+/// The least size of anything but a notice.
+pub const LEAST: (u16, u16) = (20, 6);
+
+/// Divides the screen. All areas are inside `area` and disjoint, but for the errors; below
+/// [`LEAST`] all are empty. `fields` is how many the selected thing has: beside the picture, what
+/// they don't need is the list's.
+pub fn arrange(area: Rect, zoom: Zoom, fields: usize) -> Areas {
+    let fits = |(width, height)| width <= area.width && height <= area.height;
+    if !fits(LEAST) {
+        return Areas::default();
+    }
+    let (rest, status) = split_bottom(area, 1);
+    let (body, hint) = split_bottom(rest, u16::from(fits(STACKED)));
+    let bars = Areas {
+        picture: body,
+        hint,
+        status,
+        ..Areas::default()
+    };
+    let areas = match zoom {
+        Zoom::Panels if fits(FULL) => side_by_side(bars, fields),
+        Zoom::Panels if fits(STACKED) => stacked(bars),
+        Zoom::Panels | Zoom::Picture => bars,
+    };
+    let lines = (areas.picture.height / 2).clamp(5, 12);
+    Areas {
+        errors: split_bottom(areas.picture, lines).1,
+        ..areas
+    }
+}
+
+/// The picture at the left, the list over the fields at the right.
+fn side_by_side(bars: Areas, fields: usize) -> Areas {
+    let body = bars.picture;
+    let (left, panels) = split_right(body, (body.width * 3 / 10).clamp(35, 44));
+    let (picture, rule) = split_right(left, 1);
+    // Things of few fields share one height, so that the list seldom moves with the cursor.
+    let wanted = u16::try_from(fields).unwrap_or(u16::MAX);
+    let wanted = wanted.saturating_add(1 + NOTES).max(1 + ROOMY);
+    let (list, fields) = split_bottom(panels, wanted.min((body.height * 2 / 3).max(15)));
+    Areas {
+        picture,
+        rule,
+        list,
+        fields,
+        ..bars
+    }
+}
+
+/// The picture over the list and the fields.
+fn stacked(bars: Areas) -> Areas {
+    let body = bars.picture;
+    let (upper, panels) = split_bottom(body, (body.height / 2).clamp(7, 22));
+    let (picture, rule) = split_bottom(upper, u16::from(16 < body.height));
+    let (list, fields) = split_right(panels, (body.width * 6 / 10).max(24));
+    let (list, _) = split_right(list, 1);
+    Areas {
+        picture,
+        rule,
+        list,
+        fields,
+        ..bars
+    }
+}
+
+/// The largest picture of `output`'s aspect inside `area` at two pixels a cell, one above the
+/// other: the cells it takes, centred, and its size in pixels. `None` where there is no cell.
+pub fn raster(area: Rect, output: Size) -> Option<(Rect, Size)> {
+    if area.is_empty() || output.pixels() == 0 {
+        return None;
+    }
+    let (across, down) = (u64::from(area.width), 2 * u64::from(area.height));
+    let (width, height) = (u64::from(output.width), u64::from(output.height));
+    let (width, height) = if down * width < across * height {
+        ((rounded_ratio(down * width, height)).clamp(1, across), down)
+    } else {
+        (across, rounded_ratio(across * height, width).clamp(1, down))
+    };
+    let cells = Rect::new(0, 0, width as u16, height.div_ceil(2) as u16);
+    let size = Size {
+        width: width as u32,
+        height: height as u32,
+    };
+    Some((centred(area, cells), size))
+}
+
+/// The pixel, in a frame of `size`, under the upper half of a cell: the one that is picked by
+/// clicking there. The frame is shown over the cells and pixels that [`raster`] gave.
+pub fn pixel_at(raster: (Rect, Size), size: Size, column: u16, row: u16) -> Option<(u32, u32)> {
+    let (cells, shown) = raster;
+    if !cells.contains(Position::new(column, row)) || size.pixels() == 0 {
+        return None;
+    }
+    let scaled = |at: u32, shown: u32, pixels: u32| {
+        // The centre of a shown pixel lies in this pixel of the frame.
+        let pixel = (2 * u64::from(at) + 1) * u64::from(pixels) / (2 * u64::from(shown.max(1)));
+        pixel.min(u64::from(pixels) - 1) as u32
+    };
+    let (x, y) = (column - cells.x, 2 * (row - cells.y));
+    Some((
+        scaled(x.into(), shown.width, size.width),
+        scaled(y.into(), shown.height, size.height),
+    ))
+}
+
+/// The first line of a list shown, so that line `at` is among the `rows` shown, with two lines of
+/// context where there is room for them, and the list moves no further from `top` than it must.
+pub fn first_shown(top: usize, at: usize, count: usize, rows: usize) -> usize {
+    let context = (rows.saturating_sub(1) / 2).min(2);
+    let lowest = (at + context + 1).saturating_sub(rows);
+    let highest = at.saturating_sub(context);
+    top.clamp(lowest.min(highest), highest)
+        .min(count.saturating_sub(rows))
+}
+
+/// The part of a panel below its title line.
+pub fn contents(panel: Rect) -> Rect {
+    let title = panel.height.min(1);
+    Rect {
+        y: panel.y + title,
+        height: panel.height - title,
+        ..panel
+    }
+}
+
+/// The line of the list under a cell, when `first` is the first one shown. The caller checks that
+/// there is such a line.
+pub fn list_row_at(list: Rect, first: usize, column: u16, row: u16) -> Option<usize> {
+    let lines = contents(list);
+    lines
+        .contains(Position::new(column, row))
+        .then(|| first + usize::from(row - lines.y))
+}
+
+/// The lines in which fields are shown.
+pub fn field_rows(fields: Rect) -> Rect {
+    split_fields(fields).0
+}
+
+/// The lines below the fields, which explain the selected one.
+pub fn field_notes(fields: Rect) -> Rect {
+    split_fields(fields).1
+}
+
+/// The cells of a field's name, two for a sign and a gap at its end included, and of each of its components in a line of the fields panel.
+pub fn field_columns(line: Rect, components: usize) -> (Rect, Vec<Rect>) {
+    let key = (line.width / 3).clamp(6, 11).min(line.width);
+    let numbers = line.width - key;
+    let name = Rect { width: key, ..line };
+    // Two components are as wide as two of three, so that numbers stand in columns.
+    let each = if components < 2 { numbers } else { numbers / 3 };
+    let columns = (0..components as u16)
+        .map(|at| Rect {
+            x: line.x + key + at * each,
+            width: each,
+            ..line
+        })
+        .collect();
+    (name, columns)
+}
+
+/// The field and component under a cell, when `first` is the first field shown and `components`
+/// says how many each has. The field's name counts as its first component.
+pub fn field_at(
+    fields: Rect,
+    first: usize,
+    components: impl Fn(usize) -> Option<usize>,
+    at: (u16, u16),
+) -> Option<(usize, usize)> {
+    let rows = field_rows(fields);
+    let position = Position::new(at.0, at.1);
+    if !rows.contains(position) {
+        return None;
+    }
+    let field = first + usize::from(position.y - rows.y);
+    let line = Rect {
+        y: position.y,
+        height: 1,
+        ..rows
+    };
+    let (_, columns) = field_columns(line, components(field)?);
+    let component = columns.iter().position(|column| column.contains(position));
+    Some((field, component.unwrap_or(0)))
+}
+
+/// A rectangle of `size`'s width and height in the middle of `area`, cut to it.
+pub fn centred(area: Rect, size: Rect) -> Rect {
+    let (width, height) = (size.width.min(area.width), size.height.min(area.height));
+    Rect {
+        x: area.x + (area.width - width) / 2,
+        y: area.y + (area.height - height) / 2,
+        width,
+        height,
+    }
+}
+
+/// The part above and the `lines` lines at the bottom, fewer where there are not so many.
+pub fn split_bottom(area: Rect, lines: u16) -> (Rect, Rect) {
+    let lower = lines.min(area.height);
+    let upper = area.height - lower;
+    (
+        Rect {
+            height: upper,
+            ..area
+        },
+        Rect {
+            y: area.y + upper,
+            height: lower,
+            ..area
+        },
+    )
+}
+
+fn split_fields(fields: Rect) -> (Rect, Rect) {
+    let lines = contents(fields);
+    let notes = match lines.height {
+        0..6 => 0,
+        6..ROOMY => 2,
+        _ => NOTES,
+    };
+    split_bottom(lines, notes)
+}
+
+fn split_right(area: Rect, columns: u16) -> (Rect, Rect) {
+    let right = columns.min(area.width);
+    let left = area.width - right;
+    (
+        Rect {
+            width: left,
+            ..area
+        },
+        Rect {
+            x: area.x + left,
+            width: right,
+            ..area
+        },
+    )
+}
+
+fn rounded_ratio(a: u64, b: u64) -> u64 {
+    (2 * a + b) / (2 * b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn screen(width: u16, height: u16) -> Areas {
+        arrange(Rect::new(0, 0, width, height), Zoom::Panels, 9)
+    }
+
+    fn size(width: u32, height: u32) -> Size {
+        Size { width, height }
+    }
+
+    #[test]
+    fn panels_appear_as_there_is_room_for_them() {
+        let check = |width, height, panels: &str| {
+            let areas = screen(width, height);
+            let named = [
+                (areas.picture, 'p'),
+                (areas.list, 'l'),
+                (areas.fields, 'f'),
+                (areas.hint, 'h'),
+                (areas.status, 's'),
+            ];
+            let shown: String = named
+                .iter()
+                .filter(|(area, _)| !area.is_empty())
+                .map(|(_, name)| *name)
+                .collect();
+            assert_eq!(shown, panels, "{width}×{height}");
+        };
+        check(0, 0, "");
+        check(19, 50, "");
+        check(200, 5, "");
+        check(20, 6, "ps");
+        check(39, 50, "ps");
+        check(40, 16, "plfhs");
+        check(80, 24, "plfhs");
+    }
+
+    #[test]
+    fn wide_screens_have_the_panels_beside_the_picture_narrow_ones_below() {
+        let wide = screen(80, 24);
+        assert!(wide.picture.right() < wide.list.x && wide.list.bottom() == wide.fields.y);
+        let narrow = screen(79, 24);
+        assert!(narrow.picture.bottom() <= narrow.list.y && narrow.list.right() < narrow.fields.x);
+    }
+
+    #[test]
+    fn the_list_has_what_the_fields_leave() {
+        let heights = |height, fields| {
+            let areas = arrange(Rect::new(0, 0, 120, height), Zoom::Panels, fields);
+            (areas.list.height, areas.fields.height)
+        };
+        // Two lines of sixty are the bars. A title, the fields and four lines of notes.
+        assert_eq!(heights(60, 14), (39, 19));
+        assert_eq!(heights(60, 10), (43, 15));
+        assert_eq!(heights(60, 1), heights(60, 2));
+        assert_eq!(heights(24, 14), (7, 15));
+    }
+
+    proptest! {
+        #[test]
+        fn areas_are_inside_the_screen_and_disjoint(
+            x in 0u16..5, y in 0u16..5, width in 0u16..220, height in 0u16..70, alone: bool,
+            fields in 0usize..40
+        ) {
+            let area = Rect::new(x, y, width, height);
+            let zoom = if alone { Zoom::Picture } else { Zoom::Panels };
+            let all = arrange(area, zoom, fields);
+            let panels = [all.picture, all.rule, all.list, all.fields, all.hint, all.status];
+            for (at, panel) in panels.iter().enumerate() {
+                prop_assert_eq!(panel.intersection(area).area(), panel.area());
+                for other in &panels[at + 1..] {
+                    prop_assert!(panel.intersection(*other).is_empty());
+                }
+            }
+            prop_assert_eq!(all.errors.intersection(all.picture).area(), all.errors.area());
+        }
+
+        #[test]
+        fn a_raster_fills_one_side_and_keeps_the_aspect(
+            columns in 1u16..300, rows in 1u16..100, width in 1u32..100_000, height in 1u32..100_000
+        ) {
+            let area = Rect::new(3, 2, columns, rows);
+            let (cells, pixels) = raster(area, size(width, height)).expect("there are cells");
+            prop_assert_eq!(cells.intersection(area), cells);
+            prop_assert_eq!(u32::from(cells.width), pixels.width);
+            prop_assert_eq!(u32::from(cells.height), pixels.height.div_ceil(2));
+            let (across, down) = (f64::from(columns), 2.0 * f64::from(rows));
+            let aspect = f64::from(width) / f64::from(height);
+            let best = (across.min(down * aspect), down.min(across / aspect));
+            prop_assert!((f64::from(pixels.width) - best.0.max(1.0)).abs() <= 0.5);
+            prop_assert!((f64::from(pixels.height) - best.1.max(1.0)).abs() <= 0.5);
+        }
+
+        #[test]
+        fn the_selected_line_is_always_shown(
+            top in 0usize..40, at in 0usize..30, count in 1usize..30, rows in 1usize..12
+        ) {
+            let at = at.min(count - 1);
+            let first = first_shown(top, at, count, rows);
+            prop_assert!(first <= at && at < first + rows);
+            prop_assert_eq!(first_shown(first, at, count, rows), first);
+        }
+    }
+
+    #[test]
+    fn rasters_are_letterboxed() {
+        let check = |area: (u16, u16), output, cells: (u16, u16, u16, u16), pixels| {
+            let (x, y, width, height) = cells;
+            assert_eq!(
+                raster(Rect::new(0, 0, area.0, area.1), output),
+                Some((Rect::new(x, y, width, height), pixels))
+            );
+        };
+        check((80, 20), size(800, 600), (13, 0, 53, 20), size(53, 40));
+        check((40, 30), size(800, 600), (0, 7, 40, 15), size(40, 30));
+        check((40, 20), size(1, 1000), (19, 0, 1, 20), size(1, 40));
+        check((40, 20), size(1000, 1), (0, 9, 40, 1), size(40, 1));
+        check((1, 1), size(u32::MAX, u32::MAX), (0, 0, 1, 1), size(1, 1));
+        assert_eq!(raster(Rect::new(0, 0, 0, 9), size(4, 3)), None);
+    }
+
+    #[test]
+    fn a_cell_picks_its_upper_pixel_or_that_of_a_larger_picture() {
+        let cells = Rect::new(10, 5, 4, 3);
+        let pick = |shown, pixels, column, row| pixel_at((cells, shown), pixels, column, row);
+        let even = size(4, 6);
+        assert_eq!(pick(even, even, 10, 5), Some((0, 0)));
+        assert_eq!(pick(even, even, 13, 7), Some((3, 4)));
+        let odd = size(4, 5);
+        assert_eq!(pick(odd, odd, 13, 7), Some((3, 4)));
+        assert_eq!(pick(even, size(400, 600), 11, 6), Some((150, 250)));
+        assert_eq!(pick(even, even, 14, 7), None);
+        assert_eq!(pick(even, even, 9, 5), None);
+    }
+
+    #[test]
+    fn clicks_find_lines_and_components() {
+        let areas = screen(80, 24);
+        let (list, fields) = (areas.list, areas.fields);
+        assert_eq!(list_row_at(list, 4, list.x, list.y), None, "the title");
+        assert_eq!(list_row_at(list, 4, list.x, list.y + 2), Some(5));
+        let components = |field| [3, 1].get(field).copied();
+        let click = |column, row| field_at(fields, 0, components, (column, row));
+        assert_eq!(click(fields.x, fields.y + 1), Some((0, 0)), "the name");
+        assert_eq!(click(fields.right() - 3, fields.y + 1), Some((0, 2)));
+        assert_eq!(click(fields.right() - 3, fields.y + 2), Some((1, 0)));
+        assert_eq!(click(fields.x, fields.y + 3), None, "no third field");
+    }
+}

@@ -1,0 +1,106 @@
+//! The list: view, ambient light, lights, objects. Only the lines shown cost anything.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Modifier, Style};
+
+use super::layout;
+use super::row::{Row, shorten, title};
+use super::theme;
+use crate::scene::{Node, Rgb};
+use crate::ui::app::{App, Mode};
+
+/// Draws the list.
+pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
+    let selected = app.row_of(app.selected);
+    let count = app.nodes.len();
+    let focused = matches!(app.mode, Mode::Select | Mode::Pick);
+    let place = format!("{}/{count}", (selected + 1).min(count));
+    title(
+        "scene",
+        &place,
+        focused.then_some(theme::ACCENT),
+        area,
+        buffer,
+    );
+
+    let lines = layout::contents(area);
+    let rows = usize::from(lines.height);
+    let top = app.list_top.min(count.saturating_sub(rows));
+    let marked = marked(app);
+    let shown = app.nodes.iter().enumerate().skip(top).take(rows);
+    for (line, (index, &node)) in shown.enumerate() {
+        let is_selected = index == selected;
+        let style = match (is_selected, focused) {
+            (true, true) => theme::CURSOR.add_modifier(Modifier::BOLD),
+            (true, false) => theme::BOLD,
+            (false, _) => Style::new(),
+        };
+        let mut row = Row::new(buffer, lines, line as u16);
+        row.put(if is_selected { "▸ " } else { "  " }, style);
+        match swatch(app, node) {
+            // Not reversed with the selected line: the dot is to show its own colour.
+            Some(colour) => row.put("● ", theme::swatch(colour)),
+            None => row.put("  ", style),
+        };
+        let name = app.origins.name(node);
+        let mark = marked.iter().find(|(at, _)| *at == node);
+        let end = if mark.is_some() { "! " } else { "" };
+        let room = row.room().saturating_sub(end.len());
+        let text = format!("{:room$}", shorten(&name, room));
+        row.put_in(&text, room, style);
+        row.put(end, mark.map_or(style, |(_, mark)| style.patch(*mark)));
+    }
+}
+
+/// Things that diagnostics are about, with the style of the gravest.
+fn marked(app: &App) -> Vec<(Node, Style)> {
+    let tree = app.document.tree();
+    let mut marked: Vec<_> = app
+        .diagnostics
+        .iter()
+        .filter_map(|d| Some((app.origins.node_at(tree, d.span)?, d.severity)))
+        .collect();
+    marked.sort_by_key(|&(_, severity)| std::cmp::Reverse(severity));
+    marked
+        .into_iter()
+        .map(|(node, severity)| (node, theme::severity(Some(severity))))
+        .collect()
+}
+
+/// The colour a thing is known by: a light's own, an object's diffuse one.
+fn swatch(app: &App, node: Node) -> Option<Rgb> {
+    let scene = app.scene.as_ref()?;
+    match node {
+        Node::View => None,
+        Node::Ambient => Some(scene.ambient),
+        Node::Light(index) => Some(scene.lights.get(index)?.colour),
+        Node::Object(index) => {
+            let material = scene.objects.get(index)?.material;
+            Some(scene.materials.get(material as usize)?.diffuse)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::ui::view::tests::{app, drawn};
+
+    #[test]
+    fn things_are_listed_and_the_selected_one_is_marked() {
+        let lines = drawn(&app(), super::render, 26, 6);
+        assert_eq!(lines[0], "scene ──────────────── 1/5");
+        assert_eq!(lines[1], "▸   view");
+        assert_eq!(lines[2], "  ● ambient");
+        assert_eq!(lines[3], "  ● light 1");
+        assert_eq!(lines[5], "  ● object 2 (box)");
+    }
+
+    #[test]
+    fn a_thing_with_an_error_is_marked() {
+        let mut app = app();
+        crate::ui::view::tests::retype(&mut app, " 0.25 //", " -0.25 //");
+        let lines = drawn(&app, super::render, 26, 6);
+        assert_eq!(lines[4], "  ● object 1 (sphere)   !");
+    }
+}

@@ -1,0 +1,257 @@
+//! The picture: two pixels a cell, `▀` with the upper one in front and the lower one behind.
+
+use std::borrow::Cow;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Color, Modifier, Style};
+
+use super::Glyphs;
+use super::dither;
+use super::layout::{self, raster};
+use super::row::Row;
+use super::theme;
+use crate::scene::{Node, Size};
+use crate::ui::app::{App, Mode, Shown};
+
+/// Characters from dark to bright, for terminals without colours.
+const RAMP: [&str; 10] = [" ", ".", ":", "-", "=", "+", "*", "#", "%", "@"];
+
+/// Draws the picture on screen, letterboxed, with what is marked in it.
+pub(crate) fn render(app: &App, glyphs: Glyphs, area: Rect, buffer: &mut Buffer) {
+    let Some((cells, size)) = raster(area, app.output()) else {
+        return;
+    };
+    let shown = &app.picture().shown;
+    if shown.size.pixels() == 0 || shown.pixels.len() != shown.size.pixels() {
+        notice(app, area, buffer);
+        return;
+    }
+    let shown = if shown.size == size {
+        Cow::Borrowed(shown)
+    } else {
+        Cow::Owned(shown.resampled(size))
+    };
+    paint(&shown, app.marked_object(), glyphs, cells, buffer);
+    if app.mode == Mode::Pick {
+        cross(app, &shown, cells, buffer);
+    }
+    if 0 < app.error_count() {
+        let chip = " STALE ";
+        let left = area.width.saturating_sub(chip.len() as u16);
+        Row::new(buffer, area, 0)
+            .skip(left)
+            .put(chip, theme::chip(theme::WARNING));
+    }
+}
+
+/// Says why there is no picture.
+fn notice(app: &App, area: Rect, buffer: &mut Buffer) {
+    let text = if app.scene.is_some() {
+        "tracing…"
+    } else {
+        "no picture: the scene has errors"
+    };
+    let line = Rect::new(0, 0, text.chars().count() as u16, 1);
+    Row::new(buffer, layout::centred(area, line), 0).put(text, theme::DIM);
+}
+
+/// Marks the cell that is picked from, and says what lies there.
+fn cross(app: &App, shown: &Shown, cells: Rect, buffer: &mut Buffer) {
+    let (column, row) = app.cross;
+    let (x, y) = (cells.x.saturating_add(column), cells.y.saturating_add(row));
+    if cells.contains((x, y).into())
+        && let Some(cell) = buffer.cell_mut((x, y))
+    {
+        cell.set_symbol("┼").set_style(Style::reset());
+        cell.set_style(theme::chip(Style::new()));
+    }
+    let under = shown.object_at(u32::from(column), 2 * u32::from(row));
+    let name = under.map_or_else(
+        || "nothing".to_owned(),
+        |object| app.origins.name(Node::Object(object as usize)),
+    );
+    Row::new(buffer, cells, 0).put(&format!(" {name} "), theme::chip(theme::ACCENT));
+}
+
+/// Draws pixels over the cells of their raster, with the outline of one object.
+fn paint(shown: &Shown, outlined: Option<u32>, glyphs: Glyphs, area: Rect, buffer: &mut Buffer) {
+    let width = shown.size.width;
+    let pixel = |x: u32, y: u32| -> Option<Pixel> {
+        let at = y as usize * width as usize + x as usize;
+        let colour = (x < width).then(|| shown.pixels.get(at)).flatten()?;
+        Some(Pixel {
+            colour: *colour,
+            outlined: outlined.is_some_and(|o| is_border(shown, o, x, y)),
+            at: (x, y),
+        })
+    };
+    for row in 0..area.height {
+        for column in 0..area.width {
+            let (x, y) = (u32::from(column), 2 * u32::from(row));
+            let cell = buffer.cell_mut((area.x + column, area.y + row));
+            if let (Some(cell), Some(upper)) = (cell, pixel(x, y)) {
+                let (symbol, style) = match glyphs {
+                    Glyphs::Characters => character(upper, pixel(x, y + 1)),
+                    _ => half_block(upper, pixel(x, y + 1), glyphs),
+                };
+                cell.set_symbol(symbol).set_style(style);
+            }
+        }
+    }
+}
+
+/// A pixel as it is drawn.
+#[derive(Clone, Copy, Debug)]
+struct Pixel {
+    colour: [u8; 3],
+    /// Whether it is part of the outline.
+    outlined: bool,
+    /// Its place: dithering depends on it.
+    at: (u32, u32),
+}
+
+fn half_block(upper: Pixel, lower: Option<Pixel>, glyphs: Glyphs) -> (&'static str, Style) {
+    let colour = |pixel: Pixel| {
+        let (x, y) = pixel.at;
+        match glyphs {
+            _ if pixel.outlined => rgb(theme::OUTLINE),
+            Glyphs::HalfBlocksOf256 => dither::of_256(pixel.colour, x, y),
+            Glyphs::HalfBlocksOf16 => dither::of_16(pixel.colour, x, y),
+            Glyphs::HalfBlocks | Glyphs::Characters => rgb(pixel.colour),
+        }
+    };
+    let style = Style::reset().fg(colour(upper));
+    ("▀", style.bg(lower.map_or(Color::Reset, colour)))
+}
+
+fn rgb([red, green, blue]: [u8; 3]) -> Color {
+    Color::Rgb(red, green, blue)
+}
+
+fn character(upper: Pixel, lower: Option<Pixel>) -> (&'static str, Style) {
+    let (below, outlined) = lower.map_or(([0; 3], false), |p| (p.colour, p.outlined));
+    // Weights of Rec. 709 luminance, in thousandths.
+    let luminance = |[red, green, blue]: [u8; 3]| {
+        (213 * usize::from(red) + 715 * usize::from(green) + 72 * usize::from(blue)) / 1000
+    };
+    let mean = usize::midpoint(luminance(upper.colour), luminance(below));
+    // A cell is one pixel of the ramp's: rows of cells, not of pixels, have thresholds.
+    let threshold = dither::threshold(upper.at.0, upper.at.1 / 2) as usize;
+    let steps = dither::STEPS as usize;
+    let at = (mean * (RAMP.len() - 1) * steps / 255 + threshold) / steps;
+    let style = if upper.outlined || outlined {
+        Style::reset().add_modifier(Modifier::REVERSED)
+    } else {
+        Style::reset()
+    };
+    (RAMP[at], style)
+}
+
+/// Whether a pixel of `object` has a neighbour that is none. The picture's edge is no border: an
+/// object that goes on beyond it is not framed by it.
+fn is_border(shown: &Shown, object: u32, x: u32, y: u32) -> bool {
+    let Size { width, height } = shown.size;
+    let is_object = |x: u32, y: u32| {
+        let inside = x < width && y < height;
+        let at = y as usize * width as usize + x as usize;
+        !inside || shown.objects.get(at) == Some(&object)
+    };
+    let neighbours = [
+        (x.wrapping_sub(1), y),
+        (x + 1, y),
+        (x, y.wrapping_sub(1)),
+        (x, y + 1),
+    ];
+    is_object(x, y) && !neighbours.iter().all(|&(x, y)| is_object(x, y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::NO_OBJECT;
+
+    fn shown(width: u32, height: u32, pixels: &[[u8; 3]], objects: &[u32]) -> Shown {
+        Shown {
+            size: Size { width, height },
+            pixels: pixels.to_vec(),
+            objects: objects.to_vec(),
+        }
+    }
+
+    fn painted(shown: &Shown, outlined: Option<u32>, glyphs: Glyphs) -> Buffer {
+        let area = Rect::new(
+            0,
+            0,
+            shown.size.width as u16,
+            shown.size.height.div_ceil(2) as u16,
+        );
+        let mut buffer = Buffer::empty(area);
+        paint(shown, outlined, glyphs, area, &mut buffer);
+        buffer
+    }
+
+    #[test]
+    fn a_cell_shows_two_pixels() {
+        let [a, b, c, d] = [[1, 2, 3], [40, 50, 60], [255, 0, 0], [0, 0, 255]];
+        let buffer = painted(
+            &shown(2, 2, &[a, b, c, d], &[NO_OBJECT; 4]),
+            None,
+            Glyphs::HalfBlocks,
+        );
+        let cell = |x| {
+            let cell = &buffer[(x, 0)];
+            (cell.symbol(), cell.fg, cell.bg)
+        };
+        let rgb = |[r, g, b]: [u8; 3]| Color::Rgb(r, g, b);
+        assert_eq!(cell(0), ("▀", rgb(a), rgb(c)));
+        assert_eq!(cell(1), ("▀", rgb(b), rgb(d)));
+    }
+
+    #[test]
+    fn below_an_odd_last_row_is_nothing() {
+        let buffer = painted(
+            &shown(1, 1, &[[9; 3]], &[NO_OBJECT]),
+            None,
+            Glyphs::HalfBlocks,
+        );
+        assert_eq!(buffer[(0, 0)].bg, Color::Reset);
+    }
+
+    #[test]
+    fn the_outline_is_inside_the_object_and_not_along_the_edge() {
+        // Object 7 fills the three right columns, up to the edge of the picture.
+        let (n, o) = (NO_OBJECT, 7);
+        let objects = [n, o, o, o, n, o, o, o];
+        let picture = shown(4, 2, &[[0; 3]; 8], &objects);
+        let marks: String = (0..8)
+            .map(|at| {
+                if is_border(&picture, o, at % 4, at / 4) {
+                    '#'
+                } else {
+                    '.'
+                }
+            })
+            .collect();
+        assert_eq!(marks, ".#...#..");
+        let buffer = painted(&picture, Some(o), Glyphs::HalfBlocks);
+        let [r, g, b] = theme::OUTLINE;
+        assert_eq!(buffer[(1, 0)].fg, Color::Rgb(r, g, b));
+        assert_eq!(buffer[(2, 0)].fg, Color::Rgb(0, 0, 0));
+    }
+
+    #[test]
+    fn without_colours_brightness_is_a_character() {
+        let check = |upper, lower, symbol: &str| {
+            let picture = shown(1, 2, &[upper, lower], &[NO_OBJECT; 2]);
+            let buffer = painted(&picture, None, Glyphs::Characters);
+            assert_eq!(buffer[(0, 0)].symbol(), symbol);
+        };
+        check([0; 3], [0; 3], " ");
+        check([255; 3], [255; 3], "@");
+        // Half of 255, of nine steps four and a half: this place rounds down.
+        check([255; 3], [0; 3], "=");
+        // Blue is dark: 0.072 · 255 = 18, less than a ninth of 255.
+        check([0, 0, 255], [0, 0, 255], " ");
+    }
+}

@@ -1,0 +1,311 @@
+//! The two lines at the bottom: keys of the mode or a line being typed, and how things stand.
+
+use std::time::Duration;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use unicode_width::UnicodeWidthStr;
+
+use super::Glyphs;
+use super::row::Row;
+use super::theme;
+use crate::render::Progress;
+use crate::ui::app::{App, Disk, Mode, Prompt, PromptKind};
+use crate::ui::keymap::{self, Context};
+
+/// Draws the line being typed, or else the keys that mean something now, as many as fit.
+pub(crate) fn render_hint(app: &App, area: Rect, buffer: &mut Buffer) {
+    if let Some(prompt) = &app.prompt {
+        render_prompt(prompt, area, buffer);
+        return;
+    }
+    let context = keymap::context(app);
+    let help = matches!(context, Context::In(_) | Context::Errors);
+    let last = if help { "  ? help " } else { "" };
+    let mut row = Row::new(buffer, area, 0);
+    row.skip(1);
+    let hints = keymap::hints(context);
+    for (key, words) in &hints {
+        if row.room() < key.width() + words.width() + 3 + last.len() {
+            break;
+        }
+        row.put(key, theme::ACCENT).put(" ", Style::new());
+        row.put(words, theme::DIM).skip(2);
+    }
+    if help {
+        row.put("?", theme::ACCENT).put(" help", theme::DIM);
+    }
+}
+
+/// Draws a line being typed.
+pub(crate) fn render_prompt(prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
+    let sign = match prompt.kind {
+        PromptKind::Command => ":",
+        PromptKind::Search => "/",
+    };
+    let blank = " ".repeat(usize::from(area.width));
+    Row::new(buffer, area, 0).put(&blank, Style::reset());
+    let mut row = Row::new(buffer, area, 0);
+    row.put(sign, theme::ACCENT);
+    let room = row.room();
+    row.put_input(&prompt.input, room, Style::new(), theme::CURSOR);
+}
+
+/// One thing to say, unless others are more important.
+struct Segment {
+    /// 0 is said first.
+    rank: u8,
+    text: String,
+    style: Style,
+}
+
+/// Draws how things stand: what matters least is left out where there is no room.
+pub(crate) fn render(app: &App, glyphs: Glyphs, area: Rect, buffer: &mut Buffer) {
+    let segments = segments(app, glyphs);
+    let mut row = Row::new(buffer, area, 0);
+    let fitting = fitting(&segments, row.room());
+    for (index, segment) in fitting.iter().enumerate() {
+        if 0 < index {
+            row.put(" ", Style::new());
+            let is_progress = |segment: &Segment| PROGRESS.contains(&segment.rank);
+            if is_progress(segment) && is_progress(fitting[index - 1]) {
+                row.put("· ", theme::DIM);
+            } else if 1 < index {
+                row.put(" ", Style::new());
+            }
+        }
+        row.put(&segment.text, segment.style);
+    }
+}
+
+/// The segments that fit, in their order; a message may be shortened.
+fn fitting(segments: &[Segment], room: usize) -> Vec<&Segment> {
+    let mut ranked: Vec<usize> = (0..segments.len()).collect();
+    ranked.sort_by_key(|&at| segments[at].rank);
+    let mut left = room + GAP;
+    let mut kept: Vec<usize> = ranked
+        .into_iter()
+        .filter(|&at| {
+            let width = segments[at].text.width() + GAP;
+            // Of a mode or a message, a part is better than nothing.
+            let fits = width <= left || segments[at].rank <= MESSAGE && 2 * GAP < left;
+            left -= if fits { width.min(left) } else { 0 };
+            fits
+        })
+        .collect();
+    kept.sort_unstable();
+    kept.into_iter().map(|at| &segments[at]).collect()
+}
+
+/// The most cells between two segments.
+const GAP: usize = 3;
+
+/// The ranks of what is said about the picture's progress.
+const PROGRESS: std::ops::RangeInclusive<u8> = 20..=29;
+
+/// The rank of messages: what comes before is always shown.
+const MESSAGE: u8 = 2;
+
+fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
+    let mut all = Vec::new();
+    let mut say = |rank, text: String, style| all.push(Segment { rank, text, style });
+    text_segments(app, &mut say);
+    if let Some(export) = &app.export {
+        let done = export.progress.map_or(0.0, |progress| progress.done);
+        say(5, format!("export {}", percent(done)), theme::ACCENT);
+    }
+    if let Some(progress) = app.picture().progress() {
+        progress_segments(progress, &mut say);
+    }
+    if let Some(frame) = &app.picture().latest {
+        let size = format!("{}×{}", frame.size.width, frame.size.height);
+        say(30, size, theme::DIM);
+        say(31, colours(glyphs).to_owned(), theme::DIM);
+    }
+    if let Some(bytes) = app.net {
+        say(8, format!("net {} KB/s", bytes.div_ceil(1000)), theme::DIM);
+    }
+    if let Some(message) = &app.message {
+        let style = theme::severity(message.severity);
+        say(MESSAGE, message.text.clone(), style);
+    }
+    all
+}
+
+/// What colours the picture is made of.
+fn colours(glyphs: Glyphs) -> &'static str {
+    match glyphs {
+        Glyphs::HalfBlocks => "24-bit",
+        Glyphs::HalfBlocksOf256 => "256 colours",
+        Glyphs::HalfBlocksOf16 => "16 colours",
+        Glyphs::Characters => "no colours",
+    }
+}
+
+/// Says the mode, and how the text stands.
+fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
+    let (mode, style) = mode_chip(app.mode);
+    say(0, format!(" {mode} "), theme::chip(style));
+    let errors = app.error_count();
+    let warnings = app.diagnostics.len() - errors;
+    if 0 < errors {
+        let text = format!(" {} ", counted(errors, "error"));
+        say(1, text, theme::chip(theme::ERROR));
+    }
+    let dirty = if app.document.is_dirty() { " [+]" } else { "" };
+    say(3, format!("{}{dirty}", app.file_name()), theme::BOLD);
+    let disk = match app.disk {
+        Disk::Known => None,
+        Disk::Changed => Some("[disk changed]"),
+        Disk::Broken => Some("[errors on disk]"),
+        Disk::Missing => Some("[file missing]"),
+    };
+    if let Some(disk) = disk {
+        say(4, disk.to_owned(), theme::WARNING);
+    }
+    if app.view.is_some() {
+        say(6, "view*".to_owned(), theme::WARNING);
+    }
+    if 0 < warnings {
+        say(9, counted(warnings, "warning"), theme::WARNING);
+    }
+}
+
+fn progress_segments(progress: &Progress, say: &mut impl FnMut(u8, String, Style)) {
+    let seconds = progress.elapsed.as_secs_f64();
+    if !progress.complete {
+        let pass = format!("pass {}/{}", progress.pass, progress.passes);
+        say(23, pass, theme::DIM);
+    }
+    say(21, format!("{} spp", progress.spp), Style::new());
+    if !progress.complete {
+        say(20, percent(progress.done), theme::ACCENT);
+    }
+    say(24, duration(progress.elapsed), Style::new());
+    if let Some(left) = time_left(progress) {
+        say(22, format!("ETA {}", duration(left)), theme::DIM);
+    }
+    if 0.0 < seconds && 0 < progress.rays {
+        let rate = progress.rays as f64 / seconds / 1e6;
+        let digits = usize::from(rate < 10.0);
+        say(25, format!("{rate:.digits$} Mray/s"), theme::DIM);
+    }
+    if 0 < progress.over_budget {
+        let text = format!("{} over ray budget", progress.over_budget);
+        say(26, text, theme::WARNING);
+    }
+}
+
+/// The time the rest will take at the pace so far. While the first pass is not through nothing is
+/// said: its coarse samples say little about the others.
+fn time_left(progress: &Progress) -> Option<Duration> {
+    let known = 1 <= progress.spp && 0.0 < progress.done && !progress.complete;
+    let seconds = progress.elapsed.as_secs_f64() * (1.0 - progress.done) / progress.done;
+    known.then(|| Duration::try_from_secs_f64(seconds).ok())?
+}
+
+fn mode_chip(mode: Mode) -> (&'static str, Style) {
+    match mode {
+        Mode::Select => ("SELECT", theme::ACCENT),
+        Mode::View => ("VIEW", theme::GOOD),
+        Mode::Edit => ("EDIT", theme::WARNING),
+        Mode::Trace => ("TRACE", Style::new()),
+        Mode::Pick => ("PICK", theme::ACCENT),
+    }
+}
+
+fn percent(share: f64) -> String {
+    // Rounded down: 100 % is said of what is complete only.
+    format!("{} %", (100.0 * share).floor())
+}
+
+fn duration(time: Duration) -> String {
+    let seconds = time.as_secs();
+    match seconds {
+        0..10 => format!("{:.1} s", time.as_secs_f64()),
+        10..60 => format!("{seconds} s"),
+        60..3600 => format!("{}:{:02} min", seconds / 60, seconds % 60),
+        _ => format!("{}:{:02} h", seconds / 3600, seconds / 60 % 60),
+    }
+}
+
+/// A number of things: `1 error`, `2 errors`.
+pub(crate) fn counted(count: usize, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::app::Message;
+    use crate::ui::view::tests::{app, drawn, retype};
+    use tui_input::Input;
+
+    #[test]
+    fn what_matters_least_is_left_out() {
+        let mut app = app();
+        retype(&mut app, " 0.25 //", " 0.5 //");
+        app.message = Some(Message {
+            severity: None,
+            text: "took the file's changes".to_owned(),
+        });
+        let bar = |app: &App, area: Rect, buffer: &mut Buffer| {
+            render(app, Glyphs::HalfBlocks, area, buffer);
+        };
+        let line = |width| drawn(&app, bar, width, 1)[0].clone();
+        assert_eq!(line(60), " SELECT  test.ray [+]  took the file's changes");
+        assert_eq!(line(34), " SELECT  took the file's changes");
+        assert_eq!(line(20), " SELECT  took the f…");
+        assert_eq!(line(5), " SEL…");
+    }
+
+    #[test]
+    fn progress_is_said_until_it_is_complete() {
+        let said = |complete| {
+            let progress = Progress {
+                pass: 3,
+                passes: 6,
+                spp: 2,
+                done: 0.25,
+                elapsed: Duration::from_millis(1500),
+                rays: 21_000_000,
+                over_budget: 0,
+                complete,
+            };
+            let mut words = Vec::new();
+            progress_segments(&progress, &mut |_, text, _| words.push(text));
+            words.join(" · ")
+        };
+        // A quarter took 1.5 s, so that three more take 4.5 s; 21 million in 1.5 s are 14 a second.
+        assert_eq!(
+            said(false),
+            "pass 3/6 · 2 spp · 25 % · 1.5 s · ETA 4.5 s · 14 Mray/s"
+        );
+        assert_eq!(said(true), "2 spp · 1.5 s · 14 Mray/s");
+    }
+
+    #[test]
+    fn times_are_short() {
+        let check = |seconds, text: &str| assert_eq!(duration(Duration::from_secs(seconds)), text);
+        check(9, "9.0 s");
+        check(59, "59 s");
+        check(61, "1:01 min");
+        check(7260, "2:01 h");
+    }
+
+    #[test]
+    fn a_line_being_typed_takes_the_place_of_the_keys() {
+        let mut app = app();
+        let hint = drawn(&app, render_hint, 80, 1)[0].clone();
+        assert!(
+            hint.starts_with(" j/k move  Enter edit") && hint.ends_with("? help"),
+            "{hint}"
+        );
+        app.prompt = Some(Prompt {
+            kind: PromptKind::Command,
+            input: Input::new("export a.bmp".to_owned()),
+        });
+        assert_eq!(drawn(&app, render_hint, 80, 1)[0], ":export a.bmp");
+    }
+}

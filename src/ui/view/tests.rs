@@ -1,0 +1,280 @@
+//! The whole screen at every size, and what the panels' tests share.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use ratatui::Terminal;
+use ratatui::backend::TestBackend;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use tui_input::Input;
+
+use super::layout::Zoom;
+use super::{Glyphs, draw};
+use crate::document::{Replaced, Side};
+use crate::render::{Frame, NO_OBJECT, Progress};
+use crate::scene::{Node, Size, lower};
+use crate::text::{Edit, Severity, Span};
+use crate::ui::app::{
+    App, Dialog, Disk, Export, Help, HelpFocus, Message, Mode, Opening, Prompt, PromptKind,
+    Quality, Typing,
+};
+use crate::ui::msg::Existing;
+use crate::ui::terminal::Mouse;
+
+pub(super) const SCENE: &str = "\
+// view: eye 0 0 5 size 8 6
+.1 .1 .1
+1
+0 5 5   1 1 .5
+2
+sphere 0 .5 -1e0 0.25 // the first
+0.1 0.1 0.1  0.5 0 0  0 0 0  1 0 0 1
+box 0 0 0  1 0 0  0 1 0  0 0 1  1 1 1
+0.1 0.1 0.1  0.5 0 0  0 0 0  1 0 0 1
+";
+
+/// The interface with [`SCENE`] opened.
+pub(super) fn app() -> App {
+    let (app, _) = App::open(Opening {
+        path: Some(PathBuf::from("somewhere/test.ray")),
+        text: SCENE.to_owned(),
+        quality: Quality { spp: 16, depth: 8 },
+        mouse: Mouse::Off,
+        terminal: (80, 24),
+    });
+    app
+}
+
+/// Replaces the first `old` in the text by `new`, as an edit.
+pub(super) fn retype(app: &mut App, old: &str, new: &str) {
+    let at = app.document.text().find(old).expect("the text has it");
+    app.document.edit(&[Edit {
+        span: Span::new(at, at + old.len()),
+        text: new.to_owned(),
+    }]);
+    let lowered = lower(app.document.text(), app.document.tree());
+    app.nodes = lowered.origins.nodes();
+    app.origins = lowered.origins;
+    app.diagnostics = lowered.diagnostics;
+}
+
+/// A panel's lines without blanks at their ends.
+pub(super) fn drawn(
+    app: &App,
+    panel: impl Fn(&App, Rect, &mut Buffer),
+    width: u16,
+    height: u16,
+) -> Vec<String> {
+    let area = Rect::new(0, 0, width, height);
+    let mut buffer = Buffer::empty(area);
+    panel(app, area, &mut buffer);
+    lines(&buffer)
+}
+
+fn lines(buffer: &Buffer) -> Vec<String> {
+    let line = |y| {
+        let cells = (0..buffer.area.width).map(|x| buffer[(x, y)].symbol());
+        cells.collect::<String>().trim_end().to_owned()
+    };
+    (0..buffer.area.height).map(line).collect()
+}
+
+/// The whole screen's lines.
+fn screen(app: &mut App, width: u16, height: u16) -> Vec<String> {
+    app.terminal = (width, height);
+    let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
+    terminal
+        .draw(|frame| draw(app, Glyphs::HalfBlocks, frame))
+        .expect("cannot fail");
+    lines(terminal.backend().buffer())
+}
+
+/// A grey frame with object 1 in its right half.
+fn frame(width: u32, height: u32) -> Arc<Frame> {
+    let size = Size { width, height };
+    let under = |at: u32| u32::from(width / 2 <= at % width);
+    Arc::new(Frame {
+        generation: 1,
+        size,
+        pixels: vec![[100; 3]; size.pixels()],
+        objects: (0..width * height)
+            .map(|at| if under(at) == 1 { 1 } else { NO_OBJECT })
+            .collect(),
+        progress: Progress {
+            pass: 1,
+            passes: 7,
+            spp: 1,
+            done: 0.5,
+            elapsed: std::time::Duration::from_millis(300),
+            rays: 1_000_000,
+            over_budget: 3,
+            complete: false,
+        },
+    })
+}
+
+type Change = fn(&mut App);
+
+/// Everything that can be open, by name.
+const STATES: &[(&str, Change)] = &[
+    ("nothing", |_| {}),
+    ("picture", |app| {
+        app.preview.take(frame(8, 6));
+        app.preview.advance(
+            Size {
+                width: 8,
+                height: 6,
+            },
+            usize::MAX,
+        );
+        app.selected = Node::Object(1);
+    }),
+    ("picture alone", |app| app.zoom = Zoom::Picture),
+    ("errors", |app| {
+        retype(app, "sphere", "\u{1b}[2Jsphäre 界\t");
+        retype(app, "0.5 0 0", "0.5 x -");
+        app.disk = Disk::Broken;
+    }),
+    ("list of errors", |app| {
+        retype(app, " 0.25 ", " -1 ");
+        app.errors = Some(7);
+    }),
+    ("no errors", |app| app.errors = Some(0)),
+    ("nothing at all", |app| {
+        retype(app, SCENE, "");
+        app.scene = None;
+        app.selected = Node::Object(9);
+        app.field = 99;
+        app.component = 99;
+        app.list_top = 99;
+        app.field_top = 99;
+    }),
+    ("help", |app| app.help = Some(Help::default())),
+    ("help, far down", |app| {
+        app.help = Some(Help {
+            top: usize::MAX,
+            search: Input::new("界 nowhere".to_owned()),
+            focus: HelpFocus::Search,
+        });
+    }),
+    ("quit", |app| app.dialog = Some(Dialog::Quit)),
+    ("recover", |app| {
+        app.dialog = Some(Dialog::Recover(SCENE.to_owned()));
+    }),
+    ("conflict", |app| {
+        retype(app, " 0.25 ", " 0.5 ");
+        let theirs = SCENE.replace(" 0.25 ", " 0.75 ");
+        if let Replaced::Conflict(mut merge) = app.document.replace(theirs) {
+            merge.conflicts[0].decision = Some(Side::Mine);
+            app.dialog = Some(Dialog::Conflict { merge, at: 0 });
+        }
+    }),
+    ("typing", |app| {
+        app.selected = Node::Object(0);
+        app.typing = Some(Typing {
+            input: Input::new("1234567890123456789012345678901234567890".to_owned()),
+            refused: None,
+        });
+    }),
+    ("prompt", |app| {
+        app.prompt = Some(Prompt {
+            kind: PromptKind::Search,
+            input: Input::new("界界界界界界界界界界界界界界界界".to_owned()).with_cursor(3),
+        });
+    }),
+    ("message", |app| {
+        app.message = Some(Message {
+            severity: Some(Severity::Warning),
+            text: "界\u{1b}]52;c;界\u{7}".repeat(20),
+        });
+        app.net = Some(86_000);
+        app.view = app.camera();
+        app.disk = Disk::Changed;
+        app.export = Some(Export {
+            path: PathBuf::from("out.bmp"),
+            size: Size {
+                width: 4,
+                height: 3,
+            },
+            spp: 16,
+            existing: Existing::Kept,
+            progress: None,
+        });
+    }),
+];
+
+const MODES: [Mode; 5] = [
+    Mode::Select,
+    Mode::View,
+    Mode::Edit,
+    Mode::Trace,
+    Mode::Pick,
+];
+
+#[test]
+fn every_screen_can_be_drawn_at_every_size() {
+    let small = (0..=30).flat_map(|width| (0..=12).map(move |height| (width, height)));
+    let thresholds = [
+        (19, 6),
+        (20, 6),
+        (39, 16),
+        (40, 15),
+        (40, 16),
+        (79, 24),
+        (80, 23),
+        (80, 24),
+        (200, 50),
+    ];
+    let sizes: Vec<_> = small.chain(thresholds).collect();
+    for (name, change) in STATES {
+        for mode in MODES {
+            let mut app = app();
+            app.mode = mode;
+            app.cross = (3, 300);
+            change(&mut app);
+            for &(width, height) in &sizes {
+                let lines = screen(&mut app, width, height);
+                let is_control = |c: char| c.is_control();
+                assert!(!lines.concat().contains(is_control), "{name} {mode:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_screen_that_is_too_small_says_so() {
+    let mut app = app();
+    assert_eq!(screen(&mut app, 19, 3)[1].trim(), "needs 20×6");
+    assert_eq!(screen(&mut app, 4, 1), ["nee…"]);
+}
+
+#[test]
+fn errors_mark_the_picture_as_stale_and_explain_themselves() {
+    let mut app = app();
+    app.preview.take(frame(8, 6));
+    let size = app.raster().expect("there is room").1;
+    app.preview.advance(size, usize::MAX);
+    retype(&mut app, " 0.25 ", " -1 ");
+    let text = screen(&mut app, 100, 30).join("\n");
+    for part in ["STALE", "1 error", "test.ray:6:18", "^^", "SELECT", "[+]"] {
+        assert!(text.contains(part), "{part:?} in\n{text}");
+    }
+}
+
+#[test]
+fn a_picture_of_another_size_fills_its_place() {
+    let mut app = app();
+    app.preview.take(frame(4, 3));
+    app.preview.advance(
+        Size {
+            width: 4,
+            height: 3,
+        },
+        usize::MAX,
+    );
+    let lines = screen(&mut app, 20, 7);
+    // 8:6 in 20 by 12 pixels is 16 by 12.
+    assert_eq!(lines[0], format!("  {}", "▀".repeat(16)));
+    assert_eq!(lines[5], lines[0]);
+}

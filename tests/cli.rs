@@ -1,0 +1,374 @@
+//! The program as a shell sees it: arguments, streams, files and exit codes.
+
+use std::fs;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+
+const BINARY: &str = env!("CARGO_BIN_EXE_halflight");
+
+/// A white ball that fills the middle of the picture, lit by ambient light alone.
+const BALL: &str = "\
+1 1 1
+1 0 9 0 0 0 0
+1 sphere 0 0 0 1  1 1 1 0 0 0 0 0 0 1 0 0 1
+// view: eye 0 0 5 target 0 0 0 up 0 1 0 fov 40 size 8 6
+";
+
+/// A directory with the ball in `ball.ray`.
+struct Place {
+    directory: TempDir,
+}
+
+impl Place {
+    fn new() -> Self {
+        let directory = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).expect("a directory");
+        let place = Self { directory };
+        place.write("ball.ray", BALL);
+        place
+    }
+
+    fn at(&self, name: &str) -> PathBuf {
+        self.directory.path().join(name)
+    }
+
+    fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        fs::write(self.at(name), content).expect("written");
+    }
+
+    fn read(&self, name: &str) -> Vec<u8> {
+        fs::read(self.at(name)).expect("a file")
+    }
+
+    fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.directory.path()).expect("a directory");
+        let mut names: Vec<_> = entries
+            .map(|entry| {
+                entry
+                    .expect("an entry")
+                    .file_name()
+                    .to_string_lossy()
+                    .into_owned()
+            })
+            .collect();
+        names.sort();
+        names
+    }
+
+    fn command(&self, line: &str) -> Command {
+        let mut command = Command::new(BINARY);
+        command
+            .args(line.split_ascii_whitespace())
+            .current_dir(self.directory.path())
+            .stdin(Stdio::null());
+        command
+    }
+
+    /// Runs the program with the words of `line` as arguments, its streams being pipes.
+    fn run(&self, line: &str) -> Output {
+        self.command(line).output().expect("it starts")
+    }
+
+    /// Runs it, expects an exit code, and returns what it told on the error stream.
+    fn told(&self, line: &str, code: i32) -> String {
+        let output = self.run(line);
+        let told = String::from_utf8(output.stderr).expect("UTF-8");
+        assert_eq!(output.status.code(), Some(code), "{line}: {told}");
+        told
+    }
+}
+
+#[test]
+fn help_and_version_go_to_the_output_stream() {
+    let place = Place::new();
+    for line in ["--help", "-h", "render --help", "check --help", "--version"] {
+        let output = place.run(line);
+        assert_eq!(output.status.code(), Some(0), "{line}");
+        assert!(
+            !output.stdout.is_empty() && output.stderr.is_empty(),
+            "{line}"
+        );
+    }
+}
+
+#[test]
+fn wrong_arguments_end_with_2() {
+    let place = Place::new();
+    for line in [
+        "--nonsense",
+        "a b",
+        "render",
+        "render ball.ray",
+        "check",
+        "render ball.ray -o a.gif",
+    ] {
+        assert!(!place.told(line, 2).is_empty(), "{line}");
+    }
+    assert_eq!(place.names(), ["ball.ray"]);
+}
+
+#[test]
+fn the_interface_needs_a_terminal() {
+    let place = Place::new();
+    let told = place.told("ball.ray", 2);
+    assert!(told.contains("halflight render"), "{told}");
+}
+
+#[test]
+fn a_scene_that_cannot_be_opened_ends_with_66() {
+    let place = Place::new();
+    fs::create_dir(place.at("dir.ray")).expect("created");
+    let cases = [
+        ("none.ray", "none.ray: no such file"),
+        #[cfg(unix)]
+        ("dir.ray", "dir.ray: is a directory"),
+    ];
+    for (name, message) in cases {
+        for line in [format!("check {name}"), format!("render {name} -o a.bmp")] {
+            let told = place.told(&line, 66);
+            assert!(told.contains(message), "{told}");
+        }
+    }
+}
+
+#[test]
+fn what_is_no_scene_ends_with_65() {
+    let place = Place::new();
+    place.write("latin.ray", b"1 1 1\n// \xE9\n");
+    place.write("notes.txt", "");
+    let told = place.told("check latin.ray", 65);
+    assert!(
+        told.contains("latin.ray:2:4") && told.contains("iconv"),
+        "{told}"
+    );
+    let told = place.told("check notes.txt", 65);
+    assert!(told.contains("notes.txt: not a scene"), "{told}");
+}
+
+#[test]
+fn a_picture_that_has_no_place_ends_with_73_untraced() {
+    let place = Place::new();
+    fs::create_dir(place.at("dir.bmp")).expect("created");
+    for output in ["none/a.bmp", "dir.bmp", "ball.ray/a.bmp"] {
+        let told = place.told(&format!("render ball.ray -o {output}"), 73);
+        assert!(told.contains(output), "{told}");
+    }
+    assert_eq!(place.names(), ["ball.ray", "dir.bmp"]);
+}
+
+#[test]
+#[cfg(unix)]
+fn names_cannot_drive_the_terminal() {
+    let place = Place::new();
+    for name in [
+        "\u{1b}[31mnone.ray",
+        "a\rb\u{9b}31m.txt",
+        "\u{202e}yar.none",
+    ] {
+        for arguments in [vec!["check", name], vec!["render", name, "-o", name]] {
+            let mut command = place.command("");
+            let output = command.args(arguments).output().expect("it starts");
+            let told = String::from_utf8(output.stderr).expect("UTF-8");
+            let raw = |c: char| c != '\n' && (c.is_control() || c == '\u{202e}');
+            assert!(!told.contains(raw), "{told:?}");
+        }
+    }
+}
+
+#[test]
+fn check_says_what_is_wrong_and_where() {
+    let place = Place::new();
+    place.write("bad.ray", BALL.replace("0 0 0 1  1", "0 0 0 -1  1"));
+    assert_eq!(
+        place.told("check ball.ray", 0),
+        "1 scene checked: 0 errors, 0 warnings\n"
+    );
+    let told = place.told("check bad.ray ball.ray", 65);
+    let first = told.lines().next().expect("a line");
+    assert!(first.starts_with("error: bad.ray:3:16: "), "{told}");
+    assert!(told.contains("^^"), "{told}");
+    assert!(
+        told.ends_with("2 scenes checked: 1 error, 0 warnings\n"),
+        "{told}"
+    );
+    let told = place.told("check none.ray bad.ray", 66);
+    assert!(told.contains("bad.ray:3:16"), "{told}");
+}
+
+#[test]
+fn a_wrong_scene_is_not_rendered() {
+    let place = Place::new();
+    place.write("bad.ray", BALL.replace("sphere", "sphera"));
+    let told = place.told("render bad.ray -o a.bmp", 65);
+    assert!(told.contains("bad.ray:3:3"), "{told}");
+    assert_eq!(place.names(), ["bad.ray", "ball.ray"]);
+}
+
+#[test]
+fn a_ppm_on_the_output_stream_is_the_picture() {
+    let place = Place::new();
+    let output = place.run("render ball.ray -o - --format ppm --spp 1");
+    assert_eq!(output.status.code(), Some(0));
+    let header = b"P6\n8 6\n255\n";
+    let (head, pixels) = output.stdout.split_at(header.len());
+    assert_eq!(head, header);
+    // The ball's outline subtends tan(asin(1/5)) = 0.2041 of the eye's distance, the picture's
+    // half height tan(20°) = 0.3640: a circle of radius 1.68 pixels about its centre.
+    let white: String = pixels
+        .chunks(3)
+        .map(|pixel| match pixel {
+            [255, 255, 255] => '#',
+            [0, 0, 0] => '.',
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    let rows: Vec<_> = (0..6).map(|row| &white[row * 8..][..8]).collect();
+    let expected = [
+        "........", "...##...", "..####..", "..####..", "...##...", "........",
+    ];
+    assert_eq!(rows, expected);
+}
+
+#[test]
+fn every_way_to_the_same_picture_gives_the_same_bytes() {
+    let place = Place::new();
+    let picture = "render ball.ray --spp 4 --size 16x9";
+    assert_eq!(
+        place.told(&format!("{picture} -o a.bmp --threads 1"), 0),
+        ""
+    );
+    let expected = place.read("a.bmp");
+    assert_eq!(expected.len(), 54 + 16 * 9 * 3);
+    for threads in ["2", "8"] {
+        place.told(&format!("{picture} -o b.bmp --threads {threads}"), 0);
+        assert_eq!(place.read("b.bmp"), expected, "{threads} threads");
+    }
+    assert_eq!(place.run(&format!("{picture} -o -")).stdout, expected);
+    place.told(&format!("{picture} -o named.wrongly --format bmp"), 0);
+    assert_eq!(place.read("named.wrongly"), expected);
+    assert_eq!(
+        place.names(),
+        ["a.bmp", "b.bmp", "ball.ray", "named.wrongly"]
+    );
+}
+
+#[test]
+fn impossible_sizes_are_refused_with_the_limit() {
+    let place = Place::new();
+    for (size, limit) in [("65536x1", "65535"), ("4294967295x4294967295", "65535")] {
+        let told = place.told(&format!("render ball.ray -o a.bmp --size {size}"), 2);
+        assert!(told.contains(limit), "{told}");
+    }
+    place.write("huge.ray", BALL.replace("size 8 6", "size 60000 60000"));
+    let told = place.told("render huge.ray -o a.ppm", 2);
+    assert!(told.contains("268435456"), "{told}");
+}
+
+#[test]
+fn a_reader_that_leaves_early_is_no_error() {
+    let place = Place::new();
+    let mut child = place
+        .command("render ball.ray -o - --size 400x300 --spp 1")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    // Far less than the picture, of which the pipe can't hold all.
+    let mut stdout = child.stdout.take().expect("a pipe");
+    stdout.read_exact(&mut [0]).expect("a byte");
+    drop(stdout);
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_device_is_an_error() {
+    let place = Place::new();
+    let full = || {
+        fs::File::options()
+            .write(true)
+            .open("/dev/full")
+            .expect("a device")
+    };
+    for (line, stdout) in [
+        ("render ball.ray -o -", Stdio::from(full())),
+        ("render ball.ray -o /dev/full --format bmp", Stdio::null()),
+    ] {
+        let mut command = place.command(line);
+        let output = command.stdout(stdout).output().expect("it starts");
+        assert_eq!(output.status.code(), Some(1), "{line}");
+        assert!(output.stderr.starts_with(b"error: "), "{line}");
+    }
+    assert!(!Path::new("/dev/full").is_file());
+}
+
+/// Runs the program with files limited to 1 KiB: writing more fails, as on a full disk.
+#[cfg(unix)]
+fn on_a_full_disk(place: &Place, line: &str) -> Output {
+    let script = format!("trap '' XFSZ; ulimit -f 1; exec {BINARY} {line}");
+    let mut shell = Command::new("bash");
+    let shell = shell
+        .args(["-c", &script])
+        .current_dir(place.directory.path());
+    shell.output().expect("it starts")
+}
+
+#[test]
+#[cfg(unix)]
+fn a_full_disk_leaves_the_old_picture() {
+    let place = Place::new();
+    for linked in [false, true] {
+        place.write("a.bmp", "the old picture");
+        if linked {
+            fs::hard_link(place.at("a.bmp"), place.at("b.bmp")).expect("linked");
+        }
+        let output = on_a_full_disk(&place, "render ball.ray -o a.bmp --size 100x100 --spp 1");
+        assert_eq!(output.status.code(), Some(1), "{output:?}");
+        assert_eq!(place.read("a.bmp"), b"the old picture");
+    }
+    assert_eq!(place.names(), ["a.bmp", "b.bmp", "ball.ray"]);
+}
+
+#[test]
+#[cfg(unix)]
+fn a_closed_error_stream_is_no_panic() {
+    let place = Place::new();
+    let (reader, writer) = std::io::pipe().expect("a pipe");
+    drop(reader);
+    let mut command = place.command("check none.ray");
+    let status = command.stderr(writer).status().expect("it starts");
+    assert_eq!(status.code(), Some(66));
+}
+
+#[test]
+#[cfg(unix)]
+fn a_terminal_is_refused_unless_forced() {
+    use portable_pty::{CommandBuilder, PtySize, native_pty_system};
+
+    let place = Place::new();
+    for (force, code, mark) in [("", 2, "--force"), ("--force", 0, "BM")] {
+        let pair = native_pty_system()
+            .openpty(PtySize::default())
+            .expect("a terminal");
+        let mut command = CommandBuilder::new(BINARY);
+        command.args(["render", "ball.ray", "-o", "-"]);
+        command.args(force.split_ascii_whitespace());
+        command.cwd(place.directory.path());
+        let mut child = pair.slave.spawn_command(command).expect("it starts");
+        drop(pair.slave);
+        let mut shown = Vec::new();
+        // The terminal's end is an error on some systems.
+        let _ = pair
+            .master
+            .try_clone_reader()
+            .expect("a reader")
+            .read_to_end(&mut shown);
+        let status = child.wait().expect("it ends");
+        assert_eq!(status.exit_code(), code);
+        assert!(String::from_utf8_lossy(&shown).contains(mark), "{shown:?}");
+    }
+}

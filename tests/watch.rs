@@ -1,0 +1,343 @@
+//! Saves as editors make them, step by step: whoever looks at the file when told, and only then,
+//! ends with its final content.
+
+use std::fs::{self, File, FileTimes};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{self, Receiver};
+use std::time::{Duration, SystemTime};
+
+use halflight::watch::{Method, Watcher};
+use tempfile::TempDir;
+
+/// How long a notice that must come is waited for.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// How long no notice means that none is under way. If a machine is slower, a test sees less; it
+/// does not fail.
+const QUIET: Duration = Duration::from_millis(40);
+
+/// More notices than any case here has reason for.
+const MANY: usize = 400;
+
+const POLL: Method = Method::Poll(Duration::from_millis(10));
+
+/// One thing an editor does to files, named within the test's directory.
+#[derive(Clone, Copy, Debug)]
+enum Step {
+    /// Opens a file, made or emptied, and holds it.
+    Open(&'static str),
+    /// Writes more to the held file.
+    Put(&'static str),
+    /// Syncs and closes the held file.
+    Close,
+    /// Opens, writes and closes a file.
+    Save(&'static str, &'static str),
+    Rename(&'static str, &'static str),
+    Remove(&'static str),
+    Duplicate(&'static str, &'static str),
+    Directory(&'static str),
+    RemoveDirectory(&'static str),
+    /// Makes a symbolic link: its target, its name.
+    #[cfg(unix)]
+    Link(&'static str, &'static str),
+}
+
+use Step::{Close, Directory, Duplicate, Open, Put, Remove, RemoveDirectory, Rename, Save};
+
+/// A watched file `s.ray` in a directory of its own, and a reader who looks when told.
+struct Watched {
+    directory: TempDir,
+    path: PathBuf,
+    held: Option<File>,
+    notices: Receiver<()>,
+    seen: Option<String>,
+    count: usize,
+    _watcher: Watcher,
+}
+
+impl Watched {
+    /// Takes `steps`, then watches `name`.
+    fn new(name: &str, method: Method, steps: &[Step]) -> Self {
+        // Not below the directory for temporary files, where some editors save in another way.
+        let directory = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).expect("a directory");
+        for &step in steps {
+            take(directory.path(), &mut None, step);
+        }
+        let path = directory.path().join(name);
+        let (sender, notices) = mpsc::channel();
+        // The receiver may go first when the test ends.
+        let told = move || {
+            let _ = sender.send(());
+        };
+        let watcher = Watcher::new(&path, method, told).expect("a watcher");
+        Self {
+            seen: fs::read_to_string(&path).ok(),
+            directory,
+            path,
+            held: None,
+            notices,
+            count: 0,
+            _watcher: watcher,
+        }
+    }
+
+    fn take(&mut self, step: Step) {
+        take(self.directory.path(), &mut self.held, step);
+    }
+
+    fn look(&mut self) {
+        self.count += 1;
+        assert!(self.count < MANY, "notices do not end");
+        self.seen = fs::read_to_string(&self.path).ok();
+    }
+
+    /// Looks at every notice until none has come for a while.
+    fn settle(&mut self) {
+        while self.notices.recv_timeout(QUIET).is_ok() {
+            self.look();
+        }
+    }
+
+    /// Takes steps, settling between them, so that each has to be noticed by itself; then looks at
+    /// every notice until the reader has seen `content`.
+    fn expect(&mut self, steps: &[Step], content: &str) {
+        for &step in steps {
+            self.take(step);
+            self.settle();
+        }
+        while self.seen.as_deref() != Some(content) {
+            let notice = self.notices.recv_timeout(PATIENCE);
+            notice.unwrap_or_else(|_| panic!("{steps:?}: saw only {:?}", self.seen));
+            self.look();
+        }
+    }
+}
+
+fn take(directory: &Path, held: &mut Option<File>, step: Step) {
+    let at = |name: &str| directory.join(name);
+    let done = match step {
+        Open(name) => File::create(at(name)).map(|file| *held = Some(file)),
+        Put(text) => {
+            let file = held.as_mut().expect("a held file");
+            file.write_all(text.as_bytes())
+        }
+        Close => held.take().expect("a held file").sync_all(),
+        Save(name, text) => fs::write(at(name), text),
+        Rename(from, to) => fs::rename(at(from), at(to)),
+        Remove(name) => fs::remove_file(at(name)),
+        Duplicate(from, to) => fs::copy(at(from), at(to)).map(|_| ()),
+        Directory(name) => fs::create_dir(at(name)),
+        RemoveDirectory(name) => fs::remove_dir_all(at(name)),
+        #[cfg(unix)]
+        Step::Link(target, name) => std::os::unix::fs::symlink(target, at(name)),
+    };
+    done.unwrap_or_else(|error| panic!("{step:?}: {error}"));
+}
+
+/// Saves of `s.ray` that make its content `new`.
+const SAVES: &[&[Step]] = &[
+    // vim, backupcopy=no
+    &[
+        Save("4913", ""),
+        Remove("4913"),
+        Rename("s.ray", "s.ray~"),
+        Open("s.ray"),
+        Put("new"),
+        Close,
+        Remove("s.ray~"),
+    ],
+    // vim, backupcopy=yes
+    &[
+        Save(".s.ray.swp", "x"),
+        Duplicate("s.ray", "s.ray~"),
+        Open("s.ray"),
+        Put("new"),
+        Close,
+        Remove("s.ray~"),
+    ],
+    // nano, a shell's `>`
+    &[Open("s.ray"), Put("new"), Close],
+    // a program that writes slowly
+    &[Open("s.ray"), Put("n"), Put("e"), Put("w"), Close],
+    // emacs
+    &[
+        Save(".#s.ray", ""),
+        Save("#s.ray#", "ne"),
+        Rename("s.ray", "s.ray~"),
+        Save("s.ray", "new"),
+        Remove("#s.ray#"),
+        Remove(".#s.ray"),
+    ],
+    // sed -i, and this program
+    &[
+        Open("sedXyZ123"),
+        Put("new"),
+        Close,
+        Rename("sedXyZ123", "s.ray"),
+    ],
+    // mv
+    &[Save("other", "new"), Rename("other", "s.ray")],
+    // cp
+    &[Save("other", "new"), Duplicate("other", "s.ray")],
+    // deleted and made again
+    &[Remove("s.ray"), Save("s.ray", "new")],
+];
+
+#[test]
+fn every_editor_s_save_is_noticed_again_and_again() {
+    for steps in SAVES {
+        let mut watched = Watched::new("s.ray", Method::Native, &[Save("s.ray", "old")]);
+        watched.expect(steps, "new");
+        watched.expect(&[Save("s.ray", "old")], "old");
+        watched.expect(steps, "new");
+    }
+}
+
+#[test]
+fn polling_notices_every_editor_s_save() {
+    for steps in SAVES {
+        let mut watched = Watched::new("s.ray", POLL, &[Save("s.ray", "old")]);
+        watched.expect(steps, "new");
+        watched.expect(&[Save("s.ray", "old")], "old");
+    }
+}
+
+#[test]
+fn a_file_that_is_not_there_yet_is_noticed_when_it_comes() {
+    for method in [Method::Native, POLL] {
+        let mut watched = Watched::new("s.ray", method, &[]);
+        watched.expect(&[Save("s.ray", "new")], "new");
+    }
+}
+
+#[test]
+fn other_files_are_not_noticed() {
+    let mut watched = Watched::new("s.ray", Method::Native, &[Save("s.ray", "old")]);
+    let others = [
+        "4913",
+        ".s.ray.swp",
+        "s.ray~",
+        ".#s.ray",
+        "#s.ray#",
+        "sedXyZ123",
+        "S.raz",
+    ];
+    for name in others {
+        watched.take(Save(name, "noise"));
+        watched.take(Remove(name));
+    }
+    watched.settle();
+    assert_eq!(watched.count, 0);
+    watched.expect(&[Save("s.ray", "new")], "new");
+}
+
+#[test]
+fn looking_at_the_file_is_not_noticed() {
+    let mut watched = Watched::new("s.ray", Method::Native, &[]);
+    for content in ["1", "2", "3", "4", "5", "6", "7", "8", "9", "10"] {
+        watched.expect(&[Save("s.ray", content)], content);
+    }
+    watched.settle();
+    // Made or emptied, written, closed: a save is three notices, rarely four.
+    assert!(watched.count <= 40, "{} notices", watched.count);
+    for _ in 0..100 {
+        fs::read_to_string(&watched.path).expect("there");
+    }
+    let before = watched.count;
+    watched.settle();
+    assert_eq!(watched.count, before);
+}
+
+#[test]
+fn a_directory_that_goes_and_comes_back_is_watched_again() {
+    let before = [Directory("d"), Save("d/s.ray", "old")];
+    let mut watched = Watched::new("d/s.ray", Method::Native, &before);
+    watched.expect(
+        &[RemoveDirectory("d"), Directory("d"), Save("d/s.ray", "new")],
+        "new",
+    );
+    watched.expect(
+        &[Rename("d", "e"), Directory("d"), Save("d/s.ray", "newer")],
+        "newer",
+    );
+    watched.expect(&[RemoveDirectory("d"), Rename("e", "d")], "new");
+    watched.expect(&[Save("d/s.ray", "newest")], "newest");
+}
+
+#[test]
+fn polling_notices_saves_within_a_second_and_dates_that_go_back() {
+    let mut watched = Watched::new("s.ray", POLL, &[Save("s.ray", "0")]);
+    for content in ["1", "2", "3"] {
+        watched.expect(&[Save("s.ray", content)], content);
+    }
+    let old = directory_file_with_date(&watched, "4");
+    fs::rename(old, &watched.path).expect("renamed");
+    watched.expect(&[], "4");
+}
+
+/// A file with a date from 1970.
+fn directory_file_with_date(watched: &Watched, content: &str) -> PathBuf {
+    let path = watched.directory.path().join("other");
+    fs::write(&path, content).expect("written");
+    let file = File::options().write(true).open(&path).expect("opened");
+    let date = FileTimes::new().set_modified(SystemTime::UNIX_EPOCH);
+    file.set_times(date).expect("dated");
+    path
+}
+
+#[cfg(unix)]
+mod links {
+    use super::*;
+    use Step::Link;
+
+    const LINKED: [Step; 5] = [
+        Directory("d"),
+        Directory("e"),
+        Save("e/real.ray", "old"),
+        Link("../e/real.ray", "d/middle"),
+        Link("d/middle", "s.ray"),
+    ];
+
+    #[test]
+    fn what_a_link_leads_to_is_watched() {
+        let cases: [(&[Step], &str); 5] = [
+            (&[Save("e/real.ray", "at the target")], "at the target"),
+            (&[Save("s.ray", "through the link")], "through the link"),
+            (
+                &[Save("x", "renamed over"), Rename("x", "e/real.ray")],
+                "renamed over",
+            ),
+            (
+                &[
+                    Save("e/b", "middle"),
+                    Remove("d/middle"),
+                    Link("../e/b", "d/middle"),
+                ],
+                "middle",
+            ),
+            (&[Save("x", "file now"), Rename("x", "s.ray")], "file now"),
+        ];
+        for (steps, content) in cases {
+            for method in [Method::Native, POLL] {
+                let mut watched = Watched::new("s.ray", method, &LINKED);
+                watched.expect(steps, content);
+            }
+        }
+    }
+
+    #[test]
+    fn a_new_target_is_watched_and_a_dangling_link_waited_for() {
+        let mut watched = Watched::new("s.ray", Method::Native, &[Save("s.ray", "old")]);
+        watched.expect(
+            &[
+                Directory("d"),
+                Link("d/real", "l"),
+                Rename("l", "s.ray"),
+                Save("d/real", "new"),
+            ],
+            "new",
+        );
+        watched.expect(&[Save("x", "newer"), Rename("x", "d/real")], "newer");
+    }
+}
