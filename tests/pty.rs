@@ -14,7 +14,7 @@ use rustix::process::{Pid, Signal, kill_process};
 use tempfile::TempDir;
 use vt100::{Color, MouseProtocolMode, Screen};
 
-use harness::{Pixels, Session, picture};
+use harness::{Pixels, Session, last, picture};
 
 /// Two balls that shine by ambient light alone, so that their pixels are of their own colours.
 const BALLS: &str = "\
@@ -39,6 +39,9 @@ const ENTER: &str = "\r";
 const ESC: &str = "\x1b";
 const CTRL_C: &str = "\x03";
 const CTRL_Z: &str = "\x1a";
+
+/// Begins what is on the screen only while the program has it.
+const ENTER_SCREEN: &[u8] = b"\x1b[?1049h";
 
 /// A directory with a scene in `balls.ray`.
 struct Place {
@@ -306,6 +309,22 @@ fn it_stops_and_goes_on_as_a_job_of_a_shell() {
     session.send("q");
     assert!(session.end().success());
     session.assert_restored();
+}
+
+/// Keys that come while the terminal is not raw are echoed or held back.
+#[test]
+fn the_terminal_stays_raw_while_it_is_taken_again() {
+    let place = Place::new();
+    let mut session = place.open();
+    for _ in 0..200 {
+        let seen = session.written.len();
+        kill(session.process_id(), Signal::CONT);
+        while last(ENTER_SCREEN, &session.written[seen..]).is_none() {
+            assert!(!session.has_settings_from_before());
+            session.read(Duration::ZERO);
+        }
+    }
+    quit(session);
 }
 
 #[test]

@@ -310,7 +310,7 @@ fn listen(mut reader: Box<dyn Read + Send>, deaf: Arc<AtomicBool>) -> Receiver<(
 }
 
 /// Where a text begins for the last time.
-fn last(text: &[u8], all: &[u8]) -> Option<usize> {
+pub(crate) fn last(text: &[u8], all: &[u8]) -> Option<usize> {
     all.windows(text.len()).rposition(|part| part == text)
 }
 

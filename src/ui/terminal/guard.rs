@@ -93,10 +93,13 @@ impl Terminal {
         {
             let mut tenure = self.shared.tenure();
             if *tenure == Tenure::Ours {
-                // crossterm takes raw mode for granted once it has set it.
-                crossterm::terminal::disable_raw_mode()?;
+                // crossterm takes raw mode for granted once it has set it, and giving it up to set
+                // it again would echo what is typed meanwhile.
+                #[cfg(unix)]
+                tty::make_raw()?;
+            } else {
+                crossterm::terminal::enable_raw_mode()?;
             }
-            crossterm::terminal::enable_raw_mode()?;
             // Asking is what turns escape sequences on in a Windows console.
             #[cfg(windows)]
             let _ = crossterm::ansi_support::supports_ansi();

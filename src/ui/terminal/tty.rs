@@ -72,6 +72,18 @@ pub(super) fn keyboard() -> io::Result<OwnedFd> {
     }
 }
 
+/// Makes the terminal raw, whoever has changed its modes; one that is raw stays so throughout.
+#[cfg(unix)]
+pub(super) fn make_raw() -> io::Result<()> {
+    use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
+
+    let terminal = keyboard()?;
+    let mut modes = tcgetattr(&terminal)?;
+    modes.make_raw();
+    tcsetattr(&terminal, OptionalActions::Now, &modes)?;
+    Ok(())
+}
+
 fn known_size(told: Size, variable: impl Fn(&str) -> Option<u16>) -> Size {
     let known = |told: u16, name: &str, usual: u16| {
         let told = Some(told).filter(|&cells| cells != 0);
