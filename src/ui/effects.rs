@@ -10,7 +10,7 @@ use std::thread;
 use std::time::Instant;
 
 use super::Options;
-use super::msg::{Effect, Existing, Guard, Msg, SaveOutcome, Target, Timer};
+use super::msg::{Effect, Existing, ExportId, Guard, Msg, SaveOutcome, Target, Timer};
 use super::recovery;
 use super::terminal::{self, Input, Terminal};
 #[cfg(unix)]
@@ -121,10 +121,13 @@ impl World {
                 self.stop(target);
                 Ok(())
             }
-            Effect::WriteImage(frame, path, existing) => self.write_image(frame, path, existing),
-            Effect::CheckTarget(path, existing) => {
+            Effect::WriteImage(id, frame, path, existing) => {
+                let refused = self.write_image(id, frame, path, existing).err()?;
+                return Some(Msg::Exported(id, Err(refused)));
+            }
+            Effect::CheckTarget(id, path, existing) => {
                 let refused = check_target(&path, existing).err()?;
-                return Some(Msg::Exported(Err(refused)));
+                return Some(Msg::Exported(id, Err(refused)));
             }
             Effect::Read(path) => self.file(FileTask::Read(path)),
             Effect::Save { path, text, guard } => self.file(FileTask::Save { path, text, guard }),
@@ -199,6 +202,7 @@ impl World {
 
     fn write_image(
         &self,
+        id: ExportId,
         frame: Arc<Frame>,
         path: PathBuf,
         existing: Existing,
@@ -209,7 +213,7 @@ impl World {
                 let saved = image_out::save(&frame, &path);
                 saved.map_err(|error| format!("{}: {error}", path.display()))
             });
-            let _ = sender.send(Event::Msg(Msg::Exported(outcome.map(|()| path))));
+            let _ = sender.send(Event::Msg(Msg::Exported(id, outcome.map(|()| path))));
         };
         let spawned = thread::Builder::new()
             .name("export".to_owned())

@@ -21,6 +21,11 @@ pub enum Target {
     Export,
 }
 
+/// Which of the session's exports: a file that is being written when its export is cancelled is
+/// told of later.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ExportId(pub u32);
+
 /// One event.
 #[derive(Debug)]
 pub enum Msg {
@@ -44,8 +49,8 @@ pub enum Msg {
     Elapsed(Timer),
     /// The scene was written, or not.
     Saved(SaveOutcome),
-    /// The export ended.
-    Exported(Result<PathBuf, String>),
+    /// An export ended.
+    Exported(ExportId, Result<PathBuf, String>),
     /// The external editor has ended.
     EditorClosed(Result<(), String>),
     /// Edits of an earlier run that were never saved were found.
@@ -99,9 +104,9 @@ pub enum Effect {
     /// Trace it no longer.
     Stop(Target),
     /// Write a frame to a picture file: [`Msg::Exported`].
-    WriteImage(Arc<Frame>, PathBuf, Existing),
+    WriteImage(ExportId, Arc<Frame>, PathBuf, Existing),
     /// Say whether a picture can be written there, if not: [`Msg::Exported`].
-    CheckTarget(PathBuf, Existing),
+    CheckTarget(ExportId, PathBuf, Existing),
     /// Read the scene file: [`Msg::Read`].
     Read(PathBuf),
     /// Write the scene file: [`Msg::Saved`].

@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{App, Export, Mode, Picture};
+use super::{App, Export, Mode, Picture, Stage};
 use crate::image_out::{ImageFormat, known_extensions};
 use crate::render::{Frame, Job, Settings};
 use crate::scene::{Camera, Size};
-use crate::ui::msg::{Effect, Existing, Target};
+use crate::ui::msg::{Effect, Existing, ExportId, Target};
 
 /// Samples a pixel at which the preview comes to rest.
 const PREVIEW_SPP: u32 = 64;
@@ -116,28 +116,38 @@ impl App {
         if !frame.progress.complete {
             return Vec::new();
         }
+        export.stage = Stage::Writing;
         vec![
-            Effect::WriteImage(frame, export.path.clone(), export.existing),
+            Effect::WriteImage(export.id, frame, export.path.clone(), export.existing),
             Effect::Stop(Target::Export),
         ]
     }
 
-    pub(super) fn exported(&mut self, outcome: Result<PathBuf, String>) -> Vec<Effect> {
-        let export = self.export.take();
-        let mut effects = vec![Effect::Stop(Target::Export)];
+    pub(super) fn exported(
+        &mut self,
+        id: ExportId,
+        outcome: Result<PathBuf, String>,
+    ) -> Vec<Effect> {
+        let Some(export) = self.export.take_if(|export| export.id == id) else {
+            // One that was cancelled; nobody waits for it, but its file is there now.
+            if let Ok(path) = outcome {
+                self.say(format!("wrote {} all the same", path.display()));
+                self.pending.written.push(path);
+            }
+            return Vec::new();
+        };
         match outcome {
             Ok(path) => {
-                let what = export.map_or_else(String::new, |export| summary(&export));
-                self.say(format!("wrote {}{what}", path.display()));
+                self.say(format!("wrote {}{}", path.display(), summary(&export)));
                 self.pending.written.push(path);
-                effects.extend(self.quit_when_done());
+                self.quit_when_done()
             }
             Err(reason) => {
                 self.pending.quit = false;
                 self.fail(reason);
+                stop_tracing(&export)
             }
         }
-        effects
     }
 
     /// What may become of a file where a picture is to be written: this session's own pictures are
@@ -195,7 +205,14 @@ impl App {
             Existing::Overwritten => existing,
         };
         let traced = self.traced(size, spp);
+        self.pending.export.0 += 1;
+        let id = self.pending.export;
         self.export = Some(Export {
+            id,
+            stage: match traced {
+                Some(_) => Stage::Writing,
+                None => Stage::Tracing,
+            },
             path: path.to_owned(),
             size,
             spp,
@@ -209,12 +226,12 @@ impl App {
             self.warn(format!("exporting the last scene without errors to {path}"));
         }
         if let Some(frame) = traced {
-            return vec![Effect::WriteImage(frame, path.to_owned(), existing)];
+            return vec![Effect::WriteImage(id, frame, path.to_owned(), existing)];
         }
         // The framing is that of the size that is written.
         let camera = Camera { size, ..job.camera };
         vec![
-            Effect::CheckTarget(path.to_owned(), existing),
+            Effect::CheckTarget(id, path.to_owned(), existing),
             Effect::Trace(Target::Export, Job { camera, ..job }),
         ]
     }
@@ -239,13 +256,26 @@ impl App {
     }
 
     pub(super) fn cancel_export(&mut self) -> Vec<Effect> {
-        if self.export.take().is_none() {
+        let Some(export) = self.export.take() else {
             self.say("nothing is under way");
             return Vec::new();
-        }
+        };
         self.pending.quit = false;
-        self.say("export cancelled");
-        vec![Effect::Stop(Target::Export)]
+        match export.stage {
+            Stage::Tracing => self.say("export cancelled"),
+            Stage::Writing => {
+                let path = export.path.display();
+                self.warn(format!("too late to cancel: {path} is being written"));
+            }
+        }
+        stop_tracing(&export)
+    }
+}
+
+fn stop_tracing(export: &Export) -> Vec<Effect> {
+    match export.stage {
+        Stage::Tracing => vec![Effect::Stop(Target::Export)],
+        Stage::Writing => Vec::new(),
     }
 }
 

@@ -26,7 +26,7 @@ use std::time::Duration;
 
 pub use model::{
     App, Broken, Dialog, Disk, Export, FieldRow, Help, HelpFocus, Message, Mode, Outline, Prompt,
-    PromptKind, Quality, Source, Stride, Typing,
+    PromptKind, Quality, Source, Stage, Stride, Typing,
 };
 pub use picture::{Picture, Shown};
 pub use update::Opening;

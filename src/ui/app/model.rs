@@ -12,7 +12,7 @@ use crate::scene::fields::Field;
 use crate::scene::{Camera, Node, Origins, Scene, Size};
 use crate::text::{Diagnostic, Severity};
 use crate::ui::keymap::Action;
-use crate::ui::msg::Existing;
+use crate::ui::msg::{Existing, ExportId};
 use crate::ui::terminal::Mouse;
 use crate::ui::view::layout::Zoom;
 
@@ -236,6 +236,10 @@ pub struct Broken {
 /// An export under way.
 #[derive(Debug)]
 pub struct Export {
+    /// Which.
+    pub id: ExportId,
+    /// What is being done.
+    pub stage: Stage,
     /// Where to.
     pub path: PathBuf,
     /// How large.
@@ -246,6 +250,15 @@ pub struct Export {
     pub existing: Existing,
     /// How far.
     pub progress: Option<Progress>,
+}
+
+/// What an export is at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Its picture is traced.
+    Tracing,
+    /// Its file is written, which nothing stops.
+    Writing,
 }
 
 /// A field of the selected thing as it is shown: see [`App::fields`].
@@ -285,6 +298,8 @@ pub(super) struct Pending {
     pub(super) reader: Reader,
     /// The last text without errors, while the text has some.
     pub(super) sound: Option<String>,
+    /// The export that was begun last.
+    pub(super) export: ExportId,
     /// The pictures written so far: they may be overwritten.
     pub(super) written: Vec<PathBuf>,
     /// The scene or the view changed: pictures are to be traced anew.

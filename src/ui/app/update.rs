@@ -101,7 +101,7 @@ impl App {
             Msg::Elapsed(Timer::Interrupt) => self.pending.interrupt = false,
             Msg::Elapsed(Timer::Click) => self.pending.click = None,
             Msg::Saved(outcome) => return self.was_saved(outcome),
-            Msg::Exported(outcome) => return self.exported(outcome),
+            Msg::Exported(id, outcome) => return self.exported(id, outcome),
             Msg::EditorClosed(outcome) => return self.editor_closed(outcome),
             Msg::Recovered(text) if text != self.document.text() => {
                 self.dialog = Some(Dialog::Recover(text));

@@ -17,9 +17,9 @@ use crate::scene::{Node, Size, lower};
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
     App, Dialog, Disk, Export, Help, HelpFocus, Message, Mode, Opening, Prompt, PromptKind,
-    Quality, Typing,
+    Quality, Stage, Typing,
 };
-use crate::ui::msg::Existing;
+use crate::ui::msg::{Existing, ExportId};
 use crate::ui::terminal::Mouse;
 
 pub(super) const SCENE: &str = "\
@@ -192,6 +192,8 @@ const STATES: &[(&str, Change)] = &[
         app.view = app.camera();
         app.disk = Disk::Changed;
         app.export = Some(Export {
+            id: ExportId::default(),
+            stage: Stage::Tracing,
             path: PathBuf::from("out.bmp"),
             size: Size {
                 width: 4,

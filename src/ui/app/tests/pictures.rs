@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::*;
 use crate::render::{Frame, Progress};
 use crate::scene::Size;
-use crate::ui::msg::{Existing, Target, Timer};
+use crate::ui::msg::{Existing, ExportId, Target, Timer};
 
 pub(super) fn frame(size: Size, objects: Vec<u32>) -> Frame {
     Frame {
@@ -72,7 +72,7 @@ fn an_export_is_traced_written_and_told() {
     let mut app = open(SCENE);
     let effects = press(&mut app, ":export b c.png 32x8 2<Enter>");
     let [
-        Effect::CheckTarget(path, Existing::Kept),
+        Effect::CheckTarget(id, path, Existing::Kept),
         Effect::Trace(Target::Export, job),
     ] = &effects[..]
     else {
@@ -88,9 +88,9 @@ fn an_export_is_traced_written_and_told() {
     let done = Arc::new(frame(size, vec![0; size.pixels()]));
     let effects = app.update(Msg::Frame(Target::Export, done));
     assert!(
-        matches!(&effects[..], [Effect::WriteImage(_, to, Existing::Kept), Effect::Stop(_)] if to == path)
+        matches!(&effects[..], [Effect::WriteImage(_, _, to, Existing::Kept), Effect::Stop(_)] if to == path)
     );
-    app.update(Msg::Exported(Ok(path.clone())));
+    app.update(Msg::Exported(*id, Ok(path.clone())));
     assert!(app.export.is_none());
     assert_eq!(words(&app), "wrote b c.png: 32×8, 2 spp, 0.0 s");
 }
@@ -123,11 +123,11 @@ fn the_full_size_trace_goes_on_behind_until_the_scene_changes() {
 fn only_a_session_s_own_pictures_are_overwritten_unasked() {
     let existing = |app: &mut App, said: &str| {
         let effects = press(app, said);
-        let Some(Effect::CheckTarget(path, existing)) = effects.first() else {
+        let Some(Effect::CheckTarget(id, path, existing)) = effects.first() else {
             panic!("{effects:?}");
         };
-        let (path, existing) = (path.clone(), *existing);
-        app.update(Msg::Exported(Ok(path)));
+        let (id, path, existing) = (*id, path.clone(), *existing);
+        app.update(Msg::Exported(id, Ok(path)));
         existing
     };
     let mut app = open(SCENE);
@@ -154,6 +154,29 @@ fn pictures_of_a_text_with_errors_say_that_they_are_of_the_last_one_without() {
 }
 
 #[test]
+fn a_file_written_after_its_export_was_cancelled_is_told_and_stops_no_other() {
+    let late = |outcome: Result<PathBuf, String>| {
+        let mut app = open(SCENE);
+        press(&mut app, ":export a.bmp 32x8<Enter>");
+        let size = Size {
+            width: 32,
+            height: 8,
+        };
+        let done = Arc::new(frame(size, vec![0; size.pixels()]));
+        app.update(Msg::Frame(Target::Export, done));
+        assert!(press(&mut app, "x").is_empty(), "no picture is traced");
+        assert!(words(&app).contains("a.bmp is being written"));
+        press(&mut app, ":export b.bmp<Enter>");
+        assert!(app.update(Msg::Exported(ExportId(1), outcome)).is_empty());
+        let export = app.export.as_ref().expect("it goes on");
+        assert_eq!(export.path, PathBuf::from("b.bmp"));
+        words(&app).to_owned()
+    };
+    assert_eq!(late(Ok("a.bmp".into())), "wrote a.bmp all the same");
+    assert_eq!(late(Err("full".into())), "exporting to b.bmp");
+}
+
+#[test]
 fn quitting_asks_about_an_export_and_can_wait_for_it() {
     let quits = |effects: &[Effect]| wants(effects, |effect| matches!(effect, Effect::Quit));
     for said in ["q", "<Ctrl-c>", ":q<Enter>"] {
@@ -165,13 +188,19 @@ fn quitting_asks_about_an_export_and_can_wait_for_it() {
     }
     let mut app = open(SCENE);
     press(&mut app, "bqw");
-    assert!(quits(&app.update(Msg::Exported(Ok("a.bmp".into())))));
+    assert!(quits(
+        &app.update(Msg::Exported(ExportId(1), Ok("a.bmp".into())))
+    ));
     let mut app = open(SCENE);
     press(&mut app, "bqn");
-    assert!(!quits(&app.update(Msg::Exported(Ok("a.bmp".into())))));
+    assert!(!quits(
+        &app.update(Msg::Exported(ExportId(1), Ok("a.bmp".into())))
+    ));
     let mut app = open(SCENE);
     press(&mut app, "bqw");
-    assert!(!quits(&app.update(Msg::Exported(Err("full".into())))));
+    assert!(!quits(
+        &app.update(Msg::Exported(ExportId(1), Err("full".into())))
+    ));
     assert!(!app.pending.quit && words(&app) == "full");
 }
 
