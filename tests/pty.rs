@@ -354,6 +354,45 @@ fn the_editor_gets_the_first_key_and_gives_the_screen_back() {
     session.assert_restored();
 }
 
+/// A stop asked for in the editor stops both, as the shell waits for both; an interrupt is the
+/// editor's alone.
+#[test]
+fn signals_of_the_keyboard_are_the_editor_s_while_it_runs() {
+    let place = Place::new();
+    let editor = [
+        "trap '' INT QUIT",
+        "kill -INT 0",
+        "kill -QUIT 0",
+        "kill -TSTP 0",
+        "echo BACK",
+        "read -r line",
+    ];
+    place.write(
+        "editor.sh",
+        &editor.join(
+            "
+",
+        ),
+    );
+    let mut command = CommandBuilder::new("/bin/sh");
+    let line = "set -m; \"$0\" --color 24 balls.ray; echo ONE; read x; fg";
+    command.args(["-c", line, env!("CARGO_BIN_EXE_halflight")]);
+    let environment = [("VISUAL", "/bin/sh editor.sh")];
+    let mut session = Session::run(command, place.directory.path(), WIDE, &environment);
+    wait_for_rest(&mut session);
+    let before = picture(session.screen());
+    session.send("E");
+    session.wait_for("ONE");
+    session.assert_restored();
+    session.send(ENTER);
+    session.wait_for("BACK");
+    session.send(ENTER);
+    session.wait("it is back", |screen| picture(screen) == before);
+    session.send("q");
+    assert!(session.end().success());
+    session.assert_restored();
+}
+
 #[test]
 fn unsaved_edits_and_the_files_changes_are_merged() {
     let place = Place::new();

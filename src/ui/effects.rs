@@ -35,7 +35,7 @@ pub(crate) struct World {
     terminal: Terminal,
     input: Input,
     #[cfg(unix)]
-    _signals: Signals,
+    signals: Signals,
     sender: Sender<Event>,
     files: Sender<FileTask>,
     threads: Option<usize>,
@@ -64,7 +64,7 @@ impl World {
             terminal,
             input: Input::start(tell(&sender))?,
             #[cfg(unix)]
-            _signals: Signals::start(tell(&sender))?,
+            signals: Signals::start(tell(&sender))?,
             files: start_files(sender.clone())?,
             threads: options.threads,
             preview: None,
@@ -246,6 +246,8 @@ impl World {
 
     fn open_editor(&mut self, path: &Path, line: usize) -> Result<(), String> {
         self.input.park();
+        #[cfg(unix)]
+        self.signals.lend();
         let ran = self.terminal.leave().and_then(|()| {
             let mut editor = editor(path, line);
             let name = editor.get_program().to_string_lossy().into_owned();
@@ -257,6 +259,8 @@ impl World {
                 Err(io::Error::other(format!("{name} ended with {status}")))
             }
         });
+        #[cfg(unix)]
+        self.signals.take_back();
         let taken = self.terminal.reenter();
         self.input.resume();
         terminal_outcome(taken)?;

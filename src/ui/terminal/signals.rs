@@ -3,7 +3,7 @@
 //! The terminal is watched as well as `SIGHUP` awaited: the signal may be ignored by inheritance,
 //! as under `nohup`, and then only the terminal's end of the line tells.
 
-use std::io::{self, Read};
+use std::io::{self, Read, Write};
 use std::os::fd::OwnedFd;
 use std::os::unix::net::UnixStream;
 use std::thread::{self, JoinHandle};
@@ -11,10 +11,14 @@ use std::time::Duration;
 
 use rustix::event::{PollFd, PollFlags, poll};
 use rustix::io::Errno;
+use rustix::process::{
+    Pid, Signal, getpgrp, getpid, getppid, getsid, kill_current_process_group, kill_process,
+};
 use signal_hook::SigId;
 use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGWINCH};
 use signal_hook::low_level::{self, pipe};
 
+use super::panics::Tenure;
 use super::{Event, tty};
 
 /// How long the interface may take to end after its terminal is gone.
@@ -22,6 +26,10 @@ const GRACE: Duration = Duration::from_millis(500);
 
 /// What the system reports for a process that `SIGHUP` ended.
 const HUNG_UP: i32 = 128 + SIGHUP;
+
+/// Orders to the watching thread: who has the terminal from here on.
+const LENT: u8 = b'l';
+const OURS: u8 = b'o';
 
 const WATCHED: [i32; 7] = [SIGHUP, SIGTERM, SIGQUIT, SIGINT, SIGTSTP, SIGCONT, SIGWINCH];
 
@@ -31,18 +39,20 @@ const WATCHED: [i32; 7] = [SIGHUP, SIGTERM, SIGQUIT, SIGINT, SIGTSTP, SIGCONT, S
 #[derive(Debug)]
 pub struct Signals {
     registered: Vec<SigId>,
-    /// Its other end reports a hang-up when this one is dropped, which ends the thread.
-    stop: Option<UnixStream>,
+    /// Takes [`LENT`] and [`OURS`]. Its other end reports a hang-up when this one is dropped, which
+    /// ends the thread.
+    orders: Option<UnixStream>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Signals {
     /// Starts watching; `send` is called on the watching thread.
     pub fn start(send: impl Fn(Event) + Send + 'static) -> io::Result<Self> {
-        let (stop, stopped) = UnixStream::pair()?;
+        let (orders, inbox) = UnixStream::pair()?;
+        inbox.set_nonblocking(true)?;
         let mut signals = Self {
             registered: Vec::new(),
-            stop: Some(stop),
+            orders: Some(orders),
             thread: None,
         };
         let mut arrivals = Vec::new();
@@ -53,13 +63,32 @@ impl Signals {
             arrivals.push((signal, arrival));
         }
         let watch = Watch {
-            stopped,
+            inbox,
+            tenure: Tenure::Ours,
             tty: Some(tty::keyboard()?),
             arrivals,
         };
         let thread = thread::Builder::new().name("signals".to_owned());
         signals.thread = Some(thread.spawn(move || watch.run(&send))?);
         Ok(signals)
+    }
+
+    /// Leaves the keyboard's signals to a program in our process group that the terminal is lent
+    /// to: it gets them as well. Only a stop is shared, so that the shell sees its job stopped.
+    pub fn lend(&self) {
+        self.order(LENT);
+    }
+
+    /// Tells of all signals again, but of none that came before.
+    pub fn take_back(&self) {
+        self.order(OURS);
+    }
+
+    fn order(&self, order: u8) {
+        if let Some(mut orders) = self.orders.as_ref() {
+            // A thread that has ended needs no orders.
+            let _ = orders.write(&[order]);
+        }
     }
 }
 
@@ -68,7 +97,7 @@ impl Drop for Signals {
         for &registered in &self.registered {
             low_level::unregister(registered);
         }
-        self.stop = None;
+        self.orders = None;
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }
@@ -80,19 +109,32 @@ impl Drop for Signals {
 /// Returns at once where no shell could continue it: in the process group of a session's leader,
 /// or when the shell has ended. The terminal must have been given back before.
 pub fn suspend_process() -> io::Result<()> {
-    let group = rustix::process::getpgrp();
-    let leads = rustix::process::getsid(None)? == group;
-    let is_orphan = rustix::process::getppid().is_none_or(rustix::process::Pid::is_init);
-    if leads || is_orphan {
-        return Ok(());
+    if is_job()? {
+        // SIGTSTP would only come back as an event, because its default action is replaced.
+        kill_current_process_group(Signal::STOP)?;
     }
-    // SIGTSTP would only come back as an event, because its default action is replaced.
-    rustix::process::kill_current_process_group(rustix::process::Signal::STOP)?;
     Ok(())
 }
 
+/// Whether there is a shell that could continue the process.
+fn is_job() -> io::Result<bool> {
+    let leads = getsid(None)? == getpgrp();
+    let is_orphan = getppid().is_none_or(Pid::is_init);
+    Ok(!leads && !is_orphan)
+}
+
+/// Does what SIGTSTP does by default. Whoever the terminal is lent to got the signal too, and may
+/// have reasons not to stop.
+fn stop_alone() {
+    if is_job().unwrap_or(false) {
+        // Nobody is there to be told while the terminal is lent.
+        let _ = kill_process(getpid(), Signal::STOP);
+    }
+}
+
 struct Watch {
-    stopped: UnixStream,
+    inbox: UnixStream,
+    tenure: Tenure,
     /// `None` once it is gone.
     tty: Option<OwnedFd>,
     arrivals: Vec<(i32, UnixStream)>,
@@ -102,7 +144,7 @@ impl Watch {
     fn run(mut self, send: &impl Fn(Event)) {
         let mut line = Line::Up;
         loop {
-            let mut sources = vec![PollFd::new(&self.stopped, PollFlags::IN)];
+            let mut sources = vec![PollFd::new(&self.inbox, PollFlags::IN)];
             sources.extend(
                 self.arrivals
                     .iter()
@@ -120,9 +162,20 @@ impl Watch {
                 Err(_) => return,
             }
             let reported: Vec<_> = sources.iter().map(PollFd::revents).collect();
+            let mut tenure = self.tenure;
             if !reported[0].is_empty() {
-                return;
+                let mut orders = [0; 64];
+                match (&self.inbox).read(&mut orders) {
+                    Ok(count @ 1..) if orders[count - 1] == LENT => tenure = Tenure::Lent,
+                    Ok(1..) => tenure = Tenure::Ours,
+                    Ok(0) => return,
+                    Err(_) => {}
+                }
             }
+            // What came before the terminal was taken back was still the other program's.
+            let theirs = [self.tenure, tenure].contains(&Tenure::Lent);
+            let whose = if theirs { Tenure::Lent } else { tenure };
+            self.tenure = tenure;
             let tty = reported
                 .get(self.arrivals.len() + 1)
                 .copied()
@@ -133,7 +186,7 @@ impl Watch {
             }
             // First, because a line that breaks sends SIGCONT as well.
             if tty.intersects(PollFlags::HUP | PollFlags::ERR) {
-                tell(SIGHUP, &mut line, send);
+                tell(SIGHUP, whose, &mut line, send);
             }
             for ((signal, arrival), revents) in self.arrivals.iter().zip(&reported[1..]) {
                 if revents.contains(PollFlags::IN) {
@@ -141,7 +194,7 @@ impl Watch {
                         .read(&mut [0; 64])
                         .is_ok_and(|bytes| bytes != 0)
                     {}
-                    tell(*signal, &mut line, send);
+                    tell(*signal, whose, &mut line, send);
                 }
             }
         }
@@ -154,7 +207,7 @@ enum Line {
     Down,
 }
 
-fn tell(signal: i32, line: &mut Line, send: &impl Fn(Event)) {
+fn tell(signal: i32, whose: Tenure, line: &mut Line, send: &impl Fn(Event)) {
     match signal {
         // Without a terminal nothing is left to tell but the end.
         SIGHUP | SIGWINCH | SIGTSTP | SIGCONT if *line == Line::Down => {}
@@ -164,6 +217,9 @@ fn tell(signal: i32, line: &mut Line, send: &impl Fn(Event)) {
             end_after_grace();
             send(Event::HangUp);
         }
+        // The terminal is taken back after the other program's end in any case.
+        SIGINT | SIGQUIT | SIGCONT if whose == Tenure::Lent => {}
+        SIGTSTP if whose == Tenure::Lent => stop_alone(),
         SIGWINCH => {
             let size = tty::size();
             send(Event::Resize {
