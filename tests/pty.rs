@@ -617,7 +617,14 @@ fn nothing_from_files_reaches_the_terminal_raw() {
     let mut session = Session::start(place.directory.path(), &arguments, WIDE, &environment);
     session.wait_for("1 error");
     session.wait_for("␛]52;c;ZXZpbA==");
-    session.send("!E!GE");
+    // What is typed while the editor has the terminal is echoed.
+    let refused = "the editor can't be used";
+    session.send("!E");
+    session.wait_for(refused);
+    session.send("!G");
+    wait_until_gone(&mut session, refused);
+    session.send("E");
+    session.wait_for(refused);
     session.send(format!("\x1b[200~{evil}\x1b[201~:{ESC}"));
     session.send(["Gejj", ENTER].concat());
     session.send(format!("\x1b[200~{evil}\x1b[201~{ENTER}{ESC}"));
