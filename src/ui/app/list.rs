@@ -186,24 +186,34 @@ impl App {
 
     pub(super) fn pick_cross(&mut self) {
         let (column, row) = self.cross;
-        if self.pick(u32::from(column), 2 * u32::from(row)) {
-            self.mode = Mode::Select;
-        }
+        self.pick(u32::from(column), 2 * u32::from(row));
     }
 
-    /// Selects what lies under a pixel of the picture on screen; whether there is anything.
-    pub(super) fn pick(&mut self, x: u32, y: u32) -> bool {
-        let node = self
-            .picture()
-            .shown
-            .object_at(x, y)
-            .map(|object| Node::Object(object as usize))
-            .filter(|node| self.nodes.get(self.row_of(*node)) == Some(node));
-        match node {
-            Some(node) => self.select(node),
-            None => self.say("nothing is there"),
+    /// What lies under a pixel of the picture on screen, or why that can't be said: objects are
+    /// known by their number in the scene that is shown, which need not be the text's.
+    pub fn node_under(&self, x: u32, y: u32) -> Result<Option<Node>, &'static str> {
+        if 0 < self.error_count() {
+            return Err("the text has errors: the picture is of the last scene without");
         }
-        node.is_some()
+        if self.picture().is_outdated() {
+            return Err("the picture is not of the changed scene yet");
+        }
+        let object = self.picture().shown.object_at(x, y);
+        Ok(object.map(|object| Node::Object(object as usize)))
+    }
+
+    /// Selects what lies under a pixel of the picture on screen, and has then done with picking.
+    pub(super) fn pick(&mut self, x: u32, y: u32) {
+        match self.node_under(x, y) {
+            Ok(Some(node)) => {
+                self.select(node);
+                if self.mode == Mode::Pick {
+                    self.mode = Mode::Select;
+                }
+            }
+            Ok(None) => self.say("nothing is there"),
+            Err(reason) => self.warn(reason),
+        }
     }
 }
 

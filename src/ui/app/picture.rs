@@ -93,6 +93,13 @@ impl Picture {
             .map(|frame| &frame.progress)
     }
 
+    /// Whether the newest frame shows an older scene than the one that was asked for last. What
+    /// lies under its pixels has that scene's numbers.
+    pub fn is_outdated(&self) -> bool {
+        let latest = self.latest.as_ref();
+        latest.is_some_and(|frame| self.wanted.is_some_and(|wanted| wanted != frame.generation))
+    }
+
     /// Whether every sample of what was asked for last is taken and on its way to the screen.
     pub fn is_complete(&self) -> bool {
         self.progress().is_some_and(|progress| progress.complete)

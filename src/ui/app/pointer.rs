@@ -6,6 +6,7 @@ use tui_input::Input;
 use super::{App, Mode};
 use crate::ui::keymap::Context;
 use crate::ui::msg::{Effect, Timer};
+use crate::ui::view::errors;
 use crate::ui::view::layout::{field_at, list_row_at, pixel_at};
 
 /// How far dragging across a cell orbits, in degrees: a cell is twice as high as wide.
@@ -39,7 +40,11 @@ impl App {
         }
         let areas = self.areas();
         let over = |area: ratatui::layout::Rect| area.contains(at.into());
-        if over(areas.list) {
+        if errors::panel(self, areas.errors).is_some_and(|panel| over(panel.area)) {
+            if self.errors.is_some() {
+                self.move_cursor(Context::Errors, down);
+            }
+        } else if over(areas.list) {
             self.move_cursor(Context::In(Mode::Select), WHEEL * down);
         } else if over(areas.fields) && self.typing.is_none() {
             self.move_cursor(Context::In(Mode::Edit), down);
@@ -60,6 +65,17 @@ impl App {
             }
             return Vec::new();
         }
+        // It lies over the picture: what is below it is not meant.
+        if let Some(panel) = errors::panel(self, areas.errors)
+            && panel.area.contains(at.into())
+        {
+            let clicked = panel.diagnostic_at(at.1);
+            self.errors = clicked.or(self.errors);
+            if clicked.is_some() {
+                self.go_to_error();
+            }
+            return Vec::new();
+        }
         let placed = self.placed();
         let components = |field: usize| Some(placed.get(field)?.field.kind.components());
         if let Some(clicked) = field_at(areas.fields, self.field_top, components, at) {
@@ -69,11 +85,8 @@ impl App {
             self.pending.drag = Some(at);
         } else if let Some(raster) = self.raster() {
             let size = self.picture().shown.size;
-            if let Some((x, y)) = pixel_at(raster, size, at.0, at.1)
-                && self.pick(x, y)
-                && self.mode == Mode::Pick
-            {
-                self.mode = Mode::Select;
+            if let Some((x, y)) = pixel_at(raster, size, at.0, at.1) {
+                self.pick(x, y);
             }
         }
         Vec::new()

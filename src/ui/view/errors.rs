@@ -21,45 +21,71 @@ const REACH: usize = 2048;
 /// Columns from one tab stop to the next.
 const TAB: usize = 4;
 
-/// Draws the diagnostics over the lower part of the picture: from the one under the cursor on, or
-/// the first error where the list has no keys.
-pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
+/// The panel as it is shown.
+#[derive(Debug)]
+pub(crate) struct Panel {
+    /// The cells it takes.
+    pub(crate) area: Rect,
+    /// The first diagnostic shown.
+    first: usize,
+    /// What stands below its title: lines, and the diagnostic that each is part of.
+    lines: Vec<(usize, Line)>,
+}
+
+impl Panel {
+    /// The diagnostic that a row of the screen is part of; none at the title.
+    pub(crate) fn diagnostic_at(&self, row: u16) -> Option<usize> {
+        let below = row.checked_sub(self.area.y)?.checked_sub(1)?;
+        self.lines.get(usize::from(below)).map(|&(index, _)| index)
+    }
+}
+
+/// Lays the diagnostics out over the lower part of the picture: from the one under the cursor on,
+/// or the first error where the list has no keys. `None` if there is nothing to show.
+pub(crate) fn panel(app: &App, area: Rect) -> Option<Panel> {
     let (_, diagnostics) = app.wrong();
     let first_error = diagnostics.iter().position(Diagnostic::is_error);
-    let Some(first) = app.errors.or(first_error) else {
-        return;
-    };
+    let first = app.errors.or(first_error)?;
     let width = usize::from(area.width.saturating_sub(2));
-    let mut lines: Vec<Line> = Vec::new();
+    let mut lines: Vec<(usize, Line)> = Vec::new();
     for (index, diagnostic) in diagnostics.iter().enumerate().skip(first) {
         if usize::from(area.height) <= lines.len() {
             break;
         }
-        let start = lines.len();
-        describe(app, diagnostic, width, &mut lines);
-        if app.errors == Some(index) && start < lines.len() {
-            lines[start].0[0].1 = theme::chip(lines[start].0[0].1);
+        let mut own = describe(app, diagnostic, width);
+        if app.errors == Some(index) {
+            let place = &mut own[0].0[0].1;
+            *place = theme::chip(*place);
         }
-        lines.push(Line::default());
+        own.push(Line::default());
+        lines.extend(own.into_iter().map(|line| (index, line)));
     }
     lines.pop();
     let height = (lines.len() as u16 + 1).min(area.height);
-    let (_, panel) = super::layout::split_bottom(area, height);
-    Clear.render(panel.intersection(buffer.area), buffer);
-    let place = format!(
-        "{}/{}",
-        (first + 1).min(diagnostics.len()),
-        diagnostics.len()
-    );
+    Some(Panel {
+        area: super::layout::split_bottom(area, height).1,
+        first,
+        lines,
+    })
+}
+
+/// Draws the diagnostics over the lower part of the picture, if there are any to show.
+pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
+    let Some(panel) = panel(app, area) else {
+        return;
+    };
+    Clear.render(panel.area.intersection(buffer.area), buffer);
+    let count = app.wrong().1.len();
     title(
         &heading(app),
-        &place,
+        &format!("{}/{count}", (panel.first + 1).min(count)),
         app.errors.map(|_| theme::ACCENT),
-        panel,
+        panel.area,
         buffer,
     );
-    for (index, Line(parts)) in lines.iter().enumerate().take(usize::from(height) - 1) {
-        let mut row = Row::new(buffer, panel, index as u16 + 1);
+    let rows = usize::from(panel.area.height.saturating_sub(1));
+    for (index, (_, Line(parts))) in panel.lines.iter().enumerate().take(rows) {
+        let mut row = Row::new(buffer, panel.area, index as u16 + 1);
         row.skip(1);
         for (text, style) in parts {
             row.put(text, *style);
@@ -92,8 +118,9 @@ fn heading(app: &App) -> String {
     }
 }
 
-/// Adds the lines of one diagnostic.
-fn describe(app: &App, diagnostic: &Diagnostic, width: usize, lines: &mut Vec<Line>) {
+/// The lines of one diagnostic: its place comes first.
+fn describe(app: &App, diagnostic: &Diagnostic, width: usize) -> Vec<Line> {
+    let mut lines = Vec::new();
     let (text, _) = app.wrong();
     let style = theme::severity(Some(diagnostic.severity));
     let Position { line, column } = Position::of(text, diagnostic.span.start());
@@ -131,6 +158,7 @@ fn describe(app: &App, diagnostic: &Diagnostic, width: usize, lines: &mut Vec<Li
             (note, Style::new()),
         ])
     }));
+    lines
 }
 
 /// A part of a line as it is shown, and the columns of the span in it.

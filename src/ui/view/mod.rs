@@ -6,7 +6,7 @@
 
 mod dialog;
 mod dither;
-mod errors;
+pub(crate) mod errors;
 mod fields;
 mod help;
 pub mod layout;

@@ -11,7 +11,7 @@ use super::dither;
 use super::layout::{self, raster};
 use super::row::Row;
 use super::theme;
-use crate::scene::{Node, Size};
+use crate::scene::Size;
 use crate::ui::app::{App, Mode, Shown};
 
 /// Characters from dark to bright, for terminals without colours.
@@ -34,7 +34,7 @@ pub(crate) fn render(app: &App, glyphs: Glyphs, area: Rect, buffer: &mut Buffer)
     };
     paint(&shown, app.marked_object(), glyphs, cells, buffer);
     if app.mode == Mode::Pick {
-        cross(app, &shown, cells, buffer);
+        cross(app, cells, buffer);
     }
     if 0 < app.error_count() {
         let chip = " STALE ";
@@ -57,7 +57,7 @@ fn notice(app: &App, area: Rect, buffer: &mut Buffer) {
 }
 
 /// Marks the cell that is picked from, and says what lies there.
-fn cross(app: &App, shown: &Shown, cells: Rect, buffer: &mut Buffer) {
+fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
     let (column, row) = app.cross;
     let (x, y) = (cells.x.saturating_add(column), cells.y.saturating_add(row));
     if cells.contains((x, y).into())
@@ -66,11 +66,11 @@ fn cross(app: &App, shown: &Shown, cells: Rect, buffer: &mut Buffer) {
         cell.set_symbol("┼").set_style(Style::reset());
         cell.set_style(theme::chip(Style::new()));
     }
-    let under = shown.object_at(u32::from(column), 2 * u32::from(row));
-    let name = under.map_or_else(
-        || "nothing".to_owned(),
-        |object| app.origins.name(Node::Object(object as usize)),
-    );
+    let name = match app.node_under(u32::from(column), 2 * u32::from(row)) {
+        Ok(Some(node)) => app.origins.name(node),
+        Ok(None) => "nothing".to_owned(),
+        Err(reason) => reason.to_owned(),
+    };
     Row::new(buffer, cells, 0).put(&format!(" {name} "), theme::chip(theme::ACCENT));
 }
 

@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
+use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
+
 use super::pictures::frame;
 use super::*;
 use crate::render::NO_OBJECT;
 use crate::scene::{Node, Size};
-use crate::ui::msg::Target;
+use crate::ui::msg::{Target, Timer};
 
 #[test]
 fn a_saved_view_is_the_view_on_screen() {
@@ -150,4 +152,55 @@ fn setting_the_size_does_not_write_the_working_view() {
     assert!(app.view.is_some());
     let first = app.document.text().lines().next();
     assert_eq!(first, Some("// view: fov 40 size 810 600"));
+}
+
+/// The mouse is pressed over a cell.
+fn click(app: &mut App, column: u16, row: u16) {
+    app.update(Msg::Mouse(MouseEvent {
+        kind: MouseEventKind::Down(MouseButton::Left),
+        column,
+        row,
+        modifiers: KeyModifiers::NONE,
+    }));
+}
+
+#[test]
+fn a_pick_is_answered_for_the_scene_on_screen_only() {
+    let mut app = open(SCENE);
+    show_half(&mut app);
+    app.update(Msg::Started(Target::Preview, 1));
+    let (cells, _) = app.raster().expect("there is room");
+    // Without the first sphere the second one is object 1, and the picture is still of both.
+    let from = SCENE.find("sphere").expect("a sphere");
+    let until = SCENE.rfind("sphere").expect("another one");
+    let fewer = SCENE.replacen("\n2\n", "\n1\n", 1);
+    outside(&mut app, &[&fewer[..from], &fewer[until..]].concat());
+    assert_eq!(app.nodes.len(), 4);
+    app.update(Msg::Started(Target::Preview, 2));
+    let selected = app.selected;
+    click(&mut app, cells.x, cells.y);
+    assert_eq!(app.selected, selected);
+    assert!(words(&app).contains("not of the changed scene yet"));
+    press(&mut app, "p<Enter>");
+    assert_eq!((app.mode, app.selected), (Mode::Pick, selected));
+}
+
+#[test]
+fn a_click_on_an_error_goes_to_it_and_not_to_what_lies_below() {
+    let broken = SCENE.replacen("1.5 //", "-1.5 //", 1);
+    let mut app = open(SCENE);
+    show_half(&mut app);
+    for _ in 0..2 {
+        outside(&mut app, &broken);
+        app.update(Msg::Elapsed(Timer::Settled));
+    }
+    assert_eq!(app.error_count(), 1);
+    let (cells, _) = app.raster().expect("there is room");
+    click(&mut app, cells.x, cells.y);
+    assert!(words(&app).contains("the text has errors"));
+    let panel = app.areas().errors;
+    let bottom = panel.bottom() - 1;
+    press(&mut app, "G");
+    click(&mut app, cells.x, bottom);
+    assert_eq!((app.selected, app.field), (Node::Object(0), 1));
 }
