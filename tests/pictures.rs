@@ -42,7 +42,7 @@ fn the_scenes_have_nothing_to_complain_of() {
     for path in scenes() {
         let text = read(&path);
         let lowered = lower(&text, &format::parse(Format::Ray, &text));
-        assert_eq!(lowered.diagnostics, [], "{}", path.display());
+        assert_eq!(*lowered.diagnostics, [], "{}", path.display());
     }
 }
 

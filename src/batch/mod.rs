@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use crate::file::{self, ReadError};
 use crate::format::{self, Format};
 use crate::scene::{self, Scene};
-use crate::text::visible;
+use crate::text::{counted, visible};
 
 pub use render::{Output, Render, render};
 
@@ -114,11 +114,18 @@ fn load(path: &Path) -> Result<Loaded, Error> {
         &lowered.diagnostics,
         report::Style::of_error_stream(),
     ));
-    let errors = lowered.diagnostics.iter().filter(|d| d.is_error()).count();
+    let (errors, warnings) = (lowered.diagnostics.errors(), lowered.diagnostics.warnings());
+    let more = errors + warnings - lowered.diagnostics.len();
+    if 0 < more {
+        tell(
+            "note",
+            &format!("{} not shown", counted(more, "more finding")),
+        );
+    }
     Ok(Loaded {
         scene: lowered.scene,
         errors,
-        warnings: lowered.diagnostics.len() - errors,
+        warnings,
     })
 }
 
@@ -132,9 +139,4 @@ fn print(lines: &str) {
     if !lines.is_empty() {
         let _ = writeln!(io::stderr().lock(), "{lines}");
     }
-}
-
-fn counted(count: usize, noun: &str) -> String {
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{count} {noun}{plural}")
 }

@@ -5,11 +5,12 @@ use std::path::PathBuf;
 use std::sync::{Arc, mpsc};
 
 use super::progress::ProgressLine;
-use super::{Error, counted, load, tell};
+use super::{Error, load, tell};
 use crate::file;
 use crate::image_out::ImageFormat;
 use crate::render::{Frame, Job, Renderer, Settings, Threads};
 use crate::scene::{Camera, Scene, Size};
+use crate::text::counted;
 
 /// A picture to make.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,13 +1,17 @@
 //! Positions and changes in text: spans, edits, numbers, diagnostics. Knows no language.
 
+mod counted;
 mod diagnostic;
 mod edit;
+mod findings;
 mod number;
 mod span;
 mod visible;
 
+pub use counted::counted;
 pub use diagnostic::{Diagnostic, Severity};
 pub use edit::{Edit, apply, smallest_edit};
+pub use findings::Findings;
 pub use number::{NumberError, decimals, parse_number, spell_like};
 pub use span::{Position, Span};
 pub use visible::visible;

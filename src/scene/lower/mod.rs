@@ -12,7 +12,7 @@ mod view_edits;
 
 use super::{Camera, Origins, Scene};
 use crate::format::Tree;
-use crate::text::{Diagnostic, Edit};
+use crate::text::{Edit, Findings};
 
 /// What a tree means.
 #[derive(Debug)]
@@ -21,9 +21,8 @@ pub struct Lowered {
     pub scene: Option<Scene>,
     /// Where its fields stand; complete up to where the text could be understood.
     pub origins: Origins,
-    /// Errors and warnings, in text order; at most a hundred of each, and a last one of each that
-    /// says how many more there are.
-    pub diagnostics: Vec<Diagnostic>,
+    /// Errors and warnings, in text order.
+    pub diagnostics: Findings,
 }
 
 /// Reads the meaning of a tree. All errors that can be told apart are reported at once.

@@ -2,11 +2,11 @@
 
 use super::ray::{Count, LEAST_NUMBERS, Reader, component, is_word};
 use super::record::{LONGEST, Record, takes};
-use super::report::{nearest_kind, plural, quoted};
+use super::report::{nearest_kind, quoted};
 use crate::scene::fields::{MATERIAL, ShapeKind, numbers};
 use crate::scene::origins::{Name, ObjectPlace};
 use crate::scene::{Node, Object};
-use crate::text::{Diagnostic, Span};
+use crate::text::{Diagnostic, Span, counted};
 
 /// The words an object may begin with.
 const TYPES: &str = "sphere, ellipsoid, box, cylinder or cone";
@@ -179,7 +179,7 @@ impl Reader<'_> {
         let span = first.to(self.tokens[self.at - 1]);
         let previous = self.origins.objects.last().map(|object| object.kind);
         self.report.error(|| {
-            let too_many = format!("{} too many", plural(surplus, "number"));
+            let too_many = format!("{} too many", counted(surplus, "number"));
             let message = match self.origins.objects.len().checked_sub(1) {
                 Some(last) => format!("{}: {too_many}", self.origins.name(Node::Object(last))),
                 None => format!("nObjects: {too_many} after it"),
@@ -200,7 +200,7 @@ impl Reader<'_> {
     /// Warns of text after the last object.
     fn left_over(&mut self, token: Span) {
         let word = token.of(self.text);
-        let ignored = plural(self.tokens.len() - self.at, "token");
+        let ignored = counted(self.tokens.len() - self.at, "token");
         self.report.warning(|| {
             let message = format!("{ignored} after the last object ignored");
             let diagnostic = Diagnostic::warning(token, message, "the end of the text");

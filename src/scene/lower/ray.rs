@@ -4,20 +4,20 @@
 //! number at the next token, everywhere else at the next object keyword.
 
 use super::record::{LONGEST, Record, what};
-use super::report::{Report, nearest_kind, no_number, plural, quoted};
+use super::report::{nearest_kind, no_number, quoted};
 use super::{Lowered, view};
 use crate::format::ray;
 use crate::scene::fields::{self, AMBIENT, Field, LIGHT, Range, ShapeKind};
 use crate::scene::origins::Name;
 use crate::scene::{Light, Material, Object, Origins, Rgb, Scene, bounds};
-use crate::text::{Diagnostic, Severity, Span, parse_number};
+use crate::text::{Diagnostic, Findings, Severity, Span, counted, parse_number};
 
 /// Numbers of the smallest object: where fewer follow a word, it does not begin an object.
 pub(super) const LEAST_NUMBERS: usize = ShapeKind::Sphere.numbers();
 
 /// Reads a scene.
 pub(super) fn lower(text: &str, tree: &ray::Tree) -> Lowered {
-    let mut report = Report::default();
+    let mut report = Findings::default();
     let view = view::find(text, &tree.comments, &mut report);
     let mut reader = Reader {
         text,
@@ -48,7 +48,7 @@ pub(super) fn lower(text: &str, tree: &ray::Tree) -> Lowered {
             objects: reader.objects,
         }),
         origins: reader.origins,
-        diagnostics: reader.report.finish(),
+        diagnostics: reader.report.sorted(),
     }
 }
 
@@ -72,7 +72,7 @@ pub(super) struct Reader<'a> {
     pub(super) tokens: &'a [Span],
     /// Index of the next token.
     pub(super) at: usize,
-    pub(super) report: Report,
+    pub(super) report: Findings,
     pub(super) origins: Origins,
     ambient: Rgb,
     lights: Vec<Light>,
@@ -174,10 +174,10 @@ impl<'a> Reader<'a> {
         };
         let rest = match rest {
             0 => String::new(),
-            rest => format!(" and {}", plural(rest, "number")),
+            rest => format!(" and {}", counted(rest, "number")),
         };
         let says = quoted(count.token.of(self.text));
-        let follow = format!("{}{rest}", plural(whole, "light"));
+        let follow = format!("{}{rest}", counted(whole, "light"));
         self.report.error(|| {
             let message = format!("nLights: says {says}, but the text has {follow} {place}");
             let expected = "as many as there are lights";
@@ -295,7 +295,7 @@ impl<'a> Reader<'a> {
         let end = self.end();
         self.report.error(|| {
             let what = what(record.name, field, component);
-            let more = plural(due - have, "more number");
+            let more = counted(due - have, "more number");
             let place = match next {
                 Some(token) => format!("before {}", quoted(token.of(self.text))),
                 None => "before the text ends".to_owned(),

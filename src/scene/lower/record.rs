@@ -3,12 +3,11 @@
 
 use glam::{DMat3, DVec3};
 
-use super::report::Report;
 use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
 use crate::scene::fields::{Field, Kind, Range, ShapeKind, numbers};
 use crate::scene::origins::Name;
 use crate::scene::{Material, Rgb};
-use crate::text::{Diagnostic, Span};
+use crate::text::{Diagnostic, Findings, Span};
 
 /// How far a direction's length may be off 1, and the dot product of two of them off 0.
 const UNIT_TOLERANCE: f64 = 1e-3;
@@ -74,7 +73,7 @@ impl<'a> Record<'a> {
     }
 
     /// Reports numbers outside of their ranges and directions that are none.
-    pub(super) fn check(self, fields: impl Iterator<Item = &'static Field>, report: &mut Report) {
+    pub(super) fn check(self, fields: impl Iterator<Item = &'static Field>, report: &mut Findings) {
         for part in self.parts(fields) {
             if part.field.kind == Kind::Direction {
                 self.check_direction(&part, report);
@@ -84,7 +83,7 @@ impl<'a> Record<'a> {
         }
     }
 
-    fn check_numbers(self, part: &Part, report: &mut Report) {
+    fn check_numbers(self, part: &Part, report: &mut Findings) {
         let field = part.field;
         let names = field.kind.component_names();
         for ((&value, &span), component) in part.values.iter().zip(part.spans).zip(names) {
@@ -108,7 +107,7 @@ impl<'a> Record<'a> {
         }
     }
 
-    fn check_direction(self, part: &Part, report: &mut Report) {
+    fn check_direction(self, part: &Part, report: &mut Findings) {
         let vector = DVec3::from_slice(part.values);
         if vector.is_nan() {
             return;
@@ -131,7 +130,7 @@ impl<'a> Record<'a> {
     }
 
     /// Reports directions that are not those of a right-handed, right-angled frame.
-    pub(super) fn check_frame(self, kind: ShapeKind, report: &mut Report) {
+    pub(super) fn check_frame(self, kind: ShapeKind, report: &mut Findings) {
         let Some(frame) = self.frame(kind) else {
             return;
         };
@@ -154,7 +153,7 @@ impl<'a> Record<'a> {
         }
     }
 
-    fn check_angle(self, first: &Axis, second: &Axis, report: &mut Report) {
+    fn check_angle(self, first: &Axis, second: &Axis, report: &mut Findings) {
         let dot = match (first.direction, second.direction) {
             (Some(first), Some(second)) => first.dot(second),
             _ => return,

@@ -1,71 +1,7 @@
-//! The diagnostics of one lowering, and the words they share.
+//! The words that the diagnostics of lowering share.
 
 use crate::scene::fields::ShapeKind;
 use crate::text::{Diagnostic, NumberError, Severity, Span, parse_number};
-
-/// More messages than this of one severity say nothing new, and a hostile text could ask for
-/// millions.
-const LIMIT: usize = 100;
-
-/// Collects diagnostics, up to a limit of each severity.
-#[derive(Debug, Default)]
-pub(super) struct Report {
-    diagnostics: Vec<Diagnostic>,
-    errors: Tally,
-    warnings: Tally,
-}
-
-/// How many diagnostics of one severity there were, and where the first unshown one is.
-#[derive(Debug, Default)]
-struct Tally {
-    count: usize,
-    hidden: Option<Span>,
-}
-
-impl Report {
-    /// Adds an error, unless there are too many already.
-    pub(super) fn error(&mut self, make: impl FnOnce() -> Diagnostic) {
-        Self::add(&mut self.diagnostics, &mut self.errors, make);
-    }
-
-    /// Adds a warning, unless there are too many already.
-    pub(super) fn warning(&mut self, make: impl FnOnce() -> Diagnostic) {
-        Self::add(&mut self.diagnostics, &mut self.warnings, make);
-    }
-
-    /// How many errors there were, shown or not.
-    pub(super) fn errors(&self) -> usize {
-        self.errors.count
-    }
-
-    /// All in text order.
-    pub(super) fn finish(mut self) -> Vec<Diagnostic> {
-        if let Some(span) = self.errors.hidden {
-            let message = format!("{} more errors are not shown", self.errors.count - LIMIT);
-            self.diagnostics.push(Diagnostic::error(span, message, ""));
-        }
-        if let Some(span) = self.warnings.hidden {
-            let message = format!(
-                "{} more warnings are not shown",
-                self.warnings.count - LIMIT
-            );
-            self.diagnostics
-                .push(Diagnostic::warning(span, message, ""));
-        }
-        self.diagnostics
-            .sort_by_key(|diagnostic| diagnostic.span.start());
-        self.diagnostics
-    }
-
-    fn add(shown: &mut Vec<Diagnostic>, tally: &mut Tally, make: impl FnOnce() -> Diagnostic) {
-        tally.count += 1;
-        if tally.count <= LIMIT {
-            shown.push(make());
-        } else if tally.hidden.is_none() {
-            tally.hidden = Some(make().span);
-        }
-    }
-}
 
 /// A token as messages show it: in backticks, cut short, unprintable characters escaped.
 pub(super) fn quoted(token: &str) -> String {
@@ -79,12 +15,6 @@ pub(super) fn quoted(token: &str) -> String {
         shown.push('…');
     }
     format!("`{shown}`")
-}
-
-/// A number of things in words: `1 light`, `2 lights`.
-pub(super) fn plural(count: usize, noun: &str) -> String {
-    let s = if count == 1 { "" } else { "s" };
-    format!("{count} {noun}{s}")
 }
 
 /// The diagnostic for a token that stands where a number is due. `what` names the field.
@@ -231,19 +161,5 @@ mod tests {
         assert_eq!(quoted("ab"), "`ab`");
         assert_eq!(quoted("a\u{1b}[2J"), "`a\\u{1b}[2J`");
         assert_eq!(quoted(&"é".repeat(25)), format!("`{}…`", "é".repeat(24)));
-    }
-
-    #[test]
-    fn a_report_stops_at_a_hundred_of_each() {
-        let mut report = Report::default();
-        for at in 0..1000 {
-            report.error(|| Diagnostic::error(Span::at(at), "e", ""));
-            report.warning(|| Diagnostic::warning(Span::at(at), "w", ""));
-        }
-        assert_eq!(report.errors(), 1000);
-        let shown = report.finish();
-        assert_eq!(shown.len(), 202);
-        assert_eq!(shown[200].message, "900 more errors are not shown");
-        assert_eq!(shown[201].message, "900 more warnings are not shown");
     }
 }

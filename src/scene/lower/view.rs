@@ -4,13 +4,13 @@
 use glam::DVec3;
 
 use super::record::{unit, what};
-use super::report::{Report, no_number, quoted};
+use super::report::{no_number, quoted};
 use crate::format::ray::{self, Comment, Marker};
 use crate::geometry::Aabb;
 use crate::scene::fields::{Field, Kind, Range, VIEW};
 use crate::scene::origins::{Name, ViewPlace};
 use crate::scene::{Camera, Size};
-use crate::text::{Diagnostic, Severity, Span, parse_number};
+use crate::text::{Diagnostic, Findings, Severity, Span, parse_number};
 
 /// Places in [`VIEW`].
 const EYE: usize = 0;
@@ -67,7 +67,7 @@ impl View {
 
 /// The first well-formed view comment. Warns of malformed ones, which are ignored whole, and of
 /// well-formed ones after the first.
-pub(super) fn find(text: &str, comments: &[Comment], report: &mut Report) -> Option<View> {
+pub(super) fn find(text: &str, comments: &[Comment], report: &mut Findings) -> Option<View> {
     let mut found = None;
     for comment in comments {
         let Some(body) = body(text, comment) else {
@@ -184,7 +184,7 @@ pub(super) fn camera(
     view: Option<&View>,
     bounds: impl FnOnce() -> Aabb,
     otherwise: Span,
-    report: &mut Report,
+    report: &mut Findings,
 ) -> Camera {
     let [eye, target, up, fov, size] = view.map_or([None; VIEW.len()], |view| view.parts);
     let fov = fov.map_or(45.0, |fov| fov.values[0]);
@@ -227,7 +227,7 @@ fn default_eye_and_target(bounds: Aabb, fov: f64) -> (DVec3, DVec3) {
 }
 
 /// Reports a camera that looks nowhere, and one that looks along its `up`.
-fn check(camera: &Camera, view: Option<&View>, otherwise: Span, report: &mut Report) {
+fn check(camera: &Camera, view: Option<&View>, otherwise: Span, report: &mut Findings) {
     let span = |part| view.map_or(otherwise, |view: &View| view.span(part));
     if !camera.eye.is_finite() || !camera.target.is_finite() {
         report.error(|| {

@@ -6,7 +6,7 @@ use super::picture::Picture;
 use super::{App, Disk, FieldRow, Mode, Outline, Source, Stride};
 use crate::scene::fields::{Field, VIEW};
 use crate::scene::{Camera, Node, Placed, Size};
-use crate::text::Diagnostic;
+use crate::text::Findings;
 use crate::ui::view::layout::{Areas, Zoom, arrange, raster};
 
 /// The size of a picture of nothing.
@@ -67,12 +67,12 @@ impl App {
 
     /// How many errors the text as it stands has; the picture is stale if there are any.
     pub fn error_count(&self) -> usize {
-        self.diagnostics.iter().filter(|d| d.is_error()).count()
+        self.diagnostics.errors()
     }
 
     /// The errors and warnings to be shown, and the text they are in: those of the file on disk
     /// where it is what is wrong.
-    pub fn wrong(&self) -> (&str, &[Diagnostic]) {
+    pub fn wrong(&self) -> (&str, &Findings) {
         match &self.broken {
             Some(broken) if self.is_disk_wrong() => (&broken.text, &broken.diagnostics),
             _ => (self.document.text(), &self.diagnostics),

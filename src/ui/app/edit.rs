@@ -62,8 +62,8 @@ impl App {
         let touches = |d: &&Diagnostic| touched.iter().any(|span| d.span.touches(*span));
         let found = &lowered.diagnostics;
         let mut refused = found.iter().filter(|d| d.is_error()).find(touches);
-        if refused.is_none() && errors < found.iter().filter(|d| d.is_error()).count() {
-            refused = found.iter().find(|d| d.is_error());
+        if refused.is_none() && errors < found.errors() {
+            refused = found.first_error();
         }
         // What is wrong in a view comment is a warning, but the whole view goes with it.
         if refused.is_none() && self.said_view_parts(&lowered.origins) < said {

@@ -10,7 +10,7 @@ use crate::document::{Document, Merge};
 use crate::render::Progress;
 use crate::scene::fields::Field;
 use crate::scene::{Camera, Node, Origins, Scene, Size};
-use crate::text::{Diagnostic, Severity};
+use crate::text::{Diagnostic, Findings, Severity};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Existing, ExportId};
 use crate::ui::terminal::Mouse;
@@ -41,7 +41,7 @@ pub struct App {
     /// Where in the text as it stands each thing is.
     pub origins: Origins,
     /// What is wrong with the text as it stands.
-    pub diagnostics: Vec<Diagnostic>,
+    pub diagnostics: Findings,
     /// The things of the text as it stands: the list's rows.
     pub nodes: Vec<Node>,
     /// The scene of the last text that had no errors: what the pictures show.
@@ -230,7 +230,7 @@ pub struct Broken {
     /// What it holds.
     pub text: String,
     /// What is wrong with it.
-    pub diagnostics: Vec<Diagnostic>,
+    pub diagnostics: Findings,
 }
 
 /// An export under way.

@@ -17,12 +17,11 @@ impl App {
 
     /// Says how many errors a text has and where the first one is.
     pub(super) fn error_place(&self) -> Option<String> {
-        let mut errors = self.diagnostics.iter().filter(|d| d.is_error());
-        let first = errors.next()?;
+        let first = self.diagnostics.first_error()?;
         let line = Position::of(self.document.text(), first.span.start()).line;
-        Some(match errors.count() {
-            0 => format!("line {line} has an error"),
-            more => format!("{} errors, the first in line {line}", more + 1),
+        Some(match self.error_count() {
+            1 => format!("line {line} has an error"),
+            errors => format!("{errors} errors, the first in line {line}"),
         })
     }
 }

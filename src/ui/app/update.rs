@@ -13,7 +13,7 @@ use super::{
 use crate::document::Document;
 use crate::format::Format;
 use crate::scene::{Node, Origins};
-use crate::text::Severity;
+use crate::text::{Findings, Severity};
 use crate::ui::keymap::{self, Action, Context};
 use crate::ui::msg::{Effect, Msg, Timer};
 use crate::ui::terminal::Mouse;
@@ -41,7 +41,7 @@ impl App {
             path: opening.path,
             document: Document::new(Format::Ray, opening.text),
             origins: Origins::default(),
-            diagnostics: Vec::new(),
+            diagnostics: Findings::default(),
             nodes: Vec::new(),
             scene: None,
             view: None,

@@ -8,10 +8,9 @@ use unicode_width::UnicodeWidthStr;
 
 use super::layout;
 use super::row::{Row, wrap};
-use super::status::counted;
 use super::theme;
 use crate::document::{Merge, Side};
-use crate::text::Position;
+use crate::text::{Position, counted};
 use crate::ui::app::{App, Dialog};
 use crate::ui::keymap;
 

@@ -10,9 +10,8 @@ use ratatui::widgets::{Clear, Widget};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 use super::row::{Row, shorten, title, visible, wrap};
-use super::status::counted;
 use super::theme;
-use crate::text::{Diagnostic, Position, Span};
+use crate::text::{Diagnostic, Position, Span, counted};
 use crate::ui::app::App;
 
 /// How much of a line is read on either side of a span, in bytes: more than any screen shows.
@@ -99,23 +98,23 @@ struct Line(Vec<(String, Style)>);
 
 fn heading(app: &App) -> String {
     let (_, diagnostics) = app.wrong();
-    let errors = diagnostics.iter().filter(|d| d.is_error()).count();
-    let warnings = diagnostics.len() - errors;
+    let (errors, warnings) = (diagnostics.errors(), diagnostics.warnings());
     if app.is_disk_wrong() {
         return format!("{} in the file on disk", counted(errors, "error"));
     }
-    match (errors, warnings) {
-        (0, 0) => "nothing is wrong".to_owned(),
-        (0, warnings) => counted(warnings, "warning"),
-        (errors, 0) => counted(errors, "error"),
-        (errors, warnings) => {
-            format!(
-                "{}, {}",
-                counted(errors, "error"),
-                counted(warnings, "warning")
-            )
-        }
+    let kinds = [(errors, "error"), (warnings, "warning")];
+    let mut said: Vec<_> = kinds
+        .into_iter()
+        .filter(|&(count, _)| 0 < count)
+        .map(|(count, noun)| counted(count, noun))
+        .collect();
+    if said.is_empty() {
+        said.push("nothing is wrong".to_owned());
     }
+    if diagnostics.len() < errors + warnings {
+        said.push(format!("{} listed", diagnostics.len()));
+    }
+    said.join(", ")
 }
 
 /// The lines of one diagnostic: its place comes first.
@@ -267,6 +266,8 @@ fn boundary(text: &str, offset: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::text::Findings;
+    use crate::ui::view::Glyphs;
     use crate::ui::view::tests::{app, drawn, retype};
     use proptest::prelude::*;
 
@@ -303,8 +304,10 @@ mod tests {
     fn an_error_says_where_what_and_the_way_out() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " -0.25 //");
-        app.diagnostics[0].expected = "a number greater than 0".to_owned();
-        app.diagnostics[0].hint = Some("sizes count outward".to_owned());
+        let radius = app.diagnostics[0].clone();
+        app.diagnostics = Findings::default();
+        app.diagnostics
+            .error(|| radius.with_hint("sizes count outward"));
         let lines = drawn(&app, render, 70, 10);
         let text = lines.join("\n");
         for part in [
@@ -316,6 +319,20 @@ mod tests {
         ] {
             assert!(text.contains(part), "{part:?} in\n{text}");
         }
+    }
+
+    #[test]
+    fn errors_that_are_not_listed_are_counted() {
+        let mut app = app();
+        let wrong = "sphere 0 0 0 -1  0 0 0  0 0 0  0 0 0  1 0 0 1\n".repeat(250);
+        retype(&mut app, "box", &format!("{wrong}box"));
+        let title = drawn(&app, render, 70, 10).swap_remove(0);
+        assert!(title.starts_with("251 errors, 100 listed ─"), "{title}");
+        let status = |app: &App, area: Rect, buffer: &mut Buffer| {
+            super::super::status::render(app, Glyphs::HalfBlocks, area, buffer);
+        };
+        let line = drawn(&app, status, 70, 1).swap_remove(0);
+        assert!(line.contains(" 251 errors "), "{line}");
     }
 
     proptest! {

@@ -8,8 +8,8 @@ use ratatui::widgets::{Block, BorderType, Clear, Widget};
 
 use super::layout;
 use super::row::Row;
-use super::status::counted;
 use super::theme;
+use crate::text::counted;
 use crate::ui::app::{App, HelpFocus};
 use crate::ui::keymap::{self, HelpLine};
 

@@ -11,6 +11,7 @@ use super::Glyphs;
 use super::row::Row;
 use super::theme;
 use crate::render::Progress;
+use crate::text::counted;
 use crate::ui::app::{App, Disk, Mode, Prompt, PromptKind};
 use crate::ui::keymap::{self, Context};
 
@@ -148,7 +149,7 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     let (mode, style) = mode_chip(app.mode);
     say(0, format!(" {mode} "), theme::chip(style));
     let errors = app.error_count();
-    let warnings = app.diagnostics.len() - errors;
+    let warnings = app.diagnostics.warnings();
     if 0 < errors {
         let text = format!(" {} ", counted(errors, "error"));
         say(1, text, theme::chip(theme::ERROR));
@@ -228,11 +229,6 @@ fn duration(time: Duration) -> String {
         60..3600 => format!("{}:{:02} min", seconds / 60, seconds % 60),
         _ => format!("{}:{:02} h", seconds / 3600, seconds / 60 % 60),
     }
-}
-
-/// A number of things: `1 error`, `2 errors`.
-pub(crate) fn counted(count: usize, thing: &str) -> String {
-    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }
 
 #[cfg(test)]
