@@ -196,7 +196,10 @@ fn check_says_what_is_wrong_and_where() {
     let told = place.told("check none.ray bad.ray", 66);
     assert!(told.contains("bad.ray:3:16"), "{told}");
     let objects = "sphere 0 0 0 -1  0 0 0  0 0 0  0 0 0  1 0 0 1\n".repeat(250);
-    place.write("worse.ray", format!("1 1 1  1  0 5 5 1 1 1  250\n{objects}"));
+    place.write(
+        "worse.ray",
+        format!("1 1 1  1  0 5 5 1 1 1  250\n{objects}"),
+    );
     let told = place.told("check worse.ray", 65);
     assert!(
         told.ends_with(

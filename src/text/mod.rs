@@ -12,6 +12,6 @@ pub use counted::counted;
 pub use diagnostic::{Diagnostic, Severity};
 pub use edit::{Edit, apply, smallest_edit};
 pub use findings::Findings;
-pub use number::{NumberError, decimals, parse_number, spell_like};
+pub use number::{NumberError, decimals, is_integer, parse_number, spell_like};
 pub use span::{Position, Span};
 pub use visible::visible;

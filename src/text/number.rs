@@ -27,6 +27,11 @@ pub fn parse_number(token: &str) -> Result<f64, NumberError> {
     }
 }
 
+/// Whether a number is spelled as an integer, without fraction and exponent.
+pub fn is_integer(literal: &str) -> bool {
+    !literal.contains(['.', 'e', 'E'])
+}
+
 /// How many digits `literal` has after its decimal point (an exponent does not count).
 pub fn decimals(literal: &str) -> usize {
     let mantissa = literal.split(['e', 'E']).next().unwrap_or_default();

@@ -10,7 +10,7 @@ use crate::format::ray;
 use crate::scene::fields::{self, AMBIENT, Field, LIGHT, Range, ShapeKind};
 use crate::scene::origins::Name;
 use crate::scene::{Light, Material, Object, Origins, Rgb, Scene, bounds};
-use crate::text::{Diagnostic, Findings, Severity, Span, counted, parse_number};
+use crate::text::{Diagnostic, Findings, Severity, Span, counted, is_integer, parse_number};
 
 /// Numbers of the smallest object: where fewer follow a word, it does not begin an object.
 pub(super) const LEAST_NUMBERS: usize = ShapeKind::Sphere.numbers();
@@ -223,7 +223,7 @@ impl<'a> Reader<'a> {
         }
         self.at += 1;
         let problem = match parse_number(word) {
-            Ok(value) if Range::Count.contains(value) => {
+            Ok(value) if Range::Count.contains(value) && is_integer(word) => {
                 // A count beyond all integers saturates: no text holds that many.
                 let declared = value as u64;
                 return Some(Count { token, declared });

@@ -10,7 +10,7 @@ use crate::geometry::Aabb;
 use crate::scene::fields::{Field, Kind, Range, VIEW};
 use crate::scene::origins::{Name, ViewPlace};
 use crate::scene::{Camera, Size};
-use crate::text::{Diagnostic, Findings, Severity, Span, parse_number};
+use crate::text::{Diagnostic, Findings, Severity, Span, is_integer, parse_number};
 
 /// Places in [`VIEW`].
 const EYE: usize = 0;
@@ -158,7 +158,8 @@ fn read_part(
             }
         };
         let fits = field.kind != Kind::Pixels || value <= f64::from(u32::MAX);
-        if !field.allowed.contains(value) || !fits {
+        let whole = field.kind != Kind::Pixels || is_integer(word);
+        if !field.allowed.contains(value) || !fits || !whole {
             let limits = if fits {
                 field.allowed.limits()
             } else {

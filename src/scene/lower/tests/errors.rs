@@ -176,6 +176,10 @@ fn the_number_of_objects_is_that_of_the_objects() {
         "HEAD\n1 //~ 1 error: nObjects: says `1`, but the text ends before any object",
         "HEAD\n0 //~ 1 error: nObjects: must be a whole number, 1 or more, not `0`\nsphere 0 0 0 1 MAT",
         "HEAD\n1.5 //~ 1 error: nObjects: must be a whole number, 1 or more, not `1.5`\nsphere 0 0 0 1 MAT",
+        "HEAD\n1.0 //~ 1 error: nObjects: must be a whole number, 1 or more, not `1.0`\nsphere 0 0 0 1 MAT",
+        "HEAD\n1e0 //~ 1 error: nObjects: must be a whole number, 1 or more, not `1e0`\nsphere 0 0 0 1 MAT",
+        "1 1 1\n1. //~ 1 error: nLights: must be a whole number, 1 or more, not `1.`\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
+        "// view: size 80 6e1 //~ 18 warning: view size height: must be a whole number, 1 or more\nHEAD 1 sphere 0 0 0 1 MAT",
         "HEAD\n-1 //~ 1 error: nObjects: must be\nsphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius: must be\nMAT",
         "HEAD\nmany //~ 1 error: nObjects: `many` is no number\nsphere 0 0 0 1 MAT",
         "HEAD\n99999999999999999999999 //~ 1 error: nObjects: says `99999999999999999999999`, but the text ends after\nsphere 0 0 0 1 MAT",
@@ -203,7 +207,7 @@ fn the_number_of_lights_is_that_of_the_lights() {
         "1 1 1\n2.5 //~ 1 error: nLights: must be\n0 5 5 1 1 1 0 5 sphere 0 0 0 1 MAT",
         "1 1 1\nsphere //~ 1 error: nLights: missing before `sphere`\n0 0 0 1 MAT",
         "1 1 1 //~ 6 error: nLights: missing, the text ends here",
-        "1 1 1\n1e300 //~ 1 error: nLights: says `1e300`, but the text has 1 light before `sphere`\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
+        "1 1 1\n99999999999999999999 //~ 1 error: nLights: says `99999999999999999999`, but the text has 1 light before `sphere`\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
     ] {
         check(case);
     }

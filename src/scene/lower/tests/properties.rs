@@ -34,7 +34,7 @@ impl Random {
     fn literal(&mut self, field: &Field) -> String {
         let whole = 1 + self.below(9);
         if field.kind == Kind::Pixels {
-            return format!("{whole}{}", self.pick(&["", "0", ".0", "e2"]));
+            return format!("{whole}{}", self.pick(&["", "0", "00"]));
         }
         let sign = match field.allowed {
             Range::Any => self.pick(&["", "-", "+"]),
