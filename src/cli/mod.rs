@@ -17,7 +17,7 @@ use crate::file::ReadError;
 use crate::image_out::{FORMATS, ImageFormat, known_extensions};
 use crate::render::{DEFAULT_DEPTH, MAX_SPP};
 use crate::scene::Size;
-use crate::text::visible;
+use crate::text::{slips, visible};
 use crate::ui;
 use crate::ui::terminal::{Choice, ColourDepth, Mouse};
 
@@ -96,11 +96,29 @@ pub struct Stop {
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, Stop> {
     let said = Cli::try_parse_from(arguments).map_err(|error| Stop::of(&error))?;
     match said.command {
-        Some(Subcommands::Render(render)) => render.meaning().map(Command::Render),
+        Some(Subcommands::Render(render)) => render
+            .meaning()
+            .map(Command::Render)
+            .map_err(|reason| refusal(Some("render"), reason)),
         Some(Subcommands::Check { scenes }) => Ok(Command::Check(scenes)),
-        None => said.interface.meaning().map(Command::Interface),
+        None => said
+            .interface
+            .meaning()
+            .map(Command::Interface)
+            .map_err(|reason| refusal(None, reason)),
     }
-    .map_err(|reason| Stop::of(&Cli::command().error(ErrorKind::ValueValidation, reason)))
+}
+
+/// Refuses arguments that clap has taken, with the usage of the command they are for.
+fn refusal(command: Option<&str>, reason: String) -> Stop {
+    let mut cli = Cli::command();
+    // Without this a command's usage lacks the program's name.
+    cli.build();
+    let of_command = command.and_then(|name| cli.find_subcommand_mut(name).cloned());
+    let error = of_command
+        .unwrap_or(cli)
+        .error(ErrorKind::ValueValidation, reason);
+    Stop::of(&error)
 }
 
 /// The exit code that headless work ends with.
@@ -236,6 +254,13 @@ struct InterfaceArguments {
 
 impl InterfaceArguments {
     fn meaning(self) -> Result<ui::Options, String> {
+        if let Some(meant) = self.scene.as_deref().and_then(command_meant) {
+            let said = self.scene.unwrap_or_default();
+            return Err(format!(
+                "no command is called `{}`: did you mean {meant}?",
+                said.display()
+            ));
+        }
         if let Some(second) = self.surplus.first() {
             return Err(format!(
                 "one scene is opened at a time, {} is a second one; the commands are render and \
@@ -254,6 +279,15 @@ impl InterfaceArguments {
             threads: self.threads.map(usize::from),
         })
     }
+}
+
+/// The command that a word for a scene was probably meant to be: scenes have an extension.
+fn command_meant(scene: &Path) -> Option<String> {
+    let word = scene.to_str().filter(|word| !word.contains(['.', '/']))?;
+    let cli = Cli::command();
+    let mut names = cli.get_subcommands().map(clap::Command::get_name);
+    let meant = names.find(|name| slips(word, name) <= 2)?;
+    Some(meant.to_owned())
 }
 
 const RENDER_EXAMPLES: &str = "\

@@ -93,6 +93,9 @@ fn wrong_arguments_are_refused_with_a_reason() {
         ("halflight render a", "--output"),
         ("halflight render a -o b.gif", ".bmp, .ppm or .png"),
         ("halflight render a -o b", ".bmp, .ppm or .png"),
+        ("halflight render a -o b", "Usage: halflight render"),
+        ("halflight chekc a.ray", "did you mean check?"),
+        ("halflight rendr", "did you mean render?"),
         (
             "halflight render a -o - --format gif",
             "[possible values: bmp, ppm, png]",

@@ -5,6 +5,7 @@ mod diagnostic;
 mod edit;
 mod findings;
 mod number;
+mod slips;
 mod span;
 mod visible;
 
@@ -13,5 +14,6 @@ pub use diagnostic::{Diagnostic, Severity};
 pub use edit::{Edit, apply, smallest_edit};
 pub use findings::Findings;
 pub use number::{NumberError, decimals, is_integer, parse_number, spell_like};
+pub use slips::slips;
 pub use span::{Position, Span};
 pub use visible::visible;

@@ -1,7 +1,7 @@
 //! The words that the diagnostics of lowering share.
 
 use crate::scene::fields::ShapeKind;
-use crate::text::{Diagnostic, NumberError, Severity, Span, parse_number};
+use crate::text::{Diagnostic, NumberError, Severity, Span, parse_number, slips};
 
 /// A token as messages show it: in backticks, cut short, unprintable characters escaped.
 pub(super) fn quoted(token: &str) -> String {
@@ -93,22 +93,6 @@ pub(super) fn nearest_kind(word: &str) -> Option<ShapeKind> {
         })
         .min_by_key(|&(slips, _)| slips)
         .map(|(_, kind)| kind)
-}
-
-/// How many bytes must be inserted, deleted or replaced to get from one word to the other
-/// (Levenshtein's distance, by rows).
-fn slips(from: &str, to: &str) -> usize {
-    let mut row: Vec<usize> = (0..=to.len()).collect();
-    for (i, a) in from.bytes().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, b) in to.bytes().enumerate() {
-            let replaced = diagonal + usize::from(a != b);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[to.len()]
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use super::{App, Disk, Help};
 use crate::image_out::ImageFormat;
 use crate::render::MAX_SPP;
 use crate::scene::{Camera, Size};
+use crate::text::slips;
 use crate::ui::msg::{Effect, Existing, Guard};
 
 /// What a line says.
@@ -163,8 +164,8 @@ fn size(said: &str) -> Option<Size> {
 fn unknown(name: &str) -> String {
     let nearest = NAMES
         .iter()
-        .min_by_key(|known| distance(name, known))
-        .filter(|known| distance(name, known) <= 2);
+        .min_by_key(|known| slips(name, known))
+        .filter(|known| slips(name, known) <= 2);
     match nearest {
         Some(nearest) => format!("{name} is no command; {nearest} is"),
         None => format!(
@@ -172,21 +173,6 @@ fn unknown(name: &str) -> String {
             NAMES.join(", ")
         ),
     }
-}
-
-/// How many characters must be put in, taken out or replaced (Wagner and Fischer, 1974).
-fn distance(a: &str, b: &str) -> usize {
-    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.chars().enumerate() {
-            let replaced = diagonal + usize::from(x != y);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row.last().copied().unwrap_or_default()
 }
 
 impl App {
