@@ -82,7 +82,8 @@ fn conflict(app: &App, merge: &Merge, at: usize, area: Rect, buffer: &mut Buffer
         );
         row.put(&format!("{place}: "), here);
         let was = format!("was {}", one_line(&conflict.base));
-        let was = Some(was).filter(|was| was.width() + 2 * SIDE <= row.room());
+        let was = Some(was).filter(|_| !conflict.base.trim().is_empty());
+        let was = was.filter(|was| was.width() + 2 * SIDE <= row.room());
         let each = (row.room() - was.as_ref().map_or(0, |was| was.width())) / 2;
         for (side, text) in [
             (Side::Mine, &conflict.mine),
@@ -154,11 +155,12 @@ fn draw_answers(lines: &[Answers], area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// A text on one line, its white space as single blanks; nothing reads as such.
+/// A text on one line, its white space as single blanks. Of a side that has nothing where the other
+/// has something, it says that it was deleted.
 fn one_line(text: &str) -> String {
     let words: Vec<_> = text.split_whitespace().take(50).collect();
     if words.is_empty() {
-        "(nothing)".to_owned()
+        "(deleted)".to_owned()
     } else {
         words.join(" ")
     }
@@ -200,6 +202,24 @@ mod tests {
             "○ mine 0.5",
             "● file 0.75",
         ] {
+            assert!(line.contains(part), "{part:?} in {line}");
+        }
+    }
+
+    #[test]
+    fn a_conflict_with_a_deletion_says_so() {
+        let mut app = app();
+        retype(&mut app, "box 0 0 0", "box 0 0 7");
+        let from = SCENE.find("box").expect("a box");
+        let theirs = SCENE[..from].replacen("\n2\n", "\n1\n", 1);
+        let Replaced::Conflict(merge) = app.document.replace(theirs) else {
+            panic!("what was changed here was deleted there");
+        };
+        app.dialog = Some(Dialog::Conflict { merge, at: 0 });
+        let lines = drawn(&app, super::render, 100, 24);
+        let line = lines.iter().find(|line| line.contains('▸'));
+        let line = line.expect("a cursor");
+        for part in ["object 2 (box)", "○ mine box", "○ file (deleted)"] {
             assert!(line.contains(part), "{part:?} in {line}");
         }
     }
