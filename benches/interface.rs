@@ -294,7 +294,7 @@ fn link() {
 
 /// Puts the cursor on the first number of the first light.
 fn edit_light(desk: &mut Desk) {
-    for key in ["j", "j", "e"] {
+    for key in ["gg", "j", "j", "e"] {
         desk.press(key);
         desk.record(Instant::now() + Duration::from_millis(50));
     }

@@ -31,7 +31,7 @@ const GREEN: Color = Color::Rgb(0, 255, 0);
 const BLUE: Color = Color::Rgb(0, 0, 255);
 
 /// The keys that make the first ball's radius 2, from the start.
-const RADIUS_TO_2: &str = "\t\t\rj2\r";
+const RADIUS_TO_2: &str = "\rj2\r";
 
 const DEFAULT: &str = include_str!("../scenes/default.ray");
 
@@ -172,7 +172,7 @@ fn a_scene_is_edited_seen_reloaded_and_exported() {
     assert!(!session.has_settings_from_before(), "keys come unbuffered");
     let opened = picture(session.screen());
 
-    session.send(["j", ENTER, "2", ENTER].concat());
+    session.send(["ggj", ENTER, "2", ENTER].concat());
     session.wait_for("default.ray [+]");
     wait_for_change(&mut session, &opened);
     assert_eq!(place.read("default.ray"), DEFAULT);
@@ -440,7 +440,7 @@ fn a_number_changed_on_both_sides_is_asked_for() {
 fn a_split_escape_sequence_does_no_harm() {
     let place = Place::new();
     let mut session = place.open();
-    session.send("\t\t\rj");
+    session.send("\rj");
     session.wait_for(" EDIT ");
     for pause in [0, 3, 60] {
         session.send(ESC);
@@ -527,7 +527,7 @@ fn the_built_in_scene_is_saved_under_a_name() {
     let place = Place::new();
     let mut session = place.start(&[], WIDE);
     wait_for_rest(&mut session);
-    session.send(["j", ENTER, "2", ENTER, "w"].concat());
+    session.send(["ggj", ENTER, "2", ENTER, "w"].concat());
     session.wait_for(":w ");
     session.send("mine.ray\r");
     session.wait_for("wrote mine.ray");
@@ -540,7 +540,7 @@ fn the_built_in_scene_is_saved_under_a_name() {
 fn a_pasted_colour_is_one_step() {
     let place = Place::new();
     let mut session = place.open();
-    session.send("\t\t\rjj");
+    session.send("\rjj");
     session.send("\x1b[200~#ff8000\x1b[201~");
     wait_for_colour(&mut session, Color::Rgb(255, 128, 0));
     session.send("w");

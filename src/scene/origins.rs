@@ -122,6 +122,31 @@ impl Origins {
         )
     }
 
+    /// What a comment says of a node: one that follows its text in the line where that begins, or
+    /// else where it ends.
+    pub fn comment<'t>(&self, text: &'t str, tree: &Tree, node: Node) -> Option<&'t str> {
+        let Tree::Ray(ray) = tree;
+        let own = self.span(tree, node);
+        if node == Node::View || own.is_empty() {
+            return None;
+        }
+        let behind = |from: usize| {
+            let next = ray.comments.partition_point(|c| c.span.start() < from);
+            let comment = ray.comments.get(next)?.span;
+            let before = ray
+                .tokens
+                .partition_point(|token| token.end() <= comment.start());
+            let token = ray.tokens[before.checked_sub(1)?];
+            let follows = own.start() <= token.start() && token.end() <= own.end();
+            let in_line = follows && !text[from..comment.start()].contains('\n');
+            let is_view = self.view.is_some_and(|view| view.comment == comment);
+            in_line
+                .then(|| comment.of(text)[2..].trim())
+                .filter(|said| !said.is_empty() && !is_view)
+        };
+        behind(own.start()).or_else(|| behind(own.end()))
+    }
+
     /// The node whose text holds or touches `span`. A view comment inside another node's text
     /// counts as the view; where it ends at that node's token, the token counts.
     pub fn node_at(&self, tree: &Tree, span: Span) -> Option<Node> {

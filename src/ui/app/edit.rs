@@ -29,6 +29,11 @@ impl App {
                 self.pending.scene = true;
             }
         }
+        self.keep_selection();
+    }
+
+    /// Keeps the selection on a thing that is there, and the cursor on a component of it.
+    pub(super) fn keep_selection(&mut self) {
         if let Some(&node) = self.nodes.get(self.row_of(self.selected)) {
             self.selected = node;
         }

@@ -103,7 +103,7 @@ impl App {
         self.select(self.nodes[first + row]);
     }
 
-    /// Selects the next thing whose name holds what was searched for, or the one before.
+    /// Selects the next thing whose name or comment holds what was searched for, or the one before.
     pub(super) fn search(&mut self, step: isize) {
         let wanted = self.searched.to_lowercase();
         let count = self.nodes.len() as isize;
@@ -111,14 +111,24 @@ impl App {
             return;
         }
         let from = self.row_of(self.selected) as isize;
-        let found = (1..=count)
-            .map(|distance| (from + step * distance).rem_euclid(count) as usize)
-            .map(|row| self.nodes[row])
-            .find(|&node| self.origins.name(node).to_lowercase().contains(&wanted));
-        match found {
-            Some(node) => self.select(node),
+        let found: Vec<_> = (0..self.nodes.len())
+            .filter(|&row| self.is_called(self.nodes[row], &wanted))
+            .collect();
+        let nearest = |&at: &usize| (step * (found[at] as isize - from) - 1).rem_euclid(count);
+        match (0..found.len()).min_by_key(nearest) {
+            Some(at) => {
+                self.select(self.nodes[found[at]]);
+                self.say(format!("{} of {}", at + 1, found.len()));
+            }
             None => self.fail(format!("nothing is called {}", self.searched)),
         }
+    }
+
+    /// Whether a thing's name or comment holds a word in lower case.
+    fn is_called(&self, node: Node, word: &str) -> bool {
+        let (text, tree) = (self.document.text(), self.document.tree());
+        let holds = |said: &str| said.to_lowercase().contains(word);
+        holds(&self.origins.name(node)) || self.origins.comment(text, tree, node).is_some_and(holds)
     }
 
     pub(super) fn toggle_errors(&mut self) {

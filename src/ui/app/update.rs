@@ -74,6 +74,10 @@ impl App {
             pending: Pending::default(),
         };
         app.relower();
+        // What is changed first is rather an object than the camera.
+        app.select(Node::Object(0));
+        app.keep_selection();
+        app.scroll();
         let mut effects: Vec<_> = app.path.iter().cloned().map(Effect::Watch).collect();
         effects.extend(app.follow());
         (app, effects)

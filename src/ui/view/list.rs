@@ -5,10 +5,13 @@ use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 
 use super::layout;
-use super::row::{Row, shorten, title};
+use super::row::{Row, shorten, title, visible};
 use super::theme;
 use crate::scene::{Node, Rgb};
 use crate::ui::app::{App, Mode};
+
+/// The least room for a comment, in columns.
+const COMMENT: usize = 6;
 
 /// Draws the list.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -28,6 +31,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let rows = usize::from(lines.height);
     let top = app.list_top.min(count.saturating_sub(rows));
     let marked = marked(app);
+    let tree = app.document.tree();
     let shown = app.nodes.iter().enumerate().skip(top).take(rows);
     for (line, (index, &node)) in shown.enumerate() {
         let is_selected = index == selected;
@@ -47,8 +51,13 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         let mark = marked.iter().find(|(at, _)| *at == node);
         let end = if mark.is_some() { "! " } else { "" };
         let room = row.room().saturating_sub(end.len());
-        let text = format!("{:room$}", shorten(&name, room));
-        row.put_in(&text, room, style);
+        let comment = app.origins.comment(app.document.text(), tree, node);
+        let comment = comment.filter(|_| name.len() + 2 + COMMENT <= room);
+        row.put_in(&name, room, style);
+        let room = room.saturating_sub(name.len());
+        let beside = comment.map_or_else(String::new, |said| format!("  {}", visible(said)));
+        let beside = format!("{:room$}", shorten(&beside, room));
+        row.put_in(&beside, room, style.patch(theme::DIM));
         row.put(end, mark.map_or(style, |(_, mark)| style.patch(*mark)));
     }
 }
@@ -84,7 +93,7 @@ fn swatch(app: &App, node: Node) -> Option<Rgb> {
 
 #[cfg(test)]
 mod tests {
-    use crate::ui::view::tests::{app, drawn};
+    use crate::ui::view::tests::{app, drawn, retype};
 
     #[test]
     fn things_are_listed_and_the_selected_one_is_marked() {
@@ -97,9 +106,21 @@ mod tests {
     }
 
     #[test]
+    fn a_comment_stands_beside_the_name_where_there_is_room() {
+        let mut app = app();
+        let lines = drawn(&app, super::render, 40, 6);
+        assert_eq!(lines[4], "  ● object 1 (sphere)  the first");
+        retype(&mut app, "0 5 5   1 1 .5\n", "0 5 5 // sun\n1 1 .5\n");
+        retype(&mut app, "box", "box // the\u{1b} large one\n");
+        let lines = drawn(&app, super::render, 32, 6);
+        assert_eq!(lines[3], "  ● light 1  sun");
+        assert_eq!(lines[5], "  ● object 2 (box)  the␛ large …");
+    }
+
+    #[test]
     fn a_thing_with_an_error_is_marked() {
         let mut app = app();
-        crate::ui::view::tests::retype(&mut app, " 0.25 //", " -0.25 //");
+        retype(&mut app, " 0.25 //", " -0.25 //");
         let lines = drawn(&app, super::render, 26, 6);
         assert_eq!(lines[4], "  ● object 1 (sphere)   !");
     }

@@ -34,15 +34,16 @@ box 0 0 0  1 0 0  0 1 0  0 0 1  1 1 1
 0.1 0.1 0.1  0.5 0 0  0 0 0  1 0 0 1
 ";
 
-/// The interface with [`SCENE`] opened.
+/// The interface with [`SCENE`] opened and its view selected.
 pub(super) fn app() -> App {
-    let (app, _) = App::open(Opening {
+    let (mut app, _) = App::open(Opening {
         path: Some(PathBuf::from("somewhere/test.ray")),
         text: SCENE.to_owned(),
         quality: Quality { spp: 16, depth: 8 },
         mouse: Mouse::Off,
         terminal: (80, 24),
     });
+    app.selected = Node::View;
     app
 }
 

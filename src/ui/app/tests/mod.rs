@@ -35,7 +35,14 @@ sphere
 /// Rows of the list: view, ambient, light 1, object 1, object 2.
 const TO_FIRST_OBJECT: &str = "jjj";
 
+/// The interface with the cursor on the list's first row.
 fn open(text: &str) -> App {
+    let mut app = opened(text);
+    press(&mut app, "gg");
+    app
+}
+
+fn opened(text: &str) -> App {
     let (app, _) = App::open(Opening {
         path: Some(PathBuf::from("scene.ray")),
         text: text.to_owned(),

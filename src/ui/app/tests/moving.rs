@@ -93,6 +93,25 @@ fn picking_selects_what_lies_under_the_cross() {
 }
 
 #[test]
+fn the_first_object_is_selected_at_the_start() {
+    assert_eq!(opened(SCENE).selected, Node::Object(0));
+    let mut app = opened(SCENE);
+    press(&mut app, "el");
+    assert_eq!(changed_lines(&app), ["0.1 0 0"]);
+    assert_eq!(opened("").selected, Node::View);
+    assert_eq!(opened("1 1 1").selected, Node::Ambient);
+}
+
+#[test]
+fn a_search_finds_names_and_comments_and_counts_them() {
+    let mut app = open(SCENE);
+    press(&mut app, "/SPHERE<Enter>n");
+    assert_eq!(words(&app), "2 of 2");
+    press(&mut app, "/the light<Enter>");
+    assert_eq!((app.selected, words(&app)), (Node::Light(0), "1 of 1"));
+}
+
+#[test]
 fn the_list_is_walked_searched_and_cycled() {
     for (said, selected) in [
         ("j", Node::Ambient),
