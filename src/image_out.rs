@@ -1,4 +1,4 @@
-//! Frames to picture files. Knows no scenes.
+//! Frames to picture files. Knows nothing of scenes but the size of a picture.
 
 use std::io::{self, Write};
 use std::path::Path;

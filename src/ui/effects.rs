@@ -31,7 +31,8 @@ pub(crate) enum Event {
 
 /// What outlives a step: the terminal, the renderers, the timers, the file under watch.
 pub(crate) struct World {
-    // Given back first of all when the program ends.
+    // First, because fields are dropped in order: the terminal is given back before renderers and
+    // the watcher end, which may take a moment.
     terminal: Terminal,
     input: Input,
     #[cfg(unix)]

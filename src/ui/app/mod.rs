@@ -17,6 +17,7 @@ mod navigate;
 mod picture;
 mod places;
 mod pointer;
+mod quit;
 #[cfg(test)]
 mod tests;
 mod typing;

@@ -147,7 +147,7 @@ impl App {
         }
     }
 
-    /// A digit, sign or point begins to type a value.
+    /// A digit or a sign begins to type a value; `.` makes the steps larger.
     fn start_typing_with(&mut self, context: Context, key: KeyEvent) -> Vec<Effect> {
         if let (Context::In(Mode::Edit), KeyCode::Char(first)) = (context, key.code)
             && (first.is_ascii_digit() || matches!(first, '-' | '+'))
@@ -295,62 +295,6 @@ impl App {
             Context::In(_) | Context::Help => {}
         }
         Vec::new()
-    }
-
-    /// `w`: also the answer that saves before it quits.
-    fn save_key(&mut self) -> Vec<Effect> {
-        if let Some(Dialog::Quit) = self.dialog {
-            self.dialog = None;
-            self.pending.quit = true;
-            if !self.document.is_dirty() {
-                return self.quit_when_done();
-            }
-        }
-        self.save()
-    }
-
-    /// Whether unsaved edits or an export would be lost with the program.
-    fn would_lose(&self) -> bool {
-        self.document.is_dirty() || self.export.is_some()
-    }
-
-    pub(super) fn quit(&mut self) -> Vec<Effect> {
-        if self.would_lose() {
-            self.dialog = Some(Dialog::Quit);
-            return Vec::new();
-        }
-        vec![Effect::Quit]
-    }
-
-    /// Quits, once nothing is lost, as was asked for before a save or an export was done.
-    pub(super) fn quit_when_done(&mut self) -> Vec<Effect> {
-        if !self.pending.quit {
-            return Vec::new();
-        }
-        if self.export.is_some() {
-            self.say("quits when the export is written; x cancels it");
-            return Vec::new();
-        }
-        self.pending.quit = false;
-        if self.document.is_dirty() {
-            return Vec::new();
-        }
-        vec![Effect::Quit]
-    }
-
-    fn interrupt(&mut self) -> Vec<Effect> {
-        if self.pending.interrupt || !self.would_lose() {
-            return self.quit_keeping_edits();
-        }
-        self.pending.interrupt = true;
-        self.dialog = Some(Dialog::Quit);
-        vec![Effect::Later(super::INTERRUPT_AGAIN, Timer::Interrupt)]
-    }
-
-    fn quit_keeping_edits(&self) -> Vec<Effect> {
-        let unsaved = self.document.is_dirty();
-        let text = unsaved.then(|| Effect::WriteRecovery(self.document.text().to_owned()));
-        text.into_iter().chain([Effect::Quit]).collect()
     }
 
     fn toggle_outline(&mut self) {
