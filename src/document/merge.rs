@@ -248,9 +248,8 @@ fn regions(mine: &[Hunk], theirs: &[Hunk]) -> Vec<Region> {
             theirs.take_if(&mut base, |hunk, base| hunk.base == *base);
         }
         loop {
-            let (m, t) = (mine.structural, theirs.structural);
-            let grown = mine.take_if(&mut base, |hunk, base| clash(hunk, base, t))
-                || theirs.take_if(&mut base, |hunk, base| clash(hunk, base, m));
+            let grown = mine.take_if(&mut base, |hunk, base| clash(hunk, base, &theirs))
+                || theirs.take_if(&mut base, |hunk, base| clash(hunk, base, &mine));
             if !grown {
                 break;
             }
@@ -263,12 +262,12 @@ fn regions(mine: &[Hunk], theirs: &[Hunk]) -> Vec<Region> {
     }
 }
 
-/// Whether a hunk shares a chunk with a region, or touches it where both change the number of
-/// chunks, so that their order would be a guess.
-fn clash(hunk: &Hunk, region: &Range<usize>, other_is_structural: bool) -> bool {
+/// Whether a hunk shares a chunk with a region, or touches it where both it and the other text
+/// change the number of chunks, so that their order would be a guess.
+fn clash(hunk: &Hunk, region: &Range<usize>, other: &Walk) -> bool {
     let shares = hunk.base.start < region.end && region.start < hunk.base.end;
     let touches = hunk.base.start <= region.end && region.start <= hunk.base.end;
-    shares || (touches && hunk.is_structural() && other_is_structural)
+    shares || (touches && hunk.is_structural() && other.structural)
 }
 
 /// A walk along one text's hunks.

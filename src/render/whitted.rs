@@ -73,6 +73,8 @@ struct Point<'m> {
     surface: Surface,
     /// The normal, turned against the ray.
     normal: DVec3,
+    /// Whether the ray came from outside.
+    front: bool,
     /// Unit vector toward where the ray came from.
     view: DVec3,
     material: &'m Material,
@@ -140,6 +142,7 @@ impl<'w> Tracer<'w> {
             } else {
                 -surface.normal
             },
+            front,
             view: -direction,
             material: &scene.materials[object.material as usize],
         };
@@ -148,7 +151,7 @@ impl<'w> Tracer<'w> {
             radiance += self.direct(&point, light);
         }
         if arrived.bounce < self.depth {
-            self.branch(arrived, &point, front);
+            self.branch(arrived, &point);
         }
         radiance
     }
@@ -188,7 +191,7 @@ impl<'w> Tracer<'w> {
     }
 
     /// Leaves the mirrored and the refracted ray pending, the mirrored one to be traced first.
-    fn branch(&mut self, arrived: &Pending, point: &Point<'_>, front: bool) {
+    fn branch(&mut self, arrived: &Pending, point: &Point<'_>) {
         let direction = arrived.ray.direction;
         let Material {
             reflection,
@@ -199,7 +202,7 @@ impl<'w> Tracer<'w> {
         let mut mirrored_weight = reflection;
         if transmission != 0.0 {
             let index = if 0.0 < index { index } else { 1.0 };
-            let ratio = if front { 1.0 / index } else { index };
+            let ratio = if point.front { 1.0 / index } else { index };
             match refract(direction, point.normal, ratio) {
                 Some(refracted) => self.push(arrived, point, refracted, transmission),
                 // Total internal reflection: both rays go the same way and are traced as one.

@@ -84,10 +84,10 @@ struct Ticket<'s> {
 
 impl Ticket<'_> {
     /// Whether to stop: at once when the renderer is dropped; for a newer job once something of
-    /// this one was shown, or its grace is over.
-    fn cancelled(&self, shown: bool) -> bool {
+    /// this one was published, or its grace is over.
+    fn cancelled(&self, published: Option<Instant>) -> bool {
         self.shared.is_old(self.generation)
-            && (shown || GRACE <= self.built.elapsed() || self.shared.is_quitting())
+            && (published.is_some() || GRACE <= self.built.elapsed() || self.shared.is_quitting())
     }
 }
 
@@ -145,9 +145,8 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
         while next < tiles {
             let until = tiles.min(next + self.batch);
             let begun = Instant::now();
-            let shown = self.published.is_some();
-            let ticket = self.ticket;
-            let cancelled = || ticket.cancelled(shown);
+            let (ticket, published) = (self.ticket, self.published);
+            let cancelled = || ticket.cancelled(published);
             self.counts = self
                 .counts
                 .and(self.film.advance(next..until, step, shot, cancelled));

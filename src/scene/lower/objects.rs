@@ -41,30 +41,27 @@ impl Reader<'_> {
                 self.surplus(token);
             }
         }
-        if let Some(count) = count {
-            self.compare(count, lost);
-        }
-    }
-
-    /// Reports a number of objects that is not the one that was found.
-    fn compare(&mut self, count: Count, lost: bool) {
         let found = self.origins.objects.len() as u64;
-        let says = quoted(count.token.of(self.text));
-        let message = if count.declared < found {
+        if let Some(count) = count.filter(|count| count.declared < found) {
             let more = match found - count.declared {
                 1 => "1 more object follows".to_owned(),
                 more => format!("{more} more objects follow"),
             };
-            format!("nObjects: says {says}, but {more}")
-        } else if found < count.declared && !lost {
+            self.miscounted(count, &more);
+        } else if let Some(count) = count.filter(|count| found < count.declared && !lost) {
             let after = match self.origins.objects.len().checked_sub(1) {
                 Some(last) => format!("after {}", self.origins.name(Node::Object(last))),
                 None => "before any object".to_owned(),
             };
-            format!("nObjects: says {says}, but the text ends {after}")
-        } else {
-            return;
-        };
+            self.miscounted(count, &format!("the text ends {after}"));
+        }
+    }
+
+    /// Reports a number of objects that is not the one that was found.
+    fn miscounted(&mut self, count: Count, truth: &str) {
+        let found = self.origins.objects.len();
+        let says = quoted(count.token.of(self.text));
+        let message = format!("nObjects: says {says}, but {truth}");
         self.report.error(|| {
             let hint = match found {
                 0 => format!("an object begins with {TYPES}"),
