@@ -193,6 +193,8 @@ pub fn field_notes(fields: Rect) -> Rect {
 /// The cells of a field's name, two for a sign and a gap at its end included, and of each of its components in a line of the fields panel.
 pub fn field_columns(line: Rect, components: usize) -> (Rect, Vec<Rect>) {
     let key = (line.width / 3).clamp(6, 11).min(line.width);
+    // What three equal columns leave over makes room for a longer name.
+    let key = (key + (line.width - key) % 3).min(11);
     let numbers = line.width - key;
     let name = Rect { width: key, ..line };
     // Two components are as wide as two of three, so that numbers stand in columns.
