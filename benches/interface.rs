@@ -374,12 +374,12 @@ fn total(drawn: &[Drawn]) -> usize {
 
 fn rate_rows(name: &str, drawn: &[Drawn], begun: Instant) {
     let span = drawn.last().map_or(SECOND, |drawn| drawn.at - begun);
-    let mean = total(drawn) as f64 / span.as_secs_f64() / 1024.0;
+    let mean = total(drawn) as f64 / span.as_secs_f64() / 1e3;
     let in_a_second = |from: Instant| {
         let within = drawn
             .iter()
             .filter(|d| from <= d.at && d.at < from + SECOND);
-        within.map(|drawn| drawn.bytes).sum::<usize>() / 1024
+        within.map(|drawn| drawn.bytes).sum::<usize>() / 1000
     };
     let most = drawn
         .iter()

@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 /// Bytes a second for pictures when the terminal is at the other end of a network.
-const REMOTE_BANDWIDTH: u32 = 128 * 1024;
+const REMOTE_BANDWIDTH: u32 = 128_000;
 
 /// The bucket holds this part of a second of bytes: four pictures a second even when each of them
 /// empties it.
@@ -195,8 +195,8 @@ mod tests {
         let with = |name: &'static str, value: &'static str| {
             default_bandwidth(move |asked| (asked == name).then(|| value.to_owned()))
         };
-        assert_eq!(with("SSH_TTY", "/dev/pts/1"), Some(131_072));
-        assert_eq!(with("SSH_CONNECTION", "a 1 b 22"), Some(131_072));
+        assert_eq!(with("SSH_TTY", "/dev/pts/1"), Some(128_000));
+        assert_eq!(with("SSH_CONNECTION", "a 1 b 22"), Some(128_000));
         assert_eq!(with("SSH_TTY", ""), None);
         assert_eq!(with("TERM", "xterm"), None);
     }
