@@ -65,7 +65,7 @@ fn measured() -> Vec<(String, Text)> {
     let mut own: Vec<_> = entries
         .map(|entry| entry.expect("a scene").path())
         .collect();
-    own.retain(|path| Format::of_path(path).is_some());
+    own.retain(|path| Format::of_path(path).is_ok());
     own.sort();
     let mut measured: Vec<(String, Text)> = Vec::new();
     for path in own {

@@ -150,7 +150,7 @@ fn scenes() -> Vec<PathBuf> {
     let mut paths: Vec<_> = entries
         .map(|entry| entry.expect("a scene").path())
         .collect();
-    paths.retain(|path| Format::of_path(path).is_some());
+    paths.retain(|path| Format::of_path(path).is_ok());
     paths.sort();
     assert!(5 < paths.len());
     paths

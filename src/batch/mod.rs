@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use crate::file::{self, ReadError};
-use crate::format::{self, Format};
+use crate::format::{self, Format, UnknownLanguage};
 use crate::scene::{self, Scene};
 use crate::text::{counted, visible};
 
@@ -21,12 +21,9 @@ pub enum Error {
     /// A scene can't be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// A file whose name does not say which language it is written in.
-    #[error("{path}: not a scene: scenes end in .ray", path = path.display())]
-    UnknownLanguage {
-        /// The file.
-        path: PathBuf,
-    },
+    /// A file that is no scene by its name.
+    #[error(transparent)]
+    UnknownLanguage(#[from] UnknownLanguage),
     /// Scenes have errors, which were printed.
     #[error("no picture was made: the scene has {}", counted(*.errors, "error"))]
     Invalid {
@@ -103,9 +100,7 @@ struct Loaded {
 
 /// Reads a scene and prints what is wrong with it.
 fn load(path: &Path) -> Result<Loaded, Error> {
-    let format = Format::of_path(path).ok_or_else(|| Error::UnknownLanguage {
-        path: path.to_owned(),
-    })?;
+    let format = Format::of_path(path)?;
     let text = file::read_text(path)?;
     let lowered = scene::lower(&text, &format::parse(format, &text));
     print(&report::render(

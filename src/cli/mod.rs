@@ -4,7 +4,6 @@ use std::ffi::OsString;
 use std::fmt::Write;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 use std::thread;
 use std::time::Duration;
 
@@ -15,7 +14,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum, value_parser};
 use crate::batch::{self, Output, Render};
 use crate::file::ReadError;
 use crate::image_out::{FORMATS, ImageFormat, known_extensions};
-use crate::render::{DEFAULT_DEPTH, MAX_SPP};
+use crate::render::{DEFAULT_DEPTH, DEFAULT_SPP, MAX_SPP};
 use crate::scene::Size;
 use crate::text::{slips, visible};
 use crate::ui;
@@ -129,7 +128,7 @@ pub fn exit_code(outcome: &Result<(), batch::Error>) -> u8 {
     };
     match error {
         Error::Read(error) => read_code(error),
-        Error::UnknownLanguage { .. } | Error::Invalid { .. } => INVALID,
+        Error::UnknownLanguage(_) | Error::Invalid { .. } => INVALID,
         Error::Refused(_) => USAGE,
         Error::Create { .. } => NO_OUTPUT,
         Error::Write { .. } | Error::Stopped => FAILED,
@@ -144,7 +143,7 @@ pub fn interface_exit_code(outcome: &Result<ui::Ending, ui::Error>) -> u8 {
         Ok(ui::Ending::Interrupted) => INTERRUPTED,
         Ok(ui::Ending::Terminated) => TERMINATED,
         Err(ui::Error::Read(error)) => read_code(error),
-        Err(ui::Error::UnknownLanguage { .. }) => INVALID,
+        Err(ui::Error::UnknownLanguage(_)) => INVALID,
         Err(ui::Error::Folder { .. }) => NO_INPUT,
         Err(ui::Error::NoSuch { .. }) => USAGE,
         Err(ui::Error::Terminal(_)) => FAILED,
@@ -314,7 +313,7 @@ struct RenderArguments {
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<Size>,
     /// Samples a pixel, 1 to 65536
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = spp_range())]
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_SPP, value_parser = spp_range())]
     spp: u32,
     /// Bounces of a ray; 0 is none
     #[arg(long, value_name = "N", default_value_t = DEFAULT_DEPTH, value_parser = depth_range())]
@@ -384,17 +383,7 @@ fn format_names() -> impl TypedValueParser<Value = ImageFormat> {
 }
 
 fn parse_size(said: &str) -> Result<Size, String> {
-    let number = |digits: &str| {
-        let number = u32::from_str(digits).ok();
-        number.filter(|&n| 0 < n && digits.bytes().all(|b| b.is_ascii_digit()))
-    };
-    said.split_once(['x', 'X'])
-        .and_then(|(width, height)| {
-            Some(Size {
-                width: number(width)?,
-                height: number(height)?,
-            })
-        })
+    Size::parse(said)
         .ok_or_else(|| "expected two whole numbers of at least 1, such as 800x600".to_owned())
 }
 

@@ -2,7 +2,7 @@
 
 pub mod ray;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::text::Span;
 
@@ -13,11 +13,20 @@ pub enum Format {
     Ray,
 }
 
+/// A file whose name does not say which language it is written in.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{path}: not a scene: scenes end in .ray", path = .0.display())]
+pub struct UnknownLanguage(pub PathBuf);
+
 impl Format {
     /// The format a file name's extension says, in any case.
-    pub fn of_path(path: &Path) -> Option<Self> {
-        let extension = path.extension()?.to_str()?;
-        extension.eq_ignore_ascii_case("ray").then_some(Self::Ray)
+    pub fn of_path(path: &Path) -> Result<Self, UnknownLanguage> {
+        let extension = path.extension().unwrap_or_default();
+        if extension.eq_ignore_ascii_case("ray") {
+            Ok(Self::Ray)
+        } else {
+            Err(UnknownLanguage(path.to_owned()))
+        }
     }
 }
 

@@ -5,6 +5,9 @@ use std::time::Duration;
 
 use crate::scene::{Camera, Scene, Size};
 
+/// Samples a pixel of full-size pictures unless the user says otherwise.
+pub const DEFAULT_SPP: u32 = 16;
+
 /// Bounces unless the user says otherwise.
 pub const DEFAULT_DEPTH: u32 = 8;
 

@@ -20,7 +20,7 @@ mod whitted;
 mod worker;
 mod world;
 
-pub use frame::{DEFAULT_DEPTH, Frame, Job, MAX_SPP, NO_OBJECT, Progress, Settings};
+pub use frame::{DEFAULT_DEPTH, DEFAULT_SPP, Frame, Job, MAX_SPP, NO_OBJECT, Progress, Settings};
 pub use renderer::{Renderer, Threads};
 
 #[cfg(test)]

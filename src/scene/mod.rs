@@ -57,6 +57,20 @@ pub struct Size {
 }
 
 impl Size {
+    /// Reads a size as people say it: `800x600`, or with a blank between.
+    pub fn parse(said: &str) -> Option<Self> {
+        let number = |digits: &str| {
+            let digits = digits.trim();
+            let plain = digits.bytes().all(|b| b.is_ascii_digit());
+            digits.parse().ok().filter(|&n: &u32| plain && 0 < n)
+        };
+        let (width, height) = said.trim().split_once(['x', 'X', '×', ' '])?;
+        Some(Self {
+            width: number(width)?,
+            height: number(height)?,
+        })
+    }
+
     /// How many pixels it has.
     pub fn pixels(self) -> usize {
         self.width as usize * self.height as usize
@@ -76,6 +90,20 @@ pub struct Camera {
     pub fov: f64,
     /// Size of the output picture; its ratio is the picture's, whatever size is traced.
     pub size: Size,
+}
+
+impl Camera {
+    /// Its numbers in the order of [`fields::VIEW`]: of each entry, as many as the field has.
+    pub fn numbers(&self) -> [[f64; 3]; fields::VIEW.len()] {
+        let Size { width, height } = self.size;
+        [
+            self.eye.to_array(),
+            self.target.to_array(),
+            self.up.to_array(),
+            [self.fov, 0.0, 0.0],
+            [width.into(), height.into(), 0.0],
+        ]
+    }
 }
 
 /// A point light without falloff.

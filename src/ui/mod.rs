@@ -24,13 +24,10 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::file::{self, ReadError};
-use crate::format::Format;
-use crate::render::DEFAULT_DEPTH;
+use crate::format::{Format, UnknownLanguage};
+use crate::render::{DEFAULT_DEPTH, DEFAULT_SPP};
 use app::{App, Opening, Quality};
 use terminal::{Choice, ColourDepth, Mouse};
-
-/// Samples a pixel of full-size traces and exports unless the user says otherwise.
-pub const DEFAULT_SPP: u32 = 16;
 
 /// The scene that is opened without a name, if the current folder has one.
 const DEFAULT_SCENE: &str = "default.ray";
@@ -99,12 +96,9 @@ pub enum Error {
     /// The scene can't be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// A file whose name does not say which language it is written in.
-    #[error("{path}: not a scene: scenes end in .ray", path = path.display())]
-    UnknownLanguage {
-        /// The file.
-        path: PathBuf,
-    },
+    /// A file that is no scene by its name.
+    #[error(transparent)]
+    UnknownLanguage(#[from] UnknownLanguage),
     /// A folder.
     #[error("{path}: is a folder, not a scene", path = path.display())]
     Folder {
@@ -153,12 +147,13 @@ fn read_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, String), Error> 
             path: path.to_owned(),
         });
     }
-    if Format::of_path(path).is_none() {
-        let path = path.to_owned();
+    if let Err(unknown) = Format::of_path(path) {
         return Err(if path.exists() {
-            Error::UnknownLanguage { path }
+            unknown.into()
         } else {
-            Error::NoSuch { path }
+            Error::NoSuch {
+                path: path.to_owned(),
+            }
         });
     }
     match file::read_text(path) {

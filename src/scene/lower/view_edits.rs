@@ -7,7 +7,7 @@ use crate::scene::fields::VIEW;
 use crate::scene::{Camera, Origins};
 use crate::text::{Edit, Span, spell_like};
 
-/// A camera's numbers, in the order of [`VIEW`].
+/// Numbers in the order of [`VIEW`].
 type Numbers = [[f64; 3]; VIEW.len()];
 
 /// The edits after which the text, whose camera is `before`, says `camera`.
@@ -85,22 +85,7 @@ fn differ(old: f64, new: f64) -> bool {
     old.partial_cmp(&new) != Some(Ordering::Equal)
 }
 
+/// A camera's numbers, 0 for −0.
 fn numbers(camera: &Camera) -> Numbers {
-    let Camera {
-        eye,
-        target,
-        up,
-        fov,
-        size,
-    } = *camera;
-    let size = [f64::from(size.width), f64::from(size.height), 0.0];
-    let numbers = [
-        eye.to_array(),
-        target.to_array(),
-        up.to_array(),
-        [fov, 0.0, 0.0],
-        size,
-    ];
-    // The sum is the same number, and 0 for −0.
-    numbers.map(|part| part.map(|number| number + 0.0))
+    camera.numbers().map(|part| part.map(|number| number + 0.0))
 }

@@ -87,7 +87,7 @@ pub(super) fn parse(line: &str) -> Result<Command, String> {
         "export" if rest == "cancel" => Ok(Command::ExportCancel),
         "export" => export(rest, Force::No),
         "export!" => export(rest, Force::Yes),
-        "size" => size(rest)
+        "size" => Size::parse(rest)
             .map(Command::Size)
             .ok_or_else(|| "size takes two whole numbers: size 800x600".to_owned()),
         "view" => match rest {
@@ -110,7 +110,7 @@ fn export(rest: &str, force: Force) -> Result<Command, String> {
         spp = Some(count);
         words.pop();
     }
-    let size = words.last().and_then(|word| size(word));
+    let size = words.last().and_then(|word| Size::parse(word));
     if size.is_some() {
         words.pop();
     }
@@ -146,19 +146,6 @@ fn wrong_word(words: &[&str]) -> Option<String> {
     } else {
         Some(format!("`{word}` is neither a size nor samples a pixel"))
     }
-}
-
-fn size(said: &str) -> Option<Size> {
-    let number = |digits: &str| {
-        let digits = digits.trim();
-        let plain = digits.bytes().all(|b| b.is_ascii_digit());
-        digits.parse().ok().filter(|&n: &u32| plain && 0 < n)
-    };
-    let (width, height) = said.split_once(['x', ' '])?;
-    Some(Size {
-        width: number(width)?,
-        height: number(height)?,
-    })
 }
 
 fn unknown(name: &str) -> String {

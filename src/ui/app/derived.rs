@@ -4,7 +4,7 @@ use ratatui::layout::Rect;
 
 use super::picture::Picture;
 use super::{App, Disk, FieldRow, Mode, Outline, Source, Stride};
-use crate::scene::fields::{Field, VIEW};
+use crate::scene::fields::Field;
 use crate::scene::{Camera, Node, Placed, Size};
 use crate::text::Findings;
 use crate::ui::view::layout::{Areas, Zoom, arrange, raster};
@@ -174,14 +174,14 @@ impl App {
             source,
         };
         let shown = |camera: &Camera| -> Vec<String> {
-            view_numbers(camera)[index][..placed.field.kind.components()]
+            camera.numbers()[index][..placed.field.kind.components()]
                 .iter()
                 .map(f64::to_string)
                 .collect()
         };
         let scene = self.scene.as_ref();
         if let (Node::View, Some(view), Some(scene)) = (self.selected, &self.view, scene)
-            && view_numbers(view)[index] != view_numbers(&scene.camera)[index]
+            && view.numbers()[index] != scene.camera.numbers()[index]
         {
             return row(shown(view), Source::WorkingView);
         }
@@ -194,18 +194,6 @@ impl App {
             _ => row(said, Source::Text),
         }
     }
-}
-
-/// A camera's numbers in the order of [`VIEW`].
-pub(super) fn view_numbers(camera: &Camera) -> [[f64; 3]; VIEW.len()] {
-    let Size { width, height } = camera.size;
-    [
-        camera.eye.to_array(),
-        camera.target.to_array(),
-        camera.up.to_array(),
-        [camera.fov, 0.0, 0.0],
-        [width.into(), height.into(), 0.0],
-    ]
 }
 
 /// The order of the list.

@@ -1,6 +1,5 @@
 //! Changing fields: every change is an edit of the text, and one that makes an error is refused.
 
-use super::derived::view_numbers;
 use super::{App, Mode};
 use crate::scene::fields::{Field, VIEW};
 use crate::scene::{self, Camera, Lowered, Node, Size};
@@ -122,7 +121,7 @@ impl App {
         // The picture's size is the text's alone: setting it must not write the working view.
         let is_size = field.key == "size";
         let camera = if is_size { scene.camera } else { camera };
-        let mut numbers = view_numbers(&camera);
+        let mut numbers = camera.numbers();
         for (component, literal) in values {
             let value = parse_number(literal).map_err(|_| refuse("must be a number"))?;
             if !field.allowed.contains(value) {

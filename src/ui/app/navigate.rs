@@ -3,7 +3,6 @@
 use glam::DVec3;
 
 use super::App;
-use super::derived::view_numbers;
 use crate::scene::{Camera, Node};
 
 /// How far one step orbits, in degrees.
@@ -36,7 +35,7 @@ impl App {
             return;
         };
         let moved = rounded(change(camera));
-        let finite = view_numbers(&moved).iter().flatten().all(|n| n.is_finite());
+        let finite = moved.numbers().iter().flatten().all(|n| n.is_finite());
         let distance = (moved.eye - moved.target).length();
         if finite && distance.is_finite() && 0.0 < distance {
             self.set_view(moved);
