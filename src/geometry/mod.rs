@@ -25,4 +25,4 @@ pub use cylinder::Cylinder;
 pub use ellipsoid::Ellipsoid;
 pub use shape::{Crossings, Hit, Ray, Shape, Surface, ulp};
 pub use sphere::Sphere;
-pub use transform::Affine;
+pub use transform::{Affine, FLATTEST};

@@ -6,8 +6,8 @@ use super::line::approach;
 use super::shape::CLEARANCE;
 use super::{Ray, Surface, ulp};
 
-/// The least |determinant| of a frame's unit directions.
-const FLATTEST: f64 = 1e-6;
+/// The least |determinant| of a frame's unit directions: flatter ones span no volume.
+pub const FLATTEST: f64 = 1e-6;
 
 /// An affine frame: an origin, three directions of unit length (not necessarily orthogonal) and a
 /// length along each. A unit solid's point q is at `origin + Σ qᵢ lengthᵢ directionᵢ`.
@@ -34,7 +34,7 @@ pub(super) struct Line {
 
 impl Affine {
     /// Makes a frame. Directions are normalised; `None` if one is zero, or the determinant of the
-    /// unit directions is below 1e-6 in magnitude: then they span no volume. Lengths are above 0.
+    /// unit directions is below [`FLATTEST`] in magnitude: then they span no volume. Lengths are above 0.
     ///
     /// A dual vector is the cross product of two directions, made one by its own product with the
     /// third; both are computed as if with twice the precision. So the two matrices undo each other

@@ -52,7 +52,7 @@ impl Projection {
 /// The up direction to use: the camera's, or where the camera looks along it the world axis least
 /// aligned with the view (ties: x, then y, then z).
 fn upright(forward: DVec3, up: DVec3) -> DVec3 {
-    if 1e-9 <= forward.cross(up).length() {
+    if Camera::LEAST_SINE <= forward.cross(up).length() {
         return up;
     }
     let alignment = forward.abs();

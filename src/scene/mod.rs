@@ -93,6 +93,10 @@ pub struct Camera {
 }
 
 impl Camera {
+    /// Below this sine of the angle between them, the direction of view leaves `up` no meaning, and
+    /// the world axis most across the view stands in for it.
+    pub const LEAST_SINE: f64 = 1e-9;
+
     /// Its numbers in the order of [`fields::VIEW`]: of each entry, as many as the field has.
     pub fn numbers(&self) -> [[f64; 3]; fields::VIEW.len()] {
         let Size { width, height } = self.size;

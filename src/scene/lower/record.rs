@@ -3,7 +3,7 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
+use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, FLATTEST, Shape, Sphere};
 use crate::scene::fields::{Field, Kind, Range, ShapeKind, numbers};
 use crate::scene::origins::Name;
 use crate::scene::{Material, Rgb};
@@ -11,9 +11,6 @@ use crate::text::{Diagnostic, Findings, Span};
 
 /// How far a direction's length may be off 1, and the dot product of two of them off 0.
 const UNIT_TOLERANCE: f64 = 1e-3;
-
-/// Directions whose determinant is smaller span no volume.
-const LEAST_DETERMINANT: f64 = 1e-6;
 
 /// The most numbers that any record holds.
 pub(super) const LONGEST: usize = {
@@ -135,7 +132,7 @@ impl<'a> Record<'a> {
             return;
         };
         let determinant = determinant(&frame);
-        if determinant.is_some_and(|det| det.abs() < LEAST_DETERMINANT) {
+        if determinant.is_some_and(|det| det.abs() < FLATTEST) {
             report.error(|| flat(self.name, &frame));
             return;
         }
@@ -276,7 +273,7 @@ fn flat(name: Name, [a, b, c]: &[Axis; 3]) -> Diagnostic {
             .direction
             .zip(second.direction)
             .map(|(u, v)| u.cross(v));
-        across.is_some_and(|across| across.length() < LEAST_DETERMINANT)
+        across.is_some_and(|across| across.length() < FLATTEST)
     };
     let pair = [(a, b), (a, c), (b, c)]
         .into_iter()

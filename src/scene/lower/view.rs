@@ -20,9 +20,6 @@ const UP: usize = 2;
 /// From where the default view looks, seen from the centre of the scene.
 const DEFAULT_SIDE: DVec3 = DVec3::new(0.4, 0.3, 1.0);
 
-/// Below this sine of the angle between them, the view's direction leaves `up` no meaning.
-const LEAST_SINE: f64 = 1e-9;
-
 /// What a view comment says.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
@@ -253,7 +250,7 @@ fn check(camera: &Camera, view: Option<&View>, otherwise: Span, report: &mut Fin
         return;
     };
     let sine = unit(camera.up).map_or(0.0, |up| forward.cross(up).length());
-    if sine < LEAST_SINE {
+    if sine < Camera::LEAST_SINE {
         report.warning(|| {
             let message = "view up: is the direction of view";
             Diagnostic::warning(span(UP), message, "a direction across the view")
