@@ -100,9 +100,13 @@ impl Place {
         let entries = fs::read_dir(folder).into_iter().flatten();
         entries
             .map(|entry| entry.expect("an entry").path())
+            .filter(|path| path.extension().is_some_and(|extension| extension == "ray"))
             .collect()
     }
 }
+
+/// What is said at the end where unsaved edits are kept.
+const KEPT: &str = "unsaved edits are kept; halflight balls.ray offers them";
 
 /// Wide enough for long messages beside the file's name.
 const WIDE: (u16, u16) = (150, 40);
@@ -156,10 +160,15 @@ fn quit(mut session: Session) {
     assert_end(session, 0);
 }
 
-fn assert_end(mut session: Session, code: u32) {
+fn assert_end(session: Session, code: u32) {
+    assert_end_with(session, code, "");
+}
+
+/// Expects the end, and only these words on the screen.
+fn assert_end_with(mut session: Session, code: u32, words: &str) {
     let status = session.end();
     session.assert_restored();
-    assert_eq!(session.text(), "", "nothing is left on the screen");
+    assert_eq!(session.text().trim_end(), words);
     assert_eq!((status.exit_code(), status.signal()), (code, None));
 }
 
@@ -230,7 +239,8 @@ fn ctrl_c_asks_before_edits_are_lost() {
         session.send(CTRL_C);
         session.wait_for("balls.ray has edits that are not saved");
         session.send(answer);
-        assert_end(session, 0);
+        let words = if kept == 0 { "" } else { KEPT };
+        assert_end_with(session, 0, words);
         assert_eq!(place.read("balls.ray"), left, "after {answer:?}");
         assert_eq!(place.recovery_files().len(), kept, "after {answer:?}");
     }
@@ -271,9 +281,41 @@ fn unsaved_edits_outlive_the_process() {
         session.send("w");
         session.wait_for("wrote balls.ray");
         assert_eq!(place.read("balls.ray"), edited());
-        assert_eq!(place.recovery_files(), [] as [PathBuf; 0]);
         quit(session);
+        assert_eq!(place.recovery_files(), [] as [PathBuf; 0]);
     }
+}
+
+#[test]
+fn edits_outlive_a_crash_and_a_run_that_leaves_them_undecided() {
+    let place = Place::new();
+    let mut session = place.open_edited();
+    let is_kept = || {
+        let mut kept = place.recovery_files().into_iter();
+        kept.any(|file| fs::read_to_string(file).is_ok_and(|text| text == edited()))
+    };
+    while !is_kept() {
+        session.drain(Duration::from_millis(1));
+    }
+    kill(session.process_id(), Signal::KILL);
+    session.end();
+
+    let question = "Edits of an earlier run of balls.ray were never saved";
+    let mut session = place.start(&["balls.ray"], WIDE);
+    session.wait_for(question);
+    session.send(ESC);
+    wait_until_gone(&mut session, question);
+    session.send("G\rj2\rw");
+    session.wait_for("wrote balls.ray");
+    quit(session);
+    assert!(is_kept());
+
+    let mut session = place.start(&["balls.ray"], WIDE);
+    session.wait_for(question);
+    session.send("d");
+    wait_until_gone(&mut session, question);
+    quit(session);
+    assert!(!is_kept());
 }
 
 #[test]

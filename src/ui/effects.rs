@@ -5,17 +5,17 @@ use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
-use std::sync::mpsc::{self, Receiver, Sender};
+use std::sync::mpsc::Sender;
 use std::thread;
 use std::time::Instant;
 
 use super::Options;
-use super::msg::{Effect, Existing, ExportId, Guard, Msg, SaveOutcome, Target, Timer};
-use super::recovery;
+use super::files::{Files, Task};
+use super::msg::{Effect, Existing, ExportId, Msg, Target, Timer};
 use super::terminal::{self, Input, Terminal};
 #[cfg(unix)]
 use super::terminal::{Signals, suspend_process};
-use crate::file::{self, ReadError};
+use crate::file;
 use crate::image_out;
 use crate::render::{Frame, Job, Renderer, Threads};
 use crate::watch::{Method, Watcher};
@@ -38,14 +38,13 @@ pub(crate) struct World {
     #[cfg(unix)]
     signals: Signals,
     sender: Sender<Event>,
-    files: Sender<FileTask>,
+    files: Files,
     threads: Option<usize>,
     preview: Option<Renderer>,
     trace: Option<Renderer>,
     export: Option<Renderer>,
     method: Method,
     watcher: Option<Watcher>,
-    watched: Option<PathBuf>,
     timers: Vec<(Instant, Timer)>,
     ended: bool,
 }
@@ -66,14 +65,18 @@ impl World {
             input: Input::start(tell(&sender))?,
             #[cfg(unix)]
             signals: Signals::start(tell(&sender))?,
-            files: start_files(sender.clone())?,
+            files: Files::start({
+                let sender = sender.clone();
+                move |msg| {
+                    let _ = sender.send(Event::Msg(msg));
+                }
+            })?,
             threads: options.threads,
             preview: None,
             trace: None,
             export: None,
             method: options.poll.map_or(Method::Native, Method::Poll),
             watcher: None,
-            watched: None,
             timers: Vec::new(),
             ended: false,
             sender,
@@ -99,6 +102,12 @@ impl World {
                 Some(Msg::Frame(target, frame))
             }
         }
+    }
+
+    /// Gives the terminal back and waits for the files; whether unsaved edits are kept.
+    pub(crate) fn close(self) -> bool {
+        drop(self.terminal);
+        self.files.finish()
     }
 
     /// When the next timer is due.
@@ -130,18 +139,20 @@ impl World {
                 let refused = check_target(&path, existing).err()?;
                 return Some(Msg::Exported(id, Err(refused)));
             }
-            Effect::Read(path) => self.file(FileTask::Read(path)),
-            Effect::Save { path, text, guard } => self.file(FileTask::Save { path, text, guard }),
-            Effect::Watch(path) => self.watch(path),
+            Effect::Read(path) => self.files.order(Task::Read(path)),
+            Effect::Save { path, text, guard } => {
+                self.files.order(Task::Save { path, text, guard })
+            }
+            Effect::Watch(path) => self.watch(&path),
             Effect::Later(time, timer) => {
                 self.timers.retain(|&(_, set)| set != timer);
                 self.timers.push((Instant::now() + time, timer));
                 Ok(())
             }
-            Effect::WriteRecovery(text) => recovery::write(self.watched.as_deref(), &text)
-                .map_err(|error| format!("the unsaved edits can't be kept: {error}")),
-            Effect::DropRecovery => recovery::remove(self.watched.as_deref())
-                .map_err(|error| format!("the kept edits can't be removed: {error}")),
+            Effect::WriteRecovery { scene, text } => self.files.order(Task::Keep { scene, text }),
+            Effect::DropRecovery => self.files.order(Task::Forget),
+            Effect::AdoptKept { scene, place } => self.files.order(Task::Adopt { scene, place }),
+            Effect::DropKept(place) => self.files.order(Task::Discard(place)),
             Effect::OpenEditor { path, line } => {
                 return Some(Msg::EditorClosed(self.open_editor(&path, line)));
             }
@@ -222,26 +233,20 @@ impl World {
         spawned.map(drop).map_err(|error| error.to_string())
     }
 
-    fn file(&self, task: FileTask) -> Result<(), String> {
-        let sent = self.files.send(task);
-        sent.map_err(|_| "the thread that reads and writes files has ended".to_owned())
-    }
-
-    fn watch(&mut self, path: PathBuf) -> Result<(), String> {
+    fn watch(&mut self, path: &Path) -> Result<(), String> {
         let sender = self.sender.clone();
         let changed = move || {
             let _ = sender.send(Event::Msg(Msg::FileChanged));
         };
         // The old watch ends first: its notices would be taken for the new file's.
         self.watcher = None;
-        let watcher = Watcher::new(&path, self.method, changed).map_err(|error| {
+        let watcher = Watcher::new(path, self.method, changed).map_err(|error| {
             format!(
                 "changes of {} go unnoticed: {error}; try --poll",
                 path.display()
             )
         })?;
         self.watcher = Some(watcher);
-        self.watched = Some(path);
         Ok(())
     }
 
@@ -280,64 +285,6 @@ impl World {
     #[cfg(not(unix))]
     fn suspend(&mut self) -> Result<(), String> {
         Err("this system can't stop a program until it is continued".to_owned())
-    }
-}
-
-/// Work for the thread that reads and writes scene files, one after the other.
-enum FileTask {
-    Read(PathBuf),
-    Save {
-        path: PathBuf,
-        text: String,
-        guard: Guard,
-    },
-}
-
-fn start_files(sender: Sender<Event>) -> io::Result<Sender<FileTask>> {
-    let (tasks, inbox) = mpsc::channel();
-    let work = move || do_files(&inbox, &sender);
-    thread::Builder::new()
-        .name("files".to_owned())
-        .spawn(work)?;
-    Ok(tasks)
-}
-
-fn do_files(tasks: &Receiver<FileTask>, sender: &Sender<Event>) {
-    for task in tasks {
-        let msg = match task {
-            FileTask::Read(path) => Msg::Read(file::read_text(&path)),
-            FileTask::Save { path, text, guard } => Msg::Saved(save(path, text, &guard)),
-        };
-        if sender.send(Event::Msg(msg)).is_err() {
-            return;
-        }
-    }
-}
-
-/// Writes a scene, unless that would lose what somebody else wrote.
-fn save(path: PathBuf, text: String, guard: &Guard) -> SaveOutcome {
-    match (guard, file::read_text(&path)) {
-        (Guard::Holding(held), Ok(found)) if found != *held && found != text => {
-            return SaveOutcome::ChangedOnDisk(found);
-        }
-        (Guard::Anything, _)
-        | (Guard::Holding(_), Ok(_))
-        | (_, Err(ReadError::NotFound { .. })) => {}
-        (Guard::Holding(_), Err(error)) => return SaveOutcome::Failed(error.to_string()),
-        (Guard::Absent, _) => {
-            let path = path.display();
-            return SaveOutcome::Failed(format!("{path} exists: :w! {path} overwrites it"));
-        }
-    }
-    let folder = path
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty());
-    if let Some(folder) = folder.filter(|folder| !folder.exists()) {
-        return SaveOutcome::Failed(format!("{}: no such folder", folder.display()));
-    }
-    match file::replace(&path, |out| out.write_all(text.as_bytes())) {
-        Ok(()) => SaveOutcome::Saved { path, text },
-        Err(error) => SaveOutcome::Failed(format!("{}: {error}", path.display())),
     }
 }
 
@@ -403,16 +350,6 @@ fn message(event: terminal::Event) -> Msg {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_scene_is_not_saved_in_a_folder_that_is_not_there() {
-        let place = tempfile::tempdir().expect("a folder");
-        let path = place.path().join("none").join("x.ray");
-        let outcome = save(path, String::new(), &Guard::Absent);
-        assert!(
-            matches!(outcome, SaveOutcome::Failed(said) if said.ends_with("none: no such folder"))
-        );
-    }
 
     #[test]
     fn a_picture_that_others_wrote_is_kept() {

@@ -12,6 +12,7 @@
 
 pub mod app;
 mod effects;
+mod files;
 pub mod keymap;
 pub mod msg;
 mod recovery;
@@ -134,7 +135,7 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
         mouse: options.mouse,
         terminal: (size.width, size.height),
     };
-    let recovered = recovery::read(opening.path.as_deref());
+    let recovered = recovery::find(opening.path.as_deref());
     let (app, effects) = App::open(opening);
     Ok(session::run(options, app, effects, recovered)?)
 }

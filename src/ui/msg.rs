@@ -54,7 +54,7 @@ pub enum Msg {
     /// The external editor has ended.
     EditorClosed(Result<(), String>),
     /// Edits of an earlier run that were never saved were found.
-    Recovered(String),
+    Recovered(Kept),
     /// Someone outside asks the process to stop for a while.
     Suspend,
     /// The process goes on after a stop.
@@ -69,6 +69,15 @@ pub enum Msg {
     Failed(String),
 }
 
+/// Edits that an earlier run kept.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Kept {
+    /// Where.
+    pub place: PathBuf,
+    /// The whole text.
+    pub text: String,
+}
+
 /// What a while was awaited for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Timer {
@@ -78,6 +87,8 @@ pub enum Timer {
     Interrupt,
     /// A second click.
     Click,
+    /// More edits, which are kept together.
+    Keep,
 }
 
 /// What became of a save.
@@ -123,9 +134,23 @@ pub enum Effect {
     /// Send [`Msg::Elapsed`] after a while; the same timer set again starts anew.
     Later(Duration, Timer),
     /// Keep the text of unsaved edits for the next run.
-    WriteRecovery(String),
-    /// Forget what was kept for the next run.
+    WriteRecovery {
+        /// The scene; `None` is the one without a file.
+        scene: Option<PathBuf>,
+        /// The text.
+        text: String,
+    },
+    /// Forget what this run has kept for the next one.
     DropRecovery,
+    /// Make what an earlier run kept what this one keeps.
+    AdoptKept {
+        /// The scene; `None` is the one without a file.
+        scene: Option<PathBuf>,
+        /// [`Kept::place`].
+        place: PathBuf,
+    },
+    /// Forget what an earlier run kept.
+    DropKept(PathBuf),
     /// Lend the terminal to the user's editor, at a line: [`Msg::EditorClosed`].
     OpenEditor {
         /// The file.

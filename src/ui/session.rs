@@ -1,16 +1,17 @@
 //! The loop: waits for events, takes steps, draws.
 
 use std::collections::VecDeque;
-use std::io;
+use std::io::{self, Write};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use super::app::App;
 use super::effects::{Event, World};
-use super::msg::{Effect, Msg, Target};
+use super::msg::{Effect, Kept, Msg, Target};
 use super::terminal::{Link, default_bandwidth};
 use super::view::{self, Glyphs};
 use super::{Ending, Options};
+use crate::text;
 
 /// The least time between two drawings that only bring finer frames.
 const FRAME_TIME: Duration = Duration::from_millis(33);
@@ -23,7 +24,7 @@ pub(crate) fn run(
     options: &Options,
     app: App,
     effects: Vec<Effect>,
-    recovered: Option<String>,
+    recovered: Option<Kept>,
 ) -> io::Result<Ending> {
     let (sender, inbox) = mpsc::channel();
     let bandwidth = options
@@ -39,10 +40,11 @@ pub(crate) fn run(
         ending: Ending::Quit,
     };
     session.perform(effects);
-    if let Some(text) = recovered {
-        session.step(Msg::Recovered(text));
+    if let Some(kept) = recovered {
+        session.step(Msg::Recovered(kept));
     }
-    Ok(session.run())
+    session.run();
+    Ok(session.close())
 }
 
 struct Session {
@@ -69,7 +71,7 @@ enum Urgency {
 }
 
 impl Session {
-    fn run(mut self) -> Ending {
+    fn run(&mut self) {
         let mut urgency = Urgency::Now;
         while !self.world.is_over() {
             let now = Instant::now();
@@ -85,12 +87,26 @@ impl Session {
                 if self.draw().is_err() {
                     // A terminal that can't be written to is gone; what must survive is kept.
                     self.step(Msg::HangUp);
-                    return self.ending;
+                    return;
                 }
                 urgency = Urgency::Never;
                 continue;
             }
             urgency = urgency.max(self.wait(draw_at));
+        }
+    }
+
+    /// Gives the terminal back, and says there where unsaved edits went.
+    fn close(self) -> Ending {
+        let path = self.app.path.map_or_else(String::new, |path| {
+            format!(" {}", text::visible(&path.to_string_lossy()))
+        });
+        if self.world.close() {
+            // A terminal that is gone needs no words.
+            let _ = writeln!(
+                io::stderr(),
+                "unsaved edits are kept; halflight{path} offers them"
+            );
         }
         self.ending
     }

@@ -1,4 +1,4 @@
-//! The text and the file: reading again, saving, deciding conflicts, recovering.
+//! The text and the file: reading again, saving, deciding conflicts.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -213,7 +213,8 @@ impl App {
                 self.disk = Disk::Known;
                 self.broken = None;
                 self.say(format!("wrote {}", path.display()));
-                let mut effects = vec![Effect::DropRecovery];
+                let kept = self.pending.keeping.text.take();
+                let mut effects: Vec<_> = kept.map(|_| Effect::DropRecovery).into_iter().collect();
                 if self.path.as_ref() != Some(&path) {
                     self.path = Some(path.clone());
                     effects.push(Effect::Watch(path));
@@ -275,25 +276,6 @@ impl App {
                 self.show_reload(&held, "merged; u undoes");
             }
         }
-    }
-
-    /// Takes the edits of an earlier run, as an edit like any other.
-    pub(super) fn restore(&mut self) -> Vec<Effect> {
-        if let Some(Dialog::Recover(text)) = self.dialog.take() {
-            let edits: Vec<_> = smallest_edit(self.document.text(), &text)
-                .into_iter()
-                .collect();
-            self.document.edit(&edits);
-            self.relower();
-            self.say("restored; u undoes");
-        }
-        Vec::new()
-    }
-
-    /// Throws the edits of an earlier run away.
-    pub(super) fn decline(&mut self) -> Vec<Effect> {
-        self.dialog = None;
-        vec![Effect::DropRecovery]
     }
 
     /// Opens the user's editor where the cursor is.

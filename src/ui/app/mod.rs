@@ -9,6 +9,7 @@ mod derived;
 mod disk;
 mod edit;
 mod jobs;
+mod keeping;
 mod line;
 mod list;
 mod literals;

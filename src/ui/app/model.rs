@@ -12,7 +12,7 @@ use crate::scene::fields::Field;
 use crate::scene::{Camera, Node, Origins, Scene, Size};
 use crate::text::{Diagnostic, Findings, Severity};
 use crate::ui::keymap::Action;
-use crate::ui::msg::{Existing, ExportId};
+use crate::ui::msg::{Existing, ExportId, Kept};
 use crate::ui::terminal::Mouse;
 use crate::ui::view::layout::Zoom;
 
@@ -176,7 +176,7 @@ pub enum Dialog {
         at: usize,
     },
     /// The edits of an earlier run that were never saved: take them?
-    Recover(String),
+    Recover(Kept),
 }
 
 /// The help page.
@@ -298,6 +298,8 @@ pub(super) struct Pending {
     pub(super) reader: Reader,
     /// The last text without errors, while the text has some.
     pub(super) sound: Option<String>,
+    /// What is kept for the next run.
+    pub(super) keeping: Keeping,
     /// The export that was begun last.
     pub(super) export: ExportId,
     /// The pictures written so far: they may be overwritten.
@@ -310,6 +312,15 @@ pub(super) struct Pending {
     pub(super) drag: Option<(u16, u16)>,
     /// The mode to go back to from the full-size trace.
     pub(super) before_trace: Option<Mode>,
+}
+
+/// What is kept for the next run, and whether that is to change.
+#[derive(Debug, Default)]
+pub(super) struct Keeping {
+    /// The text that is kept.
+    pub(super) text: Option<String>,
+    /// Unsaved edits are to be kept in a moment.
+    pub(super) due: bool,
 }
 
 /// Who wants the file to be read.

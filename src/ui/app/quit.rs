@@ -26,7 +26,7 @@ impl App {
             self.dialog = Some(Dialog::Quit);
             return Vec::new();
         }
-        vec![Effect::Quit]
+        self.leave()
     }
 
     /// Quits, once nothing is lost, as was asked for before a save or an export was done.
@@ -42,7 +42,7 @@ impl App {
         if self.document.is_dirty() {
             return Vec::new();
         }
-        vec![Effect::Quit]
+        self.leave()
     }
 
     pub(super) fn interrupt(&mut self) -> Vec<Effect> {
@@ -52,11 +52,5 @@ impl App {
         self.pending.interrupt = true;
         self.dialog = Some(Dialog::Quit);
         vec![Effect::Later(super::INTERRUPT_AGAIN, Timer::Interrupt)]
-    }
-
-    pub(super) fn quit_keeping_edits(&self) -> Vec<Effect> {
-        let unsaved = self.document.is_dirty();
-        let text = unsaved.then(|| Effect::WriteRecovery(self.document.text().to_owned()));
-        text.into_iter().chain([Effect::Quit]).collect()
     }
 }

@@ -88,6 +88,7 @@ impl App {
         let mut effects = self.take(msg);
         self.scroll();
         effects.extend(self.follow());
+        effects.extend(self.follow_edits());
         effects
     }
 
@@ -104,13 +105,14 @@ impl App {
             Msg::Elapsed(Timer::Settled) => return self.settled(),
             Msg::Elapsed(Timer::Interrupt) => self.pending.interrupt = false,
             Msg::Elapsed(Timer::Click) => self.pending.click = None,
+            Msg::Elapsed(Timer::Keep) => return self.keep_edits(),
             Msg::Saved(outcome) => return self.was_saved(outcome),
             Msg::Exported(id, outcome) => return self.exported(id, outcome),
             Msg::EditorClosed(outcome) => return self.editor_closed(outcome),
-            Msg::Recovered(text) if text != self.document.text() => {
-                self.dialog = Some(Dialog::Recover(text));
+            Msg::Recovered(kept) if kept.text != self.document.text() => {
+                self.dialog = Some(Dialog::Recover(kept));
             }
-            Msg::Recovered(_) => return vec![Effect::DropRecovery],
+            Msg::Recovered(kept) => return vec![Effect::DropKept(kept.place)],
             Msg::Suspend => return vec![Effect::Suspend],
             Msg::Continued => return vec![Effect::TakeTerminal],
             Msg::Interrupt => return self.interrupt(),
@@ -289,7 +291,7 @@ impl App {
         match context {
             Context::Errors => self.go_to_error(),
             Context::Conflict => self.adopt(),
-            Context::Quit => return vec![Effect::DropRecovery, Effect::Quit],
+            Context::Quit => return self.leave(),
             Context::Recover => return self.restore(),
             Context::In(Mode::Pick) => self.pick_cross(),
             Context::In(_) | Context::Help => {}

@@ -25,8 +25,8 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
             let text = format!("{}. Quit?", app.losses().unwrap_or_default());
             ask(app, " Quit ", &text, area, buffer);
         }
-        Some(Dialog::Recover(text)) => {
-            let places = counted(app.document.differences(text), "place");
+        Some(Dialog::Recover(kept)) => {
+            let places = counted(app.document.differences(&kept.text), "place");
             let text = format!(
                 "Edits of an earlier run of {} were never saved: {places} differ from the file. \
                  Take them?",

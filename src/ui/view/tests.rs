@@ -19,7 +19,7 @@ use crate::ui::app::{
     App, Dialog, Disk, Export, Help, HelpFocus, Message, Mode, Opening, Prompt, PromptKind,
     Quality, Stage, Typing,
 };
-use crate::ui::msg::{Existing, ExportId};
+use crate::ui::msg::{Existing, ExportId, Kept};
 use crate::ui::terminal::Mouse;
 
 pub(super) const SCENE: &str = "\
@@ -161,7 +161,10 @@ const STATES: &[(&str, Change)] = &[
     }),
     ("quit", |app| app.dialog = Some(Dialog::Quit)),
     ("recover", |app| {
-        app.dialog = Some(Dialog::Recover(SCENE.to_owned()));
+        app.dialog = Some(Dialog::Recover(Kept {
+            place: PathBuf::new(),
+            text: SCENE.to_owned(),
+        }));
     }),
     ("conflict", |app| {
         retype(app, " 0.25 ", " 0.5 ");

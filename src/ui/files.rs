@@ -1,0 +1,142 @@
+//! The thread that touches scene files and the edits kept for the next run, one task after the
+//! other.
+
+use std::io;
+use std::path::PathBuf;
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::thread;
+use std::time::Duration;
+
+use super::msg::{Guard, Msg, SaveOutcome};
+use super::recovery::{self, Journal};
+use crate::file::{self, ReadError};
+
+/// How long the end of the program waits for a disk that does not answer.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Work for the thread.
+pub(super) enum Task {
+    Read(PathBuf),
+    Save {
+        path: PathBuf,
+        text: String,
+        guard: Guard,
+    },
+    /// Keep the unsaved edits of this scene, which is the one without a file if it has no path.
+    Keep {
+        scene: Option<PathBuf>,
+        text: String,
+    },
+    /// Make what an earlier run kept this one's.
+    Adopt {
+        scene: Option<PathBuf>,
+        place: PathBuf,
+    },
+    /// Forget what this run has kept.
+    Forget,
+    /// Forget what an earlier run kept.
+    Discard(PathBuf),
+}
+
+/// The thread's handle.
+pub(super) struct Files {
+    tasks: Sender<Task>,
+    /// Whether edits are kept, told at the end.
+    kept: Receiver<bool>,
+}
+
+impl Files {
+    /// Starts the thread; `send` is called on it.
+    pub(super) fn start(send: impl Fn(Msg) + Send + 'static) -> io::Result<Self> {
+        let (tasks, inbox) = mpsc::channel();
+        let (tell, kept) = mpsc::channel();
+        let work = move || {
+            let mut journal = Journal::default();
+            for task in inbox {
+                send_some(perform(task, &mut journal), &send);
+            }
+            // A program that has lost its patience is gone.
+            let _ = tell.send(journal.is_kept());
+        };
+        thread::Builder::new()
+            .name("files".to_owned())
+            .spawn(work)?;
+        Ok(Self { tasks, kept })
+    }
+
+    /// Has a task done after those before.
+    pub(super) fn order(&self, task: Task) -> Result<(), String> {
+        let sent = self.tasks.send(task);
+        sent.map_err(|_| "the thread that reads and writes files has ended".to_owned())
+    }
+
+    /// Waits until all is done; whether edits are kept for the next run.
+    pub(super) fn finish(self) -> bool {
+        drop(self.tasks);
+        self.kept.recv_timeout(PATIENCE).unwrap_or(false)
+    }
+}
+
+fn send_some(msg: Option<Msg>, send: &impl Fn(Msg)) {
+    msg.into_iter().for_each(send);
+}
+
+fn perform(task: Task, journal: &mut Journal) -> Option<Msg> {
+    let (done, words) = match task {
+        Task::Read(path) => return Some(Msg::Read(file::read_text(&path))),
+        Task::Save { path, text, guard } => return Some(Msg::Saved(save(path, text, &guard))),
+        Task::Keep { scene, text } => (
+            journal.write(scene, &text),
+            "the unsaved edits can't be kept",
+        ),
+        Task::Adopt { scene, place } => {
+            (journal.adopt(scene, place), "the kept edits can't be used")
+        }
+        Task::Forget => (journal.forget(), "the kept edits can't be removed"),
+        Task::Discard(place) => (recovery::remove(&place), "the kept edits can't be removed"),
+    };
+    done.err()
+        .map(|error| Msg::Failed(format!("{words}: {error}")))
+}
+
+/// Writes a scene, unless that would lose what somebody else wrote.
+fn save(path: PathBuf, text: String, guard: &Guard) -> SaveOutcome {
+    match (guard, file::read_text(&path)) {
+        (Guard::Holding(held), Ok(found)) if found != *held && found != text => {
+            return SaveOutcome::ChangedOnDisk(found);
+        }
+        (Guard::Anything, _)
+        | (Guard::Holding(_), Ok(_))
+        | (_, Err(ReadError::NotFound { .. })) => {}
+        (Guard::Holding(_), Err(error)) => return SaveOutcome::Failed(error.to_string()),
+        (Guard::Absent, _) => {
+            let path = path.display();
+            return SaveOutcome::Failed(format!("{path} exists: :w! {path} overwrites it"));
+        }
+    }
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    if let Some(folder) = folder.filter(|folder| !folder.exists()) {
+        return SaveOutcome::Failed(format!("{}: no such folder", folder.display()));
+    }
+    match file::replace(&path, |out| out.write_all(text.as_bytes())) {
+        Ok(()) => SaveOutcome::Saved { path, text },
+        Err(error) => SaveOutcome::Failed(format!("{}: {error}", path.display())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scene_is_not_saved_in_a_folder_that_is_not_there() {
+        let place = tempfile::tempdir().expect("a folder");
+        let path = place.path().join("none").join("x.ray");
+        let outcome = save(path, String::new(), &Guard::Absent);
+        assert!(
+            matches!(outcome, SaveOutcome::Failed(said) if said.ends_with("none: no such folder"))
+        );
+    }
+}
