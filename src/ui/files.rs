@@ -1,6 +1,7 @@
 //! The thread that touches scene files and the edits kept for the next run, one task after the
 //! other.
 
+use std::collections::VecDeque;
 use std::io;
 use std::path::PathBuf;
 use std::sync::mpsc::{self, Receiver, Sender};
@@ -52,8 +53,9 @@ impl Files {
         let (tell, kept) = mpsc::channel();
         let work = move || {
             let mut journal = Journal::default();
-            for task in inbox {
-                send_some(perform(task, &mut journal), &send);
+            let mut waiting = VecDeque::new();
+            while let Some(task) = next(&inbox, &mut waiting) {
+                perform(task, &mut journal).into_iter().for_each(&send);
             }
             // A program that has lost its patience is gone.
             let _ = tell.send(journal.is_kept());
@@ -77,13 +79,30 @@ impl Files {
     }
 }
 
-fn send_some(msg: Option<Msg>, send: &impl Fn(Msg)) {
-    msg.into_iter().for_each(send);
+/// The next task; `None` at the end. One reading answers all that wait for it.
+fn next(inbox: &Receiver<Task>, waiting: &mut VecDeque<Task>) -> Option<Task> {
+    if waiting.is_empty() {
+        waiting.push_back(inbox.recv().ok()?);
+    }
+    waiting.extend(inbox.try_iter());
+    loop {
+        let task = waiting.pop_front()?;
+        let is_again = |later: &Task| match (&task, later) {
+            (Task::Read(path), Task::Read(again)) => path == again,
+            _ => false,
+        };
+        if !waiting.iter().any(is_again) {
+            return Some(task);
+        }
+    }
 }
 
 fn perform(task: Task, journal: &mut Journal) -> Option<Msg> {
     let (done, words) = match task {
-        Task::Read(path) => return Some(Msg::Read(file::read_text(&path))),
+        Task::Read(path) => {
+            let read = file::read_text(&path);
+            return Some(Msg::Read(path, read));
+        }
         Task::Save { path, text, guard } => return Some(Msg::Saved(save(path, text, &guard))),
         Task::Keep { scene, text } => (
             journal.write(scene, &text),
@@ -129,6 +148,21 @@ fn save(path: PathBuf, text: String, guard: &Guard) -> SaveOutcome {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_file_that_is_waited_for_several_times_is_read_once() {
+        let (tasks, inbox) = mpsc::channel();
+        for name in ["a", "b", "a", "a", "b"] {
+            tasks.send(Task::Read(name.into())).expect("it is there");
+        }
+        drop(tasks);
+        let mut waiting = VecDeque::new();
+        let mut names = Vec::new();
+        while let Some(Task::Read(path)) = next(&inbox, &mut waiting) {
+            names.push(path);
+        }
+        assert_eq!(names, ["a", "b"].map(PathBuf::from));
+    }
 
     #[test]
     fn a_scene_is_not_saved_in_a_folder_that_is_not_there() {

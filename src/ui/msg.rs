@@ -43,8 +43,8 @@ pub enum Msg {
     Frame(Target, Arc<Frame>),
     /// Something happened to the scene file.
     FileChanged,
-    /// The scene file was read.
-    Read(Result<String, ReadError>),
+    /// The file of this name was read.
+    Read(PathBuf, Result<String, ReadError>),
     /// The time that [`Effect::Later`] asked for has passed.
     Elapsed(Timer),
     /// The scene was written, or not.

@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 use std::io::{self, Write};
+use std::path::Path;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
@@ -136,10 +137,10 @@ impl Session {
         let events: Vec<_> = first.into_iter().chain(self.inbox.try_iter()).collect();
         // Of several readings of the file only the last is worth understanding: a large scene that
         // is written in many pieces is read after each.
-        let last_read = events.iter().rposition(is_read);
-        let is_outdated = |at, event: &Event| is_read(event) && Some(at) != last_read;
-        for (at, event) in events.into_iter().enumerate() {
-            if is_outdated(at, &event) {
+        let mut left = VecDeque::from(events);
+        while let Some(event) = left.pop_front() {
+            let read = read_path(&event);
+            if read.is_some() && left.iter().any(|later| read_path(later) == read) {
                 continue;
             }
             if let Some(msg) = self.world.message(event) {
@@ -218,6 +219,10 @@ fn ending(msg: &Msg) -> Ending {
     }
 }
 
-fn is_read(event: &Event) -> bool {
-    matches!(event, Event::Msg(Msg::Read(_)))
+/// The file that was read, if one was.
+fn read_path(event: &Event) -> Option<&Path> {
+    match event {
+        Event::Msg(Msg::Read(path, _)) => Some(path),
+        _ => None,
+    }
 }

@@ -101,7 +101,9 @@ impl App {
             Msg::Started(target, generation) => self.started(target, generation),
             Msg::Frame(target, frame) => return self.frame(target, frame),
             Msg::FileChanged => return self.read_again(),
-            Msg::Read(read) => return self.was_read(read),
+            // The answer may come after the scene got another name.
+            Msg::Read(path, read) if self.is_own_path(&path) => return self.was_read(read),
+            Msg::Read(..) => {}
             Msg::Elapsed(Timer::Settled) => return self.settled(),
             Msg::Elapsed(Timer::Interrupt) => self.pending.interrupt = false,
             Msg::Elapsed(Timer::Click) => self.pending.click = None,

@@ -88,6 +88,14 @@ fn a_changed_file_is_taken_when_nothing_is_unsaved() {
 }
 
 #[test]
+fn what_another_file_holds_is_not_taken_for_the_scene() {
+    let mut app = open(SCENE);
+    let theirs = SCENE.replace("1.5", "1.7");
+    app.update(Msg::Read(PathBuf::from("before.ray"), Ok(theirs)));
+    assert_eq!(app.document.text(), SCENE);
+}
+
+#[test]
 fn changes_of_different_places_are_merged_as_one_step() {
     let mut app = open(SCENE);
     press(&mut app, "jjjel");
@@ -146,9 +154,8 @@ fn a_text_with_errors_is_kept_apart_from_unsaved_edits() {
 #[test]
 fn a_missing_file_is_told_after_a_while_and_forgotten_when_it_is_back() {
     let missing = || {
-        Msg::Read(Err(ReadError::NotFound {
-            path: PathBuf::from("scene.ray"),
-        }))
+        let path = PathBuf::from("scene.ray");
+        Msg::Read(path.clone(), Err(ReadError::NotFound { path }))
     };
     let mut app = open(SCENE);
     app.update(missing());
@@ -369,7 +376,7 @@ fn the_list_of_errors_follows_what_is_wrong() {
         assert_eq!(app.error_count(), 2);
         press(&mut app, "!j");
         assert_eq!(app.errors, Some(1));
-        app.update(Msg::Read(Ok(text.to_owned())));
+        app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(text.to_owned())));
         app.update(Msg::Elapsed(Timer::Settled));
         outside(&mut app, text);
         app.errors
@@ -382,7 +389,7 @@ fn the_list_of_errors_follows_what_is_wrong() {
 fn a_reload_names_what_differs_from_the_last_good_text() {
     let mut app = open(SCENE);
     let broken = |app: &mut App, text: &str| {
-        app.update(Msg::Read(Ok(text.to_owned())));
+        app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(text.to_owned())));
         app.update(Msg::Elapsed(Timer::Settled));
         outside(app, text);
     };

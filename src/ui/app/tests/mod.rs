@@ -121,7 +121,7 @@ fn words(app: &App) -> &str {
 }
 
 fn outside(app: &mut App, text: &str) -> Vec<Effect> {
-    app.update(Msg::Read(Ok(text.to_owned())))
+    app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(text.to_owned())))
 }
 
 fn wants(effects: &[Effect], wanted: fn(&Effect) -> bool) -> bool {

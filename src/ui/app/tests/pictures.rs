@@ -144,7 +144,7 @@ fn only_a_session_s_own_pictures_are_overwritten_unasked() {
 fn pictures_of_a_text_with_errors_say_that_they_are_of_the_last_one_without() {
     for said in ["b", "<F5>"] {
         let mut app = open(SCENE);
-        app.update(Msg::Read(Ok("x".to_owned())));
+        app.update(Msg::Read(PathBuf::from("scene.ray"), Ok("x".to_owned())));
         app.update(Msg::Elapsed(Timer::Settled));
         outside(&mut app, "x");
         assert!(0 < app.error_count());
