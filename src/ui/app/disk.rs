@@ -217,7 +217,7 @@ impl App {
                 let mut effects: Vec<_> = kept.map(|_| Effect::DropRecovery).into_iter().collect();
                 if self.path.as_ref() != Some(&path) {
                     self.path = Some(path.clone());
-                    effects.push(Effect::Watch(path));
+                    effects.extend(watch(&path));
                 }
                 self.pending.quit = quit;
                 effects.extend(self.quit_when_done());
@@ -312,6 +312,12 @@ impl App {
     pub(super) fn is_own_path(&self, path: &Path) -> bool {
         self.path.as_deref() == Some(path)
     }
+}
+
+/// Has a file watched, and read once more: it may have changed before the watch began.
+pub(super) fn watch(path: &Path) -> Vec<Effect> {
+    let path = path.to_owned();
+    vec![Effect::Watch(path.clone()), Effect::Read(path)]
 }
 
 /// Whether a text is a scene without errors.

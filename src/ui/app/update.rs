@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
+use super::disk::watch;
 use super::model::Pending;
 use super::{
     App, Dialog, Disk, Help, HelpFocus, Message, Mode, Outline, Picture, Prompt, PromptKind,
@@ -78,7 +79,7 @@ impl App {
         app.select(Node::Object(0));
         app.keep_selection();
         app.scroll();
-        let mut effects: Vec<_> = app.path.iter().cloned().map(Effect::Watch).collect();
+        let mut effects = app.path.as_deref().map_or_else(Vec::new, watch);
         effects.extend(app.follow());
         (app, effects)
     }

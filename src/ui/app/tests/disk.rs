@@ -96,6 +96,17 @@ fn what_another_file_holds_is_not_taken_for_the_scene() {
 }
 
 #[test]
+fn a_file_is_read_again_once_it_is_watched() {
+    let (mut app, effects) = opened(SCENE);
+    assert!(matches!(
+        &effects[..],
+        [Effect::Watch(path), Effect::Read(read), ..] if path == read
+    ));
+    assert!(outside(&mut app, SCENE).is_empty());
+    assert_eq!(words(&app), "");
+}
+
+#[test]
 fn changes_of_different_places_are_merged_as_one_step() {
     let mut app = open(SCENE);
     press(&mut app, "jjjel");

@@ -37,20 +37,19 @@ const TO_FIRST_OBJECT: &str = "jjj";
 
 /// The interface with the cursor on the list's first row.
 fn open(text: &str) -> App {
-    let mut app = opened(text);
+    let mut app = opened(text).0;
     press(&mut app, "gg");
     app
 }
 
-fn opened(text: &str) -> App {
-    let (app, _) = App::open(Opening {
+fn opened(text: &str) -> (App, Vec<Effect>) {
+    App::open(Opening {
         path: Some(PathBuf::from("scene.ray")),
         text: text.to_owned(),
         quality: Quality { spp: 4, depth: 8 },
         mouse: Mouse::On,
         terminal: (120, 40),
-    });
-    app
+    })
 }
 
 /// Keys written as characters, others by name: `jje<Right><Shift-Right><Ctrl-r>`.
