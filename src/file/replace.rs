@@ -23,19 +23,31 @@ pub fn replace(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
+    replace_if(path, write, || Ok(()))
+}
+
+/// As [`replace`], but asks `may` at the last moment, when the new content only has to take its
+/// place: an error leaves the old file.
+pub fn replace_if<E: From<io::Error>>(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    may: impl FnOnce() -> Result<(), E>,
+) -> Result<(), E> {
     match Target::of(path)? {
         Target::New(path) => {
             let directory = directory_of(&path);
-            write_and_rename(new_file(directory)?, &path, write)
+            write_and_rename(new_file(directory)?, &path, write, may)
         }
         Target::File(path, metadata) => match twin(&path, &metadata)? {
-            Some(temporary) => write_and_rename(temporary, &path, write),
-            None => overwrite(&path, write),
+            Some(temporary) => write_and_rename(temporary, &path, write, may),
+            None => overwrite(&path, write, may),
         },
         Target::Stream(path) => {
+            may()?;
             let mut out = BufWriter::new(OpenOptions::new().write(true).open(path)?);
             write(&mut out)?;
-            out.flush()
+            out.flush()?;
+            Ok(())
         }
     }
 }
@@ -214,16 +226,18 @@ fn copy_attributes(path: &Path, twin: &File) -> io::Result<()> {
     Ok(())
 }
 
-fn write_and_rename(
+fn write_and_rename<E: From<io::Error>>(
     temporary: NamedTempFile,
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
+    may: impl FnOnce() -> Result<(), E>,
+) -> Result<(), E> {
     let mut out = BufWriter::new(temporary.as_file());
     write(&mut out)?;
     out.flush()?;
     drop(out);
     temporary.as_file().sync_all()?;
+    may()?;
     temporary.persist(path).map_err(|error| error.error)?;
     sync_directory(directory_of(path));
     Ok(())
@@ -239,7 +253,11 @@ fn sync_directory(directory: &Path) {
     let _ = directory;
 }
 
-fn overwrite(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+fn overwrite<E: From<io::Error>>(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    may: impl FnOnce() -> Result<(), E>,
+) -> Result<(), E> {
     let mut content = Vec::new();
     write(&mut content)?;
     let mut file = OpenOptions::new().read(true).write(true).open(path)?;
@@ -247,7 +265,9 @@ fn overwrite(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) 
         temporary(directory_of(path), None).or_else(|_| temporary(&std::env::temp_dir(), None))?;
     io::copy(&mut file, backup.as_file_mut())?;
     backup.as_file().sync_all()?;
-    put(&mut file, &content).or_else(|error| restore(&mut file, backup, error))
+    may()?;
+    put(&mut file, &content).or_else(|error| restore(&mut file, backup, error))?;
+    Ok(())
 }
 
 /// Puts the content of a backup copy back after `error`; where that fails too, keeps the copy and

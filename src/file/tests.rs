@@ -107,6 +107,28 @@ fn a_failed_write_leaves_the_old_content() {
 }
 
 #[test]
+fn whether_to_replace_is_asked_when_only_the_name_is_left_to_take() {
+    let directory = directory();
+    let path = directory.path().join("s");
+    fs::write(&path, "old").expect("written");
+    let refused = replace_if(
+        &path,
+        |out| {
+            out.write_all(b"ours")?;
+            // Somebody else writes meanwhile.
+            fs::write(&path, "theirs")
+        },
+        || match content(&path).as_str() {
+            "old" => Ok(()),
+            _ => Err(io::Error::other("changed")),
+        },
+    );
+    assert_eq!(refused.expect_err("it changed").to_string(), "changed");
+    assert_eq!(content(&path), "theirs");
+    assert_eq!(names(directory.path()), ["s"]);
+}
+
+#[test]
 fn a_target_that_cannot_be_written_is_told_beforehand() {
     let directory = directory();
     let path = directory.path().join("s");

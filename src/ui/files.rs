@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 use std::time::Duration;
@@ -120,28 +120,56 @@ fn perform(task: Task, journal: &mut Journal) -> Option<Msg> {
 
 /// Writes a scene, unless that would lose what somebody else wrote.
 fn save(path: PathBuf, text: String, guard: &Guard) -> SaveOutcome {
-    match (guard, file::read_text(&path)) {
-        (Guard::Holding(held), Ok(found)) if found != *held && found != text => {
-            return SaveOutcome::ChangedOnDisk(found);
-        }
-        (Guard::Anything, _)
-        | (Guard::Holding(_), Ok(_))
-        | (_, Err(ReadError::NotFound { .. })) => {}
-        (Guard::Holding(_), Err(error)) => return SaveOutcome::Failed(error.to_string()),
-        (Guard::Absent, _) => {
-            let path = path.display();
-            return SaveOutcome::Failed(format!("{path} exists: :w! {path} overwrites it"));
-        }
-    }
     let folder = path
         .parent()
         .filter(|folder| !folder.as_os_str().is_empty());
     if let Some(folder) = folder.filter(|folder| !folder.exists()) {
         return SaveOutcome::Failed(format!("{}: no such folder", folder.display()));
     }
-    match file::replace(&path, |out| out.write_all(text.as_bytes())) {
+    let saved = file::replace_if(
+        &path,
+        |out| out.write_all(text.as_bytes()),
+        || may_replace(&path, &text, guard),
+    );
+    match saved {
         Ok(()) => SaveOutcome::Saved { path, text },
-        Err(error) => SaveOutcome::Failed(format!("{}: {error}", path.display())),
+        Err(Refusal::Changed(found)) => SaveOutcome::ChangedOnDisk(found),
+        Err(Refusal::Other(reason)) => SaveOutcome::Failed(reason),
+        Err(Refusal::Io(error)) => SaveOutcome::Failed(format!("{}: {error}", path.display())),
+    }
+}
+
+/// Why a scene was not written.
+enum Refusal {
+    /// The file holds something else than what we know.
+    Changed(String),
+    Other(String),
+    Io(io::Error),
+}
+
+impl From<io::Error> for Refusal {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
+    }
+}
+
+/// Whether what the file holds may be lost.
+fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), Refusal> {
+    let held = match guard {
+        Guard::Anything => return Ok(()),
+        Guard::Holding(held) => Some(held),
+        Guard::Absent => None,
+    };
+    match (held, file::read_text(path)) {
+        (_, Err(ReadError::NotFound { .. })) => Ok(()),
+        (Some(held), Ok(found)) if found == *held || found == text => Ok(()),
+        (Some(_), Ok(found)) => Err(Refusal::Changed(found)),
+        (Some(_), Err(error)) => Err(Refusal::Other(error.to_string())),
+        (None, _) => {
+            let path = path.display();
+            let reason = format!("{path} exists: :w! {path} overwrites it");
+            Err(Refusal::Other(reason))
+        }
     }
 }
 
