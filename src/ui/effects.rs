@@ -27,6 +27,8 @@ pub(crate) enum Event {
     Msg(Msg),
     /// A renderer has a newer frame.
     Ready(Target),
+    /// The renderer of this number traces no more.
+    Ended(Target, u64),
 }
 
 /// What outlives a step: the terminal, the renderers, the timers, the file under watch.
@@ -40,9 +42,11 @@ pub(crate) struct World {
     sender: Sender<Event>,
     files: Files,
     threads: Option<usize>,
-    preview: Option<Renderer>,
-    trace: Option<Renderer>,
-    export: Option<Renderer>,
+    preview: Option<Numbered>,
+    trace: Option<Numbered>,
+    export: Option<Numbered>,
+    /// How many renderers there were.
+    renderers: u64,
     method: Method,
     watcher: Option<Watcher>,
     timers: Vec<(Instant, Timer)>,
@@ -75,6 +79,7 @@ impl World {
             preview: None,
             trace: None,
             export: None,
+            renderers: 0,
             method: options.poll.map_or(Method::Native, Method::Poll),
             watcher: None,
             timers: Vec::new(),
@@ -98,8 +103,13 @@ impl World {
         match event {
             Event::Msg(msg) => Some(msg),
             Event::Ready(target) => {
-                let frame = self.renderer(target)?.latest()?;
+                let frame = self.numbered(target)?.renderer.latest()?;
                 Some(Msg::Frame(target, frame))
+            }
+            Event::Ended(target, number) => {
+                // One that was stopped, or replaced, has ended as it should.
+                let ended = self.numbered(target)?.number == number;
+                ended.then_some(Msg::Ended(target))
             }
         }
     }
@@ -171,7 +181,7 @@ impl World {
         outcome.err().map(Msg::Failed)
     }
 
-    fn renderer(&self, target: Target) -> Option<&Renderer> {
+    fn numbered(&self, target: Target) -> Option<&Numbered> {
         match target {
             Target::Preview => self.preview.as_ref(),
             Target::Trace => self.trace.as_ref(),
@@ -188,15 +198,28 @@ impl World {
                 Threads::Background(count.unwrap_or_else(cores))
             }
         };
-        let start = || Renderer::new(threads, waker(&self.sender, target));
+        let (sender, renderers) = (&self.sender, &mut self.renderers);
+        let mut start = || {
+            *renderers += 1;
+            let waker = Waker {
+                sender: sender.clone(),
+                target,
+                number: *renderers,
+            };
+            Numbered {
+                number: *renderers,
+                renderer: Renderer::new(threads, move || waker.wake()),
+            }
+        };
         let slot = match target {
             Target::Preview => &mut self.preview,
             Target::Trace => &mut self.trace,
             Target::Export => &mut self.export,
         };
-        let generation = slot.get_or_insert_with(start).restart(job.clone());
+        let running = slot.get_or_insert_with(&mut start);
+        let generation = running.renderer.restart(job.clone());
         // A worker that a panic has ended is replaced: the panic has cost one picture only.
-        let generation = generation.or_else(|| slot.insert(start()).restart(job));
+        let generation = generation.or_else(|| slot.insert(start()).renderer.restart(job));
         generation.map_or_else(
             || Msg::Failed("the system gives no threads to trace with".into()),
             |generation| Msg::Started(target, generation),
@@ -321,10 +344,28 @@ fn editor(path: &Path, line: usize) -> Command {
     command
 }
 
-fn waker(sender: &Sender<Event>, target: Target) -> impl Fn() + Send + Sync + 'static {
-    let sender = sender.clone();
-    move || {
-        let _ = sender.send(Event::Ready(target));
+/// A renderer, and which of all it is.
+struct Numbered {
+    number: u64,
+    renderer: Renderer,
+}
+
+/// Tells of a renderer's frames, and of its worker's end, which drops this.
+struct Waker {
+    sender: Sender<Event>,
+    target: Target,
+    number: u64,
+}
+
+impl Waker {
+    fn wake(&self) {
+        let _ = self.sender.send(Event::Ready(self.target));
+    }
+}
+
+impl Drop for Waker {
+    fn drop(&mut self) {
+        let _ = self.sender.send(Event::Ended(self.target, self.number));
     }
 }
 
@@ -350,6 +391,26 @@ fn message(event: terminal::Event) -> Msg {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_worker_that_panics_tells_that_it_has_ended() {
+        let (sender, inbox) = std::sync::mpsc::channel();
+        let waker = Waker {
+            sender,
+            target: Target::Export,
+            number: 7,
+        };
+        let worker = thread::spawn(move || {
+            waker.wake();
+            panic!("on purpose");
+        });
+        assert!(worker.join().is_err());
+        let events: Vec<_> = inbox.iter().collect();
+        assert!(matches!(
+            events[..],
+            [Event::Ready(_), Event::Ended(Target::Export, 7)]
+        ));
+    }
 
     #[test]
     fn a_picture_that_others_wrote_is_kept() {

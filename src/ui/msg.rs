@@ -41,6 +41,8 @@ pub enum Msg {
     Started(Target, u64),
     /// A newer frame is there.
     Frame(Target, Arc<Frame>),
+    /// Whoever traced this picture has ended unasked, by a panic or for want of threads.
+    Ended(Target),
     /// Something happened to the scene file.
     FileChanged,
     /// The file of this name was read.

@@ -108,6 +108,26 @@ impl App {
         Vec::new()
     }
 
+    /// Notes that a picture will not be finished.
+    pub(super) fn ended(&mut self, target: Target) {
+        match target {
+            Target::Preview => self.preview.wanted = None,
+            Target::Trace => {
+                if let Some(trace) = &mut self.trace {
+                    trace.wanted = None;
+                }
+            }
+            Target::Export => {
+                let traced = |export: &mut Export| export.stage == Stage::Tracing;
+                if self.export.take_if(traced).is_none() {
+                    return;
+                }
+                self.pending.quit = false;
+            }
+        }
+        self.fail("the picture can't be traced to its end");
+    }
+
     fn export_frame(&mut self, frame: Arc<Frame>) -> Vec<Effect> {
         let Some(export) = &mut self.export else {
             return Vec::new();

@@ -177,6 +177,18 @@ fn a_file_written_after_its_export_was_cancelled_is_told_and_stops_no_other() {
 }
 
 #[test]
+fn an_export_ends_with_its_worker() {
+    let mut app = open(SCENE);
+    press(&mut app, "bqw");
+    app.update(Msg::Ended(Target::Export));
+    assert!(app.export.is_none() && !app.pending.quit);
+    assert!(words(&app).contains("can't be traced"), "{}", words(&app));
+    press(&mut app, "b");
+    assert!(app.export.is_some());
+    assert!(app.update(Msg::Ended(Target::Preview)).is_empty());
+}
+
+#[test]
 fn quitting_asks_about_an_export_and_can_wait_for_it() {
     let quits = |effects: &[Effect]| wants(effects, |effect| matches!(effect, Effect::Quit));
     for said in ["q", "<Ctrl-c>", ":q<Enter>"] {
