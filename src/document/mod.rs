@@ -170,7 +170,8 @@ impl Document {
             return Replaced::Unchanged;
         }
         if !self.is_dirty() {
-            *self = Self::new(self.format, theirs);
+            let tree = format::parse(self.format, &theirs);
+            self.load(theirs, tree);
             return Replaced::Loaded;
         }
         let merge = Merge::new(self.format, &self.saved, &self.text, theirs);
@@ -181,6 +182,17 @@ impl Document {
             // The saved text stays: it is still the ancestor of both when the next text comes.
             Replaced::Conflict(merge)
         }
+    }
+
+    /// As [`Document::replace`] where there are no unsaved edits, for a text whose tree is known.
+    pub fn load(&mut self, text: String, tree: Tree) {
+        *self = Self {
+            format: self.format,
+            saved: text.clone(),
+            text,
+            tree,
+            history: History::default(),
+        };
     }
 
     /// Takes the outcome of a merge whose conflicts were decided, as one undoable step.

@@ -7,10 +7,11 @@ use std::time::Duration;
 use super::cursor::Held;
 use super::model::{Reader, Settle};
 use super::{App, Broken, Dialog, Disk, PromptKind};
-use crate::document::{Document, Replaced, Side};
+use crate::document::{Replaced, Side};
 use crate::file::ReadError;
-use crate::scene;
-use crate::text::{Position, Span, smallest_edit};
+use crate::format;
+use crate::scene::{self, Lowered};
+use crate::text::{Diagnostic, Position, Span, smallest_edit};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Guard, SaveOutcome, Timer};
 
@@ -87,23 +88,30 @@ impl App {
             return Vec::new();
         }
         let dirty = self.document.is_dirty();
-        if !is_sound(&self.document, &text) {
+        let tree = format::parse(self.document.format(), &text);
+        let lowered = scene::lower(&text, &tree);
+        if lowered.scene.is_none() {
             if !is_final {
                 return self.wait(QUIET);
             }
             if dirty {
-                self.keep_apart(text);
+                self.keep_apart(text, lowered.diagnostics);
                 return Vec::new();
             }
         }
         let held = self.hold();
         self.disk = Disk::Known;
         self.broken = None;
+        if !dirty {
+            self.document.load(text, tree);
+            self.show_reload(&held, lowered, "read again");
+            return Vec::new();
+        }
         match self.document.replace(text) {
-            Replaced::Unchanged => {}
-            Replaced::Loaded => self.show_reload(&held, "read again"),
+            Replaced::Unchanged | Replaced::Loaded => {}
             Replaced::Merged => {
-                self.show_reload(&held, "the file's changes are merged; u undoes");
+                let words = "the file's changes are merged; u undoes";
+                self.show_reload(&held, self.lowered(), words);
             }
             Replaced::Conflict(merge) => {
                 self.disk = Disk::Changed;
@@ -114,9 +122,7 @@ impl App {
     }
 
     /// Keeps a text with errors apart from unsaved edits.
-    fn keep_apart(&mut self, text: String) {
-        let tree = crate::format::parse(self.document.format(), &text);
-        let diagnostics = scene::lower(&text, &tree).diagnostics;
+    fn keep_apart(&mut self, text: String, diagnostics: Vec<Diagnostic>) {
         let first = diagnostics.iter().find(|d| d.is_error());
         let line = first.map_or(1, |d| Position::of(&text, d.span.start()).line);
         self.pending.quit = false;
@@ -127,10 +133,10 @@ impl App {
         ));
     }
 
-    /// Reads the text's meaning again, keeps the cursor where it was and says what changed.
-    fn show_reload(&mut self, held: &Held, words: &str) {
+    /// Takes what the text means now, keeps the cursor where it was and says what changed.
+    fn show_reload(&mut self, held: &Held, lowered: Lowered, words: &str) {
         let (scene, sound) = (self.scene.clone(), self.error_count() == 0);
-        self.relower();
+        self.install(lowered);
         let lost = self.follow_cursor(held);
         if 0 < self.error_count() {
             if sound {
@@ -273,7 +279,7 @@ impl App {
             Replaced::Conflict(merge) => self.dialog = Some(Dialog::Conflict { merge, at: 0 }),
             Replaced::Unchanged | Replaced::Loaded | Replaced::Merged => {
                 self.disk = Disk::Known;
-                self.show_reload(&held, "merged; u undoes");
+                self.show_reload(&held, self.lowered(), "merged; u undoes");
             }
         }
     }
@@ -318,10 +324,4 @@ impl App {
 pub(super) fn watch(path: &Path) -> Vec<Effect> {
     let path = path.to_owned();
     vec![Effect::Watch(path.clone()), Effect::Read(path)]
-}
-
-/// Whether a text is a scene without errors.
-fn is_sound(document: &Document, text: &str) -> bool {
-    let tree = crate::format::parse(document.format(), text);
-    scene::lower(text, &tree).scene.is_some()
 }

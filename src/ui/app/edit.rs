@@ -8,11 +8,15 @@ use crate::text::{Diagnostic, Edit, Span, parse_number};
 impl App {
     /// Reads the text's meaning again.
     pub(super) fn relower(&mut self) {
-        let lowered = scene::lower(self.document.text(), self.document.tree());
-        self.install(lowered);
+        self.install(self.lowered());
     }
 
-    fn install(&mut self, lowered: Lowered) {
+    /// What the text means.
+    pub(super) fn lowered(&self) -> Lowered {
+        scene::lower(self.document.text(), self.document.tree())
+    }
+
+    pub(super) fn install(&mut self, lowered: Lowered) {
         self.nodes = lowered.origins.nodes();
         self.origins = lowered.origins;
         self.diagnostics = lowered.diagnostics;
@@ -61,7 +65,7 @@ impl App {
             [edit] if !edit.span.is_empty() => self.document.set(edit.span, &edit.text),
             _ => self.document.edit(edits),
         }
-        let lowered = scene::lower(self.document.text(), self.document.tree());
+        let lowered = self.lowered();
         let touched = spans_after(edits);
         let touches = |d: &&Diagnostic| touched.iter().any(|span| d.span.touches(*span));
         let found = &lowered.diagnostics;
