@@ -94,12 +94,12 @@ fn picking_selects_what_lies_under_the_cross() {
 
 #[test]
 fn the_first_object_is_selected_at_the_start() {
-    assert_eq!(opened(SCENE).selected, Node::Object(0));
-    let mut app = opened(SCENE);
+    assert_eq!(opened(SCENE).0.selected, Node::Object(0));
+    let mut app = opened(SCENE).0;
     press(&mut app, "el");
     assert_eq!(changed_lines(&app), ["0.1 0 0"]);
-    assert_eq!(opened("").selected, Node::View);
-    assert_eq!(opened("1 1 1").selected, Node::Ambient);
+    assert_eq!(opened("").0.selected, Node::View);
+    assert_eq!(opened("1 1 1").0.selected, Node::Ambient);
 }
 
 #[test]
