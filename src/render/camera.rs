@@ -22,7 +22,7 @@ impl Projection {
     /// Frames what the camera frames, in `raster` pixels: the aspect is the camera's own, so that a
     /// preview whose size can only come near it shows the same picture.
     pub(crate) fn new(camera: &Camera, raster: Size) -> Self {
-        let forward = unit(camera.target - camera.eye);
+        let forward = unit(way(camera.eye, camera.target));
         let right = unit(forward.cross(upright(forward, unit(camera.up))));
         let half_height = libm::tan(camera.fov * (std::f64::consts::PI / 360.0));
         let aspect = f64::from(camera.size.width) / f64::from(camera.size.height);
@@ -62,6 +62,16 @@ fn upright(forward: DVec3, up: DVec3) -> DVec3 {
         DVec3::Y
     } else {
         DVec3::Z
+    }
+}
+
+/// The way from one point to another, or half of it where the whole is longer than `f64` can say.
+fn way(from: DVec3, to: DVec3) -> DVec3 {
+    let whole = to - from;
+    if whole.is_finite() {
+        whole
+    } else {
+        0.5 * to - 0.5 * from
     }
 }
 
@@ -138,6 +148,43 @@ mod tests {
         );
         // n = −z; x and y are equally far from it, and x comes first.
         assert_near(projection.up, DVec3::X);
+    }
+
+    #[test]
+    fn every_finite_view_gives_finite_rays() {
+        let extremes = [0.0, 5e-324, 1e-300, 1.0, 1e300, 9e307, f64::MAX];
+        let values: Vec<f64> = extremes.into_iter().flat_map(|x| [x, -x]).collect();
+        let raster = Size {
+            width: 3,
+            height: 2,
+        };
+        for (&a, &b) in values
+            .iter()
+            .flat_map(|a| values.iter().map(move |b| (a, b)))
+        {
+            for fov in [1e-300, 45.0, 180.0f64.next_down()] {
+                let camera = Camera {
+                    eye: DVec3::new(a, b, -a),
+                    target: DVec3::new(-a, -b, b),
+                    up: DVec3::new(b, a, 0.0),
+                    fov,
+                    size: raster,
+                };
+                // Scenes with such a view have an error.
+                if camera.eye == camera.target {
+                    continue;
+                }
+                let projection = Projection::new(&camera, raster);
+                for (x, y) in [(0.0, 0.0), (1.5, 1.0), (3.0, 2.0)] {
+                    let ray = projection.ray(x, y);
+                    assert_eq!(ray.origin, camera.eye);
+                    assert!(
+                        (ray.direction.length() - 1.0).abs() < 1e-15,
+                        "{camera:?}: {ray:?}"
+                    );
+                }
+            }
+        }
     }
 
     #[test]
