@@ -22,7 +22,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use halflight::format::{self, Format};
-use halflight::render::{DEFAULT_DEPTH, Job, Renderer, Settings, Threads};
+use halflight::render::{DEFAULT_DEPTH, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::{Scene, lower};
 use halflight::ui::view::layout::Zoom;
 
@@ -323,6 +323,7 @@ fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
         scene: Arc::clone(scene),
         camera: scene.camera,
         settings,
+        frames: Frames::Live,
     });
     (renderer, woken)
 }

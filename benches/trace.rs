@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use halflight::accel::Bvh;
 use halflight::format::{self, Format};
 use halflight::geometry::Aabb;
-use halflight::render::{DEFAULT_DEPTH, Frame, Job, Renderer, Settings, Threads};
+use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::{Scene, Size, lower};
 
 /// Runs of everything that is timed; the median is printed.
@@ -144,6 +144,7 @@ fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
             scene: Arc::clone(scene),
             camera: scene.camera,
             settings,
+            frames: Frames::Last,
         };
         let generation = renderer.restart(job).expect("the worker runs");
         loop {

@@ -6,7 +6,7 @@ use std::sync::{Arc, mpsc};
 use halflight::document::Document;
 use halflight::format::{self, Format};
 use halflight::image_out::ImageFormat;
-use halflight::render::{DEFAULT_DEPTH, Frame, Job, Renderer, Settings, Threads};
+use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::fields::{Kind, Range};
 use halflight::scene::{Scene, Size, lower};
 use halflight::text::{Edit, parse_number};
@@ -127,6 +127,7 @@ fn trace(scene: &Arc<Scene>, size: Size, spp: u32) -> Arc<Frame> {
         scene: Arc::clone(scene),
         camera: scene.camera,
         settings,
+        frames: Frames::Last,
     });
     loop {
         woken.recv().expect("the worker runs");

@@ -8,7 +8,7 @@ use super::progress::ProgressLine;
 use super::{Error, load, tell};
 use crate::file;
 use crate::image_out::ImageFormat;
-use crate::render::{Frame, Job, Renderer, Settings, Threads};
+use crate::render::{Frame, Frames, Job, Renderer, Settings, Threads};
 use crate::scene::{Camera, Scene, Size};
 use crate::text::counted;
 
@@ -100,6 +100,7 @@ fn trace(work: &Render, scene: Scene, size: Size) -> Result<Arc<Frame>, Error> {
             depth: work.depth,
             seed: work.seed,
         },
+        frames: Frames::Last,
     };
     let (wake, woken) = mpsc::channel();
     let renderer = Renderer::new(Threads::Exactly(work.threads), move || {

@@ -15,6 +15,15 @@ use crate::scene::{Rgb, Size};
 /// Pixels along a tile's edge; a multiple of the coarsest [`Step::Grid`].
 const TILE: u32 = 16;
 
+/// Pixels of a tile.
+const AREA: usize = (TILE * TILE) as usize;
+
+/// Pixels developed without asking whether to stop: less than two milliseconds.
+const QUIET: usize = 65_536;
+
+/// Tiles freed at once: about four megabytes, less than a millisecond.
+const FREED: usize = 512;
+
 /// What one walk over all tiles adds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Step {
@@ -55,17 +64,26 @@ pub(crate) struct Shot<'w> {
 #[derive(Debug)]
 pub(crate) struct Film {
     size: Size,
+    /// Those that a step has come to; there is room for all. A large picture's memory takes long to
+    /// be first touched: it is, tile by tile, by the threads that trace.
     tiles: Vec<Tile>,
 }
 
-#[derive(Clone, Debug)]
+/// Pixels row by row, and the index of the object under each.
+#[derive(Debug, Default)]
+pub(crate) struct Raster {
+    pub(crate) pixels: Vec<[u8; 3]>,
+    pub(crate) objects: Vec<u32>,
+}
+
+#[derive(Debug)]
 struct Tile {
     /// Its top left pixel.
     corner: [u32; 2],
     /// Sums of radiance, row by row; pixels beyond the picture's edge stay 0.
-    sums: Box<[Rgb]>,
+    sums: [Rgb; AREA],
     /// The object under each pixel's centre.
-    objects: Box<[u32]>,
+    objects: [u32; AREA],
     /// Spacing of the finest grid traced, while there are no whole samples.
     grid: u32,
     /// Samples that every pixel has.
@@ -75,30 +93,25 @@ struct Tile {
 impl Film {
     /// An empty film.
     pub(crate) fn new(size: Size) -> Self {
-        let area = (TILE * TILE) as usize;
-        let corners = (0..size.height)
-            .step_by(TILE as usize)
-            .flat_map(|y| (0..size.width).step_by(TILE as usize).map(move |x| [x, y]));
-        let tiles = corners.map(|corner| Tile {
-            corner,
-            sums: vec![Rgb::ZERO; area].into(),
-            objects: vec![NO_OBJECT; area].into(),
-            grid: GRIDS[0],
-            samples: 0,
-        });
         Self {
             size,
-            tiles: tiles.collect(),
+            tiles: Vec::with_capacity(tiles(size)),
         }
     }
 
     /// How many tiles there are.
     pub(crate) fn tiles(&self) -> usize {
+        tiles(self.size)
+    }
+
+    /// How many tiles a step has come to.
+    #[cfg(test)]
+    pub(crate) fn begun(&self) -> usize {
         self.tiles.len()
     }
 
     /// Takes one step in some of the tiles, on the threads of the current pool. Once `cancelled`
-    /// says so it stops, and the film is of no more use.
+    /// says so it stops, and the film is of no more use. The first step comes to all tiles in order.
     pub(crate) fn advance(
         &mut self,
         tiles: Range<usize>,
@@ -107,6 +120,9 @@ impl Film {
         cancelled: impl Fn() -> bool + Sync,
     ) -> Counts {
         let size = self.size;
+        let new = self.tiles.len()..tiles.end;
+        self.tiles
+            .par_extend(new.into_par_iter().map(|number| Tile::new(number, size)));
         self.tiles[tiles]
             .par_iter_mut()
             .map_init(
@@ -120,22 +136,77 @@ impl Film {
             .reduce(Counts::default, Counts::and)
     }
 
-    /// The pixels as far as they are known: where only a coarse grid is traced, its nearest point
-    /// up and to the left stands for them.
-    pub(crate) fn develop(&self) -> (Vec<[u8; 3]>, Vec<u32>) {
-        let mut pixels = vec![[0; 3]; self.size.pixels()];
-        let mut objects = vec![NO_OBJECT; self.size.pixels()];
-        for tile in &self.tiles {
-            for [x, y] in tile.pixels(self.size, 1) {
-                let at = y as usize * self.size.width as usize + x as usize;
-                (pixels[at], objects[at]) = tile.pixel(x, y);
+    /// The pixels as far as they are known, on the threads of the current pool: where only a coarse
+    /// grid is traced, its nearest point up and to the left stands for them. Every tile has been
+    /// come to. `None` once `cancelled` says so.
+    pub(crate) fn develop(&self, cancelled: impl Fn() -> bool) -> Option<Raster> {
+        let count = self.size.pixels();
+        let mut raster = Raster {
+            pixels: Vec::with_capacity(count),
+            objects: Vec::with_capacity(count),
+        };
+        for start in (0..count).step_by(QUIET) {
+            if cancelled() {
+                return None;
             }
+            let part = start..count.min(start + QUIET);
+            let each = || part.clone().into_par_iter().with_min_len(1024);
+            raster.pixels.par_extend(each().map(|at| self.pixel(at)));
+            raster.objects.par_extend(each().map(|at| self.object(at)));
         }
-        (pixels, objects)
+        Some(raster)
+    }
+
+    /// Leaves the memory to the current pool to free, bit by bit: a large picture takes a tenth of a
+    /// second, and while the system takes memory back, no thread of the process can end.
+    pub(crate) fn free_later(mut self) {
+        rayon::spawn(move || {
+            while !self.tiles.is_empty() {
+                self.tiles.truncate(self.tiles.len().saturating_sub(FREED));
+                self.tiles.shrink_to_fit();
+            }
+        });
+    }
+
+    fn pixel(&self, at: usize) -> [u8; 3] {
+        let (tile, pixel) = self.find(at);
+        to_bytes(tile.sums[pixel] / f64::from(tile.samples.max(1)))
+    }
+
+    fn object(&self, at: usize) -> u32 {
+        let (tile, pixel) = self.find(at);
+        tile.objects[pixel]
+    }
+
+    /// The tile of a pixel, and the pixel in it that stands for it.
+    fn find(&self, at: usize) -> (&Tile, usize) {
+        // A picture has no more pixels each way than 32 bits count.
+        let width = self.size.width as usize;
+        let (x, y) = ((at % width) as u32, (at / width) as u32);
+        let across = self.size.width.div_ceil(TILE);
+        let tile = &self.tiles[(y / TILE) as usize * across as usize + (x / TILE) as usize];
+        (tile, tile.known(x, y))
     }
 }
 
+/// How many tiles a picture has.
+fn tiles(size: Size) -> usize {
+    size.width.div_ceil(TILE) as usize * size.height.div_ceil(TILE) as usize
+}
+
 impl Tile {
+    /// An empty tile, by its place in the film.
+    fn new(number: usize, size: Size) -> Self {
+        let across = size.width.div_ceil(TILE) as usize;
+        Self {
+            corner: [number % across, number / across].map(|tiles| tiles as u32 * TILE),
+            sums: [Rgb::ZERO; AREA],
+            objects: [NO_OBJECT; AREA],
+            grid: GRIDS[0],
+            samples: 0,
+        }
+    }
+
     fn advance(
         &mut self,
         size: Size,
@@ -202,14 +273,13 @@ impl Tile {
             .flat_map(move |y| (left..right).step_by(spacing as usize).map(move |x| [x, y]))
     }
 
-    fn pixel(&self, x: u32, y: u32) -> ([u8; 3], u32) {
-        let at = if self.samples == 0 {
+    /// Where the pixel that stands for (x, y) is.
+    fn known(&self, x: u32, y: u32) -> usize {
+        if self.samples == 0 {
             self.index(x - x % self.grid, y - y % self.grid)
         } else {
             self.index(x, y)
-        };
-        let mean = self.sums[at] / f64::from(self.samples.max(1));
-        (to_bytes(mean), self.objects[at])
+        }
     }
 
     fn index(&self, x: u32, y: u32) -> usize {

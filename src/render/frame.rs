@@ -30,6 +30,15 @@ pub struct Settings {
     pub seed: u32,
 }
 
+/// Which frames of a job show pixels. All tell the progress.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frames {
+    /// Every one: the picture is watched as it comes about.
+    Live,
+    /// The last one, which is complete: pixels before that would be made for nobody.
+    Last,
+}
+
 /// A picture to trace.
 #[derive(Clone, Debug)]
 pub struct Job {
@@ -39,6 +48,8 @@ pub struct Job {
     pub camera: Camera,
     /// How.
     pub settings: Settings,
+    /// What is shown of it on the way.
+    pub frames: Frames,
 }
 
 /// A picture as far as it is traced.
@@ -48,9 +59,11 @@ pub struct Frame {
     pub generation: u64,
     /// Its size.
     pub size: Size,
-    /// Red, green, blue of each pixel, row by row from the top left, as an export writes them.
+    /// Red, green, blue of each pixel, row by row from the top left, as an export writes them; none
+    /// in a frame that shows no pixels, see [`Frames`].
     pub pixels: Vec<[u8; 3]>,
-    /// Index of the object under each pixel's centre, or [`NO_OBJECT`].
+    /// Index of the object under each pixel's centre, or [`NO_OBJECT`]; none where there are no
+    /// pixels.
     pub objects: Vec<u32>,
     /// How far it is.
     pub progress: Progress,

@@ -5,6 +5,10 @@
 //! pixel, sample index) and each pixel's samples are added in the order of their indices, so a
 //! finished frame has the same bits for any number of threads and any history of cancelled jobs.
 //!
+//! Dropping a renderer ends its work soon, however large the picture: work asks every few
+//! milliseconds whether to stop, a film's memory is first touched as it is traced, and is left to
+//! the pool to free.
+//!
 //! The way of a picture: [`renderer`] hands a job to [`worker`], which builds a [`world`] and fills
 //! a [`film`] pass by pass; each sample asks [`sampler`] for its place in the pixel, [`camera`] for
 //! its ray and [`whitted`] for its radiance; [`tone`] makes the film a frame.
@@ -20,7 +24,9 @@ mod whitted;
 mod worker;
 mod world;
 
-pub use frame::{DEFAULT_DEPTH, DEFAULT_SPP, Frame, Job, MAX_SPP, NO_OBJECT, Progress, Settings};
+pub use frame::{
+    DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress, Settings,
+};
 pub use renderer::{Renderer, Threads};
 
 #[cfg(test)]

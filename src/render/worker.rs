@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use rayon::ThreadPool;
 
 use super::camera::Projection;
-use super::film::{Film, Shot, Step, steps};
-use super::frame::{Frame, Job, Progress};
+use super::film::{Film, Raster, Shot, Step, steps};
+use super::frame::{Frame, Frames, Job, Progress};
 use super::shared::Shared;
 use super::whitted::Counts;
 use super::world::World;
@@ -70,6 +70,7 @@ fn trace<W: Fn() + Sync>(
             break;
         }
     }
+    picture.film.free_later();
     Some(world)
 }
 
@@ -89,6 +90,12 @@ impl Ticket<'_> {
         self.shared.is_old(self.generation)
             && (published.is_some() || GRACE <= self.built.elapsed() || self.shared.is_quitting())
     }
+
+    /// Whether not even a picture that is traced is to be shown any more: a first one is, in spite
+    /// of newer jobs.
+    fn unwanted(&self, shown: bool) -> bool {
+        self.shared.is_quitting() || (shown && self.shared.is_old(self.generation))
+    }
 }
 
 /// The picture of a job, as far as it is.
@@ -99,6 +106,7 @@ struct Picture<'s, W> {
     film: Film,
     size: Size,
     spp: u32,
+    frames: Frames,
     counts: Counts,
     /// Samples taken, in pixels' worth.
     taken: f64,
@@ -108,6 +116,8 @@ struct Picture<'s, W> {
     batch: usize,
     /// When it was last published.
     published: Option<Instant>,
+    /// How long making the last frame took.
+    developing: Duration,
 }
 
 impl<'s, W: Fn() + Sync> Picture<'s, W> {
@@ -119,12 +129,14 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
             film: Film::new(job.settings.size),
             size: job.settings.size,
             spp: job.settings.spp,
+            frames: job.frames,
             counts: Counts::default(),
             taken: 0.0,
             pass: 1,
             whole_samples: 0,
             batch: 2 * rayon::current_num_threads(),
             published: None,
+            developing: Duration::ZERO,
         }
     }
 
@@ -175,7 +187,8 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
         self.published.is_none() && (*step == Step::Grid(1) || FIRST_PICTURE <= 4 * elapsed)
     }
 
-    /// Whether it is time for another picture: often at first, ever more seldom later.
+    /// Whether it is time for another picture: often at first, ever more seldom later, and never so
+    /// often that a large picture is developed rather than traced.
     fn is_due(&self) -> bool {
         let interval = match self.begun.elapsed().as_millis() {
             0..1000 => 33,
@@ -183,13 +196,25 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
             4000..16_000 => 250,
             _ => 500,
         };
+        let interval = Duration::from_millis(interval).max(4 * self.developing);
         self.published
-            .is_some_and(|last| Duration::from_millis(interval) <= last.elapsed())
+            .is_some_and(|last| interval <= last.elapsed())
     }
 
     fn publish(&mut self) {
-        let (pixels, objects) = self.film.develop();
+        let begun = Instant::now();
         let complete = self.whole_samples == self.spp;
+        let raster = if complete || self.frames == Frames::Live {
+            let shown = self.published.is_some();
+            let ticket = self.ticket;
+            self.film.develop(|| ticket.unwanted(shown))
+        } else {
+            Some(Raster::default())
+        };
+        let Some(Raster { pixels, objects }) = raster else {
+            return;
+        };
+        self.developing = begun.elapsed();
         let untaken = self.ticket.shared.publish(Frame {
             generation: self.ticket.generation,
             size: self.size,

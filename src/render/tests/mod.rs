@@ -12,7 +12,7 @@ use glam::DVec3;
 
 use super::whitted::{Seen, Tracer};
 use super::world::World;
-use super::{Frame, Job, Renderer, Settings, Threads};
+use super::{Frame, Frames, Job, Renderer, Settings, Threads};
 use crate::geometry::{Affine, Cuboid, Ray, Shape, Sphere};
 use crate::scene::{Camera, Light, Material, Object, Rgb, Scene, Size};
 
@@ -130,6 +130,7 @@ fn job(scene: &Arc<Scene>, settings: Settings) -> Job {
         scene: Arc::clone(scene),
         camera: scene.camera,
         settings,
+        frames: Frames::Live,
     }
 }
 

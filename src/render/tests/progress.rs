@@ -1,6 +1,8 @@
 //! The way to a finished picture: grids, passes, threads, cancelling.
 
-use super::super::film::{Step, steps};
+use std::cell::Cell;
+
+use super::super::film::{Film, Shot, Step, steps};
 use super::*;
 
 /// Glass, a mirror and a matte ball on a floor.
@@ -183,4 +185,54 @@ fn a_worker_that_panicked_says_so() {
     restart(&renderer, job(&Arc::new(broken), settings(4, 3, 1)));
     assert_eq!(woken.recv(), Err(mpsc::RecvError));
     assert_eq!(renderer.restart(job(&still(), settings(4, 3, 1))), None);
+}
+
+/// Of a job that shows its last frame only, frames before that carry nothing but the progress.
+#[test]
+fn pixels_that_nobody_watches_are_not_developed() {
+    let scene = still();
+    let (renderer, woken) = renderer(1);
+    let last = Job {
+        frames: Frames::Last,
+        ..job(&scene, settings(400, 300, 8))
+    };
+    restart(&renderer, last);
+    woken.recv().expect("a frame");
+    let mut frame = renderer.latest().expect("a frame");
+    while !frame.progress.complete {
+        assert!(frame.pixels.is_empty() && frame.objects.is_empty());
+        woken.recv().expect("a frame");
+        frame = renderer.latest().unwrap_or(frame);
+    }
+    let live = trace(&scene, settings(400, 300, 8), 2);
+    assert!(frame.pixels == live.pixels && frame.objects == live.objects);
+}
+
+/// Memory is touched and pixels are made bit by bit, and asked about in between.
+#[test]
+fn a_film_takes_memory_as_it_is_traced_and_stops_developing_when_told_to() {
+    let size = Size {
+        width: 2000,
+        height: 1000,
+    };
+    let world = world(Scene::clone(&still()));
+    let shot = Shot {
+        world: &world,
+        projection: crate::render::camera::Projection::new(&world.scene.camera, size),
+        settings: settings(size.width, size.height, 1),
+    };
+    let mut film = Film::new(size);
+    assert_eq!((film.tiles(), film.begun()), (125 * 63, 0));
+    film.advance(0..7, &Step::Grid(8), &shot, || false);
+    assert_eq!(film.begun(), 7);
+    film.advance(7..film.tiles(), &Step::Grid(8), &shot, || true);
+    let asked = Cell::new(0);
+    let stop_at_the_third = || {
+        asked.set(asked.get() + 1);
+        asked.get() == 3
+    };
+    assert!(film.develop(stop_at_the_third).is_none());
+    assert_eq!(asked.get(), 3);
+    let raster = film.develop(|| false).expect("nothing cancels");
+    assert_eq!(raster.pixels.len(), size.pixels());
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{App, Export, Mode, Picture, Stage};
 use crate::image_out::{ImageFormat, known_extensions};
-use crate::render::{Frame, Job, Settings};
+use crate::render::{Frame, Frames, Job, Settings};
 use crate::scene::{Camera, Size};
 use crate::ui::msg::{Effect, Existing, ExportId, Target};
 
@@ -51,6 +51,7 @@ impl App {
                 depth: self.quality.depth,
                 seed: 0,
             },
+            frames: Frames::Live,
         })
     }
 
@@ -252,7 +253,14 @@ impl App {
         let camera = Camera { size, ..job.camera };
         vec![
             Effect::CheckTarget(id, path.to_owned(), existing),
-            Effect::Trace(Target::Export, Job { camera, ..job }),
+            Effect::Trace(
+                Target::Export,
+                Job {
+                    camera,
+                    frames: Frames::Last,
+                    ..job
+                },
+            ),
         ]
     }
 
