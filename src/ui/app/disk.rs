@@ -11,7 +11,7 @@ use crate::document::{Replaced, Side};
 use crate::file::ReadError;
 use crate::format;
 use crate::scene::{self, Lowered};
-use crate::text::{Diagnostic, Position, Span, smallest_edit};
+use crate::text::{Findings, Position, Span, smallest_edit};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Guard, SaveOutcome, Timer};
 
@@ -122,8 +122,8 @@ impl App {
     }
 
     /// Keeps a text with errors apart from unsaved edits.
-    fn keep_apart(&mut self, text: String, diagnostics: Vec<Diagnostic>) {
-        let first = diagnostics.iter().find(|d| d.is_error());
+    fn keep_apart(&mut self, text: String, diagnostics: Findings) {
+        let first = diagnostics.first_error();
         let line = first.map_or(1, |d| Position::of(&text, d.span.start()).line);
         self.pending.quit = false;
         self.disk = Disk::Broken;
