@@ -62,6 +62,7 @@ const DEPENDENCIES: &[(&str, &str)] = &[
     ("rustix", "*"),
     ("signal_hook", "ui"),
     ("similar", "document"),
+    ("smallvec", "geometry"),
     ("sobol_burley", "render"),
     ("tempfile", "file"),
     ("termprofile", "ui"),

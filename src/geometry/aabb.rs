@@ -27,9 +27,25 @@ impl Aabb {
         }
     }
 
-    /// The centre.
+    /// The largest box in both.
+    #[must_use]
+    pub fn intersection(self, other: Self) -> Self {
+        let overlap = Self {
+            min: self.min.max(other.min),
+            max: self.max.min(other.max),
+        };
+        // An inside-out box would grow a union.
+        if overlap.is_empty() {
+            Self::EMPTY
+        } else {
+            overlap
+        }
+    }
+
+    /// The centre; 0 along an axis without ends.
     pub fn centre(self) -> DVec3 {
-        0.5 * self.min + 0.5 * self.max
+        let centre = 0.5 * self.min + 0.5 * self.max;
+        DVec3::select(centre.is_nan_mask(), DVec3::ZERO, centre)
     }
 
     /// Edge lengths.
@@ -40,5 +56,10 @@ impl Aabb {
     /// Whether it holds no point.
     pub fn is_empty(self) -> bool {
         !self.min.cmple(self.max).all()
+    }
+
+    /// Whether it ends on every side; an empty box does not.
+    pub fn is_bounded(self) -> bool {
+        self.min.is_finite() && self.max.is_finite()
     }
 }

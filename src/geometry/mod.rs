@@ -1,7 +1,8 @@
 //! Rays against shapes, in `f64`, one shape a file. Knows no lights, materials or text.
 //!
 //! Hits come in two steps: [`Shape::hit`] gives a distance for every candidate, and
-//! [`Shape::surface`] the point and normal once, for the winner. There is no epsilon: the point is
+//! [`Shape::surface`] the point and normal once, for the winner. [`Shape::spans`] gives all of a
+//! line that is inside, which is more than one span if the solid is not convex. There is no epsilon: the point is
 //! re-projected onto its surface, and a ray that leaves it starts [`Surface::leave`], a few units in
 //! the last place off the surface.
 
@@ -23,6 +24,6 @@ pub use cone::Cone;
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use ellipsoid::Ellipsoid;
-pub use shape::{Crossings, Hit, Ray, Shape, Surface, ulp};
+pub use shape::{Crossings, Hit, Ray, Shape, Spans, Surface, ulp};
 pub use sphere::Sphere;
 pub use transform::{Affine, FLATTEST};

@@ -1,6 +1,7 @@
 //! What rays, hits and shapes have in common.
 
 use glam::DVec3;
+use smallvec::SmallVec;
 
 use super::{Aabb, Cone, Cuboid, Cylinder, Ellipsoid, Sphere};
 
@@ -29,8 +30,8 @@ pub struct Hit {
     pub part: u32,
 }
 
-/// Where a line enters and leaves a convex solid, as distances along a ray, either of which may be
-/// negative.
+/// Where a line enters and leaves a solid, as distances along a ray, either of which may be
+/// negative, or infinite where no surface bounds that end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossings {
     /// Where the line goes in.
@@ -38,6 +39,9 @@ pub struct Crossings {
     /// Where it comes out; not before `enter`.
     pub exit: Hit,
 }
+
+/// The parts of a line that are inside a solid: in ascending order and disjoint.
+pub type Spans = SmallVec<[Crossings; 4]>;
 
 impl Crossings {
     /// The whole line, which no surface bounds.
@@ -80,13 +84,16 @@ impl Crossings {
     /// what `f64` holds: a line without direction, sizes near the ends of its range.
     #[inline]
     pub(super) fn after(self, start: f64) -> Option<Self> {
-        let Self {
-            mut enter,
-            mut exit,
-        } = self;
-        enter.t += start;
-        exit.t += start;
-        (enter.t.is_finite() && exit.t.is_finite()).then_some(Self { enter, exit })
+        self.later(start)
+            .filter(|moved| moved.enter.t.is_finite() && moved.exit.t.is_finite())
+    }
+
+    /// The same for a solid that need not have ends; `None` if a distance is no number.
+    #[inline]
+    pub(super) fn later(mut self, start: f64) -> Option<Self> {
+        self.enter.t += start;
+        self.exit.t += start;
+        (self.enter.t <= self.exit.t).then_some(self)
     }
 }
 
@@ -128,7 +135,7 @@ pub fn ulp(x: f64) -> f64 {
     x.abs().next_up() - x.abs()
 }
 
-/// A closed solid. All are convex.
+/// A closed solid.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A sphere.
@@ -155,22 +162,27 @@ impl Shape {
         }
     }
 
-    /// Where the ray's line crosses the solid, or `None` if it misses it.
-    #[inline]
-    pub fn crossings(&self, ray: &Ray) -> Option<Crossings> {
+    /// Adds the parts of the ray's line that are inside the solid.
+    pub fn spans(&self, ray: &Ray, spans: &mut Spans) {
         match self {
-            Self::Sphere(sphere) => sphere.crossings(ray),
-            Self::Ellipsoid(ellipsoid) => ellipsoid.crossings(ray),
-            Self::Cuboid(cuboid) => cuboid.crossings(ray),
-            Self::Cylinder(cylinder) => cylinder.crossings(ray),
-            Self::Cone(cone) => cone.crossings(ray),
+            Self::Sphere(sphere) => spans.extend(sphere.crossings(ray)),
+            Self::Ellipsoid(ellipsoid) => spans.extend(ellipsoid.crossings(ray)),
+            Self::Cuboid(cuboid) => spans.extend(cuboid.crossings(ray)),
+            Self::Cylinder(cylinder) => spans.extend(cylinder.crossings(ray)),
+            Self::Cone(cone) => spans.extend(cone.crossings(ray)),
         }
     }
 
     /// The nearest crossing with `0 < t < limit`, entering or leaving.
     #[inline]
     pub fn hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
-        self.crossings(ray)?.nearest(limit)
+        match self {
+            Self::Sphere(sphere) => sphere.crossings(ray)?.nearest(limit),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.crossings(ray)?.nearest(limit),
+            Self::Cuboid(cuboid) => cuboid.crossings(ray)?.nearest(limit),
+            Self::Cylinder(cylinder) => cylinder.crossings(ray)?.nearest(limit),
+            Self::Cone(cone) => cone.crossings(ray)?.nearest(limit),
+        }
     }
 
     /// The surface at a hit of this shape.

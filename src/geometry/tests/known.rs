@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::random::Random;
-use super::{Frame, KINDS, Kind, Ray, ray};
-use crate::geometry::{Affine, Hit};
+use super::{Frame, KINDS, Kind, Ray, only_span, ray};
+use crate::geometry::{Aabb, Affine, Hit};
 
 /// A unit solid, a ray, and where it goes in and out: distance and part.
 type Case = (Kind, [f64; 3], [f64; 3], Option<[(f64, u32); 2]>);
@@ -16,9 +16,7 @@ fn check(cases: &[Case]) {
             origin: DVec3::from_array(origin),
             direction: DVec3::from_array(direction),
         };
-        let found = frame
-            .shape(kind)
-            .crossings(&ray)
+        let found = only_span(&frame.shape(kind), &ray)
             .map(|crossings| [crossings.enter, crossings.exit].map(|hit| (hit.t, hit.part)));
         let alike = match (found, expected) {
             (Some(found), Some(expected)) => (0..2).all(|i| {
@@ -156,7 +154,7 @@ fn a_cone_upside_down() {
         origin: DVec3::new(1.0, 1.0, -5.0),
         direction: slanted.normalize(),
     };
-    let crossings = cone.shape(Kind::Cone).crossings(&incoming);
+    let crossings = only_span(&cone.shape(Kind::Cone), &incoming);
     let crossings = crossings.expect("the line crosses the cone");
     // Roots of (1 − t/2)² + (t − 5)² = (1 − t)²: t² − 36 t + 100 = 0.
     let root = 224_f64.sqrt();
@@ -237,7 +235,7 @@ fn extreme_sizes_give_numbers_or_nothing() {
             origin: distance * random.in_cube(),
             direction: random.direction(),
         };
-        let Some(crossings) = shape.crossings(&incoming) else {
+        let Some(crossings) = only_span(&shape, &incoming) else {
             continue;
         };
         assert!(crossings.enter.t.is_finite() && crossings.exit.t.is_finite());
@@ -254,4 +252,37 @@ fn the_apex_has_a_normal() {
     assert!((surface.point - DVec3::Z).length() < 1e-13);
     assert!((surface.normal.length() - 1.0).abs() < 1e-15);
     assert!(surface.normal.dot(incoming.direction) < 0.0);
+}
+
+#[test]
+fn boxes_without_ends() {
+    let [low, high] = [-1.0, 3.0].map(DVec3::splat);
+    let finite = Aabb {
+        min: low,
+        max: high,
+    };
+    let half = Aabb {
+        max: high.with_x(f64::INFINITY),
+        min: low,
+    };
+    let slab = Aabb {
+        min: low.with_x(f64::NEG_INFINITY),
+        ..half
+    };
+    assert!(finite.is_bounded() && !half.is_bounded() && !slab.is_bounded());
+    assert!(!Aabb::EMPTY.is_bounded());
+    assert_eq!(finite.intersection(slab), finite);
+    assert_eq!(slab.centre(), DVec3::new(0.0, 1.0, 1.0));
+    assert_eq!(slab.size(), DVec3::new(f64::INFINITY, 4.0, 4.0));
+    assert_eq!(half.centre().x, f64::INFINITY);
+    let apart = Aabb {
+        min: high + 1.0,
+        max: high + 2.0,
+    };
+    assert_eq!(finite.intersection(apart), Aabb::EMPTY);
+    let touching = Aabb {
+        min: high,
+        max: high + 2.0,
+    };
+    assert!(!finite.intersection(touching).is_empty());
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::exact::Exact;
 use super::random::{Random, extremes};
-use super::{Frame, KINDS, Kind, Ray, ray};
+use super::{Frame, KINDS, Kind, Ray, only_span, ray};
 use crate::geometry::{Shape, Surface};
 
 const SURFACES: u64 = 1000;
@@ -72,7 +72,7 @@ fn leaving_rays_do_not_return() {
                     origin: surface.leave(direction),
                     direction,
                 };
-                let crossings = shape.crossings(&leaving);
+                let crossings = only_span(&shape, &leaving);
                 let outward = 0.0 <= direction.dot(surface.normal);
                 let hit_again = crossings.is_some_and(|crossings| {
                     0.0 < crossings.enter.t || (outward && 0.0 < crossings.exit.t)

@@ -12,7 +12,7 @@ mod silhouettes;
 use glam::DVec3;
 
 use super::transform::normalise;
-use super::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Ray, Shape, Sphere};
+use super::{Affine, Cone, Crossings, Cuboid, Cylinder, Ellipsoid, Ray, Shape, Spans, Sphere};
 
 /// The solids there are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,4 +95,12 @@ fn ray(origin: DVec3, toward: DVec3) -> Ray {
         origin,
         direction: unit(toward - origin),
     }
+}
+
+/// The one span of a line in a convex solid.
+fn only_span(shape: &Shape, ray: &Ray) -> Option<Crossings> {
+    let mut spans = Spans::new();
+    shape.spans(ray, &mut spans);
+    assert!(spans.len() < 2, "{shape:?} is convex");
+    spans.pop()
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::exact::Exact;
 use super::random::{Random, excess, extremes, place};
-use super::{Frame, KINDS, Kind, Ray, ray};
+use super::{Frame, KINDS, Kind, Ray, only_span, ray};
 
 /// A ray toward a random solid, that may start inside it or miss it.
 fn encounter(random: &mut Random, kind: Kind) -> (Frame, Ray) {
@@ -21,7 +21,7 @@ fn spans_are_what_is_inside() {
         let kind = KINDS[index % KINDS.len()];
         let (frame, ray) = encounter(&mut random, kind);
         let depth = |t: f64| excess(kind, place(&frame, ray.at(t)));
-        let Some(crossings) = frame.shape(kind).crossings(&ray) else {
+        let Some(crossings) = only_span(&frame.shape(kind), &ray) else {
             let around = (frame.origin - ray.origin).dot(ray.direction);
             for step in -20..20 {
                 let t = around + 0.3 * f64::from(step);
@@ -54,7 +54,7 @@ fn spans_agree_with_twice_the_precision() {
         let kind = KINDS[index % KINDS.len()];
         let (frame, ray) = encounter(&mut random, kind);
         let shape = frame.shape(kind);
-        let found = shape.crossings(&ray);
+        let found = only_span(&shape, &ray);
         let exact = Exact::new(kind, &frame).span(&ray);
         let (Some(found), Some([enter, exit])) = (found, exact) else {
             assert!(found.is_none() && exact.is_none(), "{kind:?} {index}");
