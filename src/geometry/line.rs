@@ -12,7 +12,7 @@ use super::{Crossings, Hit};
 
 /// How many times its size a solid may be away before the line is followed toward it first. The
 /// products of nearer lines lose at most these six bits, and need no fused operations.
-const FAR: f64 = 64.0;
+pub(super) const FAR: f64 = 64.0;
 
 /// Follows a line that starts far from a solid to where it passes the solid's origin closest, and
 /// gives that place and the distance to it; a line that starts near stays.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::{Aabb, Cone, Cuboid, Cylinder, Ellipsoid, Sphere};
+use super::{Aabb, Cone, Cuboid, Cylinder, Ellipsoid, Quadric, Sphere};
 
 /// A half line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,6 +148,8 @@ pub enum Shape {
     Cylinder(Box<Cylinder>),
     /// An affine image of the unit cone.
     Cone(Box<Cone>),
+    /// A quadric cut by half-spaces; the only one of these that may be concave or have no end.
+    Quadric(Box<Quadric>),
 }
 
 impl Shape {
@@ -159,6 +161,7 @@ impl Shape {
             Self::Cuboid(cuboid) => cuboid.bounds(),
             Self::Cylinder(cylinder) => cylinder.bounds(),
             Self::Cone(cone) => cone.bounds(),
+            Self::Quadric(quadric) => quadric.bounds(),
         }
     }
 
@@ -170,6 +173,7 @@ impl Shape {
             Self::Cuboid(cuboid) => spans.extend(cuboid.crossings(ray)),
             Self::Cylinder(cylinder) => spans.extend(cylinder.crossings(ray)),
             Self::Cone(cone) => spans.extend(cone.crossings(ray)),
+            Self::Quadric(quadric) => spans.extend(quadric.crossings(ray).into_iter().flatten()),
         }
     }
 
@@ -182,6 +186,7 @@ impl Shape {
             Self::Cuboid(cuboid) => cuboid.crossings(ray)?.nearest(limit),
             Self::Cylinder(cylinder) => cylinder.crossings(ray)?.nearest(limit),
             Self::Cone(cone) => cone.crossings(ray)?.nearest(limit),
+            Self::Quadric(quadric) => quadric.hit(ray, limit),
         }
     }
 
@@ -193,6 +198,7 @@ impl Shape {
             Self::Cuboid(cuboid) => cuboid.surface(ray, hit),
             Self::Cylinder(cylinder) => cylinder.surface(ray, hit),
             Self::Cone(cone) => cone.surface(ray, hit),
+            Self::Quadric(quadric) => quadric.surface(ray, hit),
         }
     }
 }

@@ -147,7 +147,7 @@ pub(super) fn normalise(v: DVec3) -> Option<DVec3> {
 }
 
 /// The largest power of two not above `x`, or the least normal number; `x` ≥ 0 and finite.
-fn power_of_two(x: f64) -> f64 {
+pub(super) fn power_of_two(x: f64) -> f64 {
     f64::from_bits(x.to_bits() & f64::INFINITY.to_bits()).max(f64::MIN_POSITIVE)
 }
 

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::double_double::{Double, Vector, cross, dot, scaled, sum, vector};
 use super::{Frame, Kind, Ray};
+use crate::geometry::double_double::{Double, Vector, cross, dot, scaled, sum, vector};
 
 /// A solid whose dual basis is known to 106 bits.
 pub(super) struct Exact {

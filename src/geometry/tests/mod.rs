@@ -1,10 +1,11 @@
 //! What the shapes promise, checked against paper, against twice the precision, and by properties.
 
-mod double_double;
 mod exact;
 mod known;
 mod leaving;
 mod properties;
+mod quadric_bounds;
+mod quadrics;
 mod random;
 mod scale;
 mod silhouettes;

@@ -6,7 +6,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use glam::DVec3;
 
 /// A sum of a number and its rounding error.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Double {
     high: f64,
     low: f64,
@@ -24,6 +24,10 @@ impl Double {
 
     pub(super) fn round(self) -> f64 {
         self.high
+    }
+
+    pub(super) fn abs(self) -> Self {
+        if self.high < 0.0 { -self } else { self }
     }
 
     /// Two sums in one, for |high| ≥ |low|.
@@ -132,13 +136,18 @@ pub(super) fn cross(u: Vector, v: Vector) -> Vector {
     ]
 }
 
-#[test]
-fn holds_twice_the_bits() {
-    let third = Double::of(1.0) / Double::of(3.0);
-    let one = third + third + third;
-    assert!((one - Double::of(1.0)).round().abs() < 1e-31);
-    let two = Double::of(2.0).sqrt() * Double::of(2.0).sqrt();
-    assert!((two - Double::of(2.0)).round().abs() < 1e-31);
-    let tiny = (Double::of(1.0) + Double::of(1e-25)) - Double::of(1.0);
-    assert!((tiny.round() - 1e-25).abs() < 1e-31);
+#[cfg(test)]
+mod tests {
+    use super::Double;
+
+    #[test]
+    fn holds_twice_the_bits() {
+        let third = Double::of(1.0) / Double::of(3.0);
+        let one = third + third + third;
+        assert!((one - Double::of(1.0)).round().abs() < 1e-31);
+        let two = Double::of(2.0).sqrt() * Double::of(2.0).sqrt();
+        assert!((two - Double::of(2.0)).round().abs() < 1e-31);
+        let tiny = (Double::of(1.0) + Double::of(1e-25)) - Double::of(1.0);
+        assert!((tiny.round() - 1e-25).abs() < 1e-31);
+    }
 }

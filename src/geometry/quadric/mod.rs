@@ -1,0 +1,252 @@
+//! Solids bounded by a quadric and by planes.
+
+mod axes;
+mod extent;
+mod form;
+
+use glam::DVec3;
+
+use super::line::roots;
+use super::transform::{normalise, power_of_two};
+use super::{Aabb, Crossings, Hit, Ray, Surface};
+use form::{Form, Line};
+
+/// The curved side; plane i is 1 + i.
+const CURVED: u32 = 0;
+
+/// The region where a quadratic function is at most 0, cut by half-spaces: convex or concave, with
+/// ends or without.
+///
+/// Part 0 is where the function is 0, part 1 + i the boundary of half-space i.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quadric {
+    form: Form,
+    half_spaces: Vec<HalfSpace>,
+    bounds: Aabb,
+    has_lost_its_shape: bool,
+}
+
+/// Where normal · (x − centre) ≤ distance, seen from the centre of the form.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct HalfSpace {
+    /// Of a length from 1 to 4: scaled by a power of two, which keeps its bits.
+    normal: DVec3,
+    distance: f64,
+}
+
+impl Quadric {
+    /// How many half-spaces a quadric may have: finding its box tries all triples of them.
+    pub const MOST_HALF_SPACES: usize = 64;
+
+    /// The region F ≤ 0 with
+    /// F = A x² + 2B xy + 2C xz + 2D x + E y² + 2F yz + 2G y + H z² + 2I z + J, coefficients in this
+    /// order, where also n · x ≤ d for each of the half-spaces (n, d). All numbers are finite, each
+    /// n is not 0, and there are at most [`Self::MOST_HALF_SPACES`].
+    pub fn new(coefficients: [f64; 10], half_spaces: &[(DVec3, f64)]) -> Self {
+        let form = Form::new(coefficients);
+        let half_spaces: Vec<_> = half_spaces
+            .iter()
+            .map(|&(normal, distance)| HalfSpace::new(normal, distance, form.centre))
+            .collect();
+        let bounds = extent::bounds(&form, &half_spaces);
+        let has_lost_its_shape =
+            form.centre.length_squared() * 2_f64.powi(-52) > 1e-4 * size(&form, bounds).powi(2);
+        Self {
+            form,
+            half_spaces,
+            bounds,
+            has_lost_its_shape,
+        }
+    }
+
+    /// An axis-aligned box around the region, with infinite sides where it has no end: tight but
+    /// for a billionth of its size.
+    pub fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    /// Whether the region holds no point.
+    pub fn is_empty(&self) -> bool {
+        self.bounds.is_empty()
+    }
+
+    /// Whether the coefficients, rounded to `f64`, cannot describe a solid so small this far from
+    /// the origin: |centre|² 2⁻⁵² > 1e-4 size².
+    pub fn has_lost_its_shape(&self) -> bool {
+        self.has_lost_its_shape
+    }
+
+    /// Where the ray's line is inside: two spans at most, in ascending order.
+    pub fn crossings(&self, ray: &Ray) -> [Option<Crossings>; 2] {
+        let line = self.form.line(ray);
+        let Some(clip) = self.clip(&line) else {
+            return [None; 2];
+        };
+        inside(&self.form, &line)
+            .map(|span| span.and_then(|span| span.overlap(clip)?.later(line.start)))
+    }
+
+    /// The nearest crossing with `0 < t < limit`.
+    pub fn hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
+        self.crossings(ray)
+            .into_iter()
+            .flatten()
+            .find_map(|span| span.nearest(limit))
+    }
+
+    /// The surface at a hit.
+    pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
+        let line = self.form.line(ray);
+        let t = hit.t - line.start;
+        match self.half_spaces.get((hit.part as usize).wrapping_sub(1)) {
+            Some(half_space) => {
+                half_space.surface(line.place + t * line.direction, self.form.centre)
+            }
+            None => curved_surface(&self.form, line.p + t * line.q),
+        }
+    }
+
+    /// The line's part inside all half-spaces.
+    fn clip(&self, line: &Line) -> Option<Crossings> {
+        let mut clip = Crossings::EVERYWHERE;
+        for (half_space, part) in self.half_spaces.iter().zip(1..) {
+            let outside = half_space.normal.dot(line.place) - half_space.distance;
+            let speed = half_space.normal.dot(line.direction);
+            if speed == 0.0 {
+                if outside <= 0.0 {
+                    continue;
+                }
+                return None;
+            }
+            let hit = Hit {
+                t: -outside / speed,
+                part,
+            };
+            if speed < 0.0 {
+                if clip.enter.t < hit.t {
+                    clip.enter = hit;
+                }
+            } else if hit.t < clip.exit.t {
+                clip.exit = hit;
+            }
+        }
+        (clip.enter.t <= clip.exit.t).then_some(clip)
+    }
+}
+
+impl HalfSpace {
+    fn new(normal: DVec3, distance: f64, centre: DVec3) -> Self {
+        let factor = power_of_two(normal.abs().max_element());
+        let normal = normal / factor;
+        Self {
+            normal,
+            distance: axes::difference(distance / factor, normal, centre),
+        }
+    }
+
+    fn surface(&self, place: DVec3, centre: DVec3) -> Surface {
+        let square = self.normal.length_squared();
+        let outside = self.normal.dot(place) - self.distance;
+        let place = place - (outside / square) * self.normal;
+        Surface {
+            point: centre + place,
+            normal: self.normal / square.sqrt(),
+            scale: centre.abs().max_element().max(place.abs().max_element()),
+        }
+    }
+}
+
+/// Where F ≤ 0 on a line: a t² + 2 b t + c ≤ 0.
+///
+/// By Lagrange's identity b² − ac is made of the line's moment, p × q, whose square is small where
+/// the line is close to the centre, and of terms that are 0 for most solids: no difference of large
+/// numbers. Where a = 0 the line is parallel to the side, a generatrix or an asymptote.
+fn inside(form: &Form, line: &Line) -> [Option<Crossings>; 2] {
+    let (p, q) = (line.p, line.q);
+    let (s, h) = (form.squares, form.linear);
+    let (sp, sq) = (s * p, s * q);
+    let (across, along) = (p.dot(sq), h.dot(q));
+    let a = q.dot(sq);
+    let b = across + along;
+    let level = 2.0 * h.dot(p) + form.constant;
+    let c = p.dot(sp) + level;
+    if a == 0.0 {
+        return [straight(b, c), None];
+    }
+    let moment = p.cross(q);
+    let products = DVec3::new(s.y * s.z, s.z * s.x, s.x * s.y);
+    let discriminant = along * (along + 2.0 * across) - a * level - products.dot(moment * moment);
+    if discriminant < 0.0 || (discriminant == 0.0 && a < 0.0) {
+        return [(a < 0.0).then_some(Crossings::EVERYWHERE), None];
+    }
+    let [first, second] = roots(a, b, c, discriminant.sqrt());
+    if 0.0 < a {
+        [Some(between(first, second)), None]
+    } else {
+        [
+            Some(between(f64::NEG_INFINITY, first)),
+            Some(between(second, f64::INFINITY)),
+        ]
+    }
+}
+
+/// Where 2 b t + c ≤ 0.
+fn straight(b: f64, c: f64) -> Option<Crossings> {
+    if b == 0.0 {
+        return (c <= 0.0).then_some(Crossings::EVERYWHERE);
+    }
+    let t = -0.5 * (c / b);
+    Some(if 0.0 < b {
+        between(f64::NEG_INFINITY, t)
+    } else {
+        between(t, f64::INFINITY)
+    })
+}
+
+fn between(enter: f64, exit: f64) -> Crossings {
+    let [enter, exit] = [enter, exit].map(|t| Hit { t, part: CURVED });
+    Crossings { enter, exit }
+}
+
+/// The surface near p: two steps of Newton's along the gradient bring the error of a distance down
+/// to that of F itself. What F is uncertain by, over its slope in the world, is uncertain in place.
+fn curved_surface(form: &Form, mut p: DVec3) -> Surface {
+    for _ in 0..2 {
+        let gradient = form.gradient(p);
+        let square = gradient.length_squared();
+        if 0.0 < square {
+            p -= (0.5 * form.value(p) / square) * gradient;
+        }
+    }
+    let slope = form.gradient_in_world(form.gradient(p));
+    let place = form.place(p);
+    let scale = form
+        .centre
+        .abs()
+        .max_element()
+        .max(place.abs().max_element());
+    let uncertain = 0.5 * form.terms(p) / slope.length();
+    Surface {
+        point: form.centre + place,
+        normal: normalise(slope).unwrap_or(DVec3::Z),
+        scale: if uncertain.is_finite() {
+            scale.max(uncertain)
+        } else {
+            scale
+        },
+    }
+}
+
+/// The least size that rounded coefficients must hold. Planes have none. Of a cone or a hyperboloid
+/// the waist may be rounding itself, and the region's own size counts.
+fn size(form: &Form, bounds: Aabb) -> f64 {
+    if form.squares == DVec3::ZERO {
+        return f64::INFINITY;
+    }
+    let mixed = 0.5 < form.squares.max_element() && form.squares.min_element() < -0.5;
+    if mixed || (form.constant == 0.0 && form.linear == DVec3::ZERO) {
+        0.5 * bounds.size().min_element().max(0.0)
+    } else {
+        form.unit
+    }
+}
