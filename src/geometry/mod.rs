@@ -8,6 +8,7 @@
 
 mod aabb;
 mod cone;
+mod csg;
 mod cuboid;
 mod cylinder;
 mod double_double;
@@ -23,6 +24,7 @@ mod tests;
 
 pub use aabb::Aabb;
 pub use cone::Cone;
+pub use csg::{Csg, Node, Operation};
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use ellipsoid::Ellipsoid;

@@ -1,9 +1,11 @@
 //! What rays, hits and shapes have in common.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::{Aabb, Cone, Cuboid, Cylinder, Ellipsoid, Quadric, Sphere};
+use super::{Aabb, Cone, Csg, Cuboid, Cylinder, Ellipsoid, Quadric, Sphere};
 
 /// A half line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,8 +150,10 @@ pub enum Shape {
     Cylinder(Box<Cylinder>),
     /// An affine image of the unit cone.
     Cone(Box<Cone>),
-    /// A quadric cut by half-spaces; the only one of these that may be concave or have no end.
+    /// A quadric cut by half-spaces: may be concave, and may have no end.
     Quadric(Box<Quadric>),
+    /// A solid made of solids.
+    Csg(Arc<Csg>),
 }
 
 impl Shape {
@@ -162,6 +166,7 @@ impl Shape {
             Self::Cylinder(cylinder) => cylinder.bounds(),
             Self::Cone(cone) => cone.bounds(),
             Self::Quadric(quadric) => quadric.bounds(),
+            Self::Csg(csg) => csg.bounds(),
         }
     }
 
@@ -174,6 +179,7 @@ impl Shape {
             Self::Cylinder(cylinder) => spans.extend(cylinder.crossings(ray)),
             Self::Cone(cone) => spans.extend(cone.crossings(ray)),
             Self::Quadric(quadric) => spans.extend(quadric.crossings(ray).into_iter().flatten()),
+            Self::Csg(csg) => csg.spans(ray, spans),
         }
     }
 
@@ -187,6 +193,7 @@ impl Shape {
             Self::Cylinder(cylinder) => cylinder.crossings(ray)?.nearest(limit),
             Self::Cone(cone) => cone.crossings(ray)?.nearest(limit),
             Self::Quadric(quadric) => quadric.hit(ray, limit),
+            Self::Csg(csg) => csg.hit(ray, limit),
         }
     }
 
@@ -199,6 +206,27 @@ impl Shape {
             Self::Cylinder(cylinder) => cylinder.surface(ray, hit),
             Self::Cone(cone) => cone.surface(ray, hit),
             Self::Quadric(quadric) => quadric.surface(ray, hit),
+            Self::Csg(csg) => csg.surface(ray, hit),
+        }
+    }
+
+    /// The tag of the leaf whose surface was hit, if the shape is made of leaves.
+    pub fn tag(&self, hit: Hit) -> Option<u32> {
+        match self {
+            Self::Csg(csg) => Some(csg.tag(hit)),
+            _ => None,
+        }
+    }
+
+    /// How many parts there are.
+    pub(super) fn parts(&self) -> u32 {
+        match self {
+            Self::Sphere(_) | Self::Ellipsoid(_) => 1,
+            Self::Cuboid(_) => 6,
+            Self::Cylinder(_) => 3,
+            Self::Cone(_) => 2,
+            Self::Quadric(quadric) => quadric.parts(),
+            Self::Csg(csg) => csg.parts(),
         }
     }
 }

@@ -106,6 +106,11 @@ impl Quadric {
         }
     }
 
+    /// How many parts there are.
+    pub(super) fn parts(&self) -> u32 {
+        1 + self.half_spaces.len() as u32
+    }
+
     /// The line's part inside all half-spaces.
     fn clip(&self, line: &Line) -> Option<Crossings> {
         let mut clip = Crossings::EVERYWHERE;

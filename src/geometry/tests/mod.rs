@@ -1,5 +1,7 @@
 //! What the shapes promise, checked against paper, against twice the precision, and by properties.
 
+mod csg;
+mod csg_faces;
 mod exact;
 mod known;
 mod leaving;
