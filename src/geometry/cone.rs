@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::line::{roots, slab};
 use super::transform::normalise;
-use super::{Aabb, Affine, Crossings, Hit, Ray, Surface};
+use super::{Aabb, Affine, Chart, Crossings, Hit, Ray, Surface};
 
 const SIDE: u32 = 0;
 const BASE: u32 = 1;
@@ -51,6 +51,14 @@ impl Cone {
             // Drawn from the tip by all three margins, a ray that goes in has an inside to go to.
             let z = place.z.max(margin.z).min(1.0 - margin.element_sum());
             ((1.0 - z) * radial).with_z(z)
+        })
+    }
+
+    /// The texture coordinates at a hit: around the side and up it, or across the disc.
+    pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
+        self.0.chart(ray, hit, |place| match hit.part {
+            BASE => Chart::of_disc(place),
+            _ => Chart::of_side(place),
         })
     }
 }

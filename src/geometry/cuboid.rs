@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::line::slab;
-use super::{Aabb, Affine, Crossings, Hit, Ray, Surface};
+use super::{Aabb, Affine, Chart, Crossings, Hit, Ray, Surface};
 
 /// An affine image of the cube [0, 1]³.
 ///
@@ -44,6 +44,12 @@ impl Cuboid {
             let mut on_face = place.max(margin).min(1.0 - margin);
             on_face[axis] = side;
             on_face
+        })
+    }
+    /// The texture coordinates at a hit: the face's two coordinates as fractions of its edges.
+    pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
+        self.0.chart(ray, hit, |place| {
+            Chart::of_face(place, (hit.part / 2) as usize % 3)
         })
     }
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::line::{ball, slab};
 use super::transform::normalise;
-use super::{Aabb, Affine, Crossings, Hit, Ray, Surface};
+use super::{Aabb, Affine, Chart, Crossings, Hit, Ray, Surface};
 
 const SIDE: u32 = 0;
 const BASE: u32 = 1;
@@ -61,6 +61,14 @@ impl Cylinder {
                 })
             }
         }
+    }
+
+    /// The texture coordinates at a hit: around the side and up it, or across the disc.
+    pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
+        self.0.chart(ray, hit, |place| match hit.part {
+            BASE | TOP => Chart::of_disc(place),
+            _ => Chart::of_side(place),
+        })
     }
 }
 

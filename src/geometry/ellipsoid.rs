@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::line::ball;
 use super::transform::normalise;
-use super::{Aabb, Affine, Crossings, Hit, Ray, Surface};
+use super::{Aabb, Affine, Chart, Crossings, Hit, Ray, Surface};
 
 /// An affine image of the unit sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,5 +37,10 @@ impl Ellipsoid {
     pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
         let place = normalise(self.0.place(ray.at(hit.t))).unwrap_or(DVec3::Z);
         self.0.surface(place, |_| place)
+    }
+
+    /// The texture coordinates at a hit: those of the unit sphere.
+    pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
+        self.0.chart(ray, hit, Chart::of_ball)
     }
 }

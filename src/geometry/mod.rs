@@ -7,6 +7,7 @@
 //! the last place off the surface.
 
 mod aabb;
+mod chart;
 mod cone;
 mod csg;
 mod cuboid;
@@ -23,6 +24,7 @@ mod transform;
 mod tests;
 
 pub use aabb::Aabb;
+pub use chart::Chart;
 pub use cone::Cone;
 pub use csg::{Csg, Node, Operation};
 pub use cuboid::Cuboid;

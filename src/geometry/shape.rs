@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::{Aabb, Cone, Csg, Cuboid, Cylinder, Ellipsoid, Quadric, Sphere};
+use super::{Aabb, Chart, Cone, Csg, Cuboid, Cylinder, Ellipsoid, Quadric, Sphere};
 
 /// A half line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -207,6 +207,19 @@ impl Shape {
             Self::Cone(cone) => cone.surface(ray, hit),
             Self::Quadric(quadric) => quadric.surface(ray, hit),
             Self::Csg(csg) => csg.surface(ray, hit),
+        }
+    }
+
+    /// The texture coordinates at a hit of this shape, in the solid's own frame.
+    pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
+        match self {
+            Self::Sphere(sphere) => sphere.chart(ray, hit),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.chart(ray, hit),
+            Self::Cuboid(cuboid) => cuboid.chart(ray, hit),
+            Self::Cylinder(cylinder) => cylinder.chart(ray, hit),
+            Self::Cone(cone) => cone.chart(ray, hit),
+            Self::Quadric(quadric) => quadric.chart(ray, hit),
+            Self::Csg(csg) => csg.chart(ray, hit),
         }
     }
 

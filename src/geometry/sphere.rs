@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::line::{approach, ball};
 use super::transform::normalise;
-use super::{Aabb, Crossings, Hit, Ray, Surface};
+use super::{Aabb, Chart, Crossings, Hit, Ray, Surface};
 
 /// A sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,5 +45,11 @@ impl Sphere {
             normal,
             scale: self.centre.abs().max_element().max(self.radius),
         }
+    }
+
+    /// The texture coordinates at a hit.
+    pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
+        Chart::of_ball((ray.at(hit.t) - self.centre) / self.radius)
+            .with_gradients(|gradient| gradient / self.radius)
     }
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::line::approach;
 use super::shape::CLEARANCE;
-use super::{Ray, Surface, ulp};
+use super::{Chart, Hit, Ray, Surface, ulp};
 
 /// The least |determinant| of a frame's unit directions: flatter ones span no volume.
 pub const FLATTEST: f64 = 1e-6;
@@ -124,6 +124,13 @@ impl Affine {
             normal: normalise(gradient).unwrap_or(DVec3::Z),
             scale,
         }
+    }
+
+    /// The texture coordinates at a hit, from those at its place in the unit solid. Gradients go to
+    /// the world by the inverse transpose, as normals do.
+    pub(super) fn chart(&self, ray: &Ray, hit: Hit, chart: impl FnOnce(DVec3) -> Chart) -> Chart {
+        let [u, v, w] = self.duals;
+        chart(self.place(ray.at(hit.t))).with_gradients(|g| g.x * u + g.y * v + g.z * w)
     }
 
     #[inline]

@@ -10,7 +10,7 @@ mod merge;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::{Aabb, Crossings, Hit, Ray, Shape, Spans, Surface, ulp};
+use super::{Aabb, Chart, Crossings, Hit, Ray, Shape, Spans, Surface, ulp};
 
 /// A set operation on two closed solids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -180,6 +180,12 @@ impl Csg {
             surface.normal = -surface.normal;
         }
         surface
+    }
+
+    /// The texture coordinates at a hit: the leaf's.
+    pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
+        let (leaf, own) = self.leaf(hit);
+        leaf.shape.chart(ray, own)
     }
 
     /// The tag of the leaf whose surface was hit.

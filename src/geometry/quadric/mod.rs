@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::line::roots;
 use super::transform::{normalise, power_of_two};
-use super::{Aabb, Crossings, Hit, Ray, Surface};
+use super::{Aabb, Chart, Crossings, Hit, Ray, Surface};
 use form::{Form, Line};
 
 /// The curved side; plane i is 1 + i.
@@ -104,6 +104,13 @@ impl Quadric {
             }
             None => curved_surface(&self.form, line.p + t * line.q),
         }
+    }
+
+    /// The texture coordinates at a hit: those of a sphere around the centre, with its poles along z;
+    /// on the planes as well.
+    pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
+        let line = self.form.line(ray);
+        Chart::of_ball(line.place + (hit.t - line.start) * line.direction)
     }
 
     /// How many parts there are.

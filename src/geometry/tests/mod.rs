@@ -1,5 +1,6 @@
 //! What the shapes promise, checked against paper, against twice the precision, and by properties.
 
+mod charts;
 mod csg;
 mod csg_faces;
 mod exact;
