@@ -1,5 +1,6 @@
 //! A line through a solid made of solids.
 
+use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::{Boundaries, Csg, Kind, Operation};
@@ -48,6 +49,7 @@ impl Csg {
         let mut spans = Spans::new();
         let mut merged = Boundaries::new();
         let mut known: Vec<Option<Vec<Hit>>> = vec![None; self.shared as usize];
+        let slowness = ray.direction.recip();
         let mut tasks: SmallVec<[Task; 32]> = SmallVec::new();
         tasks.push(Task::Step(self.steps.len() as u32 - 1));
         while let Some(task) = tasks.pop() {
@@ -55,7 +57,7 @@ impl Csg {
                 Task::Step(index) => {
                     let step = &self.steps[index as usize];
                     stack.open();
-                    if !meets(step.bounds, ray, reach) {
+                    if !meets(step.bounds, ray.origin, slowness, reach) {
                         continue;
                     }
                     if let Some(shared) = step.shared {
@@ -113,20 +115,21 @@ impl Csg {
 }
 
 /// Whether a line may meet a box at distances in `reach`. Errs on the side of meeting: three
-/// roundings of a distance are within two units in its last place.
-fn meets(bounds: Aabb, ray: &Ray, reach: [f64; 2]) -> bool {
+/// roundings of a distance are within two units in its last place. `slowness` is the reciprocal of
+/// the direction.
+fn meets(bounds: Aabb, origin: DVec3, slowness: DVec3, reach: [f64; 2]) -> bool {
     let [mut low, mut high] = reach;
     for axis in 0..3 {
-        let (origin, speed) = (ray.origin[axis], ray.direction[axis]);
+        let (origin, slowness) = (origin[axis], slowness[axis]);
         let (min, max) = (bounds.min[axis], bounds.max[axis]);
-        if speed == 0.0 {
+        if slowness.is_infinite() {
             if origin < min || max < origin {
                 return false;
             }
             continue;
         }
-        let (a, b) = ((min - origin) / speed, (max - origin) / speed);
-        let (near, far) = if 0.0 < speed { (a, b) } else { (b, a) };
+        let (a, b) = ((min - origin) * slowness, (max - origin) * slowness);
+        let (near, far) = if 0.0 < slowness { (a, b) } else { (b, a) };
         low = low.max(near - 2.0 * f64::EPSILON * near.abs());
         high = high.min(far + 2.0 * f64::EPSILON * far.abs());
     }

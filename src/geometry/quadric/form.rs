@@ -41,6 +41,7 @@ pub(super) struct Form {
 
 /// A line in the world, as seen from the centre, and in the coordinates of p. Distances along both
 /// are those along the ray.
+#[derive(Clone, Copy)]
 pub(super) struct Line {
     /// The place at `start` in the world, minus the centre.
     pub(super) place: DVec3,
@@ -114,30 +115,45 @@ impl Form {
     /// The ray's line from where it starts, or, if that is far, from about where it is closest.
     #[inline]
     pub(super) fn line(&self, ray: &Ray) -> Line {
-        let direction = ray.direction;
-        let q = self.turn(direction);
-        let mut place = ray.origin - self.centre;
-        let mut start = 0.0;
-        let mut p = self.turn(place);
+        let place = ray.origin - self.centre;
+        let line = Line {
+            place,
+            direction: ray.direction,
+            start: 0.0,
+            p: self.turn(place) + self.offset,
+            q: self.turn(ray.direction),
+        };
         if self.near * self.near < place.length_squared() {
-            let weighted = self.weights * q;
-            start = -p.dot(weighted) / q.dot(weighted);
-            // What the subtraction rounded off, exactly.
-            let kept = place - ray.origin;
-            let rest = (ray.origin - (place - kept)) - (self.centre + kept);
-            place = DVec3::new(
-                start.mul_add(direction.x, place.x),
-                start.mul_add(direction.y, place.y),
-                start.mul_add(direction.z, place.z),
-            ) + rest;
-            p = self.turn(place);
+            self.approach(ray, &line)
+        } else {
+            line
         }
-        Line {
+    }
+
+    /// The same line from about where it is closest. The offset is far below what is rounded off.
+    fn approach(&self, ray: &Ray, line: &Line) -> Line {
+        let Line {
             place,
             direction,
-            start,
-            p: p + self.offset,
+            p,
             q,
+            ..
+        } = *line;
+        let weighted = self.weights * q;
+        let start = -p.dot(weighted) / q.dot(weighted);
+        // What the subtraction rounded off, exactly.
+        let kept = place - ray.origin;
+        let rest = (ray.origin - (place - kept)) - (self.centre + kept);
+        let place = DVec3::new(
+            start.mul_add(direction.x, place.x),
+            start.mul_add(direction.y, place.y),
+            start.mul_add(direction.z, place.z),
+        ) + rest;
+        Line {
+            place,
+            start,
+            p: self.turn(place) + self.offset,
+            ..*line
         }
     }
 

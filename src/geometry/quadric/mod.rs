@@ -77,21 +77,26 @@ impl Quadric {
     }
 
     /// Where the ray's line is inside: two spans at most, in ascending order.
+    #[inline]
     pub fn crossings(&self, ray: &Ray) -> [Option<Crossings>; 2] {
         let line = self.form.line(ray);
+        let [first, second] = inside(&self.form, &line);
+        if first.is_none() && second.is_none() {
+            return [None; 2];
+        }
         let Some(clip) = self.clip(&line) else {
             return [None; 2];
         };
-        inside(&self.form, &line)
-            .map(|span| span.and_then(|span| span.overlap(clip)?.later(line.start)))
+        let clipped = |span: Crossings| span.overlap(clip)?.later(line.start);
+        [first.and_then(clipped), second.and_then(clipped)]
     }
 
     /// The nearest crossing with `0 < t < limit`.
     pub fn hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
-        self.crossings(ray)
-            .into_iter()
-            .flatten()
-            .find_map(|span| span.nearest(limit))
+        let [first, second] = self.crossings(ray);
+        first
+            .and_then(|span| span.nearest(limit))
+            .or_else(|| second?.nearest(limit))
     }
 
     /// The surface at a hit.
@@ -119,6 +124,7 @@ impl Quadric {
     }
 
     /// The line's part inside all half-spaces.
+    #[inline]
     fn clip(&self, line: &Line) -> Option<Crossings> {
         let mut clip = Crossings::EVERYWHERE;
         for (half_space, part) in self.half_spaces.iter().zip(1..) {
@@ -173,6 +179,7 @@ impl HalfSpace {
 /// By Lagrange's identity b² − ac is made of the line's moment, p × q, whose square is small where
 /// the line is close to the centre, and of terms that are 0 for most solids: no difference of large
 /// numbers. Where a = 0 the line is parallel to the side, a generatrix or an asymptote.
+#[inline]
 fn inside(form: &Form, line: &Line) -> [Option<Crossings>; 2] {
     let (p, q) = (line.p, line.q);
     let (s, h) = (form.squares, form.linear);
