@@ -14,13 +14,21 @@ const USUAL: Size = Size {
     height: 24,
 };
 
-/// Returns the size of the window in cells, never zero.
+/// The most cells that are drawn in a row: beyond any screen.
+const MAX_COLUMNS: u16 = 2000;
+
+/// The most cells that are drawn. A terminal may say 65535×65535: drawing such a screen would take
+/// gigabytes and minutes.
+const MAX_CELLS: u32 = 500_000;
+
+/// Returns the size of the window in cells, never zero; of a window beyond any screen, the size of
+/// the part at its top left that is drawn on.
 ///
 /// A terminal that says 0×0 does not know; `LINES` and `COLUMNS` do then, or 80×24 it is.
 pub(crate) fn size() -> Size {
     let (width, height) = crossterm::terminal::size().unwrap_or((0, 0));
     let variable = |name: &str| std::env::var(name).ok()?.trim().parse().ok();
-    known_size(Size { width, height }, variable)
+    drawn_part(known_size(Size { width, height }, variable))
 }
 
 /// Writes all of the bytes, in one call to the system if it takes them.
@@ -96,9 +104,32 @@ fn known_size(told: Size, variable: impl Fn(&str) -> Option<u16>) -> Size {
     }
 }
 
+fn drawn_part(window: Size) -> Size {
+    let width = window.width.min(MAX_COLUMNS);
+    let rows = MAX_CELLS / u32::from(width);
+    Size {
+        width,
+        height: u32::from(window.height).min(rows) as u16,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_window_beyond_any_screen_is_drawn_on_in_part() {
+        for (window, drawn) in [
+            ((1, 1), (1, 1)),
+            ((120, 40), (120, 40)),
+            ((1, 65_535), (1, 65_535)),
+            ((65_535, 1), (2000, 1)),
+            ((1000, 1000), (1000, 500)),
+            ((65_535, 65_535), (2000, 250)),
+        ] {
+            assert_eq!(drawn_part(Size::from(window)), Size::from(drawn));
+        }
+    }
 
     #[test]
     fn an_unknown_size_comes_from_the_environment_or_is_the_usual_one() {
