@@ -159,6 +159,26 @@ fn a_picture_that_has_no_place_ends_with_73_untraced() {
 }
 
 #[test]
+fn a_picture_never_replaces_its_scene() {
+    let place = Place::new();
+    let mut outputs = vec!["ball.ray", "./ball.ray", "hard.bmp"];
+    fs::hard_link(place.at("ball.ray"), place.at("hard.bmp")).expect("linked");
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("ball.ray", place.at("soft.bmp")).expect("linked");
+        outputs.push("soft.bmp");
+    }
+    for output in outputs {
+        let told = place.told(&format!("render ball.ray -o {output} --format bmp"), 2);
+        assert!(
+            told.contains(output) && told.contains("is the scene itself"),
+            "{told}"
+        );
+        assert_eq!(place.read("ball.ray"), BALL.as_bytes());
+    }
+}
+
+#[test]
 #[cfg(unix)]
 fn names_cannot_drive_the_terminal() {
     let place = Place::new();

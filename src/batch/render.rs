@@ -52,7 +52,7 @@ pub fn render(work: &Render) -> Result<(), Error> {
 }
 
 fn make(work: &Render) -> Result<(), Error> {
-    check_output(&work.output)?;
+    check_output(work)?;
     let loaded = load(&work.scene)?;
     let scene = loaded.scene.ok_or(Error::Invalid {
         errors: loaded.errors,
@@ -73,8 +73,12 @@ fn make(work: &Render) -> Result<(), Error> {
 }
 
 /// Finds out before the work whether its outcome has a place.
-fn check_output(output: &Output) -> Result<(), Error> {
-    match output {
+fn check_output(work: &Render) -> Result<(), Error> {
+    match &work.output {
+        Output::File(path) if file::is_same(path, &work.scene) => Err(Error::Refused(format!(
+            "{}: is the scene itself; name another file for the picture",
+            path.display()
+        ))),
         Output::File(path) => file::check_target(path).map_err(|source| Error::Create {
             path: path.clone(),
             source,

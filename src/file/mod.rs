@@ -3,7 +3,7 @@
 
 mod replace;
 
-use std::fs::{File, FileType, OpenOptions};
+use std::fs::{self, File, FileType, OpenOptions};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
@@ -88,6 +88,24 @@ pub fn read_text(path: &Path) -> Result<String, ReadError> {
             },
         }
     })
+}
+
+/// Whether two names mean one file, through links of either kind. Names of nothing do not.
+pub fn is_same(one: &Path, other: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let identity = |path| {
+            let metadata = fs::metadata(path).ok()?;
+            Some((metadata.dev(), metadata.ino()))
+        };
+        identity(one).is_some_and(|found| identity(other) == Some(found))
+    }
+    #[cfg(not(unix))]
+    {
+        let resolved = |path| fs::canonicalize(path).ok();
+        resolved(one).is_some_and(|found| resolved(other) == Some(found))
+    }
 }
 
 /// Opens a regular file for reading. Never waits: opening a pipe would, until somebody writes.

@@ -146,7 +146,7 @@ impl World {
                 return Some(Msg::Exported(id, Err(refused)));
             }
             Effect::CheckTarget(id, path, existing) => {
-                let refused = check_target(&path, existing).err()?;
+                let refused = check_target(&path, self.watched.as_deref(), existing).err()?;
                 return Some(Msg::Exported(id, Err(refused)));
             }
             Effect::Read(path) => self.files.order(Task::Read(path)),
@@ -243,8 +243,9 @@ impl World {
         existing: Existing,
     ) -> Result<(), String> {
         let sender = self.sender.clone();
+        let scene = self.watched.clone();
         let write = move || {
-            let outcome = check_target(&path, existing).and_then(|()| {
+            let outcome = check_target(&path, scene.as_deref(), existing).and_then(|()| {
                 let saved = image_out::save(&frame, &path);
                 saved.map_err(|error| format!("{}: {error}", path.display()))
             });
@@ -312,8 +313,11 @@ impl World {
 }
 
 /// Whether a picture may be written there; else why not.
-fn check_target(path: &Path, existing: Existing) -> Result<(), String> {
+fn check_target(path: &Path, scene: Option<&Path>, existing: Existing) -> Result<(), String> {
     let shown = path.display();
+    if scene.is_some_and(|scene| file::is_same(path, scene)) {
+        return Err(format!("{shown} is the scene itself: name another file"));
+    }
     if existing == Existing::Kept && path.symlink_metadata().is_ok() {
         return Err(format!("{shown} exists: :export! {shown} overwrites it"));
     }
@@ -416,10 +420,22 @@ mod tests {
     fn a_picture_that_others_wrote_is_kept() {
         let place = tempfile::tempdir().expect("a folder");
         let path = place.path().join("a.bmp");
-        assert_eq!(check_target(&path, Existing::Kept), Ok(()));
+        assert_eq!(check_target(&path, None, Existing::Kept), Ok(()));
         std::fs::write(&path, "").expect("the folder is new");
-        let refused = check_target(&path, Existing::Kept).expect_err("it exists");
+        let refused = check_target(&path, None, Existing::Kept).expect_err("it exists");
         assert!(refused.contains(":export! "), "{refused}");
-        assert_eq!(check_target(&path, Existing::Overwritten), Ok(()));
+        assert_eq!(check_target(&path, None, Existing::Overwritten), Ok(()));
+    }
+
+    #[test]
+    fn a_picture_is_not_written_over_its_scene() {
+        let place = tempfile::tempdir().expect("a folder");
+        let (scene, linked) = (place.path().join("a.ray"), place.path().join("a.bmp"));
+        std::fs::write(&scene, "").expect("the folder is new");
+        std::fs::hard_link(&scene, &linked).expect("on one file system");
+        for existing in [Existing::Kept, Existing::Overwritten] {
+            let refused = check_target(&linked, Some(&scene), existing).expect_err("one file");
+            assert!(refused.contains("is the scene itself"), "{refused}");
+        }
     }
 }
