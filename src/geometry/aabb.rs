@@ -53,6 +53,22 @@ impl Aabb {
         self.max - self.min
     }
 
+    /// The radius of the sphere through its corners: infinite where a length is.
+    pub fn half_diagonal(self) -> f64 {
+        let size = self.size();
+        let longest = size.max_element();
+        if longest <= 0.0 || longest == f64::INFINITY {
+            return longest;
+        }
+        // Scaled where a square might overflow or vanish.
+        let scale = if (1e-100..1e100).contains(&longest) {
+            1.0
+        } else {
+            longest
+        };
+        0.5 * scale * (size / scale).length()
+    }
+
     /// Whether it holds no point.
     pub fn is_empty(self) -> bool {
         !self.min.cmple(self.max).all()

@@ -219,9 +219,14 @@ pub(super) fn camera(
 /// The centre of the box, and the eye from which a sphere around the box fills the angle of view.
 fn default_eye_and_target(bounds: Aabb, fov: f64) -> (DVec3, DVec3) {
     let centre = bounds.centre();
-    let radius = 0.5 * bounds.size().length();
-    let distance = radius / libm::sin((0.5 * fov).to_radians());
+    let distance = bounds.half_diagonal() / libm::sin((0.5 * fov).to_radians());
     (centre + distance * DEFAULT_SIDE.normalize(), centre)
+}
+
+/// The error for a scene that has no default view.
+fn too_extreme(message: &str, place: Span) -> Diagnostic {
+    Diagnostic::error(place, message, Range::Any.words())
+        .with_hint("say eye and target in a comment: // view: eye x y z target x y z")
 }
 
 /// Reports a camera that looks nowhere, and one that looks along its `up`.
@@ -230,8 +235,7 @@ fn check(camera: &Camera, view: Option<&View>, otherwise: Span, report: &mut Fin
     if !camera.eye.is_finite() || !camera.target.is_finite() {
         report.error(|| {
             let message = "view: the scene is too large for a default view";
-            Diagnostic::error(otherwise, message, Range::Any.words())
-                .with_hint("say eye and target in a comment: // view: eye x y z target x y z")
+            too_extreme(message, otherwise)
         });
         return;
     }
@@ -243,6 +247,14 @@ fn check(camera: &Camera, view: Option<&View>, otherwise: Span, report: &mut Fin
             (false, true) => span(TARGET),
             (_, false) => span(EYE),
         };
+        if !said(EYE) && !said(TARGET) {
+            report.error(|| {
+                let message =
+                    "view: the scene is too small for a default view, or too far from the origin";
+                too_extreme(message, otherwise)
+            });
+            return;
+        }
         report.error(|| {
             let message = "view target: is where the eye is";
             Diagnostic::error(place, message, "a point other than the eye")

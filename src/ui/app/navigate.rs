@@ -109,7 +109,7 @@ impl App {
             self.say("there is nothing to look at");
             return;
         }
-        let (centre, radius) = (bounds.centre(), 0.5 * bounds.size().length());
+        let (centre, radius) = (bounds.centre(), bounds.half_diagonal());
         self.move_camera(|camera| framed(camera, centre, radius));
     }
 
