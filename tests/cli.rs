@@ -291,11 +291,20 @@ fn impossible_sizes_are_refused_with_the_limit() {
     let place = Place::new();
     for (size, limit) in [("65536x1", "65535"), ("4294967295x4294967295", "65535")] {
         let told = place.told(&format!("render ball.ray -o a.bmp --size {size}"), 2);
-        assert!(told.contains(limit), "{told}");
+        assert!(
+            told.contains(&format!("--size {size}: ")) && told.contains(limit),
+            "{told}"
+        );
     }
     place.write("huge.ray", BALL.replace("size 8 6", "size 60000 60000"));
-    let told = place.told("render huge.ray -o a.ppm", 2);
-    assert!(told.contains("268435456"), "{told}");
+    let told = place.told("render huge.ray -o a.ppm", 65);
+    assert!(
+        told.starts_with("error: huge.ray:4:57: view size 60000x60000: ")
+            && told.contains("268435456")
+            && told.contains("--size WxH"),
+        "{told}"
+    );
+    assert_eq!(place.told("render huge.ray -o a.ppm --size 8x6", 0), "");
 }
 
 #[test]

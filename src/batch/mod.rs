@@ -9,9 +9,10 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use crate::file::{self, ReadError};
-use crate::format::{self, Format, UnknownLanguage};
-use crate::scene::{self, Scene};
-use crate::text::{counted, visible};
+use crate::format::{self, Format, Tree, UnknownLanguage};
+use crate::scene::fields::Kind;
+use crate::scene::{self, Node, Origins, Scene};
+use crate::text::{Diagnostic, Span, counted, visible};
 
 pub use render::{Output, Render, render};
 
@@ -94,6 +95,9 @@ pub fn check(paths: &[PathBuf]) -> Result<(), Error> {
 struct Loaded {
     /// `None` where there are errors.
     scene: Option<Scene>,
+    text: String,
+    /// Where the text says the picture's size, if it does.
+    size: Option<Span>,
     errors: usize,
     warnings: usize,
 }
@@ -102,13 +106,9 @@ struct Loaded {
 fn load(path: &Path) -> Result<Loaded, Error> {
     let format = Format::of_path(path)?;
     let text = file::read_text(path)?;
-    let lowered = scene::lower(&text, &format::parse(format, &text));
-    print(&report::render(
-        &path.to_string_lossy(),
-        &text,
-        &lowered.diagnostics,
-        report::Style::of_error_stream(),
-    ));
+    let tree = format::parse(format, &text);
+    let lowered = scene::lower(&text, &tree);
+    print_findings(path, &text, &lowered.diagnostics);
     let (errors, warnings) = (lowered.diagnostics.errors(), lowered.diagnostics.warnings());
     let more = errors + warnings - lowered.diagnostics.len();
     if 0 < more {
@@ -118,10 +118,30 @@ fn load(path: &Path) -> Result<Loaded, Error> {
         );
     }
     Ok(Loaded {
+        size: size_place(&lowered.origins, &tree),
         scene: lowered.scene,
+        text,
         errors,
         warnings,
     })
+}
+
+/// Where a text says the picture's size, if it does.
+fn size_place(origins: &Origins, tree: &Tree) -> Option<Span> {
+    let view = origins.fields(tree, Node::View);
+    let size = view
+        .iter()
+        .find(|placed| placed.field.kind == Kind::Pixels)?;
+    Some(size.spans.first()?.to(*size.spans.last()?))
+}
+
+fn print_findings(path: &Path, text: &str, findings: &[Diagnostic]) {
+    print(&report::render(
+        &path.to_string_lossy(),
+        text,
+        findings,
+        report::Style::of_error_stream(),
+    ));
 }
 
 /// Prints one line about the whole work: `error: no such file`.

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use std::sync::{Arc, mpsc};
 
 use super::progress::ProgressLine;
-use super::{Error, load, tell};
+use super::{Error, load, print_findings, tell};
 use crate::file;
 use crate::image_out::ImageFormat;
 use crate::render::{Frame, Frames, Job, Renderer, Settings, Threads};
 use crate::scene::{Camera, Scene, Size};
-use crate::text::counted;
+use crate::text::{Diagnostic, counted};
 
 /// A picture to make.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -59,7 +59,14 @@ fn make(work: &Render) -> Result<(), Error> {
     })?;
     let size = work.size.unwrap_or(scene.camera.size);
     if let Some(reason) = work.format.refuses(size) {
-        return Err(Error::Refused(reason));
+        let Some(place) = loaded.size.filter(|_| work.size.is_none()) else {
+            return Err(Error::Refused(format!("--size {reason}")));
+        };
+        let message = format!("view size {reason}");
+        let wrong = Diagnostic::error(place, message, "a smaller size")
+            .with_hint("or say another one: --size WxH");
+        print_findings(&work.scene, &loaded.text, &[wrong]);
+        return Err(Error::Invalid { errors: 1 });
     }
     let frame = trace(work, scene, size)?;
     if 0 < frame.progress.over_budget {
