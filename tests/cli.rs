@@ -117,13 +117,24 @@ fn the_interface_needs_a_terminal() {
 }
 
 #[test]
-fn a_scene_that_cannot_be_opened_ends_with_66() {
+fn a_scene_that_cannot_be_read_ends_with_66() {
     let place = Place::new();
     fs::create_dir(place.at("dir.ray")).expect("created");
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("loop.ray", place.at("loop.ray")).expect("linked");
+    let long = fs::File::create(place.at("long.ray")).expect("created");
+    long.set_len(1 << 32).expect("it takes no room");
     let cases = [
         ("none.ray", "none.ray: no such file"),
         #[cfg(unix)]
-        ("dir.ray", "dir.ray: is a directory"),
+        ("dir.ray", "dir.ray: is a folder"),
+        #[cfg(unix)]
+        (".", ".: is a folder"),
+        #[cfg(unix)]
+        ("loop.ray", "loop.ray: "),
+        ("long.ray", "long.ray: is 4 GiB or longer"),
+        ("none.txt", "none.txt: no such file"),
+        ("-", "-: no such file"),
     ];
     for (name, message) in cases {
         for line in [format!("check {name}"), format!("render {name} -o a.bmp")] {

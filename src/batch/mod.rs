@@ -104,7 +104,10 @@ struct Loaded {
 
 /// Reads a scene and prints what is wrong with it.
 fn load(path: &Path) -> Result<Loaded, Error> {
-    let format = Format::of_path(path)?;
+    let format = Format::of_path(path).map_err(|unknown| {
+        // What can't be opened is no scene under any name.
+        file::open(path).map_or_else(Error::from, |_| unknown.into())
+    })?;
     let text = file::read_text(path)?;
     let tree = format::parse(format, &text);
     let lowered = scene::lower(&text, &tree);

@@ -22,13 +22,13 @@ use crate::ui::terminal::{Choice, ColourDepth, Mouse};
 
 /// Done.
 pub const DONE: u8 = 0;
-/// Reading, writing or the machine failed on the way.
+/// Writing or the machine failed on the way.
 pub const FAILED: u8 = 1;
 /// The arguments make no sense.
 pub const USAGE: u8 = 2;
 /// A scene is wrong.
 pub const INVALID: u8 = 65;
-/// A scene is missing or can't be opened.
+/// A scene is missing or can't be read.
 pub const NO_INPUT: u8 = 66;
 /// The picture's file can't be created.
 pub const NO_OUTPUT: u8 = 73;
@@ -152,12 +152,12 @@ pub fn interface_exit_code(outcome: &Result<ui::Ending, ui::Error>) -> u8 {
 
 fn read_code(error: &ReadError) -> u8 {
     match error {
-        ReadError::NotUtf8 { .. } | ReadError::TooLong { .. } => INVALID,
-        ReadError::NotFound { .. } | ReadError::NotRegular { .. } => NO_INPUT,
-        ReadError::Io { source, .. } => match source.kind() {
-            std::io::ErrorKind::PermissionDenied | std::io::ErrorKind::NotADirectory => NO_INPUT,
-            _ => FAILED,
-        },
+        ReadError::NotUtf8 { .. } => INVALID,
+        ReadError::Io { source, .. } if source.kind() == std::io::ErrorKind::OutOfMemory => FAILED,
+        ReadError::NotFound { .. }
+        | ReadError::NotRegular { .. }
+        | ReadError::TooLong { .. }
+        | ReadError::Io { .. } => NO_INPUT,
     }
 }
 
@@ -197,10 +197,11 @@ Examples:
   halflight render scene.ray -o - --format ppm | ssh far 'cat > scene.ppm'
   halflight check scenes/*.ray                    say what is wrong with scenes
 
-A scene named like a command is opened as ./render or ./check.
+A scene named like a command is opened as ./render or ./check. Scenes are read from files, not
+from standard input, pipes or devices.
 
-Exit codes: 0 done, 1 reading or writing failed, 2 wrong arguments, 65 wrong scene,
-66 scene not found or not to be opened, 73 picture file not to be created,
+Exit codes: 0 done, 1 writing or the machine failed, 2 wrong arguments, 65 wrong scene,
+66 scene not found or not to be read, 73 picture file not to be created,
 129 terminal gone, 130 interrupted, 143 asked to end.";
 
 #[derive(Debug, Subcommand)]

@@ -31,12 +31,12 @@ pub enum ReadError {
         /// What it said.
         source: io::Error,
     },
-    /// It is a directory, a pipe, a device: something that is not read as a scene.
+    /// It is a folder, a pipe, a device: something that is not read as a scene.
     #[error("{path}: is {kind}, not a file", path = path.display())]
     NotRegular {
         /// The file.
         path: PathBuf,
-        /// What it is, with its article: `a directory`.
+        /// What it is, with its article: `a folder`.
         kind: &'static str,
     },
     /// It is longer than [`MAX_BYTES`].
@@ -148,7 +148,7 @@ fn without_waiting() -> OpenOptions {
 
 fn kind(file_type: FileType) -> &'static str {
     if file_type.is_dir() {
-        return "a directory";
+        return "a folder";
     }
     #[cfg(unix)]
     {

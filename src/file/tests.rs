@@ -72,7 +72,7 @@ fn a_missing_file_is_told_from_a_directory() {
     assert!(matches!(missing, Err(ReadError::NotFound { .. })));
     let error = read_text(directory.path()).expect_err("a directory");
     #[cfg(unix)]
-    assert!(error.to_string().ends_with(": is a directory, not a file"));
+    assert!(error.to_string().ends_with(": is a folder, not a file"));
     #[cfg(not(unix))]
     assert!(matches!(error, ReadError::Io { .. }));
 }
