@@ -72,7 +72,7 @@ pub(crate) fn render(app: &App, glyphs: Glyphs, area: Rect, buffer: &mut Buffer)
             let is_progress = |segment: &Segment| PROGRESS.contains(&segment.rank);
             if is_progress(segment) && is_progress(fitting[index - 1]) {
                 row.put("· ", theme::DIM);
-            } else if 1 < index {
+            } else if 1 < index && segment.rank != DIRTY {
                 row.put(" ", Style::new());
             }
         }
@@ -105,8 +105,11 @@ const GAP: usize = 3;
 /// The ranks of what is said about the picture's progress.
 const PROGRESS: std::ops::RangeInclusive<u8> = 20..=29;
 
+/// The rank of the mark of unsaved edits, which stands close to the name of the file.
+const DIRTY: u8 = 2;
+
 /// The rank of messages: what comes before is always shown.
-const MESSAGE: u8 = 2;
+const MESSAGE: u8 = 4;
 
 fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
     let mut all = Vec::new();
@@ -114,7 +117,7 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
     text_segments(app, &mut say);
     if let Some(export) = &app.export {
         let done = export.progress.map_or(0.0, |progress| progress.done);
-        say(5, format!("export {}", percent(done)), theme::ACCENT);
+        say(6, format!("export {}", percent(done)), theme::ACCENT);
     }
     if let Some(progress) = app.picture().progress() {
         progress_segments(progress, &mut say);
@@ -154,8 +157,10 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
         let text = format!(" {} ", counted(errors, "error"));
         say(1, text, theme::chip(theme::ERROR));
     }
-    let dirty = if app.document.is_dirty() { " [+]" } else { "" };
-    say(3, format!("{}{dirty}", app.file_name()), theme::BOLD);
+    say(5, app.file_name(), theme::BOLD);
+    if app.document.is_dirty() {
+        say(DIRTY, "[+]".to_owned(), theme::BOLD);
+    }
     let disk = match app.disk {
         Disk::Known => None,
         Disk::Changed => Some("[disk changed]"),
@@ -163,10 +168,10 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
         Disk::Missing => Some("[file missing]"),
     };
     if let Some(disk) = disk {
-        say(4, disk.to_owned(), theme::WARNING);
+        say(3, disk.to_owned(), theme::WARNING);
     }
     if app.view.is_some() {
-        say(6, "view*".to_owned(), theme::WARNING);
+        say(7, "view*".to_owned(), theme::WARNING);
     }
     if 0 < warnings {
         say(9, counted(warnings, "warning"), theme::WARNING);
@@ -249,11 +254,16 @@ mod tests {
         let bar = |app: &App, area: Rect, buffer: &mut Buffer| {
             render(app, Glyphs::HalfBlocks, area, buffer);
         };
-        let line = |width| drawn(&app, bar, width, 1)[0].clone();
-        assert_eq!(line(60), " SELECT  test.ray [+]  took the file's changes");
-        assert_eq!(line(34), " SELECT  took the file's changes");
-        assert_eq!(line(20), " SELECT  took the f…");
-        assert_eq!(line(5), " SEL…");
+        let line = |app: &App, width| drawn(app, bar, width, 1)[0].clone();
+        assert_eq!(
+            line(&app, 60),
+            " SELECT  test.ray [+]  took the file's changes"
+        );
+        assert_eq!(line(&app, 40), " SELECT  [+]  took the file's changes");
+        assert_eq!(line(&app, 25), " SELECT  [+]  took the f…");
+        assert_eq!(line(&app, 5), " SEL…");
+        app.disk = Disk::Broken;
+        assert_eq!(line(&app, 40), " SELECT  [+]  [errors on disk]  took th…");
     }
 
     #[test]
