@@ -57,9 +57,14 @@ impl App {
                 _ => QUIET,
             }),
             Err(error) => {
-                if let ReadError::NotFound { .. } = error {
-                    self.disk = Disk::Missing;
-                }
+                self.disk = match error {
+                    ReadError::NotFound { .. } => Disk::Missing,
+                    _ => Disk::Broken,
+                };
+                // What was wrong before is no longer in the file.
+                self.broken = None;
+                self.errors = None;
+                self.pending.quit = false;
                 self.fail(error.to_string());
                 Vec::new()
             }

@@ -163,6 +163,29 @@ fn a_text_with_errors_is_kept_apart_from_unsaved_edits() {
 }
 
 #[test]
+fn what_is_wrong_with_the_file_is_what_was_read_last() {
+    let unreadable = || {
+        Msg::Read(Err(ReadError::NotRegular {
+            path: PathBuf::from("scene.ray"),
+            kind: "a folder",
+        }))
+    };
+    let mut app = open(SCENE);
+    press(&mut app, "jjjel");
+    outside(&mut app, "nonsense");
+    app.update(Msg::Elapsed(Timer::Settled));
+    outside(&mut app, "nonsense");
+    assert!(app.is_disk_wrong());
+    app.update(unreadable());
+    app.update(Msg::Elapsed(Timer::Settled));
+    app.update(unreadable());
+    assert_eq!(words(&app), "scene.ray: is a folder, not a file");
+    assert_eq!((app.disk, app.wrong().1.len()), (Disk::Broken, 0));
+    let effects = press(&mut app, "w");
+    assert!(matches!(effects[..], [Effect::Read(_)]), "{effects:?}");
+}
+
+#[test]
 fn a_missing_file_is_told_after_a_while_and_forgotten_when_it_is_back() {
     let missing = || {
         let path = PathBuf::from("scene.ray");
