@@ -149,6 +149,15 @@ impl App {
         match action {
             Some(Action::G) if second_g => self.act(Action::First, context),
             Some(action) => self.act(action, context),
+            None if self.dialog.is_some() => {
+                // Whoever types on, not having seen the question, is told what became of the key.
+                let keys: Vec<_> = keymap::hints(context)
+                    .into_iter()
+                    .map(|(key, _)| key)
+                    .collect();
+                self.warn(format!("the question comes first: {}", keys.join(", ")));
+                Vec::new()
+            }
             None => self.start_typing_with(context, key),
         }
     }

@@ -295,6 +295,8 @@ fn kept_edits_can_be_restored_and_undone() {
     let mut app = open(SCENE);
     let kept = kept_edits();
     app.update(Msg::Recovered(kept.clone()));
+    press(&mut app, "j");
+    assert_eq!(words(&app), "the question comes first: r, d, Esc");
     let effects = press(&mut app, "r");
     assert!(wants(&effects, |effect| matches!(
         effect,
