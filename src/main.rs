@@ -2,17 +2,29 @@
 
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
+#[cfg(unix)]
+use std::sync::Arc;
 
 use halflight::cli::{self, Command, Stop};
 use halflight::{batch, ui};
 
 fn main() -> ExitCode {
+    #[cfg(unix)]
+    outlive_size_limits();
     ExitCode::from(match cli::parse(std::env::args_os()) {
         Ok(Command::Interface(options)) => interface(&options),
         Ok(Command::Render(work)) => cli::exit_code(&batch::render(&work)),
         Ok(Command::Check(scenes)) => cli::exit_code(&batch::check(&scenes)),
         Err(stop) => print(&stop),
     })
+}
+
+/// Makes a write beyond the limit on the sizes of files an error as others are. By default it ends
+/// the process, which would leave a temporary file behind.
+#[cfg(unix)]
+fn outlive_size_limits() {
+    // Without the handler the default is left.
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
 }
 
 fn interface(options: &ui::Options) -> u8 {
