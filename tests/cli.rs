@@ -310,12 +310,19 @@ fn impossible_sizes_are_refused_with_the_limit() {
     place.write("huge.ray", BALL.replace("size 8 6", "size 60000 60000"));
     let told = place.told("render huge.ray -o a.ppm", 65);
     assert!(
-        told.starts_with("error: huge.ray:4:57: view size 60000x60000: ")
-            && told.contains("268435456")
+        told.starts_with("error: huge.ray:4:54: view size 60000x60000: ")
+            && told.contains("268435456"),
+        "{told}"
+    );
+    place.write("wide.ray", BALL.replace("size 8 6", "size 65536 1"));
+    let told = place.told("render wide.ray -o a.bmp", 65);
+    assert!(
+        told.starts_with("error: wide.ray:4:54: view size 65536x1: ")
+            && told.contains("65535")
             && told.contains("--size WxH"),
         "{told}"
     );
-    assert_eq!(place.told("render huge.ray -o a.ppm --size 8x6", 0), "");
+    assert_eq!(place.told("render wide.ray -o a.bmp --size 8x6", 0), "");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::io;
 use std::num::NonZero;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use super::Options;
 use super::files::{Files, Task};
-use super::msg::{Effect, Existing, ExportId, Msg, Target, Timer};
+use super::msg::{Destination, Effect, Existing, ExportId, Msg, Target, Timer};
 use super::terminal::{self, Input, Terminal};
 #[cfg(unix)]
 use super::terminal::{Signals, suspend_process};
@@ -141,12 +141,12 @@ impl World {
                 self.stop(target);
                 Ok(())
             }
-            Effect::WriteImage(id, frame, path, existing) => {
-                let refused = self.write_image(id, frame, path, existing).err()?;
+            Effect::WriteImage(id, frame, to) => {
+                let refused = self.write_image(id, frame, to).err()?;
                 return Some(Msg::Exported(id, Err(refused)));
             }
-            Effect::CheckTarget(id, path, existing) => {
-                let refused = check_target(&path, self.watched.as_deref(), existing).err()?;
+            Effect::CheckTarget(id, to) => {
+                let refused = check_target(&to).err()?;
                 return Some(Msg::Exported(id, Err(refused)));
             }
             Effect::Read(path) => self.files.order(Task::Read(path)),
@@ -235,21 +235,14 @@ impl World {
         }
     }
 
-    fn write_image(
-        &self,
-        id: ExportId,
-        frame: Arc<Frame>,
-        path: PathBuf,
-        existing: Existing,
-    ) -> Result<(), String> {
+    fn write_image(&self, id: ExportId, frame: Arc<Frame>, to: Destination) -> Result<(), String> {
         let sender = self.sender.clone();
-        let scene = self.watched.clone();
         let write = move || {
-            let outcome = check_target(&path, scene.as_deref(), existing).and_then(|()| {
-                let saved = image_out::save(&frame, &path);
-                saved.map_err(|error| format!("{}: {error}", path.display()))
+            let outcome = check_target(&to).and_then(|()| {
+                let saved = image_out::save(&frame, &to.path);
+                saved.map_err(|error| format!("{}: {error}", to.path.display()))
             });
-            let _ = sender.send(Event::Msg(Msg::Exported(id, outcome.map(|()| path))));
+            let _ = sender.send(Event::Msg(Msg::Exported(id, outcome.map(|()| to.path))));
         };
         let spawned = thread::Builder::new()
             .name("export".to_owned())
@@ -313,12 +306,13 @@ impl World {
 }
 
 /// Whether a picture may be written there; else why not.
-fn check_target(path: &Path, scene: Option<&Path>, existing: Existing) -> Result<(), String> {
-    let shown = path.display();
+fn check_target(to: &Destination) -> Result<(), String> {
+    let (path, shown) = (&to.path, to.path.display());
+    let scene = to.scene.as_deref();
     if scene.is_some_and(|scene| file::is_same(path, scene)) {
         return Err(format!("{shown} is the scene itself: name another file"));
     }
-    if existing == Existing::Kept && path.symlink_metadata().is_ok() {
+    if to.existing == Existing::Kept && path.symlink_metadata().is_ok() {
         return Err(format!("{shown} exists: :export! {shown} overwrites it"));
     }
     file::check_target(path).map_err(|error| format!("{shown}: {error}"))
@@ -420,11 +414,16 @@ mod tests {
     fn a_picture_that_others_wrote_is_kept() {
         let place = tempfile::tempdir().expect("a folder");
         let path = place.path().join("a.bmp");
-        assert_eq!(check_target(&path, None, Existing::Kept), Ok(()));
+        let to = |existing| Destination {
+            path: path.clone(),
+            existing,
+            scene: None,
+        };
+        assert_eq!(check_target(&to(Existing::Kept)), Ok(()));
         std::fs::write(&path, "").expect("the folder is new");
-        let refused = check_target(&path, None, Existing::Kept).expect_err("it exists");
+        let refused = check_target(&to(Existing::Kept)).expect_err("it exists");
         assert!(refused.contains(":export! "), "{refused}");
-        assert_eq!(check_target(&path, None, Existing::Overwritten), Ok(()));
+        assert_eq!(check_target(&to(Existing::Overwritten)), Ok(()));
     }
 
     #[test]
@@ -434,7 +433,12 @@ mod tests {
         std::fs::write(&scene, "").expect("the folder is new");
         std::fs::hard_link(&scene, &linked).expect("on one file system");
         for existing in [Existing::Kept, Existing::Overwritten] {
-            let refused = check_target(&linked, Some(&scene), existing).expect_err("one file");
+            let to = Destination {
+                path: linked.clone(),
+                existing,
+                scene: Some(scene.clone()),
+            };
+            let refused = check_target(&to).expect_err("one file");
             assert!(refused.contains("is the scene itself"), "{refused}");
         }
     }

@@ -117,9 +117,9 @@ pub enum Effect {
     /// Trace it no longer.
     Stop(Target),
     /// Write a frame to a picture file: [`Msg::Exported`].
-    WriteImage(ExportId, Arc<Frame>, PathBuf, Existing),
+    WriteImage(ExportId, Arc<Frame>, Destination),
     /// Say whether a picture can be written there, if not: [`Msg::Exported`].
-    CheckTarget(ExportId, PathBuf, Existing),
+    CheckTarget(ExportId, Destination),
     /// Read the scene file: [`Msg::Read`].
     Read(PathBuf),
     /// Write the scene file: [`Msg::Saved`].
@@ -181,6 +181,17 @@ pub enum Guard {
     Absent,
     /// Any.
     Anything,
+}
+
+/// Where a picture is to be written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Destination {
+    /// The file.
+    pub path: PathBuf,
+    /// What becomes of a file that is there already.
+    pub existing: Existing,
+    /// The scene's own file, which no picture may replace.
+    pub scene: Option<PathBuf>,
 }
 
 /// What becomes of a file that stands where a picture is to be written.

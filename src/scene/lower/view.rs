@@ -223,19 +223,14 @@ fn default_eye_and_target(bounds: Aabb, fov: f64) -> (DVec3, DVec3) {
     (centre + distance * DEFAULT_SIDE.normalize(), centre)
 }
 
-/// The error for a scene that has no default view.
-fn too_extreme(message: &str, place: Span) -> Diagnostic {
-    Diagnostic::error(place, message, Range::Any.words())
-        .with_hint("say eye and target in a comment: // view: eye x y z target x y z")
-}
-
 /// Reports a camera that looks nowhere, and one that looks along its `up`.
 fn check(camera: &Camera, view: Option<&View>, otherwise: Span, report: &mut Findings) {
     let span = |part| view.map_or(otherwise, |view: &View| view.span(part));
     if !camera.eye.is_finite() || !camera.target.is_finite() {
         report.error(|| {
             let message = "view: the scene is too large for a default view";
-            too_extreme(message, otherwise)
+            Diagnostic::error(otherwise, message, Range::Any.words())
+                .with_hint("say eye and target in a comment: // view: eye x y z target x y z")
         });
         return;
     }
@@ -247,14 +242,6 @@ fn check(camera: &Camera, view: Option<&View>, otherwise: Span, report: &mut Fin
             (false, true) => span(TARGET),
             (_, false) => span(EYE),
         };
-        if !said(EYE) && !said(TARGET) {
-            report.error(|| {
-                let message =
-                    "view: the scene is too small for a default view, or too far from the origin";
-                too_extreme(message, otherwise)
-            });
-            return;
-        }
         report.error(|| {
             let message = "view target: is where the eye is";
             Diagnostic::error(place, message, "a point other than the eye")

@@ -88,7 +88,7 @@ impl App {
     pub fn losses(&self) -> Option<String> {
         let edits = format!("{} has edits that are not saved", self.file_name());
         let export = self.export.as_ref().map(|export| {
-            let name = export.path.display();
+            let name = export.destination.path.display();
             format!("the export to {name} is not done")
         });
         match (self.document.is_dirty(), export) {

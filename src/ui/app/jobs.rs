@@ -7,7 +7,7 @@ use super::{App, Export, Mode, Picture, Stage};
 use crate::image_out::{ImageFormat, known_extensions};
 use crate::render::{Frame, Frames, Job, Settings};
 use crate::scene::{Camera, Size};
-use crate::ui::msg::{Effect, Existing, ExportId, Target};
+use crate::ui::msg::{Destination, Effect, Existing, ExportId, Target};
 
 /// Samples a pixel at which the preview comes to rest.
 const PREVIEW_SPP: u32 = 64;
@@ -139,7 +139,7 @@ impl App {
         }
         export.stage = Stage::Writing;
         vec![
-            Effect::WriteImage(export.id, frame, export.path.clone(), export.existing),
+            Effect::WriteImage(export.id, frame, export.destination.clone()),
             Effect::Stop(Target::Export),
         ]
     }
@@ -225,6 +225,11 @@ impl App {
             Existing::Kept => self.existing(path),
             Existing::Overwritten => existing,
         };
+        let destination = Destination {
+            path: path.to_owned(),
+            existing,
+            scene: self.path.clone(),
+        };
         let traced = self.traced(size, spp);
         self.pending.export.0 += 1;
         let id = self.pending.export;
@@ -234,10 +239,9 @@ impl App {
                 Some(_) => Stage::Writing,
                 None => Stage::Tracing,
             },
-            path: path.to_owned(),
+            destination: destination.clone(),
             size,
             spp,
-            existing,
             progress: traced.as_ref().map(|frame| frame.progress),
         });
         if self.error_count() == 0 {
@@ -247,12 +251,12 @@ impl App {
             self.warn(format!("exporting the last scene without errors to {path}"));
         }
         if let Some(frame) = traced {
-            return vec![Effect::WriteImage(id, frame, path.to_owned(), existing)];
+            return vec![Effect::WriteImage(id, frame, destination)];
         }
         // The framing is that of the size that is written.
         let camera = Camera { size, ..job.camera };
         vec![
-            Effect::CheckTarget(id, path.to_owned(), existing),
+            Effect::CheckTarget(id, destination),
             Effect::Trace(
                 Target::Export,
                 Job {
@@ -292,7 +296,7 @@ impl App {
         match export.stage {
             Stage::Tracing => self.say("export cancelled"),
             Stage::Writing => {
-                let path = export.path.display();
+                let path = export.destination.path.display();
                 self.warn(format!("too late to cancel: {path} is being written"));
             }
         }

@@ -12,7 +12,7 @@ use crate::scene::fields::Field;
 use crate::scene::{Camera, Node, Origins, Scene, Size};
 use crate::text::{Diagnostic, Findings, Severity};
 use crate::ui::keymap::Action;
-use crate::ui::msg::{Existing, ExportId, Kept};
+use crate::ui::msg::{Destination, ExportId, Kept};
 use crate::ui::terminal::Mouse;
 use crate::ui::view::layout::Zoom;
 
@@ -241,13 +241,11 @@ pub struct Export {
     /// What is being done.
     pub stage: Stage,
     /// Where to.
-    pub path: PathBuf,
+    pub destination: Destination,
     /// How large.
     pub size: Size,
     /// Samples a pixel.
     pub spp: u32,
-    /// What becomes of a file that is there already.
-    pub existing: Existing,
     /// How far.
     pub progress: Option<Progress>,
 }

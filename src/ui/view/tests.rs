@@ -19,7 +19,7 @@ use crate::ui::app::{
     App, Dialog, Disk, Export, Help, HelpFocus, Message, Mode, Opening, Prompt, PromptKind,
     Quality, Stage, Typing,
 };
-use crate::ui::msg::{Existing, ExportId, Kept};
+use crate::ui::msg::{Destination, Existing, ExportId, Kept};
 use crate::ui::terminal::Mouse;
 
 pub(super) const SCENE: &str = "\
@@ -198,13 +198,16 @@ const STATES: &[(&str, Change)] = &[
         app.export = Some(Export {
             id: ExportId::default(),
             stage: Stage::Tracing,
-            path: PathBuf::from("out.bmp"),
+            destination: Destination {
+                path: PathBuf::from("out.bmp"),
+                existing: Existing::Kept,
+                scene: None,
+            },
             size: Size {
                 width: 4,
                 height: 3,
             },
             spp: 16,
-            existing: Existing::Kept,
             progress: None,
         });
     }),

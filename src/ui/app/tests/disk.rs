@@ -165,10 +165,9 @@ fn a_text_with_errors_is_kept_apart_from_unsaved_edits() {
 #[test]
 fn what_is_wrong_with_the_file_is_what_was_read_last() {
     let unreadable = || {
-        Msg::Read(Err(ReadError::NotRegular {
-            path: PathBuf::from("scene.ray"),
-            kind: "a folder",
-        }))
+        let path = PathBuf::from("scene.ray");
+        let kind = "a folder";
+        Msg::Read(path.clone(), Err(ReadError::NotRegular { path, kind }))
     };
     let mut app = open(SCENE);
     press(&mut app, "jjjel");

@@ -72,7 +72,7 @@ fn an_export_is_traced_written_and_told() {
     let mut app = open(SCENE);
     let effects = press(&mut app, ":export b c.png 32x8 2<Enter>");
     let [
-        Effect::CheckTarget(id, path, Existing::Kept),
+        Effect::CheckTarget(id, destination),
         Effect::Trace(Target::Export, job),
     ] = &effects[..]
     else {
@@ -82,13 +82,16 @@ fn an_export_is_traced_written_and_told() {
         width: 32,
         height: 8,
     };
+    let path = &destination.path;
     assert_eq!(path, &PathBuf::from("b c.png"));
+    assert_eq!(destination.existing, Existing::Kept);
+    assert_eq!(destination.scene, app.path);
     assert_eq!((job.settings.size, job.settings.spp), (size, 2));
     assert_eq!(job.camera.size, size);
     let done = Arc::new(frame(size, vec![0; size.pixels()]));
     let effects = app.update(Msg::Frame(Target::Export, done));
     assert!(
-        matches!(&effects[..], [Effect::WriteImage(_, _, to, Existing::Kept), Effect::Stop(_)] if to == path)
+        matches!(&effects[..], [Effect::WriteImage(_, _, to), Effect::Stop(_)] if to == destination)
     );
     app.update(Msg::Exported(*id, Ok(path.clone())));
     assert!(app.export.is_none());
@@ -123,12 +126,12 @@ fn the_full_size_trace_goes_on_behind_until_the_scene_changes() {
 fn only_a_session_s_own_pictures_are_overwritten_unasked() {
     let existing = |app: &mut App, said: &str| {
         let effects = press(app, said);
-        let Some(Effect::CheckTarget(id, path, existing)) = effects.first() else {
+        let Some(Effect::CheckTarget(id, destination)) = effects.first() else {
             panic!("{effects:?}");
         };
-        let (id, path, existing) = (*id, path.clone(), *existing);
-        app.update(Msg::Exported(id, Ok(path)));
-        existing
+        let (id, destination) = (*id, destination.clone());
+        app.update(Msg::Exported(id, Ok(destination.path)));
+        destination.existing
     };
     let mut app = open(SCENE);
     assert_eq!(existing(&mut app, "b"), Existing::Kept);
@@ -169,7 +172,7 @@ fn a_file_written_after_its_export_was_cancelled_is_told_and_stops_no_other() {
         press(&mut app, ":export b.bmp<Enter>");
         assert!(app.update(Msg::Exported(ExportId(1), outcome)).is_empty());
         let export = app.export.as_ref().expect("it goes on");
-        assert_eq!(export.path, PathBuf::from("b.bmp"));
+        assert_eq!(export.destination.path, PathBuf::from("b.bmp"));
         words(&app).to_owned()
     };
     assert_eq!(late(Ok("a.bmp".into())), "wrote a.bmp all the same");
