@@ -23,7 +23,7 @@ use std::time::{Duration, Instant};
 
 use halflight::format::{self, Format};
 use halflight::render::{DEFAULT_DEPTH, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::{Scene, lower};
+use halflight::scene::{Images, Scene, lower};
 use halflight::ui::view::layout::Zoom;
 
 use desk::{Desk, Drawn, TERMINAL, difference, picture_cells};
@@ -321,6 +321,7 @@ fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
     };
     renderer.restart(Job {
         scene: Arc::clone(scene),
+        images: Images::default(),
         camera: scene.camera,
         settings,
         frames: Frames::Live,

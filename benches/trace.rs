@@ -15,7 +15,7 @@ use halflight::accel::Bvh;
 use halflight::format::{self, Format};
 use halflight::geometry::Aabb;
 use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::{Scene, Size, lower};
+use halflight::scene::{Images, Scene, Size, lower};
 
 /// Runs of everything that is timed; the median is printed.
 const RUNS: usize = 5;
@@ -142,6 +142,7 @@ fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
         };
         let job = Job {
             scene: Arc::clone(scene),
+            images: Images::default(),
             camera: scene.camera,
             settings,
             frames: Frames::Last,

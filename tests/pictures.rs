@@ -8,7 +8,7 @@ use halflight::format::{self, Format};
 use halflight::image_out::ImageFormat;
 use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::fields::{Kind, Range};
-use halflight::scene::{Scene, Size, lower};
+use halflight::scene::{Images, Scene, Size, lower};
 use halflight::text::{Edit, parse_number};
 
 /// Size of the pictures beside the scenes, and their samples a pixel: the README's command.
@@ -125,6 +125,7 @@ fn trace(scene: &Arc<Scene>, size: Size, spp: u32) -> Arc<Frame> {
     };
     renderer.restart(Job {
         scene: Arc::clone(scene),
+        images: Images::default(),
         camera: scene.camera,
         settings,
         frames: Frames::Last,

@@ -9,7 +9,7 @@ use super::{Error, load, print_findings, tell};
 use crate::file;
 use crate::image_out::ImageFormat;
 use crate::render::{Frame, Frames, Job, Renderer, Settings, Threads};
-use crate::scene::{Camera, Scene, Size};
+use crate::scene::{Camera, Images, Scene, Size};
 use crate::text::{Diagnostic, counted};
 
 /// A picture to make.
@@ -99,6 +99,7 @@ fn check_output(work: &Render) -> Result<(), Error> {
 
 fn trace(work: &Render, scene: Scene, size: Size) -> Result<Arc<Frame>, Error> {
     let job = Job {
+        images: Images::default(),
         // The picture's ratio is the one asked for.
         camera: Camera {
             size,

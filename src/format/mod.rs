@@ -1,5 +1,6 @@
 //! Text ⇄ tree, one language a file. Knows how a language is written, not what a scene is.
 
+pub mod dat;
 pub mod ray;
 
 use std::path::{Path, PathBuf};
@@ -11,22 +12,33 @@ use crate::text::Span;
 pub enum Format {
     /// Rice University's `.ray`: a stream of tokens.
     Ray,
+    /// Boston University's `.dat`: one record a line.
+    Dat,
 }
 
 /// A file whose name does not say which language it is written in.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{path}: not a scene: scenes end in .ray", path = .0.display())]
+#[error("{path}: not a scene: scenes end in .ray or .dat", path = .0.display())]
 pub struct UnknownLanguage(pub PathBuf);
 
 impl Format {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Ray, Self::Dat];
+
+    /// The extension of its files' names.
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Ray => "ray",
+            Self::Dat => "dat",
+        }
+    }
+
     /// The format a file name's extension says, in any case.
     pub fn of_path(path: &Path) -> Result<Self, UnknownLanguage> {
         let extension = path.extension().unwrap_or_default();
-        if extension.eq_ignore_ascii_case("ray") {
-            Ok(Self::Ray)
-        } else {
-            Err(UnknownLanguage(path.to_owned()))
-        }
+        let is = |known: &Self| extension.eq_ignore_ascii_case(known.extension());
+        let known = Self::ALL.into_iter().find(is);
+        known.ok_or_else(|| UnknownLanguage(path.to_owned()))
     }
 }
 
@@ -35,12 +47,15 @@ impl Format {
 pub enum Tree {
     /// Tokens and comments.
     Ray(ray::Tree),
+    /// Records and comments.
+    Dat(dat::Tree),
 }
 
 /// Reads a text's syntax. Never fails: whatever stands in the text has a place in the tree.
 pub fn parse(format: Format, text: &str) -> Tree {
     match format {
         Format::Ray => Tree::Ray(ray::parse(text)),
+        Format::Dat => Tree::Dat(dat::parse(text)),
     }
 }
 
@@ -48,10 +63,32 @@ impl Tree {
     /// The parts of the text that carry meaning, in order: tokens, and comments whole. What lies
     /// between them is white space.
     pub fn leaves(&self) -> Vec<Span> {
-        let Self::Ray(tree) = self;
-        let comments = tree.comments.iter().map(|comment| comment.span);
-        let mut leaves: Vec<_> = tree.tokens.iter().copied().chain(comments).collect();
+        let mut leaves: Vec<_> = match self {
+            Self::Ray(tree) => {
+                let comments = tree.comments.iter().map(|comment| comment.span);
+                tree.tokens.iter().copied().chain(comments).collect()
+            }
+            Self::Dat(tree) => tree.tokens.iter().chain(&tree.comments).copied().collect(),
+        };
         leaves.sort_unstable();
         leaves
     }
+}
+
+/// The width in bytes of the white-space character that `bytes` begin with.
+fn white_space(bytes: &[u8]) -> Option<usize> {
+    match bytes {
+        [b' ' | b'\t' | b'\n' | b'\r' | 0x0B | 0x0C, ..] => Some(1),
+        [0xC2, 0xA0, ..] => Some(2),
+        [0xEF, 0xBB, 0xBF, ..] => Some(3),
+        _ => None,
+    }
+}
+
+/// The span without white space at its end.
+fn trim_end(text: &str, span: Span) -> Span {
+    let kept = span
+        .of(text)
+        .trim_end_matches([' ', '\t', '\r', '\n', '\x0B', '\x0C', '\u{A0}', '\u{FEFF}']);
+    Span::new(span.start(), span.start() + kept.len())
 }

@@ -1,5 +1,6 @@
 //! The `.ray` language: a stream of tokens separated by white space, with comments.
 
+use super::{trim_end, white_space};
 use crate::text::Span;
 
 /// The tokens and comments of a text, each in order.
@@ -76,16 +77,6 @@ pub fn words(text: &str, span: Span) -> Vec<Span> {
     words
 }
 
-/// The width in bytes of the white-space character that `bytes` begin with.
-fn white_space(bytes: &[u8]) -> Option<usize> {
-    match bytes {
-        [b' ' | b'\t' | b'\n' | b'\r' | 0x0B | 0x0C, ..] => Some(1),
-        [0xC2, 0xA0, ..] => Some(2),
-        [0xEF, 0xBB, 0xBF, ..] => Some(3),
-        _ => None,
-    }
-}
-
 fn comment_marker(bytes: &[u8]) -> Option<Marker> {
     match bytes {
         [b'/', b'/', ..] => Some(Marker::Slashes),
@@ -104,14 +95,6 @@ fn token_end(bytes: &[u8], start: usize) -> usize {
         end += 1;
     }
     end
-}
-
-/// The span without white space at its end.
-fn trim_end(text: &str, span: Span) -> Span {
-    let kept = span
-        .of(text)
-        .trim_end_matches([' ', '\t', '\r', '\x0B', '\x0C', '\u{A0}', '\u{FEFF}']);
-    Span::new(span.start(), span.start() + kept.len())
 }
 
 #[cfg(test)]

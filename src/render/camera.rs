@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::geometry::Ray;
-use crate::scene::{Camera, Size};
+use crate::scene::{Camera, Lens, Size};
 
 /// A camera made ready to give rays for a raster of pixels.
 #[derive(Clone, Copy, Debug)]
@@ -12,10 +12,21 @@ pub(crate) struct Projection {
     forward: DVec3,
     right: DVec3,
     up: DVec3,
-    /// Half extents of the picture on the plane one unit before the eye.
+    rays: Rays,
+    /// Half extents of the picture: on the plane one unit before the eye, or where rays go side by
+    /// side in world units.
     half_width: f64,
     half_height: f64,
+    /// Between these distances along the view things are seen.
+    depths: [f64; 2],
     raster: Size,
+}
+
+/// How rays go.
+#[derive(Clone, Copy, Debug)]
+enum Rays {
+    FromTheEye,
+    SideBySide,
 }
 
 impl Projection {
@@ -24,28 +35,49 @@ impl Projection {
     pub(crate) fn new(camera: &Camera, raster: Size) -> Self {
         let forward = unit(way(camera.eye, camera.target));
         let right = unit(forward.cross(upright(forward, unit(camera.up))));
-        let half_height = libm::tan(camera.fov * (std::f64::consts::PI / 360.0));
+        let (rays, half_height) = match camera.lens {
+            Lens::Perspective(angle) => {
+                let half_angle = angle * (std::f64::consts::PI / 360.0);
+                (Rays::FromTheEye, libm::tan(half_angle))
+            }
+            Lens::Orthographic(height) => (Rays::SideBySide, 0.5 * height),
+        };
         let aspect = f64::from(camera.size.width) / f64::from(camera.size.height);
         Self {
             eye: camera.eye,
             forward,
             right,
             up: right.cross(forward),
-            half_width: half_height * aspect,
+            rays,
+            half_width: half_height * aspect * camera.pixel_aspect,
             half_height,
+            depths: camera.depths,
             raster,
         }
     }
 
-    /// The ray through a place of the raster, in pixels from its top left corner.
-    pub(crate) fn ray(&self, x: f64, y: f64) -> Ray {
+    /// The ray through a place of the raster, in pixels from its top left corner, from where things
+    /// begin to be seen; and how far along it they are.
+    pub(crate) fn ray(&self, x: f64, y: f64) -> (Ray, f64) {
         let across = self.half_width * (2.0 * x / f64::from(self.raster.width) - 1.0);
         let upward = self.half_height * (1.0 - 2.0 * y / f64::from(self.raster.height));
-        let direction = self.forward + across * self.right + upward * self.up;
-        Ray {
-            origin: self.eye,
-            direction: direction.normalize(),
+        let aside = across * self.right + upward * self.up;
+        let mut ray = match self.rays {
+            Rays::FromTheEye => Ray {
+                origin: self.eye,
+                direction: (self.forward + aside).normalize(),
+            },
+            Rays::SideBySide => Ray {
+                origin: self.eye + aside,
+                direction: self.forward,
+            },
+        };
+        let [near, far] = self.depths;
+        let slant = ray.direction.dot(self.forward);
+        if 0.0 < near {
+            ray.origin = ray.at(near / slant);
         }
+        (ray, (far - near) / slant)
     }
 }
 
@@ -90,7 +122,9 @@ mod tests {
             eye: DVec3::new(0.0, 0.0, 5.0),
             target: DVec3::ZERO,
             up,
-            fov: 90.0,
+            lens: Lens::Perspective(90.0),
+            pixel_aspect: 1.0,
+            depths: Camera::ALL_DEPTHS,
             size: Size {
                 width: 4,
                 height: 2,
@@ -113,9 +147,18 @@ mod tests {
             },
         );
         let through = |x, y, z| DVec3::new(x, y, z).normalize();
-        assert_near(projection.ray(0.5, 0.5).direction, through(-1.5, 0.5, -1.0));
-        assert_near(projection.ray(3.5, 1.5).direction, through(1.5, -0.5, -1.0));
-        assert_near(projection.ray(2.0, 1.0).direction, through(0.0, 0.0, -1.0));
+        assert_near(
+            projection.ray(0.5, 0.5).0.direction,
+            through(-1.5, 0.5, -1.0),
+        );
+        assert_near(
+            projection.ray(3.5, 1.5).0.direction,
+            through(1.5, -0.5, -1.0),
+        );
+        assert_near(
+            projection.ray(2.0, 1.0).0.direction,
+            through(0.0, 0.0, -1.0),
+        );
     }
 
     #[test]
@@ -134,7 +177,10 @@ mod tests {
                 height: 1,
             },
         );
-        assert_near(fine.ray(4.0, 2.0).direction, coarse.ray(3.0, 1.0).direction);
+        assert_near(
+            fine.ray(4.0, 2.0).0.direction,
+            coarse.ray(3.0, 1.0).0.direction,
+        );
     }
 
     #[test]
@@ -167,7 +213,9 @@ mod tests {
                     eye: DVec3::new(a, b, -a),
                     target: DVec3::new(-a, -b, b),
                     up: DVec3::new(b, a, 0.0),
-                    fov,
+                    lens: Lens::Perspective(fov),
+                    pixel_aspect: 1.0,
+                    depths: Camera::ALL_DEPTHS,
                     size: raster,
                 };
                 // Scenes with such a view have an error.
@@ -176,7 +224,7 @@ mod tests {
                 }
                 let projection = Projection::new(&camera, raster);
                 for (x, y) in [(0.0, 0.0), (1.5, 1.0), (3.0, 2.0)] {
-                    let ray = projection.ray(x, y);
+                    let (ray, _) = projection.ray(x, y);
                     assert_eq!(ray.origin, camera.eye);
                     assert!(
                         (ray.direction.length() - 1.0).abs() < 1e-15,

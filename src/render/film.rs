@@ -253,10 +253,10 @@ impl Tile {
         cancelled: &impl Fn() -> bool,
     ) {
         let [across, down] = place_in_pixel(x, y, index, shot.settings.seed);
-        let ray = shot
+        let (ray, reach) = shot
             .projection
             .ray(f64::from(x) + across, f64::from(y) + down);
-        let seen = tracer.radiance(ray, cancelled);
+        let seen = tracer.radiance(ray, reach, cancelled);
         let at = self.index(x, y);
         self.sums[at] += seen.radiance;
         if index == 0 {

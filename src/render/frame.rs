@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::scene::{Camera, Scene, Size};
+use crate::scene::{Camera, Images, Scene, Size};
 
 /// Samples a pixel of full-size pictures unless the user says otherwise.
 pub const DEFAULT_SPP: u32 = 16;
@@ -44,6 +44,8 @@ pub enum Frames {
 pub struct Job {
     /// What is seen.
     pub scene: Arc<Scene>,
+    /// The pictures its textures show.
+    pub images: Images,
     /// From where: the scene's own camera, or the working view.
     pub camera: Camera,
     /// How.

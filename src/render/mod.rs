@@ -19,6 +19,7 @@ mod frame;
 mod renderer;
 mod sampler;
 mod shared;
+mod texture;
 mod tone;
 mod whitted;
 mod worker;

@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::frame::NO_OBJECT;
 use super::world::{Nearest, World};
 use crate::geometry::{Ray, Surface, ulp};
-use crate::scene::{Light, Material, Rgb};
+use crate::scene::{Falloff, Light, Material, Rgb, Shadows, Source};
 
 /// Rays that one camera sample may trace, shadow rays apart. With reflection and transmission both
 /// 1 a tree of depth 30 would have two thousand million.
@@ -18,7 +18,7 @@ pub(crate) struct Tracer<'w> {
     world: &'w World,
     depth: u32,
     pending: Vec<Pending>,
-    crossed: Vec<u32>,
+    crossed: Vec<(u32, u32)>,
     /// What was traced so far.
     pub(crate) counts: Counts,
 }
@@ -69,15 +69,16 @@ struct Pending {
 }
 
 /// A lit point.
-struct Point<'m> {
+struct Point {
     surface: Surface,
-    /// The normal, turned against the ray.
+    /// The normal with its bumps, turned against the ray.
     normal: DVec3,
     /// Whether the ray came from outside.
     front: bool,
     /// Unit vector toward where the ray came from.
     view: DVec3,
-    material: &'m Material,
+    /// With its textures.
+    material: Material,
 }
 
 impl<'w> Tracer<'w> {
@@ -92,10 +93,15 @@ impl<'w> Tracer<'w> {
         }
     }
 
-    /// Radiance along a camera ray. Rays are traced depth first, reflection before refraction;
+    /// Radiance along a camera ray, which is followed as far as `reach`. Rays are traced depth first, reflection before refraction;
     /// those beyond the budget bring nothing. Stops early, with a useless result, once `cancelled`
     /// says so.
-    pub(crate) fn radiance(&mut self, camera_ray: Ray, cancelled: impl Fn() -> bool) -> Seen {
+    pub(crate) fn radiance(
+        &mut self,
+        camera_ray: Ray,
+        reach: f64,
+        cancelled: impl Fn() -> bool,
+    ) -> Seen {
         let mut seen = Seen {
             radiance: Rgb::ZERO,
             object: NO_OBJECT,
@@ -114,7 +120,12 @@ impl<'w> Tracer<'w> {
             }
             traced += 1;
             self.counts.rays += 1;
-            let Some(nearest) = self.world.nearest(&next.ray) else {
+            let reach = if next.bounce == 0 {
+                reach
+            } else {
+                f64::INFINITY
+            };
+            let Some(nearest) = self.world.nearest(&next.ray, reach) else {
                 continue;
             };
             if next.bounce == 0 {
@@ -133,19 +144,26 @@ impl<'w> Tracer<'w> {
         let scene = &self.world.scene;
         let object = &scene.objects[nearest.object as usize];
         let surface = object.shape.surface(&arrived.ray, nearest.hit);
+        let material = &scene.materials[object.material_at(nearest.hit) as usize];
         let direction = arrived.ray.direction;
         let front = direction.dot(surface.normal) < 0.0;
-        let point = Point {
+        let mut point = Point {
             surface,
-            normal: if front {
-                surface.normal
-            } else {
-                -surface.normal
-            },
+            normal: surface.normal,
             front,
             view: -direction,
-            material: &scene.materials[object.material as usize],
+            material: *material,
         };
+        if material.colour_texture.is_some() || material.bump.is_some() {
+            let chart = object.shape.chart(&arrived.ray, nearest.hit);
+            self.world
+                .textures
+                .apply(&chart, &mut point.material, &mut point.normal);
+        }
+        // Which side is seen is the surface's to say, not the bumps'.
+        if !front {
+            point.normal = -point.normal;
+        }
         let mut radiance = point.material.ambient * scene.ambient;
         for light in &scene.lights {
             radiance += self.direct(&point, light);
@@ -157,8 +175,16 @@ impl<'w> Tracer<'w> {
     }
 
     /// Light from one light, by way of Phong's model.
-    fn direct(&mut self, point: &Point<'_>, light: &Light) -> Rgb {
-        let to_light = (light.position - point.surface.point).normalize();
+    fn direct(&mut self, point: &Point, light: &Light) -> Rgb {
+        let (to_light, share) = match light.source {
+            Source::Point { position, falloff } => {
+                let way = position - point.surface.point;
+                let to_light = way.normalize();
+                (to_light, falloff.share(way.length(), to_light))
+            }
+            Source::Distant(toward) => (toward, 1.0),
+            Source::Everywhere => return Rgb::ZERO,
+        };
         let cosine = point.normal.dot(to_light);
         // It is NaN where the light stands at the point itself.
         if cosine <= 0.0 || cosine.is_nan() {
@@ -167,21 +193,33 @@ impl<'w> Tracer<'w> {
         let mirrored = 2.0 * cosine * point.normal - to_light;
         let highlight = phong(mirrored.dot(point.view), point.material.exponent);
         let reflected = point.material.diffuse * cosine + point.material.specular * highlight;
-        if reflected == Rgb::ZERO {
+        if reflected == Rgb::ZERO || share == 0.0 {
             return Rgb::ZERO;
         }
-        self.visibility(point, light) * (reflected * light.colour)
+        self.visibility(point, light, to_light) * (reflected * (share * light.colour))
     }
 
     /// The part of the light that reaches the point.
-    fn visibility(&mut self, point: &Point<'_>, light: &Light) -> f64 {
+    fn visibility(&mut self, point: &Point, light: &Light, to_light: DVec3) -> f64 {
+        if light.shadows == Shadows::Off {
+            return 1.0;
+        }
         self.counts.rays += 1;
-        let origin = point.surface.leave(point.normal);
-        let way = light.position - origin;
+        let origin = point.surface.leave(to_light);
+        let Source::Point { position, .. } = light.source else {
+            let ray = Ray {
+                origin,
+                direction: to_light,
+            };
+            return self
+                .world
+                .transmittance(&ray, f64::INFINITY, &mut self.crossed);
+        };
+        let way = position - origin;
         let distance = way.length();
         // The surface that a light lies on does not block it: the way ends before that surface, by
         // as much as rounding may displace it.
-        let reach = origin.abs().max(light.position.abs()).max_element();
+        let reach = origin.abs().max(position.abs()).max_element();
         let ray = Ray {
             origin,
             direction: way / distance,
@@ -191,14 +229,14 @@ impl<'w> Tracer<'w> {
     }
 
     /// Leaves the mirrored and the refracted ray pending, the mirrored one to be traced first.
-    fn branch(&mut self, arrived: &Pending, point: &Point<'_>) {
+    fn branch(&mut self, arrived: &Pending, point: &Point) {
         let direction = arrived.ray.direction;
         let Material {
             reflection,
             transmission,
             index,
             ..
-        } = *point.material;
+        } = point.material;
         let mut mirrored_weight = reflection;
         if transmission != 0.0 {
             let index = if 0.0 < index { index } else { 1.0 };
@@ -215,7 +253,7 @@ impl<'w> Tracer<'w> {
         }
     }
 
-    fn push(&mut self, arrived: &Pending, point: &Point<'_>, direction: DVec3, weight: f64) {
+    fn push(&mut self, arrived: &Pending, point: &Point, direction: DVec3, weight: f64) {
         let ray = Ray {
             origin: point.surface.leave(direction),
             direction,
@@ -226,6 +264,25 @@ impl<'w> Tracer<'w> {
             weight,
             bounce: arrived.bounce + 1,
         });
+    }
+}
+
+impl Falloff {
+    /// The part of the light that goes a distance in the direction from `to_light`, a unit vector.
+    fn share(&self, distance: f64, to_light: DVec3) -> f64 {
+        let [a0, a1, a2] = self.radial;
+        let spread = a0 + a1 * distance + a2 * distance * distance;
+        let radial = if 0.0 < spread { 1.0 / spread } else { 1.0 };
+        let angular = self.spot.map_or(1.0, |(direction, exponent)| {
+            let cosine = -direction.dot(to_light);
+            // Behind a spot light it is dark, whatever the exponent.
+            if cosine <= 0.0 {
+                0.0
+            } else {
+                phong(cosine, exponent)
+            }
+        });
+        radial * angular
     }
 }
 

@@ -51,7 +51,8 @@ fn trace<W: Fn() + Sync>(
     // A newer job does not cancel the building: it may need the same structure, and if a held key
     // moved the objects of a large scene, no structure would ever be finished.
     let quit = || shared.is_quitting();
-    let Some(world) = World::build(Arc::clone(&job.scene), previous.as_ref(), quit) else {
+    let Some(world) = World::build(Arc::clone(&job.scene), &job.images, previous.as_ref(), quit)
+    else {
         return previous;
     };
     let shot = Shot {

@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::texture::Textures;
 use crate::accel::Bvh;
 use crate::geometry::{Aabb, Hit, Ray, ulp};
-use crate::scene::{Object, Scene};
+use crate::scene::{Images, Object, Scene};
 
 /// Up to this many objects every ray tries every one. Measured on the scenes of `scenes/`: with two
 /// solids that is half as fast again as a tree, with six to eleven a tree is 1.2 to 1.7 times as
@@ -20,6 +21,7 @@ const QUIET: usize = 16_384;
 #[derive(Clone, Debug)]
 pub(crate) struct World {
     pub(crate) scene: Arc<Scene>,
+    pub(crate) textures: Textures,
     tree: Option<Arc<Bvh>>,
 }
 
@@ -37,34 +39,41 @@ impl World {
     /// `cancelled` said so.
     pub(crate) fn build(
         scene: Arc<Scene>,
+        images: &Images,
         previous: Option<&Self>,
         cancelled: impl Fn() -> bool + Sync,
     ) -> Option<Self> {
+        let textures = Textures::new(&scene.textures, images);
         if let Some(previous) = previous.filter(|world| same_shapes(&world.scene, &scene)) {
             return Some(Self {
                 scene,
+                textures,
                 tree: previous.tree.clone(),
             });
         }
         if scene.objects.len() <= FEW {
-            return Some(Self { scene, tree: None });
+            return Some(Self {
+                scene,
+                textures,
+                tree: None,
+            });
         }
         let boxes = boxes(&scene.objects, &cancelled)?;
         let tree = Bvh::build(&boxes, cancelled)?;
         Some(Self {
             scene,
+            textures,
             tree: Some(Arc::new(tree)),
         })
     }
 
-    /// The nearest object on the ray; of those that are met within 64 ulp of the least distance,
+    /// The nearest object on the ray nearer than `limit`; of those that are met within 64 ulp of the least distance,
     /// the first of the file, so that touching solids show no speckle.
-    pub(crate) fn nearest(&self, ray: &Ray) -> Option<Nearest> {
+    pub(crate) fn nearest(&self, ray: &Ray, mut limit: f64) -> Option<Nearest> {
         let reach = ray.origin.length();
         let window = |t: f64| 64.0 * ulp(reach.max(t));
         let mut best: Option<Nearest> = None;
         let mut tied = false;
-        let mut limit = f64::INFINITY;
         self.visit(ray, limit, |object| {
             let Some(hit) = self.scene.objects[object as usize].shape.hit(ray, limit) else {
                 return limit;
@@ -76,7 +85,7 @@ impl World {
             }
             if best.is_none_or(|before| hit.t < before.hit.t) {
                 best = Some(Nearest { object, hit });
-                limit = (hit.t + window(hit.t)).next_up();
+                limit = limit.min((hit.t + window(hit.t)).next_up());
             }
             limit
         });
@@ -90,20 +99,27 @@ impl World {
     }
 
     /// The part of light that passes along the ray up to `distance`: the product of kt over every
-    /// solid whose surface the way crosses, each once, in file order. `crossed` is scratch space.
-    pub(crate) fn transmittance(&self, ray: &Ray, distance: f64, crossed: &mut Vec<u32>) -> f64 {
+    /// solid whose surface the way crosses, each once, in file order. `crossed` is scratch space: objects and
+    /// their materials.
+    pub(crate) fn transmittance(
+        &self,
+        ray: &Ray,
+        distance: f64,
+        crossed: &mut Vec<(u32, u32)>,
+    ) -> f64 {
         crossed.clear();
         let mut blocked = false;
         self.visit(ray, distance, |object| {
             let solid = &self.scene.objects[object as usize];
-            if solid.shape.hit(ray, distance).is_none() {
+            let Some(hit) = solid.shape.hit(ray, distance) else {
                 return distance;
-            }
-            if self.scene.materials[solid.material as usize].transmission == 0.0 {
+            };
+            let material = solid.material_at(hit);
+            if self.scene.materials[material as usize].transmission == 0.0 {
                 blocked = true;
                 return -1.0;
             }
-            crossed.push(object);
+            crossed.push((object, material));
             distance
         });
         if blocked {
@@ -112,10 +128,7 @@ impl World {
         crossed.sort_unstable();
         crossed
             .iter()
-            .map(|&object| {
-                let material = self.scene.objects[object as usize].material;
-                self.scene.materials[material as usize].transmission
-            })
+            .map(|&(_, material)| self.scene.materials[material as usize].transmission)
             .product()
     }
 

@@ -7,13 +7,17 @@
 pub mod fields;
 mod lower;
 mod origins;
+mod texture;
+mod view;
 
 use glam::DVec3;
 
-use crate::geometry::{Aabb, Shape};
+use crate::geometry::{Aabb, Hit, Shape};
 
-pub use lower::{Lowered, lower, view_edits};
+pub use lower::{Lowered, lower};
 pub use origins::{Node, Origins, Placed};
+pub use texture::{Image, Images, Pattern, Texture};
+pub use view::{view_edits, view_literals, view_saying};
 
 /// A linear colour: red, green, blue, unclamped.
 pub type Rgb = DVec3;
@@ -23,28 +27,32 @@ pub type Rgb = DVec3;
 pub struct Scene {
     /// From where it is seen.
     pub camera: Camera,
-    /// Ambient light.
+    /// Ambient light, all of it.
     pub ambient: Rgb,
     /// Lights, in file order.
     pub lights: Vec<Light>,
     /// Materials; objects name them by index.
     pub materials: Vec<Material>,
+    /// Textures; materials name them by index.
+    pub textures: Vec<Texture>,
     /// Objects, in file order.
     pub objects: Vec<Object>,
 }
 
 impl Scene {
-    /// The tight box around all objects.
+    /// The tight box around all objects, but for those without bounds.
     pub fn bounds(&self) -> Aabb {
         bounds(&self.objects)
     }
 }
 
-/// The tight box around objects.
+/// The tight box around objects, but for those without bounds.
 fn bounds(objects: &[Object]) -> Aabb {
     objects
         .iter()
-        .fold(Aabb::EMPTY, |all, object| all.union(object.shape.bounds()))
+        .map(|object| object.shape.bounds())
+        .filter(|bounds| bounds.is_bounded())
+        .fold(Aabb::EMPTY, Aabb::union)
 }
 
 /// Width and height in pixels, each at least 1.
@@ -77,7 +85,7 @@ impl Size {
     }
 }
 
-/// A perspective camera.
+/// From where and how a scene is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// Where it stands.
@@ -86,8 +94,13 @@ pub struct Camera {
     pub target: DVec3,
     /// Which way is up; of any length.
     pub up: DVec3,
-    /// Vertical full angle in degrees, above 0 and below 180.
-    pub fov: f64,
+    /// How it sees.
+    pub lens: Lens,
+    /// The shape of a pixel: its width over its height on the image plane, above 0.
+    pub pixel_aspect: f64,
+    /// What the picture shows of the distances along the view: nothing nearer than the first, 0 or
+    /// more, and nothing farther than the second, which may be infinite.
+    pub depths: [f64; 2],
     /// Size of the output picture; its ratio is the picture's, whatever size is traced.
     pub size: Size,
 }
@@ -97,30 +110,89 @@ impl Camera {
     /// the world axis most across the view stands in for it.
     pub const LEAST_SINE: f64 = 1e-9;
 
-    /// Its numbers in the order of [`fields::VIEW`]: of each entry, as many as the field has.
-    pub fn numbers(&self) -> [[f64; 3]; fields::VIEW.len()] {
-        let Size { width, height } = self.size;
-        [
-            self.eye.to_array(),
-            self.target.to_array(),
-            self.up.to_array(),
-            [self.fov, 0.0, 0.0],
-            [width.into(), height.into(), 0.0],
-        ]
+    /// All distances along the view.
+    pub const ALL_DEPTHS: [f64; 2] = [0.0, f64::INFINITY];
+}
+
+/// How a camera sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lens {
+    /// Rays go out from the eye; the vertical full angle in degrees, above 0 and below 180.
+    Perspective(f64),
+    /// Rays go side by side; the height of what is seen, in world units, above 0.
+    Orthographic(f64),
+}
+
+/// A light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Light {
+    /// Where its light comes from.
+    pub source: Source,
+    /// What it sends.
+    pub colour: Rgb,
+    /// Whether objects keep it from others.
+    pub shadows: Shadows,
+}
+
+impl Light {
+    /// A point light without falloff that casts shadows.
+    pub const fn point(position: DVec3, colour: Rgb) -> Self {
+        Self {
+            source: Source::Point {
+                position,
+                falloff: Falloff::NONE,
+            },
+            colour,
+            shadows: Shadows::Cast,
+        }
     }
 }
 
-/// A point light without falloff.
+/// Where light comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Light {
-    /// Where it stands.
-    pub position: DVec3,
-    /// What it sends.
-    pub colour: Rgb,
+pub enum Source {
+    /// A point.
+    Point {
+        /// Where it stands.
+        position: DVec3,
+        /// How it falls off.
+        falloff: Falloff,
+    },
+    /// Infinitely far away; the unit vector toward it.
+    Distant(DVec3),
+    /// Everywhere: it counts in [`Scene::ambient`] already.
+    Everywhere,
+}
+
+/// How the light of a point falls off. SPEC of `.dat`: with distance d by 1 / (a0 + a1 d + a2 d²),
+/// or not at all where that is not above 0; with the angle α from a direction by (cos α)^exponent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Falloff {
+    /// a0, a1, a2.
+    pub radial: [f64; 3],
+    /// The unit vector of a spot light's direction, and its exponent.
+    pub spot: Option<(DVec3, f64)>,
+}
+
+impl Falloff {
+    /// The same light at any distance, in any direction.
+    pub const NONE: Self = Self {
+        radial: [1.0, 0.0, 0.0],
+        spot: None,
+    };
+}
+
+/// Whether objects keep a light from others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shadows {
+    /// They do.
+    Cast,
+    /// They do not.
+    Off,
 }
 
 /// How a surface answers light (Whitted's model with Phong highlights).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Material {
     /// Share of ambient light sent back, ka.
     pub ambient: Rgb,
@@ -136,6 +208,11 @@ pub struct Material {
     pub transmission: f64,
     /// Index of refraction; 0 or less reads as 1.
     pub index: f64,
+    /// Index in [`Scene::textures`] of what multiplies its ambient, diffuse and specular colours.
+    pub colour_texture: Option<u32>,
+    /// Index in [`Scene::textures`] of what raises its surface, and how high the brightest places
+    /// stand, in world units.
+    pub bump: Option<(u32, f64)>,
 }
 
 /// A shape and what it is made of.
@@ -143,6 +220,13 @@ pub struct Material {
 pub struct Object {
     /// Where it is.
     pub shape: Shape,
-    /// Index of its material in [`Scene::materials`].
+    /// Index of its material in [`Scene::materials`]; the parts of a CSG solid name their own.
     pub material: u32,
+}
+
+impl Object {
+    /// Index of the material at a hit.
+    pub fn material_at(&self, hit: Hit) -> u32 {
+        self.shape.tag(hit).unwrap_or(self.material)
+    }
 }

@@ -108,7 +108,7 @@ pub enum Error {
     },
     /// Neither a file nor, by its name, a scene.
     #[error(
-        "no such file or command `{path}`; the commands are render and check, scenes end in .ray",
+        "no such file or command `{path}`; the commands are render and check, scenes end in .ray or .dat",
         path = path.display()
     )]
     NoSuch {

@@ -14,7 +14,7 @@ use super::whitted::{Seen, Tracer};
 use super::world::World;
 use super::{Frame, Frames, Job, Renderer, Settings, Threads};
 use crate::geometry::{Affine, Cuboid, Ray, Shape, Sphere};
-use crate::scene::{Camera, Light, Material, Object, Rgb, Scene, Size};
+use crate::scene::{Camera, Images, Lens, Light, Material, Object, Rgb, Scene, Size};
 
 const BLACK: Material = Material {
     ambient: Rgb::ZERO,
@@ -24,6 +24,8 @@ const BLACK: Material = Material {
     reflection: 0.0,
     transmission: 0.0,
     index: 1.0,
+    colour_texture: None,
+    bump: None,
 };
 
 /// A material that only sends back this share of ambient light, which is 1 in [`scene`]: it shows
@@ -59,7 +61,9 @@ fn scene(objects: &[(Shape, Material)], lights: &[Light]) -> Scene {
             eye: DVec3::new(0.0, 0.0, 5.0),
             target: DVec3::ZERO,
             up: DVec3::Y,
-            fov: 45.0,
+            lens: Lens::Perspective(45.0),
+            pixel_aspect: 1.0,
+            depths: Camera::ALL_DEPTHS,
             size: Size {
                 width: 40,
                 height: 30,
@@ -68,19 +72,18 @@ fn scene(objects: &[(Shape, Material)], lights: &[Light]) -> Scene {
         ambient: Rgb::ONE,
         lights: lights.to_vec(),
         materials: objects.iter().map(|(_, material)| *material).collect(),
+        textures: Vec::new(),
         objects: objects.iter().enumerate().map(material).collect(),
     }
 }
 
 fn white_light(position: [f64; 3]) -> Light {
-    Light {
-        position: position.into(),
-        colour: Rgb::ONE,
-    }
+    Light::point(position.into(), Rgb::ONE)
 }
 
 fn world(scene: Scene) -> World {
-    World::build(Arc::new(scene), None, || false).expect("nothing cancels the building")
+    World::build(Arc::new(scene), &Images::default(), None, || false)
+        .expect("nothing cancels the building")
 }
 
 fn ray(origin: [f64; 3], toward: [f64; 3]) -> Ray {
@@ -95,7 +98,7 @@ fn ray(origin: [f64; 3], toward: [f64; 3]) -> Ray {
 fn look(scene: Scene, depth: u32, ray: Ray) -> (Seen, u64) {
     let world = world(scene);
     let mut tracer = Tracer::new(&world, depth);
-    let seen = tracer.radiance(ray, || false);
+    let seen = tracer.radiance(ray, f64::INFINITY, || false);
     (seen, tracer.counts.over_budget)
 }
 
@@ -128,6 +131,7 @@ fn settings(width: u32, height: u32, spp: u32) -> Settings {
 fn job(scene: &Arc<Scene>, settings: Settings) -> Job {
     Job {
         scene: Arc::clone(scene),
+        images: Images::default(),
         camera: scene.camera,
         settings,
         frames: Frames::Live,

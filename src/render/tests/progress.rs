@@ -108,8 +108,9 @@ fn one_sample_is_the_pixel_centre() {
     let world = world(Scene::clone(&scene));
     let mut tracer = Tracer::new(&world, 8);
     for (y, x) in (0..15).flat_map(|y| (0..20).map(move |x| (y, x))) {
-        let centre = projection.ray(f64::from(x) + 0.5, f64::from(y) + 0.5);
-        let expected = crate::render::tone::to_bytes(tracer.radiance(centre, || false).radiance);
+        let (centre, reach) = projection.ray(f64::from(x) + 0.5, f64::from(y) + 0.5);
+        let expected =
+            crate::render::tone::to_bytes(tracer.radiance(centre, reach, || false).radiance);
         assert_eq!(frame.pixels[y as usize * 20 + x as usize], expected);
     }
 }

@@ -77,7 +77,7 @@ fn of_coincident_faces_the_first_in_the_file_is_seen() {
                     origin: eye,
                     direction: (on_top - eye).normalize(),
                 };
-                let seen = tracer.radiance(towards, || false).radiance.x;
+                let seen = tracer.radiance(towards, f64::INFINITY, || false).radiance.x;
                 assert_eq!(seen, expected, "toward {on_top}");
             }
         }
@@ -95,7 +95,7 @@ fn of_many_copies_the_first_is_seen() {
         let origin = DVec3::new(0.0, 0.0, 5.0);
         let direction = (random.point(0.5) - origin).normalize();
         let met = world
-            .nearest(&Ray { origin, direction })
+            .nearest(&Ray { origin, direction }, f64::INFINITY)
             .expect("the ball is in the way");
         assert_eq!(met.object, 1);
     }
@@ -131,7 +131,7 @@ fn the_tree_finds_what_every_object_tried_finds() {
             })
             .min_by(|a, b| a.0.total_cmp(&b.0));
         let found = world
-            .nearest(&ray)
+            .nearest(&ray, f64::INFINITY)
             .map(|nearest| (nearest.hit.t, nearest.object));
         assert_eq!(found, tried);
     }
@@ -176,6 +176,7 @@ fn contact_shadows() {
                     origin: eye,
                     direction: DVec3::NEG_Y,
                 },
+                f64::INFINITY,
                 || false,
             );
             if under || seen.object != 0 {

@@ -1,6 +1,7 @@
 //! Tree → scene, one language a file. Never panics, never loops, never allocates by a number that
 //! the text merely declares, and takes time linear in the text.
 
+mod dat;
 mod objects;
 mod ray;
 mod record;
@@ -8,11 +9,10 @@ mod report;
 #[cfg(test)]
 mod tests;
 mod view;
-mod view_edits;
 
-use super::{Camera, Origins, Scene};
+use super::{Origins, Scene};
 use crate::format::Tree;
-use crate::text::{Edit, Findings};
+use crate::text::Findings;
 
 /// What a tree means.
 #[derive(Debug)]
@@ -27,21 +27,8 @@ pub struct Lowered {
 
 /// Reads the meaning of a tree. All errors that can be told apart are reported at once.
 pub fn lower(text: &str, tree: &Tree) -> Lowered {
-    let Tree::Ray(tree) = tree;
-    ray::lower(text, tree)
-}
-
-/// The edits that make the text say this camera: numbers that the view states differently are
-/// replaced, missing parts added to it, a missing view inserted as a comment on the first line.
-/// `before` is the camera as lowered; only parts that differ from it are written, and the eye where
-/// its default would move with the new angle of view.
-pub fn view_edits(
-    text: &str,
-    tree: &Tree,
-    origins: &Origins,
-    before: &Camera,
-    camera: &Camera,
-) -> Vec<Edit> {
-    let Tree::Ray(_) = tree;
-    view_edits::view_edits(text, origins, before, camera)
+    match tree {
+        Tree::Ray(tree) => ray::lower(text, tree),
+        Tree::Dat(tree) => dat::lower(text, tree),
+    }
 }

@@ -3,9 +3,11 @@
 use super::ray::{Count, LEAST_NUMBERS, Reader, component, is_word};
 use super::record::{LONGEST, Record, takes};
 use super::report::{nearest_kind, quoted};
-use crate::scene::fields::{MATERIAL, ShapeKind, numbers};
-use crate::scene::origins::{Name, ObjectPlace};
-use crate::scene::{Node, Object};
+use crate::scene::Object;
+use crate::scene::fields::numbers;
+use crate::scene::fields::ray::{MATERIAL, ShapeKind};
+use crate::scene::origins::Name;
+use crate::scene::origins::ray::ObjectPlace;
 use crate::text::{Diagnostic, Span, counted};
 
 /// The words an object may begin with.
@@ -50,7 +52,7 @@ impl Reader<'_> {
             self.miscounted(count, &more);
         } else if let Some(count) = count.filter(|count| found < count.declared && !lost) {
             let after = match self.origins.objects.len().checked_sub(1) {
-                Some(last) => format!("after {}", self.origins.name(Node::Object(last))),
+                Some(last) => format!("after {}", self.origins.object_name(last)),
                 None => "before any object".to_owned(),
             };
             self.miscounted(count, &format!("the text ends {after}"));
@@ -93,7 +95,7 @@ impl Reader<'_> {
             kind,
             numbers: record.values.len() as u8,
         });
-        record.check_frame(kind, &mut self.report);
+        record.check_frame(kind.geometry().iter(), &mut self.report);
         if record.values.len() < kind.numbers() {
             match count {
                 Some(count) if self.at == self.tokens.len() => self.cut(&record, kind, count),
@@ -178,7 +180,7 @@ impl Reader<'_> {
         self.report.error(|| {
             let too_many = format!("{} too many", counted(surplus, "number"));
             let message = match self.origins.objects.len().checked_sub(1) {
-                Some(last) => format!("{}: {too_many}", self.origins.name(Node::Object(last))),
+                Some(last) => format!("{}: {too_many}", self.origins.object_name(last)),
                 None => format!("nObjects: {too_many} after it"),
             };
             let diagnostic = Diagnostic::error(span, message, TYPES);

@@ -7,9 +7,10 @@ use super::record::{LONGEST, Record, what};
 use super::report::{nearest_kind, no_number, quoted};
 use super::{Lowered, view};
 use crate::format::ray;
-use crate::scene::fields::{self, AMBIENT, Field, LIGHT, Range, ShapeKind};
-use crate::scene::origins::Name;
-use crate::scene::{Light, Material, Object, Origins, Rgb, Scene, bounds};
+use crate::scene::fields::ray::{AMBIENT, LIGHT, ShapeKind};
+use crate::scene::fields::{self, Field, Range};
+use crate::scene::origins::{Name, ray::Origins};
+use crate::scene::{Light, Material, Object, Rgb, Scene, bounds};
 use crate::text::{Diagnostic, Findings, Severity, Span, counted, is_integer, parse_number};
 
 /// Numbers of the smallest object: where fewer follow a word, it does not begin an object.
@@ -45,9 +46,10 @@ pub(super) fn lower(text: &str, tree: &ray::Tree) -> Lowered {
             ambient: reader.ambient,
             lights: reader.lights,
             materials: reader.materials,
+            textures: Vec::new(),
             objects: reader.objects,
         }),
-        origins: reader.origins,
+        origins: crate::scene::Origins::Ray(reader.origins),
         diagnostics: reader.report.sorted(),
     }
 }
@@ -152,10 +154,8 @@ impl<'a> Reader<'a> {
             let name = Name::Light(self.lights.len());
             let light = self.record(name, LIGHT.iter(), &mut values);
             let gathered = light.gather(LIGHT.iter());
-            self.lights.push(Light {
-                position: gathered.point,
-                colour: gathered.colours[0],
-            });
+            self.lights
+                .push(Light::point(gathered.points[0], gathered.colours[0]));
         }
         self.origins.lights = (first, take);
         if !known {

@@ -4,7 +4,8 @@
 use glam::{DMat3, DVec3};
 
 use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, FLATTEST, Shape, Sphere};
-use crate::scene::fields::{Field, Kind, Range, ShapeKind, numbers};
+use crate::scene::fields::ray::ShapeKind;
+use crate::scene::fields::{Field, Kind, Range, numbers};
 use crate::scene::origins::Name;
 use crate::scene::{Material, Rgb};
 use crate::text::{Diagnostic, Findings, Span};
@@ -72,10 +73,11 @@ impl<'a> Record<'a> {
     /// Reports numbers outside of their ranges and directions that are none.
     pub(super) fn check(self, fields: impl Iterator<Item = &'static Field>, report: &mut Findings) {
         for part in self.parts(fields) {
-            if part.field.kind == Kind::Direction {
-                self.check_direction(&part, report);
-            } else {
-                self.check_numbers(&part, report);
+            match part.field.kind {
+                Kind::Direction | Kind::Axis => self.check_direction(&part, report),
+                // These were judged when they were read.
+                Kind::Choice(_) | Kind::Reference | Kind::Word => {}
+                _ => self.check_numbers(&part, report),
             }
         }
     }
@@ -120,15 +122,22 @@ impl<'a> Record<'a> {
         } else if UNIT_TOLERANCE < (length - 1.0).abs() {
             report.warning(|| {
                 let message = format!("{}: has length {length:.4}, not 1", what());
-                Diagnostic::warning(span, message, "a direction of unit length")
-                    .with_hint("it is normalised; sizes have fields of their own")
+                let hint = match part.field.kind {
+                    Kind::Axis => "it is used as given: the width is counted in lengths of it",
+                    _ => "it is normalised; sizes have fields of their own",
+                };
+                Diagnostic::warning(span, message, "a direction of unit length").with_hint(hint)
             });
         }
     }
 
     /// Reports directions that are not those of a right-handed, right-angled frame.
-    pub(super) fn check_frame(self, kind: ShapeKind, report: &mut Findings) {
-        let Some(frame) = self.frame(kind) else {
+    pub(super) fn check_frame(
+        self,
+        fields: impl Iterator<Item = &'static Field>,
+        report: &mut Findings,
+    ) {
+        let Some(frame) = self.frame(fields) else {
             return;
         };
         let determinant = determinant(&frame);
@@ -169,10 +178,10 @@ impl<'a> Record<'a> {
     }
 
     /// The three directions of a shape that has them all.
-    fn frame(self, kind: ShapeKind) -> Option<[Axis; 3]> {
+    fn frame(self, fields: impl Iterator<Item = &'static Field>) -> Option<[Axis; 3]> {
         let mut axes = self
-            .parts(kind.geometry().iter())
-            .filter(|part| part.field.kind == Kind::Direction)
+            .parts(fields)
+            .filter(|part| matches!(part.field.kind, Kind::Direction | Kind::Axis))
             .map(|part| Axis {
                 key: part.field.key,
                 direction: unit(DVec3::from_slice(part.values)),
@@ -184,11 +193,14 @@ impl<'a> Record<'a> {
     /// The numbers by what they are; complete and readable, or fewer come out.
     pub(super) fn gather(self, fields: impl Iterator<Item = &'static Field>) -> Gathered {
         let mut gathered = Gathered::default();
-        let (mut directions, mut colours, mut numbers) = (0, 0, 0);
+        let (mut points, mut directions, mut colours, mut numbers, mut choices) = (0, 0, 0, 0, 0);
         for Part { field, values, .. } in self.parts(fields) {
             match field.kind {
-                Kind::Point => gathered.point = DVec3::from_slice(values),
-                Kind::Direction => {
+                Kind::Point => {
+                    gathered.points[points] = DVec3::from_slice(values);
+                    points += 1;
+                }
+                Kind::Direction | Kind::Axis => {
                     gathered.directions[directions] = DVec3::from_slice(values);
                     directions += 1;
                 }
@@ -200,8 +212,13 @@ impl<'a> Record<'a> {
                     gathered.numbers[numbers] = values[0];
                     numbers += 1;
                 }
-                // Only the view has a size, and the view is no record.
-                Kind::Pixels => {}
+                Kind::Pixels | Kind::Pair => gathered.pair = [values[0], values[1]],
+                Kind::Choice(_) => {
+                    gathered.choices[choices] = values[0] as usize;
+                    choices += 1;
+                }
+                // What they name is looked up where they are read; cuts are read by themselves.
+                Kind::Reference | Kind::Word | Kind::HalfSpace => {}
             }
         }
         gathered
@@ -211,23 +228,27 @@ impl<'a> Record<'a> {
 /// The numbers of a record by what they are, each in the table's order.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Gathered {
-    pub(super) point: DVec3,
+    pub(super) points: [DVec3; 3],
     pub(super) directions: [DVec3; 3],
     pub(super) colours: [Rgb; 3],
-    pub(super) numbers: [f64; 4],
+    pub(super) numbers: [f64; 10],
+    /// Of each choice the place of the word.
+    pub(super) choices: [usize; 2],
+    pub(super) pair: [f64; 2],
 }
 
 impl Gathered {
     /// The shape these numbers describe, or `None` if its directions span no volume.
     pub(super) fn shape(&self, kind: ShapeKind) -> Option<Shape> {
-        let [first, second, third, _] = self.numbers;
+        let [first, second, third, ..] = self.numbers;
+        let point = self.points[0];
         let frame = || {
             let lengths = DVec3::new(first, second, third);
-            Affine::new(self.point, self.directions, lengths)
+            Affine::new(point, self.directions, lengths)
         };
         Some(match kind {
             ShapeKind::Sphere => Shape::Sphere(Sphere {
-                centre: self.point,
+                centre: point,
                 radius: first,
             }),
             ShapeKind::Ellipsoid => Shape::Ellipsoid(Box::new(Ellipsoid(frame()?))),
@@ -240,7 +261,7 @@ impl Gathered {
     /// The material these numbers describe.
     pub(super) fn material(&self) -> Material {
         let [ambient, diffuse, specular] = self.colours;
-        let [exponent, reflection, transmission, index] = self.numbers;
+        let [exponent, reflection, transmission, index, ..] = self.numbers;
         Material {
             ambient,
             diffuse,
@@ -249,6 +270,7 @@ impl Gathered {
             reflection,
             transmission,
             index,
+            ..Material::default()
         }
     }
 }
@@ -314,7 +336,9 @@ fn reading(usual: Range) -> &'static str {
     match usual {
         Range::NotNegative => "it reads as 0",
         Range::Positive => "it reads as 1",
-        Range::Any | Range::Unit | Range::Between(..) | Range::Count => "it is used as given",
+        Range::Any | Range::Unit | Range::Between(..) | Range::Count | Range::Identity => {
+            "it is used as given"
+        }
     }
 }
 

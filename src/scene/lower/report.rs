@@ -1,6 +1,6 @@
 //! The words that the diagnostics of lowering share.
 
-use crate::scene::fields::ShapeKind;
+use crate::scene::fields::ray::ShapeKind;
 use crate::text::{Diagnostic, NumberError, Severity, Span, parse_number, slips};
 
 /// A token as messages show it: in backticks, cut short, unprintable characters escaped.
@@ -83,16 +83,28 @@ pub(super) fn nearest_kind(word: &str) -> Option<ShapeKind> {
         return None;
     }
     let word = word.to_ascii_lowercase();
-    ShapeKind::ALL
-        .into_iter()
-        .map(|kind| (slips(&word, kind.keyword()), kind))
-        .filter(|&(slips, kind)| {
+    let keywords = ShapeKind::ALL.iter().map(|kind| kind.keyword());
+    nearest_word(&word, keywords).and_then(ShapeKind::of_word)
+}
+
+/// The known word that a word is most like, if a slip or two of the hand lie between them.
+pub(super) fn nearest_word(
+    word: &str,
+    known: impl Iterator<Item = &'static str>,
+) -> Option<&'static str> {
+    const LONGEST: usize = 16;
+    if LONGEST < word.len() || !word.is_ascii() {
+        return None;
+    }
+    known
+        .map(|known| (slips(word, known), known))
+        .filter(|&(slips, known)| {
             // In a short word two slips leave nothing to know it by.
-            let allowed = if kind.keyword().len() < 5 { 1 } else { 2 };
+            let allowed = if known.len() < 5 { 1 } else { 2 };
             slips <= allowed
         })
         .min_by_key(|&(slips, _)| slips)
-        .map(|(_, kind)| kind)
+        .map(|(_, known)| known)
 }
 
 #[cfg(test)]

@@ -7,9 +7,11 @@ use super::record::{unit, what};
 use super::report::{no_number, quoted};
 use crate::format::ray::{self, Comment, Marker};
 use crate::geometry::Aabb;
-use crate::scene::fields::{Field, Kind, Range, VIEW};
-use crate::scene::origins::{Name, ViewPlace};
-use crate::scene::{Camera, Size};
+use crate::scene::fields::ray::VIEW;
+use crate::scene::fields::{Field, Kind, Range};
+use crate::scene::origins::Name;
+use crate::scene::origins::ray::ViewPlace;
+use crate::scene::{Camera, Lens, Size};
 use crate::text::{Diagnostic, Findings, Severity, Span, is_integer, parse_number};
 
 /// Places in [`VIEW`].
@@ -189,7 +191,7 @@ pub(super) fn camera(
     let (eye, target) = match (eye, target) {
         (Some(eye), Some(target)) => (eye.vector(), target.vector()),
         (eye, target) => {
-            let (default_eye, centre) = default_eye_and_target(bounds(), fov);
+            let (default_eye, centre) = default_eye_and_target(bounds(), fov, DEFAULT_SIDE);
             (
                 eye.map_or(default_eye, |eye| eye.vector()),
                 target.map_or(centre, |target| target.vector()),
@@ -200,7 +202,9 @@ pub(super) fn camera(
         eye,
         target,
         up: up.map_or(DVec3::Y, |up| up.vector()),
-        fov,
+        lens: Lens::Perspective(fov),
+        pixel_aspect: 1.0,
+        depths: Camera::ALL_DEPTHS,
         size: size.map_or(
             Size {
                 width: 800,
@@ -212,38 +216,61 @@ pub(super) fn camera(
             },
         ),
     };
-    check(&camera, view, otherwise, report);
+    let part = |part| view.map_or(otherwise, |view: &View| view.span(part));
+    let said = |part: usize| view.is_some_and(|view| view.parts[part].is_some());
+    let [eye, target] = match (said(EYE), said(TARGET)) {
+        (true, true) => [part(EYE), part(TARGET)],
+        (false, true) => [part(TARGET); 2],
+        (_, false) => [part(EYE); 2],
+    };
+    let places = Places {
+        eye,
+        target,
+        up: part(UP),
+        whole: otherwise,
+        remedy: "say eye and target in a comment: // view: eye x y z target x y z",
+    };
+    check(&camera, &places, report);
     camera
 }
 
-/// The centre of the box, and the eye from which a sphere around the box fills the angle of view.
-fn default_eye_and_target(bounds: Aabb, fov: f64) -> (DVec3, DVec3) {
-    let centre = bounds.centre();
-    let distance = bounds.half_diagonal() / libm::sin((0.5 * fov).to_radians());
-    (centre + distance * DEFAULT_SIDE.normalize(), centre)
+/// Where the text says a camera, or what stands for a place where it does not.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Places {
+    pub(super) eye: Span,
+    pub(super) target: Span,
+    pub(super) up: Span,
+    pub(super) whole: Span,
+    /// How to say a camera in this language.
+    pub(super) remedy: &'static str,
+}
+
+/// The centre of the box, and the eye from which, on the given side of it, a sphere around the box
+/// fills the angle of view, in degrees. Of an empty box, a box of size 1 around the origin.
+pub(super) fn default_eye_and_target(bounds: Aabb, fov: f64, side: DVec3) -> (DVec3, DVec3) {
+    let (centre, radius) = if bounds.is_empty() {
+        (DVec3::ZERO, 0.5 * 3.0_f64.sqrt())
+    } else {
+        (bounds.centre(), bounds.half_diagonal())
+    };
+    let distance = radius / libm::sin((0.5 * fov).to_radians());
+    (centre + distance * side.normalize(), centre)
 }
 
 /// Reports a camera that looks nowhere, and one that looks along its `up`.
-fn check(camera: &Camera, view: Option<&View>, otherwise: Span, report: &mut Findings) {
-    let span = |part| view.map_or(otherwise, |view: &View| view.span(part));
+pub(super) fn check(camera: &Camera, places: &Places, report: &mut Findings) {
     if !camera.eye.is_finite() || !camera.target.is_finite() {
         report.error(|| {
             let message = "view: the scene is too large for a default view";
-            Diagnostic::error(otherwise, message, Range::Any.words())
-                .with_hint("say eye and target in a comment: // view: eye x y z target x y z")
+            Diagnostic::error(places.whole, message, Range::Any.words()).with_hint(places.remedy)
         });
         return;
     }
     // Halves, because the difference of two large numbers may overflow.
     let Some(forward) = unit(0.5 * camera.target - 0.5 * camera.eye) else {
-        let said = |part: usize| view.is_some_and(|view| view.parts[part].is_some());
-        let place = match (said(EYE), said(TARGET)) {
-            (true, true) => span(EYE).to(span(TARGET)),
-            (false, true) => span(TARGET),
-            (_, false) => span(EYE),
-        };
         report.error(|| {
             let message = "view target: is where the eye is";
+            let place = places.eye.to(places.target);
             Diagnostic::error(place, message, "a point other than the eye")
         });
         return;
@@ -252,7 +279,7 @@ fn check(camera: &Camera, view: Option<&View>, otherwise: Span, report: &mut Fin
     if sine < Camera::LEAST_SINE {
         report.warning(|| {
             let message = "view up: is the direction of view";
-            Diagnostic::warning(span(UP), message, "a direction across the view")
+            Diagnostic::warning(places.up, message, "a direction across the view")
                 .with_hint("the world axis most across the view stands in for it")
         });
     }

@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use super::picture::Picture;
 use super::{App, Disk, FieldRow, Mode, Outline, Source, Stride};
 use crate::scene::fields::Field;
-use crate::scene::{Camera, Node, Placed, Size};
+use crate::scene::{self, Camera, Node, Placed, Size};
 use crate::text::Findings;
 use crate::ui::view::layout::{Areas, Zoom, arrange, raster};
 
@@ -111,7 +111,7 @@ impl App {
     pub fn marked_object(&self) -> Option<u32> {
         let marks = self.mode == Mode::Select && self.outline == Outline::Marked;
         match self.selected {
-            Node::Object(index) if marks && self.error_count() == 0 => u32::try_from(index).ok(),
+            Node::Object(index) if marks && self.error_count() == 0 => self.origins.drawn(index),
             _ => None,
         }
     }
@@ -131,9 +131,7 @@ impl App {
 
     /// The list's row of a node; the nearest one if the text no longer has it.
     pub fn row_of(&self, node: Node) -> usize {
-        let row = self
-            .nodes
-            .partition_point(|&listed| rank(listed) < rank(node));
+        let row = self.nodes.partition_point(|&listed| listed < node);
         row.min(self.nodes.len().saturating_sub(1))
     }
 
@@ -174,14 +172,12 @@ impl App {
             source,
         };
         let shown = |camera: &Camera| -> Vec<String> {
-            camera.numbers()[index][..placed.field.kind.components()]
-                .iter()
-                .map(f64::to_string)
-                .collect()
+            let literals = scene::view_literals(&self.origins, camera);
+            literals.into_iter().nth(index).unwrap_or_default()
         };
         let scene = self.scene.as_ref();
         if let (Node::View, Some(view), Some(scene)) = (self.selected, &self.view, scene)
-            && view.numbers()[index] != scene.camera.numbers()[index]
+            && shown(view) != shown(&scene.camera)
         {
             return row(shown(view), Source::WorkingView);
         }
@@ -193,15 +189,5 @@ impl App {
             ),
             _ => row(said, Source::Text),
         }
-    }
-}
-
-/// The order of the list.
-fn rank(node: Node) -> (u8, usize) {
-    match node {
-        Node::View => (0, 0),
-        Node::Ambient => (1, 0),
-        Node::Light(index) => (2, index),
-        Node::Object(index) => (3, index),
     }
 }

@@ -1,9 +1,9 @@
 //! Changing fields: every change is an edit of the text, and one that makes an error is refused.
 
 use super::{App, Mode};
-use crate::scene::fields::{Field, VIEW};
-use crate::scene::{self, Camera, Lowered, Node, Size};
-use crate::text::{Diagnostic, Edit, Span, parse_number};
+use crate::scene::fields::{Field, Kind};
+use crate::scene::{self, Camera, Lowered, Node};
+use crate::text::{Diagnostic, Edit, Span};
 
 impl App {
     /// Reads the text's meaning again.
@@ -96,7 +96,7 @@ impl App {
         let Some(placed) = placed.get(self.field) else {
             return Ok(());
         };
-        let works = self.view.is_some() && placed.field.key != "size";
+        let works = self.view.is_some() && placed.field.kind != Kind::Pixels;
         if self.selected == Node::View && (works || placed.spans.is_empty()) {
             return self.assign_view(placed.field, values);
         }
@@ -123,17 +123,14 @@ impl App {
             return Err(refuse("can't be said while the scene has errors"));
         };
         // The picture's size is the text's alone: setting it must not write the working view.
-        let is_size = field.key == "size";
+        let is_size = field.kind == Kind::Pixels;
         let camera = if is_size { scene.camera } else { camera };
-        let mut numbers = camera.numbers();
+        let mut camera = camera;
         for (component, literal) in values {
-            let value = parse_number(literal).map_err(|_| refuse("must be a number"))?;
-            if !field.allowed.contains(value) {
-                return Err(refuse(&format!("must be {}", field.allowed.limits())));
-            }
-            numbers[self.field][*component] = value;
+            let place = (self.field, *component);
+            camera = scene::view_saying(&self.origins, &camera, place, literal)
+                .map_err(|limits| refuse(&format!("must be {limits}")))?;
         }
-        let camera = camera_of(&numbers);
         if camera.eye == camera.target {
             return Err(refuse("eye and target must differ"));
         }
@@ -204,18 +201,4 @@ fn spans_after(edits: &[Edit]) -> Vec<Span> {
             Span::new(start, start + edit.text.len())
         })
         .collect()
-}
-
-fn camera_of(numbers: &[[f64; 3]; VIEW.len()]) -> Camera {
-    let [eye, target, up, [fov, ..], [width, height, _]] = *numbers;
-    Camera {
-        eye: eye.into(),
-        target: target.into(),
-        up: up.into(),
-        fov,
-        size: Size {
-            width: width as u32,
-            height: height as u32,
-        },
-    }
 }

@@ -44,6 +44,7 @@ impl App {
     fn job(&self, size: Size, spp: u32) -> Option<Job> {
         Some(Job {
             scene: Arc::clone(self.scene.as_ref()?),
+            images: self.images.clone(),
             camera: self.camera()?,
             settings: Settings {
                 size,

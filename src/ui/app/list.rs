@@ -209,7 +209,7 @@ impl App {
             return Err("the picture is not of the changed scene yet");
         }
         let object = self.picture().shown.object_at(x, y);
-        Ok(object.map(|object| Node::Object(object as usize)))
+        Ok(object.map(|object| Node::Object(self.origins.object(object))))
     }
 
     /// Selects what lies under a pixel of the picture on screen, and has then done with picking.

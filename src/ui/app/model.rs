@@ -9,7 +9,7 @@ use super::picture::Picture;
 use crate::document::{Document, Merge};
 use crate::render::Progress;
 use crate::scene::fields::Field;
-use crate::scene::{Camera, Node, Origins, Scene, Size};
+use crate::scene::{Camera, Images, Node, Origins, Scene, Size};
 use crate::text::{Diagnostic, Findings, Severity};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Destination, ExportId, Kept};
@@ -46,6 +46,8 @@ pub struct App {
     pub nodes: Vec<Node>,
     /// The scene of the last text that had no errors: what the pictures show.
     pub scene: Option<Arc<Scene>>,
+    /// The pictures that its textures show, as far as they are read.
+    pub images: Images,
     /// The working view, where it differs from the scene's camera.
     pub view: Option<Camera>,
     /// How pictures are traced, as the user said at the start.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::App;
-use crate::scene::{Camera, Node};
+use crate::scene::{Camera, Lens, Node};
 
 /// How far one step orbits, in degrees.
 const ORBIT: f64 = 5.0;
@@ -35,7 +35,7 @@ impl App {
             return;
         };
         let moved = rounded(change(camera));
-        let finite = moved.numbers().iter().flatten().all(|n| n.is_finite());
+        let finite = moved.eye.is_finite() && moved.target.is_finite();
         let distance = (moved.eye - moved.target).length();
         if finite && distance.is_finite() && 0.0 < distance {
             self.set_view(moved);
@@ -71,19 +71,29 @@ impl App {
         let share = libm::pow(DOLLY, f64::from(steps));
         self.move_camera(|camera| Camera {
             eye: camera.target + share * (camera.eye - camera.target),
+            lens: match camera.lens {
+                // Side by side, rays see the same from anywhere: the picture itself is enlarged.
+                Lens::Orthographic(height) => Lens::Orthographic(share * height),
+                lens @ Lens::Perspective(_) => lens,
+            },
             ..camera
         });
     }
 
     pub(super) fn widen(&mut self, steps: i8) {
         self.move_camera(|camera| {
-            let fov = camera.fov + f64::from(steps) * WIDEN;
-            // A wider or narrower angle that the text says is not forced back by a step.
-            let (low, high) = (ANGLES.0.min(camera.fov), ANGLES.1.max(camera.fov));
-            Camera {
-                fov: fov.clamp(low, high),
-                ..camera
-            }
+            let lens = match camera.lens {
+                Lens::Perspective(angle) => {
+                    let wider = angle + f64::from(steps) * WIDEN;
+                    // An angle beyond the bounds that the text says is not forced back by a step.
+                    let (low, high) = (ANGLES.0.min(angle), ANGLES.1.max(angle));
+                    Lens::Perspective(wider.clamp(low, high))
+                }
+                Lens::Orthographic(height) => {
+                    Lens::Orthographic(height * libm::pow(DOLLY, -f64::from(steps)))
+                }
+            };
+            Camera { lens, ..camera }
         });
     }
 
@@ -99,13 +109,16 @@ impl App {
             return;
         };
         let bounds = match self.selected {
-            Node::Object(index) => scene
-                .objects
-                .get(index)
-                .map_or_else(|| scene.bounds(), |object| object.shape.bounds()),
-            Node::View | Node::Ambient | Node::Light(_) => scene.bounds(),
+            Node::Object(index) => {
+                let drawn = self.origins.drawn(index);
+                let object = drawn.and_then(|at| scene.objects.get(at as usize));
+                let bounds = object.map(|object| object.shape.bounds());
+                bounds.filter(|bounds| bounds.is_bounded() && !bounds.is_empty())
+            }
+            _ => None,
         };
-        if scene.objects.is_empty() {
+        let bounds = bounds.unwrap_or_else(|| scene.bounds());
+        if bounds.is_empty() {
             self.say("there is nothing to look at");
             return;
         }
@@ -178,14 +191,24 @@ fn orbited(camera: Camera, left: f64, up: f64) -> Camera {
 
 /// The camera from which a sphere fills the smaller angle of view.
 fn framed(camera: Camera, centre: DVec3, radius: f64) -> Camera {
-    let half = 0.5 * camera.fov.to_radians();
-    let aspect = f64::from(camera.size.width) / f64::from(camera.size.height);
-    let half_across = libm::atan(libm::tan(half) * aspect);
-    let distance = radius / libm::sin(half.min(half_across));
+    let aspect = f64::from(camera.size.width) / f64::from(camera.size.height) * camera.pixel_aspect;
+    let (distance, lens) = match camera.lens {
+        Lens::Perspective(angle) => {
+            let half = 0.5 * angle.to_radians();
+            let half_across = libm::atan(libm::tan(half) * aspect);
+            (radius / libm::sin(half.min(half_across)), camera.lens)
+        }
+        Lens::Orthographic(_) => {
+            let height = 2.0 * radius / aspect.min(1.0);
+            // Far enough for all of it to be before the eye.
+            (2.0 * radius, Lens::Orthographic(height))
+        }
+    };
     let side = (camera.eye - camera.target).normalize_or(DVec3::Z);
     Camera {
         eye: centre + distance * side,
         target: centre,
+        lens,
         ..camera
     }
 }
@@ -202,7 +225,13 @@ fn rounded(camera: Camera) -> Camera {
     Camera {
         eye: round(camera.eye),
         target: round(camera.target),
-        fov: to_places(camera.fov, 4),
+        lens: match camera.lens {
+            Lens::Perspective(angle) => Lens::Perspective(to_places(angle, 4)),
+            Lens::Orthographic(height) => {
+                let places = 5 - libm::floor(libm::log10(height)) as i32;
+                Lens::Orthographic(to_places(height, places))
+            }
+        },
         ..camera
     }
 }

@@ -38,8 +38,8 @@ pub(super) fn name_of(
     if view.start() <= span.start() && span.end() <= view.end() && !view.is_empty() {
         return Some(name_in(origins, tree, Node::View, span));
     }
-    let touched = touched(origins, tree, nodes, span);
-    match touched {
+    let touched = origins.nodes_in(tree, nodes, span);
+    match touched.as_slice() {
         [] => {
             let node = origins.node_at(tree, span)?;
             Some(name_in(origins, tree, node, span))
@@ -56,16 +56,6 @@ pub(super) fn name_of(
             Some(names.join(", "))
         }
     }
-}
-
-/// The nodes whose text a span covers in part: none if it is empty. The view is left out, because
-/// its comment may stand anywhere.
-fn touched<'a>(origins: &Origins, tree: &Tree, nodes: &'a [Node], span: Span) -> &'a [Node] {
-    let in_order = nodes.strip_prefix(&[Node::View]).unwrap_or(nodes);
-    let from = in_order.partition_point(|&node| origins.span(tree, node).end() <= span.start());
-    let rest = &in_order[from..];
-    let count = rest.partition_point(|&node| origins.span(tree, node).start() < span.end());
-    &rest[..count]
 }
 
 /// A node's name, with the field and the component where the span meets just one.

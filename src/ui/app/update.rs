@@ -13,12 +13,15 @@ use super::{
 };
 use crate::document::Document;
 use crate::format::Format;
-use crate::scene::{Node, Origins};
+use crate::scene::{Images, Node, Origins};
 use crate::text::{Findings, Severity};
 use crate::ui::keymap::{self, Action, Context};
 use crate::ui::msg::{Effect, Msg, Timer};
 use crate::ui::terminal::Mouse;
 use crate::ui::view::layout::Zoom;
+
+/// The language of the scene that is built in.
+const EMBEDDED_FORMAT: Format = Format::Ray;
 
 /// What the interface starts from.
 #[derive(Clone, Debug)]
@@ -38,13 +41,19 @@ pub struct Opening {
 impl App {
     /// The interface as it opens, and what is to be done first.
     pub fn open(opening: Opening) -> (Self, Vec<Effect>) {
+        let format = opening
+            .path
+            .as_deref()
+            .and_then(|path| Format::of_path(path).ok());
+        let format = format.unwrap_or(EMBEDDED_FORMAT);
         let mut app = Self {
             path: opening.path,
-            document: Document::new(Format::Ray, opening.text),
+            document: Document::new(format, opening.text),
             origins: Origins::default(),
             diagnostics: Findings::default(),
             nodes: Vec::new(),
             scene: None,
+            images: Images::default(),
             view: None,
             quality: opening.quality,
             mode: Mode::Select,

@@ -146,7 +146,7 @@ fn swatch(field: &FieldRow) -> Option<Rgb> {
     let channel = |at: usize| parse_number(field.literals.get(at)?).ok();
     match field.field.kind {
         Kind::Colour => Some(Rgb::new(channel(0)?, channel(1)?, channel(2)?)),
-        Kind::Number | Kind::Point | Kind::Direction | Kind::Pixels => None,
+        _ => None,
     }
 }
 

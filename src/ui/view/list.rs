@@ -81,12 +81,16 @@ fn marked(app: &App) -> Vec<(Node, Style)> {
 fn swatch(app: &App, node: Node) -> Option<Rgb> {
     let scene = app.scene.as_ref()?;
     match node {
-        Node::View => None,
+        Node::View | Node::Texture(_) => None,
         Node::Ambient => Some(scene.ambient),
         Node::Light(index) => Some(scene.lights.get(index)?.colour),
+        Node::Material(index) => Some(scene.materials.get(index)?.diffuse),
         Node::Object(index) => {
-            let material = scene.objects.get(index)?.material;
-            Some(scene.materials.get(material as usize)?.diffuse)
+            let material = app.origins.material(index).or_else(|| {
+                let drawn = app.origins.drawn(index)?;
+                Some(scene.objects.get(drawn as usize)?.material as usize)
+            });
+            Some(scene.materials.get(material?)?.diffuse)
         }
     }
 }

@@ -15,10 +15,7 @@ fn the_example_of_the_format() {
     assert_eq!(shown(EXAMPLE, &lowered), [""; 0]);
     let scene = lowered.scene.expect("no errors");
     assert_eq!(scene.ambient, DVec3::ONE);
-    let light = Light {
-        position: DVec3::new(0.0, 5.0, 5.0),
-        colour: DVec3::ONE,
-    };
+    let light = Light::point(DVec3::new(0.0, 5.0, 5.0), DVec3::ONE);
     assert_eq!(scene.lights, [light]);
     let material = |index| Material {
         ambient: DVec3::splat(0.1),
@@ -28,6 +25,7 @@ fn the_example_of_the_format() {
         reflection: 0.5,
         transmission: 0.1,
         index,
+        ..Material::default()
     };
     assert_eq!(scene.materials, [material(1.6), material(1.1)]);
     let sphere = Shape::Sphere(Sphere {
@@ -83,6 +81,7 @@ fn unusual_values_are_kept_as_given() {
         reflection: -5.0,
         transmission: 6.0,
         index: -7.0,
+        ..Material::default()
     };
     assert_eq!(scene.materials, [material]);
 }

@@ -3,11 +3,11 @@
 use glam::DVec3;
 use proptest::prelude::*;
 
-use super::super::view_edits;
 use super::{read, scene};
 use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
-use crate::scene::fields::{self, Field, Kind, Range, ShapeKind};
-use crate::scene::{Camera, Light, Material, Node, Object, Scene, Size};
+use crate::scene::fields::ray::ShapeKind;
+use crate::scene::fields::{self, Field, Kind, Range};
+use crate::scene::{Camera, Lens, Light, Material, Node, Object, Scene, Size, view_edits};
 use crate::text::{Edit, Span, apply};
 
 /// Steele, Lea and Flood's `SplitMix64`: enough randomness for tests, the same everywhere.
@@ -72,21 +72,21 @@ impl Model {
                 })
                 .collect()
         };
-        let mut view = say(random, &mut fields::VIEW.iter());
+        let mut view = say(random, &mut fields::ray::VIEW.iter());
         view.retain(|_| random.below(2) == 0);
         let mut nodes = vec![
             (Node::View, None, view),
             (
                 Node::Ambient,
                 None,
-                say(random, &mut fields::AMBIENT.iter()),
+                say(random, &mut fields::ray::AMBIENT.iter()),
             ),
         ];
         for index in 0..=random.below(3) {
             nodes.push((
                 Node::Light(index),
                 None,
-                say(random, &mut fields::LIGHT.iter()),
+                say(random, &mut fields::ray::LIGHT.iter()),
             ));
         }
         for index in 0..=random.below(4) {
@@ -154,16 +154,17 @@ impl Model {
             ambient: DVec3::ZERO,
             lights: vec![],
             materials: vec![],
+            textures: vec![],
             objects: vec![],
         };
         for (node, kind, said) in &self.nodes {
             match node {
-                Node::View => {}
+                Node::View | Node::Material(_) | Node::Texture(_) => {}
                 Node::Ambient => scene.ambient = vector(said, "colour"),
-                Node::Light(_) => scene.lights.push(Light {
-                    position: vector(said, "position"),
-                    colour: vector(said, "colour"),
-                }),
+                Node::Light(_) => scene.lights.push(Light::point(
+                    vector(said, "position"),
+                    vector(said, "colour"),
+                )),
                 Node::Object(_) => {
                     let material = material(said);
                     if scene.materials.last() != Some(&material) {
@@ -187,7 +188,7 @@ impl Model {
                 "eye" => assert_eq!(camera.eye, vector(said, "eye")),
                 "target" => assert_eq!(camera.target, vector(said, "target")),
                 "up" => assert_eq!(camera.up, vector(said, "up")),
-                "fov" => assert_eq!(numbers(said, "fov"), [camera.fov]),
+                "fov" => assert_eq!(camera.lens, Lens::Perspective(numbers(said, "fov")[0])),
                 _ => assert_eq!(
                     numbers(said, "size"),
                     [f64::from(camera.size.width), f64::from(camera.size.height)]
@@ -251,6 +252,7 @@ fn material(said: &Said) -> Material {
         reflection: numbers(said, "kr")[0],
         transmission: numbers(said, "kt")[0],
         index: numbers(said, "ior")[0],
+        ..Material::default()
     }
 }
 
@@ -330,11 +332,12 @@ fn the_text_says_the_camera_after_its_edits() {
             eye: DVec3::new(number(), number(), number()),
             target: DVec3::new(camera.target.x, number(), camera.target.z),
             up: DVec3::new(number(), camera.up.y, number()),
-            fov: number().abs() + 1.0,
+            lens: Lens::Perspective(number().abs() + 1.0),
             size: Size {
                 width: number().abs() as u32 + 1,
                 height: camera.size.height,
             },
+            ..camera
         };
         let changed = random.next();
         let choose = |bit: u32| changed & (1 << bit) != 0;
@@ -348,7 +351,7 @@ fn the_text_says_the_camera_after_its_edits() {
             camera.up = new.up;
         }
         if choose(3) {
-            camera.fov = new.fov;
+            camera.lens = new.lens;
         }
         if choose(4) {
             camera.size = new.size;

@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 
-use super::super::view_edits;
 use super::{read, scene, shown, spelled};
-use crate::scene::{Camera, Size};
+use crate::scene::{Camera, Lens, Size, view_edits};
 use crate::text::apply;
 
 /// A unit sphere at the origin: its box is ±1, centred at 0, with half a diagonal of √3.
@@ -36,8 +35,8 @@ fn the_default_view_frames_the_scene() {
         camera.eye
     );
     assert_eq!(
-        (camera.target, camera.up, camera.fov),
-        (DVec3::ZERO, DVec3::Y, 45.0)
+        (camera.target, camera.up, camera.lens),
+        (DVec3::ZERO, DVec3::Y, Lens::Perspective(45.0))
     );
     assert_eq!((camera.size.width, camera.size.height), (800, 600));
 }
@@ -109,7 +108,7 @@ fn a_view_says_any_parts_in_any_order() {
             Camera {
                 eye,
                 target: DVec3::Z,
-                fov: 30.0,
+                lens: Lens::Perspective(30.0),
                 ..default
             },
         ),
@@ -210,7 +209,10 @@ fn the_first_well_formed_view_wins() {
     );
     let text = spelled(&format!("{BODY} // view: fov 30\n// view: fov 60"));
     let (_, lowered) = read(&text);
-    assert_eq!(lowered.scene.map(|scene| scene.camera.fov), Some(30.0));
+    assert_eq!(
+        lowered.scene.map(|scene| scene.camera.lens),
+        Some(Lens::Perspective(30.0))
+    );
 }
 
 #[test]
@@ -325,14 +327,14 @@ fn a_camera_is_written_where_the_view_is() {
     );
     check(
         "// view: size 8 6 fov 30.0 eye 0 0 9\n",
-        |c| (c.fov, c.eye.z, c.size.width) = (31.0, 8.0, 16),
+        |c| (c.lens, c.eye.z, c.size.width) = (Lens::Perspective(31.0), 8.0, 16),
         "// view: size 16 6 fov 31.0 eye 0 0 8\n",
     );
 }
 
 #[test]
 fn a_new_angle_pins_an_eye_that_was_not_said() {
-    let text = rewritten(BODY, |camera| camera.fov = 30.0);
+    let text = rewritten(BODY, |camera| camera.lens = Lens::Perspective(30.0));
     assert!(text.starts_with("// view: eye "), "{text}");
     assert!(text.contains(" fov 30\n"), "{text}");
 }

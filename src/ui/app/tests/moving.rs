@@ -7,7 +7,7 @@ use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
 use super::pictures::frame;
 use super::*;
 use crate::render::NO_OBJECT;
-use crate::scene::{Node, Size};
+use crate::scene::{Lens, Node, Size};
 use crate::ui::msg::{Target, Timer};
 
 #[test]
@@ -45,7 +45,7 @@ fn missing_parts_of_the_view_are_written_when_they_are_set() {
     let mut app = open(SCENE);
     press(&mut app, "ejjj40<Enter>");
     let scene = app.scene.as_ref().expect("a scene");
-    assert!((scene.camera.fov - 40.0).abs() < f64::EPSILON);
+    assert_eq!(scene.camera.lens, Lens::Perspective(40.0));
     press(&mut app, "jll");
     assert_eq!(
         app.output(),

@@ -1,0 +1,271 @@
+//! Where the things of a `.dat` text stand: each in a record of its own, and what textures do to a
+//! material in further ones.
+
+use super::{Node, Placed};
+use crate::format::dat::Tree;
+use crate::scene::fields::dat::{HALF_SPACE, ObjectKind, Part, RecordKind};
+use crate::scene::fields::numbers;
+use crate::text::Span;
+
+/// Where everything that was lowered stands. It holds indices of records: ask it only with the tree
+/// it was made from.
+#[derive(Clone, Debug, Default)]
+pub struct Origins {
+    /// The records that say the view: camera, resolution, viewport.
+    pub(in crate::scene) view: [Option<usize>; 3],
+    pub(in crate::scene) lights: Vec<Place>,
+    pub(in crate::scene) materials: Vec<Place>,
+    pub(in crate::scene) textures: Vec<Place>,
+    pub(in crate::scene) objects: Vec<ObjectPlace>,
+    /// What textures do to materials, in text order.
+    pub(in crate::scene) uses: Vec<UsePlace>,
+    /// The record that lists what is drawn.
+    pub(in crate::scene) render: Option<usize>,
+    /// The objects that are drawn, ascending: those of the scene.
+    pub(in crate::scene) drawn: Vec<usize>,
+    /// World units per pixel, across and up, as said or by default.
+    pub(in crate::scene) resolution: [f64; 2],
+    /// From the eye to the image plane, as said or by default.
+    pub(in crate::scene) focal: f64,
+}
+
+/// Where a light, a material or a texture stands.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::scene) struct Place {
+    /// Index of its record.
+    pub(in crate::scene) record: usize,
+    pub(in crate::scene) kind: RecordKind,
+    pub(in crate::scene) id: i64,
+}
+
+/// Where an object stands.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::scene) struct ObjectPlace {
+    /// Index of its record.
+    pub(in crate::scene) record: usize,
+    pub(in crate::scene) kind: ObjectKind,
+    pub(in crate::scene) id: i64,
+    /// The objects it combines, by index, which are below its own.
+    pub(in crate::scene) operands: Option<[usize; 2]>,
+    /// Its material, by index.
+    pub(in crate::scene) material: Option<usize>,
+}
+
+/// A record that says what a texture does to a material.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::scene) struct UsePlace {
+    pub(in crate::scene) record: usize,
+    pub(in crate::scene) kind: RecordKind,
+    /// By index.
+    pub(in crate::scene) material: usize,
+    /// By index.
+    pub(in crate::scene) texture: usize,
+}
+
+/// The kinds of record that say the view, in the order of [`Origins::view`].
+pub(in crate::scene) const VIEW: [RecordKind; 3] = [
+    RecordKind::Camera,
+    RecordKind::Resolution,
+    RecordKind::Viewport,
+];
+
+impl Origins {
+    pub(super) fn nodes(&self) -> Vec<Node> {
+        std::iter::once(Node::View)
+            .chain((0..self.lights.len()).map(Node::Light))
+            .chain((0..self.materials.len()).map(Node::Material))
+            .chain((0..self.textures.len()).map(Node::Texture))
+            .chain((0..self.objects.len()).map(Node::Object))
+            .collect()
+    }
+
+    pub(super) fn name(&self, node: Node) -> String {
+        let id = |places: &[Place], index: usize| {
+            places
+                .get(index)
+                .map_or_else(|| "?".to_owned(), |at| at.id.to_string())
+        };
+        match node {
+            Node::View => "view".to_owned(),
+            Node::Ambient => "ambient".to_owned(),
+            Node::Light(index) => format!("light {}", id(&self.lights, index)),
+            Node::Material(index) => format!("material {}", id(&self.materials, index)),
+            Node::Texture(index) => format!("texture {}", id(&self.textures, index)),
+            Node::Object(index) => match self.objects.get(index) {
+                Some(object) => format!("object {} ({})", object.id, object.kind.keyword()),
+                None => "object ?".to_owned(),
+            },
+        }
+    }
+
+    pub(super) fn fields(&self, tree: &Tree, node: Node) -> Vec<Placed> {
+        if node == Node::View {
+            return self.view_fields(tree);
+        }
+        self.records(node)
+            .flat_map(|(record, kind)| {
+                let tokens = tree.tokens_of(record).get(kind.heads()..);
+                place(tokens.unwrap_or_default(), kind)
+            })
+            .collect()
+    }
+
+    pub(super) fn span(&self, tree: &Tree, node: Node) -> Span {
+        let first = self.records(node).next();
+        first.map_or_else(|| Span::at(0), |(record, _)| tree.span_of(record))
+    }
+
+    pub(super) fn comment<'t>(&self, text: &'t str, tree: &Tree, node: Node) -> Option<&'t str> {
+        let own = self.span(tree, node);
+        let next = tree.comments.partition_point(|c| c.start() < own.start());
+        let comment = tree.comments.get(next.checked_sub(1)?)?;
+        let between = text[comment.end()..own.start()].trim_matches([' ', '\t', '\r']);
+        let said = comment.of(text).trim_start_matches(['#', '/']).trim();
+        (between == "\n" && !said.is_empty() && node != Node::View).then_some(said)
+    }
+
+    pub(super) fn node_at(&self, tree: &Tree, span: Span) -> Option<Node> {
+        tree.records_at(span).find_map(|at| self.node_of(at))
+    }
+
+    pub(super) fn nodes_in(&self, tree: &Tree, span: Span) -> Vec<Node> {
+        let covered = |&at: &usize| {
+            let record = tree.span_of(at);
+            record.start() < span.end() && span.start() < record.end()
+        };
+        let records = tree.records_at(span).filter(covered);
+        let mut nodes: Vec<_> = records.filter_map(|at| self.node_of(at)).collect();
+        nodes.dedup();
+        nodes
+    }
+
+    pub(super) fn parts(&self, object: usize, limit: usize) -> Vec<(usize, Node)> {
+        let mut parts = Vec::new();
+        let mut pending = vec![(0, object)];
+        while let Some((depth, object)) = pending.pop() {
+            if parts.len() == limit {
+                break;
+            }
+            parts.push((depth, Node::Object(object)));
+            let operands = self.objects.get(object).and_then(|object| object.operands);
+            if let Some([first, second]) = operands {
+                pending.extend([(depth + 1, second), (depth + 1, first)]);
+            }
+        }
+        parts
+    }
+
+    pub(super) fn users(&self, node: Node) -> usize {
+        let of_material = |material: usize| {
+            let uses = |object: &&ObjectPlace| object.material == Some(material);
+            self.objects.iter().filter(uses).count()
+        };
+        match node {
+            Node::Material(material) => of_material(material),
+            Node::Texture(texture) => {
+                let uses = self.uses.iter().filter(|at| at.texture == texture);
+                let mut materials: Vec<_> = uses.map(|at| at.material).collect();
+                materials.sort_unstable();
+                materials.dedup();
+                materials.into_iter().map(of_material).sum()
+            }
+            _ => 0,
+        }
+    }
+
+    /// The records of a node, with what they are.
+    fn records(&self, node: Node) -> impl Iterator<Item = (usize, RecordKind)> + '_ {
+        let own = |places: &[Place], index: usize| {
+            places.get(index).map(|place| (place.record, place.kind))
+        };
+        let first = match node {
+            Node::View | Node::Ambient => None,
+            Node::Light(index) => own(&self.lights, index),
+            Node::Material(index) => own(&self.materials, index),
+            Node::Texture(index) => own(&self.textures, index),
+            Node::Object(index) => {
+                let object = self.objects.get(index);
+                object.map(|object| (object.record, RecordKind::Object(object.kind)))
+            }
+        };
+        let view = self.view.iter().zip(VIEW);
+        let view = view.filter_map(|(record, kind)| Some(((*record)?, kind)));
+        let view = view.filter(move |_| node == Node::View);
+        let uses = self.uses.iter();
+        let uses = uses.filter(move |at| node == Node::Material(at.material));
+        first
+            .into_iter()
+            .chain(view)
+            .chain(uses.map(|at| (at.record, at.kind)))
+    }
+
+    /// All fields of the view, without places where their record is missing.
+    fn view_fields(&self, tree: &Tree) -> Vec<Placed> {
+        self.view
+            .iter()
+            .zip(VIEW)
+            .flat_map(|(record, kind)| match record {
+                Some(record) => place(tree.tokens_of(*record).get(1..).unwrap_or_default(), kind),
+                None => kind
+                    .fields()
+                    .map(|field| Placed {
+                        field,
+                        spans: Vec::new(),
+                    })
+                    .collect(),
+            })
+            .collect()
+    }
+
+    fn node_of(&self, record: usize) -> Option<Node> {
+        if self.view.contains(&Some(record)) {
+            return Some(Node::View);
+        }
+        let among = |places: &[Place]| places.binary_search_by_key(&record, |at| at.record).ok();
+        let object = || {
+            self.objects
+                .binary_search_by_key(&record, |at| at.record)
+                .ok()
+        };
+        let used = || {
+            let found = self.uses.iter().find(|at| at.record == record);
+            found.map(|at| Node::Material(at.material))
+        };
+        among(&self.lights)
+            .map(Node::Light)
+            .or_else(|| among(&self.materials).map(Node::Material))
+            .or_else(|| among(&self.textures).map(Node::Texture))
+            .or_else(|| object().map(Node::Object))
+            .or_else(used)
+    }
+}
+
+/// Hands out the tokens of a record to its fields, until one is not complete.
+fn place(tokens: &[Span], kind: RecordKind) -> Vec<Placed> {
+    let mut rest = tokens;
+    let mut placed = Vec::new();
+    for part in kind.parts() {
+        let Some((spans, after)) = rest.split_at_checked(part.tokens()) else {
+            return placed;
+        };
+        rest = after;
+        if let Part::Field(field) = part {
+            placed.push(Placed {
+                field,
+                spans: spans.to_vec(),
+            });
+        }
+    }
+    if kind == RecordKind::Object(ObjectKind::Quadric) {
+        // The number of half-spaces stands before them.
+        let cuts = rest.get(1..).unwrap_or_default();
+        placed.extend(
+            cuts.chunks_exact(numbers(&[*HALF_SPACE]))
+                .map(|spans| Placed {
+                    field: HALF_SPACE,
+                    spans: spans.to_vec(),
+                }),
+        );
+    }
+    placed
+}

@@ -1,0 +1,212 @@
+//! Where in the text each field of a scene stands, for each language.
+
+pub(super) mod dat;
+pub(super) mod ray;
+
+use std::fmt;
+
+use super::fields::Field;
+use super::fields::ray::ShapeKind;
+use crate::format::Tree;
+use crate::text::Span;
+
+/// A thing that has fields, in the order in which the interface lists them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Node {
+    /// The camera.
+    View,
+    /// Ambient light.
+    Ambient,
+    /// A light, by index.
+    Light(usize),
+    /// A material, by index.
+    Material(usize),
+    /// A texture, by index.
+    Texture(usize),
+    /// An object, by index.
+    Object(usize),
+}
+
+/// A field and where its components stand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placed {
+    /// The field.
+    pub field: &'static Field,
+    /// One span a component; empty where the text does not say it (a view's missing part).
+    pub spans: Vec<Span>,
+}
+
+/// Where everything that was lowered stands. It holds indices into the tree: ask it only with the
+/// tree it was made from.
+#[derive(Clone, Debug)]
+pub enum Origins {
+    /// Of a `.ray` text.
+    Ray(ray::Origins),
+    /// Of a `.dat` text.
+    Dat(dat::Origins),
+}
+
+impl Default for Origins {
+    fn default() -> Self {
+        Self::Ray(ray::Origins::default())
+    }
+}
+
+impl Origins {
+    /// The view, ambient light, lights, materials, textures, objects: as far as the text has them
+    /// and could be understood. Ascending.
+    pub fn nodes(&self) -> Vec<Node> {
+        match self {
+            Self::Ray(origins) => origins.nodes(),
+            Self::Dat(origins) => origins.nodes(),
+        }
+    }
+
+    /// What a node is called: `view`, `ambient`, `light 2`, `object 3 (box)`.
+    pub fn name(&self, node: Node) -> String {
+        match self {
+            Self::Ray(origins) => origins.name(node),
+            Self::Dat(origins) => origins.name(node),
+        }
+    }
+
+    /// A node's fields with their places. A node whose text breaks off has only those fields whose
+    /// components are all there.
+    pub fn fields(&self, tree: &Tree, node: Node) -> Vec<Placed> {
+        match (self, tree) {
+            (Self::Ray(origins), Tree::Ray(tree)) => origins.fields(tree, node),
+            (Self::Dat(origins), Tree::Dat(tree)) => origins.fields(tree, node),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The whole of a node's text, from its first token to its last; empty for a missing view. Of a
+    /// node that stands in several places, the first.
+    pub fn span(&self, tree: &Tree, node: Node) -> Span {
+        match (self, tree) {
+            (Self::Ray(origins), Tree::Ray(tree)) => origins.span(tree, node),
+            (Self::Dat(origins), Tree::Dat(tree)) => origins.span(tree, node),
+            _ => Span::at(0),
+        }
+    }
+
+    /// What a comment says of a node: one that follows its text in the line where that begins, or
+    /// else where it ends; in `.dat` one that takes the line before.
+    pub fn comment<'t>(&self, text: &'t str, tree: &Tree, node: Node) -> Option<&'t str> {
+        match (self, tree) {
+            (Self::Ray(origins), Tree::Ray(tree)) => origins.comment(text, tree, node),
+            (Self::Dat(origins), Tree::Dat(tree)) => origins.comment(text, tree, node),
+            _ => None,
+        }
+    }
+
+    /// The node whose text holds or touches `span`. A view comment inside another node's text
+    /// counts as the view; where it ends at that node's token, the token counts.
+    pub fn node_at(&self, tree: &Tree, span: Span) -> Option<Node> {
+        match (self, tree) {
+            (Self::Ray(origins), Tree::Ray(tree)) => origins.node_at(tree, span),
+            (Self::Dat(origins), Tree::Dat(tree)) => origins.node_at(tree, span),
+            _ => None,
+        }
+    }
+
+    /// The nodes whose text `span` covers in part, in text order: none if it is empty. `nodes` are
+    /// those of [`Origins::nodes`].
+    pub fn nodes_in(&self, tree: &Tree, nodes: &[Node], span: Span) -> Vec<Node> {
+        match (self, tree) {
+            (Self::Ray(origins), Tree::Ray(tree)) => origins.nodes_in(tree, nodes, span),
+            (Self::Dat(origins), Tree::Dat(tree)) => origins.nodes_in(tree, span),
+            _ => Vec::new(),
+        }
+    }
+
+    /// What an object is made of: itself, then the objects it combines, each with how deep it lies
+    /// below the first. At most `limit` of them; one alone if it is no combination.
+    pub fn parts(&self, object: usize, limit: usize) -> Vec<(usize, Node)> {
+        match self {
+            Self::Ray(_) => vec![(0, Node::Object(object))],
+            Self::Dat(origins) => origins.parts(object, limit),
+        }
+    }
+
+    /// The object of the scene that an object of the text is; `None` if it is not drawn.
+    pub fn drawn(&self, object: usize) -> Option<u32> {
+        match self {
+            Self::Ray(_) => u32::try_from(object).ok(),
+            Self::Dat(origins) => {
+                let at = origins.drawn.binary_search(&object).ok();
+                at.and_then(|at| u32::try_from(at).ok())
+            }
+        }
+    }
+
+    /// The object of the text that an object of the scene is.
+    pub fn object(&self, drawn: u32) -> usize {
+        match self {
+            Self::Ray(_) => drawn as usize,
+            Self::Dat(origins) => origins
+                .drawn
+                .get(drawn as usize)
+                .copied()
+                .unwrap_or(usize::MAX),
+        }
+    }
+
+    /// The material of an object that is listed as a thing of its own.
+    pub fn material(&self, object: usize) -> Option<usize> {
+        match self {
+            Self::Ray(_) => None,
+            Self::Dat(origins) => origins.objects.get(object)?.material,
+        }
+    }
+
+    /// How many objects a material or a texture is part of.
+    pub fn users(&self, node: Node) -> usize {
+        match self {
+            Self::Ray(_) => 0,
+            Self::Dat(origins) => origins.users(node),
+        }
+    }
+}
+
+/// Hands out `tokens` to the fields in order, until one is not complete.
+fn place(tokens: &[Span], fields: impl Iterator<Item = &'static Field>) -> Vec<Placed> {
+    let mut rest = tokens;
+    fields
+        .map_while(|field| {
+            let (spans, after) = rest.split_at_checked(field.kind.components())?;
+            rest = after;
+            Some(Placed {
+                field,
+                spans: spans.to_vec(),
+            })
+        })
+        .collect()
+}
+
+/// A node's name, spelled out only where a message needs it.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Name {
+    View,
+    Ambient,
+    Light(usize),
+    Object(usize, ShapeKind),
+    /// Something known by a number: what it is, its number, and of what kind.
+    Known(&'static str, i64, &'static str),
+    /// A record without a number.
+    Record(&'static str),
+}
+
+impl fmt::Display for Name {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::View => f.write_str("view"),
+            Self::Ambient => f.write_str("ambient"),
+            Self::Light(index) => write!(f, "light {}", index + 1),
+            Self::Object(index, kind) => write!(f, "object {} ({})", index + 1, kind.keyword()),
+            Self::Known(word, id, "") => write!(f, "{word} {id}"),
+            Self::Known(word, id, kind) => write!(f, "{word} {id} ({kind})"),
+            Self::Record(word) => f.write_str(word),
+        }
+    }
+}
