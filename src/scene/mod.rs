@@ -9,6 +9,7 @@ mod lower;
 mod origins;
 mod texture;
 mod view;
+mod visibility;
 
 use glam::DVec3;
 
@@ -18,6 +19,7 @@ pub use lower::{Lowered, lower};
 pub use origins::{Node, Origins, Placed};
 pub use texture::{Image, Images, Pattern, Texture};
 pub use view::{view_edits, view_literals, view_saying};
+pub use visibility::{Visibility, visibility_edits};
 
 /// A linear colour: red, green, blue, unclamped.
 pub type Rgb = DVec3;

@@ -54,6 +54,8 @@ pub enum Action {
     Command,
     /// Shows or hides the outline of the selected object.
     Outline,
+    /// Shows or hides the selected object itself.
+    Visibility,
     /// Types a value.
     Type,
     /// Adds the field's step to a value, times the stride: up if positive.
@@ -174,6 +176,7 @@ const fn bind(
 const SELECT: &[Context] = &[Context::In(Select)];
 const VIEW: &[Context] = &[Context::In(View)];
 const EDIT: &[Context] = &[Context::In(Edit)];
+const LIST_AND_FIELDS: &[Context] = &[Context::In(Select), Context::In(Edit)];
 const TRACE: &[Context] = &[Context::In(Trace)];
 const PICK: &[Context] = &[Context::In(Pick)];
 const LISTS: &[Context] = &[
@@ -226,6 +229,7 @@ pub const TABLE: &[Binding] = &[
     bind(SELECT, &[c('v')], A::Go(View), "move the camera"),
     bind(SELECT, &[c('p')], A::Go(Pick), "pick in the picture"),
     bind(SELECT, &[key(Tab)], A::Cycle(1), "next light or object"),
+    bind(LIST_AND_FIELDS, &[c(' ')], A::Visibility, "show or hide the object (.dat)"),
     bind(SELECT, &[c('/')], A::Search, "search for a name"),
     bind(LONG_LISTS, &[c('g')], A::G, "first"),
     bind(LONG_LISTS, &[c('G'), key(End)], A::Last, "last"),
@@ -357,6 +361,7 @@ impl Chord {
             }
         }
         match code {
+            Char(' ') => name.push_str("Space"),
             Char(character) if held.contains(CTRL) => name.extend(character.to_uppercase()),
             Char(character) => name.push(character),
             Up => name.push('↑'),

@@ -33,7 +33,7 @@ use terminal::{Choice, ColourDepth, Mouse};
 /// The scene that is opened without a name, if the current folder has one.
 const DEFAULT_SCENE: &str = "default.ray";
 
-/// The scene that is opened where there is no other.
+/// The scene that is opened where there is no other: a copy of [`DEFAULT_SCENE`].
 const EMBEDDED_SCENE: &str = include_str!("../../scenes/default.ray");
 
 /// What the user said about the interface; `None` is left to it.
@@ -123,10 +123,11 @@ pub enum Error {
 /// Opens the interface and stays until the user leaves it. The terminal is touched only once the
 /// scene is read.
 pub fn run(options: &Options) -> Result<Ending, Error> {
-    let (path, text) = read_scene(options.scene.as_deref())?;
+    let (path, format, text) = read_scene(options.scene.as_deref())?;
     let size = terminal::size();
     let opening = Opening {
         path,
+        format,
         text,
         quality: Quality {
             spp: options.spp.unwrap_or(DEFAULT_SPP),
@@ -140,26 +141,27 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
     Ok(session::run(options, app, effects, recovered)?)
 }
 
-/// The scene to open: its path, unless it is the built-in one, and its text.
-fn read_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, String), Error> {
+/// The scene to open: its path, unless it is the built-in one, its language and its text.
+fn read_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Format, String), Error> {
     let path = named.unwrap_or_else(|| Path::new(DEFAULT_SCENE));
     if path.is_dir() {
         return Err(Error::Folder {
             path: path.to_owned(),
         });
     }
-    if let Err(unknown) = Format::of_path(path) {
-        return Err(if path.exists() {
-            unknown.into()
-        } else {
-            Error::NoSuch {
-                path: path.to_owned(),
-            }
-        });
-    }
+    let format = Format::of_path(path).map_err(|unknown| {
+        if path.exists() {
+            return unknown.into();
+        }
+        Error::NoSuch {
+            path: path.to_owned(),
+        }
+    })?;
     match file::read_text(path) {
-        Ok(text) => Ok((Some(path.to_owned()), text)),
-        Err(ReadError::NotFound { .. }) if named.is_none() => Ok((None, EMBEDDED_SCENE.to_owned())),
+        Ok(text) => Ok((Some(path.to_owned()), format, text)),
+        Err(ReadError::NotFound { .. }) if named.is_none() => {
+            Ok((None, format, EMBEDDED_SCENE.to_owned()))
+        }
         Err(error) => Err(error.into()),
     }
 }

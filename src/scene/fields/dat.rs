@@ -1,6 +1,6 @@
 //! The fields of `.dat`, record by record.
 
-use super::{Field, Kind, Range};
+use super::{Category, Field, Kind, Range};
 
 /// What stands at a place of a record, after the words that say which record it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -188,9 +188,9 @@ const fn choice(key: &'static str, words: &'static [&'static str], doc: &'static
     })
 }
 
-const fn reference(key: &'static str, doc: &'static str) -> Part {
+const fn reference(key: &'static str, category: Category, doc: &'static str) -> Part {
     Part::Field(Field {
-        kind: Kind::Reference,
+        kind: Kind::Reference(category),
         allowed: Range::Identity,
         usual: Range::Identity,
         step: 1.0,
@@ -242,7 +242,7 @@ const fn pair(field: Field) -> Field {
 
 const ID: Part = Part::Word("ID");
 
-const MATERIAL_ID: Part = reference("mat", "The material, by its ID.");
+const MATERIAL_ID: Part = reference("mat", Category::Material, "The material, by its ID.");
 
 const CAMERA: &[Part] = &[
     choice(
@@ -426,9 +426,9 @@ const CSG: &[Part] = &[
         "Both together, what both share, or the first without the second.",
     ),
     ID,
-    reference("first", "The first object, by its ID."),
+    reference("first", Category::Object, "The first object, by its ID."),
     ID,
-    reference("second", "The second object, by its ID."),
+    reference("second", Category::Object, "The second object, by its ID."),
 ];
 
 const QUADRIC: &[Part] = &[
@@ -499,6 +499,7 @@ const USE_COLOUR: &[Part] = &[
     ID,
     reference(
         "texture",
+        Category::Texture,
         "The texture that multiplies the colour, by its ID.",
     ),
     Part::Word("mat"),
@@ -510,6 +511,7 @@ const USE_BUMP: &[Part] = &[
     ID,
     reference(
         "bump",
+        Category::Texture,
         "The texture whose brightness is a height, by its ID.",
     ),
     Part::Word("mat"),

@@ -29,7 +29,7 @@ pub enum Kind {
     /// One of some words.
     Choice(&'static [&'static str]),
     /// The whole number by which another thing is known.
-    Reference,
+    Reference(Category),
     /// A word of the user's own.
     Word,
 }
@@ -38,7 +38,7 @@ impl Kind {
     /// How many numbers it takes.
     pub const fn components(self) -> usize {
         match self {
-            Self::Number | Self::Choice(_) | Self::Reference | Self::Word => 1,
+            Self::Number | Self::Choice(_) | Self::Reference(_) | Self::Word => 1,
             Self::Pixels | Self::Pair => 2,
             Self::Point | Self::Direction | Self::Axis | Self::Colour => 3,
             Self::HalfSpace => 4,
@@ -48,12 +48,37 @@ impl Kind {
     /// What its numbers are called, one name a component; a single number has no name of its own.
     pub const fn component_names(self) -> &'static [&'static str] {
         match self {
-            Self::Number | Self::Choice(_) | Self::Reference | Self::Word => &[""],
+            Self::Number | Self::Choice(_) | Self::Reference(_) | Self::Word => &[""],
             Self::Pixels => &["width", "height"],
             Self::Pair => &["across", "up"],
             Self::Point | Self::Direction | Self::Axis => &["x", "y", "z"],
             Self::HalfSpace => &["x", "y", "z", "d"],
             Self::Colour => &["red", "green", "blue"],
+        }
+    }
+}
+
+/// What numbers are given to; each category has its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Category {
+    /// Lights.
+    Light,
+    /// Materials.
+    Material,
+    /// Textures.
+    Texture,
+    /// Objects.
+    Object,
+}
+
+impl Category {
+    /// What one of them is called.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Light => "light",
+            Self::Material => "material",
+            Self::Texture => "texture",
+            Self::Object => "object",
         }
     }
 }
@@ -135,6 +160,16 @@ pub struct Field {
 }
 
 impl Field {
+    /// What each of its components is, as a noun: `a number greater than 0`.
+    pub fn expected(&self) -> String {
+        match self.kind {
+            Kind::Choice(words) => words.join(" or "),
+            Kind::Reference(category) => format!("the number of one {}", category.word()),
+            Kind::Word => "one word".to_owned(),
+            _ => self.allowed.words(),
+        }
+    }
+
     const fn point(key: &'static str, doc: &'static str) -> Self {
         Self {
             key,
@@ -214,7 +249,7 @@ mod tests {
             Kind::Pair,
             Kind::HalfSpace,
             Kind::Choice(&["yes", "no"]),
-            Kind::Reference,
+            Kind::Reference(Category::Object),
             Kind::Word,
         ] {
             assert_eq!(kind.component_names().len(), kind.components(), "{kind:?}");

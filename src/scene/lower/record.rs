@@ -76,7 +76,7 @@ impl<'a> Record<'a> {
             match part.field.kind {
                 Kind::Direction | Kind::Axis => self.check_direction(&part, report),
                 // These were judged when they were read.
-                Kind::Choice(_) | Kind::Reference | Kind::Word => {}
+                Kind::Choice(_) | Kind::Reference(_) | Kind::Word => {}
                 _ => self.check_numbers(&part, report),
             }
         }
@@ -218,7 +218,7 @@ impl<'a> Record<'a> {
                     choices += 1;
                 }
                 // What they name is looked up where they are read; cuts are read by themselves.
-                Kind::Reference | Kind::Word | Kind::HalfSpace => {}
+                Kind::Reference(_) | Kind::Word | Kind::HalfSpace => {}
             }
         }
         gathered

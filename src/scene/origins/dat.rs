@@ -4,7 +4,7 @@
 use super::{Node, Placed};
 use crate::format::dat::Tree;
 use crate::scene::fields::dat::{HALF_SPACE, ObjectKind, Part, RecordKind};
-use crate::scene::fields::numbers;
+use crate::scene::fields::{Category, numbers};
 use crate::text::Span;
 
 /// Where everything that was lowered stands. It holds indices of records: ask it only with the tree
@@ -153,6 +153,23 @@ impl Origins {
             }
         }
         parts
+    }
+
+    pub(super) fn identities(&self, node: Node, category: Category) -> Vec<i64> {
+        let Some((record, _)) = self.records(node).last() else {
+            return Vec::new();
+        };
+        let of = |places: &[Place]| places.iter().map(|at| (at.record, at.id)).collect();
+        let given: Vec<_> = match category {
+            Category::Light => of(&self.lights),
+            Category::Material => of(&self.materials),
+            Category::Texture => of(&self.textures),
+            Category::Object => self.objects.iter().map(|at| (at.record, at.id)).collect(),
+        };
+        let before = given.into_iter().filter(|&(at, _)| at < record);
+        let mut identities: Vec<_> = before.map(|(_, id)| id).collect();
+        identities.sort_unstable();
+        identities
     }
 
     pub(super) fn users(&self, node: Node) -> usize {

@@ -5,8 +5,8 @@ pub(super) mod ray;
 
 use std::fmt;
 
-use super::fields::Field;
 use super::fields::ray::ShapeKind;
+use super::fields::{Category, Field};
 use crate::format::Tree;
 use crate::text::Span;
 
@@ -157,6 +157,15 @@ impl Origins {
         match self {
             Self::Ray(_) => None,
             Self::Dat(origins) => origins.objects.get(object)?.material,
+        }
+    }
+
+    /// The numbers that a field of a node may refer to: those of a category that are given before
+    /// the node's text, ascending.
+    pub fn identities(&self, node: Node, category: Category) -> Vec<i64> {
+        match self {
+            Self::Ray(_) => Vec::new(),
+            Self::Dat(origins) => origins.identities(node, category),
         }
     }
 

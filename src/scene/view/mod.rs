@@ -99,7 +99,7 @@ fn differ(old: f64, new: f64) -> bool {
 }
 
 /// How the text's first line ends; all others are taken to end so, too.
-fn line_ending(text: &str) -> &'static str {
+pub(super) fn line_ending(text: &str) -> &'static str {
     let before = text.find('\n').map_or("", |at| &text[..at]);
     if before.ends_with("\r\r") {
         "\r\r\n"

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::{App, Disk, Help};
+use crate::format::Format;
 use crate::image_out::ImageFormat;
 use crate::render::MAX_SPP;
 use crate::scene::{Camera, Size};
@@ -214,6 +215,14 @@ impl App {
     }
 
     fn write(&mut self, file: Option<PathBuf>, force: Force) -> Vec<Effect> {
+        let own = self.document.format();
+        if let Some(path) = &file
+            && Format::of_path(path) != Ok(own)
+        {
+            let (path, extension) = (path.display(), own.extension());
+            self.fail(format!("{path}: this scene's name ends in .{extension}"));
+            return Vec::new();
+        }
         match (file.or_else(|| self.path.clone()), force) {
             (Some(path), Force::Yes) => self.save_to(path, Guard::Anything),
             (Some(path), Force::No) if !self.is_own_path(&path) => {

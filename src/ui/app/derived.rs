@@ -15,6 +15,9 @@ const NO_SCENE: Size = Size {
     height: 3,
 };
 
+/// The most parts of a combined object that are listed.
+const MOST_PARTS: usize = 32;
+
 impl App {
     /// How much of the screen the picture takes now.
     pub fn zoom_now(&self) -> Zoom {
@@ -150,9 +153,18 @@ impl App {
         self.origins.fields(self.document.tree(), self.selected)
     }
 
+    /// What the selected object combines, in order, each with how deep it lies below it: the first
+    /// ones, if they are many. Nothing where it is no combination.
+    pub fn parts(&self) -> Vec<(usize, Node)> {
+        match self.selected {
+            Node::Object(object) => self.origins.parts(object, 1 + MOST_PARTS).split_off(1),
+            _ => Vec::new(),
+        }
+    }
+
     /// Where everything is in an area of the screen.
     pub fn areas_in(&self, area: Rect, zoom: Zoom) -> Areas {
-        arrange(area, zoom, self.placed().len())
+        arrange(area, zoom, self.placed().len() + self.parts().len())
     }
 
     fn areas_at(&self, zoom: Zoom) -> Areas {

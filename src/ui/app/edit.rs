@@ -2,7 +2,7 @@
 
 use super::{App, Mode};
 use crate::scene::fields::{Field, Kind};
-use crate::scene::{self, Camera, Lowered, Node};
+use crate::scene::{self, Camera, Lowered, Node, Visibility};
 use crate::text::{Diagnostic, Edit, Span};
 
 impl App {
@@ -150,6 +150,30 @@ impl App {
         let (text, tree) = (self.document.text(), self.document.tree());
         let edits = scene::view_edits(text, tree, &self.origins, before, camera);
         self.try_edits(&edits)
+    }
+
+    /// Draws the selected object no longer, or again.
+    pub(super) fn toggle_visibility(&mut self) {
+        let Node::Object(object) = self.selected else {
+            self.fail("only objects are shown or hidden");
+            return;
+        };
+        let (wanted, done) = match self.origins.drawn(object) {
+            Some(_) => (Visibility::Hidden, "hidden"),
+            None => (Visibility::Shown, "shown"),
+        };
+        let (text, tree) = (self.document.text(), self.document.tree());
+        let edits = scene::visibility_edits(text, tree, &self.origins, object, wanted);
+        self.document.end_step();
+        let outcome = edits.map_err(str::to_owned).and_then(|edits| {
+            let refused = self.try_edits(&edits);
+            refused.map_err(|refused| refused.message)
+        });
+        self.document.end_step();
+        match outcome {
+            Ok(()) => self.say(format!("{} is {done}", self.origins.name(self.selected))),
+            Err(reason) => self.fail(reason),
+        }
     }
 
     pub(super) fn undo(&mut self) {

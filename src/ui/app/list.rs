@@ -88,11 +88,12 @@ impl App {
     pub(super) fn cycle(&mut self, step: isize) {
         let first = self.row_of(Node::Light(0));
         let count = self.nodes.len() - first.min(self.nodes.len());
-        let holds_any = matches!(
-            self.nodes.get(first),
-            Some(Node::Light(_) | Node::Object(_))
-        );
-        if !holds_any {
+        // Of a scene without any, the row before is the nearest.
+        if self
+            .nodes
+            .get(first)
+            .is_none_or(|&node| node < Node::Light(0))
+        {
             return;
         }
         let row = match self.row_of(self.selected).checked_sub(first) {

@@ -1,4 +1,4 @@
-//! Numbers as people type, paste and nudge them.
+//! Numbers and words as people type, paste and nudge them.
 
 use crate::scene::fields::Kind;
 use crate::text::{decimals, parse_number, spell_like};
@@ -20,7 +20,28 @@ pub(super) fn nudged(literal: &str, change: f64, step: f64) -> Option<String> {
     })
 }
 
-/// Whether a text can stand for one number: whether it is one is for the parser to say.
+/// The word some steps after `literal`, and around; the first if that is none of them. `None` if
+/// there are no words.
+pub(super) fn next(words: &[impl AsRef<str>], literal: &str, steps: i8) -> Option<String> {
+    let place = words.iter().position(|word| word.as_ref() == literal);
+    let next = place.map_or(0, |place| {
+        (place as isize + isize::from(steps)).rem_euclid(words.len() as isize) as usize
+    });
+    words.get(next).map(|word| word.as_ref().to_owned())
+}
+
+/// The word that a text is the beginning of, if it is of one only; in any case.
+pub(super) fn word_meant<'w>(words: &[&'w str], said: &str) -> Option<&'w str> {
+    let begins = |word: &&&str| {
+        let start = word.get(..said.len());
+        start.is_some_and(|start| start.eq_ignore_ascii_case(said))
+    };
+    let mut meant = words.iter().filter(begins);
+    let first = meant.next()?;
+    meant.next().is_none().then_some(*first)
+}
+
+/// Whether a text can stand for one number or word: whether it is one is for the parser to say.
 pub(super) fn is_one(said: &str) -> bool {
     !said.is_empty()
         && !said.contains(|c: char| c.is_whitespace() || c.is_control())
@@ -83,6 +104,35 @@ mod tests {
         }
         assert_eq!(nudged("x", 1.0, 1.0), None);
         assert_eq!(nudged("1.7e308", 1.7e308, 1.0), None);
+    }
+
+    #[test]
+    fn words_follow_each_other_around() {
+        let words = ["pnt", "inf", "amb"];
+        for (literal, steps, expected) in [
+            ("pnt", 1, "inf"),
+            ("pnt", -1, "amb"),
+            ("amb", 1, "pnt"),
+            ("other", 1, "pnt"),
+        ] {
+            assert_eq!(next(&words, literal, steps).as_deref(), Some(expected));
+        }
+        assert_eq!(next(&[""; 0], "1", 1), None);
+    }
+
+    #[test]
+    fn the_beginning_of_a_word_is_enough() {
+        let words = ["shadow_on", "shadow_off", "point"];
+        for (said, meant) in [
+            ("p", Some("point")),
+            ("SHADOW_ON", Some("shadow_on")),
+            ("shadow_o", None),
+            ("", None),
+            ("points", None),
+            ("é", None),
+        ] {
+            assert_eq!(word_meant(&words, said), meant, "{said}");
+        }
     }
 
     #[test]

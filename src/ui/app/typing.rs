@@ -4,7 +4,7 @@ use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
 use super::{App, Mode, Stride, Typing, line, literals};
-use crate::scene::fields::Field;
+use crate::scene::fields::{Field, Kind};
 use crate::text::{Diagnostic, Span};
 
 impl App {
@@ -29,12 +29,27 @@ impl App {
             Stride::Plain => field.step,
             Stride::Coarse => field.step * 10.0,
         };
-        let Some(nudged) = literals::nudged(&literal, f64::from(steps) * step, step) else {
-            self.fail(format!("{literal} is no number to add to"));
+        let nudged = match field.kind {
+            Kind::Choice(words) => literals::next(words, &literal, steps),
+            Kind::Reference(category) => {
+                let known = self.origins.identities(self.selected, category);
+                let known: Vec<_> = known.iter().map(i64::to_string).collect();
+                literals::next(&known, &literal, steps)
+            }
+            _ => literals::nudged(&literal, f64::from(steps) * step, step),
+        };
+        let Some(nudged) = nudged else {
+            let expected = field.expected();
+            self.fail(format!(
+                "{literal} has nothing next to it: {expected} is typed"
+            ));
             return;
         };
         if nudged == literal {
-            self.warn("the number is too large for this step");
+            self.warn(match field.kind {
+                Kind::Choice(_) | Kind::Reference(_) => "there is no other",
+                _ => "the number is too large for this step",
+            });
         } else if let Err(refused) = self.assign(&[(self.component, nudged)]) {
             self.fail(refused.message);
         }
@@ -116,13 +131,16 @@ impl App {
             return true;
         };
         let said = typing.input.value().trim().to_owned();
-        let outcome = match self.literals_of(&said) {
-            Some(values) => self.assign_whole(&values),
-            None => Err(Diagnostic::error(
-                Span::at(0),
-                "one number is expected here",
-                "a number",
-            )),
+        let outcome = if let Some(values) = self.literals_of(&said) {
+            self.assign_whole(&values)
+        } else {
+            let words = self.current().and_then(|(field, _)| match field.kind {
+                Kind::Choice(_) | Kind::Reference(_) | Kind::Word => Some(field.expected()),
+                _ => None,
+            });
+            let expected = words.unwrap_or_else(|| "one number".to_owned());
+            let message = format!("{expected} is expected here");
+            Err(Diagnostic::error(Span::at(0), message, expected))
         };
         match outcome {
             Ok(()) => self.typing = None,
@@ -152,6 +170,11 @@ impl App {
         let kind = placed.get(self.field)?.field.kind;
         if let Some(all) = literals::all_of(kind, said) {
             return Some(all.into_iter().enumerate().collect());
+        }
+        if let Kind::Choice(words) = kind
+            && let Some(word) = literals::word_meant(words, said)
+        {
+            return Some(vec![(self.component, word.to_owned())]);
         }
         literals::is_one(said).then(|| vec![(self.component, said.to_owned())])
     }

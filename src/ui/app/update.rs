@@ -20,14 +20,13 @@ use crate::ui::msg::{Effect, Msg, Timer};
 use crate::ui::terminal::Mouse;
 use crate::ui::view::layout::Zoom;
 
-/// The language of the scene that is built in.
-const EMBEDDED_FORMAT: Format = Format::Ray;
-
 /// What the interface starts from.
 #[derive(Clone, Debug)]
 pub struct Opening {
     /// Where the scene was read from; `None` for the embedded one.
     pub path: Option<PathBuf>,
+    /// Its language.
+    pub format: Format,
     /// Its text.
     pub text: String,
     /// How pictures are traced.
@@ -41,14 +40,9 @@ pub struct Opening {
 impl App {
     /// The interface as it opens, and what is to be done first.
     pub fn open(opening: Opening) -> (Self, Vec<Effect>) {
-        let format = opening
-            .path
-            .as_deref()
-            .and_then(|path| Format::of_path(path).ok());
-        let format = format.unwrap_or(EMBEDDED_FORMAT);
         let mut app = Self {
             path: opening.path,
-            document: Document::new(format, opening.text),
+            document: Document::new(opening.format, opening.text),
             origins: Origins::default(),
             diagnostics: Findings::default(),
             nodes: Vec::new(),
@@ -237,6 +231,7 @@ impl App {
             Action::SearchAgain(step) => self.search(step),
             Action::Command => self.open_prompt(PromptKind::Command, ""),
             Action::Outline => self.toggle_outline(),
+            Action::Visibility => self.toggle_visibility(),
             Action::Type => self.type_current(),
             Action::Nudge(steps, stride) => self.nudge(steps, stride),
             Action::Stride(step) => self.change_stride(step),

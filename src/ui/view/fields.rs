@@ -8,23 +8,24 @@ use ratatui::widgets::{Clear, Widget};
 use super::layout;
 use super::row::{self, Row};
 use super::theme;
-use crate::scene::Rgb;
 use crate::scene::fields::Kind;
-use crate::text::parse_number;
+use crate::scene::fields::dat::OPERATIONS;
+use crate::scene::{Node, Rgb};
+use crate::text::{counted, parse_number};
 use crate::ui::app::{App, FieldRow, Mode, Source, Stride, Typing};
 
 /// Draws the fields.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let focused = app.mode == Mode::Edit;
     let stride = match app.stride {
-        Stride::Fine => "step × 0.1",
-        Stride::Plain => "",
-        Stride::Coarse => "step × 10",
+        Stride::Fine => Some("step × 0.1".to_owned()),
+        Stride::Plain => None,
+        Stride::Coarse => Some("step × 10".to_owned()),
     };
     let name = app.origins.name(app.selected);
     row::title(
         &name,
-        stride,
+        &stride.or_else(|| users(app)).unwrap_or_default(),
         focused.then_some(theme::ACCENT),
         area,
         buffer,
@@ -43,9 +44,36 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         let cursor = (focused && index == app.field).then_some(app.component);
         field_line(app, field, cursor, line, buffer);
     }
+    let below = fields.len().saturating_sub(top);
+    for (line, (depth, part)) in (below..rows).zip(app.parts()) {
+        let mut row = Row::new(buffer, lines, line as u16);
+        row.skip(1 + 2 * depth.min(usize::from(lines.width)) as u16);
+        row.put(&part_name(app, part), theme::DIM);
+    }
     if let Some(field) = fields.get(app.field).filter(|_| focused) {
         explain(app, field, layout::field_notes(area), buffer);
     }
+}
+
+/// How many objects change with the selected thing, if it is one that objects share.
+fn users(app: &App) -> Option<String> {
+    let objects = counted(app.origins.users(app.selected), "object");
+    match app.selected {
+        Node::Material(_) => Some(format!("colours {objects}")),
+        Node::Texture(_) => Some(format!("on {objects}")),
+        _ => None,
+    }
+}
+
+/// The name of a part of a combined object; of a combination, with its operation.
+fn part_name(app: &App, part: Node) -> String {
+    let fields = app.origins.fields(app.document.tree(), part);
+    let operation = fields.first().filter(|placed| {
+        let is_operation = placed.field.kind == Kind::Choice(OPERATIONS);
+        is_operation && !placed.spans.is_empty()
+    });
+    let operation = operation.map(|placed| placed.spans[0].of(app.document.text()));
+    [&app.origins.name(part), operation.unwrap_or_default()].join(" ")
 }
 
 /// Draws a field: its name and its literals in columns, the one under the cursor marked.
@@ -116,17 +144,19 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     }
     let names = field.field.kind.component_names();
     let component = names.get(app.component).copied().unwrap_or_default();
-    let range = field.field.allowed.words();
-    let what = [component, &range].join(if component.is_empty() { "" } else { ": " });
+    let expected = field.field.expected();
+    let what = [component, &expected].join(if component.is_empty() { "" } else { ": " });
     let unit = if field.field.unit.is_empty() {
         String::new()
     } else {
         format!(" {}", field.field.unit)
     };
-    say(
-        &format!("{what} · step {}{unit}", app.step(field.field)),
-        Style::new(),
-    );
+    let nudge = match field.field.kind {
+        Kind::Choice(_) | Kind::Reference(_) => " · h l go through them".to_owned(),
+        Kind::Word => String::new(),
+        _ => format!(" · step {}{unit}", app.step(field.field)),
+    };
+    say(&format!("{what}{nudge}"), Style::new());
     say(field.field.doc, theme::DIM);
     if field.source == Source::Default {
         say("Not in the text: this is the default.", theme::DIM);
@@ -153,7 +183,6 @@ fn swatch(field: &FieldRow) -> Option<Rgb> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Node;
     use crate::text::{Diagnostic, Span};
     use crate::ui::view::tests::{app, drawn};
     use tui_input::Input;

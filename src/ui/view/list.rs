@@ -35,16 +35,22 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let shown = app.nodes.iter().enumerate().skip(top).take(rows);
     for (line, (index, &node)) in shown.enumerate() {
         let is_selected = index == selected;
+        let is_drawn = match node {
+            Node::Object(index) => app.origins.drawn(index).is_some(),
+            _ => true,
+        };
         let style = match (is_selected, focused) {
             (true, true) => theme::CURSOR.add_modifier(Modifier::BOLD),
             (true, false) => theme::BOLD,
-            (false, _) => Style::new(),
+            (false, _) if is_drawn => Style::new(),
+            (false, _) => theme::DIM,
         };
         let mut row = Row::new(buffer, lines, line as u16);
         row.put(if is_selected { "▸ " } else { "  " }, style);
         match swatch(app, node) {
             // Not reversed with the selected line: the dot is to show its own colour.
-            Some(colour) => row.put("● ", theme::swatch(colour)),
+            Some(colour) if is_drawn => row.put("● ", theme::swatch(colour)),
+            Some(colour) => row.put("○ ", theme::swatch(colour)),
             None => row.put("  ", style),
         };
         let name = app.origins.name(node);

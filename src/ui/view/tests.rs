@@ -12,6 +12,7 @@ use tui_input::Input;
 use super::layout::Zoom;
 use super::{Glyphs, draw};
 use crate::document::{Replaced, Side};
+use crate::format::Format;
 use crate::render::{Frame, NO_OBJECT, Progress};
 use crate::scene::{Node, Size, lower};
 use crate::text::{Edit, Severity, Span};
@@ -37,6 +38,7 @@ box 0 0 0  1 0 0  0 1 0  0 0 1  1 1 1
 /// The interface with [`SCENE`] opened and its view selected.
 pub(super) fn app() -> App {
     let (mut app, _) = App::open(Opening {
+        format: Format::Ray,
         path: Some(PathBuf::from("somewhere/test.ray")),
         text: SCENE.to_owned(),
         quality: Quality { spp: 16, depth: 8 },

@@ -150,7 +150,7 @@ impl<'a> Reader<'a> {
                         f64::NAN
                     }
                 }
-                Kind::Reference => {
+                Kind::Reference(_) => {
                     let name = line.name;
                     let reference = self.identity(token, || format!("{name} {}", field.key));
                     line.references.push(reference);
@@ -234,7 +234,7 @@ fn no_choice(
     word: &str,
 ) -> Diagnostic {
     let message = format!("{name} {}: unknown word {}", field.key, quoted(word));
-    let diagnostic = Diagnostic::error(token, message, words.join(" or "));
+    let diagnostic = Diagnostic::error(token, message, field.expected());
     let same = words
         .iter()
         .copied()

@@ -14,6 +14,7 @@ use super::Lowered;
 use super::report::{nearest_word, quoted};
 use crate::format::dat::Tree;
 use crate::geometry::{Operation, Shape};
+use crate::scene::fields::Category;
 use crate::scene::fields::dat::{Heads, RECORDS, RecordKind, TextureKind};
 use crate::scene::origins::dat::{Origins, VIEW};
 use crate::scene::{self, Light, Material, Rgb, Scene, Source, Texture};
@@ -56,26 +57,6 @@ pub(super) fn lower(text: &str, tree: &Tree) -> Lowered {
         scene,
         origins: scene::Origins::Dat(reader.origins),
         diagnostics: reader.report.sorted(),
-    }
-}
-
-/// What numbers are given to: each category has its own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Category {
-    Light,
-    Material,
-    Texture,
-    Object,
-}
-
-impl Category {
-    fn word(self) -> &'static str {
-        match self {
-            Self::Light => "light",
-            Self::Material => "material",
-            Self::Texture => "texture",
-            Self::Object => "object",
-        }
     }
 }
 

@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Category, Reader, Solid, shapes};
+use super::{Reader, Solid, shapes};
 use crate::geometry::Node as CsgNode;
 use crate::geometry::{Csg, Operation, Quadric, Shape};
 use crate::scene::Object;
 use crate::scene::fields::dat::{HALF_SPACE, ObjectKind, RecordKind};
-use crate::scene::fields::{Range, numbers};
+use crate::scene::fields::{Category, Range, numbers};
 use crate::scene::lower::record::{Gathered, what};
 use crate::scene::lower::report::{no_number, quoted};
 use crate::scene::origins::Name;

@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::{Category, Reader};
+use super::Reader;
+use crate::scene::fields::Category;
 use crate::scene::fields::dat::{RecordKind, TextureKind, UseKind};
 use crate::scene::lower::record::{Gathered, unit};
 use crate::scene::origins::Name;

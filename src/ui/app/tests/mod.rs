@@ -1,15 +1,17 @@
 //! Keys, pastes and files in; text, state and effects out.
 
+mod dat;
 mod disk;
 mod editing;
 mod moving;
 mod pictures;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::*;
+use crate::format::Format;
 use crate::ui::msg::{Effect, Msg};
 use crate::ui::terminal::Mouse;
 
@@ -43,8 +45,13 @@ fn open(text: &str) -> App {
 }
 
 fn opened(text: &str) -> (App, Vec<Effect>) {
+    opened_as("scene.ray", text)
+}
+
+fn opened_as(name: &str, text: &str) -> (App, Vec<Effect>) {
     App::open(Opening {
-        path: Some(PathBuf::from("scene.ray")),
+        path: Some(PathBuf::from(name)),
+        format: Format::of_path(Path::new(name)).expect("a scene's name"),
         text: text.to_owned(),
         quality: Quality { spp: 4, depth: 8 },
         mouse: Mouse::On,

@@ -1,0 +1,124 @@
+//! What `.dat` has and `.ray` has not: words and references in fields, objects that are hidden.
+
+use super::*;
+use crate::scene::Node;
+
+/// Two materials, and three objects of which one combines the others.
+const SCENE: &str = "\
+camera perspective 0 -9 0  0 0 0  0 0 1  1 0.1 100
+resolution .01 .01
+viewport 40 30
+light ID 1 inf 0 0 0  0 1 -1  1 1 1  1 0 0 0 shadow_on
+mat ID 1  1 0 0  .1 .5 .4 9  0 0 1
+mat ID 7  0 0 1  .1 .5 .4 9  0 0 1
+obj sphere ID 1 mat ID 1  0 0 0  1
+obj sphere ID 2 mat ID 7  .5 0 0  1
+obj CSG ID 3 difference ID 1 ID 2
+obj sphere ID 4 mat ID 7  3 0 0  1
+";
+
+/// The interface with the cursor on a node.
+fn at(node: Node) -> App {
+    let mut app = opened_as("scene.dat", SCENE).0;
+    app.select(node);
+    app
+}
+
+/// The lines that keys change.
+fn changed(node: Node, said: &str) -> Vec<String> {
+    let mut app = at(node);
+    press(&mut app, said);
+    let text = app.document.text();
+    let lines = text
+        .lines()
+        .filter(|&line| !SCENE.lines().any(|old| old == line));
+    let changed = lines.map(str::to_owned).collect();
+    press(&mut app, "<Esc>uuu");
+    assert_eq!(app.document.text(), SCENE);
+    changed
+}
+
+#[test]
+fn a_choice_is_nudged_and_typed() {
+    let light = |source: &str, shadow: &str| {
+        [format!(
+            "light ID 1 {source} 0 0 0  0 1 -1  1 1 1  1 0 0 0 {shadow}"
+        )]
+    };
+    assert_eq!(changed(Node::Light(0), "el"), light("amb", "shadow_on"));
+    assert_eq!(changed(Node::Light(0), "eh"), light("pnt", "shadow_on"));
+    let typed = "eii<Back><Back><Back><Back>am<Enter>";
+    assert_eq!(changed(Node::Light(0), typed), light("amb", "shadow_on"));
+    assert_eq!(
+        changed(Node::Light(0), "ekkjjjjjjjjl"),
+        light("inf", "shadow_off")
+    );
+    let typed = "ei<Back><Back><Back>sun<Enter>";
+    assert!(changed(Node::Light(0), typed).is_empty());
+    let mut app = at(Node::Light(0));
+    press(&mut app, typed);
+    let refused = app
+        .typing
+        .as_ref()
+        .and_then(|typing| typing.refused.clone());
+    let refused = refused.expect("sun is no source");
+    assert!(
+        refused.expected.contains("pnt or inf or amb"),
+        "{refused:?}"
+    );
+}
+
+#[test]
+fn a_reference_goes_through_what_there_is() {
+    let ball = |material: u8| [format!("obj sphere ID 1 mat ID {material}  0 0 0  1")];
+    assert_eq!(changed(Node::Object(0), "el"), ball(7));
+    assert_eq!(changed(Node::Object(0), "eh"), ball(7));
+    assert_eq!(changed(Node::Object(0), "e7<Enter>"), ball(7));
+    assert!(changed(Node::Object(0), "e5<Enter>").is_empty());
+    let combined = changed(Node::Object(2), "ejl");
+    assert_eq!(combined, ["obj CSG ID 3 difference ID 2 ID 2"]);
+}
+
+#[test]
+fn objects_are_hidden_and_shown_by_the_render_record() {
+    assert_eq!(changed(Node::Object(3), " "), ["render 1 ID 3"]);
+    assert_eq!(changed(Node::Object(0), " "), ["render 3 ID 1 ID 3 ID 4"]);
+    let mut app = at(Node::Object(3));
+    assert_eq!(app.origins.drawn(3), Some(1));
+    press(&mut app, " ");
+    assert_eq!(
+        (app.origins.drawn(3), words(&app)),
+        (None, "object 4 (sphere) is hidden")
+    );
+    assert_eq!(app.scene.as_ref().map(|scene| scene.objects.len()), Some(1));
+    press(&mut app, " ");
+    assert_eq!(app.origins.drawn(3), Some(1));
+    press(&mut app, " ");
+    app.select(Node::Object(2));
+    press(&mut app, " ");
+    assert_eq!(words(&app), "the last object that is drawn can't be hidden");
+    app.select(Node::Light(0));
+    press(&mut app, " ");
+    assert_eq!(words(&app), "only objects are shown or hidden");
+}
+
+#[test]
+fn a_combination_shows_its_parts() {
+    assert_eq!(
+        at(Node::Object(2)).parts(),
+        [(1, Node::Object(0)), (1, Node::Object(1))]
+    );
+    assert_eq!(at(Node::Object(0)).parts(), []);
+}
+
+#[test]
+fn a_scene_keeps_its_language() {
+    let mut app = at(Node::View);
+    assert!(press(&mut app, ":w other.ray<Enter>").is_empty());
+    assert_eq!(words(&app), "other.ray: this scene's name ends in .dat");
+    let effects = press(&mut app, ":w other.DAT<Enter>");
+    assert!(wants(&effects, |effect| matches!(
+        effect,
+        Effect::Save { .. }
+    )));
+}
