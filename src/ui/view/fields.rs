@@ -152,7 +152,7 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
         format!(" {}", field.field.unit)
     };
     let nudge = match field.field.kind {
-        Kind::Choice(_) | Kind::Reference(_) => " · h l go through them".to_owned(),
+        Kind::Choice(_) | Kind::Reference(_) => " · h l: the next".to_owned(),
         Kind::Word => String::new(),
         _ => format!(" · step {}{unit}", app.step(field.field)),
     };

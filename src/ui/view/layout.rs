@@ -190,15 +190,20 @@ pub fn field_notes(fields: Rect) -> Rect {
     split_fields(fields).1
 }
 
-/// The cells of a field's name, two for a sign and a gap at its end included, and of each of its components in a line of the fields panel.
+/// The cells of a field's name, two for a sign and a gap at its end included, and of each of its
+/// components in a line of the fields panel.
 pub fn field_columns(line: Rect, components: usize) -> (Rect, Vec<Rect>) {
-    let key = (line.width / 3).clamp(6, 11).min(line.width);
+    let widest = if line.width < 42 { 11 } else { 13 };
+    let key = (line.width / 3).clamp(6, widest).min(line.width);
     // What three equal columns leave over makes room for a longer name.
-    let key = (key + (line.width - key) % 3).min(11);
+    let key = (key + (line.width - key) % 3).min(widest);
     let numbers = line.width - key;
     let name = Rect { width: key, ..line };
     // Two components are as wide as two of three, so that numbers stand in columns.
-    let each = if components < 2 { numbers } else { numbers / 3 };
+    let each = match components {
+        0 | 1 => numbers,
+        several => numbers / several.max(3) as u16,
+    };
     let columns = (0..components as u16)
         .map(|at| Rect {
             x: line.x + key + at * each,

@@ -51,6 +51,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
             // Not reversed with the selected line: the dot is to show its own colour.
             Some(colour) if is_drawn => row.put("● ", theme::swatch(colour)),
             Some(colour) => row.put("○ ", theme::swatch(colour)),
+            None if !is_drawn => row.put("○ ", style),
             None => row.put("  ", style),
         };
         let name = app.origins.name(node);
