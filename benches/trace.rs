@@ -49,26 +49,28 @@ fn main() {
         "Mray/s 1",
         format!("Mray/s {cores}")
     );
-    for (name, text) in measured() {
+    for (name, format, text) in measured() {
         if wanted.is_empty() || wanted.iter().any(|part| name.contains(part.as_str())) {
-            row(&name, &text(), cores);
+            row(&name, format, &text(), cores);
         }
     }
 }
 
 type Text = Box<dyn Fn() -> String>;
 
-/// The scenes by name: the project's own and the generated ones.
-fn measured() -> Vec<(String, Text)> {
+/// The scenes by name, with their language: the project's own and the generated ones.
+fn measured() -> Vec<(String, Format, Text)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let entries = std::fs::read_dir(folder).expect("the scenes are there");
     let mut own: Vec<_> = entries
         .map(|entry| entry.expect("a scene").path())
         .collect();
-    own.retain(|path| Format::of_path(path).is_ok());
     own.sort();
-    let mut measured: Vec<(String, Text)> = Vec::new();
+    let mut measured: Vec<(String, Format, Text)> = Vec::new();
     for path in own {
+        let Ok(format) = Format::of_path(&path) else {
+            continue;
+        };
         let name = path
             .file_name()
             .unwrap_or_default()
@@ -76,25 +78,40 @@ fn measured() -> Vec<(String, Text)> {
             .into_owned();
         measured.push((
             name,
+            format,
             Box::new(move || std::fs::read_to_string(&path).expect("a scene")),
         ));
     }
-    measured.push(("flake of 7,381".into(), Box::new(|| scenes::sphereflake(4))));
-    measured.push((
-        "1,000,000 spheres".into(),
-        Box::new(|| scenes::random_spheres(1_000_000, 1)),
-    ));
+    let generated: [(&str, Format, Text); 3] = [
+        (
+            "flake of 7,381",
+            Format::Ray,
+            Box::new(|| scenes::sphereflake(4)),
+        ),
+        (
+            "1,000,000 spheres",
+            Format::Ray,
+            Box::new(|| scenes::random_spheres(1_000_000, 1)),
+        ),
+        (
+            "200 CSG trees",
+            Format::Dat,
+            Box::new(|| scenes::set_operations(200)),
+        ),
+    ];
+    let generated = generated.into_iter();
+    measured.extend(generated.map(|(name, format, text)| (name.to_owned(), format, text)));
     measured
 }
 
-fn row(name: &str, text: &str, cores: usize) {
-    let (parse, tree) = median(|| format::parse(Format::Ray, text));
+fn row(name: &str, format: Format, text: &str, cores: usize) {
+    let (parse, tree) = median(|| format::parse(format, text));
     let (lowering, lowered) = median(|| lower(text, &tree));
     drop((tree, lowered));
 
     // What an open document costs beside its text: tokens, origins, scene and acceleration tree.
     let before = resident();
-    let tree = format::parse(Format::Ray, text);
+    let tree = format::parse(format, text);
     let mut lowered = lower(text, &tree);
     let scene = Arc::new(lowered.scene.take().expect("a scene without errors"));
     let boxes: Vec<Aabb> = scene

@@ -1,4 +1,4 @@
-//! Scenes to measure with, as `.ray` text made up on the spot.
+//! Scenes to measure with, as text made up on the spot.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::fmt::Write as _;
@@ -59,6 +59,68 @@ pub(crate) fn random_spheres(count: usize, seed: u64) -> String {
             &mut text,
             format_args!(
                 "sphere\n{x:.5} {y:.5} {z:.5} {radius:.5}\n{colour}\n{colour}\n.3 .3 .3\n20 0 0 1\n"
+            ),
+        );
+    }
+    text
+}
+
+/// Writes a `.dat` scene of `count` combined objects over a floor: by turns a box without the ball
+/// and the rod that go through it, and what a ball, a box and a cylinder have in common, each
+/// turned at random, in one of many colours.
+pub(crate) fn set_operations(count: usize) -> String {
+    let mut text = String::from(
+        "camera perspective 2.6 -6 5  0 0 0  0 0 1  1 .01 100\n\
+         resolution .0010110 .0010110\nviewport 1280 720\n\
+         light ID 1 pnt 4 -6 8  0 0 0  .9 .9 .9  1 0 0 0 shadow_on\n\
+         light ID 2 amb 0 0 0  0 0 0  .1 .1 .1  1 0 0 0 shadow_off\n\
+         mat ID 0 .6 .6 .6  1 1 0 1  0 0 1\n\
+         obj box ID 0 mat ID 0 0 0 -.7  1 0 0 0 1 0 0 0 1 20 20 .2\n",
+    );
+    let mut state = 5;
+    for index in 0..count {
+        let (column, row) = ((index % 20) as f64, (index / 20) as f64);
+        let (x, y) = ((column - 9.5) * 0.4, (row - 4.5) * 0.55);
+        let [red, green, blue] = [(); 3].map(|()| 0.2 + 0.7 * unit(&mut state));
+        let turn = 2.0 * PI * unit(&mut state);
+        let towards = [0.0, turn.sin(), turn.cos()];
+        let [u, v, w] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+            .map(|axis| rotate(lean(axis, towards), [0.0, 0.0, 1.0], 3.0 * turn));
+        let say = |axis: Vector| format!("{:.9} {:.9} {:.9}", axis[0], axis[1], axis[2]);
+        let place = format!("mat ID {} {x} {y} 0", index + 1);
+        let id = 1 + 5 * index;
+        put(
+            &mut text,
+            format_args!(
+                "mat ID {} {red:.3} {green:.3} {blue:.3}  1 1 .4 30  0 .15 1\n\
+                 obj box ID {} {place}  {} {} {}  .3 .3 .3\n\
+                 obj sphere ID {} {place}  .19\n",
+                index + 1,
+                id,
+                say(u),
+                say(v),
+                say(w),
+                id + 1
+            ),
+        );
+        let (axis, radius, length, word) = if index % 2 == 0 {
+            (w, 0.06, 0.4, "difference")
+        } else {
+            (u, 0.16, 0.6, "intersection")
+        };
+        put(
+            &mut text,
+            format_args!(
+                "obj cylinder ID {} {place}  {}  {radius} {length}\n\
+                 obj CSG ID {} {word} ID {} ID {}\nobj CSG ID {} {word} ID {} ID {}\n",
+                id + 2,
+                say(axis),
+                id + 3,
+                id,
+                id + 1,
+                id + 4,
+                id + 3,
+                id + 2
             ),
         );
     }
