@@ -319,13 +319,14 @@ fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
         depth: DEFAULT_DEPTH,
         seed: 0,
     };
-    renderer.restart(Job {
+    let job = Job {
         scene: Arc::clone(scene),
         images: Images::default(),
         camera: scene.camera,
         settings,
         frames: Frames::Live,
-    });
+    };
+    renderer.restart(job).expect("the worker runs");
     (renderer, woken)
 }
 

@@ -365,15 +365,35 @@ fn a_full_device_is_an_error() {
     assert!(!Path::new("/dev/full").is_file());
 }
 
-/// Runs the program with files limited to 1 KiB: writing more fails, as on a full disk.
+/// Runs the program from a shell that was told something before.
 #[cfg(unix)]
-fn on_a_full_disk(place: &Place, line: &str) -> Output {
-    let script = format!("ulimit -f 1; exec {BINARY} {line}");
+fn in_shell(place: &Place, before: &str, line: &str) -> Output {
+    let script = format!("{before}; exec {BINARY} {line}");
     let mut shell = Command::new("bash");
     let shell = shell
         .args(["-c", &script])
         .current_dir(place.directory.path());
     shell.output().expect("it starts")
+}
+
+/// Runs the program with files limited to 1 KiB: writing more fails, as on a full disk.
+#[cfg(unix)]
+fn on_a_full_disk(place: &Place, line: &str) -> Output {
+    in_shell(place, "ulimit -f 1", line)
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_picture_that_memory_does_not_hold_is_an_error() {
+    let place = Place::new();
+    let line = "render ball.ray -o a.ppm --size 16384x16384 --threads 1";
+    let output = in_shell(&place, "ulimit -v 2000000", line);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    let expected = "error: 16384x16384: tracing it takes ";
+    assert!(told.starts_with(expected), "{told}");
+    assert_eq!(told.lines().count(), 1, "{told}");
+    assert_eq!(place.names(), ["ball.ray"]);
 }
 
 #[test]

@@ -123,13 +123,14 @@ fn trace(scene: &Arc<Scene>, size: Size, spp: u32) -> Arc<Frame> {
         depth: DEFAULT_DEPTH,
         seed: 0,
     };
-    renderer.restart(Job {
+    let job = Job {
         scene: Arc::clone(scene),
         images: Images::default(),
         camera: scene.camera,
         settings,
         frames: Frames::Last,
-    });
+    };
+    renderer.restart(job).expect("the worker runs");
     loop {
         woken.recv().expect("the worker runs");
         if let Some(frame) = renderer.latest().filter(|frame| frame.progress.complete) {

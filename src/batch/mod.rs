@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use crate::file::{self, ReadError};
 use crate::format::{self, Format, Tree, UnknownLanguage};
+use crate::render::Refusal;
 use crate::scene::fields::Kind;
 use crate::scene::{self, Node, Origins, Scene};
 use crate::text::{Diagnostic, Span, counted, visible};
@@ -50,6 +51,9 @@ pub enum Error {
         /// What the system said.
         source: io::Error,
     },
+    /// The machine can't trace the picture.
+    #[error(transparent)]
+    Untraced(#[from] Refusal),
     /// The renderer ended without a picture.
     #[error("the renderer stopped early; please report this with the scene")]
     Stopped,

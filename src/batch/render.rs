@@ -119,9 +119,7 @@ fn trace(work: &Render, scene: Scene, size: Size) -> Result<Arc<Frame>, Error> {
         // The receiver is gone only while the renderer is being dropped.
         let _ = wake.send(());
     });
-    if renderer.restart(job).is_none() {
-        return Err(Error::Stopped);
-    }
+    renderer.restart(job)?;
     let mut line = ProgressLine::new();
     while woken.recv().is_ok() {
         let Some(frame) = renderer.latest() else {

@@ -131,7 +131,7 @@ pub fn exit_code(outcome: &Result<(), batch::Error>) -> u8 {
         Error::UnknownLanguage(_) | Error::Invalid { .. } => INVALID,
         Error::Refused(_) => USAGE,
         Error::Create { .. } => NO_OUTPUT,
-        Error::Write { .. } | Error::Stopped => FAILED,
+        Error::Write { .. } | Error::Untraced(_) | Error::Stopped => FAILED,
     }
 }
 

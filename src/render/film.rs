@@ -1,5 +1,6 @@
 //! The picture under way: what every pixel has gathered, in tiles that threads fill side by side.
 
+use std::collections::TryReserveError;
 use std::ops::Range;
 
 use rayon::prelude::*;
@@ -7,47 +8,23 @@ use rayon::prelude::*;
 use super::camera::Projection;
 use super::frame::{NO_OBJECT, Settings};
 use super::sampler::place_in_pixel;
+use super::steps::{COARSEST, Step};
 use super::tone::to_bytes;
 use super::whitted::{Counts, Tracer};
 use super::world::World;
 use crate::scene::{Rgb, Size};
 
-/// Pixels along a tile's edge; a multiple of the coarsest [`Step::Grid`].
-const TILE: u32 = 16;
-
 /// Pixels of a tile.
-const AREA: usize = (TILE * TILE) as usize;
+const AREA: u32 = 256;
+
+/// Pixels along the edges of most tiles; a multiple of the coarsest [`Step::Grid`].
+const TILE: u32 = 16;
 
 /// Pixels developed without asking whether to stop: less than two milliseconds.
 const QUIET: usize = 65_536;
 
 /// Tiles freed at once: about four megabytes, less than a millisecond.
 const FREED: usize = 512;
-
-/// What one walk over all tiles adds.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Step {
-    /// Sample 0 of the pixels on a grid of this spacing that no coarser grid holds.
-    Grid(u32),
-    /// These samples of every pixel.
-    Samples(Range<u32>),
-}
-
-/// Spacings of the grids that sample 0 is taken on, coarse to fine, as in Adam7: each shows the
-/// whole picture, and none of its samples is wasted.
-const GRIDS: [u32; 4] = [8, 4, 2, 1];
-
-/// The steps to `spp` samples a pixel: sample 0 from coarse to fine, then 1, 2, 4, 8 … more.
-pub(crate) fn steps(spp: u32) -> Vec<Step> {
-    let mut steps = GRIDS.map(Step::Grid).to_vec();
-    let mut taken = 1;
-    while taken < spp {
-        let next = (2 * taken).min(spp);
-        steps.push(Step::Samples(taken..next));
-        taken = next;
-    }
-    steps
-}
 
 /// Everything a tile needs to be traced.
 #[derive(Debug)]
@@ -64,9 +41,19 @@ pub(crate) struct Shot<'w> {
 #[derive(Debug)]
 pub(crate) struct Film {
     size: Size,
+    shape: TileShape,
     /// Those that a step has come to; there is room for all. A large picture's memory takes long to
     /// be first touched: it is, tile by tile, by the threads that trace.
     tiles: Vec<Tile>,
+    /// Room for the finished picture: what long work has made must not be lost for want of it.
+    room: Raster,
+}
+
+/// A picture takes more memory than the system gives.
+#[derive(Debug)]
+pub(crate) struct NoMemory {
+    /// How many bytes it takes.
+    pub(crate) bytes: u64,
 }
 
 /// Pixels row by row, and the index of the object under each.
@@ -76,14 +63,63 @@ pub(crate) struct Raster {
     pub(crate) objects: Vec<u32>,
 }
 
+impl Raster {
+    /// Room for so many pixels.
+    fn with_room(count: usize) -> Result<Self, TryReserveError> {
+        let mut room = Self::default();
+        room.pixels.try_reserve_exact(count)?;
+        room.objects.try_reserve_exact(count)?;
+        Ok(room)
+    }
+}
+
+/// The pixels along a tile's edges.
+#[derive(Clone, Copy, Debug)]
+struct TileShape {
+    width: u32,
+    height: u32,
+}
+
+impl TileShape {
+    /// Squares, unless the picture is narrower or lower than those: what of a tile lies beyond the
+    /// picture takes memory too, and grids begin at its edges.
+    fn of(size: Size) -> Self {
+        let edge = |pixels: u32| pixels.min(TILE).next_power_of_two();
+        if size.height < TILE {
+            let height = edge(size.height);
+            Self {
+                width: AREA / height,
+                height,
+            }
+        } else {
+            let width = edge(size.width);
+            Self {
+                width,
+                height: AREA / width,
+            }
+        }
+    }
+
+    /// Tiles along each row of a picture.
+    fn across(self, size: Size) -> usize {
+        size.width.div_ceil(self.width) as usize
+    }
+
+    /// Tiles of a picture.
+    fn count(self, size: Size) -> usize {
+        self.across(size) * size.height.div_ceil(self.height) as usize
+    }
+}
+
 #[derive(Debug)]
 struct Tile {
     /// Its top left pixel.
     corner: [u32; 2],
+    shape: TileShape,
     /// Sums of radiance, row by row; pixels beyond the picture's edge stay 0.
-    sums: [Rgb; AREA],
+    sums: [Rgb; AREA as usize],
     /// The object under each pixel's centre.
-    objects: [u32; AREA],
+    objects: [u32; AREA as usize],
     /// Spacing of the finest grid traced, while there are no whole samples.
     grid: u32,
     /// Samples that every pixel has.
@@ -91,17 +127,33 @@ struct Tile {
 }
 
 impl Film {
-    /// An empty film.
-    pub(crate) fn new(size: Size) -> Self {
-        Self {
-            size,
-            tiles: Vec::with_capacity(tiles(size)),
-        }
+    /// An empty film, with room for all that it and the finished picture take.
+    pub(crate) fn new(size: Size) -> Result<Self, NoMemory> {
+        let shape = TileShape::of(size);
+        let count = shape.count(size);
+        let film = || {
+            let mut tiles = Vec::new();
+            tiles.try_reserve_exact(count)?;
+            Ok(Self {
+                size,
+                shape,
+                tiles,
+                room: Raster::with_room(size.pixels())?,
+            })
+        };
+        film().map_err(|_: TryReserveError| {
+            let bytes = |count: usize, each: usize| (count as u64).saturating_mul(each as u64);
+            let developed = size_of::<[u8; 3]>() + size_of::<u32>();
+            let tiles = bytes(count, size_of::<Tile>());
+            NoMemory {
+                bytes: tiles.saturating_add(bytes(size.pixels(), developed)),
+            }
+        })
     }
 
     /// How many tiles there are.
     pub(crate) fn tiles(&self) -> usize {
-        tiles(self.size)
+        self.shape.count(self.size)
     }
 
     /// How many tiles a step has come to.
@@ -119,10 +171,12 @@ impl Film {
         shot: &Shot<'_>,
         cancelled: impl Fn() -> bool + Sync,
     ) -> Counts {
-        let size = self.size;
+        let (size, shape) = (self.size, self.shape);
         let new = self.tiles.len()..tiles.end;
-        self.tiles
-            .par_extend(new.into_par_iter().map(|number| Tile::new(number, size)));
+        self.tiles.par_extend(
+            new.into_par_iter()
+                .map(|number| Tile::new(number, size, shape)),
+        );
         self.tiles[tiles]
             .par_iter_mut()
             .map_init(
@@ -138,13 +192,19 @@ impl Film {
 
     /// The pixels as far as they are known, on the threads of the current pool: where only a coarse
     /// grid is traced, its nearest point up and to the left stands for them. Every tile has been
-    /// come to. `None` once `cancelled` says so.
+    /// come to. `None` once `cancelled` says so, or where there is no memory for them.
     pub(crate) fn develop(&self, cancelled: impl Fn() -> bool) -> Option<Raster> {
+        self.develop_in(Raster::with_room(self.size.pixels()).ok()?, cancelled)
+    }
+
+    /// As [`Film::develop`], but only once, and there is memory for it.
+    pub(crate) fn finish(&mut self, cancelled: impl Fn() -> bool) -> Option<Raster> {
+        let room = std::mem::take(&mut self.room);
+        self.develop_in(room, cancelled)
+    }
+
+    fn develop_in(&self, mut raster: Raster, cancelled: impl Fn() -> bool) -> Option<Raster> {
         let count = self.size.pixels();
-        let mut raster = Raster {
-            pixels: Vec::with_capacity(count),
-            objects: Vec::with_capacity(count),
-        };
         for start in (0..count).step_by(QUIET) {
             if cancelled() {
                 return None;
@@ -183,26 +243,26 @@ impl Film {
         // A picture has no more pixels each way than 32 bits count.
         let width = self.size.width as usize;
         let (x, y) = ((at % width) as u32, (at / width) as u32);
-        let across = self.size.width.div_ceil(TILE);
-        let tile = &self.tiles[(y / TILE) as usize * across as usize + (x / TILE) as usize];
+        let TileShape { width, height } = self.shape;
+        let row = (y / height) as usize * self.shape.across(self.size);
+        let tile = &self.tiles[row + (x / width) as usize];
         (tile, tile.known(x, y))
     }
 }
 
-/// How many tiles a picture has.
-fn tiles(size: Size) -> usize {
-    size.width.div_ceil(TILE) as usize * size.height.div_ceil(TILE) as usize
-}
-
 impl Tile {
     /// An empty tile, by its place in the film.
-    fn new(number: usize, size: Size) -> Self {
-        let across = size.width.div_ceil(TILE) as usize;
+    fn new(number: usize, size: Size, shape: TileShape) -> Self {
+        let across = shape.across(size);
         Self {
-            corner: [number % across, number / across].map(|tiles| tiles as u32 * TILE),
-            sums: [Rgb::ZERO; AREA],
-            objects: [NO_OBJECT; AREA],
-            grid: GRIDS[0],
+            corner: [
+                (number % across) as u32 * shape.width,
+                (number / across) as u32 * shape.height,
+            ],
+            shape,
+            sums: [Rgb::ZERO; AREA as usize],
+            objects: [NO_OBJECT; AREA as usize],
+            grid: COARSEST,
             samples: 0,
         }
     }
@@ -219,7 +279,7 @@ impl Tile {
             &Step::Grid(spacing) => {
                 let coarser = 2 * spacing;
                 let held =
-                    |[x, y]: [u32; 2]| spacing < GRIDS[0] && x % coarser == 0 && y % coarser == 0;
+                    |[x, y]: [u32; 2]| spacing < COARSEST && x % coarser == 0 && y % coarser == 0;
                 for pixel in self.pixels(size, spacing).filter(|&pixel| !held(pixel)) {
                     if cancelled() {
                         return;
@@ -267,7 +327,8 @@ impl Tile {
     /// Its pixels within the picture on a grid of some spacing, row by row.
     fn pixels(&self, size: Size, spacing: u32) -> impl Iterator<Item = [u32; 2]> + use<> {
         let [left, top] = self.corner;
-        let [right, bottom] = [size.width.min(left + TILE), size.height.min(top + TILE)];
+        let right = left + (size.width - left).min(self.shape.width);
+        let bottom = top + (size.height - top).min(self.shape.height);
         (top..bottom)
             .step_by(spacing as usize)
             .flat_map(move |y| (left..right).step_by(spacing as usize).map(move |x| [x, y]))
@@ -283,6 +344,6 @@ impl Tile {
     }
 
     fn index(&self, x: u32, y: u32) -> usize {
-        ((y - self.corner[1]) * TILE + (x - self.corner[0])) as usize
+        ((y - self.corner[1]) * self.shape.width + (x - self.corner[0])) as usize
     }
 }

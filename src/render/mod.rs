@@ -10,7 +10,7 @@
 //! the pool to free.
 //!
 //! The way of a picture: [`renderer`] hands a job to [`worker`], which builds a [`world`] and fills
-//! a [`film`] pass by pass; each sample asks [`sampler`] for its place in the pixel, [`camera`] for
+//! a [`film`] in [`steps`]; each sample asks [`sampler`] for its place in the pixel, [`camera`] for
 //! its ray and [`whitted`] for its radiance; [`tone`] makes the film a frame.
 
 mod camera;
@@ -19,6 +19,7 @@ mod frame;
 mod renderer;
 mod sampler;
 mod shared;
+mod steps;
 mod texture;
 mod tone;
 mod whitted;
@@ -28,7 +29,7 @@ mod world;
 pub use frame::{
     DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress, Settings,
 };
-pub use renderer::{Renderer, Threads};
+pub use renderer::{Refusal, Renderer, Threads};
 
 #[cfg(test)]
 mod tests;

@@ -6,9 +6,11 @@ use std::thread::JoinHandle;
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use super::film::{Film, NoMemory};
 use super::frame::{Frame, Job};
 use super::shared::Shared;
-use super::worker;
+use super::worker::{self, Order};
+use crate::scene::Size;
 
 /// How many threads trace, and how they stand beside other work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,12 +23,33 @@ pub enum Threads {
     Exactly(usize),
 }
 
+/// Why a job is not traced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Refusal {
+    /// The worker has ended, by a panic or because the system gave it no threads; what its `wake`
+    /// owned is dropped.
+    #[error("the system gives no threads to trace with")]
+    Ended,
+    /// The picture takes more memory than there is.
+    #[error(
+        "{}x{}: tracing it takes {:.1} GB of memory, more than the system gives; a smaller size \
+         takes less",
+        size.width, size.height, *bytes as f64 / 1e9
+    )]
+    Memory {
+        /// Its size.
+        size: Size,
+        /// What tracing it takes.
+        bytes: u64,
+    },
+}
+
 /// A worker that traces the newest job it was given. Dropping it cancels the work and joins.
 #[derive(Debug)]
 pub struct Renderer {
     shared: Arc<Shared>,
     /// `None` only while it is dropped.
-    jobs: Option<Sender<(u64, Job)>>,
+    orders: Option<Sender<Order>>,
     worker: Option<JoinHandle<()>>,
 }
 
@@ -35,7 +58,7 @@ impl Renderer {
     /// once until [`Renderer::latest`] is next called.
     pub fn new(threads: Threads, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let shared = Arc::new(Shared::default());
-        let (jobs, inbox) = mpsc::channel();
+        let (orders, inbox) = mpsc::channel();
         let for_worker = Arc::clone(&shared);
         let worker = std::thread::spawn(move || {
             if let Ok(pool) = pool(threads) {
@@ -44,19 +67,26 @@ impl Renderer {
         });
         Self {
             shared,
-            jobs: Some(jobs),
+            orders: Some(orders),
             worker: Some(worker),
         }
     }
 
     /// Makes `job` the one to trace and returns its generation, greater than all before. What is
-    /// under way is cancelled, but for a first coarse picture younger than 50 ms. `None` if the
-    /// worker has ended, by a panic or because the system gave it no threads; what `wake` owns is
-    /// dropped then.
-    pub fn restart(&self, job: Job) -> Option<u64> {
+    /// under way is cancelled, but for a first coarse picture younger than 50 ms; a refused job
+    /// cancels nothing.
+    pub fn restart(&self, job: Job) -> Result<u64, Refusal> {
+        let size = job.settings.size;
+        let film = Film::new(size).map_err(|NoMemory { bytes }| Refusal::Memory { size, bytes })?;
         let generation = self.shared.begin();
-        self.jobs.as_ref()?.send((generation, job)).ok()?;
-        Some(generation)
+        let order = Order {
+            generation,
+            job,
+            film,
+        };
+        let orders = self.orders.as_ref().ok_or(Refusal::Ended)?;
+        orders.send(order).map_err(|_| Refusal::Ended)?;
+        Ok(generation)
     }
 
     /// The newest frame since the last call, if there is one.
@@ -68,7 +98,7 @@ impl Renderer {
 impl Drop for Renderer {
     fn drop(&mut self) {
         self.shared.quit();
-        drop(self.jobs.take());
+        drop(self.orders.take());
         if let Some(worker) = self.worker.take() {
             // The panic hook has told of a panic already.
             let _ = worker.join();

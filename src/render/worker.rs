@@ -7,9 +7,10 @@ use std::time::{Duration, Instant};
 use rayon::ThreadPool;
 
 use super::camera::Projection;
-use super::film::{Film, Raster, Shot, Step, steps};
+use super::film::{Film, Raster, Shot};
 use super::frame::{Frame, Frames, Job, Progress};
 use super::shared::Shared;
+use super::steps::{Step, steps};
 use super::whitted::Counts;
 use super::world::World;
 use crate::scene::Size;
@@ -25,28 +26,39 @@ const GRACE: Duration = Duration::from_millis(50);
 /// The work handed to the pool at once takes about this long; progress is published in between.
 const BATCH: Duration = Duration::from_millis(8);
 
+/// A job and what it needs.
+pub(crate) struct Order {
+    pub(crate) generation: u64,
+    pub(crate) job: Job,
+    pub(crate) film: Film,
+}
+
 /// Traces jobs until the renderer is dropped, or a panic ends the thread.
 pub(crate) fn run<W: Fn() + Sync>(
-    jobs: &Receiver<(u64, Job)>,
+    orders: &Receiver<Order>,
     shared: &Shared,
     wake: &W,
     pool: &ThreadPool,
 ) {
     let mut world = None;
-    while let Ok(newest) = jobs.recv() {
-        let (generation, job) = jobs.try_iter().last().unwrap_or(newest);
-        world = pool.install(|| trace(generation, &job, shared, wake, world.take()));
+    while let Ok(newest) = orders.recv() {
+        let order = orders.try_iter().last().unwrap_or(newest);
+        world = pool.install(|| trace(order, shared, wake, world.take()));
     }
 }
 
 /// Traces a job to its end, unless it is cancelled; returns the world for the next job.
 fn trace<W: Fn() + Sync>(
-    generation: u64,
-    job: &Job,
+    order: Order,
     shared: &Shared,
     wake: &W,
     previous: Option<World>,
 ) -> Option<World> {
+    let Order {
+        generation,
+        job,
+        film,
+    } = order;
     let begun = Instant::now();
     // A newer job does not cancel the building: it may need the same structure, and if a held key
     // moved the objects of a large scene, no structure would ever be finished.
@@ -65,7 +77,7 @@ fn trace<W: Fn() + Sync>(
         built: Instant::now(),
         shared,
     };
-    let mut picture = Picture::new(ticket, begun, job, wake);
+    let mut picture = Picture::new(ticket, begun, &job, film, wake);
     for step in steps(job.settings.spp) {
         if !picture.take(&step, &shot) {
             break;
@@ -122,12 +134,12 @@ struct Picture<'s, W> {
 }
 
 impl<'s, W: Fn() + Sync> Picture<'s, W> {
-    fn new(ticket: Ticket<'s>, begun: Instant, job: &Job, wake: &'s W) -> Self {
+    fn new(ticket: Ticket<'s>, begun: Instant, job: &Job, film: Film, wake: &'s W) -> Self {
         Self {
             ticket,
             wake,
             begun,
-            film: Film::new(job.settings.size),
+            film,
             size: job.settings.size,
             spp: job.settings.spp,
             frames: job.frames,
@@ -143,12 +155,6 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
 
     /// Takes a step; `false` if it was cancelled.
     fn take(&mut self, step: &Step, shot: &Shot<'_>) -> bool {
-        let (share, whole_after) = match step {
-            // A grid holds a quarter of the next finer one's points, itself included.
-            &Step::Grid(8) => (1.0 / 64.0, 0),
-            &Step::Grid(spacing) => (0.75 / f64::from(spacing * spacing), u32::from(spacing == 1)),
-            Step::Samples(indices) => (f64::from(indices.end - indices.start), indices.end),
-        };
         if let Step::Samples(_) = step {
             self.pass += 1;
         }
@@ -168,13 +174,13 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
             }
             self.batch = next_batch(self.batch, begun.elapsed());
             next = until;
-            self.taken = before + share * (next as f64 / tiles as f64);
+            self.taken = before + step.share() * (next as f64 / tiles as f64);
             if next < tiles && self.is_due() {
                 self.publish();
             }
         }
-        self.whole_samples = whole_after;
-        let complete = whole_after == self.spp;
+        self.whole_samples = step.whole_after();
+        let complete = self.whole_samples == self.spp;
         if complete || self.is_due() || self.is_first_due(step) {
             self.publish();
         }
@@ -205,12 +211,12 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
     fn publish(&mut self) {
         let begun = Instant::now();
         let complete = self.whole_samples == self.spp;
-        let raster = if complete || self.frames == Frames::Live {
-            let shown = self.published.is_some();
-            let ticket = self.ticket;
-            self.film.develop(|| ticket.unwanted(shown))
-        } else {
-            Some(Raster::default())
+        let (ticket, shown) = (self.ticket, self.published.is_some());
+        let unwanted = || ticket.unwanted(shown);
+        let raster = match self.frames {
+            _ if complete => self.film.finish(unwanted),
+            Frames::Live => self.film.develop(unwanted),
+            Frames::Last => Some(Raster::default()),
         };
         let Some(Raster { pixels, objects }) = raster else {
             return;

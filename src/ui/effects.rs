@@ -17,7 +17,7 @@ use super::terminal::{self, Input, Terminal};
 use super::terminal::{Signals, suspend_process};
 use crate::file;
 use crate::image_out;
-use crate::render::{Frame, Job, Renderer, Threads};
+use crate::render::{Frame, Job, Refusal, Renderer, Threads};
 use crate::watch::{Method, Watcher};
 
 /// Something that came in.
@@ -217,13 +217,15 @@ impl World {
             Target::Export => &mut self.export,
         };
         let running = slot.get_or_insert_with(&mut start);
-        let generation = running.renderer.restart(job.clone());
-        // A worker that a panic has ended is replaced: the panic has cost one picture only.
-        let generation = generation.or_else(|| slot.insert(start()).renderer.restart(job));
-        generation.map_or_else(
-            || Msg::Failed("the system gives no threads to trace with".into()),
-            |generation| Msg::Started(target, generation),
-        )
+        let started = match running.renderer.restart(job.clone()) {
+            // A worker that a panic has ended is replaced: the panic has cost one picture only.
+            Err(Refusal::Ended) => slot.insert(start()).renderer.restart(job),
+            started => started,
+        };
+        match started {
+            Ok(generation) => Msg::Started(target, generation),
+            Err(refusal) => Msg::Refused(target, refusal.to_string()),
+        }
     }
 
     fn stop(&mut self, target: Target) {

@@ -39,6 +39,8 @@ pub enum Msg {
     Resize(u16, u16),
     /// A picture was begun; its generation.
     Started(Target, u64),
+    /// A picture can't be begun; why.
+    Refused(Target, String),
     /// A newer frame is there.
     Frame(Target, Arc<Frame>),
     /// Whoever traced this picture has ended unasked, by a panic or for want of threads.
@@ -112,7 +114,7 @@ pub enum SaveOutcome {
 /// Something that touches the world.
 #[derive(Clone, Debug)]
 pub enum Effect {
-    /// Trace this picture from here on: [`Msg::Started`], [`Msg::Frame`].
+    /// Trace this picture from here on: [`Msg::Started`], [`Msg::Frame`]; or [`Msg::Refused`].
     Trace(Target, Job),
     /// Trace it no longer.
     Stop(Target),

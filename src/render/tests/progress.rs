@@ -2,7 +2,12 @@
 
 use std::cell::Cell;
 
-use super::super::film::{Film, Shot, Step, steps};
+use super::super::Refusal;
+use super::super::camera::Projection;
+use super::super::film::{Film, Shot};
+use super::super::sampler::place_in_pixel;
+use super::super::steps::{Step, steps};
+use super::super::tone::to_bytes;
 use super::*;
 
 /// Glass, a mirror and a matte ball on a floor.
@@ -98,7 +103,7 @@ fn cancelled_jobs_leave_no_trace() {
 fn one_sample_is_the_pixel_centre() {
     let scene = still();
     let frame = trace(&scene, settings(20, 15, 1), 1);
-    let projection = crate::render::camera::Projection::new(
+    let projection = Projection::new(
         &scene.camera,
         Size {
             width: 20,
@@ -109,8 +114,7 @@ fn one_sample_is_the_pixel_centre() {
     let mut tracer = Tracer::new(&world, 8);
     for (y, x) in (0..15).flat_map(|y| (0..20).map(move |x| (y, x))) {
         let (centre, reach) = projection.ray(f64::from(x) + 0.5, f64::from(y) + 0.5);
-        let expected =
-            crate::render::tone::to_bytes(tracer.radiance(centre, reach, || false).radiance);
+        let expected = to_bytes(tracer.radiance(centre, reach, || false).radiance);
         assert_eq!(frame.pixels[y as usize * 20 + x as usize], expected);
     }
 }
@@ -136,13 +140,69 @@ fn frames_tell_how_far_they_are() {
     assert!(30 * 20 * 5 <= progress.rays);
 }
 
+/// The shape of tiles depends on the picture's, the pixels do not: each is its own samples' mean.
 #[test]
-fn a_picture_smaller_than_a_tile_is_whole() {
+fn pictures_narrower_or_lower_than_a_tile_are_whole() {
     let scene = still();
-    for (width, height) in [(1, 1), (1, 40), (17, 3)] {
+    for (width, height) in [
+        (1, 1),
+        (1, 40),
+        (17, 3),
+        (5, 600),
+        (600, 9),
+        (300, 1),
+        (3, 2),
+    ] {
         let frame = trace(&scene, settings(width, height, 2), 2);
         assert_eq!(frame.pixels.len(), (width * height) as usize);
+        let projection = Projection::new(&scene.camera, frame.size);
+        let world = world(Scene::clone(&scene));
+        let mut tracer = Tracer::new(&world, 8);
+        for (at, pixel) in frame.pixels.iter().enumerate() {
+            let (x, y) = (at as u32 % width, at as u32 / width);
+            let samples = [0, 1].map(|index| {
+                let [across, down] = place_in_pixel(x, y, index, 0);
+                let (ray, reach) = projection.ray(f64::from(x) + across, f64::from(y) + down);
+                tracer.radiance(ray, reach, || false).radiance
+            });
+            assert_eq!(
+                *pixel,
+                to_bytes((samples[0] + samples[1]) / 2.0),
+                "({x}, {y})"
+            );
+        }
     }
+}
+
+/// What of its tiles lies beyond a picture's edges takes little memory, whatever its shape.
+#[test]
+fn tiles_hold_few_pixels_more_than_the_picture() {
+    for (width, height) in [
+        (1, 1),
+        (1 << 22, 1),
+        (1, 1 << 22),
+        (1 << 20, 3),
+        (9, 1 << 18),
+    ] {
+        let size = Size { width, height };
+        let film = Film::new(size).expect("memory that is not touched is there");
+        let held = 256 * film.tiles();
+        assert!(held < 2 * size.pixels() + 256, "{width}x{height}: {held}");
+    }
+}
+
+/// A picture that no machine has memory for is refused, not tried.
+#[test]
+fn a_picture_without_memory_is_refused() {
+    let (renderer, woken) = renderer(1);
+    let huge = settings(u32::MAX, u32::MAX, 1);
+    let refused = renderer.restart(job(&still(), huge));
+    assert!(matches!(
+        refused,
+        Err(Refusal::Memory { size, bytes }) if size == huge.size && 1 << 60 < bytes
+    ));
+    let generation = restart(&renderer, job(&still(), settings(4, 3, 1)));
+    finish(&renderer, &woken, generation);
 }
 
 /// Dropping a renderer whose picture would take hours ends it.
@@ -185,7 +245,8 @@ fn a_worker_that_panicked_says_so() {
     let (renderer, woken) = renderer(1);
     restart(&renderer, job(&Arc::new(broken), settings(4, 3, 1)));
     assert_eq!(woken.recv(), Err(mpsc::RecvError));
-    assert_eq!(renderer.restart(job(&still(), settings(4, 3, 1))), None);
+    let refused = renderer.restart(job(&still(), settings(4, 3, 1)));
+    assert_eq!(refused, Err(Refusal::Ended));
 }
 
 /// Of a job that shows its last frame only, frames before that carry nothing but the progress.
@@ -219,10 +280,10 @@ fn a_film_takes_memory_as_it_is_traced_and_stops_developing_when_told_to() {
     let world = world(Scene::clone(&still()));
     let shot = Shot {
         world: &world,
-        projection: crate::render::camera::Projection::new(&world.scene.camera, size),
+        projection: Projection::new(&world.scene.camera, size),
         settings: settings(size.width, size.height, 1),
     };
-    let mut film = Film::new(size);
+    let mut film = Film::new(size).expect("memory is there");
     assert_eq!((film.tiles(), film.begun()), (125 * 63, 0));
     film.advance(0..7, &Step::Grid(8), &shot, || false);
     assert_eq!(film.begun(), 7);

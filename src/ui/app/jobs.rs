@@ -110,8 +110,8 @@ impl App {
         Vec::new()
     }
 
-    /// Notes that a picture will not be finished.
-    pub(super) fn ended(&mut self, target: Target) {
+    /// Notes that a picture will not be finished, and why.
+    pub(super) fn ended(&mut self, target: Target, reason: impl Into<String>) {
         match target {
             Target::Preview => self.preview.wanted = None,
             Target::Trace => {
@@ -127,7 +127,7 @@ impl App {
                 self.pending.quit = false;
             }
         }
-        self.fail("the picture can't be traced to its end");
+        self.fail(reason);
     }
 
     fn export_frame(&mut self, frame: Arc<Frame>) -> Vec<Effect> {

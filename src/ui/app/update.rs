@@ -104,7 +104,8 @@ impl App {
             Msg::Resize(columns, rows) => self.terminal = (columns, rows),
             Msg::Started(target, generation) => self.started(target, generation),
             Msg::Frame(target, frame) => return self.frame(target, frame),
-            Msg::Ended(target) => self.ended(target),
+            Msg::Refused(target, reason) => self.ended(target, reason),
+            Msg::Ended(target) => self.ended(target, "the picture can't be traced to its end"),
             Msg::FileChanged => return self.read_again(),
             // The answer may come after the scene got another name.
             Msg::Read(path, read) if self.is_own_path(&path) => return self.was_read(read),

@@ -192,6 +192,24 @@ fn an_export_ends_with_its_worker() {
 }
 
 #[test]
+fn a_picture_that_is_refused_is_waited_for_no_longer() {
+    let refusal = |target| Msg::Refused(target, "too large".into());
+    let mut app = open(SCENE);
+    press(&mut app, "bqw");
+    app.update(refusal(Target::Export));
+    assert!(app.export.is_none() && !app.pending.quit);
+    assert_eq!(words(&app), "too large");
+    press(&mut app, "<Esc><F5>");
+    app.update(refusal(Target::Trace));
+    assert_eq!(words(&app), "too large");
+    let effects = press(&mut app, "<Esc><F5>");
+    assert!(wants(&effects, |effect| matches!(
+        effect,
+        Effect::Trace(Target::Trace, _)
+    )));
+}
+
+#[test]
 fn quitting_asks_about_an_export_and_can_wait_for_it() {
     let quits = |effects: &[Effect]| wants(effects, |effect| matches!(effect, Effect::Quit));
     for said in ["q", "<Ctrl-c>", ":q<Enter>"] {

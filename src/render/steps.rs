@@ -1,0 +1,51 @@
+//! The order in which a picture's samples are taken.
+
+use std::ops::Range;
+
+/// What one walk over all tiles adds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Step {
+    /// Sample 0 of the pixels on a grid of this spacing that no coarser grid holds.
+    Grid(u32),
+    /// These samples of every pixel.
+    Samples(Range<u32>),
+}
+
+/// Spacing of the grid that comes first.
+pub(crate) const COARSEST: u32 = 8;
+
+/// Spacings of the grids that sample 0 is taken on, coarse to fine, as in Adam7: each shows the
+/// whole picture, and none of its samples is wasted.
+const GRIDS: [u32; 4] = [COARSEST, 4, 2, 1];
+
+/// The steps to `spp` samples a pixel: sample 0 from coarse to fine, then 1, 2, 4, 8 … more.
+pub(crate) fn steps(spp: u32) -> Vec<Step> {
+    let mut steps = GRIDS.map(Step::Grid).to_vec();
+    let mut taken = 1;
+    while taken < spp {
+        let next = (2 * taken).min(spp);
+        steps.push(Step::Samples(taken..next));
+        taken = next;
+    }
+    steps
+}
+
+impl Step {
+    /// The samples it adds, a pixel.
+    pub(crate) fn share(&self) -> f64 {
+        match self {
+            Self::Grid(COARSEST) => 1.0 / f64::from(COARSEST * COARSEST),
+            // A grid holds a quarter of the next finer one's points, itself included.
+            Self::Grid(spacing) => 0.75 / f64::from(spacing * spacing),
+            Self::Samples(indices) => f64::from(indices.end - indices.start),
+        }
+    }
+
+    /// The samples that every pixel has after it.
+    pub(crate) fn whole_after(&self) -> u32 {
+        match self {
+            Self::Grid(spacing) => u32::from(*spacing == 1),
+            Self::Samples(indices) => indices.end,
+        }
+    }
+}
