@@ -398,6 +398,20 @@ fn a_picture_that_memory_does_not_hold_is_an_error() {
 
 #[test]
 #[cfg(unix)]
+fn a_closed_output_stream_is_an_error() {
+    let place = Place::new();
+    let output = in_shell(&place, "exec >&-", "render ball.ray -o -");
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    assert!(told.starts_with("error: standard output: closed"), "{told}");
+    let output = in_shell(&place, "exec >/dev/null", "render ball.ray -o -");
+    assert_eq!(output.status.code(), Some(0), "nobody wants the picture");
+    let output = in_shell(&place, "exec >&- 2>&-", "check ball.ray");
+    assert_eq!(output.status.code(), Some(0), "its answer is the code");
+}
+
+#[test]
+#[cfg(unix)]
 fn a_full_disk_leaves_the_old_picture() {
     let place = Place::new();
     for linked in [false, true] {

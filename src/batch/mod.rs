@@ -4,6 +4,7 @@
 mod progress;
 mod render;
 mod report;
+mod stdout;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

@@ -1,11 +1,11 @@
 //! A scene file to a picture file.
 
-use std::io::{self, IsTerminal, Write};
+use std::io;
 use std::path::PathBuf;
 use std::sync::{Arc, mpsc};
 
 use super::progress::ProgressLine;
-use super::{Error, load, print_findings, tell};
+use super::{Error, load, print_findings, stdout, tell};
 use crate::file;
 use crate::image_out::ImageFormat;
 use crate::render::{Frame, Frames, Job, Renderer, Settings, Threads};
@@ -90,10 +90,10 @@ fn check_output(work: &Render) -> Result<(), Error> {
             path: path.clone(),
             source,
         }),
-        Output::Stdout if io::stdout().is_terminal() => Err(Error::Refused(
+        Output::Stdout if stdout::is_terminal() => Err(Error::Refused(
             "a terminal can't show a picture file; use -o FILE, a pipe, or --force".to_owned(),
         )),
-        Output::Stdout | Output::StdoutTerminal => Ok(()),
+        Output::Stdout | Output::StdoutTerminal => stdout::check().map_err(stdout_error),
     }
 }
 
@@ -136,14 +136,11 @@ fn trace(work: &Render, scene: Scene, size: Size) -> Result<Arc<Frame>, Error> {
 fn write(work: &Render, frame: &Frame) -> Result<(), Error> {
     let written = match &work.output {
         Output::File(path) => file::replace(path, |out| work.format.write(frame, out)),
-        Output::Stdout | Output::StdoutTerminal => write_to_stdout(work.format, frame),
+        Output::Stdout | Output::StdoutTerminal => stdout::write(work.format, frame),
     };
     written.or_else(|source| match (source.kind(), &work.output) {
         (io::ErrorKind::BrokenPipe, _) => Ok(()),
-        (_, Output::Stdout | Output::StdoutTerminal) => Err(Error::Write {
-            to: "standard output".to_owned(),
-            source,
-        }),
+        (_, Output::Stdout | Output::StdoutTerminal) => Err(stdout_error(source)),
         (
             io::ErrorKind::NotFound
             | io::ErrorKind::PermissionDenied
@@ -160,11 +157,9 @@ fn write(work: &Render, frame: &Frame) -> Result<(), Error> {
     })
 }
 
-fn write_to_stdout(format: ImageFormat, frame: &Frame) -> io::Result<()> {
-    // Whole at once: the stream flushes at every byte that looks like a line break.
-    let mut bytes = Vec::new();
-    format.write(frame, &mut bytes)?;
-    let mut stdout = io::stdout().lock();
-    stdout.write_all(&bytes)?;
-    stdout.flush()
+fn stdout_error(source: io::Error) -> Error {
+    Error::Write {
+        to: "standard output".to_owned(),
+        source,
+    }
 }
