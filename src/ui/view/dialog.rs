@@ -26,10 +26,12 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
             ask(app, " Quit ", &text, area, buffer);
         }
         Some(Dialog::Recover(kept)) => {
-            let places = counted(app.document.differences(&kept.text), "place");
+            let count = app.document.differences(&kept.text);
+            let places = counted(count, "place");
+            let differ = if count == 1 { "differs" } else { "differ" };
             let text = format!(
-                "Edits of an earlier run of {} were never saved: {places} differ from the file. \
-                 Take them?",
+                "Edits of an earlier run of {} were never saved: {places} {differ} from the \
+                 file. Take them?",
                 app.file_name()
             );
             ask(app, " Recover ", &text, area, buffer);

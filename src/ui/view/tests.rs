@@ -261,6 +261,28 @@ fn a_screen_that_is_too_small_says_so() {
 }
 
 #[test]
+fn the_places_that_kept_edits_change_are_counted() {
+    let shown = |change: fn(&str) -> String| {
+        let mut app = app();
+        app.dialog = Some(Dialog::Recover(Kept {
+            place: PathBuf::new(),
+            text: change(SCENE),
+        }));
+        let lines = screen(&mut app, 100, 30);
+        let words: Vec<_> = lines.iter().flat_map(|line| line.split('│')).collect();
+        words
+            .join(" ")
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    let one = shown(|text| text.replacen(" 0.25 ", " 0.5 ", 1));
+    assert!(one.contains("1 place differs from the file"), "{one}");
+    let two = shown(|text| text.replacen(" 0.25 ", " 0.5 ", 1).replacen('1', "2", 1));
+    assert!(two.contains("2 places differ from the file"), "{two}");
+}
+
+#[test]
 fn errors_mark_the_picture_as_stale_and_explain_themselves() {
     let mut app = app();
     app.preview.take(frame(8, 6));
