@@ -351,6 +351,11 @@ fn it_stops_and_goes_on_as_a_job_of_a_shell() {
     session.send("q");
     assert!(session.end().success());
     session.assert_restored();
+    let written = &session.written;
+    let entered = written
+        .windows(ENTER_SCREEN.len())
+        .filter(|w| *w == ENTER_SCREEN);
+    assert_eq!(entered.count(), 3, "at the start and after each stop");
 }
 
 /// Keys that come while the terminal is not raw are echoed or held back.

@@ -171,7 +171,7 @@ impl World {
                 self.terminal.repaint();
                 Ok(())
             }
-            Effect::TakeTerminal => terminal_outcome(self.terminal.reenter()),
+            Effect::TakeTerminal => self.take_terminal(),
             Effect::Suspend => self.suspend(),
             Effect::Quit => {
                 self.ended = true;
@@ -286,19 +286,29 @@ impl World {
         });
         #[cfg(unix)]
         self.signals.take_back();
+        self.take_terminal()?;
+        ran.map_err(|error| format!("the editor can't be used: {error} (see $VISUAL, $EDITOR)"))
+    }
+
+    fn take_terminal(&mut self) -> Result<(), String> {
         let taken = self.terminal.reenter();
         self.input.resume();
-        terminal_outcome(taken)?;
-        ran.map_err(|error| format!("the editor can't be used: {error} (see $VISUAL, $EDITOR)"))
+        terminal_outcome(taken)
     }
 
     #[cfg(unix)]
     fn suspend(&mut self) -> Result<(), String> {
         self.input.park();
         let stopped = self.terminal.leave().and_then(|()| suspend_process());
-        let taken = self.terminal.reenter();
-        self.input.resume();
-        terminal_outcome(stopped.and(taken))
+        match stopped {
+            // The news that it was continued take the terminal back, and must not do so twice.
+            Ok(true) => Ok(()),
+            Ok(false) => self.take_terminal(),
+            Err(error) => {
+                self.take_terminal()?;
+                terminal_outcome(Err(error))
+            }
+        }
     }
 
     #[cfg(not(unix))]

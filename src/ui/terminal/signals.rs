@@ -104,16 +104,18 @@ impl Drop for Signals {
     }
 }
 
-/// Stops the whole job, as Ctrl-Z does outside raw mode, and returns when it is continued.
+/// Stops the whole job, as Ctrl-Z does outside raw mode, and returns `true` when it is continued,
+/// of which an [`Event::Continue`] tells as well.
 ///
-/// Returns at once where no shell could continue it: in the process group of a session's leader,
-/// or when the shell has ended. The terminal must have been given back before.
-pub fn suspend_process() -> io::Result<()> {
-    if is_job()? {
+/// Returns `false` at once where no shell could continue it: in the process group of a session's
+/// leader, or when the shell has ended. The terminal must have been given back before.
+pub fn suspend_process() -> io::Result<bool> {
+    let is_job = is_job()?;
+    if is_job {
         // SIGTSTP would only come back as an event, because its default action is replaced.
         kill_current_process_group(Signal::STOP)?;
     }
-    Ok(())
+    Ok(is_job)
 }
 
 /// Whether there is a shell that could continue the process.
