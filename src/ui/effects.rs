@@ -1,8 +1,9 @@
 //! What touches the world: files, renderers, timers, the terminal.
 
 use std::io;
+use std::mem;
 use std::num::NonZero;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
@@ -238,13 +239,13 @@ impl World {
     }
 
     fn write_image(&self, id: ExportId, frame: Arc<Frame>, to: Destination) -> Result<(), String> {
-        let sender = self.sender.clone();
+        let writing = Writing::new(self.sender.clone(), id, &to.path);
         let write = move || {
-            let outcome = check_target(&to).and_then(|()| {
+            writing.end(check_target(&to).and_then(|()| {
                 let saved = image_out::save(&frame, &to.path);
-                saved.map_err(|error| format!("{}: {error}", to.path.display()))
-            });
-            let _ = sender.send(Event::Msg(Msg::Exported(id, outcome.map(|()| to.path))));
+                saved.map_err(|error| format!("{}: {error}", to.path.display()))?;
+                Ok(to.path)
+            }));
         };
         let spawned = thread::Builder::new()
             .name("export".to_owned())
@@ -379,6 +380,38 @@ impl Drop for Waker {
     }
 }
 
+/// Tells when it is dropped what became of a picture file.
+struct Writing {
+    sender: Sender<Event>,
+    id: ExportId,
+    outcome: Result<PathBuf, String>,
+}
+
+impl Writing {
+    /// One whose outcome is that of a panic, until there is another.
+    fn new(sender: Sender<Event>, id: ExportId, path: &Path) -> Self {
+        let outcome = Err(format!("{}: the picture can't be written", path.display()));
+        Self {
+            sender,
+            id,
+            outcome,
+        }
+    }
+
+    fn end(mut self, outcome: Result<PathBuf, String>) {
+        self.outcome = outcome;
+    }
+}
+
+impl Drop for Writing {
+    fn drop(&mut self) {
+        let outcome = mem::replace(&mut self.outcome, Err(String::new()));
+        let _ = self
+            .sender
+            .send(Event::Msg(Msg::Exported(self.id, outcome)));
+    }
+}
+
 fn terminal_outcome(outcome: io::Result<()>) -> Result<(), String> {
     outcome.map_err(|error| format!("terminal: {error}"))
 }
@@ -420,6 +453,22 @@ mod tests {
             events[..],
             [Event::Ready(_), Event::Ended(Target::Export, 7)]
         ));
+    }
+
+    #[test]
+    fn a_panic_while_a_picture_is_written_ends_its_export() {
+        let (sender, inbox) = std::sync::mpsc::channel();
+        let writing = Writing::new(sender, ExportId(3), Path::new("a.bmp"));
+        let thread = thread::spawn(move || {
+            let _writing = writing;
+            panic!("on purpose");
+        });
+        assert!(thread.join().is_err());
+        let events: Vec<_> = inbox.iter().collect();
+        let [Event::Msg(Msg::Exported(ExportId(3), Err(reason)))] = &events[..] else {
+            panic!("{events:?}");
+        };
+        assert_eq!(reason, "a.bmp: the picture can't be written");
     }
 
     #[test]
