@@ -27,7 +27,7 @@
 //! | [`accel`] | boxes against rays | what the boxes hold |
 //! | [`render`] | pixels from a scene: worker, integrator, film, tone | documents, files, terminals |
 //! | [`file`](mod@file) | reading scenes and replacing files whole | what the bytes mean |
-//! | [`image_out`] | frames to picture files | what is in a scene |
+//! | [`image_file`] | picture files: frames written, textures read | what is in a scene |
 //! | [`watch`] | a path that changes on disk | what is in it |
 //! | [`ui`] | the terminal: the only room that knows ratatui and crossterm | how pixels come about |
 //! | [`batch`] | headless work: check, render | terminals |
@@ -54,7 +54,7 @@ pub mod document;
 pub mod file;
 pub mod format;
 pub mod geometry;
-pub mod image_out;
+pub mod image_file;
 pub mod render;
 pub mod scene;
 pub mod text;

@@ -102,7 +102,7 @@ fn wrong_arguments_end_with_2() {
         "render",
         "render ball.ray",
         "check",
-        "render ball.ray -o a.gif",
+        "render ball.ray -o a.webp",
     ] {
         assert!(!place.told(line, 2).is_empty(), "{line}");
     }

@@ -5,7 +5,7 @@ use std::sync::{Arc, mpsc};
 
 use halflight::document::Document;
 use halflight::format::{self, Format};
-use halflight::image_out::ImageFormat;
+use halflight::image_file::ImageFormat;
 use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::fields::{Kind, Range};
 use halflight::scene::{Images, Scene, Size, lower};

@@ -7,7 +7,7 @@ use std::sync::{Arc, mpsc};
 use super::progress::ProgressLine;
 use super::{Error, load, print_findings, stdout, tell};
 use crate::file;
-use crate::image_out::ImageFormat;
+use crate::image_file::ImageFormat;
 use crate::render::{Frame, Frames, Job, Renderer, Settings, Threads};
 use crate::scene::{Camera, Images, Scene, Size};
 use crate::text::{Diagnostic, counted};

@@ -2,7 +2,7 @@
 
 use std::io::{self, BufWriter, IsTerminal, Write};
 
-use crate::image_out::ImageFormat;
+use crate::image_file::ImageFormat;
 use crate::render::Frame;
 
 /// Bytes that go to the stream at once. It flushes at every byte that looks like a line break, but

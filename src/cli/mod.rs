@@ -7,13 +7,13 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum, value_parser};
 
 use crate::batch::{self, Output, Render};
 use crate::file::ReadError;
-use crate::image_out::{FORMATS, ImageFormat, known_extensions};
+use crate::image_file::{FORMATS, ImageFormat, known_extensions};
 use crate::render::{DEFAULT_DEPTH, DEFAULT_SPP, MAX_SPP};
 use crate::scene::Size;
 use crate::text::{slips, visible};
@@ -296,6 +296,8 @@ Examples:
   halflight render scene.ray -o scene.png --size 1920x1080 --spp 64
   halflight render scene.ray -o - --format ppm | display
 
+GIF keeps 256 colours, JPEG has quality 95; the other formats keep every pixel.
+
 The same scene, size, spp, depth and seed give the same bytes on every machine and with any
 number of threads.";
 
@@ -304,7 +306,8 @@ struct RenderArguments {
     /// Scene file
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// Picture file, in the format its extension says (.bmp, .ppm, .png); - is standard output
+    /// Picture file, in the format its extension says (.bmp, .ppm, .png, .tiff, .gif, .jpeg);
+    /// - is standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Format of the picture, whatever the file's name [default for -o -: bmp]
@@ -377,9 +380,13 @@ fn threads_range() -> impl TypedValueParser<Value = u16> {
 }
 
 fn format_names() -> impl TypedValueParser<Value = ImageFormat> {
-    PossibleValuesParser::new(FORMATS.map(|(name, _)| name)).try_map(|said| {
-        let known = FORMATS.into_iter().find(|&(name, _)| name == said);
-        known.map(|(_, format)| format).ok_or("unknown format")
+    let names = FORMATS.map(|(format, extensions)| {
+        PossibleValue::new(format.name()).aliases(extensions.iter().copied())
+    });
+    PossibleValuesParser::new(names).try_map(|said| {
+        let mut formats = FORMATS.into_iter();
+        let known = formats.find(|(_, extensions)| extensions.contains(&said.as_str()));
+        known.map(|(format, _)| format).ok_or("unknown format")
     })
 }
 

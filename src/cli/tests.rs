@@ -60,6 +60,9 @@ fn a_picture_s_format_is_its_extension_unless_said() {
         ("halflight render a -o b.png --format ppm", ImageFormat::Ppm),
         ("halflight render a -o -", ImageFormat::Bmp),
         ("halflight render a -o - --format png", ImageFormat::Png),
+        ("halflight render a -o b.jpg", ImageFormat::Jpeg),
+        ("halflight render a -o b --format tif", ImageFormat::Tiff),
+        ("halflight render a -o b --format gif", ImageFormat::Gif),
     ];
     for (line, format) in cases {
         assert_eq!(render(line).format, format, "{line}");
@@ -91,14 +94,14 @@ fn wrong_arguments_are_refused_with_a_reason() {
         ),
         ("halflight --poll=1 a", "10..=3600000"),
         ("halflight render a", "--output"),
-        ("halflight render a -o b.gif", ".bmp, .ppm or .png"),
-        ("halflight render a -o b", ".bmp, .ppm or .png"),
+        ("halflight render a -o b.webp", ".bmp, .ppm, .png"),
+        ("halflight render a -o b", ".jpeg or .jpg"),
         ("halflight render a -o b", "Usage: halflight render"),
         ("halflight chekc a.ray", "did you mean check?"),
         ("halflight rendr", "did you mean render?"),
         (
-            "halflight render a -o - --format gif",
-            "[possible values: bmp, ppm, png]",
+            "halflight render a -o - --format webp",
+            "[possible values: bmp, ppm, png, tiff, gif, jpeg]",
         ),
         ("halflight render a -o b.bmp --size 0x1", "such as 800x600"),
         ("halflight render a -o b.bmp --size 1x", "such as 800x600"),

@@ -44,6 +44,11 @@ impl Image {
         self.size
     }
 
+    /// Red, green, blue of each pixel, row by row from the top left.
+    pub fn pixels(&self) -> &[[u8; 3]] {
+        &self.pixels
+    }
+
     /// The colour at a place, interpolated between the four pixels around it: u goes across and v
     /// down, 1 over the whole picture, which repeats; a pixel's own colour is at its upper left
     /// corner. Each channel is its byte over 255.

@@ -17,7 +17,7 @@ use super::terminal::{self, Input, Terminal};
 #[cfg(unix)]
 use super::terminal::{Signals, suspend_process};
 use crate::file;
-use crate::image_out;
+use crate::image_file;
 use crate::render::{Frame, Job, Refusal, Renderer, Threads};
 use crate::watch::{Method, Watcher};
 
@@ -242,7 +242,7 @@ impl World {
         let writing = Writing::new(self.sender.clone(), id, &to.path);
         let write = move || {
             writing.end(check_target(&to).and_then(|()| {
-                let saved = image_out::save(&frame, &to.path);
+                let saved = image_file::save(&frame, &to.path);
                 saved.map_err(|error| format!("{}: {error}", to.path.display()))?;
                 Ok(to.path)
             }));

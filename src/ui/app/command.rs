@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::{App, Disk, Help};
 use crate::format::Format;
-use crate::image_out::ImageFormat;
+use crate::image_file::ImageFormat;
 use crate::render::MAX_SPP;
 use crate::scene::{Camera, Size};
 use crate::text::slips;

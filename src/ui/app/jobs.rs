@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::{App, Export, Mode, Picture, Stage};
-use crate::image_out::{ImageFormat, known_extensions};
+use crate::image_file::{ImageFormat, known_extensions};
 use crate::render::{Frame, Frames, Job, Settings};
 use crate::scene::{Camera, Size};
 use crate::ui::msg::{Destination, Effect, Existing, ExportId, Target};

@@ -1,0 +1,292 @@
+use std::io::{self, Write};
+use std::time::Duration;
+
+use super::*;
+use crate::render::{Frame, NO_OBJECT, Progress};
+use crate::scene::Image;
+
+/// A finished frame of these pixels.
+fn frame(width: u32, height: u32, pixels: &[[u8; 3]]) -> Frame {
+    Frame {
+        generation: 1,
+        size: Size { width, height },
+        pixels: pixels.to_vec(),
+        objects: vec![NO_OBJECT; pixels.len()],
+        progress: Progress {
+            pass: 1,
+            passes: 1,
+            spp: 1,
+            done: 1.0,
+            elapsed: Duration::ZERO,
+            rays: 0,
+            over_budget: 0,
+            complete: true,
+        },
+    }
+}
+
+const RED: [u8; 3] = [255, 1, 2];
+const GREEN: [u8; 3] = [3, 254, 4];
+const BLUE: [u8; 3] = [5, 6, 253];
+
+fn encoded(format: ImageFormat, frame: &Frame) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    format.write(frame, &mut bytes).expect("memory takes all");
+    bytes
+}
+
+fn decode(bytes: &[u8]) -> Result<Image, Unreadable> {
+    super::decode(bytes, u64::MAX)
+}
+
+#[test]
+fn a_ppm_has_three_header_lines_and_rows_from_the_top() {
+    let frame = frame(3, 1, &[RED, GREEN, BLUE]);
+    let expected = b"P6\n3 1\n255\n\xFF\x01\x02\x03\xFE\x04\x05\x06\xFD";
+    assert_eq!(encoded(ImageFormat::Ppm, &frame), expected);
+}
+
+#[test]
+fn a_bmp_is_24_bit_uncompressed_and_bottom_up() {
+    let bytes = encoded(ImageFormat::Bmp, &frame(1, 2, &[RED, GREEN]));
+    // File header, then BITMAPINFOHEADER; rows of blue, green, red, padded to four bytes.
+    let mut expected = Vec::new();
+    expected.extend(b"BM");
+    expected.extend(62_u32.to_le_bytes());
+    expected.extend([0; 4]);
+    expected.extend(54_u32.to_le_bytes());
+    expected.extend(40_u32.to_le_bytes());
+    expected.extend(1_u32.to_le_bytes());
+    expected.extend(2_i32.to_le_bytes());
+    expected.extend(1_u16.to_le_bytes());
+    expected.extend(24_u16.to_le_bytes());
+    expected.extend(0_u32.to_le_bytes());
+    assert_eq!(bytes[..34], expected);
+    assert_eq!(bytes[54..], [4, 254, 3, 0, 2, 1, 255, 0]);
+}
+
+/// A picture of smooth colours, no two pixels alike, of which a fourth is black.
+fn gradient() -> Frame {
+    let (width, height) = (48, 32);
+    let pixels: Vec<_> = (0..height)
+        .flat_map(|y| {
+            (0..width).map(move |x| match (x < 24, y < 16) {
+                (true, true) => [0; 3],
+                _ => [5 * x as u8, 7 * y as u8, (3 * x + 2 * y) as u8],
+            })
+        })
+        .collect();
+    frame(width, height, &pixels)
+}
+
+fn decoded(format: ImageFormat, frame: &Frame) -> Image {
+    let bytes = encoded(format, frame);
+    assert_eq!(bytes, encoded(format, frame), "{format:?}: the same bytes");
+    decode(&bytes).unwrap_or_else(|error| panic!("{format:?}: {error}"))
+}
+
+#[test]
+fn lossless_formats_read_back_as_they_were() {
+    use ImageFormat::{Bmp, Gif, Png, Ppm, Tiff};
+    let few = frame(3, 2, &[RED, GREEN, BLUE, RED, RED, GREEN]);
+    for format in [Bmp, Ppm, Png, Tiff, Gif] {
+        let expected = Image::new(few.size, few.pixels.clone());
+        assert_eq!(Some(decoded(format, &few)), expected, "{format:?}");
+    }
+    let many = gradient();
+    for format in [Bmp, Ppm, Png, Tiff] {
+        let expected = Image::new(many.size, many.pixels.clone());
+        assert_eq!(Some(decoded(format, &many)), expected, "{format:?}");
+    }
+}
+
+/// How far two pictures are from each other: the mean over all channels, and the most.
+fn difference(one: &Image, other: &Frame) -> (f64, u8) {
+    let pixels = one.pixels().as_flattened().iter();
+    let differences: Vec<_> = pixels
+        .zip(other.pixels.as_flattened())
+        .map(|(one, other)| one.abs_diff(*other))
+        .collect();
+    let sum: f64 = differences.iter().copied().map(f64::from).sum();
+    let most = differences.iter().copied().max().unwrap_or_default();
+    (sum / differences.len() as f64, most)
+}
+
+#[test]
+fn lossy_formats_read_back_much_as_they_were() {
+    let frame = gradient();
+    for (format, mean, most) in [(ImageFormat::Jpeg, 2.0, 24), (ImageFormat::Gif, 8.0, 48)] {
+        let read = decoded(format, &frame);
+        assert_eq!(read.size(), frame.size);
+        let (found, worst) = difference(&read, &frame);
+        assert!(
+            found <= mean && worst <= most,
+            "{format:?}: {found}, {worst}"
+        );
+    }
+}
+
+#[test]
+fn every_format_tells_of_a_full_disk() {
+    struct Full(usize);
+
+    impl Write for Full {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            let taken = bytes.len().min(self.0);
+            self.0 -= taken;
+            match taken {
+                0 => Err(io::ErrorKind::StorageFull.into()),
+                _ => Ok(taken),
+            }
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    let frame = gradient();
+    for (format, _) in FORMATS {
+        for room in [0, 10, 300] {
+            let error = format.write(&frame, &mut Full(room)).expect_err("full");
+            assert_eq!(
+                error.kind(),
+                io::ErrorKind::StorageFull,
+                "{format:?} {room}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_picture_that_breaks_off_is_none() {
+    for (format, _) in FORMATS {
+        let bytes = encoded(format, &gradient());
+        for length in [0, 1, 10, bytes.len() / 2] {
+            assert!(decode(&bytes[..length]).is_err(), "{format:?} {length}");
+        }
+    }
+}
+
+#[test]
+fn noise_is_refused_without_harm() {
+    for (format, _) in FORMATS {
+        let bytes = encoded(format, &gradient());
+        for at in 0..bytes.len().min(700) {
+            for value in [0, 1, 0x7F, 0xFF] {
+                let mut bent = bytes.clone();
+                bent[at] = value;
+                // Whatever comes of it: no panic, no endless work.
+                let _ = decode(&bent);
+            }
+        }
+    }
+    for bytes in [
+        &b""[..],
+        b"halflight",
+        b"P6\n1 1\n",
+        b"\x89PNG\r\n\x1a\n",
+        b"GIF89a",
+    ] {
+        assert!(decode(bytes).is_err(), "{bytes:?}");
+    }
+}
+
+#[test]
+fn headers_that_claim_too_much_are_refused_before_memory_is_asked_for() {
+    let bmp = |width: u32, height: u32| {
+        let mut bytes = encoded(ImageFormat::Bmp, &frame(1, 1, &[RED]));
+        bytes[18..22].copy_from_slice(&width.to_le_bytes());
+        bytes[22..26].copy_from_slice(&height.to_le_bytes());
+        bytes
+    };
+    for bytes in [
+        bmp(65_535, 65_535),
+        bmp(8193, 8192),
+        b"P6\n8193 8192\n255\n".to_vec(),
+        b"P6\n100000 100000\n65535\n".to_vec(),
+    ] {
+        let refused = decode(&bytes).expect_err("too large");
+        assert!(matches!(refused, Unreadable::TooLarge { .. }), "{refused}");
+        assert!(refused.to_string().contains("8192x8192"));
+    }
+}
+
+#[test]
+fn a_picture_for_which_there_is_no_room_is_refused() {
+    let bytes = encoded(ImageFormat::Png, &gradient());
+    let refused = super::decode(&bytes, 48 * 32 - 1).expect_err("one too many");
+    assert!(matches!(refused, Unreadable::NoRoom), "{refused}");
+    assert!(super::decode(&bytes, 48 * 32).is_ok());
+}
+
+#[test]
+fn what_is_more_than_three_bytes_a_pixel_is_left_away() {
+    for (file, pixel) in [
+        (&b"P5\n1 1\n255\n\x07"[..], [7, 7, 7]),
+        (b"P6\n1 1\n65535\n\xFF\xFF\x80\x80\x00\x00", [255, 128, 0]),
+        (
+            b"P7\nWIDTH 1\nHEIGHT 1\nDEPTH 4\nMAXVAL 255\nTUPLTYPE RGB_ALPHA\nENDHDR\n\x01\x02\x03\x00",
+            [1, 2, 3],
+        ),
+    ] {
+        let image = decode(file).expect("a picture");
+        assert_eq!(image.pixels(), [pixel]);
+    }
+}
+
+#[test]
+fn impossible_sizes_are_refused_and_the_limit_named() {
+    use ImageFormat::{Bmp, Gif, Jpeg, Png, Ppm, Tiff};
+    let cases = [
+        (Bmp, 1, 1, None),
+        (Bmp, 65_535, 4096, None),
+        (Bmp, 65_536, 1, Some("65535")),
+        (Bmp, 1, u32::MAX, Some("65535")),
+        (Bmp, 65_535, 65_535, Some("268435456")),
+        (Ppm, 16_384, 16_384, None),
+        (Ppm, 65_536, 1, None),
+        (Ppm, 16_384, 16_385, Some("268435456")),
+        (Ppm, u32::MAX, u32::MAX, Some("268435456")),
+        (Png, 65_536, 1, None),
+        (Tiff, 65_536, 4096, None),
+        (Tiff, 65_537, 4096, Some("268435456")),
+        (Gif, 65_535, 1, None),
+        (Gif, 65_536, 1, Some("a GIF is at most 65535")),
+        (Jpeg, 1, 65_536, Some("a JPEG is at most 65535")),
+        (Png, 1 << 31, 1, Some("2147483647")),
+        (Png, 0, 1, Some("at least one")),
+        (Bmp, 1, 0, Some("at least one")),
+    ];
+    for (format, width, height, limit) in cases {
+        let refusal = format.refuses(Size { width, height });
+        assert_eq!(refusal.is_some(), limit.is_some(), "{width}x{height}");
+        if let (Some(refusal), Some(limit)) = (refusal, limit) {
+            assert!(refusal.contains(limit), "{refusal}");
+        }
+    }
+}
+
+#[test]
+fn the_extension_says_the_format_in_any_case() {
+    let of = |name: &str| ImageFormat::of_path(Path::new(name));
+    assert_eq!(of("a.bmp"), Some(ImageFormat::Bmp));
+    assert_eq!(of("b/a.x.PpM"), Some(ImageFormat::Ppm));
+    assert_eq!(of("a.PNG"), Some(ImageFormat::Png));
+    assert_eq!(of("a.tif"), of("a.tiff"));
+    assert_eq!(of("a.JPG"), of("a.jpeg"));
+    assert_eq!([of("bmp"), of("a.jp2"), of(".bmp"), of("")], [None; 4]);
+}
+
+#[test]
+fn an_unknown_extension_is_refused_with_the_known_ones() {
+    let directory = tempfile::tempdir().expect("a directory for a test");
+    let path = directory.path().join("a.webp");
+    let error = save(&frame(1, 1, &[RED]), &path).expect_err("unknown");
+    assert!(
+        error
+            .to_string()
+            .contains("a.webp: pictures end in .bmp, .ppm, .png, .tiff")
+    );
+    assert!(!path.exists());
+}
