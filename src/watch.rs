@@ -1,4 +1,4 @@
-//! Tells when a file may have changed on disk. Knows nothing of what is in it.
+//! Tells when one of some files may have changed on disk. Knows nothing of what is in them.
 //!
 //! Editors save in many ways: in place, by moving the old file away, by renaming a new one over
 //! it. A notice bound to the file itself is lost with the old file, so directories are watched and
@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::fs;
 use std::hash::{DefaultHasher, Hasher};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread::{self, JoinHandle};
@@ -23,7 +23,11 @@ use crate::file;
 /// Links followed before a chain of them counts as endless.
 const MAX_LINKS: usize = 40;
 
-/// Watches one path until it is dropped.
+/// Bytes of a file that polling compares: of longer ones, which no scene has, a change of length or
+/// at the beginning is noticed.
+const COMPARED: u64 = 1 << 28;
+
+/// Watches paths until it is dropped.
 #[derive(Debug)]
 pub struct Watcher {
     inbox: Sender<Notice>,
@@ -40,29 +44,30 @@ pub enum Method {
 }
 
 impl Watcher {
-    /// Calls `changed` from another thread whenever something happened to the file under `path`,
-    /// to the name itself or to what a symbolic link there leads to. What happened is for the
-    /// caller to see: it compares contents. Reading the file is nothing that happens to it.
+    /// Calls `changed` from another thread whenever something happened to a file under `paths`, to
+    /// the name itself or to what a symbolic link there leads to. What happened, and to which, is
+    /// for the caller to see: it compares contents. Reading a file is nothing that happens to it.
     ///
-    /// Changes made after this returns are noticed; more calls than changes may come. With
-    /// [`Method::Native`] the path's directory must exist. If it goes and comes back, watching goes
-    /// on, as long as the directory above stays.
+    /// Changes made after this returns are noticed; more calls than changes may come. If a path's
+    /// directory is missing, or goes and comes back, it is watched from then on, as long as the
+    /// directory above is there.
     pub fn new(
-        path: &Path,
+        paths: &[PathBuf],
         method: Method,
         changed: impl Fn() + Send + 'static,
     ) -> Result<Self, notify::Error> {
-        let path = std::path::absolute(path)?;
+        let paths = paths.iter().map(std::path::absolute);
+        let paths: Vec<_> = paths.collect::<io::Result<_>>()?;
         let (inbox, notices) = mpsc::channel();
         let builder = thread::Builder::new().name("watch".to_owned());
         let thread = match method {
             Method::Native => {
-                let mut places = Places::new(path, inbox.clone())?;
+                let mut places = Places::new(paths, inbox.clone())?;
                 builder.spawn(move || places.follow(&notices, changed))?
             }
             Method::Poll(interval) => {
-                let first = fingerprint(&path);
-                builder.spawn(move || poll(&path, first, interval, &notices, changed))?
+                let first = fingerprints(&paths);
+                builder.spawn(move || poll(&paths, first, interval, &notices, changed))?
             }
         };
         Ok(Self {
@@ -88,39 +93,47 @@ enum Notice {
     Stop,
 }
 
-/// What an event means for the watched path.
+/// What an event means for the watched paths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Meaning {
     Nothing,
-    /// The file may have changed.
+    /// A file may have changed.
     File,
-    /// A directory on the way to it came or went: watches on it may be dead.
+    /// A directory on the way to one came or went: watches on it may be dead.
     Directory,
 }
 
-/// The names that lead to a file, and the system's watches on the directories that hold them.
+/// The names that lead to the files, and the system's watches on the directories that hold them.
 struct Places {
-    path: PathBuf,
+    paths: Vec<PathBuf>,
     system: RecommendedWatcher,
     names: Names,
     watched: BTreeSet<PathBuf>,
 }
 
 impl Places {
-    fn new(path: PathBuf, inbox: Sender<Notice>) -> notify::Result<Self> {
+    fn new(paths: Vec<PathBuf>, inbox: Sender<Notice>) -> notify::Result<Self> {
         let system = notify::recommended_watcher(move |event| {
             // The receiver is gone only while the watcher is being dropped.
             let _ = inbox.send(Notice::System(event));
         })?;
         let mut places = Self {
-            names: Names::of(&path),
-            path,
+            names: Names::of(&paths),
+            paths,
             system,
             watched: BTreeSet::new(),
         };
-        let home = directory_of(&places.path);
-        places.system.watch(&home, RecursiveMode::NonRecursive)?;
-        places.watched.insert(home);
+        let homes: BTreeSet<_> = places.paths.iter().map(|path| directory_of(path)).collect();
+        for home in homes {
+            match places.system.watch(&home, RecursiveMode::NonRecursive) {
+                Ok(()) => {
+                    places.watched.insert(home);
+                }
+                // One that is missing may come.
+                Err(error) if home.is_dir() => return Err(error),
+                Err(_) => {}
+            }
+        }
         places.renew(Meaning::File);
         Ok(places)
     }
@@ -139,7 +152,7 @@ impl Places {
     /// Reads the links anew and watches the directories they lead to now. What can't be watched is
     /// tried again at the next notice.
     fn renew(&mut self, meaning: Meaning) {
-        self.names = Names::of(&self.path);
+        self.names = Names::of(&self.paths);
         let wanted: BTreeSet<_> = self.names.holders.keys().cloned().collect();
         if meaning == Meaning::Directory {
             // The same path may be another directory now.
@@ -171,22 +184,29 @@ struct Names {
 }
 
 impl Names {
-    /// The names on the way from `path` through its links, and those of the directories they are in.
-    fn of(path: &Path) -> Self {
+    /// The names on the way from `paths` through their links, and those of the directories they
+    /// are in.
+    fn of(paths: &[PathBuf]) -> Self {
         let mut names = Self {
             holders: BTreeMap::new(),
         };
+        for path in paths {
+            names.add_way(path);
+        }
+        names
+    }
+
+    fn add_way(&mut self, path: &Path) {
         let mut path = path.to_owned();
         for _ in 0..MAX_LINKS {
-            names.add(&path, Meaning::File);
+            self.add(&path, Meaning::File);
             let directory = directory_of(&path);
-            names.add(&directory, Meaning::Directory);
+            self.add(&directory, Meaning::Directory);
             match fs::read_link(&path) {
                 Ok(next) => path = directory.join(next),
                 Err(_) => break,
             }
         }
-        names
     }
 
     fn add(&mut self, path: &Path, meaning: Meaning) {
@@ -224,10 +244,10 @@ fn directory_of(path: &Path) -> PathBuf {
     path.parent().unwrap_or(path).to_owned()
 }
 
-/// Compares whole contents, not dates: those can stand still within a second, and go back.
+/// Compares contents, not dates: those can stand still within a second, and go back.
 fn poll(
-    path: &Path,
-    first: Option<u64>,
+    paths: &[PathBuf],
+    first: Vec<Option<u64>>,
     interval: Duration,
     notices: &Receiver<Notice>,
     changed: impl Fn(),
@@ -237,7 +257,7 @@ fn poll(
         notices.recv_timeout(interval),
         Err(RecvTimeoutError::Timeout)
     ) {
-        let now = fingerprint(path);
+        let now = fingerprints(paths);
         if now != last {
             last = now;
             changed();
@@ -245,7 +265,11 @@ fn poll(
     }
 }
 
-/// A number that stands for a file's content; `None` if it can't be read.
+/// Numbers that stand for files' contents; `None` for one that can't be read.
+fn fingerprints(paths: &[PathBuf]) -> Vec<Option<u64>> {
+    paths.iter().map(|path| fingerprint(path)).collect()
+}
+
 fn fingerprint(path: &Path) -> Option<u64> {
     struct Hashing(DefaultHasher);
 
@@ -260,7 +284,9 @@ fn fingerprint(path: &Path) -> Option<u64> {
         }
     }
 
+    let file = file::open(path).ok()?;
     let mut hashing = Hashing(DefaultHasher::new());
-    io::copy(&mut file::open(path).ok()?, &mut hashing).ok()?;
+    hashing.0.write_u64(file.metadata().ok()?.len());
+    io::copy(&mut file.take(COMPARED), &mut hashing).ok()?;
     Some(hashing.0.finish())
 }

@@ -70,7 +70,7 @@ impl Watched {
         let told = move || {
             let _ = sender.send(());
         };
-        let watcher = Watcher::new(&path, method, told).expect("a watcher");
+        let watcher = Watcher::new(std::slice::from_ref(&path), method, told).expect("a watcher");
         Self {
             seen: fs::read_to_string(&path).ok(),
             directory,
@@ -209,6 +209,47 @@ fn a_file_that_is_not_there_yet_is_noticed_when_it_comes() {
         let mut watched = Watched::new("s.ray", method, &[]);
         watched.expect(&[Save("s.ray", "new")], "new");
     }
+}
+
+/// Watches files of a directory; tells of each notice.
+fn watch(directory: &Path, names: &[&str], method: Method) -> (Watcher, Receiver<()>) {
+    let paths: Vec<_> = names.iter().map(|name| directory.join(name)).collect();
+    let (sender, notices) = mpsc::channel();
+    let told = move || {
+        let _ = sender.send(());
+    };
+    let watcher = Watcher::new(&paths, method, told).expect("a watcher");
+    (watcher, notices)
+}
+
+#[test]
+fn each_of_several_files_is_noticed() {
+    for method in [Method::Native, POLL] {
+        let directory = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).expect("a directory");
+        let at = directory.path();
+        take(at, &mut None, Directory("d"));
+        // The directory of the last one is yet to come.
+        let (_watcher, notices) = watch(at, &["a", "d/b", "e/c"], method);
+        for step in [
+            Save("a", "1"),
+            Save("d/b", "1"),
+            Directory("e"),
+            Save("e/c", "1"),
+            Remove("a"),
+            Save("e/c", "22"),
+        ] {
+            take(at, &mut None, step);
+            // An empty directory has no content to compare.
+            if step_is_noticed(step, method) {
+                notices.recv_timeout(PATIENCE).expect("a notice");
+            }
+            while notices.recv_timeout(QUIET).is_ok() {}
+        }
+    }
+}
+
+fn step_is_noticed(step: Step, method: Method) -> bool {
+    method == Method::Native || !matches!(step, Directory(_))
 }
 
 #[test]

@@ -154,7 +154,7 @@ impl World {
             Effect::Save { path, text, guard } => {
                 self.files.order(Task::Save { path, text, guard })
             }
-            Effect::Watch(path) => self.watch(&path),
+            Effect::Watch(path) => self.watch(path),
             Effect::Later(time, timer) => {
                 self.timers.retain(|&(_, set)| set != timer);
                 self.timers.push((Instant::now() + time, timer));
@@ -253,17 +253,18 @@ impl World {
         spawned.map(drop).map_err(|error| error.to_string())
     }
 
-    fn watch(&mut self, path: &Path) -> Result<(), String> {
+    fn watch(&mut self, path: PathBuf) -> Result<(), String> {
         let sender = self.sender.clone();
         let changed = move || {
             let _ = sender.send(Event::Msg(Msg::FileChanged));
         };
         // The old watch ends first: its notices would be taken for the new file's.
         self.watcher = None;
-        let watcher = Watcher::new(path, self.method, changed).map_err(|error| {
+        let path = [path];
+        let watcher = Watcher::new(&path, self.method, changed).map_err(|error| {
             format!(
                 "changes of {} go unnoticed: {error}; try --poll",
-                path.display()
+                path[0].display()
             )
         })?;
         self.watcher = Some(watcher);
