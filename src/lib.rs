@@ -28,7 +28,8 @@
 //! | [`render`] | pixels from a scene: worker, integrator, film, tone | documents, files, terminals |
 //! | [`file`](mod@file) | reading scenes and replacing files whole | what the bytes mean |
 //! | [`image_file`] | picture files: frames written, textures read | what is in a scene |
-//! | [`watch`] | a path that changes on disk | what is in it |
+//! | [`assets`] | the picture files that scenes name, as shared values | what they are for |
+//! | [`watch`] | paths that change on disk | what is in them |
 //! | [`ui`] | the terminal: the only room that knows ratatui and crossterm | how pixels come about |
 //! | [`batch`] | headless work: check, render | terminals |
 //! | [`cli`] | arguments and exit codes | work |
@@ -48,6 +49,7 @@
 //!   frame slot, and the messages of panics, which a panic hook must be able to leave anywhere.
 
 pub mod accel;
+pub mod assets;
 pub mod batch;
 pub mod cli;
 pub mod document;

@@ -14,7 +14,7 @@ fn main() -> ExitCode {
     ExitCode::from(match cli::parse(std::env::args_os()) {
         Ok(Command::Interface(options)) => interface(&options),
         Ok(Command::Render(work)) => cli::exit_code(&batch::render(&work)),
-        Ok(Command::Check(scenes)) => cli::exit_code(&batch::check(&scenes)),
+        Ok(Command::Check(work)) => cli::exit_code(&batch::check(&work)),
         Err(stop) => print(&stop),
     })
 }

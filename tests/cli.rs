@@ -465,3 +465,97 @@ fn a_terminal_is_refused_unless_forced() {
         assert!(String::from_utf8_lossy(&shown).contains(mark), "{shown:?}");
     }
 }
+
+/// A ball in the colours of a picture file.
+const TEXTURED: &str = "\
+camera perspective 0 0 8  0 0 0  0 1 0  1 0 100
+resolution .02 .02
+viewport 40 30
+light ID 0 amb 0 0 0  0 0 0  1 1 1  1 0 0  0 shadow_off
+mat ID 0  1 1 1  1 0 0 1  0 0 1
+texture ID 3 image 1 1 skin.ppm
+use colour ID 3 mat ID 0
+obj sphere ID 0 mat ID 0  0 0 0  2
+";
+
+const SKIN: &str = "P3\n1 1\n255\n1 2 3\n";
+
+/// The colour in the middle of a PPM.
+fn middle(ppm: &[u8]) -> &[u8] {
+    let pixels = &ppm[b"P6\n40 30\n255\n".len()..];
+    &pixels[3 * (15 * 40 + 20)..][..3]
+}
+
+#[test]
+fn textures_are_read_from_beside_the_scene() {
+    let place = Place::new();
+    place.write("a.dat", TEXTURED);
+    place.write("skin.ppm", SKIN);
+    assert_eq!(place.told("render a.dat -o a.ppm --spp 1", 0), "");
+    assert_eq!(middle(&place.read("a.ppm")), [1, 2, 3]);
+    assert_eq!(
+        place.told("check a.dat", 0),
+        "1 scene checked: 0 errors, 0 warnings\n"
+    );
+}
+
+#[test]
+fn a_texture_that_cannot_be_read_is_a_warning_and_magenta() {
+    let place = Place::new();
+    place.write("a.dat", TEXTURED);
+    let told = place.told("render a.dat -o a.ppm --spp 1", 0);
+    let first = "warning: a.dat:6:24: texture 3 file: no such file; magenta stands for it\n";
+    assert!(told.starts_with(first), "{told}");
+    for part in [
+        "texture ID 3 image 1 1 skin.ppm",
+        "a picture file: .bmp,",
+        "skin.ppm",
+    ] {
+        assert!(told.contains(part), "{told}");
+    }
+    assert_eq!(middle(&place.read("a.ppm")), [255, 0, 255]);
+    let told = place.told("check a.dat", 0);
+    assert!(
+        told.ends_with("1 scene checked: 0 errors, 1 warning\n"),
+        "{told}"
+    );
+}
+
+#[test]
+fn textures_from_elsewhere_need_leave() {
+    let place = Place::new();
+    let elsewhere = Place::new();
+    elsewhere.write("skin.ppm", SKIN);
+    let path = elsewhere.at("skin.ppm");
+    place.write(
+        "a.dat",
+        TEXTURED.replace("skin.ppm", path.to_str().expect("a plain path")),
+    );
+    let told = place.told("render a.dat -o a.ppm --spp 1", 0);
+    assert!(told.contains("an absolute path is not read"), "{told}");
+    assert_eq!(middle(&place.read("a.ppm")), [255, 0, 255]);
+    let folder = elsewhere.directory.path().display();
+    assert!(told.contains(&format!("--assets {folder} ")), "{told}");
+    let allowed = format!("render a.dat -o a.ppm --spp 1 --assets /nowhere --assets {folder}");
+    assert_eq!(place.told(&allowed, 0), "");
+    assert_eq!(middle(&place.read("a.ppm")), [1, 2, 3]);
+    let told = place.told(&format!("check a.dat --assets {folder}"), 0);
+    assert!(told.contains("0 warnings"), "{told}");
+}
+
+#[test]
+fn a_picture_has_the_format_that_is_asked_for() {
+    let place = Place::new();
+    for (name, magic) in [
+        ("a.tif", &b"II*\0"[..]),
+        ("a.gif", b"GIF89a"),
+        ("a.jpg", b"\xFF\xD8\xFF"),
+        ("a.png", b"\x89PNG"),
+    ] {
+        place.told(&format!("render ball.ray -o {name} --spp 1"), 0);
+        assert!(place.read(name).starts_with(magic), "{name}");
+        let format = name.trim_start_matches("a.");
+        let streamed = place.run(&format!("render ball.ray -o - --spp 1 --format {format}"));
+        assert_eq!(streamed.stdout, place.read(name), "{name}");
+    }
+}

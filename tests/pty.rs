@@ -689,3 +689,40 @@ fn nothing_from_files_reaches_the_terminal_raw() {
     assert!(after_escapes.all(|rest| rest.starts_with('[')));
     assert!(!written.contains("\x1b[7;9r"));
 }
+
+/// A ball that shines by ambient light alone, in the colours of a picture file.
+const TEXTURED: &str = "\
+camera perspective 0 0 8  0 0 0  0 1 0  1 0 100
+resolution .02 .02
+viewport 40 30
+light ID 0 amb 0 0 0  0 0 0  1 1 1  1 0 0  0 shadow_off
+mat ID 0  1 1 1  1 0 0 1  0 0 1
+texture ID 0 image 1 1 skin.ppm
+use colour ID 0 mat ID 0
+obj sphere ID 0 mat ID 0  0 0 0  2
+";
+
+#[test]
+fn the_picture_follows_the_files_of_its_textures() {
+    let skin = |colour: &str| format!("P3\n1 1\n255\n{colour}\n");
+    let place = Place::new();
+    place.write("ball.dat", TEXTURED);
+    for arguments in [&["ball.dat"][..], &["--poll=20", "ball.dat"]] {
+        place.write("skin.ppm", &skin("255 0 0"));
+        let mut session = place.start(arguments, WIDE);
+        wait_for_colour(&mut session, RED);
+        place.replace("skin.ppm", &skin("0 0 255"));
+        wait_for_colour(&mut session, BLUE);
+
+        // Half a picture changes nothing, but is told.
+        place.write("skin.ppm", "P3\n1 1\n255\n0");
+        session.wait_for("1 texture can't be read: ! says why");
+        session.send("!");
+        session.wait_for("its last picture is kept");
+        wait_for_colour(&mut session, BLUE);
+        session.send(ESC);
+        place.write("skin.ppm", &skin("0 255 0"));
+        wait_for_colour(&mut session, GREEN);
+        quit(session);
+    }
+}

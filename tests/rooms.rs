@@ -16,14 +16,24 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("render", &["accel", "geometry", "scene"]),
     ("file", &["text"]),
     ("image_file", &["file", "render", "scene"]),
+    ("assets", &["file", "image_file", "scene", "text"]),
     ("watch", &["file"]),
     (
         "batch",
-        &["file", "format", "image_file", "render", "scene", "text"],
+        &[
+            "assets",
+            "file",
+            "format",
+            "image_file",
+            "render",
+            "scene",
+            "text",
+        ],
     ),
     (
         "ui",
         &[
+            "assets",
             "document",
             "file",
             "format",

@@ -9,11 +9,12 @@ mod stdout;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use crate::assets::{self, Assets, Wanted};
 use crate::file::{self, ReadError};
 use crate::format::{self, Format, Tree, UnknownLanguage};
 use crate::render::Refusal;
 use crate::scene::fields::Kind;
-use crate::scene::{self, Node, Origins, Scene};
+use crate::scene::{self, Images, Node, Origins, Scene};
 use crate::text::{Diagnostic, Span, counted, visible};
 
 pub use render::{Output, Render, render};
@@ -60,15 +61,24 @@ pub enum Error {
     Stopped,
 }
 
-/// Reads scenes and prints what is wrong with them, then a line that sums it up, all to the error
+/// Scenes to look at.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Check {
+    /// The scene files.
+    pub scenes: Vec<PathBuf>,
+    /// Folders that their textures may be read from besides their surroundings.
+    pub assets: Vec<PathBuf>,
+}
+
+/// Reads scenes and their textures and prints what is wrong with them, then a line that sums it up, all to the error
 /// stream. Every scene is looked at. The error of the first scene that can't be read or is wrong
 /// is returned; for wrong ones, with the errors of all.
-pub fn check(paths: &[PathBuf]) -> Result<(), Error> {
+pub fn check(work: &Check) -> Result<(), Error> {
     let mut first = None;
     let mut errors = 0;
     let mut warnings = 0;
-    for path in paths {
-        match load(path) {
+    for path in &work.scenes {
+        match load(path, &work.assets) {
             Ok(loaded) => {
                 errors += loaded.errors;
                 warnings += loaded.warnings;
@@ -85,7 +95,7 @@ pub fn check(paths: &[PathBuf]) -> Result<(), Error> {
     }
     print(&format!(
         "{} checked: {}, {}",
-        counted(paths.len(), "scene"),
+        counted(work.scenes.len(), "scene"),
         counted(errors, "error"),
         counted(warnings, "warning"),
     ));
@@ -100,6 +110,8 @@ pub fn check(paths: &[PathBuf]) -> Result<(), Error> {
 struct Loaded {
     /// `None` where there are errors.
     scene: Option<Scene>,
+    /// The pictures of its textures.
+    images: Images,
     text: String,
     /// Where the text says the picture's size, if it does.
     size: Option<Span>,
@@ -107,8 +119,8 @@ struct Loaded {
     warnings: usize,
 }
 
-/// Reads a scene and prints what is wrong with it.
-fn load(path: &Path) -> Result<Loaded, Error> {
+/// Reads a scene with its textures, from `folders` too, and prints what is wrong with it.
+fn load(path: &Path, folders: &[PathBuf]) -> Result<Loaded, Error> {
     let format = Format::of_path(path).map_err(|unknown| {
         // What can't be opened is no scene under any name.
         file::open(path).map_or_else(Error::from, |_| unknown.into())
@@ -116,9 +128,17 @@ fn load(path: &Path) -> Result<Loaded, Error> {
     let text = file::read_text(path)?;
     let tree = format::parse(format, &text);
     let lowered = scene::lower(&text, &tree);
-    print_findings(path, &text, &lowered.diagnostics);
-    let (errors, warnings) = (lowered.diagnostics.errors(), lowered.diagnostics.warnings());
-    let more = errors + warnings - lowered.diagnostics.len();
+    let mut findings = lowered.diagnostics;
+    let mut images = Images::default();
+    if lowered.scene.is_some() {
+        let files = lowered.origins.files(&text, &tree);
+        let loaded = Assets::new(folders).read(&Wanted::new(path, &files));
+        findings = assets::report(&loaded.troubles, &files, findings);
+        images = loaded.images;
+    }
+    print_findings(path, &text, &findings);
+    let (errors, warnings) = (findings.errors(), findings.warnings());
+    let more = errors + warnings - findings.len();
     if 0 < more {
         tell(
             "note",
@@ -128,6 +148,7 @@ fn load(path: &Path) -> Result<Loaded, Error> {
     Ok(Loaded {
         size: size_place(&lowered.origins, &tree),
         scene: lowered.scene,
+        images,
         text,
         errors,
         warnings,

@@ -31,6 +31,8 @@ pub struct Render {
     pub seed: u32,
     /// Threads that trace.
     pub threads: usize,
+    /// Folders that textures may be read from besides the scene's surroundings.
+    pub assets: Vec<PathBuf>,
 }
 
 /// Where a picture goes.
@@ -53,7 +55,7 @@ pub fn render(work: &Render) -> Result<(), Error> {
 
 fn make(work: &Render) -> Result<(), Error> {
     check_output(work)?;
-    let loaded = load(&work.scene)?;
+    let loaded = load(&work.scene, &work.assets)?;
     let scene = loaded.scene.ok_or(Error::Invalid {
         errors: loaded.errors,
     })?;
@@ -68,7 +70,7 @@ fn make(work: &Render) -> Result<(), Error> {
         print_findings(&work.scene, &loaded.text, &[wrong]);
         return Err(Error::Invalid { errors: 1 });
     }
-    let frame = trace(work, scene, size)?;
+    let frame = trace(work, scene, loaded.images, size)?;
     if 0 < frame.progress.over_budget {
         let samples = counted(frame.progress.over_budget as usize, "sample");
         tell(
@@ -97,9 +99,9 @@ fn check_output(work: &Render) -> Result<(), Error> {
     }
 }
 
-fn trace(work: &Render, scene: Scene, size: Size) -> Result<Arc<Frame>, Error> {
+fn trace(work: &Render, scene: Scene, images: Images, size: Size) -> Result<Arc<Frame>, Error> {
     let job = Job {
-        images: Images::default(),
+        images,
         // The picture's ratio is the one asked for.
         camera: Camera {
             size,

@@ -11,7 +11,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum, value_parser};
 
-use crate::batch::{self, Output, Render};
+use crate::batch::{self, Check, Output, Render};
 use crate::file::ReadError;
 use crate::image_file::{FORMATS, ImageFormat, known_extensions};
 use crate::render::{DEFAULT_DEPTH, DEFAULT_SPP, MAX_SPP};
@@ -48,7 +48,7 @@ pub enum Command {
     /// Make a picture.
     Render(Render),
     /// Say what is wrong with scenes.
-    Check(Vec<PathBuf>),
+    Check(Check),
 }
 
 /// How many colours the terminal is sent.
@@ -99,7 +99,10 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, S
             .meaning()
             .map(Command::Render)
             .map_err(|reason| refusal(Some("render"), reason)),
-        Some(Subcommands::Check { scenes }) => Ok(Command::Check(scenes)),
+        Some(Subcommands::Check { scenes, assets }) => Ok(Command::Check(Check {
+            scenes,
+            assets: assets.folders,
+        })),
         None => said
             .interface
             .meaning()
@@ -214,7 +217,17 @@ enum Subcommands {
         /// Scene files
         #[arg(required = true, value_name = "SCENE")]
         scenes: Vec<PathBuf>,
+        #[command(flatten)]
+        assets: AssetArguments,
     },
+}
+
+#[derive(Args, Debug)]
+struct AssetArguments {
+    /// Let the scene read pictures for its textures from this folder too; may be given several
+    /// times. Without it they are read from below the folder above the scene's only
+    #[arg(long = "assets", value_name = "DIR")]
+    folders: Vec<PathBuf>,
 }
 
 #[derive(Args, Debug)]
@@ -250,6 +263,8 @@ struct InterfaceArguments {
     /// Threads that trace [default: one fewer than the machine's cores]
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
+    #[command(flatten)]
+    assets: AssetArguments,
 }
 
 impl InterfaceArguments {
@@ -277,6 +292,7 @@ impl InterfaceArguments {
             spp: self.spp,
             depth: self.depth,
             threads: self.threads.map(usize::from),
+            assets: self.assets.folders,
         })
     }
 }
@@ -328,6 +344,8 @@ struct RenderArguments {
     /// Threads that trace [default: one a core]
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
+    #[command(flatten)]
+    assets: AssetArguments,
     /// Write the picture even to a terminal
     #[arg(long)]
     force: bool,
@@ -361,6 +379,7 @@ impl RenderArguments {
             depth: self.depth,
             seed: self.seed,
             threads: self.threads.map_or_else(all_cores, usize::from),
+            assets: self.assets.folders,
         })
     }
 }

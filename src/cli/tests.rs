@@ -35,7 +35,7 @@ fn what_is_not_said_is_left_to_the_interface() {
 
 #[test]
 fn the_interface_is_told_what_was_said() {
-    let line = "halflight --poll=20 --bandwidth 128 --color 256 --no-mouse --spp 4 --depth 0 --threads 3 a";
+    let line = "halflight --poll=20 --bandwidth 128 --color 256 --no-mouse --spp 4 --depth 0 --threads 3 --assets b --assets c a";
     assert_eq!(
         interface(line),
         ui::Options {
@@ -47,6 +47,7 @@ fn the_interface_is_told_what_was_said() {
             spp: Some(4),
             depth: Some(0),
             threads: Some(3),
+            assets: vec!["b".into(), "c".into()],
         }
     );
     assert_eq!(interface("halflight --bandwidth 0 a").bandwidth, Some(0));
@@ -82,6 +83,20 @@ fn a_picture_has_defaults() {
     };
     assert_eq!((said.size, said.spp, said.seed), (Some(size), 65_536, 7));
     assert_eq!(said.output, Output::StdoutTerminal);
+}
+
+#[test]
+fn folders_of_textures_are_told_to_every_command() {
+    let folders: Vec<PathBuf> = vec!["b".into(), "c".into()];
+    let line = "halflight render a.dat -o a.bmp --assets b --assets c";
+    assert_eq!(render(line).assets, folders);
+    match parsed("halflight check a.dat --assets b --assets c d.dat") {
+        Ok(Command::Check(check)) => {
+            assert_eq!(check.assets, folders);
+            assert_eq!(check.scenes, [PathBuf::from("a.dat"), "d.dat".into()]);
+        }
+        other => panic!("{other:?}"),
+    }
 }
 
 #[test]

@@ -39,7 +39,7 @@ pub enum ReadError {
         /// What it is, with its article: `a folder`.
         kind: &'static str,
     },
-    /// It is longer than [`MAX_BYTES`].
+    /// It is longer than allowed, which is [`MAX_BYTES`] for scenes.
     #[error("{path}: is 4 GiB or longer; scenes are shorter", path = path.display())]
     TooLong {
         /// The file.
@@ -65,16 +65,7 @@ pub enum ReadError {
 
 /// Reads a scene file: a regular file of at most [`MAX_BYTES`] bytes in UTF-8.
 pub fn read_text(path: &Path) -> Result<String, ReadError> {
-    let file = open(path)?;
-    let bytes = read_bytes(&file).map_err(|source| match source.kind() {
-        io::ErrorKind::FileTooLarge => ReadError::TooLong {
-            path: path.to_owned(),
-        },
-        _ => ReadError::Io {
-            path: path.to_owned(),
-            source,
-        },
-    })?;
+    let bytes = read_bytes(path, MAX_BYTES)?;
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let bytes = error.as_bytes();
@@ -87,6 +78,19 @@ pub fn read_text(path: &Path) -> Result<String, ReadError> {
                 _ => "WINDOWS-1252",
             },
         }
+    })
+}
+
+/// Reads a regular file of at most `limit` bytes.
+pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+    read_open(&open(path)?, limit).map_err(|source| match source.kind() {
+        io::ErrorKind::FileTooLarge => ReadError::TooLong {
+            path: path.to_owned(),
+        },
+        _ => ReadError::Io {
+            path: path.to_owned(),
+            source,
+        },
     })
 }
 
@@ -160,16 +164,16 @@ fn kind(file_type: FileType) -> &'static str {
     "a device"
 }
 
-fn read_bytes(file: &File) -> io::Result<Vec<u8>> {
+fn read_open(file: &File, limit: u64) -> io::Result<Vec<u8>> {
     let length = file.metadata()?.len();
-    if MAX_BYTES < length {
+    if limit < length {
         return Err(io::ErrorKind::FileTooLarge.into());
     }
     let mut bytes = Vec::new();
     bytes.try_reserve_exact(length as usize)?;
     // The file may grow while it is read.
-    file.take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
-    if MAX_BYTES < bytes.len() as u64 {
+    file.take(limit + 1).read_to_end(&mut bytes)?;
+    if limit < bytes.len() as u64 {
         return Err(io::ErrorKind::FileTooLarge.into());
     }
     Ok(bytes)

@@ -16,7 +16,7 @@ use glam::DVec3;
 use crate::geometry::{Aabb, Hit, Shape};
 
 pub use lower::{Lowered, lower};
-pub use origins::{Node, Origins, Placed};
+pub use origins::{NamedFile, Node, Origins, Placed};
 pub use texture::{Image, Images, Pattern, Texture};
 pub use view::{view_edits, view_literals, view_saying};
 pub use visibility::{Visibility, visibility_edits};

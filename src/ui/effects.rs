@@ -16,6 +16,7 @@ use super::msg::{Destination, Effect, Existing, ExportId, Msg, Target, Timer};
 use super::terminal::{self, Input, Terminal};
 #[cfg(unix)]
 use super::terminal::{Signals, suspend_process};
+use super::textures::Textures;
 use crate::file;
 use crate::image_file;
 use crate::render::{Frame, Job, Refusal, Renderer, Threads};
@@ -42,6 +43,7 @@ pub(crate) struct World {
     signals: Signals,
     sender: Sender<Event>,
     files: Files,
+    textures: Textures,
     threads: Option<usize>,
     preview: Option<Numbered>,
     trace: Option<Numbered>,
@@ -65,23 +67,26 @@ impl World {
                 let _ = sender.send(Event::Msg(message(event)));
             }
         };
+        let method = options.poll.map_or(Method::Native, Method::Poll);
+        let send = |sender: &Sender<Event>| {
+            let sender = sender.clone();
+            move |msg| {
+                let _ = sender.send(Event::Msg(msg));
+            }
+        };
         Ok(Self {
             terminal,
             input: Input::start(tell(&sender))?,
             #[cfg(unix)]
             signals: Signals::start(tell(&sender))?,
-            files: Files::start({
-                let sender = sender.clone();
-                move |msg| {
-                    let _ = sender.send(Event::Msg(msg));
-                }
-            })?,
+            files: Files::start(send(&sender))?,
+            textures: Textures::start(&options.assets, method, send(&sender))?,
             threads: options.threads,
             preview: None,
             trace: None,
             export: None,
             renderers: 0,
-            method: options.poll.map_or(Method::Native, Method::Poll),
+            method,
             watcher: None,
             timers: Vec::new(),
             ended: false,
@@ -155,6 +160,7 @@ impl World {
                 self.files.order(Task::Save { path, text, guard })
             }
             Effect::Watch(path) => self.watch(path),
+            Effect::ReadTextures(wanted) => self.textures.order(wanted),
             Effect::Later(time, timer) => {
                 self.timers.retain(|&(_, set)| set != timer);
                 self.timers.push((Instant::now() + time, timer));

@@ -18,6 +18,7 @@ pub mod msg;
 mod recovery;
 mod session;
 pub mod terminal;
+mod textures;
 pub mod view;
 
 use std::io;
@@ -55,6 +56,8 @@ pub struct Options {
     pub depth: Option<u32>,
     /// Threads that trace.
     pub threads: Option<usize>,
+    /// Folders that textures may be read from besides the scene's surroundings.
+    pub assets: Vec<PathBuf>,
 }
 
 impl Default for Options {
@@ -68,6 +71,7 @@ impl Default for Options {
             spp: None,
             depth: None,
             threads: None,
+            assets: Vec::new(),
         }
     }
 }

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use crossterm::event::{KeyEvent, MouseEvent};
 
+use crate::assets::{Loaded, Wanted};
 use crate::file::ReadError;
 use crate::render::{Frame, Job};
 use crate::ui::terminal::Mouse;
@@ -49,6 +50,10 @@ pub enum Msg {
     FileChanged,
     /// The file of this name was read.
     Read(PathBuf, Result<String, ReadError>),
+    /// The pictures of the scene's textures were read.
+    Textures(Wanted, Loaded),
+    /// Something happened to one of their files.
+    TexturesChanged,
     /// The time that [`Effect::Later`] asked for has passed.
     Elapsed(Timer),
     /// The scene was written, or not.
@@ -135,6 +140,9 @@ pub enum Effect {
     },
     /// Watch this file from here on: [`Msg::FileChanged`].
     Watch(PathBuf),
+    /// Read the pictures of the scene's textures and watch their files from here on:
+    /// [`Msg::Textures`], [`Msg::TexturesChanged`].
+    ReadTextures(Wanted),
     /// Send [`Msg::Elapsed`] after a while; the same timer set again starts anew.
     Later(Duration, Timer),
     /// Keep the text of unsaved edits for the next run.

@@ -1,10 +1,10 @@
 //! Where the things of a `.dat` text stand: each in a record of its own, and what textures do to a
 //! material in further ones.
 
-use super::{Node, Placed};
+use super::{NamedFile, Node, Placed};
 use crate::format::dat::Tree;
 use crate::scene::fields::dat::{HALF_SPACE, ObjectKind, Part, RecordKind};
-use crate::scene::fields::{Category, numbers};
+use crate::scene::fields::{Category, Kind, numbers};
 use crate::text::Span;
 
 /// Where everything that was lowered stands. It holds indices of records: ask it only with the tree
@@ -170,6 +170,22 @@ impl Origins {
         let mut identities: Vec<_> = before.map(|(_, id)| id).collect();
         identities.sort_unstable();
         identities
+    }
+
+    pub(super) fn files(&self, text: &str, tree: &Tree) -> Vec<NamedFile> {
+        let places = self.textures.iter().enumerate();
+        let file = |(index, at): (usize, &Place)| {
+            let tokens = tree.tokens_of(at.record).get(at.kind.heads()..)?;
+            let fields = place(tokens, at.kind);
+            let word = fields.iter().find(|said| said.field.kind == Kind::Word)?;
+            let span = *word.spans.first()?;
+            Some(NamedFile {
+                path: span.of(text).to_owned(),
+                span,
+                what: format!("{} {}", self.name(Node::Texture(index)), word.field.key),
+            })
+        };
+        places.filter_map(file).collect()
     }
 
     pub(super) fn users(&self, node: Node) -> usize {

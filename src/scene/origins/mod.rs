@@ -36,6 +36,17 @@ pub struct Placed {
     pub spans: Vec<Span>,
 }
 
+/// Another file that a text names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedFile {
+    /// Its path as the text says it.
+    pub path: String,
+    /// Where the text does.
+    pub span: Span,
+    /// What it is: `texture 2 file`.
+    pub what: String,
+}
+
 /// Where everything that was lowered stands. It holds indices into the tree: ask it only with the
 /// tree it was made from.
 #[derive(Clone, Debug)]
@@ -166,6 +177,14 @@ impl Origins {
         match self {
             Self::Ray(_) => Vec::new(),
             Self::Dat(origins) => origins.identities(node, category),
+        }
+    }
+
+    /// The picture files of its textures, in text order.
+    pub fn files(&self, text: &str, tree: &Tree) -> Vec<NamedFile> {
+        match (self, tree) {
+            (Self::Dat(origins), Tree::Dat(tree)) => origins.files(text, tree),
+            _ => Vec::new(),
         }
     }
 

@@ -33,7 +33,9 @@ impl App {
             self.fail("this scene has no file to read: :w FILE makes one");
         }
         self.pending.reader = Reader::User;
-        self.read_again()
+        let mut effects = self.read_again();
+        effects.extend(self.read_textures());
+        effects
     }
 
     fn read_effect(&self) -> Vec<Effect> {
@@ -229,6 +231,8 @@ impl App {
                 if self.path.as_ref() != Some(&path) {
                     self.path = Some(path.clone());
                     effects.extend(watch(&path));
+                    // Textures are looked for from another folder now.
+                    self.relower();
                 }
                 self.pending.quit = quit;
                 effects.extend(self.quit_when_done());

@@ -19,7 +19,7 @@ impl App {
     pub(super) fn install(&mut self, lowered: Lowered) {
         self.nodes = lowered.origins.nodes();
         self.origins = lowered.origins;
-        self.diagnostics = lowered.diagnostics;
+        self.diagnostics = self.with_files(lowered.diagnostics);
         if let Some(scene) = lowered.scene {
             if let Some(view) = &mut self.view {
                 view.size = scene.camera.size;

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::textures::STILL_READING;
 use super::{App, Export, Mode, Picture, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
 use crate::render::{Frame, Frames, Job, Settings};
@@ -15,8 +16,12 @@ const PREVIEW_SPP: u32 = 64;
 impl App {
     /// Has traced anew what no longer shows the scene.
     pub(super) fn follow(&mut self) -> Vec<Effect> {
+        let mut effects = self.follow_textures();
+        if self.awaits_textures() {
+            // A picture without them would only be seen for a moment.
+            return effects;
+        }
         let changed = std::mem::take(&mut self.pending.scene);
-        let mut effects = Vec::new();
         if changed {
             self.preview.asked = None;
             effects.extend(self.follow_trace());
@@ -62,6 +67,10 @@ impl App {
 
     pub(super) fn start_trace(&mut self) -> Vec<Effect> {
         if self.mode == Mode::Trace {
+            return Vec::new();
+        }
+        if self.awaits_textures() {
+            self.fail(STILL_READING);
             return Vec::new();
         }
         let Some(job) = self.trace_job() else {
@@ -207,6 +216,7 @@ impl App {
         let job = self.job(size, spp);
         let refused = match (ImageFormat::of_path(path), &job) {
             _ if self.export.is_some() => Some("an export is under way: x cancels it".to_owned()),
+            _ if self.awaits_textures() => Some(STILL_READING.to_owned()),
             (None, _) => Some(format!(
                 "{}: pictures end in {}",
                 path.display(),

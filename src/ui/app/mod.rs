@@ -21,6 +21,7 @@ mod pointer;
 mod quit;
 #[cfg(test)]
 mod tests;
+mod textures;
 mod typing;
 mod update;
 

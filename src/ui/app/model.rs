@@ -6,6 +6,7 @@ use std::sync::Arc;
 use tui_input::Input;
 
 use super::picture::Picture;
+use super::textures::Textures;
 use crate::document::{Document, Merge};
 use crate::render::Progress;
 use crate::scene::fields::Field;
@@ -103,6 +104,8 @@ pub struct App {
     pub mouse: Mouse,
     /// Size of the terminal in cells.
     pub terminal: (u16, u16),
+    /// How the pictures of the scene's textures stand.
+    pub(super) textures: Textures,
     /// What a sequence of messages has led to so far.
     pub(super) pending: Pending,
 }

@@ -7,6 +7,7 @@ use tui_input::Input;
 
 use super::disk::watch;
 use super::model::Pending;
+use super::textures::Textures;
 use super::{
     App, Dialog, Disk, Help, HelpFocus, Message, Mode, Outline, Picture, Prompt, PromptKind,
     Quality, Stride, line,
@@ -75,6 +76,7 @@ impl App {
             net: None,
             mouse: opening.mouse,
             terminal: opening.terminal,
+            textures: Textures::default(),
             pending: Pending::default(),
         };
         app.relower();
@@ -110,6 +112,8 @@ impl App {
             // The answer may come after the scene got another name.
             Msg::Read(path, read) if self.is_own_path(&path) => return self.was_read(read),
             Msg::Read(..) => {}
+            Msg::Textures(wanted, loaded) => self.textures_read(&wanted, loaded),
+            Msg::TexturesChanged => return self.read_textures(),
             Msg::Elapsed(Timer::Settled) => return self.settled(),
             Msg::Elapsed(Timer::Interrupt) => self.pending.interrupt = false,
             Msg::Elapsed(Timer::Click) => self.pending.click = None,

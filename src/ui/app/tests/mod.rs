@@ -5,6 +5,7 @@ mod disk;
 mod editing;
 mod moving;
 mod pictures;
+mod textures;
 
 use std::path::{Path, PathBuf};
 

@@ -1,0 +1,262 @@
+use std::os::unix::fs::symlink;
+
+use tempfile::TempDir;
+
+use super::*;
+use crate::scene::Size;
+use crate::text::Span;
+
+/// A folder `scenes` with a scene `x.dat`, in a folder of its own.
+struct Place {
+    directory: TempDir,
+}
+
+impl Place {
+    fn new() -> Self {
+        let directory = tempfile::tempdir().expect("a directory");
+        fs::create_dir(directory.path().join("scenes")).expect("a folder");
+        Self { directory }
+    }
+
+    /// A path below the scene's folder.
+    fn at(&self, name: &str) -> PathBuf {
+        self.directory.path().join("scenes").join(name)
+    }
+
+    fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        fs::write(self.at(name), content).expect("written");
+    }
+
+    fn wanted(&self, names: &[&str]) -> Wanted {
+        Wanted {
+            scene: self.at("x.dat"),
+            names: names.iter().map(|name| (*name).to_owned()).collect(),
+        }
+    }
+
+    /// What a first reading of one name says is wrong.
+    fn refusal(&self, name: &str, folders: &[PathBuf]) -> Option<String> {
+        let loaded = Assets::new(folders).read(&self.wanted(&[name]));
+        assert_eq!(
+            loaded.images.get(name).is_some(),
+            loaded.troubles.is_empty()
+        );
+        loaded.troubles.get(name).map(told)
+    }
+}
+
+fn told(trouble: &Trouble) -> String {
+    let file = NamedFile {
+        path: String::new(),
+        span: Span::at(0),
+        what: "texture 1 file".to_owned(),
+    };
+    let Diagnostic { message, hint, .. } = trouble.at(&file);
+    format!("{message} ({})", hint.unwrap_or_default())
+}
+
+/// One pixel in a PPM.
+fn ppm(pixel: [u8; 3]) -> Vec<u8> {
+    [&b"P6\n1 1\n255\n"[..], &pixel].concat()
+}
+
+fn pixel(loaded: &Loaded, name: &str) -> Option<[u8; 3]> {
+    Some(loaded.images.get(name)?.pixels()[0])
+}
+
+const RED: [u8; 3] = [255, 0, 0];
+const BLUE: [u8; 3] = [0, 0, 255];
+
+#[test]
+fn files_near_the_scene_are_read() {
+    let place = Place::new();
+    fs::create_dir_all(place.at("pics")).expect("a folder");
+    fs::create_dir_all(place.at("../textures")).expect("a folder");
+    symlink("pics/b.ppm", place.at("link")).expect("a link");
+    for name in ["a.ppm", "pics/b.ppm", "../textures/c.ppm"] {
+        place.write(name, ppm(RED));
+    }
+    for name in ["a.ppm", "./pics/../a.ppm", "../textures/c.ppm", "link"] {
+        assert_eq!(place.refusal(name, &[]), None, "{name}");
+    }
+}
+
+#[test]
+fn other_places_are_refused_unless_their_folder_is_named() {
+    let place = Place::new();
+    let elsewhere = tempfile::tempdir().expect("a directory");
+    let outside = elsewhere.path().join("a.ppm");
+    fs::write(&outside, ppm(RED)).expect("written");
+    symlink(&outside, place.at("link")).expect("a link");
+    place.write("b.ppm", ppm(RED));
+    let absolute = outside.to_str().expect("a plain path");
+    let own = place.at("b.ppm");
+    let climbing = format!("../../../../../../../../../..{absolute}");
+    for (name, reason) in [
+        (
+            absolute,
+            "an absolute path is not read; magenta stands for it (--assets ",
+        ),
+        ("/dev/zero", "an absolute path"),
+        ("/none/at/all", "an absolute path"),
+        (own.to_str().expect("a plain path"), "an absolute path"),
+        ("link", "is outside of the folder above the scene's"),
+        (climbing.as_str(), "is outside of the folder above"),
+    ] {
+        let told = place.refusal(name, &[]).expect(name);
+        assert!(told.starts_with("texture 1 file: "), "{told}");
+        assert!(told.contains(reason), "{told}");
+    }
+    let folders = [PathBuf::from("/nowhere"), elsewhere.path().to_owned()];
+    for name in [absolute, "link", climbing.as_str()] {
+        assert_eq!(place.refusal(name, &folders), None, "{name}");
+    }
+    assert!(place.refusal("/dev/zero", &folders).is_some());
+}
+
+#[test]
+fn what_is_no_picture_is_told_as_what_it_is() {
+    let place = Place::new();
+    fs::create_dir(place.at("folder.png")).expect("a folder");
+    let made = std::process::Command::new("mkfifo")
+        .arg(place.at("pipe.png"))
+        .status();
+    assert!(made.is_ok_and(|status| status.success()), "a pipe");
+    symlink("loop.png", place.at("loop.png")).expect("a link");
+    place.write("empty.png", "");
+    place.write("text.png", "a text");
+    place.write("half.ppm", b"P6\n2 2\n255\nabc");
+    place.write("huge.ppm", b"P6\n8193 8192\n255\n");
+    let long = fs::File::create(place.at("long.ppm")).expect("made");
+    long.set_len(MAX_BYTES + 1).expect("a hole");
+    for (name, reason) in [
+        (
+            "none.png",
+            "no such file; magenta stands for it (it is looked for as ",
+        ),
+        ("a.ppm/none.png", "no such file"),
+        ("folder.png", "is a folder, not a file"),
+        ("pipe.png", "is a pipe, not a file"),
+        ("loop.png", "symbolic links"),
+        ("empty.png", "is no picture of a known format"),
+        ("text.png", "is no picture of a known format"),
+        ("half.ppm", "is no whole picture: "),
+        (
+            "huge.ppm",
+            "is 8193x8192: a texture has at most 67108864 pixels",
+        ),
+        ("long.ppm", "more than 512 MiB"),
+    ] {
+        let told = place.refusal(name, &[]).expect(name);
+        assert!(told.contains(reason), "{told}");
+    }
+}
+
+#[test]
+fn bytes_that_are_known_are_not_decoded_again() {
+    let place = Place::new();
+    place.write("a.ppm", ppm(RED));
+    place.write("b.ppm", ppm(RED));
+    let wanted = place.wanted(&["a.ppm", "b.ppm"]);
+    let mut assets = Assets::new(&[]);
+    let first = assets.read(&wanted).images;
+    let image = |images: &Images, name| Arc::clone(images.get(name).expect("read"));
+    assert!(Arc::ptr_eq(
+        &image(&first, "a.ppm"),
+        &image(&first, "b.ppm")
+    ));
+    place.write("b.ppm", ppm(BLUE));
+    let second = assets.read(&wanted).images;
+    assert!(Arc::ptr_eq(
+        &image(&first, "a.ppm"),
+        &image(&second, "a.ppm")
+    ));
+    assert_eq!(image(&second, "b.ppm").pixels(), [BLUE]);
+}
+
+#[test]
+fn a_file_that_is_being_written_keeps_its_last_picture() {
+    let place = Place::new();
+    place.write("a.ppm", ppm(RED));
+    let wanted = place.wanted(&["a.ppm"]);
+    let mut assets = Assets::new(&[]);
+    assert_eq!(pixel(&assets.read(&wanted), "a.ppm"), Some(RED));
+    for content in [&b""[..], b"P6\n", b"P6\n1 1\n255\n\x01"] {
+        place.write("a.ppm", content);
+        let loaded = assets.read(&wanted);
+        assert_eq!(pixel(&loaded, "a.ppm"), Some(RED));
+        let told = told(&loaded.troubles["a.ppm"]);
+        assert!(told.contains("; its last picture is kept"), "{told}");
+    }
+    fs::remove_file(place.at("a.ppm")).expect("it is there");
+    assert_eq!(pixel(&assets.read(&wanted), "a.ppm"), Some(RED));
+    place.write("a.ppm", ppm(BLUE));
+    let loaded = assets.read(&wanted);
+    assert_eq!(pixel(&loaded, "a.ppm"), Some(BLUE));
+    assert!(loaded.troubles.is_empty());
+    // What it is now is no picture that is being written.
+    fs::remove_file(place.at("a.ppm")).expect("it is there");
+    fs::create_dir(place.at("a.ppm")).expect("a folder");
+    assert_eq!(pixel(&assets.read(&wanted), "a.ppm"), None);
+}
+
+#[test]
+fn pictures_that_are_too_much_together_are_left_out() {
+    let place = Place::new();
+    // A line of zeros is as long as it says, and another one differs in its last byte.
+    let large = |last: u8| {
+        let mut bytes = b"P5\n8192 8192\n255\n".to_vec();
+        bytes.resize(bytes.len() + (8192 * 8192), 0);
+        *bytes.last_mut().expect("some") = last;
+        bytes
+    };
+    for (name, last) in [("a", 1), ("b", 2), ("c", 3), ("d", 1)] {
+        place.write(name, large(last));
+    }
+    place.write("e", ppm(RED));
+    let wanted = place.wanted(&["a", "b", "c", "d", "e"]);
+    let mut assets = Assets::new(&[]);
+    let loaded = assets.read(&wanted);
+    let refused: Vec<_> = loaded.troubles.keys().map(String::as_str).collect();
+    // The fourth is the first's twin; the last one, however small, has no room left.
+    assert_eq!(refused, ["c", "e"]);
+    assert!(told(&loaded.troubles["e"]).contains("too many pixels together"));
+    let size = loaded.images.get("d").map(|image| image.size());
+    assert_eq!(
+        size,
+        Some(Size {
+            width: 8192,
+            height: 8192
+        })
+    );
+}
+
+#[test]
+fn places_to_watch_are_those_that_may_be_read() {
+    let place = Place::new();
+    place.write("a.ppm", ppm(RED));
+    let wanted = place.wanted(&[
+        "a.ppm",
+        "none.ppm",
+        "/dev/zero",
+        "../../../../../../dev/null",
+    ]);
+    let places = Assets::new(&[]).places(&wanted);
+    assert_eq!(places, [place.at("a.ppm"), place.at("none.ppm")]);
+}
+
+#[test]
+fn warnings_stand_at_every_place_that_names_a_file() {
+    let place = Place::new();
+    let loaded = Assets::new(&[]).read(&place.wanted(&["none"]));
+    let file = |start, path: &str| NamedFile {
+        path: path.to_owned(),
+        span: Span::at(start),
+        what: "texture 1 file".to_owned(),
+    };
+    let files = [file(9, "none"), file(5, "other"), file(3, "none")];
+    let found = report(&loaded.troubles, &files, Findings::default());
+    assert_eq!(found.warnings(), 2);
+    let starts: Vec<_> = found.iter().map(|found| found.span.start()).collect();
+    assert_eq!(starts, [3, 9]);
+}
