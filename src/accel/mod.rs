@@ -26,8 +26,6 @@ mod traverse;
 #[cfg(test)]
 mod tests;
 
-use std::mem::size_of_val;
-
 use glam::DVec3;
 
 use crate::geometry::{Aabb, Ray};
@@ -73,12 +71,5 @@ impl Bvh {
     #[inline(always)]
     pub fn traverse(&self, ray: &Ray, limit: f64, visit: impl FnMut(u32) -> f64) {
         traverse::traverse(self, ray, limit, visit);
-    }
-
-    /// Bytes on the heap.
-    pub fn memory(&self) -> usize {
-        size_of_val(self.nodes.as_slice())
-            + size_of_val(self.indices.as_slice())
-            + size_of_val(self.unbounded.as_slice())
     }
 }

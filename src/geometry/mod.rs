@@ -33,4 +33,4 @@ pub use ellipsoid::Ellipsoid;
 pub use quadric::Quadric;
 pub use shape::{Crossings, Hit, Ray, Shape, Spans, Surface, ulp};
 pub use sphere::Sphere;
-pub use transform::{Affine, FLATTEST};
+pub use transform::{Affine, FLATTEST, normalise};

@@ -144,7 +144,7 @@ impl Affine {
 ///
 /// Divided by a power of two first, which changes no bits of the result, no component is too large
 /// or too small to be squared.
-pub(super) fn normalise(v: DVec3) -> Option<DVec3> {
+pub fn normalise(v: DVec3) -> Option<DVec3> {
     let largest = v.abs().max_element();
     if !largest.is_finite() || largest == 0.0 {
         return None;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::geometry::Ray;
+use crate::geometry::{Ray, normalise};
 use crate::scene::{Camera, Lens, Size};
 
 /// A camera made ready to give rays for a raster of pixels.
@@ -33,8 +33,8 @@ impl Projection {
     /// Frames what the camera frames, in `raster` pixels: the aspect is the camera's own, so that a
     /// preview whose size can only come near it shows the same picture.
     pub(crate) fn new(camera: &Camera, raster: Size) -> Self {
-        let forward = unit(way(camera.eye, camera.target));
-        let right = unit(forward.cross(upright(forward, unit(camera.up))));
+        let forward = direction(way(camera.eye, camera.target));
+        let right = direction(forward.cross(upright(forward, direction(camera.up))));
         let (rays, half_height) = match camera.lens {
             Lens::Perspective(angle) => {
                 let half_angle = angle * (std::f64::consts::PI / 360.0);
@@ -107,10 +107,9 @@ fn way(from: DVec3, to: DVec3) -> DVec3 {
     }
 }
 
-/// The vector at unit length. Dividing by the largest component first keeps the squares within
-/// range, whatever the vector's length.
-fn unit(vector: DVec3) -> DVec3 {
-    (vector / vector.abs().max_element()).normalize()
+/// The direction of a vector that has one; zero has none.
+fn direction(vector: DVec3) -> DVec3 {
+    normalise(vector).unwrap_or(DVec3::ZERO)
 }
 
 #[cfg(test)]

@@ -3,7 +3,9 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, FLATTEST, Shape, Sphere};
+use crate::geometry::{
+    Affine, Cone, Cuboid, Cylinder, Ellipsoid, FLATTEST, Shape, Sphere, normalise,
+};
 use crate::scene::fields::ray::ShapeKind;
 use crate::scene::fields::{Field, Kind, Range, numbers};
 use crate::scene::origins::Name;
@@ -114,7 +116,7 @@ impl<'a> Record<'a> {
         let span = part.spans[0].to(part.spans[2]);
         let what = || what(self.name, part.field, "");
         let length = vector.length();
-        if unit(vector).is_none() {
+        if normalise(vector).is_none() {
             report.error(|| {
                 let message = format!("{}: must not be zero", what());
                 Diagnostic::error(span, message, "a direction of unit length")
@@ -184,7 +186,7 @@ impl<'a> Record<'a> {
             .filter(|part| matches!(part.field.kind, Kind::Direction | Kind::Axis))
             .map(|part| Axis {
                 key: part.field.key,
-                direction: unit(DVec3::from_slice(part.values)),
+                direction: normalise(DVec3::from_slice(part.values)),
                 span: part.spans[0].to(part.spans[2]),
             });
         Some([axes.next()?, axes.next()?, axes.next()?])
@@ -318,17 +320,6 @@ fn flat(name: Name, [a, b, c]: &[Axis; 3]) -> Diagnostic {
 pub(super) fn what(name: Name, field: &Field, component: &str) -> String {
     let space = if component.is_empty() { "" } else { " " };
     format!("{name} {}{space}{component}", field.key)
-}
-
-/// The direction of a vector, or `None` for a zero or unreadable one. Divides by the largest
-/// component first, so that no square overflows or vanishes.
-pub(super) fn unit(vector: DVec3) -> Option<DVec3> {
-    let largest = vector.abs().max_element();
-    if vector.is_nan() || largest == 0.0 {
-        return None;
-    }
-    let scaled = vector / largest;
-    Some(scaled / scaled.length())
 }
 
 /// What becomes of a value outside of its usual range.

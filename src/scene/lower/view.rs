@@ -3,10 +3,10 @@
 
 use glam::DVec3;
 
-use super::record::{unit, what};
+use super::record::what;
 use super::report::{no_number, quoted};
 use crate::format::ray::{self, Comment, Marker};
-use crate::geometry::Aabb;
+use crate::geometry::{Aabb, normalise};
 use crate::scene::fields::ray::VIEW;
 use crate::scene::fields::{Field, Kind, Range};
 use crate::scene::origins::Name;
@@ -169,7 +169,7 @@ fn read_part(
         }
         (part.spans[at], part.values[at]) = (span, value);
     }
-    if field.kind == Kind::Direction && unit(part.vector()).is_none() {
+    if field.kind == Kind::Direction && normalise(part.vector()).is_none() {
         let span = part.spans[0].to(part.spans[2]);
         let message = format!("{}: must not be zero", what(Name::View, field, ""));
         return Err(Diagnostic::warning(span, message, "a direction"));
@@ -267,7 +267,7 @@ pub(super) fn check(camera: &Camera, places: &Places, report: &mut Findings) {
         return;
     }
     // Halves, because the difference of two large numbers may overflow.
-    let Some(forward) = unit(0.5 * camera.target - 0.5 * camera.eye) else {
+    let Some(forward) = normalise(0.5 * camera.target - 0.5 * camera.eye) else {
         report.error(|| {
             let message = "view target: is where the eye is";
             let place = places.eye.to(places.target);
@@ -275,7 +275,7 @@ pub(super) fn check(camera: &Camera, places: &Places, report: &mut Findings) {
         });
         return;
     };
-    let sine = unit(camera.up).map_or(0.0, |up| forward.cross(up).length());
+    let sine = normalise(camera.up).map_or(0.0, |up| forward.cross(up).length());
     if sine < Camera::LEAST_SINE {
         report.warning(|| {
             let message = "view up: is the direction of view";

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use crate::geometry::{Affine, Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
-use crate::scene::lower::record::{Gathered, unit};
+use crate::geometry::{Affine, Cuboid, Cylinder, Ellipsoid, Shape, Sphere, normalise};
+use crate::scene::lower::record::Gathered;
 
 /// A sphere.
 pub(super) fn sphere(said: &Gathered) -> Shape {
@@ -23,7 +23,7 @@ pub(super) fn ellipsoid(said: &Gathered) -> Option<Shape> {
 /// A cylinder around the middle of its axis. The frame is the shortest rotation that takes +z to
 /// the axis; for −z half a turn about x.
 pub(super) fn cylinder(said: &Gathered) -> Option<Shape> {
-    let axis = unit(said.directions[0])?;
+    let axis = normalise(said.directions[0])?;
     let [radius, length, ..] = said.numbers;
     let base = said.points[0] - 0.5 * length * axis;
     let frame = Affine::new(base, rotated(axis), DVec3::new(radius, radius, length))?;

@@ -3,9 +3,10 @@
 use glam::DVec2;
 
 use super::Reader;
+use crate::geometry::normalise;
 use crate::scene::fields::Category;
 use crate::scene::fields::dat::{RecordKind, TextureKind, UseKind};
-use crate::scene::lower::record::{Gathered, unit};
+use crate::scene::lower::record::Gathered;
 use crate::scene::origins::Name;
 use crate::scene::origins::dat::{Place, UsePlace};
 use crate::scene::{Falloff, Light, Material, Pattern, Shadows, Source, Texture};
@@ -133,14 +134,14 @@ fn source(said: &Gathered) -> Option<Source> {
             position,
             falloff: Falloff {
                 radial: [a0, a1, a2],
-                spot: unit(direction)
+                spot: normalise(direction)
                     .filter(|_| exponent != 0.0)
                     .map(|direction| (direction, exponent)),
             },
         },
         1 => {
-            let toward = unit(direction).map(|direction| -direction);
-            Source::Distant(toward.or_else(|| unit(position))?)
+            let toward = normalise(direction).map(|direction| -direction);
+            Source::Distant(toward.or_else(|| normalise(position))?)
         }
         _ => Source::Everywhere,
     })
