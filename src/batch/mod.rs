@@ -88,7 +88,7 @@ pub fn check(work: &Check) -> Result<(), Error> {
             }
             Err(error) => {
                 errors += 1;
-                tell("error", &error.to_string());
+                tell_error(&error);
                 first.get_or_insert(error);
             }
         }
@@ -171,6 +171,27 @@ fn print_findings(path: &Path, text: &str, findings: &[Diagnostic]) {
         findings,
         report::Style::of_error_stream(),
     ));
+}
+
+/// Prints an error; of a file that is not text, with the line in question.
+fn tell_error(error: &Error) {
+    let Error::Read(ReadError::NotUtf8 {
+        path,
+        text,
+        span,
+        byte,
+        encoding,
+        ..
+    }) = error
+    else {
+        tell("error", &error.to_string());
+        return;
+    };
+    let message = format!("the byte 0x{byte:02X} is not UTF-8 text");
+    let wrong = Diagnostic::error(*span, message, "UTF-8 text").with_hint(format!(
+        "convert the file, for example with: iconv -f {encoding} -t UTF-8"
+    ));
+    print_findings(path, text, &[wrong]);
 }
 
 /// Prints one line about the whole work: `error: no such file`.

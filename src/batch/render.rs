@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, mpsc};
 
 use super::progress::ProgressLine;
-use super::{Error, load, print_findings, stdout, tell};
+use super::{Error, load, print_findings, stdout, tell, tell_error};
 use crate::file;
 use crate::image_file::ImageFormat;
 use crate::render::{Frame, Frames, Job, Renderer, Settings, Threads};
@@ -50,7 +50,7 @@ pub enum Output {
 /// reader that closes the pipe early has what it wanted: no error. Interrupted at any moment, it
 /// leaves the old file or the new one, see [`file::replace`].
 pub fn render(work: &Render) -> Result<(), Error> {
-    make(work).inspect_err(|error| tell("error", &error.to_string()))
+    make(work).inspect_err(tell_error)
 }
 
 fn make(work: &Render) -> Result<(), Error> {

@@ -7,7 +7,7 @@ use std::fs::{self, File, FileType, OpenOptions};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use crate::text::Position;
+use crate::text::{Position, Span};
 
 pub use replace::{check_target, replace, replace_if};
 
@@ -56,6 +56,10 @@ pub enum ReadError {
         path: PathBuf,
         /// Where the first wrong byte stands.
         position: Position,
+        /// The text to the end of its line, with U+FFFD for what can't be read.
+        text: String,
+        /// The place in `text` of what stands for the byte.
+        span: Span,
         /// That byte.
         byte: u8,
         /// The encoding that it is most likely in, by iconv's name.
@@ -69,9 +73,14 @@ pub fn read_text(path: &Path) -> Result<String, ReadError> {
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let bytes = error.as_bytes();
+        let line_end = bytes[valid..].iter().position(|&byte| byte == b'\n');
+        let line_end = line_end.map_or(bytes.len(), |length| valid + length);
+        let text = String::from_utf8_lossy(&bytes[..line_end]).into_owned();
         ReadError::NotUtf8 {
             path: path.to_owned(),
-            position: Position::of(&String::from_utf8_lossy(&bytes[..valid]), valid),
+            position: Position::of(&text, valid),
+            text,
+            span: Span::new(valid, valid + char::REPLACEMENT_CHARACTER.len_utf8()),
             byte: bytes[valid],
             encoding: match bytes {
                 [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => "UTF-16",
