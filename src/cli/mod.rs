@@ -238,14 +238,15 @@ struct InterfaceArguments {
     // Read so that a second scene is refused as such and not as an unknown command.
     #[arg(hide = true)]
     surplus: Vec<PathBuf>,
-    /// Compare the file's content every MS milliseconds (500 unless given), for network file
-    /// systems, which send no notices of changes
+    /// Compare the file's content every MS milliseconds (10 to 3600000; 500 unless given), for
+    /// network file systems, which send no notices of changes
     #[arg(
         long, value_name = "MS", num_args = 0..=1, require_equals = true,
         default_missing_value = "500", value_parser = value_parser!(u64).range(10..=3_600_000)
     )]
     poll: Option<u64>,
-    /// Send the terminal at most so many kilobytes (1000 bytes) a second; 0 is no limit
+    /// Send the terminal at most so many kilobytes (1000 bytes) a second, up to 4000000; 0 is no
+    /// limit
     #[arg(long, value_name = "KB/s", value_parser = value_parser!(u32).range(..=4_000_000))]
     bandwidth: Option<u32>,
     /// Colours that the terminal is sent
@@ -254,13 +255,13 @@ struct InterfaceArguments {
     /// Leave the mouse to the terminal
     #[arg(long)]
     no_mouse: bool,
-    /// Samples a pixel
+    /// Samples a pixel, 1 to 65536
     #[arg(long, value_name = "N", value_parser = spp_range())]
     spp: Option<u32>,
-    /// Bounces of a ray
+    /// Bounces of a ray, up to 4096; 0 is none
     #[arg(long, value_name = "N", value_parser = depth_range())]
     depth: Option<u32>,
-    /// Threads that trace [default: one fewer than the machine's cores]
+    /// Threads that trace, 1 to 1024 [default: one fewer than the machine's cores]
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
     #[command(flatten)]
@@ -329,19 +330,20 @@ struct RenderArguments {
     /// Format of the picture, whatever the file's name [default for -o -: bmp]
     #[arg(long, value_name = "FORMAT", value_parser = format_names())]
     format: Option<ImageFormat>,
-    /// Width and height in pixels, such as 800x600 [default: the scene's]
+    /// Width and height in pixels, such as 800x600, at most 268435456 pixels in all (as 16384x16384)
+    /// [default: the scene's]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<Size>,
     /// Samples a pixel, 1 to 65536
     #[arg(long, value_name = "N", default_value_t = DEFAULT_SPP, value_parser = spp_range())]
     spp: u32,
-    /// Bounces of a ray; 0 is none
+    /// Bounces of a ray, up to 4096; 0 is none
     #[arg(long, value_name = "N", default_value_t = DEFAULT_DEPTH, value_parser = depth_range())]
     depth: u32,
-    /// Chooses among equally good sample patterns
+    /// Chooses among equally good sample patterns, 0 to 4294967295
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u32,
-    /// Threads that trace [default: one a core]
+    /// Threads that trace, 1 to 1024 [default: one a core]
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
     #[command(flatten)]

@@ -1,4 +1,5 @@
 use super::*;
+use crate::image_out::MAX_PIXELS;
 
 /// What a command line, its words separated by blanks, means.
 fn parsed(line: &str) -> Result<Command, Stop> {
@@ -148,5 +149,18 @@ fn help_is_no_error() {
         let stop = parsed(line).expect_err("help");
         assert_eq!(stop.code, DONE);
         assert!(stop.text.contains("halflight"));
+    }
+}
+
+#[test]
+fn help_names_the_limits() {
+    for (line, limits) in [
+        ("halflight -h", vec![MAX_SPP.into()]),
+        ("halflight render -h", vec![MAX_SPP.into(), MAX_PIXELS]),
+    ] {
+        let stop = parsed(line).expect_err("help");
+        for limit in limits {
+            assert!(stop.text.contains(&limit.to_string()), "{limit}: {line}");
+        }
     }
 }
