@@ -5,7 +5,7 @@ use std::io::{self, IsTerminal};
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
-use crate::text::{Diagnostic, Position, Severity, Span, visible};
+use crate::text::{Diagnostic, Position, Severity, Span, mark_len, visible};
 
 /// Characters of a line shown before the place in question, and after its beginning.
 const MARGIN: usize = 60;
@@ -80,8 +80,9 @@ impl Excerpt {
     /// The line that `span` begins in, cut around it if it is long; of a longer span, the part in
     /// that line.
     fn of(text: &str, span: Span) -> Self {
-        let start = span.start().min(text.len());
+        let start = span.start().clamp(mark_len(text), text.len());
         let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
+        let line_start = line_start.max(mark_len(text));
         let line_end = text[start..].find('\n').map_or(text.len(), |n| start + n);
         let end = span.end().clamp(start, line_end);
         let before = last_chars(&text[line_start..start]);
@@ -181,6 +182,8 @@ error: a.ray:2:14: object 1 (sphere) radius: must be greater than 0
             ("é\u{202e}[é]\u{7}", "é\\u{202e}é\\u{7}", "é"),
             ("a [b\nc] d", "a b", "b"),
             ("end[]", "end", ""),
+            ("\u{feff}[ab] c", "ab c", "ab"),
+            ("[]\u{feff}ab", "ab", ""),
             ("end \n[]", "", ""),
         ];
         for (text, line, marked) in cases {

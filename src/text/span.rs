@@ -75,7 +75,7 @@ impl Span {
 pub struct Position {
     /// Line, from 1. Lines end at `\n`.
     pub line: usize,
-    /// Column, from 1, in characters (`char`s) of the line.
+    /// Column, from 1, in characters (`char`s) of the line; a byte order mark is none of them.
     pub column: usize,
 }
 
@@ -88,6 +88,7 @@ impl Position {
             .iter()
             .rposition(|&b| b == b'\n')
             .map_or(0, |newline| newline + 1);
+        let line_start = line_start.max(mark_len(text).min(before.len()));
         let line = before.split(|&b| b == b'\n').count();
         // A UTF-8 continuation byte begins no character.
         let column = before[line_start..]
@@ -96,6 +97,16 @@ impl Position {
             .count()
             + 1;
         Self { line, column }
+    }
+}
+
+/// Length of the byte order mark that a text begins with, in bytes; 0 where it begins with none.
+pub fn mark_len(text: &str) -> usize {
+    const MARK: char = '\u{FEFF}';
+    if text.starts_with(MARK) {
+        MARK.len_utf8()
+    } else {
+        0
     }
 }
 
@@ -112,5 +123,11 @@ mod tests {
             .map(|p| (p.line, p.column))
             .collect();
         assert_eq!(positions, [(1, 1), (1, 3), (2, 1), (2, 2), (3, 1), (3, 1)]);
+    }
+    #[test]
+    fn a_byte_order_mark_is_no_character_of_its_line() {
+        let text = "\u{FEFF}ab\n\u{FEFF}c";
+        let columns = [0, 3, 4, 5, 9].map(|offset| Position::of(text, offset).column);
+        assert_eq!(columns, [1, 1, 2, 3, 2]);
     }
 }
