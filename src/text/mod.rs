@@ -13,7 +13,7 @@ pub use counted::counted;
 pub use diagnostic::{Diagnostic, Severity};
 pub use edit::{Edit, apply, smallest_edit};
 pub use findings::Findings;
-pub use number::{NumberError, decimals, is_integer, parse_number, spell_like};
+pub use number::{NumberError, concise, decimals, is_integer, parse_number, spell_like};
 pub use slips::slips;
 pub use span::{Position, Span, mark_len};
 pub use visible::visible;

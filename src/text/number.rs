@@ -70,6 +70,17 @@ pub fn spell_like(old: &str, value: f64) -> String {
     format!("{sign}{digits}")
 }
 
+/// Spells a value for a message: exactly, and with an exponent only where that is much shorter.
+pub fn concise(value: f64) -> String {
+    const LONG: usize = 10;
+    let (plain, scientific) = (format!("{value}"), format!("{value:e}"));
+    if plain.len() <= LONG || plain.len() <= scientific.len() {
+        plain
+    } else {
+        scientific
+    }
+}
+
 /// Adds zeros until the number has at least `decimals` digits after its point.
 fn pad_decimals(number: &str, wanted: usize) -> String {
     let have = decimals(number);
@@ -123,6 +134,20 @@ mod tests {
             ("0.1", 0.0, "0.0"),
         ] {
             assert_eq!(spell_like(old, value), spelled, "{old} → {value}");
+        }
+    }
+
+    #[test]
+    fn values_in_messages_are_short() {
+        for (value, said) in [
+            (1.5, "1.5"),
+            (-0.0001, "-0.0001"),
+            (1e6, "1000000"),
+            (1e300, "1e300"),
+            (-2.5e-9, "-2.5e-9"),
+            (0.1 + 0.2, "0.30000000000000004"),
+        ] {
+            assert_eq!(concise(value), said);
         }
     }
 

@@ -10,7 +10,7 @@ use crate::scene::fields::ray::ShapeKind;
 use crate::scene::fields::{Field, Kind, Range, numbers};
 use crate::scene::origins::Name;
 use crate::scene::{Material, Rgb};
-use crate::text::{Diagnostic, Findings, Span};
+use crate::text::{Diagnostic, Findings, Span, concise};
 
 /// How far a direction's length may be off 1, and the dot product of two of them off 0.
 const UNIT_TOLERANCE: f64 = 1e-3;
@@ -95,7 +95,12 @@ impl<'a> Record<'a> {
             let what = || what(self.name, field, component);
             if field.allowed.contains(value) {
                 report.warning(|| {
-                    let message = format!("{}: {value} is not {}", what(), field.usual.limits());
+                    let message = format!(
+                        "{}: {} is not {}",
+                        what(),
+                        concise(value),
+                        field.usual.limits()
+                    );
                     Diagnostic::warning(span, message, field.usual.words())
                         .with_hint(reading(field.usual))
                 });
@@ -115,7 +120,9 @@ impl<'a> Record<'a> {
         }
         let span = part.spans[0].to(part.spans[2]);
         let what = || what(self.name, part.field, "");
-        let length = vector.length();
+        // Scaled, so that no square overflows.
+        let largest = vector.abs().max_element();
+        let length = largest * (vector / largest).length();
         if normalise(vector).is_none() {
             report.error(|| {
                 let message = format!("{}: must not be zero", what());
@@ -123,7 +130,7 @@ impl<'a> Record<'a> {
             });
         } else if UNIT_TOLERANCE < (length - 1.0).abs() {
             report.warning(|| {
-                let message = format!("{}: has length {length:.4}, not 1", what());
+                let message = format!("{}: has length {}, not 1", what(), rounded(length));
                 let hint = match part.field.kind {
                     Kind::Axis => "it is used as given: the width is counted in lengths of it",
                     _ => "it is normalised; sizes have fields of their own",
@@ -169,8 +176,11 @@ impl<'a> Record<'a> {
         if UNIT_TOLERANCE < dot.abs() {
             report.warning(|| {
                 let message = format!(
-                    "{} {}: not at a right angle to {} (dot product {dot:.4})",
-                    self.name, second.key, first.key
+                    "{} {}: not at a right angle to {} (dot product {})",
+                    self.name,
+                    second.key,
+                    first.key,
+                    rounded(dot)
                 );
                 let expected = format!("a direction at 90° to {}", first.key);
                 Diagnostic::warning(second.span, message, expected)
@@ -320,6 +330,14 @@ fn flat(name: Name, [a, b, c]: &[Axis; 3]) -> Diagnostic {
 pub(super) fn what(name: Name, field: &Field, component: &str) -> String {
     let space = if component.is_empty() { "" } else { " " };
     format!("{name} {}{space}{component}", field.key)
+}
+
+/// A value as messages tell it that was computed and not read: four digits of it.
+fn rounded(value: f64) -> String {
+    match format!("{value:.3e}").parse() {
+        Ok(rounded) if f64::is_finite(rounded) => concise(rounded),
+        _ => "beyond all numbers".to_owned(),
+    }
 }
 
 /// What becomes of a value outside of its usual range.

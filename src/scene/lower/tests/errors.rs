@@ -100,10 +100,10 @@ fn coefficients_outside_their_usual_range_are_warned_of() {
 fn directions_are_of_unit_length_and_at_right_angles() {
     for case in [
         "HEAD 1 box 0 0 0 1 0 0 0 1 0\n0 0 0 //~ 1 error: object 1 (box) vh: must not be zero\n1 1 1 MAT",
-        "HEAD 1 box 0 0 0\n2 0 0 //~ 1 warning: object 1 (box) vl: has length 2.0000, not 1\n0 1 0 0 0 1 1 1 1 MAT",
+        "HEAD 1 box 0 0 0\n2 0 0 //~ 1 warning: object 1 (box) vl: has length 2, not 1\n0 1 0 0 0 1 1 1 1 MAT",
         "HEAD 1 box 0 0 0\n1.0009 0 0\n0 0.9991 0  0 0 1 1 1 1 MAT",
-        "HEAD 1 box 0 0 0\n1e200 0 0 //~ 1 warning: object 1 (box) vl: has length\n0 1 0  0 0 1 1 1 1 MAT",
-        "HEAD 1 cone 0 0 0 1 0 0\n.6 .8 0 //~ 1 warning: object 1 (cone) a2: not at a right angle to a1 (dot product 0.6000)\n0 0 1 1 1 1 MAT",
+        "HEAD 1 box 0 0 0\n1e200 0 0 //~ 1 warning: object 1 (box) vl: has length 1e200, not 1\n0 1 0  0 0 1 1 1 1 MAT",
+        "HEAD 1 cone 0 0 0 1 0 0\n.6 .8 0 //~ 1 warning: object 1 (cone) a2: not at a right angle to a1 (dot product 0.6)\n0 0 1 1 1 1 MAT",
         "HEAD 1 ellipsoid 0 0 0 1 0 0 0 1 0\n0 .6 .8 //~ 1 warning: object 1 (ellipsoid) v3: not at a right angle to v2\n1 1 1 MAT",
         "HEAD 1 ellipsoid 0 0 0 1 0 0 0 1 0\n.6 0 .8 //~ 1 warning: object 1 (ellipsoid) v3: not at a right angle to v1\n1 1 1 MAT",
         "HEAD 1 box 0 0 0 1 0 0 0 1 0\n0 0.0009 1\n1 1 1 MAT",
@@ -256,6 +256,42 @@ fn messages_say_what_is_expected_and_the_way_out() {
             ),
         ]
     );
+}
+
+/// Of a value too long to be read, what is told is short and still says how large it is.
+#[test]
+fn messages_hold_short_numbers() {
+    for (text, part) in [
+        (
+            format!("HEAD 1 sphere 0 0 0 1{} MAT", "0".repeat(400)),
+            "`100000000000000000000000…`",
+        ),
+        (
+            "HEAD 1 sphere 0 0 0 1 1e300 .1 .1  0 0 0  0 0 0  5 0 0 1".into(),
+            "red: 1e300 is not",
+        ),
+        (
+            "HEAD 1 box 0 0 0 1e-9 0 0 0 1 0 0 0 1 1 1 1 MAT".into(),
+            "has length 1e-9, not 1",
+        ),
+        (
+            "HEAD 1 box 0 0 0 1 0 0 0 1.002 0 0 0 1 1 1 1 MAT".into(),
+            "has length 1.002, not 1",
+        ),
+        (
+            "HEAD 1 box 0 0 0 1e308 1e308 1e308 0 1 0 0 0 1 1 1 1 MAT".into(),
+            "has length 1.732e308",
+        ),
+        (
+            "HEAD 1 box 0 0 0 1.7e308 1.7e308 0 0 1 0 0 0 1 1 1 1 MAT".into(),
+            "has length beyond all numbers",
+        ),
+    ] {
+        let text = spelled(&text);
+        let (_, lowered) = read(&text);
+        let said = shown(&text, &lowered).join("\n");
+        assert!(said.contains(part), "{part}: {said}");
+    }
 }
 
 #[test]
