@@ -12,7 +12,7 @@ mod view;
 
 use super::{Origins, Scene};
 use crate::format::Tree;
-use crate::text::Findings;
+use crate::text::{Diagnostic, Findings, Span};
 
 /// What a tree means.
 #[derive(Debug)]
@@ -27,8 +27,28 @@ pub struct Lowered {
 
 /// Reads the meaning of a tree. All errors that can be told apart are reported at once.
 pub fn lower(text: &str, tree: &Tree) -> Lowered {
-    match tree {
+    let mut lowered = match tree {
         Tree::Ray(tree) => ray::lower(text, tree),
         Tree::Dat(tree) => dat::lower(text, tree),
+    };
+    if let Some(end) = old_line_end(text) {
+        let mut found = std::mem::take(&mut lowered.diagnostics);
+        found.warning(|| {
+            let message = "the lines end in CR alone: they count as one line, and a comment takes all that follows";
+            Diagnostic::warning(end, message, "a line feed (LF)")
+                .with_hint("convert the file, for example with: tr '\\r' '\\n'")
+        });
+        lowered.diagnostics = found.sorted();
     }
+    lowered
+}
+
+/// The first line end of a text whose lines all end as on an old Macintosh.
+fn old_line_end(text: &str) -> Option<Span> {
+    if text.contains('\n') {
+        return None;
+    }
+    let at = text.find('\r')?;
+    let goes_on = !text[at..].trim_ascii().is_empty();
+    goes_on.then(|| Span::new(at, at + 1))
 }

@@ -295,6 +295,22 @@ fn messages_hold_short_numbers() {
 }
 
 #[test]
+fn lines_of_an_old_macintosh_are_told_of() {
+    let told = |text: &str| {
+        let (_, lowered) = read(text);
+        let said = shown(text, &lowered).join("\n");
+        said.contains("the lines end in CR alone")
+    };
+    let scene = spelled("// a ball\nHEAD 1\nsphere 0 0 0 1 MAT\n");
+    assert!(!told(&scene) && !told(&scene.replace('\n', "\r\n")));
+    assert!(told(&scene.replace('\n', "\r")));
+    assert!(!told(&format!(
+        "{}\r \r",
+        scene.trim_end().replace('\n', " ")
+    )));
+}
+
+#[test]
 fn a_hundred_errors_are_enough() {
     let objects = "sphere x 0 0 1 MAT\n".repeat(1000);
     let text = spelled(&format!("HEAD 1000\n{objects}"));
