@@ -43,12 +43,21 @@ fn interface(options: &ui::Options) -> u8 {
 
 /// Prints a text that was asked for to the output stream, any other to the error stream.
 fn print(stop: &Stop) -> u8 {
-    // Nobody is left to be told if the stream is closed.
-    let _ = match stop.code {
-        cli::DONE => io::stdout().write_all(stop.text.as_bytes()),
-        _ => io::stderr().write_all(stop.text.as_bytes()),
-    };
-    stop.code
+    let text = stop.text.as_bytes();
+    if stop.code != cli::DONE {
+        // Nobody is left to be told if the stream is closed.
+        let _ = io::stderr().write_all(text);
+        return stop.code;
+    }
+    let mut stdout = io::stdout();
+    match stdout.write_all(text).and_then(|()| stdout.flush()) {
+        // A reader that leaves early has what it wanted.
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            complain(&format!("standard output: {error}"));
+            cli::FAILED
+        }
+        _ => cli::DONE,
+    }
 }
 
 fn complain(message: &str) {

@@ -359,6 +359,7 @@ fn a_full_device_is_an_error() {
     for (line, stdout) in [
         ("render ball.ray -o -", Stdio::from(full())),
         ("render ball.ray -o /dev/full --format bmp", Stdio::null()),
+        ("--help", Stdio::from(full())),
     ] {
         let mut command = place.command(line);
         let output = command.stdout(stdout).output().expect("it starts");
