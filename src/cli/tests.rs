@@ -1,5 +1,5 @@
 use super::*;
-use crate::image_out::MAX_PIXELS;
+use crate::image_file::MAX_PIXELS;
 
 /// What a command line, its words separated by blanks, means.
 fn parsed(line: &str) -> Result<Command, Stop> {
