@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, mpsc};
 
+use halflight::assets::{Assets, Wanted};
 use halflight::document::Document;
 use halflight::format::{self, Format};
 use halflight::image_file::ImageFormat;
 use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::fields::{Kind, Range};
+use halflight::scene::fields::{Field, Kind, Range};
 use halflight::scene::{Images, Scene, Size, lower};
 use halflight::text::{Edit, parse_number};
 
@@ -20,29 +21,24 @@ const SPP: u32 = 8;
 
 #[test]
 fn the_pictures_beside_the_scenes_are_what_the_renderer_gives() {
-    for path in scenes() {
-        let scene = meaning(&read(&path));
-        let frame = trace(&scene, SIZE, SPP);
+    for own in scenes() {
+        let frame = trace(&own.meaning(), own.images(), SIZE, SPP);
         let mut bytes = Vec::new();
         ImageFormat::Bmp
             .write(&frame, &mut bytes)
             .expect("memory takes any picture");
         let expected =
-            std::fs::read(path.with_extension("bmp")).expect("every scene has a picture");
-        assert!(
-            bytes == expected,
-            "{}: the picture is another",
-            path.display()
-        );
+            std::fs::read(own.path.with_extension("bmp")).expect("every scene has a picture");
+        let name = own.path.display();
+        assert!(bytes == expected, "{name}: the picture is another");
     }
 }
 
 #[test]
 fn the_scenes_have_nothing_to_complain_of() {
-    for path in scenes() {
-        let text = read(&path);
-        let lowered = lower(&text, &format::parse(Format::Ray, &text));
-        assert_eq!(*lowered.diagnostics, [], "{}", path.display());
+    for own in scenes() {
+        let lowered = lower(&own.text, &format::parse(own.format, &own.text));
+        assert_eq!(*lowered.diagnostics, [], "{}", own.path.display());
     }
 }
 
@@ -54,16 +50,12 @@ fn scaled_scenes_give_the_same_picture() {
         width: 48,
         height: 36,
     };
-    for path in scenes() {
-        let text = read(&path);
-        let plain = trace(&meaning(&text), size, 1);
+    for own in scenes() {
+        let plain = trace(&own.meaning(), own.images(), size, 1);
         for exponent in [-40, -20, -7, -1, 1, 7, 20, 40] {
-            let scaled = trace(&meaning(&scale(&text, 2f64.powi(exponent))), size, 1);
-            assert!(
-                plain.pixels == scaled.pixels,
-                "{} × 2^{exponent}",
-                path.display()
-            );
+            let scaled = trace(&own.scaled(exponent).meaning(), own.images(), size, 1);
+            let name = own.path.display();
+            assert!(plain.pixels == scaled.pixels, "{name} × 2^{exponent}");
         }
     }
 }
@@ -75,43 +67,90 @@ fn the_course_s_own_copies_mean_the_same() {
         println!("HALFLIGHT_EXTRA_SCENES names no folder: the course's files are not tested");
         return;
     };
-    let own = meaning(&read(&root().join("scenes/example.ray")));
+    let own = Own::read(root().join("scenes/example.ray")).meaning();
     for name in ["example.ray", "example-from-page.ray"] {
-        assert_eq!(
-            meaning(&read(&folder.join("rice").join(name))),
-            own,
-            "{name}"
-        );
+        let theirs = Own::read(folder.join("rice").join(name)).meaning();
+        assert_eq!(theirs, own, "{name}");
     }
 }
 
-/// The scene's text with every place and size multiplied; directions, angles and colours stay.
-fn scale(text: &str, factor: f64) -> String {
-    let mut document = Document::new(Format::Ray, text.to_owned());
-    let origins = lower(text, document.tree()).origins;
-    let mut edits = Vec::new();
-    for placed in origins
-        .nodes()
-        .into_iter()
-        .flat_map(|node| origins.fields(document.tree(), node))
-    {
-        let is_size = placed.field.kind == Kind::Number && placed.field.allowed == Range::Positive;
-        if placed.field.kind == Kind::Point || is_size {
-            for span in placed.spans {
-                let value = parse_number(span.of(text)).expect("the scene has no errors");
-                edits.push(Edit {
-                    span,
-                    text: format!("{:e}", factor * value),
-                });
-            }
+/// One of the project's scenes.
+struct Own {
+    path: PathBuf,
+    format: Format,
+    text: String,
+}
+
+impl Own {
+    fn read(path: PathBuf) -> Self {
+        Self {
+            format: Format::of_path(&path).expect("a scene"),
+            text: std::fs::read_to_string(&path).expect("scenes are readable"),
+            path,
         }
     }
-    edits.sort_by_key(|edit| edit.span);
-    document.edit(&edits);
-    document.text().to_owned()
+
+    fn meaning(&self) -> Arc<Scene> {
+        let lowered = lower(&self.text, &format::parse(self.format, &self.text));
+        let found = lowered.diagnostics;
+        Arc::new(lowered.scene.unwrap_or_else(|| panic!("{found:?}")))
+    }
+
+    fn images(&self) -> Images {
+        let tree = format::parse(self.format, &self.text);
+        let files = lower(&self.text, &tree).origins.files(&self.text, &tree);
+        let loaded = Assets::new(&[]).read(&Wanted::new(&self.path, &files));
+        assert!(loaded.troubles.is_empty(), "{:?}", loaded.troubles);
+        loaded.images
+    }
+
+    /// The same scene, 2 to this power times as large.
+    fn scaled(&self, exponent: i32) -> Self {
+        let mut document = Document::new(self.format, self.text.clone());
+        let origins = lower(&self.text, document.tree()).origins;
+        let mut edits = Vec::new();
+        for placed in origins
+            .nodes()
+            .into_iter()
+            .flat_map(|node| origins.fields(document.tree(), node))
+        {
+            for (component, &span) in placed.spans.iter().enumerate() {
+                let power = exponent * length_power(placed.field, component);
+                if power != 0 {
+                    let value = parse_number(span.of(&self.text)).expect("no errors");
+                    let text = format!("{:e}", value * 2f64.powi(power));
+                    edits.push(Edit { span, text });
+                }
+            }
+        }
+        edits.sort_by_key(|edit| edit.span);
+        edits.dedup();
+        document.edit(&edits);
+        Self {
+            text: document.text().to_owned(),
+            path: self.path.clone(),
+            format: self.format,
+        }
+    }
 }
 
-fn trace(scene: &Arc<Scene>, size: Size, spp: u32) -> Arc<Frame> {
+/// With which power of the scene's size a number grows. Directions, angles, colours: with none.
+fn length_power(field: &Field, component: usize) -> i32 {
+    match (field.kind, field.key) {
+        (Kind::Number, "near" | "far" | "height" | "D" | "G" | "I") => 1,
+        (Kind::Number, "J") => 2,
+        (Kind::Number, "a1") => -1,
+        (Kind::Number, "a2") => -2,
+        // They count in lengths of the axes.
+        (Kind::Number, _) => i32::from(field.allowed == Range::Positive),
+        (Kind::Point, _) => 1,
+        (Kind::Pair, key) => i32::from(key == "resolution"),
+        (Kind::HalfSpace, _) => i32::from(component == 3),
+        _ => 0,
+    }
+}
+
+fn trace(scene: &Arc<Scene>, images: Images, size: Size, spp: u32) -> Arc<Frame> {
     let (wake, woken) = mpsc::channel();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let renderer = Renderer::new(Threads::Exactly(threads), move || {
@@ -125,7 +164,7 @@ fn trace(scene: &Arc<Scene>, size: Size, spp: u32) -> Arc<Frame> {
     };
     let job = Job {
         scene: Arc::clone(scene),
-        images: Images::default(),
+        images,
         camera: scene.camera,
         settings,
         frames: Frames::Last,
@@ -139,28 +178,15 @@ fn trace(scene: &Arc<Scene>, size: Size, spp: u32) -> Arc<Frame> {
     }
 }
 
-fn meaning(text: &str) -> Arc<Scene> {
-    let lowered = lower(text, &format::parse(Format::Ray, text));
-    Arc::new(
-        lowered
-            .scene
-            .unwrap_or_else(|| panic!("{:?}", lowered.diagnostics)),
-    )
-}
-
-fn scenes() -> Vec<PathBuf> {
+fn scenes() -> Vec<Own> {
     let entries = std::fs::read_dir(root().join("scenes")).expect("the scenes are there");
     let mut paths: Vec<_> = entries
         .map(|entry| entry.expect("a scene").path())
         .collect();
     paths.retain(|path| Format::of_path(path).is_ok());
     paths.sort();
-    assert!(5 < paths.len());
-    paths
-}
-
-fn read(path: &Path) -> String {
-    std::fs::read_to_string(path).expect("scenes are readable")
+    assert!(7 < paths.len());
+    paths.into_iter().map(Own::read).collect()
 }
 
 fn root() -> &'static Path {

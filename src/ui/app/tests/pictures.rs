@@ -46,7 +46,7 @@ fn an_edit_restarts_the_preview_and_a_refused_one_does_not() {
 #[test]
 fn exports_are_refused_before_anything_is_traced() {
     for (said, reason) in [
-        (":export a.gif<Enter>", ".bmp"),
+        (":export a.webp<Enter>", ".bmp"),
         (":export a.bmp 99999x99999<Enter>", "99999x99999"),
         (":export a.bmp 70000<Enter>", "samples"),
         (
