@@ -169,6 +169,8 @@ fn a_picture_that_has_no_place_ends_with_73_untraced() {
         let told = place.told(&format!("render ball.ray -o {output}"), 73);
         assert!(told.contains(output), "{told}");
     }
+    let told = place.told("render ball.ray -o none/a.bmp", 73);
+    assert_eq!(told, "error: none/a.bmp: no such folder\n");
     assert_eq!(place.names(), ["ball.ray", "dir.bmp"]);
 }
 

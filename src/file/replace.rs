@@ -10,8 +10,8 @@ use tempfile::{Builder, NamedTempFile};
 const MAX_LINKS: usize = 40;
 
 /// Replaces a file, or creates it, so that at every moment it holds either its old content or the
-/// new one whole. Follows symbolic links; keeps mode, owner and extended attributes. A device or a pipe, which has no
-/// content to keep, is written to.
+/// new one whole. Follows symbolic links; keeps mode, owner and extended attributes. A device or a
+/// pipe, which has no content to keep, is written to.
 ///
 /// A new file is written beside the old one, synced, and takes its name. Where that would break
 /// a hard link or lose the owner, or where the directory can't be written to, the content is made
@@ -58,7 +58,11 @@ pub fn check_target(path: &Path) -> io::Result<()> {
     match Target::of(path)? {
         Target::New(path) => {
             let directory = directory_of(&path);
-            if !fs::metadata(directory)?.is_dir() {
+            let found = fs::metadata(directory).map_err(|error| match error.kind() {
+                io::ErrorKind::NotFound => io::Error::new(error.kind(), "no such folder"),
+                _ => error,
+            })?;
+            if !found.is_dir() {
                 return Err(io::ErrorKind::NotADirectory.into());
             }
             #[cfg(unix)]
