@@ -27,6 +27,10 @@ impl App {
             if self.view == Some(scene.camera) {
                 self.view = None;
             }
+            let before = self.scene.as_ref().map(|scene| scene.objects.len());
+            if before.is_some_and(|count| count != scene.objects.len()) {
+                self.preview.forget_objects();
+            }
             if self.scene.as_deref() != Some(&scene) {
                 self.scene = Some(scene.into());
                 self.pending.scene = true;

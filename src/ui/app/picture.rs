@@ -100,6 +100,12 @@ impl Picture {
         latest.is_some_and(|frame| self.wanted.is_some_and(|wanted| wanted != frame.generation))
     }
 
+    /// Forgets what lies under the pixels on screen until a newer frame says so: the objects have
+    /// other numbers now, and another one than the chosen would be outlined.
+    pub fn forget_objects(&mut self) {
+        self.shown.objects.fill(NO_OBJECT);
+    }
+
     /// Whether every sample of what was asked for last is taken and on its way to the screen.
     pub fn is_complete(&self) -> bool {
         self.progress().is_some_and(|progress| progress.complete)

@@ -202,6 +202,7 @@ fn a_picture_that_is_refused_is_waited_for_no_longer() {
     press(&mut app, "<Esc><F5>");
     app.update(refusal(Target::Trace));
     assert_eq!(words(&app), "too large");
+    assert!(app.picture().wanted.is_none(), "nothing is on its way");
     let effects = press(&mut app, "<Esc><F5>");
     assert!(wants(&effects, |effect| matches!(
         effect,
