@@ -47,10 +47,10 @@ pub(crate) fn render(app: &App, glyphs: Glyphs, area: Rect, buffer: &mut Buffer)
 
 /// Says why there is no picture.
 fn notice(app: &App, area: Rect, buffer: &mut Buffer) {
-    let text = if app.scene.is_some() {
-        "tracing…"
-    } else {
-        "no picture: the scene has errors"
+    let text = match (&app.scene, app.picture().wanted) {
+        (Some(_), Some(_)) => "tracing…",
+        (Some(_), None) => "no picture",
+        (None, _) => "no picture: the scene has errors",
     };
     let line = Rect::new(0, 0, text.chars().count() as u16, 1);
     Row::new(buffer, layout::centred(area, line), 0).put(text, theme::DIM);

@@ -283,6 +283,18 @@ fn the_places_that_kept_edits_change_are_counted() {
 }
 
 #[test]
+fn a_picture_that_nobody_traces_is_not_announced() {
+    let mut app = app();
+    let mut says = |wanted, words| {
+        app.preview.wanted = wanted;
+        let text = screen(&mut app, 80, 24).join("\n");
+        assert!(text.contains(words), "{words:?} in\n{text}");
+    };
+    says(Some(1), "tracing…");
+    says(None, " no picture ");
+}
+
+#[test]
 fn errors_mark_the_picture_as_stale_and_explain_themselves() {
     let mut app = app();
     app.preview.take(frame(8, 6));

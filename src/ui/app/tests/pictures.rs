@@ -122,6 +122,25 @@ fn the_full_size_trace_goes_on_behind_until_the_scene_changes() {
     )));
 }
 
+/// The picture on screen is outlined by the numbers that its objects had.
+#[test]
+fn no_object_is_outlined_by_another_one_s_number() {
+    let mut app = open(SCENE);
+    let size = Size {
+        width: 4,
+        height: 2,
+    };
+    app.preview.take(Arc::new(frame(size, vec![1; 8])));
+    app.preview.advance(size, usize::MAX);
+    outside(&mut app, &SCENE.replace("1.5", "1.7"));
+    assert_eq!(app.preview.shown.object_at(0, 0), Some(1));
+    let (head, second) = SCENE.split_at(SCENE.rfind("sphere").expect("two of them"));
+    let more = format!("{}{second}{second}", head.replace("\n2\n", "\n3\n"));
+    outside(&mut app, &more);
+    assert_eq!(app.error_count(), 0);
+    assert_eq!(app.preview.shown.object_at(0, 0), None);
+}
+
 #[test]
 fn only_a_session_s_own_pictures_are_overwritten_unasked() {
     let existing = |app: &mut App, said: &str| {
