@@ -137,13 +137,12 @@ impl Own {
 /// With which power of the scene's size a number grows. Directions, angles, colours: with none.
 fn length_power(field: &Field, component: usize) -> i32 {
     match (field.kind, field.key) {
-        (Kind::Number, "near" | "far" | "height" | "D" | "G" | "I") => 1,
+        (Kind::Point, _) | (Kind::Number, "near" | "far" | "height" | "D" | "G" | "I") => 1,
         (Kind::Number, "J") => 2,
         (Kind::Number, "a1") => -1,
         (Kind::Number, "a2") => -2,
         // They count in lengths of the axes.
         (Kind::Number, _) => i32::from(field.allowed == Range::Positive),
-        (Kind::Point, _) => 1,
         (Kind::Pair, key) => i32::from(key == "resolution"),
         (Kind::HalfSpace, _) => i32::from(component == 3),
         _ => 0,
