@@ -315,11 +315,14 @@ const LIGHT: &[Part] = &[
         0.001,
         "Falloff with the distance squared.",
     ),
-    number(
-        "aa",
-        Range::NotNegative,
-        1.0,
-        "Falloff with the angle from the direction: the exponent of its cosine; 0 for none.",
+    Part::Field(
+        Field::number(
+            "aa",
+            Range::NotNegative,
+            1.0,
+            "Falloff with the angle from the direction: the exponent of its cosine; 0 for none.",
+        )
+        .reading_as(0.0),
     ),
     choice(
         "shadow",
@@ -349,22 +352,28 @@ const MATERIAL: &[Part] = &[
         0.05,
         "Specular coefficient: strength of the highlight, in the material's colour.",
     ),
-    number(
-        "ns",
-        Range::NotNegative,
-        1.0,
-        "Specular exponent: how small the highlight is; below 0 reads as 0.",
+    Part::Field(
+        Field::number(
+            "ns",
+            Range::NotNegative,
+            1.0,
+            "Specular exponent: how small the highlight is; below 0 reads as 0.",
+        )
+        .reading_as(0.0),
     ),
     share(
         "Kt",
         "Transmission coefficient: weight of what is seen through it.",
     ),
     share("Kr", "Reflection coefficient: weight of what is mirrored."),
-    number(
-        "ior",
-        Range::NotNegative,
-        0.05,
-        "Index of refraction; 0 or less reads as 1.",
+    Part::Field(
+        Field::number(
+            "ior",
+            Range::NotNegative,
+            0.05,
+            "Index of refraction; 0 or less reads as 1.",
+        )
+        .reading_as(1.0),
     ),
 ];
 

@@ -151,6 +151,8 @@ pub struct Field {
     pub allowed: Range,
     /// Outside of this it is a warning.
     pub usual: Range,
+    /// What a number reads as that is allowed but not usual; `None` if it is used as given.
+    pub reads_as: Option<f64>,
     /// What one nudge adds.
     pub step: f64,
     /// Unit, or empty.
@@ -176,6 +178,7 @@ impl Field {
             kind: Kind::Point,
             allowed: Range::Any,
             usual: Range::Any,
+            reads_as: None,
             step: 0.1,
             unit: "",
             doc,
@@ -213,6 +216,13 @@ impl Field {
             usual,
             step,
             ..Self::point(key, doc)
+        }
+    }
+
+    const fn reading_as(self, value: f64) -> Self {
+        Self {
+            reads_as: Some(value),
+            ..self
         }
     }
 

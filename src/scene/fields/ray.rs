@@ -53,7 +53,8 @@ pub const MATERIAL: &[Field; 7] = &[
         Range::NotNegative,
         1.0,
         "Specular exponent: how small the highlight is; below 0 reads as 0.",
-    ),
+    )
+    .reading_as(0.0),
     Field::number(
         "kr",
         Range::Unit,
@@ -71,7 +72,8 @@ pub const MATERIAL: &[Field; 7] = &[
         Range::Positive,
         0.05,
         "Index of refraction; 0 or less reads as 1.",
-    ),
+    )
+    .reading_as(1.0),
 ];
 
 const SPHERE: &[Field; 2] = &[

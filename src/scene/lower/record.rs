@@ -7,7 +7,7 @@ use crate::geometry::{
     Affine, Cone, Cuboid, Cylinder, Ellipsoid, FLATTEST, Shape, Sphere, normalise,
 };
 use crate::scene::fields::ray::ShapeKind;
-use crate::scene::fields::{Field, Kind, Range, numbers};
+use crate::scene::fields::{Field, Kind, numbers};
 use crate::scene::origins::Name;
 use crate::scene::{Material, Rgb};
 use crate::text::{Diagnostic, Findings, Span, concise};
@@ -102,7 +102,7 @@ impl<'a> Record<'a> {
                         field.usual.limits()
                     );
                     Diagnostic::warning(span, message, field.usual.words())
-                        .with_hint(reading(field.usual))
+                        .with_hint(reading(field))
                 });
             } else {
                 report.error(|| {
@@ -329,7 +329,11 @@ fn flat(name: Name, [a, b, c]: &[Axis; 3]) -> Diagnostic {
 /// A field's component as messages name it: `object 2 (box) corner x`.
 pub(super) fn what(name: Name, field: &Field, component: &str) -> String {
     let space = if component.is_empty() { "" } else { " " };
-    format!("{name} {}{space}{component}", field.key)
+    match name {
+        // The record is its only field.
+        Name::Record(word) if word == field.key => format!("{word}{space}{component}"),
+        _ => format!("{name} {}{space}{component}", field.key),
+    }
 }
 
 /// A value as messages tell it that was computed and not read: four digits of it.
@@ -341,13 +345,10 @@ fn rounded(value: f64) -> String {
 }
 
 /// What becomes of a value outside of its usual range.
-fn reading(usual: Range) -> &'static str {
-    match usual {
-        Range::NotNegative => "it reads as 0",
-        Range::Positive => "it reads as 1",
-        Range::Any | Range::Unit | Range::Between(..) | Range::Count | Range::Identity => {
-            "it is used as given"
-        }
+fn reading(field: &Field) -> String {
+    match field.reads_as {
+        Some(value) => format!("it reads as {value}"),
+        None => "it is used as given".to_owned(),
     }
 }
 

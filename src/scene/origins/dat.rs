@@ -17,7 +17,7 @@ pub struct Origins {
     pub(in crate::scene) materials: Vec<Place>,
     pub(in crate::scene) textures: Vec<Place>,
     pub(in crate::scene) objects: Vec<ObjectPlace>,
-    /// What textures do to materials, in text order.
+    /// What textures do to materials, each place once.
     pub(in crate::scene) uses: Vec<UsePlace>,
     /// The record that lists what is drawn.
     pub(in crate::scene) render: Option<usize>,
@@ -49,6 +49,8 @@ pub(in crate::scene) struct ObjectPlace {
     pub(in crate::scene) operands: Option<[usize; 2]>,
     /// Its material, by index.
     pub(in crate::scene) material: Option<usize>,
+    /// How many half-spaces cut it.
+    pub(in crate::scene) cuts: usize,
 }
 
 /// A record that says what a texture does to a material.
@@ -102,10 +104,14 @@ impl Origins {
         if node == Node::View {
             return self.view_fields(tree);
         }
+        let cuts = match node {
+            Node::Object(index) => self.objects.get(index).map_or(0, |object| object.cuts),
+            _ => 0,
+        };
         self.records(node)
             .flat_map(|(record, kind)| {
                 let tokens = tree.tokens_of(record).get(kind.heads()..);
-                place(tokens.unwrap_or_default(), kind)
+                place(tokens.unwrap_or_default(), kind, cuts)
             })
             .collect()
     }
@@ -238,7 +244,10 @@ impl Origins {
             .iter()
             .zip(VIEW)
             .flat_map(|(record, kind)| match record {
-                Some(record) => place(tree.tokens_of(*record).get(1..).unwrap_or_default(), kind),
+                Some(record) => {
+                    let tokens = tree.tokens_of(*record).get(1..);
+                    place(tokens.unwrap_or_default(), kind, 0)
+                }
                 None => kind
                     .fields()
                     .map(|field| Placed {
@@ -273,8 +282,9 @@ impl Origins {
     }
 }
 
-/// Hands out the tokens of a record to its fields, until one is not complete.
-fn place(tokens: &[Span], kind: RecordKind) -> Vec<Placed> {
+/// Hands out the tokens of a record to its fields, until one is not complete. A quadric has `cuts`
+/// half-spaces.
+fn place(tokens: &[Span], kind: RecordKind, cuts: usize) -> Vec<Placed> {
     let mut rest = tokens;
     let mut placed = Vec::new();
     for part in kind.parts() {
@@ -291,14 +301,12 @@ fn place(tokens: &[Span], kind: RecordKind) -> Vec<Placed> {
     }
     if kind == RecordKind::Object(ObjectKind::Quadric) {
         // The number of half-spaces stands before them.
-        let cuts = rest.get(1..).unwrap_or_default();
-        placed.extend(
-            cuts.chunks_exact(numbers(&[*HALF_SPACE]))
-                .map(|spans| Placed {
-                    field: HALF_SPACE,
-                    spans: spans.to_vec(),
-                }),
-        );
+        let each = numbers(&[*HALF_SPACE]);
+        let spans = rest.get(1..).unwrap_or_default().chunks_exact(each);
+        placed.extend(spans.take(cuts).map(|spans| Placed {
+            field: HALF_SPACE,
+            spans: spans.to_vec(),
+        }));
     }
     placed
 }

@@ -27,9 +27,9 @@ pub(super) fn numbers(camera: &Camera, origins: &Origins) -> Numbers {
         Lens::Perspective(angle) => {
             let up = origins.resolution[1];
             let focal = 0.5 * rows * up / libm::tan(0.5 * angle.to_radians());
-            (0.0, focal, up)
+            (0.0, plain(focal), up)
         }
-        Lens::Orthographic(height) => (1.0, origins.focal, height / rows),
+        Lens::Orthographic(height) => (1.0, origins.focal, plain(height / rows)),
     };
     let [near, far] = camera.depths;
     vec![
@@ -40,9 +40,20 @@ pub(super) fn numbers(camera: &Camera, origins: &Origins) -> Numbers {
         vec![focal],
         vec![near],
         vec![far.min(FARTHEST)],
-        vec![up * camera.pixel_aspect, up],
+        vec![plain(up * camera.pixel_aspect), up],
         vec![camera.size.width.into(), rows],
     ]
+}
+
+/// The number that people would write: one of fifteen digits where that is the same but for the
+/// rounding of the few operations that lead from a camera's numbers to the text's and back.
+fn plain(number: f64) -> f64 {
+    let short = format!("{number:.14e}").parse().unwrap_or(number);
+    if (short - number).abs() <= 8.0 * f64::EPSILON * number.abs() {
+        short
+    } else {
+        number
+    }
 }
 
 /// The camera of which these are the numbers; `base` is one of the same text.
@@ -62,7 +73,9 @@ pub(super) fn camera(numbers: &Numbers, base: &Camera, origins: &Origins) -> Cam
             let distance = (base.eye - base.target).length();
             Lens::Orthographic(2.0 * distance * libm::tan(0.5 * angle.to_radians()))
         }
-        lens if before[4] == numbers[4] && before[7] == numbers[7] => lens,
+        lens if before[4] == numbers[4] && before[7] == numbers[7] && before[8] == numbers[8] => {
+            lens
+        }
         Lens::Perspective(_) => {
             Lens::Perspective(2.0 * libm::atan(0.5 * extent / focal).to_degrees())
         }

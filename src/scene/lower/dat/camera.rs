@@ -41,7 +41,7 @@ impl<'a> Reader<'a> {
             _ => "camera",
         });
         let line = self.line(kind, tokens, |_| name);
-        self.surplus(line.name, line.rest);
+        self.surplus(&line);
         let Some(said) = line.gather() else {
             return;
         };
@@ -50,6 +50,7 @@ impl<'a> Reader<'a> {
             RecordKind::Viewport => self.viewport(said.pair, &line.spans),
             _ => {
                 let [_, near, far, ..] = said.numbers;
+                let near = near.max(0.0);
                 if far <= near {
                     let far = line.spans[line.spans.len() - 1];
                     self.report.error(|| {
@@ -115,7 +116,7 @@ impl<'a> Reader<'a> {
                 target,
                 up: DVec3::Z,
                 lens: Lens::Perspective(DEFAULT_ANGLE),
-                pixel_aspect: 1.0,
+                pixel_aspect: shape_of(self.origins.resolution),
                 depths: Camera::ALL_DEPTHS,
                 size,
             };
@@ -123,6 +124,7 @@ impl<'a> Reader<'a> {
                 remedy: REMEDY,
                 ..Places::default()
             };
+            self.check_lens(&camera);
             view::check(&camera, &places, &mut self.report);
             return camera;
         };
@@ -149,13 +151,42 @@ impl<'a> Reader<'a> {
             } else {
                 Lens::Orthographic(height)
             },
-            pixel_aspect: resolution[0] / resolution[1],
+            pixel_aspect: shape_of(resolution),
             depths: [near.max(0.0), far],
             size,
         };
+        self.check_lens(&camera);
         view::check(&camera, &places, &mut self.report);
         camera
     }
+
+    /// Reports numbers so far apart that no ray can be computed with them.
+    fn check_lens(&mut self, camera: &Camera) {
+        let is_lens = match camera.lens {
+            Lens::Perspective(angle) => 0.0 < angle && angle < 180.0,
+            Lens::Orthographic(height) => 0.0 < height && height.is_finite(),
+        };
+        let width = camera.pixel_aspect * f64::from(camera.size.width);
+        if is_lens && 0.0 < width && width.is_finite() {
+            return;
+        }
+        let [camera, resolution, _] = self.origins.view;
+        let place = resolution.or(camera);
+        let place = place.map_or_else(|| Span::at(0), |record| self.tree.span_of(record));
+        self.report.error(|| {
+            let message = "resolution: too large or too small beside the focal length";
+            Diagnostic::error(
+                place,
+                message,
+                "a view with an angle above 0° and below 180°",
+            )
+        });
+    }
+}
+
+/// The width of a pixel over its height.
+fn shape_of([across, up]: [f64; 2]) -> f64 {
+    across / up
 }
 
 /// The height of an orthographic view that shows a sphere around the box.

@@ -25,6 +25,8 @@ pub(super) struct Line<'a> {
     /// What follows all that the table lists.
     pub(super) rest: &'a [Span],
     kind: RecordKind,
+    /// Whether what the table lists is all there, right or not.
+    pub(super) is_complete: bool,
     /// Whether all of it is there and right.
     pub(super) is_sound: bool,
 }
@@ -65,15 +67,16 @@ impl<'a> Reader<'a> {
             spans: Vec::with_capacity(LONGEST),
             rest: tokens.get(kind.heads()..).unwrap_or_default(),
             kind,
+            is_complete: false,
             is_sound: false,
         };
-        let complete = kind
+        line.is_complete = kind
             .parts()
             .iter()
             .all(|part| self.part(part, &mut line, &call));
         let record = line.as_record();
         record.check(kind.fields(), &mut self.report);
-        if !complete && errors == self.report.errors() {
+        if !line.is_complete && errors == self.report.errors() {
             self.short(kind, tokens, &line);
         }
         line.is_sound = errors == self.report.errors();
@@ -81,7 +84,14 @@ impl<'a> Reader<'a> {
     }
 
     /// Warns of tokens after the end of a record.
-    pub(super) fn surplus(&mut self, name: Name, rest: &[Span]) {
+    pub(super) fn surplus(&mut self, line: &Line<'_>) {
+        if line.is_complete {
+            self.left_over(line.name, line.rest);
+        }
+    }
+
+    /// Warns of tokens that nothing asks for.
+    pub(super) fn left_over(&mut self, name: Name, rest: &[Span]) {
         if let [first, ..] = rest {
             let span = first.to(rest[rest.len() - 1]);
             self.report.warning(|| {
@@ -106,16 +116,9 @@ impl<'a> Reader<'a> {
             Part::Word(due) => {
                 let word = token.of(self.text);
                 if word != *due {
-                    self.report.error(|| {
-                        let message =
-                            format!("{}: `{due}` is due, not {}", line.name, quoted(word));
-                        let diagnostic = Diagnostic::error(token, message, format!("`{due}`"));
-                        if word.eq_ignore_ascii_case(due) {
-                            diagnostic.with_hint("words are case-sensitive")
-                        } else {
-                            diagnostic
-                        }
-                    });
+                    let name = line.name;
+                    self.report
+                        .error(|| no_word(name, line.kind, due, token, word));
                     return false;
                 }
                 line.rest = after;
@@ -224,6 +227,24 @@ fn missing_part(kind: RecordKind, tokens: usize) -> String {
         left -= part.tokens();
     }
     "the end".to_owned()
+}
+
+fn no_word(name: Name, kind: RecordKind, due: &str, token: Span, word: &str) -> Diagnostic {
+    let is_pattern = matches!(kind, RecordKind::Texture(_)) && due != "ID";
+    let dues: &[&str] = if is_pattern {
+        &["checker", "image"]
+    } else {
+        &[due]
+    };
+    let expected: Vec<_> = dues.iter().map(|due| format!("`{due}`")).collect();
+    let expected = expected.join(" or ");
+    let message = format!("{name}: {expected} is due, not {}", quoted(word));
+    let diagnostic = Diagnostic::error(token, message, expected);
+    if dues.iter().any(|due| word.eq_ignore_ascii_case(due)) {
+        diagnostic.with_hint("words are case-sensitive")
+    } else {
+        diagnostic
+    }
 }
 
 fn no_choice(

@@ -15,7 +15,7 @@ use super::report::{nearest_word, quoted};
 use crate::format::dat::Tree;
 use crate::geometry::{Operation, Shape};
 use crate::scene::fields::Category;
-use crate::scene::fields::dat::{Heads, RECORDS, RecordKind, TextureKind};
+use crate::scene::fields::dat::{Heads, RECORDS, RecordKind, TextureKind, UseKind};
 use crate::scene::origins::dat::{Origins, VIEW};
 use crate::scene::{self, Light, Material, Rgb, Scene, Source, Texture};
 use crate::text::{Diagnostic, Findings, Position, Span};
@@ -34,6 +34,7 @@ pub(super) fn lower(text: &str, tree: &Tree) -> Lowered {
         textures: Vec::new(),
         solids: Vec::new(),
         ids: HashMap::new(),
+        used: HashMap::new(),
         listed: None,
     };
     for record in 0..tree.records.len() {
@@ -84,6 +85,8 @@ struct Reader<'a> {
     solids: Vec<Solid>,
     /// The index of each thing that is known by a number.
     ids: HashMap<(Category, i64), usize>,
+    /// What was done to each material, by its index: the place in the origins.
+    used: HashMap<(usize, UseKind), usize>,
     /// The numbers of the objects that the last `render` lists, if it lists any.
     listed: Option<Vec<(i64, Span)>>,
 }
@@ -167,8 +170,8 @@ impl Reader<'_> {
         let Some(before) = before else {
             return;
         };
-        let line = Position::of(self.text, self.tree.span_of(before).start()).line;
         self.report.warning(|| {
+            let line = Position::of(self.text, self.tree.span_of(before).start()).line;
             let message = format!("{}: said in line {line} already", word.of(self.text));
             Diagnostic::warning(word, message, "one record of this kind")
                 .with_hint("the last one counts")
@@ -201,10 +204,10 @@ impl Reader<'_> {
         let (id, span) = reference?;
         let found = self.ids.get(&(category, id)).copied();
         if found.is_none() {
-            let word = category.word();
-            let mut ids: Vec<_> = self.ids.keys().filter(|key| key.0 == category).collect();
-            ids.sort_unstable_by_key(|key| key.1);
             self.report.error(|| {
+                let word = category.word();
+                let mut ids: Vec<_> = self.ids.keys().filter(|key| key.0 == category).collect();
+                ids.sort_unstable_by_key(|key| key.1);
                 let message = format!("there is no {word} {id} above");
                 let expected = format!("the ID of a {word} defined before");
                 let shown: Vec<_> = ids.iter().take(8).map(|key| key.1.to_string()).collect();

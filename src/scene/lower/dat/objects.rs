@@ -38,10 +38,10 @@ impl<'a> Reader<'a> {
         let fields = RecordKind::Object(kind).fields();
         line.as_record().check_frame(fields, &mut self.report);
         let cuts = match kind {
-            ObjectKind::Quadric if line.is_sound => self.cuts(&mut line),
+            ObjectKind::Quadric if line.is_complete => self.cuts(&mut line),
             _ => Vec::new(),
         };
-        self.surplus(line.name, line.rest);
+        self.surplus(&line);
         let mut named = line.references.clone().into_iter();
         let (mut material, mut operands) = (None, None);
         if kind == ObjectKind::Csg {
@@ -63,6 +63,7 @@ impl<'a> Reader<'a> {
             id,
             operands,
             material,
+            cuts: cuts.len(),
         });
     }
 
@@ -84,8 +85,8 @@ impl<'a> Reader<'a> {
         if shape.is_none() {
             let span = line.spans[0].to(line.spans[line.spans.len() - 1]);
             self.report.error(|| {
-                let message = format!("{}: its axes span no volume", line.name);
-                Diagnostic::error(span, message, "three directions at right angles")
+                let message = format!("{}: too large, too small or too far away", line.name);
+                Diagnostic::error(span, message, "sizes and places that numbers can hold")
             });
         }
         shape.map(Solid::Shape)
@@ -110,8 +111,10 @@ impl<'a> Reader<'a> {
         Shape::Quadric(Box::new(quadric))
     }
 
-    /// The half-spaces after a quadric's coefficients: how many, then each.
+    /// The half-spaces after a quadric's coefficients: how many, then each. Where their number is
+    /// wrong, the line is not complete.
     fn cuts(&mut self, line: &mut Line<'a>) -> Vec<(DVec3, f64)> {
+        line.is_complete = false;
         let Some((&token, after)) = line.rest.split_first() else {
             let end = line.spans.last().map_or(0, |span| span.end());
             let name = line.name;
@@ -150,25 +153,25 @@ impl<'a> Reader<'a> {
         }
         let (cuts, rest) = line.rest.split_at(count as usize * each);
         line.rest = rest;
+        line.is_complete = true;
         cuts.chunks_exact(each)
             .filter_map(|cut| self.cut(name, cut))
             .collect()
     }
 
     fn cut(&mut self, name: Name, tokens: &[Span]) -> Option<(DVec3, f64)> {
-        let mut values = [0.0; 4];
+        let mut values = [f64::NAN; 4];
         let components = HALF_SPACE.kind.component_names();
         for ((value, token), component) in values.iter_mut().zip(tokens).zip(components) {
             let word = token.of(self.text);
-            *value = parse_number(word)
-                .map_err(|error| {
-                    self.report.error(|| {
-                        let what = what(name, HALF_SPACE, component);
-                        let expected = Range::Any.words();
-                        no_number(Severity::Error, *token, word, &what, &expected, error)
-                    });
-                })
-                .ok()?;
+            match parse_number(word) {
+                Ok(number) => *value = number,
+                Err(error) => self.report.error(|| {
+                    let what = what(name, HALF_SPACE, component);
+                    let expected = Range::Any.words();
+                    no_number(Severity::Error, *token, word, &what, &expected, error)
+                }),
+            }
         }
         let [x, y, z, distance] = values;
         let normal = DVec3::new(x, y, z);
@@ -179,7 +182,7 @@ impl<'a> Reader<'a> {
             });
             return None;
         }
-        Some((normal, distance))
+        (!normal.is_nan() && !distance.is_nan()).then_some((normal, distance))
     }
 
     /// Reads which objects are drawn: `render N ID i …`.
@@ -233,7 +236,7 @@ impl<'a> Reader<'a> {
             });
             return;
         }
-        self.surplus(name, rest);
+        self.left_over(name, rest);
         self.listed = (0 < count).then_some(ids);
     }
 

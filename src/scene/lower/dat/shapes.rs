@@ -16,7 +16,7 @@ pub(super) fn sphere(said: &Gathered) -> Shape {
 /// An ellipsoid along the axes of the world; `None` where its sizes are beyond what `f64` holds.
 pub(super) fn ellipsoid(said: &Gathered) -> Option<Shape> {
     let [x, y, z, ..] = said.numbers;
-    let frame = Affine::new(said.points[0], DVec3::AXES, DVec3::new(x, y, z))?;
+    let frame = frame(said.points[0], DVec3::AXES, DVec3::new(x, y, z))?;
     Some(Shape::Ellipsoid(Box::new(Ellipsoid(frame))))
 }
 
@@ -26,7 +26,7 @@ pub(super) fn cylinder(said: &Gathered) -> Option<Shape> {
     let axis = normalise(said.directions[0])?;
     let [radius, length, ..] = said.numbers;
     let base = said.points[0] - 0.5 * length * axis;
-    let frame = Affine::new(base, rotated(axis), DVec3::new(radius, radius, length))?;
+    let frame = frame(base, rotated(axis), DVec3::new(radius, radius, length))?;
     Some(Shape::Cylinder(Box::new(Cylinder(frame))))
 }
 
@@ -36,8 +36,14 @@ pub(super) fn cuboid(said: &Gathered) -> Option<Shape> {
     let [wide, high, deep, ..] = said.numbers;
     let corner = said.points[0] - 0.5 * (wide * u + high * v + deep * w);
     let lengths = DVec3::new(wide * u.length(), high * v.length(), deep * w.length());
-    let frame = Affine::new(corner, said.directions, lengths)?;
+    let frame = frame(corner, said.directions, lengths)?;
     Some(Shape::Cuboid(Box::new(Cuboid(frame))))
+}
+
+/// A frame with numbers; `None` where its place or its lengths are beyond what `f64` holds.
+fn frame(origin: DVec3, directions: [DVec3; 3], lengths: DVec3) -> Option<Affine> {
+    let holds = origin.is_finite() && lengths.is_finite() && 0.0 < lengths.min_element();
+    Affine::new(origin, directions, lengths).filter(|_| holds)
 }
 
 /// Where the shortest rotation that takes +z to a unit vector takes x, y and z: Rodrigues' formula

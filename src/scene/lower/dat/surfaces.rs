@@ -1,5 +1,7 @@
 //! Lights, materials, textures, and what textures do to materials.
 
+use std::collections::hash_map::Entry;
+
 use glam::DVec2;
 
 use super::Reader;
@@ -16,7 +18,7 @@ impl<'a> Reader<'a> {
     pub(super) fn light(&mut self, record: usize, tokens: &'a [Span]) {
         let kind = RecordKind::Light;
         let line = self.line(kind, tokens, |id| Name::Known("light", id, ""));
-        self.surplus(line.name, line.rest);
+        self.surplus(&line);
         let Some(id) = self.know(Category::Light, &line, self.lights.len()) else {
             return;
         };
@@ -45,7 +47,7 @@ impl<'a> Reader<'a> {
     pub(super) fn material(&mut self, record: usize, tokens: &'a [Span]) {
         let kind = RecordKind::Material;
         let line = self.line(kind, tokens, |id| Name::Known("material", id, ""));
-        self.surplus(line.name, line.rest);
+        self.surplus(&line);
         let Some(id) = self.know(Category::Material, &line, self.materials.len()) else {
             return;
         };
@@ -77,7 +79,7 @@ impl<'a> Reader<'a> {
     pub(super) fn texture(&mut self, record: usize, pattern: TextureKind, tokens: &'a [Span]) {
         let kind = RecordKind::Texture(pattern);
         let line = self.line(kind, tokens, |id| Name::Known("texture", id, ""));
-        self.surplus(line.name, line.rest);
+        self.surplus(&line);
         let Some(id) = self.know(Category::Texture, &line, self.textures.len()) else {
             return;
         };
@@ -96,7 +98,7 @@ impl<'a> Reader<'a> {
     pub(super) fn texture_use(&mut self, record: usize, purpose: UseKind, tokens: &'a [Span]) {
         let kind = RecordKind::Use(purpose);
         let line = self.line(kind, tokens, |id| Name::Known("use", id, ""));
-        self.surplus(line.name, line.rest);
+        self.surplus(&line);
         let texture = line.references.first().copied().flatten();
         let texture = self.known(Category::Texture, texture);
         let material = line.references.get(1).copied().flatten();
@@ -104,17 +106,22 @@ impl<'a> Reader<'a> {
         let (Some(texture), Some(material)) = (texture, material) else {
             return;
         };
-        let same = |at: &UsePlace| at.material == material && at.kind == kind;
-        if let Some(before) = self.origins.uses.iter().position(same) {
-            let before = self.origins.uses.remove(before);
-            self.warn_of_repetition(Some(before.record), tokens[1]);
-        }
-        self.origins.uses.push(UsePlace {
+        let place = UsePlace {
             record,
             kind,
             material,
             texture,
-        });
+        };
+        match self.used.entry((material, purpose)) {
+            Entry::Vacant(entry) => {
+                entry.insert(self.origins.uses.len());
+                self.origins.uses.push(place);
+            }
+            Entry::Occupied(entry) => {
+                let before = std::mem::replace(&mut self.origins.uses[*entry.get()], place);
+                self.warn_of_repetition(Some(before.record), tokens[1]);
+            }
+        }
         let said = line.gather().unwrap_or_default();
         if let Some(material) = self.materials.get_mut(material) {
             match purpose {
@@ -135,7 +142,7 @@ fn source(said: &Gathered) -> Option<Source> {
             falloff: Falloff {
                 radial: [a0, a1, a2],
                 spot: normalise(direction)
-                    .filter(|_| exponent != 0.0)
+                    .filter(|_| 0.0 < exponent)
                     .map(|direction| (direction, exponent)),
             },
         },

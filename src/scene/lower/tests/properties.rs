@@ -11,10 +11,10 @@ use crate::scene::{Camera, Lens, Light, Material, Node, Object, Scene, Size, vie
 use crate::text::{Edit, Span, apply};
 
 /// Steele, Lea and Flood's `SplitMix64`: enough randomness for tests, the same everywhere.
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
-    fn next(&mut self) -> u64 {
+    pub(super) fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -22,16 +22,16 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    fn below(&mut self, bound: usize) -> usize {
+    pub(super) fn below(&mut self, bound: usize) -> usize {
         (self.next() % bound as u64) as usize
     }
 
-    fn pick<'a, T: ?Sized>(&mut self, from: &[&'a T]) -> &'a T {
+    pub(super) fn pick<'a, T: ?Sized>(&mut self, from: &[&'a T]) -> &'a T {
         from[self.below(from.len())]
     }
 
     /// A literal that the field allows, in one of the styles numbers are written in.
-    fn literal(&mut self, field: &Field) -> String {
+    pub(super) fn literal(&mut self, field: &Field) -> String {
         let whole = 1 + self.below(9);
         if field.kind == Kind::Pixels {
             return format!("{whole}{}", self.pick(&["", "0", "00"]));

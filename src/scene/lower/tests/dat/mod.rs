@@ -1,0 +1,46 @@
+//! What `.dat` texts mean, as data.
+
+mod cameras;
+mod errors;
+mod limits;
+mod meaning;
+mod pictures;
+mod properties;
+mod solids;
+mod views;
+
+use super::shown;
+use crate::format::{Format, Tree, parse};
+use crate::scene::Scene;
+use crate::scene::lower::{Lowered, lower};
+
+/// The three records of a view, on three lines.
+const VIEW: &str = "camera perspective 0 0 5  0 0 0  0 1 0  1 0 100
+resolution 0.01 0.01
+viewport 80 60
+";
+
+/// The numbers of a material.
+const MAT: &str = "1 1 1  0.1 0.8 0.1 5  0 0 1";
+
+/// A text in which `VIEW` stands for the records above, `MAT` for a material, its ID first,
+/// `BALL` for a sphere up to its radius and `AXES` for the directions of a right-handed frame.
+fn spelled(text: &str) -> String {
+    text.replace("VIEW\n", VIEW)
+        .replace("MAT", MAT)
+        .replace("BALL", "mat ID 0  0 0 0")
+        .replace("AXES", "1 0 0  0 1 0  0 0 1")
+}
+
+fn read(text: &str) -> (Tree, Lowered) {
+    let tree = parse(Format::Dat, text);
+    let lowered = lower(text, &tree);
+    (tree, lowered)
+}
+
+/// The meaning of a text that must be free of errors and warnings.
+fn scene(text: &str) -> Scene {
+    let (_, lowered) = read(text);
+    assert_eq!(shown(text, &lowered), [""; 0], "{text}");
+    lowered.scene.expect("there are no errors")
+}
