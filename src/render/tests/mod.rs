@@ -1,9 +1,13 @@
 //! Pictures whose pixels are known on paper.
 
+mod cameras;
+mod falloff;
 mod invariance;
 mod optics;
 mod progress;
 mod shading;
+mod solids;
+mod textures;
 mod visibility;
 
 use std::sync::Arc;
@@ -13,7 +17,7 @@ use glam::DVec3;
 
 use super::whitted::{Seen, Tracer};
 use super::world::World;
-use super::{Frame, Frames, Job, Renderer, Settings, Threads};
+use super::{Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
 use crate::geometry::{Affine, Cuboid, Ray, Shape, Sphere};
 use crate::scene::{Camera, Images, Lens, Light, Material, Object, Rgb, Scene, Size};
 
@@ -128,6 +132,46 @@ fn level(scene: Scene, depth: u32, ray: Ray) -> f64 {
         "{radiance} is no grey"
     );
     radiance.x
+}
+
+/// Numbers that are spread evenly, in any number of dimensions: multiples of roots of primes.
+struct Numbers {
+    index: f64,
+    taken: usize,
+}
+
+impl Numbers {
+    fn new(index: usize) -> Self {
+        Self {
+            index: index as f64 + 1.0,
+            taken: 0,
+        }
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        const PRIMES: [f64; 24] = [
+            2., 3., 5., 7., 11., 13., 17., 19., 23., 29., 31., 37., 41., 43., 47., 53., 59., 61.,
+            67., 71., 73., 79., 83., 89.,
+        ];
+        self.taken += 1;
+        let root = PRIMES[(self.taken - 1) % PRIMES.len()].sqrt();
+        low + (self.index * root).fract() * (high - low)
+    }
+
+    fn below(&mut self, bound: usize) -> usize {
+        self.between(0.0, bound as f64) as usize
+    }
+
+    fn in_cube(&mut self) -> DVec3 {
+        DVec3::from_array([(); 3].map(|()| self.between(-1.0, 1.0)))
+    }
+
+    fn direction(&mut self) -> DVec3 {
+        let z = self.between(-1.0, 1.0);
+        let (y, x) = self.between(0.0, std::f64::consts::TAU).sin_cos();
+        let radius = (1.0 - z * z).sqrt();
+        DVec3::new(radius * x, radius * y, z).normalize()
+    }
 }
 
 fn assert_near(value: f64, expected: f64, tolerance: f64) {

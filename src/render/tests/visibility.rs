@@ -13,7 +13,7 @@ fn nothing_is_black() {
         seen,
         Seen {
             radiance: Rgb::ZERO,
-            object: crate::render::NO_OBJECT
+            object: NO_OBJECT
         }
     );
 }
