@@ -21,7 +21,7 @@ use super::line::Line;
 
 /// All combined objects that are drawn have at most this many parts together, so that a chain of
 /// them, each drawn as well, can't take all memory.
-const MOST_PARTS: usize = 1 << 22;
+const MOST_PARTS: usize = 1 << 20;
 
 /// The operations in the order of the words for them.
 const OPERATIONS: [Operation; 3] = [
@@ -29,6 +29,12 @@ const OPERATIONS: [Operation; 3] = [
     Operation::Intersection,
     Operation::Difference,
 ];
+
+/// How many things there are where more or fewer are due: `1 cut follows`.
+fn following(count: usize, what: &str) -> String {
+    let verb = if count == 1 { "follows" } else { "follow" };
+    format!("{} {verb}", counted(count, what))
+}
 
 impl<'a> Reader<'a> {
     pub(super) fn object(&mut self, record: usize, kind: ObjectKind, tokens: &'a [Span]) {
@@ -137,8 +143,8 @@ impl<'a> Reader<'a> {
             self.report.error(|| {
                 let said = quoted(token.of(self.text));
                 let (message, expected) = if have < most {
-                    let follow = counted(have, "cut");
-                    let message = format!("{name}: says {said} cuts, but {follow} follow");
+                    let follow = following(have, "cut");
+                    let message = format!("{name}: says {said} cuts, but {follow}");
                     (message, "as many as there are".to_owned())
                 } else {
                     (
@@ -229,8 +235,8 @@ impl<'a> Reader<'a> {
         if (ids.len() as i64) < count {
             self.report.error(|| {
                 let said = quoted(token.of(self.text));
-                let follow = counted(ids.len(), "object");
-                let message = format!("render: says {said}, but {follow} follow in the line");
+                let follow = following(ids.len(), "object");
+                let message = format!("render: says {said}, but {follow} in the line");
                 Diagnostic::error(token, message, "as many as there are")
                     .with_hint("each object is `ID` and its number")
             });

@@ -328,15 +328,15 @@ render 1 ID 0
 #[test]
 fn counts_are_what_follows() {
     check_under(&[
-        "render 2 ID 0\n#~ 8 error: render: says `2`, but 1 object follow",
-        "render 2 ID 0 ID\n#~ 8 error: render: says `2`, but 1 object follow",
-        "render 1 0\n#~ 8 error: render: says `1`, but 0 objects follow",
+        "render 2 ID 0\n#~ 8 error: render: says `2`, but 1 object follows in the line",
+        "render 2 ID 0 ID\n#~ 8 error: render: says `2`, but 1 object follows in the line",
+        "render 1 0\n#~ 8 error: render: says `1`, but 0 objects follow in the line",
         "render 1 id 0\n#~ 10 error: render: `ID` is due, not `id`",
         "render 1 ID x\n#~ 13 error: render ID: must be a whole number, not `x`",
         "render -1\n#~ 8 error: render: the number of objects must be 0 or more",
         "render all\n#~ 8 error: render: the number of objects: must be a whole number, not `all`",
-        "render 9000000000000000000 ID 0\n#~ 8 error: render: says `9000000000000000000`, but 1 object follow",
-        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 2 1 0 0 1\n#~ 49 error: object 1 (quadric): says `2` cuts, but 1 cut follow",
+        "render 9000000000000000000 ID 0\n#~ 8 error: render: says `9000000000000000000`, but 1 object follows in the line",
+        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 2 1 0 0 1\n#~ 49 error: object 1 (quadric): says `2` cuts, but 1 cut follows",
         "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 1 1 0 0\n#~ 49 error: object 1 (quadric): says `1` cuts, but 0 cuts follow",
         "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 -1 1 0 0 1\n#~ 49 error: object 1 (quadric): says `-1` cuts",
         "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 9000000000000000000\n#~ 49 error: object 1 (quadric): says `9000000000000000000` cuts",

@@ -102,7 +102,7 @@ fn a_solid_used_twice_is_held_once() {
 /// Each link of a chain that is drawn as well is a copy of all before it: the sum of all is limited.
 #[test]
 fn parts_are_limited_over_all_that_is_drawn() {
-    const LINKS: usize = 4_000;
+    const LINKS: usize = 2_000;
     let mut text = vec![spelled("VIEW\nmat ID 0 MAT\nobj sphere ID 0 BALL 1\n")];
     let mut render = vec![format!("render {LINKS}")];
     for link in 1..=LINKS {

@@ -136,6 +136,19 @@ fn ambient_light_adds_up() {
     assert_eq!(scene.lights.len(), 3);
 }
 
+/// A negative exponent reads as 0: no falloff, behind the light as before it.
+#[test]
+fn a_negative_exponent_is_no_spot_light() {
+    let text = spelled(
+        "VIEW\nmat ID 0 MAT\nobj sphere ID 0 BALL 1\nlight ID 0 pnt 0 0 8  0 -3 0  1 1 1  1 0 0  -2 shadow_on",
+    );
+    let scene = read(&text).1.scene.expect("there are no errors");
+    let Source::Point { falloff, .. } = scene.lights[0].source else {
+        panic!("{:?}", scene.lights);
+    };
+    assert_eq!(falloff, Falloff::NONE);
+}
+
 /// The material's colour tints all, and Kt stands before Kr.
 #[test]
 fn materials() {
