@@ -8,6 +8,7 @@ mod known;
 mod leaving;
 mod properties;
 mod quadric_bounds;
+mod quadric_parallel;
 mod quadrics;
 mod random;
 mod scale;

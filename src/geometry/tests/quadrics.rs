@@ -32,7 +32,7 @@ pub(super) fn around(centre: DVec3, matrix: DMat3, slope: DVec3, level: f64) -> 
 }
 
 /// Σ sᵢ (axisᵢ · x)².
-fn squares(axes: [DVec3; 3], s: [f64; 3]) -> DMat3 {
+pub(super) fn squares(axes: [DVec3; 3], s: [f64; 3]) -> DMat3 {
     let columns = DMat3::from_cols_array_2d(&axes.map(|axis| axis.to_array()));
     columns * DMat3::from_diagonal(DVec3::from_array(s)) * columns.transpose()
 }
@@ -223,7 +223,7 @@ fn spans_on_paper() {
 
 /// Whether F is at most 0 anywhere on the line, in twice the precision. The line is followed first
 /// to where F is least: from there b is nearly 0, and b² − ac no difference.
-fn exact_hit(coefficients: [f64; 10], ray: &Ray) -> bool {
+pub(super) fn exact_hit(coefficients: [f64; 10], ray: &Ray) -> bool {
     let [xx, xy, xz, x, yy, yz, y, zz, z, k] = coefficients;
     let rows = [
         vector(DVec3::new(xx, xy, xz)),
@@ -236,6 +236,10 @@ fn exact_hit(coefficients: [f64; 10], ray: &Ray) -> bool {
     let a = dot(d, of(d));
     let b = |o| dot(o, of(d)) + dot(linear, d);
     let origin = vector(ray.origin);
+    if a.round() == 0.0 {
+        let c = dot(origin, of(origin)) + dot(linear, origin) + dot(linear, origin);
+        return b(origin).round() != 0.0 || (c + Double::of(k)).round() <= 0.0;
+    }
     let o = sum(origin, scaled(-b(origin) / a, d));
     let c = dot(o, of(o)) + dot(linear, o) + dot(linear, o) + Double::of(k);
     a.round() <= 0.0 || 0.0 <= (b(o) * b(o) - a * c).round()
