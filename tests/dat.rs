@@ -112,18 +112,20 @@ fn trace(scene: &Arc<Scene>, threads: usize) -> Arc<Frame> {
     let renderer = Renderer::new(Threads::Exactly(threads), move || {
         let _ = wake.send(());
     });
-    renderer.restart(Job {
-        scene: Arc::clone(scene),
-        images,
-        camera: scene.camera,
-        settings: Settings {
-            size: scene.camera.size,
-            spp: 2,
-            depth: DEFAULT_DEPTH,
-            seed: 0,
-        },
-        frames: Frames::Last,
-    });
+    renderer
+        .restart(Job {
+            scene: Arc::clone(scene),
+            images,
+            camera: scene.camera,
+            settings: Settings {
+                size: scene.camera.size,
+                spp: 2,
+                depth: DEFAULT_DEPTH,
+                seed: 0,
+            },
+            frames: Frames::Last,
+        })
+        .expect("there is memory");
     loop {
         woken.recv().expect("the worker runs");
         if let Some(frame) = renderer.latest().filter(|frame| frame.progress.complete) {

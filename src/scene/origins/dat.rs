@@ -182,7 +182,7 @@ impl Origins {
         let places = self.textures.iter().enumerate();
         let file = |(index, at): (usize, &Place)| {
             let tokens = tree.tokens_of(at.record).get(at.kind.heads()..)?;
-            let fields = place(tokens, at.kind);
+            let fields = place(tokens, at.kind, 0);
             let word = fields.iter().find(|said| said.field.kind == Kind::Word)?;
             let span = *word.spans.first()?;
             Some(NamedFile {

@@ -98,7 +98,7 @@ fn literals(
         .map(|at| match field.kind {
             Kind::Direction | Kind::Axis => u8::from(at == own).to_string(),
             Kind::Choice(words) => random.pick(words).to_owned(),
-            Kind::Reference => random.below(known.max(1)).to_string(),
+            Kind::Reference(_) => random.below(known.max(1)).to_string(),
             Kind::Word => random.pick(&["a.png", "é/b.ppm"]).to_owned(),
             Kind::HalfSpace if at == 3 => random.literal(field).replace('-', ""),
             // The eye is far from the target, and the far end behind the near one.
@@ -196,7 +196,7 @@ fn an_edit_of_a_placed_span_changes_that_field_alone() {
             let (field, span) = (placed[at].field, placed[at].spans[component]);
             let literal = match field.kind {
                 Kind::Choice(words) => random.pick(words).to_owned(),
-                Kind::Reference | Kind::Word => continue,
+                Kind::Reference(_) | Kind::Word => continue,
                 _ => random.literal(field),
             };
             let mut expected = said(&text);
