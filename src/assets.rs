@@ -15,17 +15,19 @@ use crate::image_file::{self, Unreadable, known_extensions};
 use crate::scene::{Image, Images, NamedFile};
 use crate::text::{Diagnostic, Findings};
 
-/// The most bytes of all picture files of a scene together.
-const MAX_BYTES: u64 = 512 << 20;
-
-/// The most pixels of all pictures of a scene together: 384 MiB.
-const MAX_PIXELS: u64 = 1 << 27;
+/// What all pictures of a scene may have together: 512 MiB in files, 384 MiB in memory.
+const LIMITS: Room = Room {
+    bytes: 512 << 20,
+    pixels: 1 << 27,
+};
 
 /// Reads pictures, and keeps those of the last reading: bytes that are known are not decoded again.
 #[derive(Debug)]
 pub struct Assets {
     /// Folders that may be read besides the scene's surroundings.
     folders: Vec<PathBuf>,
+    /// How much is read for one scene.
+    limits: Room,
     known: Known,
 }
 
@@ -38,7 +40,8 @@ struct Known {
     images: HashMap<u64, Arc<Image>>,
 }
 
-/// What more may be read for one scene.
+/// How much may be read for one scene.
+#[derive(Clone, Copy, Debug)]
 struct Room {
     bytes: u64,
     pixels: u64,
@@ -100,13 +103,6 @@ enum Shown {
     Last,
 }
 
-impl From<bool> for Shown {
-    /// Whether there is a last one.
-    fn from(has_last: bool) -> Self {
-        if has_last { Self::Last } else { Self::Magenta }
-    }
-}
-
 impl fmt::Display for Shown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -121,6 +117,7 @@ impl Assets {
     pub fn new(folders: &[PathBuf]) -> Self {
         Self {
             folders: folders.to_vec(),
+            limits: LIMITS,
             known: Known::default(),
         }
     }
@@ -129,10 +126,7 @@ impl Assets {
     /// one that is being written, keeps the last one.
     pub fn read(&mut self, wanted: &Wanted) -> Loaded {
         let before = std::mem::take(&mut self.known);
-        let mut room = Room {
-            bytes: MAX_BYTES,
-            pixels: MAX_PIXELS,
-        };
+        let mut room = self.limits;
         let mut images = Vec::new();
         let mut troubles = Troubles::new();
         for name in &wanted.names {
@@ -145,8 +139,11 @@ impl Assets {
                     let last = last
                         .flatten()
                         .filter(|(bytes, image)| self.has_room(*bytes, image, &room));
-                    let trouble = failure.trouble(&place, last.is_some().into());
-                    troubles.insert(name.clone(), trouble);
+                    let shown = match last {
+                        Some(_) => Shown::Last,
+                        None => Shown::Magenta,
+                    };
+                    troubles.insert(name.clone(), failure.trouble(&place, shown));
                     last
                 }
             };
@@ -277,7 +274,7 @@ enum Failure {
     Io(io::Error),
     #[error("is {0}, not a file")]
     NotRegular(&'static str),
-    #[error("the scene's textures have more than {} MiB together", MAX_BYTES >> 20)]
+    #[error("the scene's textures have more than {} MiB together", LIMITS.bytes >> 20)]
     TooLong,
     #[error("{0}")]
     Unreadable(#[from] Unreadable),

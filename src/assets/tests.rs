@@ -3,7 +3,6 @@ use std::os::unix::fs::symlink;
 use tempfile::TempDir;
 
 use super::*;
-use crate::scene::Size;
 use crate::text::Span;
 
 /// A folder `scenes` with a scene `x.dat`, in a folder of its own.
@@ -128,7 +127,7 @@ fn what_is_no_picture_is_told_as_what_it_is() {
     place.write("half.ppm", b"P6\n2 2\n255\nabc");
     place.write("huge.ppm", b"P6\n8193 8192\n255\n");
     let long = fs::File::create(place.at("long.ppm")).expect("made");
-    long.set_len(MAX_BYTES + 1).expect("a hole");
+    long.set_len(LIMITS.bytes + 1).expect("a hole");
     for (name, reason) in [
         (
             "none.png",
@@ -203,32 +202,37 @@ fn a_file_that_is_being_written_keeps_its_last_picture() {
 #[test]
 fn pictures_that_are_too_much_together_are_left_out() {
     let place = Place::new();
-    // A line of zeros is as long as it says, and another one differs in its last byte.
-    let large = |last: u8| {
-        let mut bytes = b"P5\n8192 8192\n255\n".to_vec();
-        bytes.resize(bytes.len() + (8192 * 8192), 0);
-        *bytes.last_mut().expect("some") = last;
-        bytes
-    };
-    for (name, last) in [("a", 1), ("b", 2), ("c", 3), ("d", 1)] {
-        place.write(name, large(last));
+    for (name, pixel) in [("a", RED), ("b", BLUE), ("c", [1; 3]), ("d", RED)] {
+        place.write(name, ppm(pixel));
     }
-    place.write("e", ppm(RED));
-    let wanted = place.wanted(&["a", "b", "c", "d", "e"]);
-    let mut assets = Assets::new(&[]);
-    let loaded = assets.read(&wanted);
-    let refused: Vec<_> = loaded.troubles.keys().map(String::as_str).collect();
-    // The fourth is the first's twin; the last one, however small, has no room left.
-    assert_eq!(refused, ["c", "e"]);
-    assert!(told(&loaded.troubles["e"]).contains("too many pixels together"));
-    let size = loaded.images.get("d").map(|image| image.size());
+    let wanted = place.wanted(&["a", "b", "c", "d"]);
+    let refused = |limits: Room| {
+        let mut assets = Assets::new(&[]);
+        assets.limits = limits;
+        let loaded = assets.read(&wanted);
+        let told = |(name, trouble)| format!("{name}: {}", told(trouble));
+        loaded.troubles.iter().map(told).collect::<Vec<_>>()
+    };
+    // The fourth is the first's twin.
+    let found = refused(Room {
+        pixels: 2,
+        ..LIMITS
+    });
     assert_eq!(
-        size,
-        Some(Size {
-            width: 8192,
-            height: 8192
-        })
+        found,
+        [
+            "c: texture 1 file: the scene's textures have too many pixels together; magenta stands for it ()"
+        ]
     );
+    let bytes = 3 * ppm(RED).len() as u64;
+    let found = refused(Room { bytes, ..LIMITS });
+    assert_eq!(
+        found,
+        [
+            "d: texture 1 file: the scene's textures have more than 512 MiB together; magenta stands for it ()"
+        ]
+    );
+    assert!(refused(LIMITS).is_empty());
 }
 
 #[test]

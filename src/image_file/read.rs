@@ -2,8 +2,9 @@
 //! memory is asked for.
 
 use std::io::Cursor;
+use std::panic;
 
-use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageReader, Limits};
+use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageReader, Limits, Rgba};
 
 use crate::scene::{Image, Size};
 
@@ -34,14 +35,20 @@ pub enum Unreadable {
     /// It has more pixels than there was room for.
     #[error("the scene's textures have too many pixels together")]
     NoRoom,
-    /// There is no memory for it.
-    #[error("is too large for the memory")]
+    /// There is no memory for it, or its decoder wants more than [`MAX_MEMORY`].
+    #[error("takes more memory than there is for a texture (512 MiB)")]
     NoMemory,
 }
 
 /// Decodes a picture in whatever format its first bytes say. Of several in a file the first; what
 /// is more than red, green and blue of 8 bits is left away. More pixels than `room` are refused.
 pub fn decode(bytes: &[u8], room: u64) -> Result<Image, Unreadable> {
+    // Decoders are others' work on anybody's bytes: if one panics, that costs the picture only.
+    let decoded = panic::catch_unwind(|| decode_trusting(bytes, room));
+    decoded.unwrap_or_else(|_| Err(Unreadable::Broken("its decoder failed".to_owned())))
+}
+
+fn decode_trusting(bytes: &[u8], room: u64) -> Result<Image, Unreadable> {
     let broken = |error: ImageError| match error {
         ImageError::Limits(_) => Unreadable::NoMemory,
         ImageError::Unsupported(_) => Unreadable::Unknown,
@@ -74,8 +81,16 @@ pub fn decode(bytes: &[u8], room: u64) -> Result<Image, Unreadable> {
         let read = decoder.read_image(pixels.as_flattened_mut());
         read.map_err(broken)?;
     } else {
-        let image = DynamicImage::from_decoder(decoder).map_err(broken)?;
-        pixels.extend(image.into_rgb8().pixels().map(|pixel| pixel.0));
+        // The decoder's own memory is asked for in a way that ends the process where there is none.
+        let asked = Vec::<u8>::new().try_reserve_exact(decoder.total_bytes() as usize);
+        asked.map_err(|_| Unreadable::NoMemory)?;
+        match DynamicImage::from_decoder(decoder).map_err(broken)? {
+            // Most of them, without another copy.
+            DynamicImage::ImageRgba8(image) => {
+                pixels.extend(image.pixels().map(|&Rgba([r, g, b, _])| [r, g, b]));
+            }
+            image => pixels.extend(image.into_rgb8().pixels().map(|pixel| pixel.0)),
+        }
     }
     Image::new(size, pixels).ok_or_else(|| Unreadable::Broken("it has no pixels".to_owned()))
 }

@@ -69,7 +69,7 @@ struct Pending {
 }
 
 /// A lit point.
-struct Point {
+struct Point<'m> {
     surface: Surface,
     /// The normal with its bumps, turned against the ray.
     normal: DVec3,
@@ -78,7 +78,7 @@ struct Point {
     /// Unit vector toward where the ray came from.
     view: DVec3,
     /// With its textures.
-    material: Material,
+    material: &'m Material,
 }
 
 impl<'w> Tracer<'w> {
@@ -93,8 +93,8 @@ impl<'w> Tracer<'w> {
         }
     }
 
-    /// Radiance along a camera ray, which is followed as far as `reach`. Rays are traced depth first, reflection before refraction;
-    /// those beyond the budget bring nothing. Stops early, with a useless result, once `cancelled`
+    /// Radiance along a camera ray, which is followed as far as `reach`. Rays are traced depth
+    /// first, reflection before refraction; those beyond the budget bring nothing. Stops early, with a useless result, once `cancelled`
     /// says so.
     pub(crate) fn radiance(
         &mut self,
@@ -147,23 +147,20 @@ impl<'w> Tracer<'w> {
         let material = &scene.materials[object.material_at(nearest.hit) as usize];
         let direction = arrived.ray.direction;
         let front = direction.dot(surface.normal) < 0.0;
-        let mut point = Point {
-            surface,
-            normal: surface.normal,
-            front,
-            view: -direction,
-            material: *material,
-        };
+        let (mut normal, mut textured) = (surface.normal, None);
         if material.colour_texture.is_some() || material.bump.is_some() {
             let chart = object.shape.chart(&arrived.ray, nearest.hit);
-            self.world
-                .textures
-                .apply(&chart, &mut point.material, &mut point.normal);
+            let material = textured.insert(*material);
+            self.world.textures.apply(&chart, material, &mut normal);
         }
-        // Which side is seen is the surface's to say, not the bumps'.
-        if !front {
-            point.normal = -point.normal;
-        }
+        let point = Point {
+            surface,
+            // Which side is seen is the surface's to say, not the bumps'.
+            normal: if front { normal } else { -normal },
+            front,
+            view: -direction,
+            material: textured.as_ref().unwrap_or(material),
+        };
         let mut radiance = point.material.ambient * scene.ambient;
         for light in &scene.lights {
             radiance += self.direct(&point, light);
@@ -175,14 +172,10 @@ impl<'w> Tracer<'w> {
     }
 
     /// Light from one light, by way of Phong's model.
-    fn direct(&mut self, point: &Point, light: &Light) -> Rgb {
-        let (to_light, share) = match light.source {
-            Source::Point { position, falloff } => {
-                let way = position - point.surface.point;
-                let to_light = way.normalize();
-                (to_light, falloff.share(way.length(), to_light))
-            }
-            Source::Distant(toward) => (toward, 1.0),
+    fn direct(&mut self, point: &Point<'_>, light: &Light) -> Rgb {
+        let to_light = match light.source {
+            Source::Point { position, .. } => (position - point.surface.point).normalize(),
+            Source::Distant(toward) => toward,
             Source::Everywhere => return Rgb::ZERO,
         };
         let cosine = point.normal.dot(to_light);
@@ -193,14 +186,23 @@ impl<'w> Tracer<'w> {
         let mirrored = 2.0 * cosine * point.normal - to_light;
         let highlight = phong(mirrored.dot(point.view), point.material.exponent);
         let reflected = point.material.diffuse * cosine + point.material.specular * highlight;
-        if reflected == Rgb::ZERO || share == 0.0 {
+        if reflected == Rgb::ZERO {
+            return Rgb::ZERO;
+        }
+        let share = match &light.source {
+            Source::Point { position, falloff } => {
+                falloff.share(position.distance(point.surface.point), to_light)
+            }
+            Source::Distant(_) | Source::Everywhere => 1.0,
+        };
+        if share == 0.0 {
             return Rgb::ZERO;
         }
         self.visibility(point, light, to_light) * (reflected * (share * light.colour))
     }
 
     /// The part of the light that reaches the point.
-    fn visibility(&mut self, point: &Point, light: &Light, to_light: DVec3) -> f64 {
+    fn visibility(&mut self, point: &Point<'_>, light: &Light, to_light: DVec3) -> f64 {
         if light.shadows == Shadows::Off {
             return 1.0;
         }
@@ -236,7 +238,7 @@ impl<'w> Tracer<'w> {
             transmission,
             index,
             ..
-        } = point.material;
+        } = *point.material;
         let mut mirrored_weight = reflection;
         if transmission != 0.0 {
             let index = if 0.0 < index { index } else { 1.0 };
@@ -253,7 +255,7 @@ impl<'w> Tracer<'w> {
         }
     }
 
-    fn push(&mut self, arrived: &Pending, point: &Point, direction: DVec3, weight: f64) {
+    fn push(&mut self, arrived: &Pending, point: &Point<'_>, direction: DVec3, weight: f64) {
         let ray = Ray {
             origin: point.surface.leave(direction),
             direction,

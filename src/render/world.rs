@@ -67,8 +67,8 @@ impl World {
         })
     }
 
-    /// The nearest object on the ray nearer than `limit`; of those that are met within 64 ulp of the least distance,
-    /// the first of the file, so that touching solids show no speckle.
+    /// The nearest object on the ray nearer than `limit`; of those that are met within 64 ulp of
+    /// the least distance, the first of the file, so that touching solids show no speckle.
     pub(crate) fn nearest(&self, ray: &Ray, mut limit: f64) -> Option<Nearest> {
         let reach = ray.origin.length();
         let window = |t: f64| 64.0 * ulp(reach.max(t));
@@ -99,8 +99,8 @@ impl World {
     }
 
     /// The part of light that passes along the ray up to `distance`: the product of kt over every
-    /// solid whose surface the way crosses, each once, in file order. `crossed` is scratch space: objects and
-    /// their materials.
+    /// solid whose surface the way crosses, each once, in file order. `crossed` is scratch space:
+    /// objects and their materials.
     pub(crate) fn transmittance(
         &self,
         ray: &Ray,
