@@ -167,8 +167,8 @@ fn unusual_numbers_are_warned_of_with_what_they_read_as() {
 fn directions_span_a_volume() {
     check_under(&[
         "obj cylinder ID 1 BALL 0 0 0 1 1\n#~ 35 error: object 1 (cylinder) axis: must not be zero",
-        "obj cylinder ID 1 BALL 0 0 9 1 1\n#~ 35 warning: object 1 (cylinder) axis: has length 9.0000, not 1",
-        "obj box ID 1 BALL 2 0 0 0 1 0 0 0 1 1 1 1\n#~ 30 warning: object 1 (box) u: has length 2.0000, not 1",
+        "obj cylinder ID 1 BALL 0 0 9 1 1\n#~ 35 warning: object 1 (cylinder) axis: has length 9, not 1",
+        "obj box ID 1 BALL 2 0 0 0 1 0 0 0 1 1 1 1\n#~ 30 warning: object 1 (box) u: has length 2, not 1",
         "obj box ID 1 BALL 1 0 0 0 0 0 0 0 1 1 1 1\n#~ 36 error: object 1 (box) v: must not be zero",
         "obj box ID 1 BALL 1 0 0 -1 0 0 0 0 1 1 1 1\n#~ 36 error: object 1 (box) v: is parallel to u",
         "obj box ID 1 BALL 1 0 0 0 1 0 .6 .8 0 1 1 1\n#~ 42 error: object 1 (box) w: lies in the plane of the other two",
