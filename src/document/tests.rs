@@ -1,5 +1,5 @@
 use proptest::prelude::*;
-use proptest::sample::Index;
+use proptest::sample::{Index, select};
 
 use super::*;
 
@@ -236,15 +236,16 @@ fn scene() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    // 100 texts of 100 edits each.
-    #![proptest_config(ProptestConfig::with_cases(100))]
+    // 100 texts of 100 edits each in either language.
+    #![proptest_config(ProptestConfig::with_cases(200))]
 
     #[test]
     fn edits_change_their_span_and_undo_restores_every_byte(
+        format in select(&Format::ALL),
         text in scene(),
         edits in prop::collection::vec((any::<Index>(), "-?[0-9]{1,4}(\\.5)?", 0..8), 100),
     ) {
-        let mut doc = document(&text);
+        let mut doc = Document::new(format, text.clone());
         for (leaf, literal, then) in edits {
             let leaves = doc.tree().leaves();
             let span = leaves[leaf.index(leaves.len())];

@@ -162,7 +162,8 @@ impl Origins {
     }
 
     pub(super) fn identities(&self, node: Node, category: Category) -> Vec<i64> {
-        let Some((record, _)) = self.records(node).last() else {
+        let records = self.records(node).map(|(record, _)| record);
+        let Some(record) = records.max() else {
             return Vec::new();
         };
         let of = |places: &[Place]| places.iter().map(|at| (at.record, at.id)).collect();

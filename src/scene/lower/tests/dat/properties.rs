@@ -6,7 +6,7 @@ use super::read;
 use crate::format::{Format, Tree};
 use crate::scene::Node;
 use crate::scene::fields::dat::{HALF_SPACE, ObjectKind, Part, RecordKind, TextureKind, UseKind};
-use crate::scene::fields::{Field, Kind};
+use crate::scene::fields::{Category, Field, Kind};
 use crate::scene::lower::tests::properties::Random;
 use crate::text::{Edit, Span, apply};
 
@@ -87,18 +87,20 @@ fn literals(
     axis: &mut usize,
     [materials, textures, objects]: [usize; 3],
 ) -> Vec<String> {
-    let known = match field.key {
-        "mat" => materials,
-        "texture" | "bump" => textures,
-        _ => objects,
-    };
     let own = *axis;
     *axis += usize::from(matches!(field.kind, Kind::Direction | Kind::Axis));
     (0..field.kind.components())
         .map(|at| match field.kind {
             Kind::Direction | Kind::Axis => u8::from(at == own).to_string(),
             Kind::Choice(words) => random.pick(words).to_owned(),
-            Kind::Reference(_) => random.below(known.max(1)).to_string(),
+            Kind::Reference(category) => {
+                let known = match category {
+                    Category::Material => materials,
+                    Category::Texture => textures,
+                    Category::Light | Category::Object => objects,
+                };
+                random.below(known.max(1)).to_string()
+            }
             Kind::Word => random.pick(&["a.png", "é/b.ppm"]).to_owned(),
             Kind::HalfSpace if at == 3 => random.literal(field).replace('-', ""),
             // The eye is far from the target, and the far end behind the near one.
