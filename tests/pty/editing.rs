@@ -1,0 +1,199 @@
+//! Scenes edited, from here and from outside.
+
+use super::*;
+
+/// A ball that shines by ambient light alone, in the colours of a picture file.
+const TEXTURED: &str = "\
+camera perspective 0 0 8  0 0 0  0 1 0  1 0 100
+resolution .02 .02
+viewport 40 30
+light ID 0 amb 0 0 0  0 0 0  1 1 1  1 0 0  0 shadow_off
+mat ID 0  1 1 1  1 0 0 1  0 0 1
+texture ID 0 image 1 1 skin.ppm
+use colour ID 0 mat ID 0
+obj sphere ID 0 mat ID 0  0 0 0  2
+";
+
+#[test]
+fn a_scene_is_edited_seen_reloaded_and_exported() {
+    let place = Place::new();
+    place.write("default.ray", DEFAULT);
+    let mut session = place.start(&["default.ray"], WIDE);
+    wait_for_rest(&mut session);
+    assert!(!session.has_settings_from_before(), "keys come unbuffered");
+    let opened = picture(session.screen());
+
+    session.send(["ggj", ENTER, "2", ENTER].concat());
+    session.wait_for("default.ray [+]");
+    wait_for_change(&mut session, &opened);
+    assert_eq!(place.read("default.ray"), DEFAULT);
+
+    session.send("w");
+    session.wait_for("wrote default.ray");
+    wait_until_gone(&mut session, "[+]");
+    let saved = DEFAULT.replacen("0.5 0.55 0.75 ", "2 0.55 0.75 ", 1);
+    assert_eq!(place.read("default.ray"), saved);
+
+    let bright = picture(session.screen());
+    let darker = saved.replacen("2 0.55 0.75 ", "0 0 0 ", 1);
+    place.replace("default.ray", &darker);
+    wait_for_change(&mut session, &bright);
+    let dark = picture(session.screen());
+
+    let broken = darker.replacen("\n26\n", "\n -26\n", 1);
+    let line = 1 + broken[..broken.find(" -26").expect("the error")]
+        .matches('\n')
+        .count();
+    place.replace("default.ray", &broken);
+    session.wait_for("STALE");
+    session.wait_for(&format!("default.ray:{line}:2 "));
+    let kept = picture(session.screen());
+    assert!(!kept.is_empty() && kept.iter().all(|cell| dark.contains(cell)));
+
+    place.replace("default.ray", &darker);
+    wait_until_gone(&mut session, "STALE");
+    wait_for_rest(&mut session);
+    assert!(picture(session.screen()) == dark);
+
+    session.send(":export out.bmp 64x48 1\r");
+    session.wait_for("wrote out.bmp");
+    let arguments = "render default.ray -o again.bmp --size 64x48 --spp 1";
+    let rendered = Command::new(env!("CARGO_BIN_EXE_halflight"))
+        .args(arguments.split(' '))
+        .current_dir(place.directory.path())
+        .stderr(Stdio::null())
+        .status();
+    assert!(rendered.expect("it starts").success());
+    let [exported, again] = ["out.bmp", "again.bmp"].map(|name| fs::read(place.at(name)));
+    assert!(exported.expect("a picture") == again.expect("a picture"));
+    quit(session);
+}
+
+#[test]
+fn unsaved_edits_and_the_files_changes_are_merged() {
+    let place = Place::new();
+    let mut session = place.open_edited();
+    let theirs = |text: &str| text.replacen("0 1 0  0", "0 0 1  0", 1);
+    place.replace("balls.ray", &theirs(BALLS));
+    wait_for_colour(&mut session, BLUE);
+    session.wait_for("balls.ray [+]");
+    assert_eq!(place.read("balls.ray"), theirs(BALLS));
+    session.send("w");
+    session.wait_for("wrote balls.ray");
+    assert_eq!(place.read("balls.ray"), theirs(&edited()));
+    quit(session);
+}
+
+#[test]
+fn a_number_changed_on_both_sides_is_asked_for() {
+    let theirs = BALLS.replacen(".80", "0.5", 1);
+    let cases = [
+        ("m", edited(), "wrote balls.ray"),
+        ("t", theirs.clone(), "nothing to save"),
+    ];
+    for (key, chosen, told) in cases {
+        let place = Place::new();
+        let mut session = place.open_edited();
+        place.replace("balls.ray", &theirs);
+        session.wait_for("The file changed too");
+        // Put off, it is asked again before anything is written.
+        session.send(ESC);
+        session.wait_for("[disk changed]");
+        wait_until_gone(&mut session, "The file changed too");
+        session.send("w");
+        session.wait_for("The file changed too");
+        assert_eq!(place.read("balls.ray"), theirs);
+        session.send([key, ENTER].concat());
+        wait_until_gone(&mut session, "[disk changed]");
+        session.send(":w\r");
+        session.wait_for(told);
+        assert_eq!(place.read("balls.ray"), chosen, "after {key}");
+        quit(session);
+    }
+}
+
+#[test]
+fn a_scene_with_errors_opens_with_their_list() {
+    let place = Place::new();
+    place.write("balls.ray", &BALLS.replacen(".80", "-.80", 1));
+    let mut session = place.start(&["balls.ray"], (80, 24));
+    session.wait_for("balls.ray:4:15");
+    session.wait_for("1 error");
+    place.replace("balls.ray", BALLS);
+    wait_for_rest(&mut session);
+    assert!(!session.text().contains("error"));
+    quit(session);
+}
+
+#[test]
+fn the_built_in_scene_is_saved_under_a_name() {
+    let place = Place::new();
+    let mut session = place.start(&[], WIDE);
+    wait_for_rest(&mut session);
+    session.send(["ggj", ENTER, "2", ENTER, "w"].concat());
+    session.wait_for(":w ");
+    session.send("mine.ray\r");
+    session.wait_for("wrote mine.ray");
+    let saved = DEFAULT.replacen("0.5 0.55 0.75 ", "2 0.55 0.75 ", 1);
+    assert_eq!(place.read("mine.ray"), saved);
+    quit(session);
+}
+
+#[test]
+fn a_pasted_colour_is_one_step() {
+    let place = Place::new();
+    let mut session = place.open();
+    session.send("\rjj");
+    session.send("\x1b[200~#ff8000\x1b[201~");
+    wait_for_colour(&mut session, Color::Rgb(255, 128, 0));
+    session.send("w");
+    session.wait_for("wrote balls.ray");
+    let pasted = BALLS.replacen("1 0 0  0", "1 0.502 0  0", 1);
+    assert_eq!(place.read("balls.ray"), pasted);
+    session.send("u");
+    wait_for_colour(&mut session, RED);
+    session.send("w");
+    session.wait_for("wrote balls.ray");
+    assert_eq!(place.read("balls.ray"), BALLS);
+    quit(session);
+}
+
+#[test]
+fn a_click_selects_what_is_under_it() {
+    let place = Place::new();
+    let mut session = place.open();
+    let mode = session.screen().mouse_protocol_mode();
+    assert_eq!(mode, MouseProtocolMode::ButtonMotion);
+    for (colour, name) in [(GREEN, "▸ ● object 2"), (RED, "▸ ● object 1")] {
+        let Pixels { row, column, .. } = wait_for_colour(&mut session, colour);
+        let at = format!("0;{};{}", column + 1, row + 1);
+        session.send(format!("\x1b[<{at}M\x1b[<{at}m"));
+        session.wait_for(name);
+    }
+    quit(session);
+}
+
+#[test]
+fn the_picture_follows_the_files_of_its_textures() {
+    let skin = |colour: &str| format!("P3\n1 1\n255\n{colour}\n");
+    let place = Place::new();
+    place.write("ball.dat", TEXTURED);
+    for arguments in [&["ball.dat"][..], &["--poll=20", "ball.dat"]] {
+        place.write("skin.ppm", &skin("255 0 0"));
+        let mut session = place.start(arguments, WIDE);
+        wait_for_colour(&mut session, RED);
+        place.replace("skin.ppm", &skin("0 0 255"));
+        wait_for_colour(&mut session, BLUE);
+
+        // Half a picture changes nothing, but is told.
+        place.write("skin.ppm", "P3\n1 1\n255\n0");
+        session.wait_for("1 texture can't be read: ! says why");
+        session.send("!");
+        session.wait_for("its last picture is kept");
+        wait_for_colour(&mut session, BLUE);
+        session.send(ESC);
+        place.write("skin.ppm", &skin("0 255 0"));
+        wait_for_colour(&mut session, GREEN);
+        quit(session);
+    }
+}

@@ -1,0 +1,216 @@
+//! Ways to end, to stop, and to lend the terminal; what is left behind.
+
+use super::*;
+
+#[test]
+fn ctrl_c_asks_before_edits_are_lost() {
+    for (answer, left, kept) in [
+        ("y", BALLS.to_owned(), 0),
+        ("w", edited(), 0),
+        (CTRL_C, BALLS.to_owned(), 1),
+    ] {
+        let place = Place::new();
+        let mut session = place.open_edited();
+        session.send(CTRL_C);
+        session.wait_for("balls.ray has edits that are not saved");
+        session.send(answer);
+        let words = if kept == 0 { "" } else { KEPT };
+        assert_end_with(session, 0, words);
+        assert_eq!(place.read("balls.ray"), left, "after {answer:?}");
+        assert_eq!(place.recovery_files().len(), kept, "after {answer:?}");
+    }
+}
+
+#[test]
+fn signals_end_it_with_their_codes() {
+    for (signal, code) in [(Signal::INT, 130), (Signal::TERM, 143), (Signal::HUP, 129)] {
+        let place = Place::new();
+        let session = place.open();
+        kill(session.process_id(), signal);
+        assert_end(session, code);
+        assert!(place.recovery_files().is_empty(), "{signal:?}");
+    }
+}
+
+#[test]
+fn unsaved_edits_outlive_the_process() {
+    for signal in [Some(Signal::TERM), Some(Signal::HUP), None] {
+        let place = Place::new();
+        let mut session = place.open_edited();
+        match signal {
+            Some(signal) => kill(session.process_id(), signal),
+            None => session.hang_up(),
+        }
+        session.end();
+        assert_eq!(place.read("balls.ray"), BALLS);
+        let kept = place.recovery_files();
+        assert_eq!(kept.len(), 1, "after {signal:?}");
+        assert_eq!(fs::read_to_string(&kept[0]).expect("a text"), edited());
+        let mode = fs::metadata(&kept[0]).expect("a file").permissions().mode();
+        assert_eq!(mode & 0o777, 0o600);
+
+        let mut session = place.start(&["balls.ray"], WIDE);
+        session.wait_for("Edits of an earlier run of balls.ray were never saved");
+        session.send("r");
+        session.wait_for("balls.ray [+]");
+        session.send("w");
+        session.wait_for("wrote balls.ray");
+        assert_eq!(place.read("balls.ray"), edited());
+        quit(session);
+        assert_eq!(place.recovery_files(), [] as [PathBuf; 0]);
+    }
+}
+
+#[test]
+fn edits_outlive_a_crash_and_a_run_that_leaves_them_undecided() {
+    let place = Place::new();
+    let mut session = place.open_edited();
+    let is_kept = || {
+        let mut kept = place.recovery_files().into_iter();
+        kept.any(|file| fs::read_to_string(file).is_ok_and(|text| text == edited()))
+    };
+    while !is_kept() {
+        session.drain(Duration::from_millis(1));
+    }
+    kill(session.process_id(), Signal::KILL);
+    session.end();
+
+    let question = "Edits of an earlier run of balls.ray were never saved";
+    let mut session = place.start(&["balls.ray"], WIDE);
+    session.wait_for(question);
+    session.send(ESC);
+    wait_until_gone(&mut session, question);
+    session.send("G\rj2\rw");
+    session.wait_for("wrote balls.ray");
+    quit(session);
+    assert!(is_kept());
+
+    let mut session = place.start(&["balls.ray"], WIDE);
+    session.wait_for(question);
+    session.send("d");
+    wait_until_gone(&mut session, question);
+    quit(session);
+    assert!(!is_kept());
+}
+
+#[test]
+fn a_terminal_that_is_gone_ends_it() {
+    let place = Place::new();
+    let mut session = place.open();
+    session.hang_up();
+    // Whichever comes first: a write that fails, or the news that the terminal is gone.
+    assert_eq!(session.end().exit_code(), 129);
+}
+
+#[test]
+fn it_stops_and_goes_on_as_a_job_of_a_shell() {
+    let place = Place::new();
+    let mut command = CommandBuilder::new("/bin/sh");
+    let line = "set -m; \"$0\" --color 24 balls.ray; echo ONE; read x; fg; echo TWO; read x; fg";
+    command.args(["-c", line, env!("CARGO_BIN_EXE_halflight")]);
+    let mut session = Session::run(command, place.directory.path(), WIDE, &[]);
+    wait_for_rest(&mut session);
+    let before = picture(session.screen());
+    kill(session.process_in_front(), Signal::TSTP);
+    session.wait_for("ONE");
+    session.assert_restored();
+    session.send(ENTER);
+    session.wait("it is back", |screen| picture(screen) == before);
+    assert!(!session.has_settings_from_before());
+
+    session.send(CTRL_Z);
+    session.wait_for("TWO");
+    session.assert_restored();
+    session.send(ENTER);
+    session.wait("it is back again", |screen| picture(screen) == before);
+    session.send("q");
+    assert!(session.end().success());
+    session.assert_restored();
+    let written = &session.written;
+    let entered = written
+        .windows(ENTER_SCREEN.len())
+        .filter(|w| *w == ENTER_SCREEN);
+    assert_eq!(entered.count(), 3, "at the start and after each stop");
+}
+
+/// Keys that come while the terminal is not raw are echoed or held back.
+#[test]
+fn the_terminal_stays_raw_while_it_is_taken_again() {
+    let place = Place::new();
+    let mut session = place.open();
+    for _ in 0..200 {
+        let seen = session.written.len();
+        kill(session.process_id(), Signal::CONT);
+        while last(ENTER_SCREEN, &session.written[seen..]).is_none() {
+            assert!(!session.has_settings_from_before());
+            session.read(Duration::ZERO);
+        }
+    }
+    quit(session);
+}
+
+#[test]
+fn the_editor_gets_the_first_key_and_gives_the_screen_back() {
+    let place = Place::new();
+    place.write(
+        "editor.sh",
+        "echo EDITING $1\nread -r line\nprintf %s \"$line\" > line\necho '// seen' >> \"$2\"\n",
+    );
+    let environment = [("VISUAL", "/bin/sh editor.sh")];
+    let arguments = ["--color", "24", "balls.ray"];
+    let mut session = Session::start(place.directory.path(), &arguments, WIDE, &environment);
+    wait_for_rest(&mut session);
+    let before = picture(session.screen());
+    // To the second ball, on the fifth line.
+    session.send("GE");
+    session.wait_for("EDITING +5");
+    assert!(!session.screen().alternate_screen());
+    assert!(session.has_settings_from_before());
+    session.send(["qx", ENTER].concat());
+    session.wait("it is back", |screen| picture(screen).len() == before.len());
+    session.wait_for("read again");
+    assert_eq!(place.read("line"), "qx");
+    assert_eq!(place.read("balls.ray"), format!("{BALLS}// seen\n"));
+    session.send("q");
+    assert!(session.end().success());
+    session.assert_restored();
+}
+
+/// A stop asked for in the editor stops both, as the shell waits for both; an interrupt is the
+/// editor's alone.
+#[test]
+fn signals_of_the_keyboard_are_the_editor_s_while_it_runs() {
+    let place = Place::new();
+    let editor = [
+        "trap '' INT QUIT",
+        "kill -INT 0",
+        "kill -QUIT 0",
+        "kill -TSTP 0",
+        "echo BACK",
+        "read -r line",
+    ];
+    place.write(
+        "editor.sh",
+        &editor.join(
+            "
+",
+        ),
+    );
+    let mut command = CommandBuilder::new("/bin/sh");
+    let line = "set -m; \"$0\" --color 24 balls.ray; echo ONE; read x; fg";
+    command.args(["-c", line, env!("CARGO_BIN_EXE_halflight")]);
+    let environment = [("VISUAL", "/bin/sh editor.sh")];
+    let mut session = Session::run(command, place.directory.path(), WIDE, &environment);
+    wait_for_rest(&mut session);
+    let before = picture(session.screen());
+    session.send("E");
+    session.wait_for("ONE");
+    session.assert_restored();
+    session.send(ENTER);
+    session.wait_for("BACK");
+    session.send(ENTER);
+    session.wait("it is back", |screen| picture(screen) == before);
+    session.send("q");
+    assert!(session.end().success());
+    session.assert_restored();
+}

@@ -1,0 +1,149 @@
+//! What is on the screen, and what is sent for it.
+
+use super::*;
+
+#[test]
+fn a_split_escape_sequence_does_no_harm() {
+    let place = Place::new();
+    let mut session = place.open();
+    session.send("\rj");
+    session.wait_for(" EDIT ");
+    for pause in [0, 3, 60] {
+        session.send(ESC);
+        session.drain(Duration::from_millis(pause));
+        session.send("[A");
+    }
+    session.send("?");
+    session.wait_for(" Keys ");
+    session.send(ESC);
+    wait_until_gone(&mut session, " Keys ");
+    assert!(!session.text().contains("[+]"));
+    quit(session);
+}
+
+#[test]
+fn any_size_is_survived() {
+    let place = Place::new();
+    let mut session = place.start(&["balls.ray"], (80, 24));
+    wait_for_rest(&mut session);
+    let before = picture(session.screen());
+    for (columns, rows) in [
+        (79, 24),
+        (80, 23),
+        (40, 16),
+        (39, 16),
+        (40, 15),
+        (20, 6),
+        (19, 6),
+        (20, 5),
+        (2, 2),
+        (1, 1),
+        (300, 1),
+        (1, 100),
+        (250, 70),
+    ] {
+        session.resize(columns, rows);
+        session.drain(Duration::from_millis(5));
+    }
+    for columns in (1..80).rev().chain(1..=80) {
+        session.resize(columns, 1 + columns * 23 / 80);
+    }
+    session.wait("the picture is back", |screen| {
+        is_at_rest(screen) && picture(screen) == before
+    });
+    quit(session);
+}
+
+#[test]
+fn a_finished_picture_is_left_alone() {
+    let place = Place::new();
+    let mut session = place.open();
+    session.drain(Duration::from_millis(100));
+    assert_eq!(session.drain(Duration::from_millis(300)), 0);
+    quit(session);
+}
+
+#[test]
+fn what_cannot_be_opened_leaves_the_terminal_alone() {
+    let place = Place::new();
+    for (name, code) in [("none.ray", 66), ("none.txt", 2), (".", 66)] {
+        let mut session = place.start(&[name], (80, 24));
+        let status = session.end();
+        assert_eq!(status.exit_code(), code, "{name}");
+        assert!(session.text().starts_with("error: "), "{}", session.text());
+        assert!(!session.written.contains(&0x1b));
+    }
+}
+
+#[test]
+fn colours_are_those_the_terminal_has() {
+    let colours = |session: &Session| -> Vec<Color> {
+        let (rows, columns) = session.screen().size();
+        let cells = (0..rows.get()).flat_map(|y| (0..columns.get()).map(move |x| (y, x)));
+        let cells = cells.filter_map(|(y, x)| session.screen().cell(y, x));
+        cells
+            .flat_map(|cell| [cell.fgcolor(), cell.bgcolor()])
+            .collect()
+    };
+    let place = Place::new();
+    let start = |arguments: &[&str], environment| {
+        Session::start(place.directory.path(), arguments, (80, 24), environment)
+    };
+
+    let mut session = start(&["balls.ray", "--color", "256"], &[]);
+    wait_for_rest(&mut session);
+    assert!(
+        !colours(&session)
+            .iter()
+            .any(|c| matches!(c, Color::Rgb(..)))
+    );
+    quit(session);
+
+    let mut session = start(&["balls.ray"], &[("NO_COLOR", "1")]);
+    session.wait("a picture of characters", |screen| {
+        let text = screen.contents();
+        text.contains("64 spp") && ["*", "#"].iter().all(|ink| text.contains(ink))
+    });
+    assert!(colours(&session).iter().all(|&c| c == Color::Default));
+    quit(session);
+}
+
+#[test]
+fn nothing_from_files_reaches_the_terminal_raw() {
+    let place = Place::new();
+    let evil = "\x1b]52;c;ZXZpbA==\x07\u{9b}31m\u{9d}0;evil\u{9c}\x1b[7;9r\x1bc\x0e";
+    let name = format!("a{}.ray", evil.replace('/', ""));
+    let scene = BALLS
+        .replacen(".80", &format!("x{evil}"), 1)
+        .replacen("the green one", evil, 1);
+    place.write(&name, &scene);
+    let environment = [("VISUAL", "/none")];
+    let arguments = ["--color", "24", &name];
+    let mut session = Session::start(place.directory.path(), &arguments, WIDE, &environment);
+    session.wait_for("1 error");
+    session.wait_for("␛]52;c;ZXZpbA==");
+    // What is typed while the editor has the terminal is echoed.
+    let refused = "the editor can't be used";
+    session.send("!E");
+    session.wait_for(refused);
+    session.send("!G");
+    wait_until_gone(&mut session, refused);
+    session.send("E");
+    session.wait_for(refused);
+    session.send(format!("\x1b[200~{evil}\x1b[201~:{ESC}"));
+    session.send(["Gejj", ENTER].concat());
+    session.send(format!("\x1b[200~{evil}\x1b[201~{ENTER}{ESC}"));
+    session.drain(Duration::from_millis(100));
+    session.send(":q!\r");
+    let status = session.end();
+    session.assert_restored();
+    assert!(status.success());
+
+    let written = String::from_utf8(session.written.clone()).expect("UTF-8");
+    let is_c1 = |c: char| ('\u{80}'..='\u{9f}').contains(&c);
+    assert!(!written.contains(is_c1));
+    assert!(!written.contains(['\x07', '\x0e']));
+    let mut after_escapes = written.split('\x1b').skip(1);
+    assert!(after_escapes.all(|rest| rest.starts_with('[')));
+    assert!(!written.contains("\x1b[7;9r"));
+}
