@@ -22,7 +22,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use halflight::format::{self, Format};
-use halflight::render::{DEFAULT_DEPTH, Frames, Job, Renderer, Settings, Threads};
+use halflight::render::{DEFAULT_DEPTH, Frames, Job, Renderer, Settings, Threads, Transfer};
 use halflight::scene::{Images, Scene, lower};
 use halflight::ui::view::layout::Zoom;
 
@@ -318,6 +318,8 @@ fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
         spp: 4096,
         depth: DEFAULT_DEPTH,
         seed: 0,
+        aov: None,
+        transfer: Transfer::default(),
     };
     let job = Job {
         scene: Arc::clone(scene),

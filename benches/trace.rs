@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use halflight::accel::Bvh;
 use halflight::format::{self, Format};
 use halflight::geometry::Aabb;
-use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads};
+use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads, Transfer};
 use halflight::scene::{Images, Scene, Size, lower};
 
 /// Runs of everything that is timed; the median is printed.
@@ -156,6 +156,8 @@ fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
             spp: 1,
             depth: DEFAULT_DEPTH,
             seed: 0,
+            aov: None,
+            transfer: Transfer::default(),
         };
         let job = Job {
             scene: Arc::clone(scene),

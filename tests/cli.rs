@@ -554,6 +554,8 @@ fn a_picture_has_the_format_that_is_asked_for() {
     let place = Place::new();
     for (name, magic) in [
         ("a.tif", &b"II*\0"[..]),
+        ("a.exr", b"\x76\x2f\x31\x01"),
+        ("a.hdr", b"#?RADIANCE\n"),
         ("a.gif", b"GIF89a"),
         ("a.jpg", b"\xFF\xD8\xFF"),
         ("a.png", b"\x89PNG"),

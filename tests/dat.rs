@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, mpsc};
 
 use halflight::format::{self, Format};
-use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads};
+use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads, Transfer};
 use halflight::scene::{Image, Images, Scene, Size, lower};
 
 /// A scene whose lengths are all `s` times as large: squares of lengths and what is counted in
@@ -122,6 +122,8 @@ fn trace(scene: &Arc<Scene>, threads: usize) -> Arc<Frame> {
                 spp: 2,
                 depth: DEFAULT_DEPTH,
                 seed: 0,
+                aov: None,
+                transfer: Transfer::default(),
             },
             frames: Frames::Last,
         })

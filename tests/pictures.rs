@@ -7,7 +7,7 @@ use halflight::assets::{Assets, Wanted};
 use halflight::document::Document;
 use halflight::format::{self, Format};
 use halflight::image_file::ImageFormat;
-use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads};
+use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads, Transfer};
 use halflight::scene::fields::{Field, Kind, Range};
 use halflight::scene::{Images, Scene, Size, lower};
 use halflight::text::{Edit, parse_number};
@@ -160,6 +160,8 @@ fn trace(scene: &Arc<Scene>, images: Images, size: Size, spp: u32) -> Arc<Frame>
         spp,
         depth: DEFAULT_DEPTH,
         seed: 0,
+        aov: None,
+        transfer: Transfer::default(),
     };
     let job = Job {
         scene: Arc::clone(scene),

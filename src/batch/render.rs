@@ -8,7 +8,7 @@ use super::progress::ProgressLine;
 use super::{Error, load, print_findings, stdout, tell, tell_error};
 use crate::file;
 use crate::image_file::ImageFormat;
-use crate::render::{Frame, Frames, Job, Renderer, Settings, Threads};
+use crate::render::{Aov, Frame, Job, Renderer, Settings, Threads, Transfer};
 use crate::scene::{Camera, Images, Scene, Size};
 use crate::text::{Diagnostic, counted};
 
@@ -29,6 +29,10 @@ pub struct Render {
     pub depth: u32,
     /// Chooses among equally good sample patterns.
     pub seed: u32,
+    /// What the picture shows instead of light.
+    pub aov: Option<Aov>,
+    /// How colours become 8-bit values.
+    pub transfer: Transfer,
     /// Threads that trace.
     pub threads: usize,
     /// Folders that textures may be read from besides the scene's surroundings.
@@ -110,11 +114,16 @@ fn trace(work: &Render, scene: Scene, images: Images, size: Size) -> Result<Arc<
         scene: Arc::new(scene),
         settings: Settings {
             size,
-            spp: work.spp,
+            spp: match work.aov {
+                Some(aov) if aov.is_of_one_sample() => 1,
+                _ => work.spp,
+            },
             depth: work.depth,
             seed: work.seed,
+            aov: work.aov,
+            transfer: work.transfer,
         },
-        frames: Frames::Last,
+        frames: work.format.frames(),
     };
     let (wake, woken) = mpsc::channel();
     let renderer = Renderer::new(Threads::Exactly(work.threads), move || {

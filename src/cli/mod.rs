@@ -14,7 +14,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum, value_parser};
 use crate::batch::{self, Check, Output, Render};
 use crate::file::ReadError;
 use crate::image_file::{FORMATS, ImageFormat, known_extensions};
-use crate::render::{DEFAULT_DEPTH, DEFAULT_SPP, MAX_SPP};
+use crate::render::{Aov, DEFAULT_DEPTH, DEFAULT_SPP, MAX_SPP, Transfer};
 use crate::scene::Size;
 use crate::text::{slips, visible};
 use crate::ui;
@@ -79,6 +79,49 @@ impl ColourChoice {
             Self::Basic => ColourDepth::Palette16,
             Self::Mono => ColourDepth::Mono,
         })
+    }
+}
+
+/// What a picture shows instead of light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum AovChoice {
+    /// How far it is from the eye: the nearest white, the farthest black.
+    Depth,
+    /// Its normal: −1 to 1 as 0 to 255.
+    Normal,
+    /// Which object it is of: a colour each; in EXR and HDR its place, from 1.
+    Object,
+    /// Its own colour, unlit.
+    Albedo,
+}
+
+impl AovChoice {
+    fn meaning(self) -> Aov {
+        match self {
+            Self::Depth => Aov::Depth,
+            Self::Normal => Aov::Normal,
+            Self::Object => Aov::Object,
+            Self::Albedo => Aov::Albedo,
+        }
+    }
+}
+
+/// How colours become 8-bit values.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum TransferChoice {
+    /// As they are, without gamma.
+    #[default]
+    Linear,
+    /// By the curve of sRGB.
+    Srgb,
+}
+
+impl TransferChoice {
+    fn meaning(self) -> Transfer {
+        match self {
+            Self::Linear => Transfer::Linear,
+            Self::Srgb => Transfer::Srgb,
+        }
     }
 }
 
@@ -313,7 +356,8 @@ Examples:
   halflight render scene.ray -o scene.png --size 1920x1080 --spp 64
   halflight render scene.ray -o - --format ppm | display
 
-GIF keeps 256 colours, JPEG has quality 95; the other formats keep every pixel.
+GIF keeps 256 colours, JPEG has quality 95; EXR and HDR hold unclamped values, the other formats
+every pixel in 8 bits a channel.
 
 The same scene, size, spp, depth and seed give the same bytes on every machine and with any
 number of threads.";
@@ -323,8 +367,8 @@ struct RenderArguments {
     /// Scene file
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// Picture file, in the format its extension says (.bmp, .ppm, .png, .tiff, .gif, .jpeg);
-    /// - is standard output
+    /// Picture file, in the format its extension says (.bmp, .ppm, .png, .tiff, .gif,
+    /// .jpeg, .exr, .hdr); - is standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Format of the picture, whatever the file's name [default for -o -: bmp]
@@ -343,6 +387,12 @@ struct RenderArguments {
     /// Chooses among equally good sample patterns, 0 to 4294967295
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u32,
+    /// Show the first surface under each pixel instead of light
+    #[arg(long, value_name = "WHAT", value_enum)]
+    aov: Option<AovChoice>,
+    /// How colours become 8-bit values
+    #[arg(long, value_name = "CURVE", value_enum, default_value_t)]
+    transfer: TransferChoice,
     /// Threads that trace, 1 to 1024 [default: one a core]
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
@@ -380,6 +430,8 @@ impl RenderArguments {
             spp: self.spp,
             depth: self.depth,
             seed: self.seed,
+            aov: self.aov.map(AovChoice::meaning),
+            transfer: self.transfer.meaning(),
             threads: self.threads.map_or_else(all_cores, usize::from),
             assets: self.assets.folders,
         })

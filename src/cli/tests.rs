@@ -113,11 +113,15 @@ fn wrong_arguments_are_refused_with_a_reason() {
         ("halflight render a -o b.webp", ".bmp, .ppm, .png"),
         ("halflight render a -o b", ".jpeg or .jpg"),
         ("halflight render a -o b", "Usage: halflight render"),
+        (
+            "halflight render a -o b.bmp --aov light",
+            "depth, normal, object, albedo",
+        ),
         ("halflight chekc a.ray", "did you mean check?"),
         ("halflight rendr", "did you mean render?"),
         (
             "halflight render a -o - --format webp",
-            "[possible values: bmp, ppm, png, tiff, gif, jpeg]",
+            "[possible values: bmp, ppm, png, tiff, gif, jpeg, exr, hdr]",
         ),
         ("halflight render a -o b.bmp --size 0x1", "such as 800x600"),
         ("halflight render a -o b.bmp --size 1x", "such as 800x600"),

@@ -6,6 +6,7 @@ mod write;
 
 use std::path::Path;
 
+use crate::render::Frames;
 use crate::scene::Size;
 
 pub use read::{MAX_TEXTURE_PIXELS, Unreadable, decode};
@@ -26,16 +27,22 @@ pub enum ImageFormat {
     Gif,
     /// JPEG of quality 95, every pixel with its own colour.
     Jpeg,
+    /// `OpenEXR`, 32-bit floating-point values.
+    Exr,
+    /// Radiance HDR, values of 8 bits with a common exponent: none below 0.
+    Hdr,
 }
 
 /// Each format and the extensions of its files: the first is its name, too.
-pub const FORMATS: [(ImageFormat, &[&str]); 6] = [
+pub const FORMATS: [(ImageFormat, &[&str]); 8] = [
     (ImageFormat::Bmp, &["bmp"]),
     (ImageFormat::Ppm, &["ppm"]),
     (ImageFormat::Png, &["png"]),
     (ImageFormat::Tiff, &["tiff", "tif"]),
     (ImageFormat::Gif, &["gif"]),
     (ImageFormat::Jpeg, &["jpeg", "jpg"]),
+    (ImageFormat::Exr, &["exr"]),
+    (ImageFormat::Hdr, &["hdr"]),
 ];
 
 /// The most pixels a picture may have, of any format. Tracing keeps about forty bytes a pixel:
@@ -73,9 +80,9 @@ impl ImageFormat {
         let Size { width, height } = size;
         let max_side = match self {
             Self::Bmp => MAX_BMP_SIDE,
-            Self::Gif | Self::Jpeg => MAX_SHORT_SIDE,
+            Self::Gif | Self::Jpeg | Self::Hdr => MAX_SHORT_SIDE,
             Self::Png => MAX_PNG_SIDE,
-            Self::Ppm | Self::Tiff => u32::MAX,
+            Self::Ppm | Self::Tiff | Self::Exr => u32::MAX,
         };
         if width == 0 || height == 0 {
             Some(format!(
@@ -95,6 +102,14 @@ impl ImageFormat {
         }
     }
 
+    /// Which frames a job needs whose picture is written in this format.
+    pub fn frames(self) -> Frames {
+        match self {
+            Self::Exr | Self::Hdr => Frames::LastWithValues,
+            Self::Bmp | Self::Ppm | Self::Png | Self::Tiff | Self::Gif | Self::Jpeg => Frames::Last,
+        }
+    }
+
     /// Its name: `bmp`.
     pub fn name(self) -> &'static str {
         match self {
@@ -104,6 +119,8 @@ impl ImageFormat {
             Self::Tiff => "tiff",
             Self::Gif => "gif",
             Self::Jpeg => "jpeg",
+            Self::Exr => "exr",
+            Self::Hdr => "hdr",
         }
     }
 }

@@ -12,6 +12,7 @@ fn frame(width: u32, height: u32, pixels: &[[u8; 3]]) -> Frame {
         size: Size { width, height },
         pixels: pixels.to_vec(),
         objects: vec![NO_OBJECT; pixels.len()],
+        values: pixels.iter().map(|pixel| pixel.map(share)).collect(),
         progress: Progress {
             pass: 1,
             passes: 1,
@@ -23,6 +24,10 @@ fn frame(width: u32, height: u32, pixels: &[[u8; 3]]) -> Frame {
             complete: true,
         },
     }
+}
+
+fn share(level: u8) -> f32 {
+    f32::from(level) / 255.0
 }
 
 const RED: [u8; 3] = [255, 1, 2];
@@ -97,6 +102,50 @@ fn lossless_formats_read_back_as_they_were() {
     for format in [Bmp, Ppm, Png, Tiff] {
         let expected = Image::new(many.size, many.pixels.clone());
         assert_eq!(Some(decoded(format, &many)), expected, "{format:?}");
+    }
+}
+
+/// Values that no 8-bit picture holds.
+fn bright() -> Frame {
+    Frame {
+        values: vec![
+            [0.0, 0.5, 1e-4],
+            [3.25, 1e6, 17.0],
+            [-1.0, f32::INFINITY, 0.25],
+        ],
+        ..frame(3, 1, &[[0; 3]; 3])
+    }
+}
+
+#[test]
+fn floating_point_formats_hold_the_values_and_not_the_pixels() {
+    let read = |format| {
+        let bytes = encoded(format, &bright());
+        let image = image::load_from_memory(&bytes).expect("it is a picture");
+        image.into_rgb32f().into_raw()
+    };
+    assert_eq!(read(ImageFormat::Exr), bright().values.as_flattened());
+    let held = [[0.0, 0.5, 1e-4], [3.25, 1e6, 17.0], [0.0, 1e38, 0.25]];
+    for (pixel, expected) in read(ImageFormat::Hdr).chunks(3).zip(held) {
+        // Eight bits each, with the exponent of the greatest.
+        let greatest = expected.into_iter().fold(0.0, f32::max);
+        for (found, wanted) in pixel.iter().zip(expected) {
+            assert!(
+                (found - wanted).abs() <= greatest / 128.0,
+                "{pixel:?}, {expected:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn values_that_were_not_asked_for_are_no_picture() {
+    let frame = Frame {
+        values: Vec::new(),
+        ..gradient()
+    };
+    for format in [ImageFormat::Exr, ImageFormat::Hdr] {
+        assert!(format.write(&frame, &mut Vec::new()).is_err());
     }
 }
 

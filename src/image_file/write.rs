@@ -5,14 +5,16 @@ use std::path::Path;
 
 use image::codecs::bmp::BmpEncoder;
 use image::codecs::gif::GifEncoder;
+use image::codecs::hdr::HdrEncoder;
 use image::codecs::jpeg::JpegEncoder;
+use image::codecs::openexr::OpenExrEncoder;
 use image::codecs::png::PngEncoder;
 use image::codecs::tiff::TiffEncoder;
-use image::{ExtendedColorType, ImageEncoder, ImageError};
+use image::{ExtendedColorType, ImageEncoder, ImageError, Rgb};
 
 use super::{ImageFormat, known_extensions};
 use crate::file;
-use crate::render::Frame;
+use crate::render::{Frame, Frames};
 use crate::scene::Size;
 
 /// From 1 to 100: errors can't be seen at this quality, and a file is a third of a PNG's.
@@ -22,12 +24,20 @@ const JPEG_QUALITY: u8 = 95;
 /// larger picture one of several, of ten at the most.
 const GIF_SAMPLES: usize = 1 << 17;
 
+/// The greatest value that is written to an HDR file, near the greatest that it can hold.
+const MAX_HDR: f32 = 1e38;
+
 /// What a TIFF has besides its pixels and its list of strips, and more.
 const TIFF_HEADER: usize = 4096;
 
 impl ImageFormat {
-    /// Encodes a frame. The same frame gives the same bytes.
+    /// Encodes a frame, which is one of [`ImageFormat::frames`]. The same frame gives the same
+    /// bytes.
     pub fn write(self, frame: &Frame, out: &mut dyn Write) -> io::Result<()> {
+        if self.frames() == Frames::LastWithValues && frame.values.len() != frame.pixels.len() {
+            let reason = "the picture was traced without its values";
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, reason));
+        }
         let mut out = Remembering { out, error: None };
         let encoded = self.encode(frame, &mut out);
         match (encoded, out.error) {
@@ -56,6 +66,13 @@ impl ImageFormat {
             }
             Self::Jpeg => JpegEncoder::new_with_quality(out, JPEG_QUALITY)
                 .write_image(pixels, width, height, colour),
+            Self::Exr => write_exr(&frame.values, frame.size, out),
+            Self::Hdr => {
+                // The format has nothing below 0, and nothing infinite.
+                let held = |value: &[f32; 3]| Rgb(value.map(|x| x.clamp(0.0, MAX_HDR)));
+                let values: Vec<_> = frame.values.iter().map(held).collect();
+                HdrEncoder::new(out).encode(&values, width as usize, height as usize)
+            }
         }
     }
 }
@@ -99,6 +116,20 @@ fn write_tiff(pixels: &[u8], size: Size, out: &mut impl Write) -> Result<(), Ima
         .map_err(|error| ImageError::IoError(error.into()))?;
     let mut bytes = Cursor::new(bytes);
     TiffEncoder::new(&mut bytes).write_image(pixels, width, height, ExtendedColorType::Rgb8)?;
+    out.write_all(bytes.get_ref()).map_err(ImageError::IoError)
+}
+
+/// Encodes an `OpenEXR` in memory: it has tables of places, too.
+fn write_exr(values: &[[f32; 3]], size: Size, out: &mut impl Write) -> Result<(), ImageError> {
+    let mut bytes = Cursor::new(Vec::new());
+    // The encoder takes the bytes of numbers in the machine's order.
+    let values: Vec<u8> = values
+        .as_flattened()
+        .iter()
+        .flat_map(|value| value.to_ne_bytes())
+        .collect();
+    let colour = ExtendedColorType::Rgb32F;
+    OpenExrEncoder::new(&mut bytes).write_image(&values, size.width, size.height, colour)?;
     out.write_all(bytes.get_ref()).map_err(ImageError::IoError)
 }
 

@@ -3,13 +3,15 @@
 use std::collections::TryReserveError;
 use std::ops::Range;
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::camera::Projection;
-use super::frame::{NO_OBJECT, Settings};
+use super::first_hit::first_hit;
+use super::frame::{Aov, Frames, NO_OBJECT, Settings, Transfer};
 use super::sampler::place_in_pixel;
 use super::steps::{COARSEST, Step};
-use super::tone::to_bytes;
+use super::tone::Tone;
 use super::whitted::{Counts, Tracer};
 use super::world::World;
 use crate::scene::{Rgb, Size};
@@ -33,6 +35,8 @@ pub(crate) struct Shot<'w> {
     pub(crate) world: &'w World,
     /// From where.
     pub(crate) projection: Projection,
+    /// Where the camera stands.
+    pub(crate) eye: DVec3,
     /// How.
     pub(crate) settings: Settings,
 }
@@ -41,6 +45,8 @@ pub(crate) struct Shot<'w> {
 #[derive(Debug)]
 pub(crate) struct Film {
     size: Size,
+    aov: Option<Aov>,
+    transfer: Transfer,
     shape: TileShape,
     /// Those that a step has come to; there is room for all. A large picture's memory takes long to
     /// be first touched: it is, tile by tile, by the threads that trace.
@@ -61,6 +67,8 @@ pub(crate) struct NoMemory {
 pub(crate) struct Raster {
     pub(crate) pixels: Vec<[u8; 3]>,
     pub(crate) objects: Vec<u32>,
+    /// What the pixels are made of, where it is asked for.
+    pub(crate) values: Vec<[f32; 3]>,
 }
 
 impl Raster {
@@ -128,17 +136,29 @@ struct Tile {
 
 impl Film {
     /// An empty film, with room for all that it and the finished picture take.
-    pub(crate) fn new(size: Size) -> Result<Self, NoMemory> {
+    pub(crate) fn new(settings: &Settings, frames: Frames) -> Result<Self, NoMemory> {
+        let Settings {
+            size,
+            aov,
+            transfer,
+            ..
+        } = *settings;
         let shape = TileShape::of(size);
         let count = shape.count(size);
         let film = || {
             let mut tiles = Vec::new();
             tiles.try_reserve_exact(count)?;
+            let mut room = Raster::with_room(size.pixels())?;
+            if frames == Frames::LastWithValues {
+                room.values.try_reserve_exact(size.pixels())?;
+            }
             Ok(Self {
                 size,
+                aov,
+                transfer,
                 shape,
                 tiles,
-                room: Raster::with_room(size.pixels())?,
+                room,
             })
         };
         film().map_err(|_: TryReserveError| {
@@ -205,14 +225,23 @@ impl Film {
 
     fn develop_in(&self, mut raster: Raster, cancelled: impl Fn() -> bool) -> Option<Raster> {
         let count = self.size.pixels();
+        let tone = self.tone();
+        let tells_values = 0 < raster.values.capacity();
         for start in (0..count).step_by(QUIET) {
             if cancelled() {
                 return None;
             }
             let part = start..count.min(start + QUIET);
             let each = || part.clone().into_par_iter().with_min_len(1024);
-            raster.pixels.par_extend(each().map(|at| self.pixel(at)));
+            let value = |at| self.value(at);
+            raster
+                .pixels
+                .par_extend(each().map(value).map(|value| tone.bytes(value)));
             raster.objects.par_extend(each().map(|at| self.object(at)));
+            if tells_values {
+                let values = each().map(value).map(|value| value.as_vec3().to_array());
+                raster.values.par_extend(values);
+            }
         }
         Some(raster)
     }
@@ -228,9 +257,29 @@ impl Film {
         });
     }
 
-    fn pixel(&self, at: usize) -> [u8; 3] {
+    /// How what the pixels hold is shown.
+    fn tone(&self) -> Tone {
+        match self.aov {
+            None | Some(Aov::Albedo) => Tone::Colour(self.transfer),
+            Some(Aov::Normal) => Tone::Normal,
+            Some(Aov::Object) => Tone::Number,
+            Some(Aov::Depth) => {
+                let distances = self.tiles.par_iter().flat_map_iter(|tile| tile.sums);
+                let distances = distances
+                    .map(|sum| sum.x)
+                    .filter(|&x| 0.0 < x && x.is_finite());
+                let (nearest, farthest) = distances
+                    .map(|x| (x, x))
+                    .reduce(|| (f64::INFINITY, 0.0), |a, b| (a.0.min(b.0), a.1.max(b.1)));
+                Tone::Depth { nearest, farthest }
+            }
+        }
+    }
+
+    /// What a pixel holds.
+    fn value(&self, at: usize) -> Rgb {
         let (tile, pixel) = self.find(at);
-        to_bytes(tile.sums[pixel] / f64::from(tile.samples.max(1)))
+        tile.sums[pixel] / f64::from(tile.samples.max(1))
     }
 
     fn object(&self, at: usize) -> u32 {
@@ -316,7 +365,14 @@ impl Tile {
         let (ray, reach) = shot
             .projection
             .ray(f64::from(x) + across, f64::from(y) + down);
-        let seen = tracer.radiance(ray, reach, cancelled);
+        let seen = match shot.settings.aov {
+            None => tracer.radiance(ray, reach, cancelled),
+            Some(aov) => {
+                tracer.counts.rays += 1;
+                let skipped = (ray.origin - shot.eye).dot(ray.direction);
+                first_hit(shot.world, &ray, reach, skipped, aov)
+            }
+        };
         let at = self.index(x, y);
         self.sums[at] += seen.radiance;
         if index == 0 {

@@ -28,6 +28,43 @@ pub struct Settings {
     pub depth: u32,
     /// Chooses among equally good sample patterns.
     pub seed: u32,
+    /// What the pixels show instead of light.
+    pub aov: Option<Aov>,
+    /// How colours become 8-bit values.
+    pub transfer: Transfer,
+}
+
+/// What the first surface under a pixel is, apart from light: an arbitrary output variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aov {
+    /// How far the first surface is from the eye, in world units, infinite where there is none. In
+    /// 8 bits the nearest is white, the farthest black.
+    Depth,
+    /// The unit normal of the first surface with its bumps, turned toward the eye, 0 where there is
+    /// none. In 8 bits −1 to 1 become 0 to 255.
+    Normal,
+    /// The place of the object in the scene, counted from 1, 0 where there is none. In 8 bits each
+    /// has a colour of its own.
+    Object,
+    /// The share of light that the first surface sends back evenly, with its textures.
+    Albedo,
+}
+
+impl Aov {
+    /// Whether several samples have no mean that means anything: one is taken, at the centre.
+    pub fn is_of_one_sample(self) -> bool {
+        matches!(self, Self::Depth | Self::Object)
+    }
+}
+
+/// How a colour's channels, 0 to 1, become 8-bit values.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Transfer {
+    /// As they are.
+    #[default]
+    Linear,
+    /// By the curve of sRGB (IEC 61966-2-1).
+    Srgb,
 }
 
 /// Which frames of a job show pixels. All tell the progress.
@@ -37,6 +74,8 @@ pub enum Frames {
     Live,
     /// The last one, which is complete: pixels before that would be made for nobody.
     Last,
+    /// The last one, which tells [`Frame::values`] besides.
+    LastWithValues,
 }
 
 /// A picture to trace.
@@ -67,6 +106,9 @@ pub struct Frame {
     /// Index of the object under each pixel's centre, or [`NO_OBJECT`]; none where there are no
     /// pixels.
     pub objects: Vec<u32>,
+    /// What the pixels were made of: linear light, or the output variable. Only where it was asked
+    /// for, see [`Frames`].
+    pub values: Vec<[f32; 3]>,
     /// How far it is.
     pub progress: Progress,
 }

@@ -11,10 +11,11 @@
 //!
 //! The way of a picture: [`renderer`] hands a job to [`worker`], which builds a [`world`] and fills
 //! a [`film`] in [`steps`]; each sample asks [`sampler`] for its place in the pixel, [`camera`] for
-//! its ray and [`whitted`] for its radiance; [`tone`] makes the film a frame.
+//! its ray and [`whitted`] for its radiance, or [`first_hit`] for something else; [`tone`] makes the film a frame.
 
 mod camera;
 mod film;
+mod first_hit;
 mod frame;
 mod renderer;
 mod sampler;
@@ -27,7 +28,8 @@ mod worker;
 mod world;
 
 pub use frame::{
-    DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress, Settings,
+    Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress, Settings,
+    Transfer,
 };
 pub use renderer::{Refusal, Renderer, Threads};
 

@@ -77,7 +77,8 @@ impl Renderer {
     /// cancels nothing.
     pub fn restart(&self, job: Job) -> Result<u64, Refusal> {
         let size = job.settings.size;
-        let film = Film::new(size).map_err(|NoMemory { bytes }| Refusal::Memory { size, bytes })?;
+        let film = Film::new(&job.settings, job.frames);
+        let film = film.map_err(|NoMemory { bytes }| Refusal::Memory { size, bytes })?;
         let generation = self.shared.begin();
         let order = Order {
             generation,

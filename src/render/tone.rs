@@ -1,9 +1,57 @@
-//! Linear radiance to 8-bit pixels.
+//! What pixels hold to 8 bits a channel.
 
+use super::frame::Transfer;
 use crate::scene::Rgb;
 
-/// The 8-bit value of each channel: ⌊255 · clamp(c, 0, 1) + ½⌋, without gamma.
-pub(crate) fn to_bytes(colour: Rgb) -> [u8; 3] {
+/// How what a pixel holds is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Tone {
+    /// As a colour.
+    Colour(Transfer),
+    /// A distance: the nearest white, the farthest black, and where there is none, too.
+    Depth { nearest: f64, farthest: f64 },
+    /// A unit vector, each component from −1 to 1; black where it is 0.
+    Normal,
+    /// A number as a colour of its own; black for 0.
+    Number,
+}
+
+impl Tone {
+    /// The 8-bit value of each channel.
+    pub(crate) fn bytes(self, value: Rgb) -> [u8; 3] {
+        match self {
+            Self::Colour(Transfer::Linear) => to_bytes(value),
+            Self::Colour(Transfer::Srgb) => to_bytes(value.map(srgb)),
+            Self::Depth { .. } if value.x == f64::INFINITY => [0; 3],
+            Self::Depth { nearest, farthest } if nearest < farthest => {
+                to_bytes((farthest - value) / (farthest - nearest))
+            }
+            Self::Depth { .. } => [255; 3],
+            Self::Normal | Self::Number if value == Rgb::ZERO => [0; 3],
+            Self::Normal => to_bytes(0.5 * value + 0.5),
+            Self::Number => colour_of(value.x as u32),
+        }
+    }
+}
+
+/// A bright colour for a number: Fibonacci hashing (Knuth, The Art of Computer Programming 6.4)
+/// spreads neighbours apart.
+fn colour_of(number: u32) -> [u8; 3] {
+    let [hash @ .., _] = number.wrapping_mul(0x9E37_79B9).to_be_bytes();
+    hash.map(|byte| 64 | byte)
+}
+
+/// The curve of sRGB for a linear value from 0 to 1.
+fn srgb(linear: f64) -> f64 {
+    if linear <= 0.003_130_8 {
+        12.92 * linear
+    } else {
+        1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055
+    }
+}
+
+/// The 8-bit value of each channel: ⌊255 · clamp(c, 0, 1) + ½⌋.
+fn to_bytes(colour: Rgb) -> [u8; 3] {
     // The cast truncates, and takes NaN to 0.
     colour
         .to_array()
@@ -13,6 +61,46 @@ pub(crate) fn to_bytes(colour: Rgb) -> [u8; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Values from the standard's table: 128 / 255 is linear 0.21586; 0.003 lies in the straight part.
+    #[test]
+    fn the_curve_of_srgb_is_the_standard_s() {
+        let tone = Tone::Colour(Transfer::Srgb);
+        for (linear, byte) in [
+            (0.0, 0),
+            (1.0, 255),
+            (0.215_860_5, 128),
+            (0.003, 10),
+            (0.5, 188),
+            (2.0, 255),
+            (-1.0, 0),
+        ] {
+            assert_eq!(tone.bytes(Rgb::splat(linear)), [byte; 3], "{linear}");
+        }
+    }
+
+    #[test]
+    fn distances_normals_and_numbers_are_told_apart() {
+        let depth = Tone::Depth {
+            nearest: 2.0,
+            farthest: 4.0,
+        };
+        for (distance, byte) in [(2.0, 255), (3.0, 128), (4.0, 0), (f64::INFINITY, 0)] {
+            assert_eq!(depth.bytes(Rgb::splat(distance)), [byte; 3], "{distance}");
+        }
+        let flat = Tone::Depth {
+            nearest: 2.0,
+            farthest: 2.0,
+        };
+        assert_eq!(flat.bytes(Rgb::splat(2.0)), [255; 3]);
+        assert_eq!(Tone::Normal.bytes(Rgb::new(0.0, 1.0, -1.0)), [128, 255, 0]);
+        assert_eq!(Tone::Normal.bytes(Rgb::ZERO), [0; 3]);
+        assert_eq!(Tone::Number.bytes(Rgb::ZERO), [0; 3]);
+        let colours: std::collections::BTreeSet<_> = (1..200)
+            .map(|number| Tone::Number.bytes(Rgb::splat(f64::from(number))))
+            .collect();
+        assert_eq!(colours.len(), 199);
+    }
 
     #[test]
     fn values_are_clamped_and_rounded_to_the_nearest_level() {

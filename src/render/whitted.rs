@@ -147,12 +147,7 @@ impl<'w> Tracer<'w> {
         let material = &scene.materials[object.material_at(nearest.hit) as usize];
         let direction = arrived.ray.direction;
         let front = direction.dot(surface.normal) < 0.0;
-        let (mut normal, mut textured) = (surface.normal, None);
-        if material.colour_texture.is_some() || material.bump.is_some() {
-            let chart = object.shape.chart(&arrived.ray, nearest.hit);
-            let material = textured.insert(*material);
-            self.world.textures.apply(&chart, material, &mut normal);
-        }
+        let (normal, textured) = self.world.textured(&arrived.ray, nearest, surface.normal);
         let point = Point {
             surface,
             // Which side is seen is the surface's to say, not the bumps'.

@@ -70,6 +70,7 @@ fn trace<W: Fn() + Sync>(
     let shot = Shot {
         world: &world,
         projection: Projection::new(&job.camera, job.settings.size),
+        eye: job.camera.eye,
         settings: job.settings,
     };
     let ticket = Ticket {
@@ -216,9 +217,14 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
         let raster = match self.frames {
             _ if complete => self.film.finish(unwanted),
             Frames::Live => self.film.develop(unwanted),
-            Frames::Last => Some(Raster::default()),
+            Frames::Last | Frames::LastWithValues => Some(Raster::default()),
         };
-        let Some(Raster { pixels, objects }) = raster else {
+        let Some(Raster {
+            pixels,
+            objects,
+            values,
+        }) = raster
+        else {
             return;
         };
         self.developing = begun.elapsed();
@@ -227,6 +233,7 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
             size: self.size,
             pixels,
             objects,
+            values,
             progress: Progress {
                 pass: self.pass,
                 passes: 1 + self.spp.next_power_of_two().ilog2(),

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::texture::Textures;
 use crate::accel::Bvh;
 use crate::geometry::{Aabb, Hit, Ray, ulp};
-use crate::scene::{Images, Object, Scene};
+use crate::scene::{Images, Material, Object, Scene};
 
 /// Up to this many objects every ray tries every one. Measured on the scenes of `scenes/`: with two
 /// solids that is half as fast again as a tree, with six to eleven a tree is 1.2 to 1.7 times as
@@ -96,6 +97,25 @@ impl World {
         } else {
             best
         }
+    }
+
+    /// The normal at a hit with its bumps, on the side of the surface's own, and the material where
+    /// textures change it.
+    pub(crate) fn textured(
+        &self,
+        ray: &Ray,
+        nearest: Nearest,
+        mut normal: DVec3,
+    ) -> (DVec3, Option<Material>) {
+        let object = &self.scene.objects[nearest.object as usize];
+        let material = &self.scene.materials[object.material_at(nearest.hit) as usize];
+        if material.colour_texture.is_none() && material.bump.is_none() {
+            return (normal, None);
+        }
+        let mut material = *material;
+        let chart = object.shape.chart(ray, nearest.hit);
+        self.textures.apply(&chart, &mut material, &mut normal);
+        (normal, Some(material))
     }
 
     /// The part of light that passes along the ray up to `distance`: the product of kt over every

@@ -2,6 +2,7 @@
 
 mod cameras;
 mod falloff;
+mod first_hits;
 mod invariance;
 mod optics;
 mod progress;
@@ -17,7 +18,7 @@ use glam::DVec3;
 
 use super::whitted::{Seen, Tracer};
 use super::world::World;
-use super::{Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
+use super::{Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads, Transfer};
 use crate::geometry::{Affine, Cuboid, Ray, Shape, Sphere};
 use crate::scene::{Camera, Images, Lens, Light, Material, Object, Rgb, Scene, Size};
 
@@ -187,6 +188,8 @@ fn settings(width: u32, height: u32, spp: u32) -> Settings {
         spp,
         depth: 8,
         seed: 0,
+        aov: None,
+        transfer: Transfer::default(),
     }
 }
 

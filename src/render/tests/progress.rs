@@ -7,8 +7,10 @@ use super::super::camera::Projection;
 use super::super::film::{Film, Shot};
 use super::super::sampler::place_in_pixel;
 use super::super::steps::{Step, steps};
-use super::super::tone::to_bytes;
+use super::super::tone::Tone;
 use super::*;
+
+const TONE: Tone = Tone::Colour(Transfer::Linear);
 
 /// Glass, a mirror and a matte ball on a floor.
 fn still() -> Arc<Scene> {
@@ -114,7 +116,7 @@ fn one_sample_is_the_pixel_centre() {
     let mut tracer = Tracer::new(&world, 8);
     for (y, x) in (0..15).flat_map(|y| (0..20).map(move |x| (y, x))) {
         let (centre, reach) = projection.ray(f64::from(x) + 0.5, f64::from(y) + 0.5);
-        let expected = to_bytes(tracer.radiance(centre, reach, || false).radiance);
+        let expected = TONE.bytes(tracer.radiance(centre, reach, || false).radiance);
         assert_eq!(frame.pixels[y as usize * 20 + x as usize], expected);
     }
 }
@@ -167,7 +169,7 @@ fn pictures_narrower_or_lower_than_a_tile_are_whole() {
             });
             assert_eq!(
                 *pixel,
-                to_bytes((samples[0] + samples[1]) / 2.0),
+                TONE.bytes((samples[0] + samples[1]) / 2.0),
                 "({x}, {y})"
             );
         }
@@ -185,7 +187,8 @@ fn tiles_hold_few_pixels_more_than_the_picture() {
         (9, 1 << 18),
     ] {
         let size = Size { width, height };
-        let film = Film::new(size).expect("memory that is not touched is there");
+        let film = Film::new(&settings(size.width, size.height, 1), Frames::Live)
+            .expect("memory that is not touched is there");
         let held = 256 * film.tiles();
         assert!(held < 2 * size.pixels() + 256, "{width}x{height}: {held}");
     }
@@ -281,9 +284,11 @@ fn a_film_takes_memory_as_it_is_traced_and_stops_developing_when_told_to() {
     let shot = Shot {
         world: &world,
         projection: Projection::new(&world.scene.camera, size),
+        eye: world.scene.camera.eye,
         settings: settings(size.width, size.height, 1),
     };
-    let mut film = Film::new(size).expect("memory is there");
+    let mut film =
+        Film::new(&settings(size.width, size.height, 1), Frames::Live).expect("memory is there");
     assert_eq!((film.tiles(), film.begun()), (125 * 63, 0));
     film.advance(0..7, &Step::Grid(8), &shot, || false);
     assert_eq!(film.begun(), 7);

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::textures::STILL_READING;
 use super::{App, Export, Mode, Picture, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
-use crate::render::{Frame, Frames, Job, Settings};
+use crate::render::{Frame, Frames, Job, Settings, Transfer};
 use crate::scene::{Camera, Size};
 use crate::ui::msg::{Destination, Effect, Existing, ExportId, Target};
 
@@ -56,6 +56,8 @@ impl App {
                 spp,
                 depth: self.quality.depth,
                 seed: 0,
+                aov: None,
+                transfer: Transfer::default(),
             },
             frames: Frames::Live,
         })
@@ -214,7 +216,8 @@ impl App {
         let size = size.unwrap_or_else(|| self.output());
         let spp = spp.unwrap_or(self.quality.spp);
         let job = self.job(size, spp);
-        let refused = match (ImageFormat::of_path(path), &job) {
+        let format = ImageFormat::of_path(path);
+        let refused = match (format, &job) {
             _ if self.export.is_some() => Some("an export is under way: x cancels it".to_owned()),
             _ if self.awaits_textures() => Some(STILL_READING.to_owned()),
             (None, _) => Some(format!(
@@ -232,6 +235,7 @@ impl App {
                 return Vec::new();
             }
         };
+        let frames = format.map_or(Frames::Last, ImageFormat::frames);
         let existing = match existing {
             Existing::Kept => self.existing(path),
             Existing::Overwritten => existing,
@@ -241,7 +245,7 @@ impl App {
             existing,
             scene: self.path.clone(),
         };
-        let traced = self.traced(size, spp);
+        let traced = self.traced(size, spp).filter(|_| frames == Frames::Last);
         self.pending.export.0 += 1;
         let id = self.pending.export;
         self.export = Some(Export {
@@ -272,7 +276,7 @@ impl App {
                 Target::Export,
                 Job {
                     camera,
-                    frames: Frames::Last,
+                    frames,
                     ..job
                 },
             ),

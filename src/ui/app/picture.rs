@@ -250,6 +250,7 @@ mod tests {
             size,
             pixels: vec![pixel; size.pixels()],
             objects: vec![7; size.pixels()],
+            values: Vec::new(),
             progress: Progress {
                 pass: 1,
                 passes: 2,

@@ -101,6 +101,7 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
         generation: 1,
         size,
         pixels: vec![[100; 3]; size.pixels()],
+        values: Vec::new(),
         objects: (0..width * height)
             .map(|at| if under(at) == 1 { 1 } else { NO_OBJECT })
             .collect(),

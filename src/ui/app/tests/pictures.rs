@@ -14,6 +14,7 @@ pub(super) fn frame(size: Size, objects: Vec<u32>) -> Frame {
         size,
         pixels: vec![[9; 3]; size.pixels()],
         objects,
+        values: Vec::new(),
         progress: Progress {
             pass: 1,
             passes: 1,

@@ -1,0 +1,41 @@
+//! What the first surface on a ray's way is, apart from light.
+
+use glam::DVec3;
+
+use super::frame::{Aov, NO_OBJECT};
+use super::whitted::Seen;
+use super::world::World;
+use crate::geometry::Ray;
+use crate::scene::Rgb;
+
+/// A variable at the first surface that a camera ray meets before `reach`; the ray begins `skipped`
+/// away from the eye.
+pub(crate) fn first_hit(world: &World, ray: &Ray, reach: f64, skipped: f64, aov: Aov) -> Seen {
+    let Some(nearest) = world.nearest(ray, reach) else {
+        let radiance = match aov {
+            Aov::Depth => Rgb::INFINITY,
+            _ => Rgb::ZERO,
+        };
+        return Seen {
+            radiance,
+            object: NO_OBJECT,
+        };
+    };
+    let object = &world.scene.objects[nearest.object as usize];
+    let surface = object.shape.surface(ray, nearest.hit);
+    let (normal, textured) = world.textured(ray, nearest, surface.normal);
+    let value = match aov {
+        Aov::Depth => DVec3::splat(skipped + nearest.hit.t),
+        Aov::Normal if ray.direction.dot(surface.normal) < 0.0 => normal,
+        Aov::Normal => -normal,
+        Aov::Object => DVec3::splat(f64::from(nearest.object) + 1.0),
+        Aov::Albedo => match textured {
+            Some(material) => material.diffuse,
+            None => world.scene.materials[object.material_at(nearest.hit) as usize].diffuse,
+        },
+    };
+    Seen {
+        radiance: value,
+        object: nearest.object,
+    }
+}

@@ -1,0 +1,113 @@
+//! Pictures of what is seen first, apart from light.
+
+use super::*;
+use crate::render::Aov;
+
+const SIZE: Size = Size {
+    width: 41,
+    height: 31,
+};
+
+/// What the pixels of two balls are made of, and the picture.
+fn values(aov: Aov, spp: u32) -> Arc<Frame> {
+    let tinted = |red| Material {
+        diffuse: Rgb::new(red, 0.5, 2.0),
+        ..grey(1.0)
+    };
+    let mut scene = scene(
+        &[
+            (sphere([0.0, 0.0, 0.0], 1.0), tinted(0.25)),
+            (sphere([2.0, 0.0, -2.0], 1.0), tinted(0.75)),
+        ],
+        &[],
+    );
+    scene.camera.size = SIZE;
+    // What is skipped before the nearest surface counts as way.
+    scene.camera.depths = [1.5, 100.0];
+    let (renderer, woken) = renderer(2);
+    let job = Job {
+        camera: scene.camera,
+        scene: Arc::new(scene),
+        images: Images::default(),
+        settings: Settings {
+            aov: Some(aov),
+            ..settings(SIZE.width, SIZE.height, spp)
+        },
+        frames: Frames::LastWithValues,
+    };
+    let generation = restart(&renderer, job);
+    finish(&renderer, &woken, generation)
+}
+
+fn at(x: usize, y: usize) -> usize {
+    y * SIZE.width as usize + x
+}
+
+const CENTRE: usize = 15 * 41 + 20;
+
+/// From (0, 0, 5) the unit ball's points are at the roots of |o + t d| = 1.
+#[test]
+fn depth_is_the_distance_from_the_eye() {
+    let frame = values(Aov::Depth, 1);
+    assert_eq!(frame.values[CENTRE], [4.0; 3]);
+    assert_eq!(frame.pixels[CENTRE], [255; 3]);
+    assert_eq!(frame.values[at(0, 0)], [f32::INFINITY; 3]);
+    assert_eq!(frame.pixels[at(0, 0)], [0; 3]);
+    let half_height = 0.5_f64.mul_add(45.0, 0.0).to_radians().tan();
+    let mut hits = 0;
+    for x in 0..SIZE.width {
+        let across = f64::from(2 * x + 1) / 41.0 - 1.0;
+        let direction = DVec3::new(across * half_height * 41.0 / 31.0, 0.0, -1.0).normalize();
+        let b = 5.0 * direction.z;
+        if b * b < 24.0 {
+            continue;
+        }
+        let expected = -b - (b * b - 24.0).sqrt();
+        let found = f64::from(frame.values[at(x as usize, 15)][0]);
+        assert!((found - expected).abs() < 1e-6, "{x}: {found}, {expected}");
+        hits += 1;
+    }
+    assert!(5 < hits);
+}
+
+#[test]
+fn normals_objects_and_albedos_are_the_first_surface_s() {
+    for spp in [1, 4] {
+        let normals = values(Aov::Normal, spp);
+        if spp == 1 {
+            assert_eq!(normals.values[CENTRE], [0.0, 0.0, 1.0]);
+            assert_eq!(normals.pixels[CENTRE], [128, 128, 255]);
+        }
+        assert_eq!(normals.values[0], [0.0; 3]);
+        assert_eq!(normals.pixels[0], [0; 3]);
+        let albedos = values(Aov::Albedo, spp);
+        assert_eq!(albedos.values[CENTRE], [0.25, 0.5, 2.0]);
+        assert_eq!(albedos.pixels[CENTRE], [64, 128, 255]);
+    }
+    let objects = values(Aov::Object, 1);
+    let numbers: std::collections::BTreeSet<_> =
+        objects.values.iter().map(|value| value[0] as u32).collect();
+    assert_eq!(numbers, [0, 1, 2].into());
+    for (value, object) in objects.values.iter().zip(&objects.objects) {
+        assert_eq!(value[0] as u32, object.wrapping_add(1));
+    }
+}
+
+#[test]
+fn light_is_told_unclamped_where_it_is_asked_for() {
+    let bright = scene(&[(sphere([0.0; 3], 1.0), grey(3.5))], &[]);
+    let (renderer, woken) = renderer(1);
+    for (frames, told) in [(Frames::LastWithValues, true), (Frames::Last, false)] {
+        let job = Job {
+            camera: bright.camera,
+            scene: Arc::new(bright.clone()),
+            images: Images::default(),
+            settings: settings(41, 31, 1),
+            frames,
+        };
+        let generation = restart(&renderer, job);
+        let frame = finish(&renderer, &woken, generation);
+        assert_eq!(frame.pixels[CENTRE], [255; 3]);
+        assert_eq!(frame.values.get(CENTRE), told.then_some(&[3.5; 3]));
+    }
+}
