@@ -172,6 +172,16 @@ impl Field {
         }
     }
 
+    /// As [`Field::expected`], and what is usual where more is allowed: `a number, usually from 0
+    /// to 1`.
+    pub fn advice(&self) -> String {
+        let expected = self.expected();
+        if self.usual == self.allowed {
+            return expected;
+        }
+        format!("{expected}, usually {}", self.usual.limits())
+    }
+
     const fn point(key: &'static str, doc: &'static str) -> Self {
         Self {
             key,

@@ -144,7 +144,7 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     }
     let names = field.field.kind.component_names();
     let component = names.get(app.component).copied().unwrap_or_default();
-    let expected = field.field.expected();
+    let expected = field.field.advice();
     let what = [component, &expected].join(if component.is_empty() { "" } else { ": " });
     let unit = if field.field.unit.is_empty() {
         String::new()
@@ -225,6 +225,19 @@ mod tests {
         assert_eq!(lines[2], "▸radius    -3");
         assert_eq!(lines[16], " radius: must be greater than 0");
         assert!(lines[17].starts_with(" a number greater than 0 · step"));
+    }
+
+    #[test]
+    fn what_is_usual_is_told_before_it_is_left() {
+        let mut app = editing(Node::Object(0));
+        for (field, told) in [
+            (0, " x: a number · step"),
+            (2, " red: a number, usually from 0 to 1 · step"),
+        ] {
+            app.field = field;
+            let lines = drawn(&app, render, 50, 20);
+            assert!(lines[16].starts_with(told), "{}", lines[16]);
+        }
     }
 
     #[test]
