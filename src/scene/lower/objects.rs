@@ -81,7 +81,7 @@ impl Reader<'_> {
         let word = token.of(self.text);
         if word != kind.keyword() {
             self.report.warning(|| {
-                let message = format!("{} is written in lower case", quoted(word));
+                let message = format!("{} should be in lower case", quoted(word));
                 Diagnostic::warning(token, message, format!("`{}`", kind.keyword()))
                     .with_hint("other readers of the format may refuse it")
             });

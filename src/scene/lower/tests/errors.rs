@@ -120,8 +120,8 @@ fn directions_are_of_unit_length_and_at_right_angles() {
 
 #[test]
 fn keywords_are_in_lower_case() {
-    check("HEAD 1\nSphere //~ 1 warning: `Sphere` is written in lower case\n0 0 0 1 MAT");
-    check("HEAD 1\nBOX //~ 1 warning: `BOX` is written in lower case\n0 0 0 AXES 1 1 1 MAT");
+    check("HEAD 1\nSphere //~ 1 warning: `Sphere` should be in lower case\n0 0 0 1 MAT");
+    check("HEAD 1\nBOX //~ 1 warning: `BOX` should be in lower case\n0 0 0 AXES 1 1 1 MAT");
 }
 
 #[test]
