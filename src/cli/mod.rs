@@ -298,10 +298,10 @@ struct InterfaceArguments {
     /// Leave the mouse to the terminal
     #[arg(long)]
     no_mouse: bool,
-    /// Samples a pixel, 1 to 65536
+    /// Samples a pixel, 1 to 65536, of full-size traces and of exports [default: 16]
     #[arg(long, value_name = "N", value_parser = spp_range())]
     spp: Option<u32>,
-    /// Bounces of a ray, up to 4096; 0 is none
+    /// Bounces of a ray, up to 4096; 0 is none [default: 8]
     #[arg(long, value_name = "N", value_parser = depth_range())]
     depth: Option<u32>,
     /// Threads that trace, 1 to 1024 [default: one fewer than the machine's cores]

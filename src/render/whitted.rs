@@ -94,8 +94,8 @@ impl<'w> Tracer<'w> {
     }
 
     /// Radiance along a camera ray, which is followed as far as `reach`. Rays are traced depth
-    /// first, reflection before refraction; those beyond the budget bring nothing. Stops early, with a useless result, once `cancelled`
-    /// says so.
+    /// first, reflection before refraction; those beyond the budget bring nothing. Stops early,
+    /// with a useless result, once `cancelled` says so.
     pub(crate) fn radiance(
         &mut self,
         camera_ray: Ray,
