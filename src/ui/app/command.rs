@@ -251,3 +251,28 @@ impl App {
         self.document.end_step();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::app::Mode;
+    use crate::ui::keymap::{HelpLine, help};
+
+    #[test]
+    fn every_command_is_in_the_help() {
+        let lines = help("", Mode::Select);
+        let told: Vec<_> = lines
+            .iter()
+            .filter_map(|line| match line {
+                HelpLine::Entry { keys, .. } => Some(keys.split("  ")),
+                HelpLine::Heading(_) => None,
+            })
+            .flatten()
+            .filter_map(|form| form.strip_prefix(':'))
+            .collect();
+        for name in NAMES {
+            let tells = |form: &&str| *form == name || form.starts_with(&format!("{name} "));
+            assert!(told.iter().any(tells), "{name} is not in {told:?}");
+        }
+    }
+}

@@ -35,13 +35,14 @@ const DIALOGS: [(&str, Context); 5] = [
 ];
 
 /// What can be typed after `:`.
-const COMMANDS: [(&str, &str); 12] = [
+const COMMANDS: [(&str, &str); 13] = [
     (":w  :w FILE", "save the scene, or under another name"),
     (":w!", "save over changes of the file"),
     (":q  :q!", "quit; with ! without asking"),
     (":wq", "save and quit"),
     (":e", "read the file again"),
     (":export [FILE] [WxH] [spp]", "write a picture"),
+    (":export! FILE", "write it over a file that is there"),
     (":export cancel", "stop writing it"),
     (":render", "trace at full size"),
     (":view save", "write the view into the scene"),
