@@ -8,6 +8,9 @@ use crate::render::Progress;
 /// How often the line changes at most: quick enough to show life, slow enough to be read.
 const INTERVAL: Duration = Duration::from_millis(200);
 
+/// Cells of the bar.
+const BAR: usize = 20;
+
 /// A line on the error stream, shown if that is a terminal and gone when this is dropped.
 pub(super) struct ProgressLine {
     terminal: Option<io::Stderr>,
@@ -45,12 +48,14 @@ impl Drop for ProgressLine {
     }
 }
 
-/// `42 %  pass 3/6  1.2 s, about 1.7 s left  14.0 Mray/s`
+/// `████████░░░░░░░░░░░░ 42 %  pass 3/6  1.2 s, about 1.7 s left  14.0 Mray/s`
 fn line(progress: &Progress) -> String {
     let elapsed = progress.elapsed.as_secs_f64();
     let percent = (progress.done * 100.0).floor();
+    let full = (progress.done * BAR as f64) as usize;
+    let bar = ["█".repeat(full), "░".repeat(BAR.saturating_sub(full))].concat();
     let state = format!(
-        "{percent} %  pass {}/{}  {elapsed:.1} s",
+        "{bar} {percent} %  pass {}/{}  {elapsed:.1} s",
         progress.pass, progress.passes
     );
     // A rate taken from the first moments says nothing yet.
@@ -83,9 +88,15 @@ mod tests {
     fn the_line_foretells_from_the_share_done() {
         assert_eq!(
             line(&progress(0.25, 2.0)),
-            "25 %  pass 3/6  2.0 s, about 6.0 s left  14.0 Mray/s"
+            "█████░░░░░░░░░░░░░░░ 25 %  pass 3/6  2.0 s, about 6.0 s left  14.0 Mray/s"
         );
-        assert_eq!(line(&progress(0.0, 9.0)), "0 %  pass 3/6  9.0 s");
-        assert_eq!(line(&progress(0.999, 0.1)), "99 %  pass 3/6  0.1 s");
+        assert_eq!(
+            line(&progress(0.0, 9.0)),
+            "░░░░░░░░░░░░░░░░░░░░ 0 %  pass 3/6  9.0 s"
+        );
+        assert_eq!(
+            line(&progress(0.999, 0.1)),
+            "███████████████████░ 99 %  pass 3/6  0.1 s"
+        );
     }
 }

@@ -352,6 +352,10 @@ fn editor(path: &Path, line: usize) -> Command {
     let mut command = Command::new(program);
     command.args(words);
     let name = Path::new(program).file_stem().unwrap_or_default();
+    // A name that begins with a dash is no option.
+    let is_option = path.as_os_str().as_encoded_bytes().starts_with(b"-");
+    let folder = if is_option { "." } else { "" };
+    let path = Path::new(folder).join(path);
     let mut place = path.as_os_str().to_owned();
     place.push(format!(":{line}"));
     match name.to_str().unwrap_or_default() {

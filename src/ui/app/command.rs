@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{App, Disk, Help};
+use super::{App, Disk, Help, PromptKind};
 use crate::format::Format;
 use crate::image_file::ImageFormat;
 use crate::render::MAX_SPP;
@@ -219,7 +219,10 @@ impl App {
         if let Some(path) = &file
             && Format::of_path(path) != Ok(own)
         {
-            let (path, extension) = (path.display(), own.extension());
+            let extension = own.extension();
+            let name = path.with_extension(extension);
+            self.open_prompt(PromptKind::Command, &format!("w {}", name.display()));
+            let path = path.display();
             self.fail(format!("{path}: this scene's name ends in .{extension}"));
             return Vec::new();
         }

@@ -68,7 +68,9 @@ impl App {
     }
 
     pub(super) fn start_trace(&mut self) -> Vec<Effect> {
-        if self.mode == Mode::Trace {
+        let trace = self.trace.as_ref();
+        let is_begun = trace.is_some_and(|trace| trace.wanted.is_some());
+        if self.mode == Mode::Trace && is_begun {
             return Vec::new();
         }
         if self.awaits_textures() {
@@ -84,16 +86,14 @@ impl App {
             self.fail(reason);
             return Vec::new();
         }
-        self.pending.before_trace = Some(self.mode);
-        self.mode = Mode::Trace;
+        if self.mode != Mode::Trace {
+            self.pending.before_trace = Some(self.mode);
+            self.mode = Mode::Trace;
+        }
         if 0 < self.error_count() {
             self.warn("the text has errors: this is the last scene without");
         }
-        if self
-            .trace
-            .as_ref()
-            .is_some_and(|trace| trace.wanted.is_some())
-        {
+        if is_begun {
             return Vec::new();
         }
         self.trace = Some(Picture::default());

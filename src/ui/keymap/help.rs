@@ -113,8 +113,9 @@ pub fn hints(context: Context) -> Vec<(String, &'static str)> {
                 .collect();
         }
     };
+    let is_here = |hint: &&Hint| matches!(context, Context::In(mode) if hint.0 == [A::Go(mode)]);
     own.iter()
-        .chain(COMMON_HINTS)
+        .chain(COMMON_HINTS.iter().filter(|hint| !is_here(hint)))
         .map(|(actions, words)| {
             let keys: Vec<_> = actions
                 .iter()

@@ -116,6 +116,11 @@ fn a_scene_keeps_its_language() {
     let mut app = at(Node::View);
     assert!(press(&mut app, ":w other.ray<Enter>").is_empty());
     assert_eq!(words(&app), "other.ray: this scene's name ends in .dat");
+    // The line waits with a name that will do.
+    press(&mut app, "<Esc>:w mine<Enter>");
+    let line = app.prompt.as_ref().map(|prompt| prompt.input.value());
+    assert_eq!(line, Some("w mine.dat"));
+    press(&mut app, "<Esc>");
     let effects = press(&mut app, ":w other.DAT<Enter>");
     assert!(wants(&effects, |effect| matches!(
         effect,

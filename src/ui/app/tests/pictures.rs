@@ -276,3 +276,21 @@ fn a_stopped_trace_starts_anew() {
     )));
     assert!(traces(&press(&mut app, "<Esc><F5>")));
 }
+
+#[test]
+fn f5_starts_a_stopped_trace_anew_where_it_is_watched() {
+    let begun = |effects: &[Effect]| {
+        wants(effects, |effect| {
+            matches!(effect, Effect::Trace(Target::Trace, _))
+        })
+    };
+    let mut app = open(SCENE);
+    assert!(begun(&press(&mut app, "<F5>")));
+    app.update(Msg::Started(Target::Trace, 1));
+    assert!(!begun(&press(&mut app, "<F5>")));
+    press(&mut app, "x");
+    assert_eq!(words(&app), "stopped; F5 starts anew");
+    assert!(begun(&press(&mut app, "<F5>")));
+    press(&mut app, "<Esc>");
+    assert_eq!(app.mode, Mode::Select);
+}
