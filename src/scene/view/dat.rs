@@ -31,6 +31,11 @@ pub(super) fn numbers(camera: &Camera, origins: &Origins) -> Numbers {
         }
         Lens::Orthographic(height) => (1.0, origins.focal, plain(height / rows)),
     };
+    let across = if camera.pixel_aspect == 1.0 {
+        up
+    } else {
+        plain(up * camera.pixel_aspect)
+    };
     let [near, far] = camera.depths;
     vec![
         vec![projection],
@@ -40,7 +45,7 @@ pub(super) fn numbers(camera: &Camera, origins: &Origins) -> Numbers {
         vec![focal],
         vec![near],
         vec![far.min(FARTHEST)],
-        vec![plain(up * camera.pixel_aspect), up],
+        vec![across, up],
         vec![camera.size.width.into(), rows],
     ]
 }

@@ -34,7 +34,7 @@ impl App {
         let Some(camera) = self.camera() else {
             return;
         };
-        let moved = rounded(change(camera));
+        let moved = rounded(change(camera), &camera);
         let finite = moved.eye.is_finite() && moved.target.is_finite();
         let distance = (moved.eye - moved.target).length();
         if finite && distance.is_finite() && 0.0 < distance {
@@ -213,19 +213,26 @@ fn framed(camera: Camera, centre: DVec3, radius: f64) -> Camera {
     }
 }
 
-/// Rounds to about six digits of the distance to the target: a saved view is short to read, and
-/// the picture of it the very one that was on screen.
-fn rounded(camera: Camera) -> Camera {
+/// Rounds what is not as before to about six digits of the distance to the target: a saved view is
+/// short to read, and the picture of it the very one that was on screen.
+fn rounded(camera: Camera, before: &Camera) -> Camera {
     let distance = (camera.eye - camera.target).length();
     if !distance.is_normal() {
         return camera;
     }
     let places = 5 - libm::floor(libm::log10(distance)) as i32;
-    let round = |point: DVec3| DVec3::from_array(point.to_array().map(|n| to_places(n, places)));
+    let round = |point: DVec3, before: DVec3| {
+        if point == before {
+            return before;
+        }
+        DVec3::from_array(point.to_array().map(|n| to_places(n, places)))
+    };
     Camera {
-        eye: round(camera.eye),
-        target: round(camera.target),
+        eye: round(camera.eye, before.eye),
+        target: round(camera.target, before.target),
         lens: match camera.lens {
+            // The text may say it by other numbers, of which these are not the rounded ones.
+            lens if lens == before.lens => lens,
             Lens::Perspective(angle) => Lens::Perspective(to_places(angle, 4)),
             Lens::Orthographic(height) => {
                 let places = 5 - libm::floor(libm::log10(height)) as i32;

@@ -112,6 +112,39 @@ fn a_combination_shows_its_parts() {
 }
 
 #[test]
+fn a_view_keeps_the_numbers_that_did_not_move() {
+    let camera = |scene: &str, said: &str| {
+        let (mut app, _) = opened_as("scene.dat", scene);
+        press(&mut app, said);
+        app.document.text().lines().next().map(str::to_owned)
+    };
+    let turned = camera(SCENE, "vlS").expect("a camera");
+    assert!(turned.ends_with("  0 0 0  0 0 1  1 0.1 100"), "{turned}");
+    assert!(!SCENE.contains(&turned), "{turned}");
+    let exact = SCENE.replace("-9 0  0 0 0", "-9 0  0.123456789 0 0");
+    let turned = camera(&exact, "vlS").expect("a camera");
+    assert!(turned.contains("  0.123456789 0 0  0 0 1  1 "), "{turned}");
+    let exact = SCENE.replace("0 -9 0", "0.123456789 -9 0");
+    let nearer = camera(&exact, "v]S").expect("a camera");
+    assert!(nearer.contains(" 0.123456789 -9 0  0 0 0 "), "{nearer}");
+}
+
+#[test]
+fn pixels_that_were_square_stay_square() {
+    let scene = SCENE.replace("resolution .01 .01\nviewport 40 30", "viewport 400 300");
+    let (mut app, _) = opened_as("scene.dat", &scene);
+    press(&mut app, "v]S");
+    let text = app.document.text();
+    let said = text
+        .lines()
+        .find_map(|line| line.strip_prefix("resolution "));
+    let (across, up) = said
+        .and_then(|said| said.split_once(' '))
+        .expect("a record");
+    assert_eq!(across, up);
+}
+
+#[test]
 fn a_scene_keeps_its_language() {
     let mut app = at(Node::View);
     assert!(press(&mut app, ":w other.ray<Enter>").is_empty());
