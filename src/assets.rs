@@ -166,7 +166,12 @@ impl Assets {
     pub fn places(&self, wanted: &Wanted) -> Vec<PathBuf> {
         let places = wanted.names.iter().map(|name| (name, wanted.place(name)));
         let may = |(name, place): &(&String, PathBuf)| match fs::canonicalize(place) {
-            Ok(real) => self.may_read(wanted, name, &real),
+            // A link that leads elsewhere may give way to a file.
+            Ok(real) => {
+                let own = fs::canonicalize(folder(place));
+                self.may_read(wanted, name, &real)
+                    || own.is_ok_and(|own| self.may_read(wanted, name, &own))
+            }
             Err(_) => !Path::new(name.as_str()).is_absolute(),
         };
         places.filter(may).map(|(_, place)| place).collect()
@@ -182,11 +187,12 @@ impl Assets {
     ) -> Result<(u64, Arc<Image>), Failure> {
         let real = fs::canonicalize(wanted.place(name));
         if Path::new(name).is_absolute() && !real.as_ref().is_ok_and(|real| self.is_allowed(real)) {
-            return Err(Failure::Absolute);
+            let real = real.unwrap_or_else(|_| PathBuf::from(name));
+            return Err(Failure::Absolute(real));
         }
         let real = real?;
         if !self.may_read(wanted, name, &real) {
-            return Err(Failure::Outside);
+            return Err(Failure::Outside(real));
         }
         let content = file::read_bytes(&real, room.bytes)?;
         room.bytes -= content.len() as u64;
@@ -265,9 +271,9 @@ pub fn report(troubles: &Troubles, files: &[NamedFile], mut findings: Findings) 
 #[derive(Debug, thiserror::Error)]
 enum Failure {
     #[error("an absolute path is not read")]
-    Absolute,
+    Absolute(PathBuf),
     #[error("is outside of the folder above the scene's")]
-    Outside,
+    Outside(PathBuf),
     #[error("no such file")]
     Missing,
     #[error("{0}")]
@@ -294,8 +300,8 @@ impl Failure {
     /// What it means for whoever looks at a picture.
     fn trouble(&self, place: &Path, shown: Shown) -> Trouble {
         let hint = match self {
-            Self::Absolute | Self::Outside => {
-                let folder = folder(place).display();
+            Self::Absolute(real) | Self::Outside(real) => {
+                let folder = folder(real).display();
                 Some(format!("--assets {folder} lets it be read"))
             }
             Self::Missing => Some(format!("it is looked for as {}", place.display())),

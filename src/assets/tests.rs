@@ -113,6 +113,22 @@ fn other_places_are_refused_unless_their_folder_is_named() {
     assert!(place.refusal("/dev/zero", &folders).is_some());
 }
 
+/// A name may lead elsewhere by a link: the folder to name is the file's, not the link's.
+#[test]
+fn the_folder_that_helps_is_told() {
+    let place = Place::new();
+    let elsewhere = tempfile::tempdir().expect("a directory");
+    let folder = fs::canonicalize(elsewhere.path()).expect("a place");
+    fs::write(folder.join("a.ppm"), ppm(RED)).expect("written");
+    symlink(folder.join("a.ppm"), place.at("link")).expect("a link");
+    let absolute = place.at("link");
+    for name in ["link", absolute.to_str().expect("a plain path")] {
+        let told = place.refusal(name, &[]).expect(name);
+        let hint = format!("(--assets {} lets it be read)", folder.display());
+        assert!(told.ends_with(&hint), "{told}");
+    }
+}
+
 #[test]
 fn what_is_no_picture_is_told_as_what_it_is() {
     let place = Place::new();
@@ -239,14 +255,17 @@ fn pictures_that_are_too_much_together_are_left_out() {
 fn places_to_watch_are_those_that_may_be_read() {
     let place = Place::new();
     place.write("a.ppm", ppm(RED));
+    symlink("/dev/null", place.at("link.ppm")).expect("a link");
     let wanted = place.wanted(&[
         "a.ppm",
+        "link.ppm",
         "none.ppm",
         "/dev/zero",
         "../../../../../../dev/null",
     ]);
     let places = Assets::new(&[]).places(&wanted);
-    assert_eq!(places, [place.at("a.ppm"), place.at("none.ppm")]);
+    let own = ["a.ppm", "link.ppm", "none.ppm"].map(|name| place.at(name));
+    assert_eq!(places, own);
 }
 
 #[test]
