@@ -209,7 +209,7 @@ impl Reader<'_> {
                 let mut ids: Vec<_> = self.ids.keys().filter(|key| key.0 == category).collect();
                 ids.sort_unstable_by_key(|key| key.1);
                 let message = format!("there is no {word} {id} above");
-                let expected = format!("the ID of a {word} defined before");
+                let expected = "the ID of one defined before";
                 let shown: Vec<_> = ids.iter().take(8).map(|key| key.1.to_string()).collect();
                 let hint = match shown.len() {
                     0 => format!("no {word} is defined yet: it must come first"),

@@ -89,7 +89,8 @@ impl<'a> Reader<'a> {
             ObjectKind::Quadric => Some(self.quadric(said, cuts, line)),
         };
         if shape.is_none() {
-            let span = line.spans[0].to(line.spans[line.spans.len() - 1]);
+            // What follows the material.
+            let span = line.spans[1].to(line.spans[line.spans.len() - 1]);
             self.report.error(|| {
                 let message = format!("{}: too large, too small or too far away", line.name);
                 Diagnostic::error(span, message, "sizes and places that numbers can hold")

@@ -87,6 +87,13 @@ render 1 ID 9
 }
 
 #[test]
+fn solids_beyond_all_numbers_are_told_at_their_numbers() {
+    check_under(&[
+        "obj cylinder ID 1 mat ID 0  1e308 0 0  -1 0 0  1 1.7e308\n#~ 29 error: object 1 (cylinder): too large, too small or too far away",
+    ]);
+}
+
+#[test]
 fn sizes_are_greater_than_0() {
     check_under(&[
         "obj sphere ID 1 BALL 0\n#~ 33 error: object 1 (sphere) radius: must be greater than 0",
