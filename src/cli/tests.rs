@@ -111,7 +111,7 @@ fn wrong_arguments_are_refused_with_a_reason() {
         ("halflight --poll=1 a", "10..=3600000"),
         ("halflight render a", "--output"),
         ("halflight render a -o b.webp", ".bmp, .ppm, .png"),
-        ("halflight render a -o b", ".jpeg or .jpg"),
+        ("halflight render a -o b", ".exr or .hdr"),
         ("halflight render a -o b", "Usage: halflight render"),
         (
             "halflight render a -o b.bmp --aov light",
