@@ -2,9 +2,10 @@
 //!
 //! Hits come in two steps: [`Shape::hit`] gives a distance for every candidate, and
 //! [`Shape::surface`] the point and normal once, for the winner. [`Shape::spans`] gives all of a
-//! line that is inside, which is more than one span if the solid is not convex. There is no epsilon: the point is
-//! re-projected onto its surface, and a ray that leaves it starts [`Surface::leave`], a few units in
-//! the last place off the surface.
+//! line that is inside, which is more than one span if the solid is not convex; squares and meshes
+//! are surfaces without an inside. There is no epsilon: the point is re-projected onto its surface,
+//! and a ray that leaves it starts [`Surface::leave`], a few units in the last place off the
+//! surface.
 
 mod aabb;
 mod chart;
@@ -15,10 +16,13 @@ mod cylinder;
 mod double_double;
 mod ellipsoid;
 mod line;
+mod mesh;
+mod plane;
 mod quadric;
 mod shape;
 mod sphere;
 mod transform;
+mod triangle;
 
 #[cfg(test)]
 mod tests;
@@ -30,6 +34,8 @@ pub use csg::{Csg, Node, Operation};
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use ellipsoid::Ellipsoid;
+pub use mesh::{ABSENT, Attribute, Instance, Mesh, MeshError, MeshLine, MeshParts, SlotRun};
+pub use plane::Plane;
 pub use quadric::Quadric;
 pub use shape::{Crossings, Hit, Ray, Shape, Spans, Surface, ulp};
 pub use sphere::Sphere;

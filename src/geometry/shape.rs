@@ -5,7 +5,9 @@ use std::sync::Arc;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::{Aabb, Chart, Cone, Csg, Cuboid, Cylinder, Ellipsoid, Quadric, Sphere};
+use super::{
+    Aabb, Chart, Cone, Csg, Cuboid, Cylinder, Ellipsoid, Instance, Plane, Quadric, Sphere,
+};
 
 /// A half line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,6 +108,9 @@ pub struct Surface {
     pub point: DVec3,
     /// The outward geometric normal, of unit length.
     pub normal: DVec3,
+    /// The normal that light is computed with, of unit length: the geometric one, but on a mesh
+    /// with normals of its own.
+    pub shading: DVec3,
     /// The largest magnitude that entered the computation of the point (coordinates of the shape's
     /// origin, its size), times the cancellation of a skewed frame: a few [`ulp`] of it bound how
     /// far from the surface the point is.
@@ -137,7 +142,7 @@ pub fn ulp(x: f64) -> f64 {
     x.abs().next_up() - x.abs()
 }
 
-/// A closed solid.
+/// What a ray can meet: a closed solid, or a surface that need not bound one.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A sphere.
@@ -154,6 +159,10 @@ pub enum Shape {
     Quadric(Box<Quadric>),
     /// A solid made of solids.
     Csg(Arc<Csg>),
+    /// An affine image of a square; no solid.
+    Plane(Box<Plane>),
+    /// An affine image of a mesh of triangles; no solid.
+    Mesh(Box<Instance>),
 }
 
 impl Shape {
@@ -167,10 +176,12 @@ impl Shape {
             Self::Cone(cone) => cone.bounds(),
             Self::Quadric(quadric) => quadric.bounds(),
             Self::Csg(csg) => csg.bounds(),
+            Self::Plane(plane) => plane.bounds(),
+            Self::Mesh(instance) => instance.bounds(),
         }
     }
 
-    /// Adds the parts of the ray's line that are inside the solid.
+    /// Adds the parts of the ray's line that are inside the solid; none for what is no solid.
     pub fn spans(&self, ray: &Ray, spans: &mut Spans) {
         match self {
             Self::Sphere(sphere) => spans.extend(sphere.crossings(ray)),
@@ -180,10 +191,12 @@ impl Shape {
             Self::Cone(cone) => spans.extend(cone.crossings(ray)),
             Self::Quadric(quadric) => spans.extend(quadric.crossings(ray).into_iter().flatten()),
             Self::Csg(csg) => csg.spans(ray, spans),
+            Self::Plane(_) | Self::Mesh(_) => {}
         }
     }
 
-    /// The nearest crossing with `0 < t < limit`, entering or leaving.
+    /// The nearest crossing with `0 < t < limit`, entering or leaving. Tries every triangle of a
+    /// mesh; [`Instance::line`] is for those who know better.
     #[inline]
     pub fn hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
         match self {
@@ -194,6 +207,8 @@ impl Shape {
             Self::Cone(cone) => cone.crossings(ray)?.nearest(limit),
             Self::Quadric(quadric) => quadric.hit(ray, limit),
             Self::Csg(csg) => csg.hit(ray, limit),
+            Self::Plane(plane) => plane.hit(ray, limit),
+            Self::Mesh(instance) => instance.hit(ray, limit),
         }
     }
 
@@ -207,6 +222,8 @@ impl Shape {
             Self::Cone(cone) => cone.surface(ray, hit),
             Self::Quadric(quadric) => quadric.surface(ray, hit),
             Self::Csg(csg) => csg.surface(ray, hit),
+            Self::Plane(plane) => plane.surface(ray, hit),
+            Self::Mesh(instance) => instance.surface(ray, hit),
         }
     }
 
@@ -220,13 +237,16 @@ impl Shape {
             Self::Cone(cone) => cone.chart(ray, hit),
             Self::Quadric(quadric) => quadric.chart(ray, hit),
             Self::Csg(csg) => csg.chart(ray, hit),
+            Self::Plane(plane) => plane.chart(ray, hit),
+            Self::Mesh(instance) => instance.chart(ray, hit),
         }
     }
 
-    /// The tag of the leaf whose surface was hit, if the shape is made of leaves.
+    /// The tag of what was hit, if the shape has parts with tags of their own.
     pub fn tag(&self, hit: Hit) -> Option<u32> {
         match self {
             Self::Csg(csg) => Some(csg.tag(hit)),
+            Self::Mesh(instance) => instance.tag(hit),
             _ => None,
         }
     }
@@ -234,12 +254,13 @@ impl Shape {
     /// How many parts there are.
     pub(super) fn parts(&self) -> u32 {
         match self {
-            Self::Sphere(_) | Self::Ellipsoid(_) => 1,
+            Self::Sphere(_) | Self::Ellipsoid(_) | Self::Plane(_) => 1,
             Self::Cuboid(_) => 6,
             Self::Cylinder(_) => 3,
             Self::Cone(_) => 2,
             Self::Quadric(quadric) => quadric.parts(),
             Self::Csg(csg) => csg.parts(),
+            Self::Mesh(instance) => instance.mesh().len() as u32,
         }
     }
 }

@@ -43,6 +43,7 @@ impl Sphere {
         Surface {
             point: self.centre + self.radius * normal,
             normal,
+            shading: normal,
             scale: self.centre.abs().max_element().max(self.radius),
         }
     }

@@ -9,6 +9,9 @@ use super::{Chart, Hit, Ray, Surface, ulp};
 /// The least |determinant| of a frame's unit directions: flatter ones span no volume.
 pub const FLATTEST: f64 = 1e-6;
 
+/// The same for the columns of a matrix, which need not look like a solid's axes.
+const FLATTEST_COLUMNS: f64 = 1e-12;
+
 /// An affine frame: an origin, three directions of unit length (not necessarily orthogonal) and a
 /// length along each. A unit solid's point q is at `origin + Σ qᵢ lengthᵢ directionᵢ`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,10 +43,30 @@ impl Affine {
     /// third; both are computed as if with twice the precision. So the two matrices undo each other
     /// to the last bits however flat the frame is.
     pub fn new(origin: DVec3, directions: [DVec3; 3], lengths: DVec3) -> Option<Self> {
+        Self::spanning(origin, directions, lengths, FLATTEST)
+    }
+
+    /// Makes the frame that a 3 × 4 matrix takes the unit axes to: any scaling, turning, mirroring
+    /// and shearing. `None` if |determinant| < 1e-12 · the product of the columns' lengths, or a
+    /// number is not finite.
+    pub fn of_matrix(columns: [DVec3; 3], translation: DVec3) -> Option<Self> {
+        let lengths = DVec3::from_array(columns.map(length));
+        if !translation.is_finite() || !lengths.is_finite() {
+            return None;
+        }
+        Self::spanning(translation, columns, lengths, FLATTEST_COLUMNS)
+    }
+
+    fn spanning(
+        origin: DVec3,
+        directions: [DVec3; 3],
+        lengths: DVec3,
+        flattest: f64,
+    ) -> Option<Self> {
         let [u, v, w] = directions.map(normalise);
         let (u, v, w) = (u?, v?, w?);
         let volume = exact_dot(u, exact_cross(v, w)).abs();
-        if volume.is_nan() || volume < FLATTEST {
+        if volume.is_nan() || volume < flattest {
             return None;
         }
         let dual = |own: DVec3, next: DVec3, last: DVec3, length: f64| {
@@ -60,6 +83,17 @@ impl Affine {
             ],
             reach: lengths.element_sum(),
         })
+    }
+
+    /// The frame of the cube of half edge `size`, a power of two, around a place of this one.
+    pub(super) fn around(&self, place: DVec3, size: f64) -> Self {
+        let [x, y, z] = self.axes;
+        Self {
+            origin: self.origin + (place.x * x + place.y * y + place.z * z),
+            axes: self.axes.map(|axis| size * axis),
+            duals: self.duals.map(|dual| dual / size),
+            reach: size * self.reach,
+        }
     }
 
     /// Where the unit solid's origin is.
@@ -80,8 +114,7 @@ impl Affine {
             for axis in axes {
                 row[axis] = self.axes[axis][world];
             }
-            let size = power_of_two(row.abs().max_element());
-            size * (row / size).length()
+            length(row)
         };
         DVec3::new(row(0), row(1), row(2))
     }
@@ -110,7 +143,7 @@ impl Affine {
     /// rounding of a place does not: it is as much larger beside the gradient, and so is the scale.
     pub(super) fn surface(&self, outward: DVec3, project: impl FnOnce(DVec3) -> DVec3) -> Surface {
         let [u, v, w] = self.duals;
-        let gradient = outward.x * u + outward.y * v + outward.z * w;
+        let gradient = self.gradient(outward);
         let terms = (outward.x * u).abs() + (outward.y * v).abs() + (outward.z * w).abs();
         let cancellation = terms.max_element() / gradient.abs().max_element();
         let scale = self.origin.abs().max_element().max(self.reach) * cancellation;
@@ -119,9 +152,11 @@ impl Affine {
             .map(|dual| (2.0 * CLEARANCE * ulp(scale) * dual.length()).min(0.25));
         let place = project(DVec3::from_array(margin));
         let [x, y, z] = self.axes;
+        let normal = normalise(gradient).unwrap_or(DVec3::Z);
         Surface {
             point: self.origin + (place.x * x + place.y * y + place.z * z),
-            normal: normalise(gradient).unwrap_or(DVec3::Z),
+            normal,
+            shading: normal,
             scale,
         }
     }
@@ -129,8 +164,13 @@ impl Affine {
     /// The texture coordinates at a hit, from those at its place in the unit solid. Gradients go to
     /// the world by the inverse transpose, as normals do.
     pub(super) fn chart(&self, ray: &Ray, hit: Hit, chart: impl FnOnce(DVec3) -> Chart) -> Chart {
+        chart(self.place(ray.at(hit.t))).with_gradients(|gradient| self.gradient(gradient))
+    }
+
+    /// A gradient, such as a normal of any length, taken to the world: by the inverse transpose.
+    pub(super) fn gradient(&self, gradient: DVec3) -> DVec3 {
         let [u, v, w] = self.duals;
-        chart(self.place(ray.at(hit.t))).with_gradients(|g| g.x * u + g.y * v + g.z * w)
+        gradient.x * u + gradient.y * v + gradient.z * w
     }
 
     #[inline]
@@ -153,25 +193,33 @@ pub fn normalise(v: DVec3) -> Option<DVec3> {
     Some(v / v.length())
 }
 
+/// The length of a vector whose components may be too large or too small to be squared.
+fn length(v: DVec3) -> f64 {
+    let size = power_of_two(v.abs().max_element());
+    size * (v / size).length()
+}
+
 /// The largest power of two not above `x`, or the least normal number; `x` ≥ 0 and finite.
 pub(super) fn power_of_two(x: f64) -> f64 {
     f64::from_bits(x.to_bits() & f64::INFINITY.to_bits()).max(f64::MIN_POSITIVE)
 }
 
-/// The cross product, each component rounded as if once. Kahan's difference of products: the error
-/// of one product is recovered by a fused multiply-add; C.-P. Jeannerod, N. Louvet, J.-M. Muller,
-/// "Further analysis of Kahan's algorithm", Mathematics of Computation 82 (2013).
-fn exact_cross(u: DVec3, v: DVec3) -> DVec3 {
-    let difference = |a: f64, b: f64, c: f64, d: f64| {
-        let product = c * d;
-        let error = (-c).mul_add(d, product);
-        a.mul_add(b, -product) + error
-    };
+/// The cross product, each component rounded as if once.
+pub(super) fn exact_cross(u: DVec3, v: DVec3) -> DVec3 {
     DVec3::new(
-        difference(u.y, v.z, u.z, v.y),
-        difference(u.z, v.x, u.x, v.z),
-        difference(u.x, v.y, u.y, v.x),
+        exact_difference([u.y, v.z], [u.z, v.y]),
+        exact_difference([u.z, v.x], [u.x, v.z]),
+        exact_difference([u.x, v.y], [u.y, v.x]),
     )
+}
+
+/// The difference of two products, rounded as if once or twice. Kahan: the error of one product is
+/// recovered by a fused multiply-add; C.-P. Jeannerod, N. Louvet, J.-M. Muller, "Further analysis of
+/// Kahan's algorithm", Mathematics of Computation 82 (2013).
+pub(super) fn exact_difference([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
+    let product = c * d;
+    let error = (-c).mul_add(d, product);
+    a.mul_add(b, -product) + error
 }
 
 /// The dot product as if computed with twice the precision: T. Ogita, S. Rump, S. Oishi, "Accurate

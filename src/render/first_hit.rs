@@ -23,7 +23,7 @@ pub(crate) fn first_hit(world: &World, ray: &Ray, reach: f64, skipped: f64, aov:
     };
     let object = &world.scene.objects[nearest.object as usize];
     let surface = object.shape.surface(ray, nearest.hit);
-    let (normal, textured) = world.textured(ray, nearest, surface.normal);
+    let (normal, textured) = world.textured(ray, nearest, surface.shading);
     let value = match aov {
         Aov::Depth => DVec3::splat(skipped + nearest.hit.t),
         Aov::Normal if ray.direction.dot(surface.normal) < 0.0 => normal,

@@ -71,7 +71,7 @@ struct Pending {
 /// A lit point.
 struct Point<'m> {
     surface: Surface,
-    /// The normal with its bumps, turned against the ray.
+    /// The normal to shade with, its bumps included: turned round where the back was hit.
     normal: DVec3,
     /// Whether the ray came from outside.
     front: bool,
@@ -147,7 +147,7 @@ impl<'w> Tracer<'w> {
         let material = &scene.materials[object.material_at(nearest.hit) as usize];
         let direction = arrived.ray.direction;
         let front = direction.dot(surface.normal) < 0.0;
-        let (normal, textured) = self.world.textured(&arrived.ray, nearest, surface.normal);
+        let (normal, textured) = self.world.textured(&arrived.ray, nearest, surface.shading);
         let point = Point {
             surface,
             // Which side is seen is the surface's to say, not the bumps'.

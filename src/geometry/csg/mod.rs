@@ -178,6 +178,7 @@ impl Csg {
         let mut surface = leaf.shape.surface(ray, own);
         if is_turned(hit) {
             surface.normal = -surface.normal;
+            surface.shading = -surface.shading;
         }
         surface
     }

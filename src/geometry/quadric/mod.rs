@@ -166,9 +166,11 @@ impl HalfSpace {
         let square = self.normal.length_squared();
         let outside = self.normal.dot(place) - self.distance;
         let place = place - (outside / square) * self.normal;
+        let normal = self.normal / square.sqrt();
         Surface {
             point: centre + place,
-            normal: self.normal / square.sqrt(),
+            normal,
+            shading: normal,
             scale: centre.abs().max_element().max(place.abs().max_element()),
         }
     }
@@ -245,9 +247,11 @@ fn curved_surface(form: &Form, mut p: DVec3) -> Surface {
         .max_element()
         .max(place.abs().max_element());
     let uncertain = 0.5 * form.terms(p) / slope.length();
+    let normal = normalise(slope).unwrap_or(DVec3::Z);
     Surface {
         point: form.centre + place,
-        normal: normalise(slope).unwrap_or(DVec3::Z),
+        normal,
+        shading: normal,
         scale: if uncertain.is_finite() {
             scale.max(uncertain)
         } else {

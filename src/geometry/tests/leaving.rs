@@ -13,7 +13,7 @@ const DIRECTIONS: u64 = 1000;
 
 /// A frame of any size, place and skew that `f64` can resolve: a flat one loses as many digits as
 /// its determinant is small, and stays near the origin.
-fn frame(random: &mut Random, index: u64) -> Frame {
+pub(super) fn frame(random: &mut Random, index: u64) -> Frame {
     let size = random.magnitude(-4.0, 4.0);
     let aspect = random.magnitude(-1.0, 0.0);
     let farthest = size * random.magnitude(0.0, 1.0);

@@ -1,0 +1,43 @@
+//! Affine images of a square: a surface that bounds no solid.
+
+use glam::DVec3;
+
+use super::{Aabb, Affine, Chart, Hit, Ray, Surface};
+
+/// An affine image of the square −1 ≤ x, y ≤ 1 at z = 0. Its normal is that of +z.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane(pub Affine);
+
+impl Plane {
+    /// The tight axis-aligned box.
+    pub fn bounds(&self) -> Aabb {
+        let [x, y, _] = self.0.axes();
+        let half = x.abs() + y.abs();
+        Aabb {
+            min: self.0.origin() - half,
+            max: self.0.origin() + half,
+        }
+    }
+
+    /// Where the ray crosses the square at 0 < t < `limit`. Its only part is 0.
+    #[inline]
+    pub fn hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
+        let line = self.0.line(ray);
+        let t = -line.origin.z / line.direction.z;
+        let place = line.origin + t * line.direction;
+        let t = line.start + t;
+        let inside = place.x.abs() <= 1.0 && place.y.abs() <= 1.0;
+        (inside && 0.0 < t && t < limit).then_some(Hit { t, part: 0 })
+    }
+
+    /// The surface at a hit.
+    pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
+        let place = self.0.place(ray.at(hit.t));
+        self.0.surface(DVec3::Z, |_| place.with_z(0.0))
+    }
+
+    /// The texture coordinates at a hit: from 0, 0 at the corner (−1, −1) to 1, 1.
+    pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
+        self.0.chart(ray, hit, Chart::of_disc)
+    }
+}
