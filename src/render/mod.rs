@@ -9,9 +9,10 @@
 //! milliseconds whether to stop, a film's memory is first touched as it is traced, and is left to
 //! the pool to free.
 //!
-//! The way of a picture: [`renderer`] hands a job to [`worker`], which builds a [`world`] and fills
-//! a [`film`] in [`steps`]; each sample asks [`sampler`] for its place in the pixel, [`camera`] for
-//! its ray and [`whitted`] for its radiance, or [`first_hit`] for something else; [`tone`] makes the film a frame.
+//! The way of a picture: [`renderer`] hands a job to [`worker`], which builds a [`world`] with the
+//! [`structures`] of its meshes and fills a [`film`] in [`steps`]; each sample asks [`sampler`] for
+//! its place in the pixel, [`camera`] for its ray and [`whitted`] for its radiance, or [`first_hit`]
+//! for something else; [`tone`] makes the film a frame.
 
 mod camera;
 mod film;
@@ -21,6 +22,7 @@ mod renderer;
 mod sampler;
 mod shared;
 mod steps;
+mod structures;
 mod texture;
 mod tone;
 mod whitted;

@@ -1,13 +1,17 @@
 //! A scene made ready for rays: which object a ray meets first, and how much light passes.
+//!
+//! A tree over the objects; and one over the triangles of each mesh, which its instances share and
+//! which lives as long as the mesh is in the scene.
 
 use std::sync::Arc;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::structures::{Search, Structures};
 use super::texture::Textures;
 use crate::accel::Bvh;
-use crate::geometry::{Aabb, Hit, Ray, ulp};
+use crate::geometry::{Aabb, Hit, Ray, Shape, ulp};
 use crate::scene::{Images, Material, Object, Scene};
 
 /// Up to this many objects every ray tries every one. Measured on the scenes of `scenes/`: with two
@@ -24,6 +28,10 @@ pub(crate) struct World {
     pub(crate) scene: Arc<Scene>,
     pub(crate) textures: Textures,
     tree: Option<Arc<Bvh>>,
+    structures: Structures,
+    /// For each object whether it is a mesh that lets no light through anywhere; none at all if
+    /// there is no such mesh.
+    opaque: Vec<bool>,
 }
 
 /// The first object on a ray's way.
@@ -36,8 +44,8 @@ pub(crate) struct Nearest {
 }
 
 impl World {
-    /// Makes a scene ready, keeping the tree of `previous` if its shapes are the same. `None` if
-    /// `cancelled` said so.
+    /// Makes a scene ready, keeping the tree of `previous` if its shapes are the same, and the
+    /// structures of the meshes it has as well. `None` if `cancelled` said so.
     pub(crate) fn build(
         scene: Arc<Scene>,
         images: &Images,
@@ -45,26 +53,30 @@ impl World {
         cancelled: impl Fn() -> bool + Sync,
     ) -> Option<Self> {
         let textures = Textures::new(&scene.textures, images);
+        let opaque = opaque_meshes(&scene);
         if let Some(previous) = previous.filter(|world| same_shapes(&world.scene, &scene)) {
             return Some(Self {
                 scene,
                 textures,
                 tree: previous.tree.clone(),
+                structures: previous.structures.clone(),
+                opaque,
             });
         }
-        if scene.objects.len() <= FEW {
-            return Some(Self {
-                scene,
-                textures,
-                tree: None,
-            });
-        }
-        let boxes = boxes(&scene.objects, &cancelled)?;
-        let tree = Bvh::build(&boxes, cancelled)?;
+        let known = previous.map(|world| &world.structures);
+        let structures = Structures::build(&scene.objects, known, &cancelled)?;
+        let tree = if scene.objects.len() <= FEW {
+            None
+        } else {
+            let boxes = boxes(&scene.objects, &cancelled)?;
+            Some(Arc::new(Bvh::build(&boxes, cancelled)?))
+        };
         Some(Self {
             scene,
             textures,
-            tree: Some(Arc::new(tree)),
+            tree,
+            structures,
+            opaque,
         })
     }
 
@@ -76,7 +88,7 @@ impl World {
         let mut best: Option<Nearest> = None;
         let mut tied = false;
         self.visit(ray, limit, |object| {
-            let Some(hit) = self.scene.objects[object as usize].shape.hit(ray, limit) else {
+            let Some(hit) = self.hit(object, ray, limit, Search::Nearest) else {
                 return limit;
             };
             match best {
@@ -130,11 +142,15 @@ impl World {
         crossed.clear();
         let mut blocked = false;
         self.visit(ray, distance, |object| {
-            let solid = &self.scene.objects[object as usize];
-            let Some(hit) = solid.shape.hit(ray, distance) else {
+            // Of an opaque mesh any hit says as much as the nearest.
+            let search = match self.opaque.get(object as usize) {
+                Some(true) => Search::Any,
+                _ => Search::Nearest,
+            };
+            let Some(hit) = self.hit(object, ray, distance, search) else {
                 return distance;
             };
-            let material = solid.material_at(hit);
+            let material = self.scene.objects[object as usize].material_at(hit);
             if self.scene.materials[material as usize].transmission == 0.0 {
                 blocked = true;
                 return -1.0;
@@ -156,13 +172,22 @@ impl World {
         let mut first: Option<Nearest> = None;
         self.visit(ray, limit, |object| {
             if first.is_none_or(|before| object < before.object)
-                && let Some(hit) = self.scene.objects[object as usize].shape.hit(ray, limit)
+                && let Some(hit) = self.hit(object, ray, limit, Search::Nearest)
             {
                 first = Some(Nearest { object, hit });
             }
             limit
         });
         first
+    }
+
+    /// Where an object is met; shapes other than meshes always say where first.
+    #[inline]
+    fn hit(&self, object: u32, ray: &Ray, limit: f64, search: Search) -> Option<Hit> {
+        match &self.scene.objects[object as usize].shape {
+            Shape::Mesh(instance) => self.structures.hit(object, instance, ray, limit, search),
+            shape => shape.hit(ray, limit),
+        }
     }
 
     fn visit(&self, ray: &Ray, limit: f64, mut visit: impl FnMut(u32) -> f64) {
@@ -189,6 +214,25 @@ fn boxes(objects: &[Object], cancelled: impl Fn() -> bool) -> Option<Vec<Aabb>> 
         boxes.par_extend(part.par_iter().map(|object| object.shape.bounds()));
     }
     Some(boxes)
+}
+
+/// See [`World::opaque`].
+fn opaque_meshes(scene: &Scene) -> Vec<bool> {
+    let mut opaque = Vec::new();
+    for (number, object) in scene.objects.iter().enumerate() {
+        let Shape::Mesh(instance) = &object.shape else {
+            continue;
+        };
+        let transmission = |tag: Option<u32>| {
+            let material = tag.unwrap_or(object.material);
+            scene.materials[material as usize].transmission
+        };
+        if instance.tags().all(|tag| transmission(tag) == 0.0) {
+            opaque.resize(scene.objects.len(), false);
+            opaque[number] = true;
+        }
+    }
+    opaque
 }
 
 fn same_shapes(a: &Arc<Scene>, b: &Arc<Scene>) -> bool {

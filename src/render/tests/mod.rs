@@ -4,6 +4,7 @@ mod cameras;
 mod falloff;
 mod first_hits;
 mod invariance;
+mod meshes;
 mod optics;
 mod progress;
 mod shading;

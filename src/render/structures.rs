@@ -1,0 +1,119 @@
+//! What makes meshes quick to meet: one tree over the triangles of each, for all its instances.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use crate::accel::Bvh;
+use crate::geometry::{Aabb, Hit, Instance, Mesh, Ray, Shape};
+use crate::scene::Object;
+
+/// Triangles whose boxes are made without asking whether to stop: less than half a millisecond.
+const QUIET: usize = 16_384;
+
+/// Which hit of a mesh is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Search {
+    /// The nearest one.
+    Nearest,
+    /// Whichever is found first.
+    Any,
+}
+
+/// The trees of a scene's meshes.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Structures {
+    /// Meshes and their trees, each mesh once.
+    trees: Vec<(Arc<Mesh>, Arc<Bvh>)>,
+    /// For each object the number of its tree, if there is any mesh; 0 for other shapes.
+    numbers: Vec<u32>,
+}
+
+impl Structures {
+    /// Builds a tree for each mesh, or takes that of the same mesh, as one value in memory, from
+    /// `known`. `None` if `cancelled` said so.
+    pub(crate) fn build(
+        objects: &[Object],
+        known: Option<&Self>,
+        cancelled: &(impl Fn() -> bool + Sync),
+    ) -> Option<Self> {
+        let mut structures = Self::default();
+        for (object, instance) in instances(objects) {
+            let mesh = instance.mesh();
+            let number = structures.number(mesh);
+            let number = number.unwrap_or(structures.trees.len());
+            if number == structures.trees.len() {
+                let known = known.and_then(|known| Some((known, known.number(mesh)?)));
+                let tree = match known {
+                    Some((known, number)) => Arc::clone(&known.trees[number].1),
+                    None => Arc::new(Bvh::build(&boxes(mesh, cancelled)?, cancelled)?),
+                };
+                structures.trees.push((Arc::clone(mesh), tree));
+            }
+            structures.numbers.resize(objects.len(), 0);
+            structures.numbers[object] = number as u32;
+        }
+        Some(structures)
+    }
+
+    /// A hit of an object that is this instance, with `0 < t < limit`.
+    pub(crate) fn hit(
+        &self,
+        object: u32,
+        instance: &Instance,
+        ray: &Ray,
+        limit: f64,
+        search: Search,
+    ) -> Option<Hit> {
+        let (_, tree) = &self.trees[self.numbers[object as usize] as usize];
+        let line = instance.line(ray)?;
+        let limit_on_line = line.limit(limit);
+        let mut nearest = None;
+        tree.traverse(line.ray(), limit_on_line, |triangle| {
+            let farthest = line.meet(triangle, limit_on_line, &mut nearest);
+            let met = nearest.is_some_and(|nearest| line.hit(nearest, limit).is_some());
+            if met && search == Search::Any {
+                return -1.0;
+            }
+            farthest
+        });
+        line.hit(nearest?, limit)
+    }
+
+    /// The trees, in the order of their meshes' first objects.
+    #[cfg(test)]
+    pub(crate) fn trees(&self) -> impl Iterator<Item = &Arc<Bvh>> {
+        self.trees.iter().map(|(_, tree)| tree)
+    }
+
+    fn number(&self, mesh: &Arc<Mesh>) -> Option<usize> {
+        self.trees
+            .iter()
+            .position(|(known, _)| Arc::ptr_eq(known, mesh))
+    }
+}
+
+/// The meshes among objects, and the objects' numbers.
+fn instances(objects: &[Object]) -> impl Iterator<Item = (usize, &Instance)> {
+    let objects = objects.iter().enumerate();
+    objects.filter_map(|(object, Object { shape, .. })| match shape {
+        Shape::Mesh(instance) => Some((object, &**instance)),
+        _ => None,
+    })
+}
+
+/// The box of each triangle; `None` if `cancelled` said so.
+fn boxes(mesh: &Mesh, cancelled: impl Fn() -> bool) -> Option<Vec<Aabb>> {
+    let mut boxes = Vec::with_capacity(mesh.len());
+    for first in (0..mesh.len()).step_by(QUIET) {
+        if cancelled() {
+            return None;
+        }
+        let part = first as u32..mesh.len().min(first + QUIET) as u32;
+        boxes.par_extend(
+            part.into_par_iter()
+                .map(|number| mesh.triangle_bounds(number)),
+        );
+    }
+    Some(boxes)
+}
