@@ -23,6 +23,7 @@
 //! | [`format`](mod@format) | text ⇄ tree, one language a file | what a scene is |
 //! | [`document`] | sole owner of text, tree, undo and the saved text | scenes, files |
 //! | [`geometry`] | rays against shapes in `f64`, one shape a file | lights, materials, text |
+//! | [`obj`] | bytes of `.obj` and `.mtl` → meshes | files, scenes |
 //! | [`scene`] | plain comparable data, the table of fields, tree → scene | threads, pixels |
 //! | [`accel`] | boxes against rays | what the boxes hold |
 //! | [`render`] | pixels from a scene: worker, integrator, film, tone | documents, files, terminals |
@@ -57,6 +58,7 @@ pub mod file;
 pub mod format;
 pub mod geometry;
 pub mod image_file;
+pub mod obj;
 pub mod render;
 pub mod scene;
 pub mod text;

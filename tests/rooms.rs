@@ -11,6 +11,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("format", &["text"]),
     ("document", &["format", "text"]),
     ("geometry", &[]),
+    ("obj", &["geometry", "text"]),
     ("scene", &["format", "geometry", "text"]),
     ("accel", &["geometry"]),
     ("render", &["accel", "geometry", "scene"]),

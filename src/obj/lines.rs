@@ -1,0 +1,136 @@
+//! Lines and words of both languages.
+
+use std::borrow::Cow;
+use std::str;
+
+use super::{Finding, MOST_FINDINGS};
+use crate::text::{NumberError, parse_number, visible};
+
+/// A statement: a line, or several that end in `\` but for the last.
+#[derive(Clone, Debug)]
+pub(super) struct Statement<'t> {
+    /// The number of its first line, from 1.
+    pub(super) line: usize,
+    text: Cow<'t, [u8]>,
+}
+
+/// A word of a statement.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Word<'s> {
+    pub(super) text: &'s [u8],
+    /// Where it begins, in bytes from 1.
+    pub(super) column: usize,
+}
+
+/// The statements of a text that are not blank.
+pub(super) fn statements(bytes: &[u8]) -> impl Iterator<Item = Statement<'_>> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let mut lines = bytes.split(|&byte| byte == b'\n').zip(1..);
+    std::iter::from_fn(move || {
+        let (first, line) = lines.next()?;
+        let mut text = Cow::Borrowed(first.trim_ascii_end());
+        while text.ends_with(b"\\") {
+            let whole = text.to_mut();
+            whole.pop();
+            match lines.next() {
+                Some((next, _)) => whole.extend_from_slice(next.trim_ascii_end()),
+                None => break,
+            }
+        }
+        Some(Statement { line, text })
+    })
+    .filter(|statement| !statement.text.is_empty())
+}
+
+impl Statement<'_> {
+    /// Its words, but for a comment at the end.
+    pub(super) fn words(&self) -> impl Iterator<Item = Word<'_>> {
+        let start = self.text.as_ptr() as usize;
+        self.text
+            .split(u8::is_ascii_whitespace)
+            .filter(|word| !word.is_empty())
+            .take_while(|word| !word.starts_with(b"#"))
+            .map(move |text| Word {
+                text,
+                column: 1 + (text.as_ptr() as usize - start),
+            })
+    }
+
+    /// All after the first word, which may be a name with blanks in it.
+    pub(super) fn rest(&self) -> Word<'_> {
+        let text = self.text.trim_ascii_start();
+        let keyword = text.iter().take_while(|byte| !byte.is_ascii_whitespace());
+        let after = text[keyword.count()..].trim_ascii_start();
+        Word {
+            text: after,
+            column: 1 + self.text.len() - after.len(),
+        }
+    }
+
+    /// The column behind it, where something is missing.
+    pub(super) fn end(&self) -> usize {
+        1 + self.text.len()
+    }
+}
+
+impl Word<'_> {
+    /// What it says, safe to print and not too long.
+    pub(super) fn shown(&self) -> String {
+        let text = String::from_utf8_lossy(&self.text[..self.text.len().min(40)]);
+        visible(&text).into_owned()
+    }
+
+    /// What it says as a name.
+    pub(super) fn name(&self) -> String {
+        String::from_utf8_lossy(self.text).into_owned()
+    }
+
+    /// The number it is.
+    pub(super) fn number(&self) -> Result<f64, String> {
+        let number = str::from_utf8(self.text).map_err(|_| NumberError::NotANumber);
+        match number.and_then(parse_number) {
+            Ok(number) => Ok(number),
+            Err(NumberError::NotANumber) => Err(format!("`{}` is no number", self.shown())),
+            Err(NumberError::Overflow) => Err(format!("`{}` is too large", self.shown())),
+        }
+    }
+}
+
+/// What was found wrong with a text.
+#[derive(Debug, Default)]
+pub(super) struct Findings {
+    /// The library that is read; none in the mesh itself.
+    pub(super) library: Option<String>,
+    pub(super) errors: Vec<Finding>,
+    pub(super) warnings: Vec<Finding>,
+}
+
+impl Findings {
+    /// Notes an error.
+    pub(super) fn error(&mut self, line: usize, column: usize, message: impl Into<String>) {
+        let finding = self.finding(line, column, message.into());
+        self.errors.push(finding);
+    }
+
+    /// Notes a warning, unless there are many.
+    pub(super) fn warn(&mut self, line: usize, column: usize, message: impl Into<String>) {
+        if self.warnings.len() < MOST_FINDINGS {
+            let finding = self.finding(line, column, message.into());
+            self.warnings.push(finding);
+        }
+    }
+
+    /// Whether reading on is of no use.
+    pub(super) fn is_full(&self) -> bool {
+        MOST_FINDINGS <= self.errors.len()
+    }
+
+    fn finding(&self, line: usize, column: usize, message: String) -> Finding {
+        Finding {
+            library: self.library.clone(),
+            line,
+            column,
+            message,
+        }
+    }
+}

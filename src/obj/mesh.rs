@@ -1,0 +1,343 @@
+//! Meshes: vertices, faces, and which material they have.
+
+use std::collections::HashMap;
+use std::ops::RangeInclusive;
+
+use glam::{DVec2, DVec3};
+
+use super::lines::{Findings, Statement, Word, statements};
+use super::{Finding, MOST_LIBRARIES, Model, mtl};
+use crate::geometry::{ABSENT, Mesh, MeshError, MeshParts, SlotRun};
+use crate::text::{counted, visible};
+
+/// The kinds of what a corner of a face names, in this order.
+const KINDS: [&str; 3] = ["v", "vt", "vn"];
+
+/// A mesh as far as it is read.
+#[derive(Default)]
+struct Reading {
+    /// How many triangles there may be.
+    most: usize,
+    parts: MeshParts,
+    findings: Findings,
+    /// The greatest index of each kind, and where it stands: what it names may come later.
+    greatest: [(u32, usize, usize); 3],
+    /// The slots of materials by name; slot 0 is for none.
+    slots: HashMap<String, u32>,
+    /// Where each slot but the first was first named.
+    named: Vec<(String, usize, usize)>,
+    /// Libraries and where they were first named.
+    libraries: Vec<(String, usize, usize)>,
+    /// Corners of the face at hand: position, texture coordinates, normal.
+    corners: Vec<[u32; 3]>,
+}
+
+/// A column and what is wrong there.
+type Fault = (usize, String);
+
+/// See [`super::read`]. `most` is how many triangles there may be.
+pub(super) fn read(
+    bytes: &[u8],
+    most: usize,
+    library: impl FnMut(&str) -> Option<Vec<u8>>,
+) -> Result<Model, Vec<Finding>> {
+    let mut reading = Reading {
+        most,
+        ..Reading::default()
+    };
+    let mut last = 1;
+    for statement in statements(bytes) {
+        last = statement.line;
+        if let Err((column, message)) = reading.take(&statement) {
+            reading.findings.error(statement.line, column, message);
+        }
+        if reading.findings.is_full() {
+            return Err(reading.findings.errors);
+        }
+    }
+    reading.check_indices();
+    let materials = reading.materials(library);
+    let Reading {
+        mut parts,
+        mut findings,
+        ..
+    } = reading;
+    if !findings.errors.is_empty() {
+        return Err(findings.errors);
+    }
+    // Values that no corner names have no corners at all.
+    if parts.normals.corners.is_empty() {
+        parts.normals.values.clear();
+    }
+    if parts.uvs.corners.is_empty() {
+        parts.uvs.values.clear();
+    }
+    match Mesh::new(parts) {
+        Ok(mesh) => Ok(Model {
+            mesh,
+            materials,
+            warnings: findings.warnings,
+        }),
+        Err(error) => {
+            let message = match error {
+                MeshError::Empty => "the file has no faces".to_owned(),
+                other => other.to_string(),
+            };
+            findings.error(last, 1, message);
+            Err(findings.errors)
+        }
+    }
+}
+
+impl Reading {
+    fn take(&mut self, statement: &Statement<'_>) -> Result<(), Fault> {
+        let Some(keyword) = statement.words().next() else {
+            return Ok(());
+        };
+        match keyword.text {
+            b"v" => {
+                // What follows the place is a weight or a colour.
+                let (place, fault) = numbers(statement, 3..=7);
+                // A place is kept even if it is wrong, so that indices go on meaning the same.
+                self.parts.positions.push(DVec3::from_array(place));
+                fault
+            }
+            b"vt" => {
+                let (uv, fault) = numbers(statement, 1..=3);
+                self.parts.uvs.values.push(DVec2::from_array(uv));
+                fault
+            }
+            b"vn" => {
+                let (normal, fault) = numbers(statement, 3..=3);
+                self.parts.normals.values.push(DVec3::from_array(normal));
+                fault
+            }
+            b"f" | b"fo" => self.face(statement),
+            b"usemtl" => self.use_material(statement),
+            b"mtllib" => {
+                let names = statement.rest();
+                if names.text.is_empty() {
+                    return Err((statement.end(), "mtllib: the name is missing".into()));
+                }
+                if self.libraries.len() == MOST_LIBRARIES {
+                    let message = format!("more than {MOST_LIBRARIES} mtllib");
+                    return Err((keyword.column, message));
+                }
+                let library = (names.name(), statement.line, names.column);
+                self.libraries.push(library);
+                Ok(())
+            }
+            // Groups and smoothing say nothing about triangles; points and lines have no surface.
+            b"g" | b"o" | b"s" | b"mg" | b"p" | b"l" => Ok(()),
+            _ => {
+                let message = format!("`{}` is not drawn", keyword.shown());
+                self.findings.warn(statement.line, keyword.column, message);
+                Ok(())
+            }
+        }
+    }
+
+    fn face(&mut self, statement: &Statement<'_>) -> Result<(), Fault> {
+        let mut corners = std::mem::take(&mut self.corners);
+        corners.clear();
+        for word in statement.words().skip(1) {
+            corners.push(self.corner(statement.line, word)?);
+        }
+        if corners.len() < 3 {
+            let count = counted(corners.len(), "corner");
+            let message = format!("f: expected three corners or more, found {count}");
+            return Err((statement.end(), message));
+        }
+        let parts = &mut self.parts;
+        let first = parts.triangles.len();
+        if self.most < first + corners.len() - 2 {
+            return Err((1, format!("f: more than {} triangles", self.most)));
+        }
+        for pair in corners[1..].windows(2) {
+            let fan = [corners[0], pair[0], pair[1]];
+            parts.triangles.push(fan.map(|corner| corner[0]));
+            let number = parts.triangles.len();
+            note(&mut parts.uvs.corners, number, fan.map(|corner| corner[1]));
+            note(
+                &mut parts.normals.corners,
+                number,
+                fan.map(|corner| corner[2]),
+            );
+        }
+        self.corners = corners;
+        Ok(())
+    }
+
+    /// The indices that a corner names, from 0.
+    fn corner(&mut self, line: usize, word: Word<'_>) -> Result<[u32; 3], Fault> {
+        let counts = [
+            self.parts.positions.len(),
+            self.parts.uvs.values.len(),
+            self.parts.normals.values.len(),
+        ];
+        let mut corner = [ABSENT; 3];
+        let fault = |message: String| (word.column, format!("f: `{}` {message}", word.shown()));
+        for (place, text) in word.text.split(|&byte| byte == b'/').enumerate() {
+            let Some(kind) = KINDS.get(place) else {
+                return Err(fault("has more than three indices".into()));
+            };
+            if text.is_empty() && 0 < place {
+                continue;
+            }
+            let number = std::str::from_utf8(text).ok();
+            let number: Option<i64> = number.and_then(|text| text.parse().ok());
+            let index = match number {
+                None => {
+                    return Err(fault(
+                        "is no corner: expected v, v/vt, v//vn or v/vt/vn".into(),
+                    ));
+                }
+                Some(0) => return Err(fault("names number 0: the first is 1".into())),
+                Some(number) if 0 < number => number - 1,
+                Some(number) => counts[place] as i64 + number,
+            };
+            let Some(index) = u32::try_from(index).ok().filter(|&index| index < ABSENT) else {
+                let count = counts[place];
+                return Err(fault(format!(
+                    "names a {kind} that is not among the {count} so far"
+                )));
+            };
+            corner[place] = index;
+            let (greatest, _, _) = self.greatest[place];
+            if greatest <= index {
+                self.greatest[place] = (index + 1, line, word.column);
+            }
+        }
+        Ok(corner)
+    }
+
+    fn use_material(&mut self, statement: &Statement<'_>) -> Result<(), Fault> {
+        let name = statement.rest();
+        if name.text.is_empty() {
+            return Err((statement.end(), "usemtl: the name is missing".into()));
+        }
+        let next = self.slots.len() as u32 + 1;
+        let slot = *self.slots.entry(name.name()).or_insert(next);
+        if slot == next {
+            self.named.push((name.name(), statement.line, name.column));
+        }
+        let first = self.parts.triangles.len() as u32;
+        let runs = &mut self.parts.slots;
+        match runs.last_mut() {
+            Some(last) if last.first == first => last.slot = slot,
+            Some(last) if last.slot == slot => {}
+            _ => runs.push(SlotRun { first, slot }),
+        }
+        Ok(())
+    }
+
+    /// Indices may name what comes after them, but not what never comes.
+    fn check_indices(&mut self) {
+        let counts = [
+            self.parts.positions.len(),
+            self.parts.uvs.values.len(),
+            self.parts.normals.values.len(),
+        ];
+        for ((kind, count), (greatest, line, column)) in
+            KINDS.into_iter().zip(counts).zip(self.greatest)
+        {
+            if count < greatest as usize {
+                let message = format!("f: names {kind} {greatest}, but there are only {count}");
+                self.findings.error(line, column, message);
+            }
+        }
+    }
+
+    /// The material of each slot.
+    fn materials(
+        &mut self,
+        mut library: impl FnMut(&str) -> Option<Vec<u8>>,
+    ) -> Vec<Option<mtl::Material>> {
+        let mut materials = HashMap::new();
+        let mut seen = Vec::new();
+        for (names, line, column) in std::mem::take(&mut self.libraries) {
+            if seen.contains(&names) {
+                continue;
+            }
+            seen.push(names.clone());
+            // A line may name one library with blanks in its name, or several.
+            let several = names.contains(|c: char| c.is_ascii_whitespace());
+            let read: Vec<_> = match library(&names) {
+                None if several => names
+                    .split_ascii_whitespace()
+                    .take(MOST_LIBRARIES)
+                    .map(|name| (name.to_owned(), library(name)))
+                    .collect(),
+                bytes => vec![(names, bytes)],
+            };
+            for (name, bytes) in read {
+                let Some(bytes) = bytes else {
+                    let message = format!("`{}` can't be read", visible(&name));
+                    self.findings.warn(line, column, message);
+                    continue;
+                };
+                self.findings.library = Some(name.clone());
+                mtl::read(&bytes, &name, &mut materials, &mut self.findings);
+                self.findings.library = None;
+            }
+        }
+        let named = std::mem::take(&mut self.named);
+        let mut by_slot = vec![None];
+        for (name, line, column) in named {
+            let material = materials.get(&name).cloned();
+            if material.is_none() {
+                let message = format!("no library defines `{}`", visible(&name));
+                self.findings.warn(line, column, message);
+            }
+            by_slot.push(material);
+        }
+        by_slot
+    }
+}
+
+/// Adds the indices of a triangle, which is the `number`th, unless none before and none of it has
+/// any.
+fn note(corners: &mut Vec<[u32; 3]>, number: usize, triangle: [u32; 3]) {
+    if !corners.is_empty() || triangle != [ABSENT; 3] {
+        corners.resize(number - 1, [ABSENT; 3]);
+        corners.push(triangle);
+    }
+}
+
+/// The first N numbers of a statement, 0 where there are none, and what is wrong with it: it has as
+/// many words as `due`, and those N are numbers.
+fn numbers<const N: usize>(
+    statement: &Statement<'_>,
+    due: RangeInclusive<usize>,
+) -> ([f64; N], Result<(), Fault>) {
+    let mut numbers = [0.0; N];
+    let mut count = 0;
+    let fault =
+        |column: usize, message: &str| Err((column, format!("{}: {message}", keyword(statement))));
+    for word in statement.words().skip(1) {
+        if let Some(number) = numbers.get_mut(count) {
+            match word.number() {
+                Ok(value) => *number = value,
+                Err(message) => return (numbers, fault(word.column, &message)),
+            }
+        }
+        count += 1;
+        if *due.end() < count {
+            let message = format!("expected at most {}", counted(*due.end(), "number"));
+            return (numbers, fault(word.column, &message));
+        }
+    }
+    if count < *due.start() {
+        let expected = counted(*due.start(), "number");
+        let message = format!("expected {expected}, found {count}");
+        return (numbers, fault(statement.end(), &message));
+    }
+    (numbers, Ok(()))
+}
+
+fn keyword(statement: &Statement<'_>) -> String {
+    statement
+        .words()
+        .next()
+        .map_or_else(String::new, |word| word.shown())
+}

@@ -1,0 +1,416 @@
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use proptest::prelude::*;
+
+use super::{MOST_FINDINGS, Material, Model, read};
+use crate::geometry::{Affine, Instance, Ray, Shape};
+
+const SQUARE: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
+
+fn alone(text: &str) -> Result<Model, Vec<super::Finding>> {
+    read(text.as_bytes(), |_| None)
+}
+
+fn model(text: &str) -> Model {
+    alone(text).unwrap_or_else(|errors| panic!("{text} is sound, but: {}", errors[0]))
+}
+
+/// The mesh in the world as it stands in the file; its slots are their own tags.
+fn shape(model: Model) -> Shape {
+    let frame = Affine::of_matrix(DVec3::AXES, DVec3::ZERO).expect("the axes span a volume");
+    let tags = (0..model.materials.len() as u32).collect();
+    Shape::Mesh(Box::new(Instance::new(Arc::new(model.mesh), &frame, tags)))
+}
+
+/// Triangle, slot, texture coordinates and shading normal where a ray down on x, y meets a mesh.
+fn seen(shape: &Shape, x: f64, y: f64) -> Option<(u32, u32, DVec2, DVec3)> {
+    let ray = Ray {
+        origin: DVec3::new(x, y, 9.0),
+        direction: DVec3::NEG_Z,
+    };
+    let hit = shape.hit(&ray, f64::INFINITY)?;
+    let slot = shape.tag(hit).expect("each slot has a tag");
+    let shading = shape.surface(&ray, hit).shading;
+    Some((hit.part, slot, shape.chart(&ray, hit).uv, shading))
+}
+
+#[test]
+fn polygons_become_fans_in_order() {
+    // A pentagon and a square beside it.
+    let text = "v 0 0 0\nv 4 0 0\nv 5 3 0\nv 2 5 0\nv -1 3 0\nf 1 2 3 4 5\n\
+                v 10 0 0\nv 12 0 0\nv 12 2 0\nv 10 2 0\nf -4 -3 -2 -1\n";
+    let model = model(text);
+    assert_eq!(model.mesh.len(), 5);
+    assert_eq!(model.materials, [None]);
+    let shape = shape(model);
+    for (x, y, triangle) in [
+        (4.0, 1.0, Some(0)),
+        (2.0, 3.0, Some(1)),
+        (0.0, 2.0, Some(2)),
+        (11.5, 0.5, Some(3)),
+        (10.5, 1.5, Some(4)),
+        (7.0, 1.0, None),
+    ] {
+        assert_eq!(seen(&shape, x, y).map(|seen| seen.0), triangle, "{x} {y}");
+    }
+}
+
+#[test]
+fn corners_name_texture_coordinates_and_normals() {
+    let values = "vt 0 0\nvt 1 0 7\nvt 1 1\nvt 0.5\nvn 0 0 1\nvn .6 0 .8\nvn 0 0 -3\n";
+    let (up, leans) = (DVec3::Z, DVec3::new(0.6, 0.0, 0.8));
+    for (face, uv, normal) in [
+        ("f 1 2 3", [0.0, 0.0], up),
+        ("f 1/1 2/2 3/3", [0.75, 0.25], up),
+        ("f 1/1/1 2/2/1 3/3/1", [0.75, 0.25], up),
+        ("f 1//2 2//2 3//2", [0.0, 0.0], leans),
+        ("f -4/-4/-2 -3/-3/-2 -2/-2/-2", [0.75, 0.25], leans),
+        ("f 1/1/2 2/2/2 3/3", [0.75, 0.25], up),
+        ("f 1/4 2/4 3", [0.375, 0.0], up),
+        ("f 1//3 2//3 3//3", [0.0, 0.0], -up),
+    ] {
+        let shape = shape(model(&format!("{SQUARE}{values}{face}")));
+        let (_, _, found, shading) = seen(&shape, 0.5, -0.5).expect("the face is there");
+        assert_eq!(found, DVec2::from(uv), "{face}");
+        assert!(shading.distance(normal) < 1e-15, "{face}");
+    }
+}
+
+/// Values that no corner names are none, even if there are as many as positions.
+#[test]
+fn values_nobody_names_are_dropped() {
+    let values = "vt 1 1\nvt 1 1\nvt 1 1\nvn 1 0 0\nvn 1 0 0\nvn 1 0 0\n";
+    let shape = shape(model(&format!("{SQUARE}{values}f 1 2 3")));
+    let expected = Some((0, 0, DVec2::ZERO, DVec3::Z));
+    assert_eq!(seen(&shape, 0.5, -0.5), expected);
+}
+
+#[test]
+fn text_may_be_laid_out_in_any_way() {
+    for text in [
+        "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n",
+        "\u{feff}# a\n\tv  0 0 0 # b\nv 1 0 0 1\nv 0 1 0 .5 .5 .5\n\n  f 1 2 3",
+        "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0",
+        "v 0 \\\n 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n3 \\",
+        "o x\ng y z\ns off\nv 0 0 0\nv 1 0 0\nv 0 1 0\np 1\nl 1 2\nf 1 2 3",
+    ] {
+        let model = model(text);
+        assert_eq!((model.mesh.len(), model.warnings.len()), (1, 0), "{text}");
+        assert!(seen(&shape(model), 0.2, 0.2).is_some(), "{text}");
+    }
+    let latin: &[u8] = b"# caf\xe9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3";
+    assert!(read(latin, |_| None).is_ok());
+}
+
+#[test]
+fn materials_come_from_libraries() {
+    let library = "# two\nnewmtl red one\nKd 1 0 0\nKs .5\nNs 20\nNi 1.5\nillum 6\nTf .1 .2 .3\n\
+                   map_Kd -s 2 2 -clamp on wood grain.png\nd 1\nnewmtl blue\nKd 0 0 1 # blue\n";
+    let text =
+        "mtllib my colours.mtl\nusemtl blue\nusemtl red one\nf 1 2 3\nusemtl blue\nf 1 3 4\n";
+    let mut asked = Vec::new();
+    let model = read(format!("{SQUARE}f 1 2 2\n{text}").as_bytes(), |name| {
+        asked.push(name.to_owned());
+        Some(library.into())
+    });
+    let model = model.expect("the mesh is sound");
+    assert_eq!(asked, ["my colours.mtl"]);
+    assert_eq!(model.warnings, []);
+    let plain = Material {
+        library: "my colours.mtl".into(),
+        diffuse: [0.0, 0.0, 1.0],
+        specular: [0.0; 3],
+        exponent: 0.0,
+        index: 1.0,
+        illumination: 2,
+        filter: [0.0; 3],
+        diffuse_map: None,
+        specular_map: None,
+    };
+    let red = Material {
+        diffuse: [1.0, 0.0, 0.0],
+        specular: [0.5; 3],
+        exponent: 20.0,
+        index: 1.5,
+        illumination: 6,
+        filter: [0.1, 0.2, 0.3],
+        diffuse_map: Some("wood grain.png".into()),
+        ..plain.clone()
+    };
+    assert_eq!(model.materials, [None, Some(plain), Some(red)]);
+    let shape = shape(model);
+    assert_eq!(
+        seen(&shape, 0.5, -0.5).map(|seen| (seen.0, seen.1)),
+        Some((1, 2))
+    );
+    assert_eq!(
+        seen(&shape, -0.5, 0.5).map(|seen| (seen.0, seen.1)),
+        Some((2, 1))
+    );
+}
+
+#[test]
+fn several_libraries_are_asked_for_one_by_one() {
+    let text = format!("mtllib a.mtl b.mtl\nmtllib a.mtl b.mtl\n{SQUARE}usemtl b\nf 1 2 3\n");
+    let mut asked = Vec::new();
+    let model = read(text.as_bytes(), |name| {
+        asked.push(name.to_owned());
+        (name == "b.mtl").then(|| b"newmtl b".to_vec())
+    });
+    let model = model.expect("the mesh is sound");
+    assert_eq!(asked, ["a.mtl b.mtl", "a.mtl", "b.mtl"]);
+    let warnings: Vec<_> = model.warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(warnings, ["line 1, column 8: `a.mtl` can't be read"]);
+    assert_eq!(
+        model.materials[1].as_ref().map(|m| &*m.library),
+        Some("b.mtl")
+    );
+}
+
+#[test]
+fn doubtful_lines_are_warned_of() {
+    let text = format!("{SQUARE}curv 0 1 1 2\nusemtl \u{1b}gold\nf 1 2 3\n");
+    let model = model(&text);
+    let warnings: Vec<_> = model.warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(
+        warnings,
+        [
+            "line 5, column 1: `curv` is not drawn",
+            "line 6, column 8: no library defines `\\u{1b}gold`",
+        ]
+    );
+    assert_eq!(model.materials, [None, None]);
+}
+
+#[test]
+fn malformed_lines_are_errors() {
+    for (text, error) in [
+        ("v 1 2", "line 5, column 6: v: expected 3 numbers, found 2"),
+        ("v 1 2 x", "line 5, column 7: v: `x` is no number"),
+        ("v 1 2 1e999", "line 5, column 7: v: `1e999` is too large"),
+        ("v nan 0 0", "line 5, column 3: v: `nan` is no number"),
+        (
+            "v 1 2 3 4 5 6 7 8",
+            "line 5, column 17: v: expected at most 7 numbers",
+        ),
+        ("vt", "line 5, column 3: vt: expected 1 number, found 0"),
+        ("vt 0 q", "line 5, column 6: vt: `q` is no number"),
+        (
+            "vn 0 1",
+            "line 5, column 7: vn: expected 3 numbers, found 2",
+        ),
+        (
+            "f 1 2",
+            "line 5, column 6: f: expected three corners or more, found 2 corners",
+        ),
+        (
+            "f",
+            "line 5, column 2: f: expected three corners or more, found 0 corners",
+        ),
+        (
+            "f 1 2 9",
+            "line 5, column 7: f: names v 9, but there are only 4",
+        ),
+        (
+            "f 1 2/1 3",
+            "line 5, column 5: f: names vt 1, but there are only 0",
+        ),
+        (
+            "f 1 2//1 3",
+            "line 5, column 5: f: names vn 1, but there are only 0",
+        ),
+        (
+            "f 1 -5 3",
+            "line 5, column 5: f: `-5` names a v that is not among the 4 so far",
+        ),
+        (
+            "f 1 0 3",
+            "line 5, column 5: f: `0` names number 0: the first is 1",
+        ),
+        (
+            "f 1 2.5 3",
+            "line 5, column 5: f: `2.5` is no corner: expected v, v/vt, v//vn or v/vt/vn",
+        ),
+        (
+            "f 1 /2 3",
+            "line 5, column 5: f: `/2` is no corner: expected v, v/vt, v//vn or v/vt/vn",
+        ),
+        (
+            "f 1 2/1/1/1 3",
+            "line 5, column 5: f: `2/1/1/1` has more than three indices",
+        ),
+        (
+            "f 1 9999999999 3",
+            "line 5, column 5: f: `9999999999` names a v that is not among the 4 so far",
+        ),
+        (
+            "f 1 9999999999999999999 3",
+            "line 5, column 5: f: `9999999999999999999` is no corner: expected v, v/vt, v//vn or v/vt/vn",
+        ),
+        ("usemtl", "line 5, column 7: usemtl: the name is missing"),
+        ("mtllib  ", "line 5, column 7: mtllib: the name is missing"),
+        ("# only corners", "line 5, column 1: the file has no faces"),
+    ] {
+        let errors = alone(&format!("{SQUARE}{text}")).expect_err(text);
+        assert!(errors[0].line == 5 || text.starts_with("# only"), "{text}");
+        let shown: Vec<_> = errors.iter().map(ToString::to_string).collect();
+        assert_eq!(shown[0], error, "{text}");
+    }
+    assert_eq!(alone("").expect_err("nothing")[0].line, 1);
+}
+
+#[test]
+fn malformed_libraries_are_errors() {
+    for (text, error) in [
+        (
+            "Kd 1 1 1",
+            "x.mtl: line 1, column 1: Kd: before the first newmtl",
+        ),
+        (
+            "newmtl",
+            "x.mtl: line 1, column 7: newmtl: the name is missing",
+        ),
+        (
+            "newmtl a\nKd 1 0",
+            "x.mtl: line 2, column 7: Kd: expected one number or three",
+        ),
+        (
+            "newmtl a\nKd",
+            "x.mtl: line 2, column 3: Kd: expected one number or three",
+        ),
+        (
+            "newmtl a\nKs 1 0 0 0",
+            "x.mtl: line 2, column 10: Ks: expected one number or three",
+        ),
+        (
+            "newmtl a\nNs high",
+            "x.mtl: line 2, column 4: Ns: `high` is no number",
+        ),
+        (
+            "newmtl a\nNi",
+            "x.mtl: line 2, column 3: Ni: the number is missing",
+        ),
+        (
+            "newmtl a\nillum 2.5",
+            "x.mtl: line 2, column 7: illum: expected a whole number from 0 to 10",
+        ),
+        (
+            "newmtl a\nmap_Kd -s 1 1",
+            "x.mtl: line 2, column 14: map_Kd: the path is missing",
+        ),
+    ] {
+        let mesh = format!("mtllib x.mtl\n{SQUARE}f 1 2 3");
+        let errors = read(mesh.as_bytes(), |_| Some(text.into())).expect_err(text);
+        assert_eq!(errors[0].to_string(), error, "{text}");
+    }
+    // What is not used is not looked at.
+    let others = "newmtl a\nKa x\nKe\nd -halo 1\nbump\nKd spectral x.rfl 1\nKs xyz 1 1\n";
+    let mesh = format!("mtllib x.mtl\n{SQUARE}f 1 2 3");
+    assert!(read(mesh.as_bytes(), |_| Some(others.into())).is_ok());
+}
+
+#[test]
+fn several_errors_are_told_of_at_once_but_not_all() {
+    let text = format!("{SQUARE}v 1\nf 1 2\nvn x 0 0\nf 1 2 3");
+    let lines: Vec<_> = alone(&text)
+        .expect_err("errors")
+        .iter()
+        .map(|e| e.line)
+        .collect();
+    assert_eq!(lines, [5, 6, 7]);
+    let many = "f\n".repeat(1000);
+    assert_eq!(alone(&many).expect_err("errors").len(), MOST_FINDINGS);
+    let doubts = format!("{SQUARE}f 1 2 3\n{}", "what\n".repeat(1000));
+    assert_eq!(model(&doubts).warnings.len(), MOST_FINDINGS);
+}
+
+#[test]
+fn there_are_limits() {
+    let text = format!("{SQUARE}f 1 2 3 4\nf 1 2 3");
+    assert!(super::mesh::read(text.as_bytes(), 3, |_| None).is_ok());
+    let errors = super::mesh::read(text.as_bytes(), 2, |_| None).expect_err("three triangles");
+    let shown = errors[0].to_string();
+    assert_eq!(shown, "line 6, column 1: f: more than 2 triangles");
+    let libraries = |count: usize| {
+        let text = format!("{}{SQUARE}f 1 2 3", "mtllib a.mtl\n".repeat(count));
+        alone(&text)
+            .map(|_| ())
+            .map_err(|errors| errors[0].to_string())
+    };
+    assert_eq!(libraries(64), Ok(()));
+    let error = "line 65, column 1: more than 64 mtllib".to_owned();
+    assert_eq!(libraries(65), Err(error));
+}
+
+/// The course's teapot, with the counts that `awk` gives: 80 triangles and 3120 quadrilaterals.
+#[test]
+fn the_teapot_is_whole() {
+    let Some(folder) = std::env::var_os("HALFLIGHT_EXTRA_SCENES").map(PathBuf::from) else {
+        return;
+    };
+    for (name, triangles) in [
+        ("teapot.obj", 80 + 2 * 3120),
+        ("teapot-low.obj", 16 + 2 * 112),
+    ] {
+        let bytes = std::fs::read(folder.join("utah").join(name)).expect("the course's mesh");
+        let model = read(&bytes, |_| None).expect("the teapot is sound");
+        assert_eq!(model.mesh.len(), triangles);
+        assert_eq!(model.warnings, []);
+        let bounds = shape(model).bounds();
+        let size = bounds.size();
+        assert!(20.0 < size.x && size.x < 40.0 && size.z < size.x, "{size}");
+    }
+}
+
+const WHOLE: &str = "mtllib a.mtl\no x\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 1\n\
+                     vn 0 0 1\nusemtl a\nf 1/1/1 2/2/1 3/2/1 4/1/1\nusemtl b\nf -1 -2 \\\n -3\n";
+const LIBRARY: &str =
+    "newmtl a\nKd 1 .5 0\nKs .5\nNs 3\nillum 2\nmap_Kd -o 1 2 a b.png\nnewmtl b\n";
+
+proptest! {
+    #[test]
+    fn no_bytes_make_the_reader_panic(
+        text in proptest::collection::vec(any::<u8>(), 0..300),
+        library in proptest::collection::vec(any::<u8>(), 0..300),
+    ) {
+        let _ = read(&text, |_| Some(library.clone()));
+    }
+
+    #[test]
+    fn no_words_make_the_reader_panic(
+        text in "((v|vt|vn|f|usemtl|mtllib|g|newmtl|Kd|Ns|map_Kd|-s|illum|/|\\\\|#|-?[0-9]{1,4}|1/2/3|-1//-1|a)( |\n| {0,1}\n)){0,60}",
+    ) {
+        let _ = read(text.as_bytes(), |_| Some(text.clone().into_bytes()));
+    }
+
+    #[test]
+    fn no_change_makes_the_reader_panic(
+        changes in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..3), 1..8),
+    ) {
+        let mut texts = [WHOLE.as_bytes().to_vec(), LIBRARY.as_bytes().to_vec()];
+        for (place, byte, kind) in changes {
+            let text = &mut texts[usize::from(byte % 3 == 0)];
+            if text.is_empty() {
+                continue;
+            }
+            let at = place.index(text.len());
+            match kind {
+                0 => text[at] = byte,
+                1 => text.insert(at, byte),
+                _ => {
+                    text.remove(at);
+                }
+            }
+        }
+        let _ = read(&texts[0], |_| Some(texts[1].clone()));
+    }
+}
+
+#[test]
+fn what_is_changed_there_is_sound() {
+    let model = read(WHOLE.as_bytes(), |_| Some(LIBRARY.into())).expect("it is sound");
+    assert_eq!((model.mesh.len(), model.warnings.len()), (3, 0));
+    assert_eq!(model.materials.iter().flatten().count(), 2);
+}
