@@ -2,8 +2,9 @@
 //! the median of several.
 //!
 //! `cargo bench --bench trace` prints it; `cargo bench --bench trace -- flake` only the scenes with
-//! that in their name.
+//! that in their name. A mesh of a million triangles has a table of its own.
 
+mod meshes;
 mod scenes;
 
 use std::path::Path;
@@ -11,11 +12,15 @@ use std::sync::Arc;
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
+use glam::DVec3;
 use halflight::accel::Bvh;
 use halflight::format::{self, Format};
-use halflight::geometry::Aabb;
+use halflight::geometry::{Aabb, Affine, Instance, Shape};
+use halflight::obj;
 use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads, Transfer};
-use halflight::scene::{Images, Scene, Size, lower};
+use halflight::scene::{
+    Camera, Images, Lens, Light, Material, Object, Rgb, Scene, Shadows, Size, Source, lower,
+};
 
 /// Runs of everything that is timed; the median is printed.
 const RUNS: usize = 5;
@@ -53,6 +58,10 @@ fn main() {
         if wanted.is_empty() || wanted.iter().any(|part| name.contains(part.as_str())) {
             row(&name, format, &text(), cores);
         }
+    }
+    let name = "mesh of 1,000,000";
+    if wanted.is_empty() || wanted.iter().any(|part| name.contains(part.as_str())) {
+        mesh(name, cores);
     }
 }
 
@@ -142,6 +151,77 @@ fn row(name: &str, format: Format, text: &str, cores: usize) {
         rays / alone.as_secs_f64(),
         rays / together.as_secs_f64(),
     );
+}
+
+/// A mesh of a million triangles: read, made ready, seen, and seen with a shadow ray for each point
+/// that faces the light.
+fn mesh(name: &str, cores: usize) {
+    let text = meshes::bumpy_ball(1_000_000);
+    let before = resident();
+    let (read, model) = median(|| obj::read(text.as_bytes(), |_| None).expect("it is sound"));
+    let mesh = Arc::new(model.mesh);
+    let count = mesh.len();
+    let (build, bvh) = median(|| {
+        let boxes: Vec<_> = (0..count as u32)
+            .map(|triangle| mesh.triangle_bounds(triangle))
+            .collect();
+        Bvh::build(&boxes, || false).expect("nothing cancels")
+    });
+    let bytes = resident().saturating_sub(before) / count;
+    drop(bvh);
+    println!(
+        "\n{name}: .obj of {} MB read in {} ms, structure built in {} ms, \
+         {bytes} bytes a triangle with it",
+        text.len() / 1_000_000,
+        milliseconds(read),
+        milliseconds(build),
+    );
+    let frame = Affine::of_matrix(DVec3::AXES, DVec3::ZERO).expect("the axes");
+    let shape = Shape::Mesh(Box::new(Instance::new(mesh, &frame, Vec::new())));
+    let [dark, lit] = [
+        &[][..],
+        &[Light {
+            source: Source::Distant(DVec3::new(0.6, 0.0, 0.8)),
+            colour: Rgb::ONE,
+            shadows: Shadows::Cast,
+        }],
+    ]
+    .map(|lights| Arc::new(portrait(shape.clone(), lights)));
+    for threads in [1, cores] {
+        let (seen, first) = traced(&dark, threads);
+        let (shaded, second) = traced(&lit, threads);
+        let rays = first.progress.rays as f64 / 1e6;
+        let shadows = second.progress.rays as f64 / 1e6 - rays;
+        println!(
+            "  {threads} threads: primary {:.2} Mray/s, shadow {:.2} Mray/s",
+            rays / seen.as_secs_f64(),
+            shadows / shaded.saturating_sub(seen).as_secs_f64(),
+        );
+    }
+}
+
+/// One white matte shape that fills the picture.
+fn portrait(shape: Shape, lights: &[Light]) -> Scene {
+    let material = Material {
+        diffuse: Rgb::ONE,
+        ..Material::default()
+    };
+    Scene {
+        camera: Camera {
+            eye: DVec3::new(0.0, -3.0, 0.5),
+            target: DVec3::ZERO,
+            up: DVec3::Z,
+            lens: Lens::Perspective(32.0),
+            pixel_aspect: 1.0,
+            depths: Camera::ALL_DEPTHS,
+            size: SIZE,
+        },
+        ambient: Rgb::ONE,
+        lights: lights.to_vec(),
+        materials: vec![material],
+        textures: Vec::new(),
+        objects: vec![Object { shape, material: 0 }],
+    }
 }
 
 /// The median time of tracing a scene on so many threads, and the frame.

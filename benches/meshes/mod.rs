@@ -1,0 +1,39 @@
+//! Meshes to measure with, as `.obj` text made up on the spot.
+
+use std::f64::consts::{PI, TAU};
+use std::fmt::Write as _;
+
+/// Writes a bumpy ball of about `count` triangles as `.obj` text: rings of quadrilaterals, each
+/// given as two triangles.
+pub(crate) fn bumpy_ball(count: usize) -> String {
+    let rings = ((count / 4) as f64).sqrt() as usize;
+    let around = 2 * rings;
+    let mut text = String::new();
+    for ring in 0..=rings {
+        for step in 0..around {
+            let (down, turn) = (
+                PI * ring as f64 / rings as f64,
+                TAU * step as f64 / around as f64,
+            );
+            let bumps = (23.0 * turn).sin() * (19.0 * down).sin();
+            let radius = 1.0 + 0.08 * bumps + 0.004 * (397.0 * turn).sin();
+            let flat = radius * down.sin();
+            let [x, y, z] = [flat * turn.cos(), flat * turn.sin(), radius * down.cos()];
+            put(&mut text, format_args!("v {x:.6} {y:.6} {z:.6}\n"));
+        }
+    }
+    for ring in 0..rings {
+        for step in 0..around {
+            let next = (step + 1) % around;
+            let [a, b] = [step, next].map(|step| 1 + ring * around + step);
+            let [c, d] = [a + around, b + around];
+            put(&mut text, format_args!("f {a} {c} {b}\nf {b} {c} {d}\n"));
+        }
+    }
+    text
+}
+
+fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
+    text.write_fmt(what)
+        .expect("a String takes all that is written to it");
+}
