@@ -430,7 +430,7 @@ const CSG: &[Part] = &[
     ID,
     Part::Id,
     choice(
-        "operation",
+        "operator",
         OPERATIONS,
         "Both together, what both share, or the first without the second.",
     ),

@@ -212,6 +212,9 @@ impl Reader<'_> {
                 let expected = "the ID of one defined before";
                 let shown: Vec<_> = ids.iter().take(8).map(|key| key.1.to_string()).collect();
                 let hint = match shown.len() {
+                    _ if is_defined_below(self.text, self.tree, span, category, id) => {
+                        format!("{word} {id} is defined below: it must come first")
+                    }
                     0 => format!("no {word} is defined yet: it must come first"),
                     _ => format!("defined so far: {}", shown.join(", ")),
                 };
@@ -220,6 +223,23 @@ impl Reader<'_> {
         }
         found
     }
+}
+
+/// Whether a record below `span` begins as if it defined a thing with this number.
+fn is_defined_below(text: &str, tree: &Tree, span: Span, category: Category, id: i64) -> bool {
+    let (word, place) = match category {
+        Category::Light => ("light", 2),
+        Category::Material => ("mat", 2),
+        Category::Texture => ("texture", 2),
+        Category::Object => ("obj", 3),
+    };
+    let said = |tokens: &[Span], at: usize| tokens.get(at).map(|token| token.of(text));
+    (tree.records_at(span).end..tree.records.len())
+        .map(|record| tree.tokens_of(record))
+        .any(|tokens| {
+            let number = said(tokens, place).and_then(|number| number.parse().ok());
+            said(tokens, 0) == Some(word) && number == Some(id)
+        })
 }
 
 fn unknown_record(span: Span, word: &str) -> Diagnostic {

@@ -195,7 +195,7 @@ fn words_are_as_the_format_spells_them() {
         "obj\n#~ 4 error: obj: the line ends where its kind is due",
         "obj csg ID 1 union ID 0 ID 0\n#~ 5 error: obj: unknown kind `csg`",
         "obj sphere ID 1 material ID 0 0 0 0 1\n#~ 17 error: object 1 (sphere): `mat` is due, not `material`",
-        "obj CSG ID 1 minus ID 0 ID 0\n#~ 14 error: object 1 (CSG) operation: unknown word `minus`",
+        "obj CSG ID 1 minus ID 0 ID 0\n#~ 14 error: object 1 (CSG) operator: unknown word `minus`",
         "texture ID 1 Image 1 1 a.png\n#~ 14 error: texture 1: `checker` or `image` is due, not `Image`",
         "texture ID 1 stripes 1 1\n#~ 14 error: texture 1: `checker` or `image` is due, not `stripes`",
         "use color ID 1 mat ID 0\n#~ 5 error: use: unknown kind `color`",
@@ -217,6 +217,14 @@ fn words_are_as_the_format_spells_them() {
         ("lihgt ID 1", "did you mean `light`?"),
         ("light ID 1 PNT", "did you mean `pnt`?"),
         ("light Id 1 pnt", "words are case-sensitive"),
+        (
+            "obj CSG ID 1 union ID 0 ID 2\nobj sphere ID 2 BALL 1",
+            "object 2 is defined below: it must come first",
+        ),
+        (
+            "obj CSG ID 1 union ID 0 ID 1\nmat ID 1 MAT",
+            "defined so far: 0",
+        ),
     ] {
         assert_eq!(hints(record), hint, "{record}");
     }
