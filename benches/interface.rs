@@ -22,8 +22,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use halflight::format::{self, Format};
-use halflight::render::{DEFAULT_DEPTH, Frames, Job, Renderer, Settings, Threads, Transfer};
-use halflight::scene::{Images, Scene, lower};
+use halflight::render::{DEFAULT_DEPTH, Frames, Job, Renderer, Settings, Threads};
+use halflight::scene::{Images, Scene, Transfer, lower};
 use halflight::ui::view::layout::Zoom;
 
 use desk::{Desk, Drawn, TERMINAL, difference, picture_cells};

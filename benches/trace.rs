@@ -17,9 +17,10 @@ use halflight::accel::Bvh;
 use halflight::format::{self, Format};
 use halflight::geometry::{Aabb, Affine, Instance, Shape};
 use halflight::obj;
-use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads, Transfer};
+use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::{
-    Camera, Images, Lens, Light, Material, Object, Rgb, Scene, Shadows, Size, Source, lower,
+    Camera, Focus, Images, Lens, Light, Material, Object, Phong, Rgb, Scene, Setting, Shadows,
+    Size, Source, Transfer, lower,
 };
 
 /// Runs of everything that is timed; the median is printed.
@@ -183,6 +184,7 @@ fn mesh(name: &str, cores: usize) {
         &[Light {
             source: Source::Distant(DVec3::new(0.6, 0.0, 0.8)),
             colour: Rgb::ONE,
+            radius: 0.0,
             shadows: Shadows::Cast,
         }],
     ]
@@ -202,9 +204,9 @@ fn mesh(name: &str, cores: usize) {
 
 /// One white matte shape that fills the picture.
 fn portrait(shape: Shape, lights: &[Light]) -> Scene {
-    let material = Material {
+    let material = Phong {
         diffuse: Rgb::ONE,
-        ..Material::default()
+        ..Phong::default()
     };
     Scene {
         camera: Camera {
@@ -214,13 +216,15 @@ fn portrait(shape: Shape, lights: &[Light]) -> Scene {
             lens: Lens::Perspective(32.0),
             pixel_aspect: 1.0,
             depths: Camera::ALL_DEPTHS,
+            focus: Focus::PINHOLE,
             size: SIZE,
         },
         ambient: Rgb::ONE,
         lights: lights.to_vec(),
-        materials: vec![material],
+        materials: vec![Material::Phong(material)],
         textures: Vec::new(),
         objects: vec![Object { shape, material: 0 }],
+        setting: Setting::default(),
     }
 }
 

@@ -20,7 +20,7 @@
 //! | room | what it is for | what it must not know |
 //! |---|---|---|
 //! | [`text`] | spans, edits, numbers and diagnostics: positions and changes in text | any language |
-//! | [`format`](mod@format) | text ⇄ tree, one language a file | what a scene is |
+//! | [`format`](mod@format) | text ⇄ tree, one language a file: tokens, records, elements | what a scene is |
 //! | [`document`] | sole owner of text, tree, undo and the saved text | scenes, files |
 //! | [`geometry`] | rays against shapes in `f64`, one shape a file | lights, materials, text |
 //! | [`obj`] | bytes of `.obj` and `.mtl` → meshes | files, scenes |

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use std::sync::{Arc, mpsc};
 
 use halflight::format::{self, Format};
-use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads, Transfer};
-use halflight::scene::{Image, Images, Scene, Size, lower};
+use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads};
+use halflight::scene::{Image, Images, Scene, Size, Transfer, lower};
 
 /// A scene whose lengths are all `s` times as large: squares of lengths and what is counted in
 /// their reciprocals follow.

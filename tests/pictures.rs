@@ -7,9 +7,9 @@ use halflight::assets::{Assets, Wanted};
 use halflight::document::Document;
 use halflight::format::{self, Format};
 use halflight::image_file::ImageFormat;
-use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads, Transfer};
+use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::fields::{Field, Kind, Range};
-use halflight::scene::{Images, Scene, Size, lower};
+use halflight::scene::{Images, Node, Scene, Size, Transfer, lower};
 use halflight::text::{Edit, parse_number};
 
 /// Size of the pictures beside the scenes, and their samples a pixel: the README's command.
@@ -109,14 +109,17 @@ impl Own {
         let mut document = Document::new(self.format, self.text.clone());
         let origins = lower(&self.text, document.tree()).origins;
         let mut edits = Vec::new();
+        // What is in another thing grows with that.
+        let outermost = |node: &Node| origins.depth(*node) == 0;
         for placed in origins
             .nodes()
             .into_iter()
+            .filter(outermost)
             .flat_map(|node| origins.fields(document.tree(), node))
         {
             for (component, &span) in placed.spans.iter().enumerate() {
                 let power = exponent * length_power(placed.field, component);
-                if power != 0 {
+                if power != 0 && placed.default_of(component).is_none() {
                     let value = parse_number(span.of(&self.text)).expect("no errors");
                     let text = format!("{:e}", value * 2f64.powi(power));
                     edits.push(Edit { span, text });
@@ -137,14 +140,15 @@ impl Own {
 /// With which power of the scene's size a number grows. Directions, angles, colours: with none.
 fn length_power(field: &Field, component: usize) -> i32 {
     match (field.kind, field.key) {
-        (Kind::Point, _) | (Kind::Number, "near" | "far" | "height" | "D" | "G" | "I") => 1,
+        (Kind::Point, _)
+        | (Kind::Number, "near" | "far" | "height" | "D" | "G" | "I" | "size" | "dof") => 1,
         (Kind::Number, "J") => 2,
-        (Kind::Number, "a1") => -1,
+        (Kind::Number, "a1" | "attenuation") => -1,
         (Kind::Number, "a2") => -2,
         // They count in lengths of the axes.
         (Kind::Number, _) => i32::from(field.allowed == Range::Positive),
         (Kind::Pair, key) => i32::from(key == "resolution"),
-        (Kind::HalfSpace, _) => i32::from(component == 3),
+        (Kind::HalfSpace | Kind::ScaledVector, _) => i32::from(component == 3),
         _ => 0,
     }
 }

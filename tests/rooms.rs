@@ -70,6 +70,7 @@ const DEPENDENCIES: &[(&str, &str)] = &[
     ("notify", "watch"),
     ("ratatui", "ui"),
     ("rayon", "*"),
+    ("roxmltree", "format"),
     ("rustix", "*"),
     ("signal_hook", "ui"),
     ("similar", "document"),

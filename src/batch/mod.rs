@@ -13,7 +13,6 @@ use crate::assets::{self, Assets, Wanted};
 use crate::file::{self, ReadError};
 use crate::format::{self, Format, Tree, UnknownLanguage};
 use crate::render::Refusal;
-use crate::scene::fields::Kind;
 use crate::scene::{self, Images, Node, Origins, Scene};
 use crate::text::{Diagnostic, Span, counted, visible};
 
@@ -158,10 +157,11 @@ fn load(path: &Path, folders: &[PathBuf]) -> Result<Loaded, Error> {
 /// Where a text says the picture's size, if it does.
 fn size_place(origins: &Origins, tree: &Tree) -> Option<Span> {
     let view = origins.fields(tree, Node::View);
-    let size = view
-        .iter()
-        .find(|placed| placed.field.kind == Kind::Pixels)?;
-    Some(size.spans.first()?.to(*size.spans.last()?))
+    let said = view.iter().filter(|placed| placed.is_said());
+    let sizes = said.filter(|placed| placed.field.kind.is_size());
+    sizes
+        .flat_map(|size| size.spans.iter().copied())
+        .reduce(Span::to)
 }
 
 fn print_findings(path: &Path, text: &str, findings: &[Diagnostic]) {

@@ -8,8 +8,8 @@ use super::progress::ProgressLine;
 use super::{Error, load, print_findings, stdout, tell, tell_error};
 use crate::file;
 use crate::image_file::ImageFormat;
-use crate::render::{Aov, Frame, Job, Renderer, Settings, Threads, Transfer};
-use crate::scene::{Camera, Images, Scene, Size};
+use crate::render::{Aov, Frame, Job, Renderer, Settings, Threads};
+use crate::scene::{Camera, Images, Scene, Size, Transfer};
 use crate::text::{Diagnostic, counted};
 
 /// A picture to make.
@@ -31,8 +31,8 @@ pub struct Render {
     pub seed: u32,
     /// What the picture shows instead of light.
     pub aov: Option<Aov>,
-    /// How colours become 8-bit values.
-    pub transfer: Transfer,
+    /// How colours become 8-bit values; the scene says so if `None`.
+    pub transfer: Option<Transfer>,
     /// Threads that trace.
     pub threads: usize,
     /// Folders that textures may be read from besides the scene's surroundings.
@@ -104,6 +104,7 @@ fn check_output(work: &Render) -> Result<(), Error> {
 }
 
 fn trace(work: &Render, scene: Scene, images: Images, size: Size) -> Result<Arc<Frame>, Error> {
+    let transfer = work.transfer.unwrap_or(scene.setting.transfer);
     let job = Job {
         images,
         // The picture's ratio is the one asked for.
@@ -121,7 +122,7 @@ fn trace(work: &Render, scene: Scene, images: Images, size: Size) -> Result<Arc<
             depth: work.depth,
             seed: work.seed,
             aov: work.aov,
-            transfer: work.transfer,
+            transfer,
         },
         frames: work.format.frames(),
     };

@@ -14,8 +14,8 @@ use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum, value_parser};
 use crate::batch::{self, Check, Output, Render};
 use crate::file::ReadError;
 use crate::image_file::{FORMATS, ImageFormat, known_extensions};
-use crate::render::{Aov, DEFAULT_DEPTH, DEFAULT_SPP, MAX_SPP, Transfer};
-use crate::scene::Size;
+use crate::render::{Aov, DEFAULT_DEPTH, DEFAULT_SPP, MAX_SPP};
+use crate::scene::{Size, Transfer};
 use crate::text::{slips, visible};
 use crate::ui;
 use crate::ui::terminal::{Choice, ColourDepth, Mouse};
@@ -107,10 +107,9 @@ impl AovChoice {
 }
 
 /// How colours become 8-bit values.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum TransferChoice {
     /// As they are, without gamma.
-    #[default]
     Linear,
     /// By the curve of sRGB.
     Srgb,
@@ -275,7 +274,7 @@ struct AssetArguments {
 
 #[derive(Args, Debug)]
 struct InterfaceArguments {
-    /// Scene file to open
+    /// Scene file to open: .ray, .dat or .xml
     #[arg(value_name = "SCENE")]
     scene: Option<PathBuf>,
     // Read so that a second scene is refused as such and not as an unknown command.
@@ -364,7 +363,7 @@ number of threads.";
 
 #[derive(Args, Debug)]
 struct RenderArguments {
-    /// Scene file
+    /// Scene file: .ray, .dat or .xml
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
     /// Picture file, in the format its extension says (.bmp, .ppm, .png, .tiff, .gif,
@@ -390,9 +389,9 @@ struct RenderArguments {
     /// Show the first surface under each pixel instead of light
     #[arg(long, value_name = "WHAT", value_enum)]
     aov: Option<AovChoice>,
-    /// How colours become 8-bit values
-    #[arg(long, value_name = "CURVE", value_enum, default_value_t)]
-    transfer: TransferChoice,
+    /// How colours become 8-bit values [default: linear, unless the scene says srgb]
+    #[arg(long, value_name = "CURVE", value_enum)]
+    transfer: Option<TransferChoice>,
     /// Threads that trace, 1 to 1024 [default: one a core]
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
@@ -431,7 +430,7 @@ impl RenderArguments {
             depth: self.depth,
             seed: self.seed,
             aov: self.aov.map(AovChoice::meaning),
-            transfer: self.transfer.meaning(),
+            transfer: self.transfer.map(TransferChoice::meaning),
             threads: self.threads.map_or_else(all_cores, usize::from),
             assets: self.assets.folders,
         })

@@ -2,7 +2,9 @@
 
 pub mod dat;
 pub mod ray;
+pub mod xml;
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use crate::text::Span;
@@ -14,22 +16,25 @@ pub enum Format {
     Ray,
     /// Boston University's `.dat`: one record a line.
     Dat,
+    /// The University of Utah's `.xml`: elements with attributes.
+    Xml,
 }
 
 /// A file whose name does not say which language it is written in.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{path}: not a scene: scenes end in .ray or .dat", path = .0.display())]
+#[error("{path}: not a scene: scenes end in .ray, .dat or .xml", path = .0.display())]
 pub struct UnknownLanguage(pub PathBuf);
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Ray, Self::Dat];
+    pub const ALL: [Self; 3] = [Self::Ray, Self::Dat, Self::Xml];
 
     /// The extension of its files' names.
     pub const fn extension(self) -> &'static str {
         match self {
             Self::Ray => "ray",
             Self::Dat => "dat",
+            Self::Xml => "xml",
         }
     }
 
@@ -49,6 +54,8 @@ pub enum Tree {
     Ray(ray::Tree),
     /// Records and comments.
     Dat(dat::Tree),
+    /// Elements and comments.
+    Xml(xml::Tree),
 }
 
 /// Reads a text's syntax. Never fails: whatever stands in the text has a place in the tree.
@@ -56,10 +63,27 @@ pub fn parse(format: Format, text: &str) -> Tree {
     match format {
         Format::Ray => Tree::Ray(ray::parse(text)),
         Format::Dat => Tree::Dat(dat::parse(text)),
+        Format::Xml => Tree::Xml(xml::parse(text)),
     }
 }
 
 impl Tree {
+    /// What a leaf says.
+    pub fn said<'t>(&'t self, text: &'t str, leaf: Span) -> &'t str {
+        match self {
+            Self::Ray(_) | Self::Dat(_) => leaf.of(text),
+            Self::Xml(tree) => tree.said(text, leaf),
+        }
+    }
+
+    /// How a leaf is written to say something.
+    pub fn spelled<'v>(&self, text: &str, leaf: Span, value: &'v str) -> Cow<'v, str> {
+        match self {
+            Self::Ray(_) | Self::Dat(_) => Cow::Borrowed(value),
+            Self::Xml(_) => xml::spelled(value, xml::quote(text, leaf)),
+        }
+    }
+
     /// The parts of the text that carry meaning, in order: tokens, and comments whole. What lies
     /// between them is white space.
     pub fn leaves(&self) -> Vec<Span> {
@@ -69,6 +93,7 @@ impl Tree {
                 tree.tokens.iter().copied().chain(comments).collect()
             }
             Self::Dat(tree) => tree.tokens.iter().chain(&tree.comments).copied().collect(),
+            Self::Xml(tree) => tree.leaves(),
         };
         leaves.sort_unstable();
         leaves

@@ -115,6 +115,7 @@ fn direction(vector: DVec3) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Focus;
 
     fn camera(up: DVec3) -> Camera {
         Camera {
@@ -124,6 +125,7 @@ mod tests {
             lens: Lens::Perspective(90.0),
             pixel_aspect: 1.0,
             depths: Camera::ALL_DEPTHS,
+            focus: Focus::PINHOLE,
             size: Size {
                 width: 4,
                 height: 2,
@@ -215,6 +217,7 @@ mod tests {
                     lens: Lens::Perspective(fov),
                     pixel_aspect: 1.0,
                     depths: Camera::ALL_DEPTHS,
+                    focus: Focus::PINHOLE,
                     size: raster,
                 };
                 // Scenes with such a view have an error.

@@ -8,13 +8,13 @@ use rayon::prelude::*;
 
 use super::camera::Projection;
 use super::first_hit::first_hit;
-use super::frame::{Aov, Frames, NO_OBJECT, Settings, Transfer};
+use super::frame::{Aov, Frames, NO_OBJECT, Settings};
 use super::sampler::place_in_pixel;
 use super::steps::{COARSEST, Step};
 use super::tone::Tone;
 use super::whitted::{Counts, Tracer};
 use super::world::World;
-use crate::scene::{Rgb, Size};
+use crate::scene::{Rgb, Size, Transfer};
 
 /// Pixels of a tile.
 const AREA: u32 = 256;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::scene::{Camera, Images, Scene, Size};
+use crate::scene::{Camera, Images, Scene, Size, Transfer};
 
 /// Samples a pixel of full-size pictures unless the user says otherwise.
 pub const DEFAULT_SPP: u32 = 16;
@@ -55,16 +55,6 @@ impl Aov {
     pub fn is_of_one_sample(self) -> bool {
         matches!(self, Self::Depth | Self::Object)
     }
-}
-
-/// How a colour's channels, 0 to 1, become 8-bit values.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Transfer {
-    /// As they are.
-    #[default]
-    Linear,
-    /// By the curve of sRGB (IEC 61966-2-1).
-    Srgb,
 }
 
 /// Which frames of a job show pixels. All tell the progress.

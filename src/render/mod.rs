@@ -18,6 +18,7 @@ mod camera;
 mod film;
 mod first_hit;
 mod frame;
+mod looks;
 mod renderer;
 mod sampler;
 mod shared;
@@ -31,7 +32,6 @@ mod world;
 
 pub use frame::{
     Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress, Settings,
-    Transfer,
 };
 pub use renderer::{Refusal, Renderer, Threads};
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use crate::geometry::Chart;
-use crate::scene::{Image, Images, Material, Pattern, Rgb, Texture};
+use crate::scene::{Image, Images, Pattern, Phong, Rgb, Texture};
 
 /// What stands for a picture that can't be read.
 const MAGENTA: Rgb = Rgb::new(1.0, 0.0, 1.0);
@@ -43,7 +43,7 @@ impl Textures {
     }
 
     /// Gives a material its colour at a place of a surface, and an outward unit normal its bumps.
-    pub(crate) fn apply(&self, chart: &Chart, material: &mut Material, normal: &mut DVec3) {
+    pub(crate) fn apply(&self, chart: &Chart, material: &mut Phong, normal: &mut DVec3) {
         if let Some(texture) = material.colour_texture {
             let colour = self.colour(texture, chart.uv);
             material.ambient *= colour;

@@ -1,7 +1,6 @@
 //! What pixels hold to 8 bits a channel.
 
-use super::frame::Transfer;
-use crate::scene::Rgb;
+use crate::scene::{Rgb, Transfer};
 
 /// How what a pixel holds is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]

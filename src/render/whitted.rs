@@ -4,9 +4,10 @@
 use glam::DVec3;
 
 use super::frame::NO_OBJECT;
+use super::looks::Look;
 use super::world::{Nearest, World};
 use crate::geometry::{Ray, Surface, ulp};
-use crate::scene::{Falloff, Light, Material, Rgb, Shadows, Source};
+use crate::scene::{Falloff, Light, Phong, Rgb, Shadows, Source};
 
 /// Rays that one camera sample may trace, shadow rays apart. With reflection and transmission both
 /// 1 a tree of depth 30 would have two thousand million.
@@ -78,7 +79,7 @@ struct Point<'m> {
     /// Unit vector toward where the ray came from.
     view: DVec3,
     /// With its textures.
-    material: &'m Material,
+    material: &'m Phong,
 }
 
 impl<'w> Tracer<'w> {
@@ -144,10 +145,16 @@ impl<'w> Tracer<'w> {
         let scene = &self.world.scene;
         let object = &scene.objects[nearest.object as usize];
         let surface = object.shape.surface(&arrived.ray, nearest.hit);
-        let material = &scene.materials[object.material_at(nearest.hit) as usize];
+        let look = &self.world.looks[object.material_at(nearest.hit) as usize];
+        let (material, emission) = match look {
+            Look::Lit(material, emission) => (material, *emission),
+            Look::Flat(colour) => return *colour,
+        };
         let direction = arrived.ray.direction;
         let front = direction.dot(surface.normal) < 0.0;
-        let (normal, textured) = self.world.textured(&arrived.ray, nearest, surface.shading);
+        let (normal, textured) =
+            self.world
+                .textured(&arrived.ray, nearest, material, surface.shading);
         let point = Point {
             surface,
             // Which side is seen is the surface's to say, not the bumps'.
@@ -156,7 +163,7 @@ impl<'w> Tracer<'w> {
             view: -direction,
             material: textured.as_ref().unwrap_or(material),
         };
-        let mut radiance = point.material.ambient * scene.ambient;
+        let mut radiance = emission + point.material.ambient * scene.ambient;
         for light in &scene.lights {
             radiance += self.direct(&point, light);
         }
@@ -228,7 +235,7 @@ impl<'w> Tracer<'w> {
     /// Leaves the mirrored and the refracted ray pending, the mirrored one to be traced first.
     fn branch(&mut self, arrived: &Pending, point: &Point) {
         let direction = arrived.ray.direction;
-        let Material {
+        let Phong {
             reflection,
             transmission,
             index,

@@ -8,11 +8,12 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::looks::Look;
 use super::structures::{Search, Structures};
 use super::texture::Textures;
 use crate::accel::Bvh;
 use crate::geometry::{Aabb, Hit, Ray, Shape, ulp};
-use crate::scene::{Images, Material, Object, Scene};
+use crate::scene::{Images, Object, Phong, Scene};
 
 /// Up to this many objects every ray tries every one. Measured on the scenes of `scenes/`: with two
 /// solids that is half as fast again as a tree, with six to eleven a tree is 1.2 to 1.7 times as
@@ -26,6 +27,8 @@ const QUIET: usize = 16_384;
 #[derive(Clone, Debug)]
 pub(crate) struct World {
     pub(crate) scene: Arc<Scene>,
+    /// Of its materials, by index.
+    pub(crate) looks: Arc<[Look]>,
     pub(crate) textures: Textures,
     tree: Option<Arc<Bvh>>,
     structures: Structures,
@@ -53,10 +56,12 @@ impl World {
         cancelled: impl Fn() -> bool + Sync,
     ) -> Option<Self> {
         let textures = Textures::new(&scene.textures, images);
-        let opaque = opaque_meshes(&scene);
+        let looks: Arc<[_]> = scene.materials.iter().map(Look::of).collect();
+        let opaque = opaque_meshes(&scene, &looks);
         if let Some(previous) = previous.filter(|world| same_shapes(&world.scene, &scene)) {
             return Some(Self {
                 scene,
+                looks,
                 textures,
                 tree: previous.tree.clone(),
                 structures: previous.structures.clone(),
@@ -73,6 +78,7 @@ impl World {
         };
         Some(Self {
             scene,
+            looks,
             textures,
             tree,
             structures,
@@ -111,20 +117,20 @@ impl World {
         }
     }
 
-    /// The normal at a hit with its bumps, on the side of the surface's own, and the material where
-    /// textures change it.
+    /// The normal at a hit with the bumps of a material, on the side of the surface's own, and the
+    /// material where textures change it.
     pub(crate) fn textured(
         &self,
         ray: &Ray,
         nearest: Nearest,
+        material: &Phong,
         mut normal: DVec3,
-    ) -> (DVec3, Option<Material>) {
-        let object = &self.scene.objects[nearest.object as usize];
-        let material = &self.scene.materials[object.material_at(nearest.hit) as usize];
+    ) -> (DVec3, Option<Phong>) {
         if material.colour_texture.is_none() && material.bump.is_none() {
             return (normal, None);
         }
         let mut material = *material;
+        let object = &self.scene.objects[nearest.object as usize];
         let chart = object.shape.chart(ray, nearest.hit);
         self.textures.apply(&chart, &mut material, &mut normal);
         (normal, Some(material))
@@ -151,7 +157,7 @@ impl World {
                 return distance;
             };
             let material = self.scene.objects[object as usize].material_at(hit);
-            if self.scene.materials[material as usize].transmission == 0.0 {
+            if self.looks[material as usize].transmission() == 0.0 {
                 blocked = true;
                 return -1.0;
             }
@@ -164,7 +170,7 @@ impl World {
         crossed.sort_unstable();
         crossed
             .iter()
-            .map(|&(_, material)| self.scene.materials[material as usize].transmission)
+            .map(|&(_, material)| self.looks[material as usize].transmission())
             .product()
     }
 
@@ -217,7 +223,7 @@ fn boxes(objects: &[Object], cancelled: impl Fn() -> bool) -> Option<Vec<Aabb>> 
 }
 
 /// See [`World::opaque`].
-fn opaque_meshes(scene: &Scene) -> Vec<bool> {
+fn opaque_meshes(scene: &Scene, looks: &[Look]) -> Vec<bool> {
     let mut opaque = Vec::new();
     for (number, object) in scene.objects.iter().enumerate() {
         let Shape::Mesh(instance) = &object.shape else {
@@ -225,7 +231,7 @@ fn opaque_meshes(scene: &Scene) -> Vec<bool> {
         };
         let transmission = |tag: Option<u32>| {
             let material = tag.unwrap_or(object.material);
-            scene.materials[material as usize].transmission
+            looks[material as usize].transmission()
         };
         if instance.tags().all(|tag| transmission(tag) == 0.0) {
             opaque.resize(scene.objects.len(), false);

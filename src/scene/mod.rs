@@ -7,6 +7,8 @@
 pub mod fields;
 mod lower;
 mod origins;
+mod placed;
+mod surface;
 mod texture;
 mod view;
 mod visibility;
@@ -16,7 +18,12 @@ use glam::DVec3;
 use crate::geometry::{Aabb, Hit, Shape};
 
 pub use lower::{Lowered, lower};
-pub use origins::{NamedFile, Node, Origins, Placed};
+pub use origins::{NamedFile, Node, Origins};
+pub use placed::{Placed, Unsaid};
+pub use surface::{
+    Finish, Gloss, Integrator, MappedPattern, MappedTexture, Material, Phong, Setting, Textured,
+    Tinted, Transfer, Utah,
+};
 pub use texture::{Image, Images, Pattern, Texture};
 pub use view::{view_edits, view_literals, view_saying};
 pub use visibility::{Visibility, visibility_edits};
@@ -39,6 +46,8 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     /// Objects, in file order.
     pub objects: Vec<Object>,
+    /// What stands around them, and how the picture is meant to be made.
+    pub setting: Setting,
 }
 
 impl Scene {
@@ -103,6 +112,8 @@ pub struct Camera {
     /// What the picture shows of the distances along the view: nothing nearer than the first, 0 or
     /// more, and nothing farther than the second, which may be infinite.
     pub depths: [f64; 2],
+    /// What it shows sharp.
+    pub focus: Focus,
     /// Size of the output picture; its ratio is the picture's, whatever size is traced.
     pub size: Size,
 }
@@ -114,6 +125,23 @@ impl Camera {
 
     /// All distances along the view.
     pub const ALL_DEPTHS: [f64; 2] = [0.0, f64::INFINITY];
+}
+
+/// What a camera shows sharp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Focus {
+    /// How far along the view what is sharp stands, above 0.
+    pub distance: f64,
+    /// The radius of its lens, 0 or more: 0 shows everything sharp.
+    pub lens_radius: f64,
+}
+
+impl Focus {
+    /// Everything is sharp.
+    pub const PINHOLE: Self = Self {
+        distance: 1.0,
+        lens_radius: 0.0,
+    };
 }
 
 /// How a camera sees.
@@ -134,6 +162,8 @@ pub struct Light {
     pub colour: Rgb,
     /// Whether objects keep it from others.
     pub shadows: Shadows,
+    /// Of a point, how large it is: the radius, 0 or more.
+    pub radius: f64,
 }
 
 impl Light {
@@ -146,6 +176,7 @@ impl Light {
             },
             colour,
             shadows: Shadows::Cast,
+            radius: 0.0,
         }
     }
 }
@@ -191,30 +222,6 @@ pub enum Shadows {
     Cast,
     /// They do not.
     Off,
-}
-
-/// How a surface answers light (Whitted's model with Phong highlights).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Material {
-    /// Share of ambient light sent back, ka.
-    pub ambient: Rgb,
-    /// Share of light sent back diffusely, kd.
-    pub diffuse: Rgb,
-    /// Strength of the highlight, ks.
-    pub specular: Rgb,
-    /// Exponent of the highlight, ns; below 0 reads as 0.
-    pub exponent: f64,
-    /// Weight of the mirrored ray, kr.
-    pub reflection: f64,
-    /// Weight of the refracted ray and of light in shadow rays, kt.
-    pub transmission: f64,
-    /// Index of refraction; 0 or less reads as 1.
-    pub index: f64,
-    /// Index in [`Scene::textures`] of what multiplies its ambient, diffuse and specular colours.
-    pub colour_texture: Option<u32>,
-    /// Index in [`Scene::textures`] of what raises its surface, and how high the brightest places
-    /// stand, in world units.
-    pub bump: Option<(u32, f64)>,
 }
 
 /// A shape and what it is made of.

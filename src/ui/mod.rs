@@ -112,7 +112,7 @@ pub enum Error {
     },
     /// Neither a file nor, by its name, a scene.
     #[error(
-        "no such file or command `{path}`; the commands are render and check, scenes end in .ray or .dat",
+        "no such file or command `{path}`; the commands are render and check, scenes end in .ray, .dat or .xml",
         path = path.display()
     )]
     NoSuch {

@@ -31,6 +31,7 @@ fn pixels_lie_on_the_image_plane() {
             lens: lens(is_perspective, upward * f64::from(height), focal),
             pixel_aspect: across / upward,
             depths,
+            focus: Focus::PINHOLE,
             size: Size { width, height },
         };
         let projection = Projection::new(&camera, camera.size);
@@ -121,11 +122,11 @@ fn what_is_too_near_or_too_far_is_not_seen() {
 /// is cut off throws its shadow.
 #[test]
 fn only_rays_from_the_eye_are_cut() {
-    let mirror = Material {
+    let mirror = Phong {
         reflection: 1.0,
         ..BLACK
     };
-    let floor = Material {
+    let floor = Phong {
         diffuse: Rgb::ONE,
         ..BLACK
     };

@@ -3,7 +3,7 @@
 use super::*;
 use crate::scene::{Falloff, Shadows, Source};
 
-const TINTED: Material = Material {
+const TINTED: Phong = Phong {
     diffuse: Rgb::new(0.5, 0.25, 0.125),
     specular: Rgb::new(0.25, 1.0, 4.0),
     exponent: 3.0,
@@ -11,12 +11,12 @@ const TINTED: Material = Material {
 };
 
 /// A floor with its top in the plane y = 0.
-fn floor() -> (Shape, Material) {
+fn floor() -> (Shape, Phong) {
     (cuboid([-100.0, -1.0, -100.0], [200.0, 1.0, 200.0]), TINTED)
 }
 
 /// The radiance of a point of the floor in one light.
-fn lit(light: Light, point: DVec3, eye: DVec3, objects: &[(Shape, Material)]) -> Rgb {
+fn lit(light: Light, point: DVec3, eye: DVec3, objects: &[(Shape, Phong)]) -> Rgb {
     let mut all = vec![floor()];
     all.extend_from_slice(objects);
     let mut scene = scene(&all, &[light]);
@@ -66,6 +66,7 @@ fn point_lights_fall_off_with_distance_and_angle() {
             },
             colour,
             shadows: Shadows::Cast,
+            radius: 0.0,
         };
         let way = point - position;
         let distance = way.length();
@@ -105,6 +106,7 @@ fn without_a_denominator_there_is_no_falloff() {
             source,
             colour: Rgb::ONE,
             shadows: Shadows::Cast,
+            radius: 0.0,
         };
         let eye = DVec3::new(1.0, 3.0, 0.0);
         let expected = share * phong(DVec3::ZERO, eye, DVec3::Y);
@@ -123,6 +125,7 @@ fn distant_lights_are_the_same_everywhere() {
             source: Source::Distant(toward),
             colour: Rgb::ONE,
             shadows: Shadows::Cast,
+            radius: 0.0,
         };
         let expected = if 0.0 < toward.y {
             phong(point, eye, toward)
@@ -142,7 +145,7 @@ fn shadows_are_each_lights_own() {
         falloff: Falloff::NONE,
     };
     let ball = |height: f64, transmission| {
-        let material = Material {
+        let material = Phong {
             transmission,
             ..BLACK
         };
@@ -163,6 +166,7 @@ fn shadows_are_each_lights_own() {
             source,
             colour: Rgb::ONE,
             shadows,
+            radius: 0.0,
         };
         let eye = DVec3::new(2.0, 1.0, 0.0);
         let expected = share * phong(DVec3::ZERO, eye, DVec3::Y);

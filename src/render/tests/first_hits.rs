@@ -10,7 +10,7 @@ const SIZE: Size = Size {
 
 /// What the pixels of two balls are made of, and the picture.
 fn values(aov: Aov, spp: u32) -> Arc<Frame> {
-    let tinted = |red| Material {
+    let tinted = |red| Phong {
         diffuse: Rgb::new(red, 0.5, 2.0),
         ..grey(1.0)
     };

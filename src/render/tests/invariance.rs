@@ -61,7 +61,7 @@ impl Solid {
 
 /// Solids of all kinds, matte, mirrors and glass, and two lights.
 struct Still {
-    solids: Vec<(Solid, Material)>,
+    solids: Vec<(Solid, Phong)>,
     lights: [DVec3; 2],
 }
 
@@ -69,7 +69,7 @@ impl Still {
     fn random(random: &mut Random) -> Self {
         let count = 3 + (9.0 * random.next()) as usize;
         let mut solid = || {
-            let material = Material {
+            let material = Phong {
                 diffuse: 0.5 * (random.point(1.0) + 1.0),
                 specular: Rgb::splat(0.3),
                 exponent: 10.0,

@@ -225,7 +225,7 @@ fn light_falls_on_the_normals_of_the_corners() {
         values: vec![DVec3::new(0.75_f64.sqrt(), 0.0, 0.5)],
         corners: vec![[0; 3]; 2],
     };
-    let matte = Material {
+    let matte = Phong {
         diffuse: Rgb::ONE,
         ..BLACK
     };
@@ -247,13 +247,13 @@ fn light_falls_on_the_normals_of_the_corners() {
 fn meshes_cast_shadows() {
     let floor = Affine::of_matrix([4.0 * DVec3::X, 4.0 * DVec3::Y, DVec3::Z], -DVec3::Z);
     let floor = Shape::Plane(Box::new(Plane(floor.expect("a volume"))));
-    let matte = Material {
+    let matte = Phong {
         diffuse: Rgb::ONE,
         ..BLACK
     };
     let mesh = mesh(ball(8));
     for (transmission, expected) in [(0.0, 0.0), (0.5, 0.5)] {
-        let veil = Material {
+        let veil = Phong {
             transmission,
             ..BLACK
         };
@@ -285,7 +285,7 @@ fn an_instance_looks_like_the_mesh_baked_into_the_world() {
         let [x, y, z] = columns;
         *place = moved + place.x * x + place.y * y + place.z * z;
     }
-    let material = Material {
+    let material = Phong {
         diffuse: Rgb::splat(0.7),
         specular: Rgb::splat(0.3),
         exponent: 20.0,

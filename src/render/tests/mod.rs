@@ -19,9 +19,12 @@ use glam::DVec3;
 
 use super::whitted::{Seen, Tracer};
 use super::world::World;
-use super::{Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads, Transfer};
+use super::{Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
 use crate::geometry::{Affine, Cuboid, Ray, Shape, Sphere};
-use crate::scene::{Camera, Images, Lens, Light, Material, Object, Rgb, Scene, Size};
+use crate::scene::{
+    Camera, Focus, Images, Lens, Light, Material, Object, Phong, Rgb, Scene, Setting, Size,
+    Transfer,
+};
 
 /// Deterministic numbers in 0..1 (Vigna's splitmix64).
 struct Random(u64);
@@ -40,7 +43,7 @@ impl Random {
     }
 }
 
-const BLACK: Material = Material {
+const BLACK: Phong = Phong {
     ambient: Rgb::ZERO,
     diffuse: Rgb::ZERO,
     specular: Rgb::ZERO,
@@ -54,8 +57,8 @@ const BLACK: Material = Material {
 
 /// A material that only sends back this share of ambient light, which is 1 in [`scene`]: it shows
 /// as its own grey wherever it is seen, lit or not.
-fn grey(level: f64) -> Material {
-    Material {
+fn grey(level: f64) -> Phong {
+    Phong {
         ambient: Rgb::splat(level),
         ..BLACK
     }
@@ -75,8 +78,8 @@ fn cuboid(corner: [f64; 3], size: [f64; 3]) -> Shape {
 }
 
 /// A scene in white ambient light, seen from (0, 0, 5) toward the origin.
-fn scene(objects: &[(Shape, Material)], lights: &[Light]) -> Scene {
-    let material = |(index, (shape, _)): (usize, &(Shape, Material))| Object {
+fn scene(objects: &[(Shape, Phong)], lights: &[Light]) -> Scene {
+    let material = |(index, (shape, _)): (usize, &(Shape, Phong))| Object {
         shape: shape.clone(),
         material: index as u32,
     };
@@ -88,6 +91,7 @@ fn scene(objects: &[(Shape, Material)], lights: &[Light]) -> Scene {
             lens: Lens::Perspective(45.0),
             pixel_aspect: 1.0,
             depths: Camera::ALL_DEPTHS,
+            focus: Focus::PINHOLE,
             size: Size {
                 width: 40,
                 height: 30,
@@ -95,9 +99,13 @@ fn scene(objects: &[(Shape, Material)], lights: &[Light]) -> Scene {
         },
         ambient: Rgb::ONE,
         lights: lights.to_vec(),
-        materials: objects.iter().map(|(_, material)| *material).collect(),
+        materials: objects
+            .iter()
+            .map(|(_, phong)| Material::Phong(*phong))
+            .collect(),
         textures: Vec::new(),
         objects: objects.iter().enumerate().map(material).collect(),
+        setting: Setting::default(),
     }
 }
 

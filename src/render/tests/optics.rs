@@ -7,7 +7,7 @@ use super::*;
 /// to the depth.
 #[test]
 fn depth_counts_bounces() {
-    let glow = Material {
+    let glow = Phong {
         reflection: 0.5,
         ..grey(0.25)
     };
@@ -31,7 +31,7 @@ fn depth_counts_bounces() {
 fn mirrored_rays_leave_at_the_angle_they_came() {
     let floor = (
         cuboid([-50.0, -1.0, -50.0], [100.0, 1.0, 100.0]),
-        Material {
+        Phong {
             reflection: 1.0,
             ..BLACK
         },
@@ -85,7 +85,7 @@ fn total_internal_reflection_begins_at_the_critical_angle() {
 /// leaves its direction.
 #[test]
 fn a_slab_displaces_what_is_seen_through_it() {
-    let glass = Material {
+    let glass = Phong {
         transmission: 1.0,
         index: 1.5,
         ..BLACK
@@ -112,7 +112,7 @@ fn a_slab_displaces_what_is_seen_through_it() {
 /// the mirrored ray sees.
 #[test]
 fn total_internal_reflection_carries_both_weights() {
-    let glass = Material {
+    let glass = Phong {
         reflection: 0.25,
         transmission: 0.5,
         index: 1.5,
@@ -133,7 +133,7 @@ fn total_internal_reflection_carries_both_weights() {
 #[test]
 fn an_index_of_nothing_bends_nothing() {
     for index in [0.0, -2.0, 1.0] {
-        let glass = Material {
+        let glass = Phong {
             transmission: 1.0,
             index,
             ..BLACK
@@ -158,7 +158,7 @@ fn an_index_of_nothing_bends_nothing() {
 /// least, so the sum counts the rays that hit: no more than the budget of 4096.
 #[test]
 fn a_ray_tree_ends_with_its_budget() {
-    let glass = Material {
+    let glass = Phong {
         reflection: 1.0,
         transmission: 1.0,
         index: 1.0,

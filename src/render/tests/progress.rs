@@ -14,7 +14,7 @@ const TONE: Tone = Tone::Colour(Transfer::Linear);
 
 /// Glass, a mirror and a matte ball on a floor.
 fn still() -> Arc<Scene> {
-    let matte = Material {
+    let matte = Phong {
         diffuse: Rgb::new(0.7, 0.3, 0.2),
         specular: Rgb::splat(0.4),
         exponent: 20.5,
@@ -23,21 +23,21 @@ fn still() -> Arc<Scene> {
     let objects = [
         (
             cuboid([-9.0, -2.0, -9.0], [18.0, 1.0, 18.0]),
-            Material {
+            Phong {
                 diffuse: Rgb::splat(0.6),
                 ..grey(0.1)
             },
         ),
         (
             sphere([-1.1, 0.0, 0.0], 1.0),
-            Material {
+            Phong {
                 reflection: 0.8,
                 ..grey(0.05)
             },
         ),
         (
             sphere([1.0, 0.0, 1.0], 0.9),
-            Material {
+            Phong {
                 transmission: 0.9,
                 index: 1.5,
                 ..matte

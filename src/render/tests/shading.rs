@@ -3,8 +3,8 @@
 use super::*;
 
 /// A floor whose top is the plane y = 0, with the coefficients of SPEC §9.
-fn floor(exponent: f64) -> (Shape, Material) {
-    let material = Material {
+fn floor(exponent: f64) -> (Shape, Phong) {
+    let material = Phong {
         ambient: Rgb::splat(0.1),
         diffuse: Rgb::splat(0.9),
         specular: Rgb::splat(0.9),
@@ -114,7 +114,7 @@ fn the_highlight_ends_where_the_cosine_turns_negative() {
 /// inside.
 #[test]
 fn inner_faces_are_lit_from_inside() {
-    let glass = Material {
+    let glass = Phong {
         diffuse: Rgb::splat(0.5),
         ..BLACK
     };
@@ -132,16 +132,16 @@ fn shadows_take_the_product_of_transmissions_each_solid_once() {
     let pane = |height: f64, transmission: f64| {
         (
             cuboid([-1.0, height, -1.0], [2.0, 0.1, 2.0]),
-            Material {
+            Phong {
                 transmission,
                 ..BLACK
             },
         )
     };
-    let lit = |panes: &[(Shape, Material)]| {
+    let lit = |panes: &[(Shape, Phong)]| {
         let mut objects = vec![(
             floor(1.0).0,
-            Material {
+            Phong {
                 diffuse: Rgb::ONE,
                 ..BLACK
             },
@@ -168,7 +168,7 @@ fn shadows_take_the_product_of_transmissions_each_solid_once() {
     assert_near(
         lit(&[(
             cuboid([-1.0, 3.0, -1.0], [2.0, 2.0, 2.0]),
-            Material {
+            Phong {
                 transmission: 0.3,
                 ..BLACK
             },
@@ -181,7 +181,7 @@ fn shadows_take_the_product_of_transmissions_each_solid_once() {
 /// A light on the floor's far side lights the inside of a glass block through its own wall once.
 #[test]
 fn a_solid_shadows_itself_where_the_way_crosses_it_again() {
-    let block = Material {
+    let block = Phong {
         diffuse: Rgb::ONE,
         transmission: 0.25,
         ..BLACK
@@ -209,7 +209,7 @@ fn a_light_on_a_surface_is_not_blocked_by_it() {
         let lamp = (sphere([1.3, 2.0, 0.0], radius), BLACK);
         let floor = (
             floor(1.0).0,
-            Material {
+            Phong {
                 diffuse: Rgb::ONE,
                 ..BLACK
             },

@@ -43,7 +43,7 @@ fn unbounded_solids_are_seen_among_others() {
     }
 }
 
-const GLASS: Material = Material {
+const GLASS: Phong = Phong {
     transmission: 0.5,
     index: 1.5,
     ..BLACK
@@ -51,7 +51,7 @@ const GLASS: Material = Material {
 
 /// A wall behind a solid of glass, or behind none, in a light before both.
 fn behind_glass(glass: Option<Shape>) -> Scene {
-    let wall = Material {
+    let wall = Phong {
         ambient: Rgb::splat(0.1),
         diffuse: Rgb::splat(0.9),
         ..BLACK
@@ -113,7 +113,7 @@ fn light_goes_through_combined_solids_as_through_their_like() {
 #[test]
 fn an_index_of_0_is_that_of_air() {
     for (index, transmission, expected) in [(0.0, 1.0, 0.6), (1.0, 1.0, 0.6), (0.0, 0.0, 0.0)] {
-        let ball = Material {
+        let ball = Phong {
             transmission,
             index,
             ..BLACK

@@ -35,7 +35,7 @@ fn images(width: u32, height: u32, pixel: impl Fn(u32, u32) -> [u8; 3]) -> Image
 
 /// The world of a solid that shows its texture as it is.
 fn painted(shape: Shape, texture: Texture, images: &Images) -> World {
-    let material = Material {
+    let material = Phong {
         colour_texture: Some(0),
         ..grey(1.0)
     };
@@ -143,7 +143,7 @@ fn a_picture_that_is_not_there_is_magenta() {
 #[test]
 fn a_texture_tints_all_that_is_the_materials_own() {
     let textures = Textures::new(&[checker([1.0, 1.0])], &Images::default());
-    let plain = Material {
+    let plain = Phong {
         ambient: Rgb::splat(0.1),
         diffuse: Rgb::splat(0.5),
         specular: Rgb::splat(2.0),
@@ -159,7 +159,7 @@ fn a_texture_tints_all_that_is_the_materials_own() {
     let hit = shape.hit(&down, f64::INFINITY).expect("the face is below");
     let (mut material, mut normal) = (plain, DVec3::Z);
     textures.apply(&shape.chart(&down, hit), &mut material, &mut normal);
-    let expected = Material {
+    let expected = Phong {
         ambient: 0.1 * RED,
         diffuse: 0.5 * RED,
         specular: 2.0 * RED,
@@ -203,7 +203,7 @@ fn bumps_tilt_the_normal_as_raised_surfaces_do() {
         let surface = shape.surface(&incoming, hit);
         let chart = shape.chart(&incoming, hit);
         let amount = random.between(-0.5, 0.5);
-        let mut material = Material {
+        let mut material = Phong {
             bump: Some((0, amount)),
             ..BLACK
         };
@@ -253,7 +253,7 @@ fn a_slope_of_grey_is_a_slope() {
     for amount in [0.5, -0.5] {
         let down = ray([0.7, 0.3, 5.0], [0.7, 0.3, 0.0]);
         let hit = shape.hit(&down, f64::INFINITY).expect("the face is below");
-        let mut material = Material {
+        let mut material = Phong {
             bump: Some((0, amount)),
             ..BLACK
         };
@@ -272,7 +272,7 @@ fn bumps_do_not_turn_a_surface() {
     let shape = cuboid([0.0; 3], [1.0; 3]);
     let down = ray([0.125, 0.3, 5.0], [0.125, 0.3, 0.0]);
     let hit = shape.hit(&down, f64::INFINITY).expect("the face is below");
-    let mut material = Material {
+    let mut material = Phong {
         bump: Some((0, 1e6)),
         ..BLACK
     };

@@ -128,7 +128,7 @@ fn contact_shadows() {
         let floor = cuboid([-5e5, -1.0, -5e5], [1e6, 1.0, 1e6]);
         let ball = sphere([0.0, radius, 0.0], radius);
         let light = DVec3::new(3e3, 4e3, 0.0);
-        let matte = Material {
+        let matte = Phong {
             diffuse: Rgb::ONE,
             ..BLACK
         };

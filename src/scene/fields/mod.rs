@@ -6,6 +6,7 @@
 
 pub mod dat;
 pub mod ray;
+pub mod xml;
 
 /// What a field's numbers are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,8 +23,16 @@ pub enum Kind {
     Colour,
     /// Width and height, whole numbers.
     Pixels,
+    /// Width or height, a whole number.
+    Side,
     /// Two numbers: across and up.
     Pair,
+    /// A vector and a number that multiplies it: x, y, z, value.
+    ScaledVector,
+    /// A colour and a number that multiplies it: red, green, blue, value.
+    ScaledColour,
+    /// An axis x, y, z and an angle about it.
+    Rotation,
     /// A half-space: the normal x, y, z of its face, and how far along it the face is.
     HalfSpace,
     /// One of some words.
@@ -35,25 +44,33 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// Whether it is of the picture's size, which no camera moves.
+    pub const fn is_size(self) -> bool {
+        matches!(self, Self::Pixels | Self::Side)
+    }
+
     /// How many numbers it takes.
     pub const fn components(self) -> usize {
         match self {
-            Self::Number | Self::Choice(_) | Self::Reference(_) | Self::Word => 1,
+            Self::Number | Self::Side | Self::Choice(_) | Self::Reference(_) | Self::Word => 1,
             Self::Pixels | Self::Pair => 2,
             Self::Point | Self::Direction | Self::Axis | Self::Colour => 3,
-            Self::HalfSpace => 4,
+            Self::HalfSpace | Self::ScaledVector | Self::ScaledColour | Self::Rotation => 4,
         }
     }
 
     /// What its numbers are called, one name a component; a single number has no name of its own.
     pub const fn component_names(self) -> &'static [&'static str] {
         match self {
-            Self::Number | Self::Choice(_) | Self::Reference(_) | Self::Word => &[""],
+            Self::Number | Self::Side | Self::Choice(_) | Self::Reference(_) | Self::Word => &[""],
             Self::Pixels => &["width", "height"],
             Self::Pair => &["across", "up"],
             Self::Point | Self::Direction | Self::Axis => &["x", "y", "z"],
             Self::HalfSpace => &["x", "y", "z", "d"],
+            Self::ScaledVector => &["x", "y", "z", "value"],
+            Self::Rotation => &["x", "y", "z", "angle"],
             Self::Colour => &["red", "green", "blue"],
+            Self::ScaledColour => &["red", "green", "blue", "value"],
         }
     }
 }
@@ -266,7 +283,11 @@ mod tests {
             Kind::Axis,
             Kind::Colour,
             Kind::Pixels,
+            Kind::Side,
             Kind::Pair,
+            Kind::ScaledVector,
+            Kind::ScaledColour,
+            Kind::Rotation,
             Kind::HalfSpace,
             Kind::Choice(&["yes", "no"]),
             Kind::Reference(Category::Object),

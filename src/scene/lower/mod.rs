@@ -9,6 +9,7 @@ mod report;
 #[cfg(test)]
 mod tests;
 mod view;
+mod xml;
 
 use super::{Origins, Scene};
 use crate::format::Tree;
@@ -30,8 +31,11 @@ pub fn lower(text: &str, tree: &Tree) -> Lowered {
     let mut lowered = match tree {
         Tree::Ray(tree) => ray::lower(text, tree),
         Tree::Dat(tree) => dat::lower(text, tree),
+        Tree::Xml(tree) => xml::lower(text, tree),
     };
-    if let Some(end) = old_line_end(text) {
+    // In .xml all white space is alike, and comments have an end.
+    let has_lines = !matches!(tree, Tree::Xml(_));
+    if let Some(end) = old_line_end(text).filter(|_| has_lines) {
         let mut found = std::mem::take(&mut lowered.diagnostics);
         found.warning(|| {
             let message = "the lines end in CR alone: they count as one line, and a comment takes all that follows";

@@ -3,11 +3,11 @@
 use super::ray::{Count, LEAST_NUMBERS, Reader, component, is_word};
 use super::record::{LONGEST, Record, takes};
 use super::report::{nearest_kind, quoted};
-use crate::scene::Object;
 use crate::scene::fields::numbers;
 use crate::scene::fields::ray::{MATERIAL, ShapeKind};
 use crate::scene::origins::Name;
 use crate::scene::origins::ray::ObjectPlace;
+use crate::scene::{Material, Object};
 use crate::text::{Diagnostic, Span, counted};
 
 /// The words an object may begin with.
@@ -113,6 +113,7 @@ impl Reader<'_> {
     fn keep(&mut self, record: Record, kind: ShapeKind) {
         let (geometry, material) = record.split_at(numbers(kind.geometry()));
         let material = material.gather(MATERIAL.iter()).material();
+        let material = Material::Phong(material);
         let Some(shape) = geometry.gather(kind.geometry().iter()).shape(kind) else {
             let span = record.spans[0].to(record.spans[record.spans.len() - 1]);
             self.report.error(|| {

@@ -10,7 +10,7 @@ use crate::format::ray;
 use crate::scene::fields::ray::{AMBIENT, LIGHT, ShapeKind};
 use crate::scene::fields::{self, Field, Range};
 use crate::scene::origins::{Name, ray::Origins};
-use crate::scene::{Light, Material, Object, Rgb, Scene, bounds};
+use crate::scene::{Light, Material, Object, Rgb, Scene, Setting, bounds};
 use crate::text::{Diagnostic, Findings, Severity, Span, counted, is_integer, parse_number};
 
 /// Numbers of the smallest object: where fewer follow a word, it does not begin an object.
@@ -48,6 +48,7 @@ pub(super) fn lower(text: &str, tree: &ray::Tree) -> Lowered {
             materials: reader.materials,
             textures: Vec::new(),
             objects: reader.objects,
+            setting: Setting::default(),
         }),
         origins: crate::scene::Origins::Ray(reader.origins),
         diagnostics: reader.report.sorted(),

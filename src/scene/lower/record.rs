@@ -9,7 +9,7 @@ use crate::geometry::{
 use crate::scene::fields::ray::ShapeKind;
 use crate::scene::fields::{Field, Kind, numbers};
 use crate::scene::origins::Name;
-use crate::scene::{Material, Rgb};
+use crate::scene::{Phong, Rgb};
 use crate::text::{Diagnostic, Findings, Span, concise};
 
 /// How far a direction's length may be off 1, and the dot product of two of them off 0.
@@ -229,8 +229,15 @@ impl<'a> Record<'a> {
                     gathered.choices[choices] = values[0] as usize;
                     choices += 1;
                 }
-                // What they name is looked up where they are read; cuts are read by themselves.
-                Kind::Reference(_) | Kind::Word | Kind::HalfSpace => {}
+                // What they name is looked up where they are read; cuts are read by themselves, and
+                // the rest is in no record.
+                Kind::Reference(_)
+                | Kind::Word
+                | Kind::HalfSpace
+                | Kind::Side
+                | Kind::ScaledVector
+                | Kind::ScaledColour
+                | Kind::Rotation => {}
             }
         }
         gathered
@@ -271,10 +278,10 @@ impl Gathered {
     }
 
     /// The material these numbers describe.
-    pub(super) fn material(&self) -> Material {
+    pub(super) fn material(&self) -> Phong {
         let [ambient, diffuse, specular] = self.colours;
         let [exponent, reflection, transmission, index, ..] = self.numbers;
-        Material {
+        Phong {
             ambient,
             diffuse,
             specular,
@@ -282,7 +289,7 @@ impl Gathered {
             reflection,
             transmission,
             index,
-            ..Material::default()
+            ..Phong::default()
         }
     }
 }

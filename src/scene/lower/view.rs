@@ -11,7 +11,7 @@ use crate::scene::fields::ray::VIEW;
 use crate::scene::fields::{Field, Kind, Range};
 use crate::scene::origins::Name;
 use crate::scene::origins::ray::ViewPlace;
-use crate::scene::{Camera, Lens, Size};
+use crate::scene::{Camera, Focus, Lens, Size};
 use crate::text::{Diagnostic, Findings, Severity, Span, is_integer, parse_number};
 
 /// Places in [`VIEW`].
@@ -205,6 +205,7 @@ pub(super) fn camera(
         lens: Lens::Perspective(fov),
         pixel_aspect: 1.0,
         depths: Camera::ALL_DEPTHS,
+        focus: Focus::PINHOLE,
         size: size.map_or(
             Size {
                 width: 800,

@@ -90,6 +90,8 @@ impl Origins {
         match node {
             Node::View => "view".to_owned(),
             Node::Ambient => "ambient".to_owned(),
+            Node::Background => "background".to_owned(),
+            Node::Environment => "environment".to_owned(),
             Node::Light(index) => format!("light {}", id(&self.lights, index)),
             Node::Material(index) => format!("material {}", id(&self.materials, index)),
             Node::Texture(index) => format!("texture {}", id(&self.textures, index)),
@@ -219,7 +221,7 @@ impl Origins {
             places.get(index).map(|place| (place.record, place.kind))
         };
         let first = match node {
-            Node::View | Node::Ambient => None,
+            Node::View | Node::Ambient | Node::Background | Node::Environment => None,
             Node::Light(index) => own(&self.lights, index),
             Node::Material(index) => own(&self.materials, index),
             Node::Texture(index) => own(&self.textures, index),
@@ -251,10 +253,7 @@ impl Origins {
                 }
                 None => kind
                     .fields()
-                    .map(|field| Placed {
-                        field,
-                        spans: Vec::new(),
-                    })
+                    .map(|field| Placed::said(field, Vec::new()))
                     .collect(),
             })
             .collect()
@@ -294,20 +293,18 @@ fn place(tokens: &[Span], kind: RecordKind, cuts: usize) -> Vec<Placed> {
         };
         rest = after;
         if let Part::Field(field) = part {
-            placed.push(Placed {
-                field,
-                spans: spans.to_vec(),
-            });
+            placed.push(Placed::said(field, spans.to_vec()));
         }
     }
     if kind == RecordKind::Object(ObjectKind::Quadric) {
         // The number of half-spaces stands before them.
         let each = numbers(&[*HALF_SPACE]);
         let spans = rest.get(1..).unwrap_or_default().chunks_exact(each);
-        placed.extend(spans.take(cuts).map(|spans| Placed {
-            field: HALF_SPACE,
-            spans: spans.to_vec(),
-        }));
+        placed.extend(
+            spans
+                .take(cuts)
+                .map(|spans| Placed::said(HALF_SPACE, spans.to_vec())),
+        );
     }
     placed
 }

@@ -2,11 +2,13 @@
 
 pub(super) mod dat;
 pub(super) mod ray;
+pub(super) mod xml;
 
 use std::fmt;
 
 use super::fields::ray::ShapeKind;
 use super::fields::{Category, Field};
+use super::placed::Placed;
 use crate::format::Tree;
 use crate::text::Span;
 
@@ -17,6 +19,10 @@ pub enum Node {
     View,
     /// Ambient light.
     Ambient,
+    /// What the camera sees behind everything.
+    Background,
+    /// What other rays meet there.
+    Environment,
     /// A light, by index.
     Light(usize),
     /// A material, by index.
@@ -25,15 +31,6 @@ pub enum Node {
     Texture(usize),
     /// An object, by index.
     Object(usize),
-}
-
-/// A field and where its components stand.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Placed {
-    /// The field.
-    pub field: &'static Field,
-    /// One span a component; empty where the text does not say it (a view's missing part).
-    pub spans: Vec<Span>,
 }
 
 /// Another file that a text names.
@@ -55,6 +52,8 @@ pub enum Origins {
     Ray(ray::Origins),
     /// Of a `.dat` text.
     Dat(dat::Origins),
+    /// Of a `.xml` text.
+    Xml(xml::Origins),
 }
 
 impl Default for Origins {
@@ -64,12 +63,13 @@ impl Default for Origins {
 }
 
 impl Origins {
-    /// The view, ambient light, lights, materials, textures, objects: as far as the text has them
-    /// and could be understood. Ascending.
+    /// The view, ambient light or background and environment, lights, materials, textures, objects: as
+    /// far as the text has them and could be understood. Ascending.
     pub fn nodes(&self) -> Vec<Node> {
         match self {
             Self::Ray(origins) => origins.nodes(),
             Self::Dat(origins) => origins.nodes(),
+            Self::Xml(origins) => origins.nodes(),
         }
     }
 
@@ -78,6 +78,15 @@ impl Origins {
         match self {
             Self::Ray(origins) => origins.name(node),
             Self::Dat(origins) => origins.name(node),
+            Self::Xml(origins) => origins.name(node),
+        }
+    }
+
+    /// How many listed things a node is in.
+    pub fn depth(&self, node: Node) -> usize {
+        match self {
+            Self::Ray(_) | Self::Dat(_) => 0,
+            Self::Xml(origins) => origins.depth(node),
         }
     }
 
@@ -87,6 +96,7 @@ impl Origins {
         match (self, tree) {
             (Self::Ray(origins), Tree::Ray(tree)) => origins.fields(tree, node),
             (Self::Dat(origins), Tree::Dat(tree)) => origins.fields(tree, node),
+            (Self::Xml(origins), Tree::Xml(tree)) => origins.fields(tree, node),
             _ => Vec::new(),
         }
     }
@@ -97,16 +107,19 @@ impl Origins {
         match (self, tree) {
             (Self::Ray(origins), Tree::Ray(tree)) => origins.span(tree, node),
             (Self::Dat(origins), Tree::Dat(tree)) => origins.span(tree, node),
+            (Self::Xml(origins), Tree::Xml(tree)) => origins.span(tree, node),
             _ => Span::at(0),
         }
     }
 
     /// What a comment says of a node: one that follows its text in the line where that begins, or
-    /// else where it ends; in `.dat` one that takes the line before.
+    /// else where it ends; in `.dat` one that takes the line before; in `.xml` one behind the start tag
+    /// or in the line before.
     pub fn comment<'t>(&self, text: &'t str, tree: &Tree, node: Node) -> Option<&'t str> {
         match (self, tree) {
             (Self::Ray(origins), Tree::Ray(tree)) => origins.comment(text, tree, node),
             (Self::Dat(origins), Tree::Dat(tree)) => origins.comment(text, tree, node),
+            (Self::Xml(origins), Tree::Xml(tree)) => origins.comment(text, tree, node),
             _ => None,
         }
     }
@@ -117,6 +130,7 @@ impl Origins {
         match (self, tree) {
             (Self::Ray(origins), Tree::Ray(tree)) => origins.node_at(tree, span),
             (Self::Dat(origins), Tree::Dat(tree)) => origins.node_at(tree, span),
+            (Self::Xml(origins), Tree::Xml(tree)) => origins.node_at(tree, span),
             _ => None,
         }
     }
@@ -127,6 +141,7 @@ impl Origins {
         match (self, tree) {
             (Self::Ray(origins), Tree::Ray(tree)) => origins.nodes_in(tree, nodes, span),
             (Self::Dat(origins), Tree::Dat(tree)) => origins.nodes_in(tree, span),
+            (Self::Xml(origins), Tree::Xml(tree)) => origins.nodes_in(tree, span),
             _ => Vec::new(),
         }
     }
@@ -135,7 +150,7 @@ impl Origins {
     /// below the first. At most `limit` of them; one alone if it is no combination.
     pub fn parts(&self, object: usize, limit: usize) -> Vec<(usize, Node)> {
         match self {
-            Self::Ray(_) => vec![(0, Node::Object(object))],
+            Self::Ray(_) | Self::Xml(_) => vec![(0, Node::Object(object))],
             Self::Dat(origins) => origins.parts(object, limit),
         }
     }
@@ -144,10 +159,16 @@ impl Origins {
     pub fn drawn(&self, object: usize) -> Option<u32> {
         match self {
             Self::Ray(_) => u32::try_from(object).ok(),
-            Self::Dat(origins) => {
-                let at = origins.drawn.binary_search(&object).ok();
-                at.and_then(|at| u32::try_from(at).ok())
-            }
+            Self::Dat(origins) => place(&origins.drawn, object),
+            Self::Xml(origins) => place(&origins.drawn, object),
+        }
+    }
+
+    /// Whether an object of the text is but what is in it.
+    pub fn is_group(&self, object: usize) -> bool {
+        match self {
+            Self::Ray(_) | Self::Dat(_) => false,
+            Self::Xml(origins) => origins.is_group(object),
         }
     }
 
@@ -155,11 +176,8 @@ impl Origins {
     pub fn object(&self, drawn: u32) -> usize {
         match self {
             Self::Ray(_) => drawn as usize,
-            Self::Dat(origins) => origins
-                .drawn
-                .get(drawn as usize)
-                .copied()
-                .unwrap_or(usize::MAX),
+            Self::Dat(origins) => thing(&origins.drawn, drawn),
+            Self::Xml(origins) => thing(&origins.drawn, drawn),
         }
     }
 
@@ -168,6 +186,7 @@ impl Origins {
         match self {
             Self::Ray(_) => None,
             Self::Dat(origins) => origins.objects.get(object)?.material,
+            Self::Xml(origins) => *origins.dressed.get(object)?,
         }
     }
 
@@ -175,7 +194,7 @@ impl Origins {
     /// the node's text, ascending.
     pub fn identities(&self, node: Node, category: Category) -> Vec<i64> {
         match self {
-            Self::Ray(_) => Vec::new(),
+            Self::Ray(_) | Self::Xml(_) => Vec::new(),
             Self::Dat(origins) => origins.identities(node, category),
         }
     }
@@ -184,6 +203,7 @@ impl Origins {
     pub fn files(&self, text: &str, tree: &Tree) -> Vec<NamedFile> {
         match (self, tree) {
             (Self::Dat(origins), Tree::Dat(tree)) => origins.files(text, tree),
+            (Self::Xml(origins), Tree::Xml(tree)) => origins.files(text, tree),
             _ => Vec::new(),
         }
     }
@@ -193,21 +213,29 @@ impl Origins {
         match self {
             Self::Ray(_) => 0,
             Self::Dat(origins) => origins.users(node),
+            Self::Xml(origins) => origins.users(node),
         }
     }
 }
 
+/// The place of an object among those that are drawn.
+fn place(drawn: &[usize], object: usize) -> Option<u32> {
+    u32::try_from(drawn.binary_search(&object).ok()?).ok()
+}
+
+/// The object at a place among those that are drawn.
+fn thing(drawn: &[usize], place: u32) -> usize {
+    drawn.get(place as usize).copied().unwrap_or(usize::MAX)
+}
+
 /// Hands out `tokens` to the fields in order, until one is not complete.
-fn place(tokens: &[Span], fields: impl Iterator<Item = &'static Field>) -> Vec<Placed> {
+fn hand_out(tokens: &[Span], fields: impl Iterator<Item = &'static Field>) -> Vec<Placed> {
     let mut rest = tokens;
     fields
         .map_while(|field| {
             let (spans, after) = rest.split_at_checked(field.kind.components())?;
             rest = after;
-            Some(Placed {
-                field,
-                spans: spans.to_vec(),
-            })
+            Some(Placed::said(field, spans.to_vec()))
         })
         .collect()
 }

@@ -3,7 +3,7 @@
 //! A million objects cost eight bytes each: their place is the index of a token, and spans are
 //! looked up in the tree when asked for.
 
-use super::{Name, Node, Placed, place};
+use super::{Name, Node, Placed, hand_out};
 use crate::format::ray::Tree;
 use crate::scene::fields;
 use crate::scene::fields::ray::{AMBIENT, LIGHT, ShapeKind, VIEW};
@@ -59,6 +59,8 @@ impl Origins {
             Node::Object(index) => self.object_name(index),
             Node::Material(index) => format!("material {}", index + 1),
             Node::Texture(index) => format!("texture {}", index + 1),
+            Node::Background => "background".to_owned(),
+            Node::Environment => "environment".to_owned(),
         }
     }
 
@@ -74,14 +76,16 @@ impl Origins {
         let tokens = self.numbers(tree, node);
         match node {
             Node::View => self.view_fields(),
-            Node::Ambient => place(tokens, AMBIENT.iter()),
-            Node::Light(_) => place(tokens, LIGHT.iter()),
+            Node::Ambient => hand_out(tokens, AMBIENT.iter()),
+            Node::Light(_) => hand_out(tokens, LIGHT.iter()),
             Node::Object(index) => self
                 .objects
                 .get(index)
-                .map(|object| place(tokens, object.kind.fields()))
+                .map(|object| hand_out(tokens, object.kind.fields()))
                 .unwrap_or_default(),
-            Node::Material(_) | Node::Texture(_) => Vec::new(),
+            Node::Material(_) | Node::Texture(_) | Node::Background | Node::Environment => {
+                Vec::new()
+            }
         }
     }
 
@@ -163,7 +167,11 @@ impl Origins {
     /// The tokens that are a node's numbers; none for the view, whose numbers are no tokens.
     fn numbers<'a>(&self, tree: &'a Tree, node: Node) -> &'a [Span] {
         let (start, len) = match node {
-            Node::View | Node::Material(_) | Node::Texture(_) => (0, 0),
+            Node::View
+            | Node::Material(_)
+            | Node::Texture(_)
+            | Node::Background
+            | Node::Environment => (0, 0),
             Node::Ambient => (0, self.ambient),
             Node::Light(index) => {
                 let each = fields::numbers(LIGHT);
@@ -184,10 +192,9 @@ impl Origins {
         let parts = self.view.map_or([None; VIEW.len()], |view| view.parts);
         VIEW.iter()
             .zip(parts)
-            .map(|(field, part)| Placed {
-                field,
-                spans: part
-                    .map_or_else(Vec::new, |spans| spans[..field.kind.components()].to_vec()),
+            .map(|(field, part)| {
+                let spans = part.map(|spans| spans[..field.kind.components()].to_vec());
+                Placed::said(field, spans.unwrap_or_default())
             })
             .collect()
     }

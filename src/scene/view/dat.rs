@@ -101,6 +101,7 @@ pub(super) fn camera(numbers: &Numbers, base: &Camera, origins: &Origins) -> Cam
         } else {
             [numbers[5][0].max(0.0), numbers[6][0]]
         },
+        focus: base.focus,
         size: Size {
             width: numbers[8][0] as u32,
             height: numbers[8][1] as u32,

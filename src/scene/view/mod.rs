@@ -3,9 +3,10 @@
 
 mod dat;
 mod ray;
+mod xml;
 
 use super::fields::{Field, Kind};
-use super::{Camera, Origins};
+use super::{Camera, Node, Origins};
 use crate::format::Tree;
 use crate::text::{Edit, parse_number};
 
@@ -56,6 +57,7 @@ pub fn view_saying(
     Ok(match origins {
         Origins::Ray(_) => ray::camera(&numbers, camera),
         Origins::Dat(origins) => dat::camera(&numbers, camera, origins),
+        Origins::Xml(_) => xml::camera(&numbers, camera),
     })
 }
 
@@ -72,6 +74,10 @@ pub fn view_edits(
     match (origins, tree) {
         (Origins::Ray(origins), Tree::Ray(_)) => ray::edits(text, origins, before, camera),
         (Origins::Dat(origins), Tree::Dat(tree)) => dat::edits(text, tree, origins, before, camera),
+        (Origins::Xml(own), Tree::Xml(_)) => {
+            let fields = origins.fields(tree, Node::View);
+            xml::edits(text, tree, own, &fields, before, camera)
+        }
         _ => Vec::new(),
     }
 }
@@ -80,6 +86,10 @@ fn view(origins: &Origins, camera: &Camera) -> (Vec<&'static Field>, Numbers) {
     match origins {
         Origins::Ray(_) => (ray::fields().collect(), ray::numbers(camera)),
         Origins::Dat(origins) => (dat::fields().collect(), dat::numbers(camera, origins)),
+        Origins::Xml(origins) => (
+            xml::fields(origins).collect(),
+            xml::numbers(camera, origins),
+        ),
     }
 }
 

@@ -1,6 +1,7 @@
 //! The cursor while the text changes under it.
 
 use super::App;
+use crate::scene::Placed;
 use crate::text::{Span, smallest_edit};
 
 /// Where the cursor was before a text came from outside.
@@ -48,7 +49,13 @@ impl App {
             self.selected = node;
         }
         let placed = self.placed();
-        let field = placed.iter().position(|placed| placed.field.key == key);
+        // Several fields may have one name.
+        let holds = |place: &Placed| moved.is_some_and(|span| place.spans.contains(&span));
+        let called = |place: &&Placed| place.field.key == key;
+        let field = placed
+            .iter()
+            .position(holds)
+            .or_else(|| placed.iter().position(|place| called(&place)));
         if let Some(field) = field {
             self.field = field;
             self.component = component.min(placed[field].field.kind.components() - 1);

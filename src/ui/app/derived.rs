@@ -173,15 +173,20 @@ impl App {
     }
 
     fn field_row(&self, index: usize, placed: &Placed) -> FieldRow {
-        let said: Vec<_> = placed
-            .spans
-            .iter()
-            .map(|span| span.of(self.document.text()).to_owned())
-            .collect();
+        let (text, tree) = (self.document.text(), self.document.tree());
+        let said = (0..).zip(&placed.spans).map(|(component, span)| {
+            let said = || tree.said(text, *span).to_owned();
+            let default = placed.default_of(component);
+            default.map_or_else(
+                || (said(), Source::Text),
+                |default| (default.to_owned(), Source::Default),
+            )
+        });
+        let (said, sources): (Vec<_>, Vec<_>) = said.unzip();
         let row = |literals, source| FieldRow {
             field: placed.field,
             literals,
-            source,
+            sources: vec![source; placed.field.kind.components()],
         };
         let shown = |camera: &Camera| -> Vec<String> {
             let literals = scene::view_literals(&self.origins, camera);
@@ -199,7 +204,11 @@ impl App {
                 vec!["?".to_owned(); placed.field.kind.components()],
                 Source::Default,
             ),
-            _ => row(said, Source::Text),
+            _ => FieldRow {
+                field: placed.field,
+                literals: said,
+                sources,
+            },
         }
     }
 }

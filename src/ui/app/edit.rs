@@ -1,7 +1,7 @@
 //! Changing fields: every change is an edit of the text, and one that makes an error is refused.
 
 use super::{App, Mode};
-use crate::scene::fields::{Field, Kind};
+use crate::scene::fields::Field;
 use crate::scene::{self, Camera, Lowered, Node, Visibility};
 use crate::text::{Diagnostic, Edit, Span};
 
@@ -91,7 +91,7 @@ impl App {
 
     fn said_view_parts(&self, origins: &scene::Origins) -> usize {
         let fields = origins.fields(self.document.tree(), Node::View);
-        fields.iter().filter(|part| !part.spans.is_empty()).count()
+        fields.iter().filter(|part| part.is_said()).count()
     }
 
     /// Sets components of the current field.
@@ -100,19 +100,14 @@ impl App {
         let Some(placed) = placed.get(self.field) else {
             return Ok(());
         };
-        let works = self.view.is_some() && placed.field.kind != Kind::Pixels;
+        let is_camera = self.scene.as_ref().is_some_and(|scene| {
+            self.field < scene::view_literals(&self.origins, &scene.camera).len()
+        });
+        let works = self.view.is_some() && is_camera && !placed.field.kind.is_size();
         if self.selected == Node::View && (works || placed.spans.is_empty()) {
             return self.assign_view(placed.field, values);
         }
-        let edits: Vec<_> = values
-            .iter()
-            .filter_map(|(component, literal)| {
-                Some(Edit {
-                    span: *placed.spans.get(*component)?,
-                    text: literal.clone(),
-                })
-            })
-            .collect();
+        let edits = placed.edits(self.document.text(), self.document.tree(), values);
         self.try_edits(&edits)
     }
 
@@ -127,7 +122,7 @@ impl App {
             return Err(refuse("can't be said while the scene has errors"));
         };
         // The picture's size is the text's alone: setting it must not write the working view.
-        let is_size = field.kind == Kind::Pixels;
+        let is_size = field.kind.is_size();
         let camera = if is_size { scene.camera } else { camera };
         let mut camera = camera;
         for (component, literal) in values {

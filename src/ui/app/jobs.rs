@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::textures::STILL_READING;
 use super::{App, Export, Mode, Picture, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
-use crate::render::{Frame, Frames, Job, Settings, Transfer};
+use crate::render::{Frame, Frames, Job, Settings};
 use crate::scene::{Camera, Size};
 use crate::ui::msg::{Destination, Effect, Existing, ExportId, Target};
 
@@ -47,8 +47,9 @@ impl App {
     }
 
     fn job(&self, size: Size, spp: u32) -> Option<Job> {
+        let scene = self.scene.as_ref()?;
         Some(Job {
-            scene: Arc::clone(self.scene.as_ref()?),
+            scene: Arc::clone(scene),
             images: self.images.clone(),
             camera: self.camera()?,
             settings: Settings {
@@ -57,7 +58,7 @@ impl App {
                 depth: self.quality.depth,
                 seed: 0,
                 aov: None,
-                transfer: Transfer::default(),
+                transfer: scene.setting.transfer,
             },
             frames: Frames::Live,
         })

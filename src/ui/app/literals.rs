@@ -50,10 +50,16 @@ pub(super) fn is_one(said: &str) -> bool {
 }
 
 /// The literals of all components of a field with more than one: `0.1 0.2 0.3` with blanks or
-/// commas between, `#rrggbb` for a colour, `800x600` for a size.
+/// commas between, `#rrggbb` for a colour, `800x600` for a size. Of a vector that a number multiplies
+/// three will do.
 pub(super) fn all_of(kind: Kind, said: &str) -> Option<Vec<String>> {
-    if let (Kind::Colour, Some(digits)) = (kind, said.strip_prefix('#')) {
-        return colour(digits);
+    match (kind, said.strip_prefix('#')) {
+        (Kind::Colour, Some(digits)) => return colour(digits),
+        (Kind::ScaledColour, Some(digits)) => {
+            let channels = colour(digits)?;
+            return Some(channels.into_iter().chain(["1".to_owned()]).collect());
+        }
+        _ => {}
     }
     let split =
         |c: char| c.is_whitespace() || matches!(c, ',' | ';') || (kind == Kind::Pixels && c == 'x');
@@ -64,7 +70,13 @@ pub(super) fn all_of(kind: Kind, said: &str) -> Option<Vec<String>> {
         .map(str::to_owned)
         .collect();
     let numbers = words.iter().all(|word| parse_number(word).is_ok());
-    (1 < words.len() && words.len() == kind.components() && numbers).then_some(words)
+    // What multiplies a vector may stay, and so may the angle about an axis.
+    let is_scaled = matches!(
+        kind,
+        Kind::ScaledVector | Kind::ScaledColour | Kind::Rotation
+    );
+    let is_all = words.len() == kind.components() || (is_scaled && words.len() == 3);
+    (1 < words.len() && is_all && numbers).then_some(words)
 }
 
 /// Six hexadecimal digits as shares of 1, to four decimals: finer than a 255th.
@@ -146,6 +158,9 @@ mod tests {
             (Kind::Point, "#ff8000", None),
             (Kind::Colour, "#ff800", None),
             (Kind::Colour, "#ffé00", None),
+            (Kind::ScaledColour, "#ff8000", Some("1 0.502 0 1")),
+            (Kind::ScaledVector, "1 2 3", Some("1 2 3")),
+            (Kind::Rotation, "0 0 1 90", Some("0 0 1 90")),
             (Kind::Pixels, "800x600", Some("800 600")),
             (Kind::Point, "1 2", None),
             (Kind::Point, "1 2 x", None),

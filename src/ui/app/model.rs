@@ -271,18 +271,25 @@ pub struct FieldRow {
     pub field: &'static Field,
     /// One literal a component.
     pub literals: Vec<String>,
-    /// Where they come from.
-    pub source: Source,
+    /// Where each of them comes from.
+    pub sources: Vec<Source>,
 }
 
-/// Where the literals of a field come from.
+impl FieldRow {
+    /// Whether all its literals come from there.
+    pub fn is_all(&self, source: Source) -> bool {
+        self.sources.iter().all(|&of| of == source)
+    }
+}
+
+/// Where a literal of a field comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// They stand in the text.
+    /// It stands in the text.
     Text,
-    /// The text does not say them.
+    /// The text does not say it.
     Default,
-    /// They are the working view's and differ from the text's.
+    /// It is the working view's, which differs from the text's there.
     WorkingView,
 }
 

@@ -84,17 +84,18 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
     row.put(if cursor.is_some() { "▸" } else { " " }, selected);
     row.put_in(field.field.key, row.room().saturating_sub(2), selected);
     row.skip_to(name.right().saturating_sub(2));
-    match (field.source, swatch(field)) {
-        (Source::WorkingView, _) => row.put("*", theme::WARNING),
-        (_, Some(colour)) => row.put("●", theme::swatch(colour)),
-        _ => row.put(" ", Style::new()),
+    match swatch(field) {
+        _ if field.is_all(Source::WorkingView) => row.put("*", theme::WARNING),
+        Some(colour) => row.put("●", theme::swatch(colour)),
+        None => row.put(" ", Style::new()),
     };
-    let style = match field.source {
-        Source::Text => Style::new(),
-        Source::Default => theme::DIM,
-        Source::WorkingView => theme::WARNING,
-    };
-    for (component, (literal, column)) in field.literals.iter().zip(&columns).enumerate() {
+    let literals = field.literals.iter().zip(&field.sources);
+    for (component, ((literal, source), column)) in literals.zip(&columns).enumerate() {
+        let style = match source {
+            Source::Text => Style::new(),
+            Source::Default => theme::DIM,
+            Source::WorkingView => theme::WARNING,
+        };
         let mut row = Row::new(buffer, *column, 0);
         // The last cell keeps a gap to the next number.
         let room = row.room().saturating_sub(1);
@@ -103,7 +104,7 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
         } else {
             row.put_in(literal, room, style);
         }
-        if field.source == Source::Default && "  (default)".len() < row.room() {
+        if *source == Source::Default && "  (default)".len() < row.room() {
             row.put("  (default)", style);
         }
     }
@@ -158,11 +159,10 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     };
     say(&format!("{what}{nudge}"), Style::new());
     say(field.field.doc, theme::DIM);
-    if field.source == Source::Default {
-        say("Not in the text: this is the default.", theme::DIM);
-    }
-    if field.source == Source::WorkingView {
-        say("The working view differs from the text.", theme::WARNING);
+    match field.sources.get(app.component) {
+        Some(Source::Default) => say("Not in the text: this is the default.", theme::DIM),
+        Some(Source::WorkingView) => say("The working view differs from the text.", theme::WARNING),
+        Some(Source::Text) | None => {}
     }
     for (index, (line, style)) in lines.iter().enumerate() {
         Row::new(buffer, area, index as u16)
@@ -176,6 +176,7 @@ fn swatch(field: &FieldRow) -> Option<Rgb> {
     let channel = |at: usize| parse_number(field.literals.get(at)?).ok();
     match field.field.kind {
         Kind::Colour => Some(Rgb::new(channel(0)?, channel(1)?, channel(2)?)),
+        Kind::ScaledColour => Some(channel(3)? * Rgb::new(channel(0)?, channel(1)?, channel(2)?)),
         _ => None,
     }
 }

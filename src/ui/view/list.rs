@@ -36,7 +36,10 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     for (line, (index, &node)) in shown.enumerate() {
         let is_selected = index == selected;
         let is_drawn = match node {
-            Node::Object(index) => app.origins.drawn(index).is_some(),
+            // A group is as much there as what is in it.
+            Node::Object(index) => {
+                app.origins.drawn(index).is_some() || app.origins.is_group(index)
+            }
             _ => true,
         };
         let style = match (is_selected, focused) {
@@ -54,7 +57,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
             None if !is_drawn => row.put("○ ", style),
             None => row.put("  ", style),
         };
-        let name = app.origins.name(node);
+        let name = indented(app, node, usize::from(lines.width));
         let mark = marked.iter().find(|(at, _)| *at == node);
         let end = if mark.is_some() { "! " } else { "" };
         let room = row.room().saturating_sub(end.len());
@@ -67,6 +70,13 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         row.put_in(&beside, room, style.patch(theme::DIM));
         row.put(end, mark.map_or(style, |(_, mark)| style.patch(*mark)));
     }
+}
+
+/// A thing's name, two columns further in for each thing that it is in: never so far that nothing
+/// is left to read.
+fn indented(app: &App, node: Node, width: usize) -> String {
+    let indent = (2 * app.origins.depth(node)).min(width / 3);
+    format!("{:indent$}{}", "", app.origins.name(node))
 }
 
 /// Things that diagnostics are about, with the style of the gravest.
@@ -90,21 +100,42 @@ fn swatch(app: &App, node: Node) -> Option<Rgb> {
     match node {
         Node::View | Node::Texture(_) => None,
         Node::Ambient => Some(scene.ambient),
+        Node::Background => Some(scene.setting.background.colour),
+        Node::Environment => Some(scene.setting.environment.colour),
         Node::Light(index) => Some(scene.lights.get(index)?.colour),
-        Node::Material(index) => Some(scene.materials.get(index)?.diffuse),
+        Node::Material(index) => Some(scene.materials.get(index)?.colour()),
         Node::Object(index) => {
             let material = app.origins.material(index).or_else(|| {
                 let drawn = app.origins.drawn(index)?;
                 Some(scene.objects.get(drawn as usize)?.material as usize)
             });
-            Some(scene.materials.get(material?)?.diffuse)
+            Some(scene.materials.get(material?)?.colour())
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::ui::view::tests::{app, drawn, retype};
+    use crate::format::Format;
+    use crate::ui::view::tests::{app, app_of, drawn, retype};
+
+    #[test]
+    fn what_is_in_a_thing_is_listed_further_in() {
+        let app = app_of(
+            Format::Xml,
+            "<xml><scene><object name='all'><object type='sphere' name='ball'/></object>
+            </scene><camera><position z='9'/></camera></xml>",
+        );
+        let lines = drawn(&app, super::render, 30, 9);
+        let listed = [
+            "▸   view",
+            "  ● background",
+            "  ● environment",
+            "    all (group)",
+            "  ●   ball (sphere)",
+        ];
+        assert_eq!(lines[1..6], listed);
+    }
 
     #[test]
     fn things_are_listed_and_the_selected_one_is_marked() {

@@ -37,10 +37,15 @@ box 0 0 0  1 0 0  0 1 0  0 0 1  1 1 1
 
 /// The interface with [`SCENE`] opened and its view selected.
 pub(super) fn app() -> App {
+    app_of(Format::Ray, SCENE)
+}
+
+/// The interface with a scene opened and its view selected.
+pub(super) fn app_of(format: Format, text: &str) -> App {
     let (mut app, _) = App::open(Opening {
-        format: Format::Ray,
-        path: Some(PathBuf::from("somewhere/test.ray")),
-        text: SCENE.to_owned(),
+        format,
+        path: Some(PathBuf::from("somewhere/test").with_extension(format.extension())),
+        text: text.to_owned(),
         quality: Quality { spp: 16, depth: 8 },
         mouse: Mouse::Off,
         terminal: (80, 24),

@@ -8,7 +8,7 @@ use crate::scene::fields::dat::RecordKind;
 use crate::scene::lower::record::Gathered;
 use crate::scene::lower::view::{self, Places};
 use crate::scene::origins::Name;
-use crate::scene::{Camera, Lens, Object, Size, bounds};
+use crate::scene::{Camera, Focus, Lens, Object, Size, bounds};
 use crate::text::{Diagnostic, Span};
 
 /// From where the default view looks, seen from the centre of the scene.
@@ -118,6 +118,7 @@ impl<'a> Reader<'a> {
                 lens: Lens::Perspective(DEFAULT_ANGLE),
                 pixel_aspect: shape_of(self.origins.resolution),
                 depths: Camera::ALL_DEPTHS,
+                focus: Focus::PINHOLE,
                 size,
             };
             let places = Places {
@@ -153,6 +154,7 @@ impl<'a> Reader<'a> {
             },
             pixel_aspect: shape_of(resolution),
             depths: [near.max(0.0), far],
+            focus: Focus::PINHOLE,
             size,
         };
         self.check_lens(&camera);

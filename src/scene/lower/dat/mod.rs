@@ -17,7 +17,7 @@ use crate::geometry::{Operation, Shape};
 use crate::scene::fields::Category;
 use crate::scene::fields::dat::{Heads, RECORDS, RecordKind, TextureKind, UseKind};
 use crate::scene::origins::dat::{Origins, VIEW};
-use crate::scene::{self, Light, Material, Rgb, Scene, Source, Texture};
+use crate::scene::{self, Light, Material, Phong, Rgb, Scene, Setting, Source, Texture};
 use crate::text::{Diagnostic, Findings, Position, Span};
 use line::Line;
 
@@ -50,9 +50,10 @@ pub(super) fn lower(text: &str, tree: &Tree) -> Lowered {
         camera,
         ambient: reader.lights.iter().map(ambient).sum(),
         lights: reader.lights,
-        materials: reader.materials,
+        materials: reader.materials.into_iter().map(Material::Phong).collect(),
         textures: reader.textures,
         objects,
+        setting: Setting::default(),
     });
     Lowered {
         scene,
@@ -80,7 +81,7 @@ struct Reader<'a> {
     camera: camera::Said,
     /// Of all records, those with errors included: their indices are the origins'.
     lights: Vec<Light>,
-    materials: Vec<Material>,
+    materials: Vec<Phong>,
     textures: Vec<Texture>,
     solids: Vec<Solid>,
     /// The index of each thing that is known by a number.

@@ -11,7 +11,7 @@ use crate::scene::fields::dat::{RecordKind, TextureKind, UseKind};
 use crate::scene::lower::record::Gathered;
 use crate::scene::origins::Name;
 use crate::scene::origins::dat::{Place, UsePlace};
-use crate::scene::{Falloff, Light, Material, Pattern, Shadows, Source, Texture};
+use crate::scene::{Falloff, Light, Pattern, Phong, Shadows, Source, Texture};
 use crate::text::{Diagnostic, Span};
 
 impl<'a> Reader<'a> {
@@ -41,6 +41,7 @@ impl<'a> Reader<'a> {
                 0 => Shadows::Cast,
                 _ => Shadows::Off,
             },
+            radius: 0.0,
         });
     }
 
@@ -64,7 +65,7 @@ impl<'a> Reader<'a> {
             ..,
         ] = said.numbers;
         let colour = said.colours[0];
-        self.materials.push(Material {
+        self.materials.push(Phong {
             ambient: ambient * colour,
             diffuse: diffuse * colour,
             specular: specular * colour,
@@ -72,7 +73,7 @@ impl<'a> Reader<'a> {
             reflection,
             transmission,
             index,
-            ..Material::default()
+            ..Phong::default()
         });
     }
 

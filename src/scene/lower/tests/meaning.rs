@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{read, scene, shown, spelled};
 use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
-use crate::scene::{Light, Material, Node, Object};
+use crate::scene::{Light, Material, Node, Object, Phong};
 use crate::text::Span;
 
 const EXAMPLE: &str = include_str!("../../../../scenes/example.ray");
@@ -17,7 +17,7 @@ fn the_example_of_the_format() {
     assert_eq!(scene.ambient, DVec3::ONE);
     let light = Light::point(DVec3::new(0.0, 5.0, 5.0), DVec3::ONE);
     assert_eq!(scene.lights, [light]);
-    let material = |index| Material {
+    let material = |index| Phong {
         ambient: DVec3::splat(0.1),
         diffuse: DVec3::splat(0.45),
         specular: DVec3::splat(0.5),
@@ -25,9 +25,12 @@ fn the_example_of_the_format() {
         reflection: 0.5,
         transmission: 0.1,
         index,
-        ..Material::default()
+        ..Phong::default()
     };
-    assert_eq!(scene.materials, [material(1.6), material(1.1)]);
+    assert_eq!(
+        scene.materials,
+        [material(1.6), material(1.1)].map(Material::Phong)
+    );
     let sphere = Shape::Sphere(Sphere {
         centre: DVec3::ZERO,
         radius: 1.5,
@@ -73,7 +76,7 @@ fn unusual_values_are_kept_as_given() {
     let scene = scene(&spelled(
         "HEAD 1 sphere 0 0 0 1  2 0 0  0 -1 0  0 0 3  -4 -5 6 -7",
     ));
-    let material = Material {
+    let material = Phong {
         ambient: DVec3::new(2.0, 0.0, 0.0),
         diffuse: DVec3::new(0.0, -1.0, 0.0),
         specular: DVec3::new(0.0, 0.0, 3.0),
@@ -81,9 +84,9 @@ fn unusual_values_are_kept_as_given() {
         reflection: -5.0,
         transmission: 6.0,
         index: -7.0,
-        ..Material::default()
+        ..Phong::default()
     };
-    assert_eq!(scene.materials, [material]);
+    assert_eq!(scene.materials, [Material::Phong(material)]);
 }
 
 #[test]

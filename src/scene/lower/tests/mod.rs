@@ -5,6 +5,7 @@ mod errors;
 mod meaning;
 mod properties;
 mod views;
+mod xml;
 
 use super::{Lowered, lower};
 use crate::format::{Format, Tree, parse};

@@ -7,7 +7,9 @@ use super::{read, scene};
 use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
 use crate::scene::fields::ray::ShapeKind;
 use crate::scene::fields::{self, Field, Kind, Range};
-use crate::scene::{Camera, Lens, Light, Material, Node, Object, Scene, Size, view_edits};
+use crate::scene::{
+    Camera, Lens, Light, Material, Node, Object, Phong, Scene, Setting, Size, view_edits,
+};
 use crate::text::{Edit, Span, apply};
 
 /// Steele, Lea and Flood's `SplitMix64`: enough randomness for tests, the same everywhere.
@@ -156,17 +158,22 @@ impl Model {
             materials: vec![],
             textures: vec![],
             objects: vec![],
+            setting: Setting::default(),
         };
         for (node, kind, said) in &self.nodes {
             match node {
-                Node::View | Node::Material(_) | Node::Texture(_) => {}
+                Node::View
+                | Node::Background
+                | Node::Environment
+                | Node::Material(_)
+                | Node::Texture(_) => {}
                 Node::Ambient => scene.ambient = vector(said, "colour"),
                 Node::Light(_) => scene.lights.push(Light::point(
                     vector(said, "position"),
                     vector(said, "colour"),
                 )),
                 Node::Object(_) => {
-                    let material = material(said);
+                    let material = Material::Phong(material(said));
                     if scene.materials.last() != Some(&material) {
                         scene.materials.push(material);
                     }
@@ -243,8 +250,8 @@ fn shape(said: &Said, kind: ShapeKind) -> Shape {
     }
 }
 
-fn material(said: &Said) -> Material {
-    Material {
+fn material(said: &Said) -> Phong {
+    Phong {
         ambient: vector(said, "ka"),
         diffuse: vector(said, "kd"),
         specular: vector(said, "ks"),
@@ -252,7 +259,7 @@ fn material(said: &Said) -> Material {
         reflection: numbers(said, "kr")[0],
         transmission: numbers(said, "kt")[0],
         index: numbers(said, "ior")[0],
-        ..Material::default()
+        ..Phong::default()
     }
 }
 

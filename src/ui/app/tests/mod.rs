@@ -6,6 +6,7 @@ mod editing;
 mod moving;
 mod pictures;
 mod textures;
+mod xml;
 
 use std::path::{Path, PathBuf};
 

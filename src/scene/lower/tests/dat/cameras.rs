@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::views::{BODY, MISSING};
 use super::{read, spelled};
 use crate::scene::lower::tests::properties::Random;
-use crate::scene::{Camera, Lens, Node, Size, view_edits, view_literals, view_saying};
+use crate::scene::{Camera, Focus, Lens, Node, Size, view_edits, view_literals, view_saying};
 use crate::text::{apply, parse_number, spell_like};
 
 /// The text after it was made to say the camera that `change` leads to.
@@ -214,6 +214,7 @@ fn the_text_says_the_camera_after_its_edits() {
             },
             pixel_aspect: number().abs() + 0.5,
             depths: [number().abs(), number().abs() + 20.0],
+            focus: Focus::PINHOLE,
             size: Size {
                 width: number().abs() as u32 + 1,
                 height: number().abs() as u32 + 1,

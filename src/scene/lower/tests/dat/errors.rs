@@ -333,7 +333,7 @@ render 1 ID 0
     assert_eq!(scene.camera.eye, glam::DVec3::splat(9.0));
     assert_eq!(scene.camera.lens, crate::scene::Lens::Orthographic(6.0));
     assert_eq!(scene.camera.size.width, 8);
-    assert_eq!(scene.materials[0].colour_texture, Some(1));
+    assert_eq!(super::phong(&scene.materials[0]).colour_texture, Some(1));
     let crate::geometry::Shape::Sphere(sphere) = &scene.objects[0].shape else {
         panic!("{:?}", scene.objects);
     };

@@ -2,11 +2,11 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{read, scene, spelled};
+use super::{phong, read, scene, spelled};
 use crate::geometry::Shape;
 use crate::scene::{
-    Camera, Falloff, Lens, Light, Material, Node, Pattern, Rgb, Scene, Shadows, Size, Source,
-    Texture,
+    Camera, Falloff, Focus, Lens, Light, Material, Node, Pattern, Phong, Rgb, Scene, Shadows, Size,
+    Source, Texture,
 };
 
 /// The scene of records under a view, a material 0 and a sphere of radius 1.
@@ -37,6 +37,7 @@ fn cameras() {
         lens: perspective.lens,
         pixel_aspect: 2.0,
         depths: [0.5, 40.0],
+        focus: Focus::PINHOLE,
         size: Size {
             width: 30,
             height: 500,
@@ -115,6 +116,7 @@ fn lights() {
             source: light.source,
             colour,
             shadows,
+            radius: 0.0,
         };
         assert_eq!(light, rest, "{record}");
         let ambient = match source {
@@ -156,7 +158,7 @@ fn materials() {
         "VIEW\nmat ID 7  1 .5 .25  .5 1 4 10  .75 .125 1.5\nobj sphere ID 0 mat ID 7 0 0 0 1",
     ));
     let colour = DVec3::new(1.0, 0.5, 0.25);
-    let expected = Material {
+    let expected = Phong {
         ambient: 0.5 * colour,
         diffuse: colour,
         specular: 4.0 * colour,
@@ -167,7 +169,7 @@ fn materials() {
         colour_texture: None,
         bump: None,
     };
-    assert_eq!(scene.materials, [expected]);
+    assert_eq!(scene.materials, [Material::Phong(expected)]);
 }
 
 #[test]
@@ -192,7 +194,7 @@ fn textures_and_their_uses() {
     ];
     assert_eq!(scene.textures, textures);
     let uses = |index: usize| {
-        let material = scene.materials[index];
+        let material = phong(&scene.materials[index]);
         (material.colour_texture, material.bump)
     };
     assert_eq!(uses(0), (Some(0), Some((1, -0.25))));
@@ -255,7 +257,7 @@ obj sphere ID +4 mat ID 3  0 0 0 4
 render 2 ID 3 ID 4",
     ));
     assert_eq!(drawn(&scene), (vec![1.0, 4.0], 0));
-    assert_eq!(scene.materials[0].colour_texture, Some(0));
+    assert_eq!(phong(&scene.materials[0]).colour_texture, Some(0));
 }
 
 const LAID_OUT: &str = "# a comment

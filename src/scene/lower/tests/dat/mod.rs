@@ -11,8 +11,8 @@ mod views;
 
 use super::shown;
 use crate::format::{Format, Tree, parse};
-use crate::scene::Scene;
 use crate::scene::lower::{Lowered, lower};
+use crate::scene::{Material, Phong, Scene};
 
 /// The three records of a view, on three lines.
 const VIEW: &str = "camera perspective 0 0 5  0 0 0  0 1 0  1 0 100
@@ -30,6 +30,14 @@ fn spelled(text: &str) -> String {
         .replace("MAT", MAT)
         .replace("BALL", "mat ID 0  0 0 0")
         .replace("AXES", "1 0 0  0 1 0  0 0 1")
+}
+
+/// The one kind of material that the language has.
+fn phong(material: &Material) -> &Phong {
+    match material {
+        Material::Phong(phong) => phong,
+        _ => panic!("no other kind is in this language"),
+    }
 }
 
 fn read(text: &str) -> (Tree, Lowered) {

@@ -311,6 +311,7 @@ fn check_any(text: &str) {
         assert!((object.material as usize) < scene.materials.len());
     }
     for material in &scene.materials {
+        let material = super::phong(material);
         let bump = material.bump.map(|(texture, _)| texture);
         let mut used = material.colour_texture.into_iter().chain(bump);
         assert!(used.all(|texture| (texture as usize) < scene.textures.len()));

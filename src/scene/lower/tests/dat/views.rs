@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{read, spelled};
 use crate::scene::lower::tests::shown;
-use crate::scene::{Camera, Lens, Size};
+use crate::scene::{Camera, Focus, Lens, Size};
 
 /// A unit sphere at the origin: its box is ±1, centred at 0, with half a diagonal of √3.
 pub(super) const BODY: &str = "mat ID 0 MAT\nobj sphere ID 0 BALL 1\n";
@@ -48,6 +48,7 @@ fn the_default_view_frames_the_scene() {
         lens: Lens::Perspective(45.0),
         pixel_aspect: 1.0,
         depths: Camera::ALL_DEPTHS,
+        focus: Focus::PINHOLE,
         size,
     };
     assert_eq!(camera, expected);

@@ -1,0 +1,144 @@
+//! Why a text is no XML, in words.
+
+use roxmltree::{Error, TextPos};
+
+use crate::text::{Diagnostic, Span};
+
+/// Tells an error of the parser at the place that it is about.
+pub(super) fn told(text: &str, error: &Error, unclosed: Option<Span>) -> Diagnostic {
+    let at = place(text, error.pos());
+    let end = Span::at(text.trim_end().len());
+    let here = character(text, at);
+    match error {
+        Error::UnexpectedCloseTag(expected, actual, _) => {
+            let message = format!("`</{actual}>` does not close `<{expected}>`, which is open");
+            Diagnostic::error(until(text, at, '>'), message, format!("`</{expected}>`"))
+        }
+        Error::UnknownEntityReference(name, _) => Diagnostic::error(
+            until(text, at, ';'),
+            format!("`&{name};` is not known"),
+            "&amp; &lt; &gt; &quot; &apos; or the number of a character",
+        )
+        .with_hint("the sign & itself is written &amp;"),
+        Error::MalformedEntityReference(_) => Diagnostic::error(
+            here,
+            "`&` begins no reference",
+            "`&amp;` for the sign itself",
+        ),
+        Error::InvalidAttributeValue(_) | Error::InvalidChar(b'"' | b'\'', b'<', _) => {
+            less_than(here)
+        }
+        Error::DuplicatedAttribute(name, _) => Diagnostic::error(
+            word(text, at),
+            format!("attribute `{name}`: said twice"),
+            "each attribute once",
+        ),
+        Error::UnclosedRootNode => {
+            let open = unclosed.unwrap_or(end);
+            let message = format!("`{}>` is never closed", open.of(text));
+            let name = open.of(text).trim_start_matches('<');
+            Diagnostic::error(open, message, format!("`</{name}>` after what is in it"))
+        }
+        // The parser takes a tag that breaks off for none at all.
+        Error::UnexpectedEndOfStream | Error::NoRootNode => match unclosed {
+            Some(open) => {
+                let message = format!("the text ends inside `{}>`", open.of(text));
+                Diagnostic::error(open, message, "the rest of the tag, and what closes it")
+            }
+            None => Diagnostic::error(end, "there is no element", "an element"),
+        },
+        Error::NonXmlChar(c, _) => Diagnostic::error(
+            here,
+            format!("{c:?} is no character of XML"),
+            "a printable character",
+        ),
+        Error::InvalidChar(expected, ..) => {
+            let expected = char::from(*expected);
+            Diagnostic::error(
+                here,
+                format!("`{expected}` is missing"),
+                format!("`{expected}`"),
+            )
+        }
+        Error::InvalidChar2(expected, ..) => Diagnostic::error(
+            here,
+            format!("{expected} is missing"),
+            (*expected).to_owned(),
+        ),
+        Error::InvalidString(expected, _) => Diagnostic::error(
+            here,
+            format!("`{expected}` is missing"),
+            format!("`{expected}`"),
+        ),
+        Error::InvalidName(_) => Diagnostic::error(here, "here no name begins", "a name")
+            .with_hint("the sign < itself is written &lt;"),
+        Error::InvalidComment(_) => {
+            let expected = "no `--` before the `-->` that ends it";
+            Diagnostic::error(here, "the comment holds `--`", expected)
+        }
+        Error::InvalidCharacterData(_) => {
+            Diagnostic::error(here, "`]]>` stands in a text", "`]]&gt;`")
+        }
+        Error::UnknownNamespace(prefix, _) => Diagnostic::error(
+            word(text, at),
+            format!("the prefix `{prefix}` is not declared"),
+            "a name without a prefix",
+        ),
+        Error::UnexpectedDeclaration(_) => Diagnostic::error(
+            until(text, at, '>'),
+            "the XML declaration does not stand at the beginning",
+            "an element",
+        ),
+        Error::UnknownToken(_) => {
+            Diagnostic::error(here, "this is no part of XML", "an element or a comment")
+                .with_hint("nothing but comments stands before and after the outermost element")
+        }
+        _ => Diagnostic::error(here, format!("this is no XML: {error}"), "well-formed XML"),
+    }
+}
+
+fn less_than(span: Span) -> Diagnostic {
+    let message = "`<` stands in a value";
+    Diagnostic::error(span, message, "`&lt;` for the sign itself")
+        .with_hint("or the quote that ends the value is missing")
+}
+
+/// The byte at a line and a column in characters, both from 1.
+fn place(text: &str, position: TextPos) -> usize {
+    let lines = position.row.saturating_sub(1) as usize;
+    let line = match lines.checked_sub(1) {
+        Some(before) => text
+            .match_indices('\n')
+            .nth(before)
+            .map_or(0, |(at, _)| at + 1),
+        None => 0,
+    };
+    let column = position.col.saturating_sub(1) as usize;
+    let mut characters = text[line..].char_indices();
+    line + characters
+        .nth(column)
+        .map_or(text.len() - line, |(at, _)| at)
+}
+
+/// The character at a place.
+fn character(text: &str, at: usize) -> Span {
+    let width = text[at..].chars().next().map_or(0, char::len_utf8);
+    Span::new(at, at + width)
+}
+
+/// The name at a place.
+fn word(text: &str, at: usize) -> Span {
+    let end = text[at..].find([' ', '\t', '\r', '\n', '=', '/', '>']);
+    Span::new(at, end.map_or(text.len(), |end| at + end))
+}
+
+/// From a place to the first `mark`, if that is near; else the character at the place.
+fn until(text: &str, at: usize, mark: char) -> Span {
+    const NEAR: usize = 80;
+    match text[at..].find([mark, '\n']) {
+        Some(end) if end < NEAR && text[at + end..].starts_with(mark) => {
+            Span::new(at, at + end + mark.len_utf8())
+        }
+        _ => character(text, at),
+    }
+}

@@ -1,0 +1,270 @@
+use super::{around, read, shown};
+use crate::text::Span;
+
+/// The errors and warnings of a text, without their places.
+fn said(text: &str) -> Vec<String> {
+    let (_, lowered) = read(text);
+    assert_eq!(
+        lowered.scene.is_some(),
+        lowered.diagnostics.errors() == 0,
+        "{text}"
+    );
+    let lines = shown(text, &lowered);
+    let message = |line: &String| line.split_once(' ').map(|(_, said)| said.to_owned());
+    lines.iter().filter_map(message).collect()
+}
+
+/// What is wrong with what stands in the scene.
+fn wrong(scene: &str) -> Vec<String> {
+    said(&around(scene))
+}
+
+#[test]
+fn each_mistake_is_told_in_words() {
+    for (scene, expected) in [
+        (
+            "<object type='sphere'><scale x='wide'/></object>",
+            "error: object 1 (sphere) scale x: `wide` is no number",
+        ),
+        (
+            "<object type='sphere' name='b'><scale y=''/></object>",
+            "error: b (sphere) scale y: `` is no number",
+        ),
+        (
+            "<object type='sphere'><scale value='0'/></object>",
+            "error: object 1 (sphere) scale: must not be 0 along any axis",
+        ),
+        (
+            "<object><scale x='0'/><object type='sphere'/></object>",
+            "error: object 1 (group) scale: must not be 0 along any axis",
+        ),
+        (
+            "<object type='sphere'><scale x='1e200'/><scale x='1e200'/></object>",
+            "error: object 1 (sphere): its transforms leave it no volume, or no place",
+        ),
+        (
+            "<object type='sphere'><translate x='1e300' value='1e300'/></object>",
+            "error: object 1 (sphere) translate: too large for any number",
+        ),
+        (
+            "<object type='sphere'><rotate angle='9'/></object>",
+            "warning: object 1 (sphere) rotate: the axis is zero",
+        ),
+        (
+            "<object type='sphere'><rotate x='1' y='1,5'/></object>",
+            "error: object 1 (sphere) rotate y: `1,5` is no number",
+        ),
+        (
+            "<object type='spere'/>",
+            "warning: object type: `spere` is not known",
+        ),
+        (
+            "<object type='sphere' material='m'/>",
+            "warning: material: there is none called `m`",
+        ),
+        (
+            "<object type='obj' name='a.obj'/>",
+            "warning: meshes are not traced yet",
+        ),
+        (
+            "<object size='1'/>",
+            "warning: attribute `size`: not known of `object`",
+        ),
+        (
+            "<object><scale r='1'/></object>",
+            "warning: attribute `r`: not known of `scale`",
+        ),
+        (
+            "<object><sacle/></object>",
+            "warning: `sacle`: not known in `object`",
+        ),
+    ] {
+        let wrong = wrong(scene);
+        assert!(wrong.contains(&expected.to_owned()), "{scene}: {wrong:#?}");
+    }
+}
+
+#[test]
+fn lights_and_surroundings_are_judged() {
+    for (scene, expected) in [
+        (
+            "<light type='spot'/>",
+            "warning: light type: `spot` is not known",
+        ),
+        ("<light/>", "warning: light: no type"),
+        (
+            "<light type='direct'><direction x='0'/></light>",
+            "error: light 1 (direct) direction: must not be zero",
+        ),
+        (
+            "<light type='direct'><direction value='0' z='1'/></light>",
+            "error: light 1 (direct) direction: must not be zero",
+        ),
+        (
+            "<light type='point'><size value='-1'/></light>",
+            "error: light 1 (point) size: must be 0 or more",
+        ),
+        (
+            "<light type='point'><size value='1'/></light>",
+            "warning: the size of lights is not traced yet",
+        ),
+        (
+            "<light type='ambient'><position/></light>",
+            "warning: `position`: not known in `light`",
+        ),
+        (
+            "<light type='ambient'><intensity value='1'/><intensity/></light>",
+            "warning: light 1 (ambient) intensity: said again further down",
+        ),
+        (
+            "<light type='ambient'><intensity>1</intensity></light>",
+            "warning: `1`: text between tags says nothing",
+        ),
+        (
+            "<background value='1'/>",
+            "warning: background is not traced yet",
+        ),
+        (
+            "<background texture=''/>",
+            "warning: texture: there is no name",
+        ),
+        (
+            "<background value='0' texture='a.png'><scale x='0'/></background>",
+            "error: background scale: must not be 0 along any axis",
+        ),
+        ("<camera/>", "warning: `camera`: not known in `scene`"),
+    ] {
+        let wrong = wrong(scene);
+        assert!(wrong.contains(&expected.to_owned()), "{scene}: {wrong:#?}");
+    }
+}
+
+#[test]
+fn materials_warn_of_what_they_are_not() {
+    for (material, expected) in [
+        (
+            "<material type='glass'/>",
+            "warning: material type: `glass` is not known",
+        ),
+        (
+            "<material name='a'/><material name='a'/>",
+            "warning: `a`: another material has this name",
+        ),
+        (
+            "<material><roughness/></material>",
+            "warning: `roughness`: not known in `material`",
+        ),
+        (
+            "<material name='a'><diffuse R='1'/></material>",
+            "warning: attribute `R`: not known of `diffuse`",
+        ),
+        (
+            "<material><absorption texture='a.png'/></material>",
+            "warning: attribute `texture`: not known of `absorption`",
+        ),
+        (
+            "<material><glossiness value='-1'/></material>",
+            "warning: material 1 (blinn) glossiness: -1 is not 0 or more",
+        ),
+        (
+            "<material name='a'/>",
+            "warning: the shading of this language is not traced yet",
+        ),
+    ] {
+        let wrong = wrong(material);
+        assert!(
+            wrong.contains(&expected.to_owned()),
+            "{material}: {wrong:#?}"
+        );
+    }
+}
+
+#[test]
+fn the_camera_and_the_root_are_judged() {
+    let of = |camera: &str| format!("<xml><scene/>{camera}</xml>");
+    for (text, expected) in [
+        (
+            "<scene/>".to_owned(),
+            "error: the outermost element is `scene`",
+        ),
+        (
+            "<xml><camera/></xml>".to_owned(),
+            "warning: scene: there is no such element",
+        ),
+        (
+            "<xml><scene/></xml>".to_owned(),
+            "warning: camera: there is no such element",
+        ),
+        (
+            of("<camera/><camera/>"),
+            "warning: `camera`: there is one already",
+        ),
+        (of("<scene/>"), "warning: `scene`: there is one already"),
+        (of("<lens/>"), "warning: `lens`: not known in `xml`"),
+        (
+            of("<camera><fov value='180'/></camera>"),
+            "error: view fov: must be greater than 0 and less than 180",
+        ),
+        (
+            of("<camera><width value='1.0'/></camera>"),
+            "error: view width: must be a whole number, 1 or more",
+        ),
+        (
+            of("<camera><height value='5000000000'/></camera>"),
+            "error: view height: must be 4294967295 at most",
+        ),
+        (
+            of("<camera><target/></camera>"),
+            "error: view target: is where the eye is",
+        ),
+        (
+            of("<camera><up z='1'/></camera>"),
+            "warning: view up: is the direction of view",
+        ),
+        (
+            of("<camera gamma='2.2'/>"),
+            "warning: camera gamma: `2.2` is not known",
+        ),
+        (
+            of("<camera gamma='sRGB'/>"),
+            "warning: paths and the sRGB curve are not traced yet",
+        ),
+        (
+            of("<camera><dof value='1'/></camera>"),
+            "warning: what is out of focus is not traced yet",
+        ),
+        (
+            "<xml><scene>".to_owned(),
+            "error: `<scene>` is never closed",
+        ),
+    ] {
+        let wrong = said(&text);
+        assert!(wrong.contains(&expected.to_owned()), "{text}: {wrong:#?}");
+    }
+}
+
+#[test]
+fn all_that_is_wrong_is_told_at_once_at_its_place() {
+    let text = "<xml>\n <scene>\n  <object type='sphere'>\n   <scale x='a'/>\n   <turn/>\n  </object>\n  \
+        <light type='direct'>\n   <direction x='0'/>\n  </light>\n </scene>\n \
+        <camera><fov value='0'/><position z='1'/></camera>\n</xml>\n";
+    let (_, lowered) = read(text);
+    let expected = [
+        "4:14 error: object 1 (sphere) scale x: `a` is no number",
+        "5:5 warning: `turn`: not known in `object`",
+        "8:15 error: light 1 (direct) direction: must not be zero",
+        "11:22 error: view fov: must be greater than 0 and less than 180",
+    ];
+    assert_eq!(shown(text, &lowered), expected);
+    let hint = lowered.diagnostics[1].hint.as_deref();
+    assert_eq!(hint, Some("it is skipped, with all that is in it"));
+    assert_eq!(lowered.diagnostics[0].span, Span::new(53, 54));
+}
+
+#[test]
+fn a_slip_is_known_by_its_word() {
+    let text = around("<obejct/>");
+    let (_, lowered) = read(&text);
+    let hint = lowered.diagnostics[0].hint.as_deref();
+    assert_eq!(hint, Some("it is skipped; write object if that is meant"));
+}

@@ -1,0 +1,108 @@
+//! The grammar of `.xml`: elements with attributes as the table of fields lists them. What makes no
+//! sense costs itself only, and what the table does not know is skipped.
+//!
+//! All walks are loops over the flat tree: elements may be nested as deep as a text is long.
+
+mod camera;
+mod objects;
+mod roles;
+mod surfaces;
+mod textures;
+mod values;
+
+use std::collections::HashMap;
+
+use super::Lowered;
+use crate::format::xml::Tree;
+use crate::scene::origins::xml::Origins;
+use crate::scene::{self, Light, Material, Object, Rgb, Scene, Setting, Source};
+use crate::text::{Diagnostic, Findings, Span};
+
+/// Reads a scene.
+pub(super) fn lower(text: &str, tree: &Tree) -> Lowered {
+    let mut reader = Reader {
+        text,
+        tree,
+        report: Findings::default(),
+        origins: Origins::default(),
+        lights: Vec::new(),
+        materials: Vec::new(),
+        named: HashMap::new(),
+        objects: Vec::new(),
+        setting: Setting::default(),
+    };
+    if let Some(fault) = &tree.fault {
+        reader.report.error(|| fault.clone());
+    }
+    let scene = reader.read();
+    Lowered {
+        scene: scene.filter(|_| reader.report.errors() == 0),
+        origins: scene::Origins::Xml(reader.origins),
+        diagnostics: reader.report.sorted(),
+    }
+}
+
+/// What was read so far.
+struct Reader<'a> {
+    text: &'a str,
+    tree: &'a Tree,
+    report: Findings,
+    origins: Origins,
+    lights: Vec<Light>,
+    materials: Vec<Material>,
+    /// The index of each material by its name.
+    named: HashMap<&'a str, usize>,
+    objects: Vec<Object>,
+    setting: Setting,
+}
+
+impl Reader<'_> {
+    /// Reads everything; `None` where there is nothing to read.
+    fn read(&mut self) -> Option<Scene> {
+        self.find_roles();
+        self.origins.root?;
+        let camera = self.camera();
+        self.surroundings();
+        for index in 0..self.origins.lights.len() {
+            self.light(index);
+        }
+        for index in 0..self.origins.materials.len() {
+            self.material(index);
+        }
+        self.place_objects();
+        let ambient = |light: &Light| match light.source {
+            Source::Everywhere => light.colour,
+            Source::Point { .. } | Source::Distant(_) => Rgb::ZERO,
+        };
+        Some(Scene {
+            camera,
+            ambient: self.lights.iter().map(ambient).sum(),
+            lights: std::mem::take(&mut self.lights),
+            materials: std::mem::take(&mut self.materials),
+            textures: Vec::new(),
+            objects: std::mem::take(&mut self.objects),
+            setting: std::mem::take(&mut self.setting),
+        })
+    }
+
+    fn warn(&mut self, span: Span, message: impl FnOnce() -> String, expected: &str, hint: &str) {
+        self.report.warning(|| {
+            let warning = Diagnostic::warning(span, message(), expected);
+            if hint.is_empty() {
+                warning
+            } else {
+                warning.with_hint(hint)
+            }
+        });
+    }
+
+    fn error(&mut self, span: Span, message: impl FnOnce() -> String, expected: &str) {
+        self.report
+            .error(|| Diagnostic::error(span, message(), expected));
+    }
+
+    /// Warns of what is read and kept, but not traced yet.
+    fn not_traced(&mut self, span: Span, what: &str, hint: &str) {
+        self.warn(span, || format!("{what} not traced yet"), hint, "");
+    }
+}

@@ -1,0 +1,299 @@
+//! Where the things of a `.xml` text stand: each is an element, and its fields are attributes of
+//! that and of elements in it.
+
+mod fields;
+mod insert;
+
+use super::{NamedFile, Node};
+use crate::format::xml::{Attribute, Tree};
+use crate::scene::fields::xml::{LightKind, MaterialKind, ObjectKind, Parameter};
+use crate::scene::placed::Placed;
+use crate::text::Span;
+
+/// Where everything that was lowered stands. It holds indices of elements and attributes: ask it
+/// only with the tree it was made from.
+#[derive(Clone, Debug, Default)]
+pub struct Origins {
+    /// What each element is.
+    pub(in crate::scene) roles: Vec<Role>,
+    /// The element whose node each element belongs to, and 0 where it belongs to none.
+    pub(in crate::scene) owners: Vec<u32>,
+    /// What each attribute is: its place in [`WORDS`], or [`NO_WORD`].
+    pub(in crate::scene) words: Vec<u8>,
+    pub(in crate::scene) root: Option<usize>,
+    pub(in crate::scene) scene: Option<usize>,
+    pub(in crate::scene) camera: Option<usize>,
+    pub(in crate::scene) lights: Vec<Place<LightKind>>,
+    pub(in crate::scene) materials: Vec<Place<MaterialKind>>,
+    pub(in crate::scene) objects: Vec<Place<ObjectKind>>,
+    /// The material of each object, by index.
+    pub(in crate::scene) dressed: Vec<Option<usize>>,
+    /// The objects that are drawn, ascending: those of the scene.
+    pub(in crate::scene) drawn: Vec<usize>,
+    /// The attributes that name picture files.
+    pub(in crate::scene) files: Vec<(usize, usize)>,
+    /// Whether the scene is meant for path tracing.
+    pub(in crate::scene) is_srgb: bool,
+    /// What multiplies the camera's vectors.
+    pub(in crate::scene) factors: [Option<f64>; 3],
+}
+
+/// Where a light, a material or an object stands.
+#[derive(Clone, Debug)]
+pub(in crate::scene) struct Place<Kind> {
+    /// Index of its element.
+    pub(in crate::scene) element: u32,
+    pub(in crate::scene) kind: Kind,
+    /// What the text calls it.
+    pub(in crate::scene) name: Option<Box<str>>,
+    /// How many objects it is in.
+    pub(in crate::scene) depth: u32,
+}
+
+/// What an element is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::scene) enum Role {
+    /// Nothing that counts.
+    Skipped,
+    Root,
+    Scene,
+    Camera,
+    /// By index.
+    Light(u32),
+    /// By index.
+    Material(u32),
+    /// By index.
+    Object(u32),
+    /// It says something of the element it is in.
+    Parameter(&'static Parameter),
+    /// It moves the element it is in.
+    Transform(&'static Parameter),
+}
+
+/// The attributes that mean something.
+pub(in crate::scene) const WORDS: [&str; 15] = [
+    "x",
+    "y",
+    "z",
+    "value",
+    "angle",
+    "r",
+    "g",
+    "b",
+    "index",
+    "glossiness",
+    "texture",
+    "type",
+    "name",
+    "material",
+    "gamma",
+];
+
+/// An attribute that means nothing.
+pub(in crate::scene) const NO_WORD: u8 = u8::MAX;
+
+impl Origins {
+    pub(super) fn nodes(&self) -> Vec<Node> {
+        let surroundings = self.scene.map(|_| [Node::Background, Node::Environment]);
+        self.root
+            .map(|_| Node::View)
+            .into_iter()
+            .chain(surroundings.into_iter().flatten())
+            .chain((0..self.lights.len()).map(Node::Light))
+            .chain((0..self.materials.len()).map(Node::Material))
+            .chain((0..self.objects.len()).map(Node::Object))
+            .collect()
+    }
+
+    pub(in crate::scene) fn name(&self, node: Node) -> String {
+        match node {
+            Node::View => "view".to_owned(),
+            Node::Ambient => "ambient".to_owned(),
+            Node::Background => "background".to_owned(),
+            Node::Environment => "environment".to_owned(),
+            Node::Light(index) => called("light", index, &self.lights, LightKind::word),
+            Node::Material(index) => called("material", index, &self.materials, MaterialKind::word),
+            Node::Texture(index) => format!("texture {}", index + 1),
+            Node::Object(index) => called("object", index, &self.objects, ObjectKind::word),
+        }
+    }
+
+    /// How many objects an object is in.
+    pub(super) fn depth(&self, node: Node) -> usize {
+        match node {
+            Node::Object(index) => self.objects.get(index).map_or(0, |at| at.depth as usize),
+            _ => 0,
+        }
+    }
+
+    pub(super) fn is_group(&self, object: usize) -> bool {
+        let place = self.objects.get(object);
+        place.is_some_and(|place| place.kind == ObjectKind::Group)
+    }
+
+    pub(super) fn fields(&self, tree: &Tree, node: Node) -> Vec<Placed> {
+        fields::of(self, tree, node)
+    }
+
+    pub(super) fn span(&self, tree: &Tree, node: Node) -> Span {
+        let element = self
+            .element(tree, node)
+            .and_then(|at| tree.elements.get(at));
+        element.map_or_else(|| Span::at(0), |element| element.whole)
+    }
+
+    pub(super) fn comment<'t>(&self, text: &'t str, tree: &Tree, node: Node) -> Option<&'t str> {
+        let element = tree.elements.get(self.element(tree, node)?)?;
+        let own = element.tag;
+        let said = |comment: &Span| {
+            let said = comment
+                .of(text)
+                .strip_prefix("<!--")?
+                .strip_suffix("-->")?
+                .trim();
+            (!said.is_empty()).then_some(said)
+        };
+        let next = tree.comments.partition_point(|c| c.start() < own.start());
+        let behind = tree.comments.get(next).filter(|comment| {
+            own.end() <= comment.start()
+                && text[own.end()..comment.start()]
+                    .trim_matches([' ', '\t'])
+                    .is_empty()
+        });
+        let before = next.checked_sub(1).and_then(|at| tree.comments.get(at));
+        let before = before.filter(|comment| {
+            comment.end() <= own.start()
+                && text[comment.end()..own.start()].trim_matches([' ', '\t', '\r']) == "\n"
+        });
+        behind.or(before).and_then(said)
+    }
+
+    pub(super) fn node_at(&self, tree: &Tree, span: Span) -> Option<Node> {
+        let innermost = tree.element_at(span);
+        // At the end of an element it is that still, unless another one begins there.
+        let before = span.start().checked_sub(1).map(|at| Span::new(at, at + 1));
+        innermost
+            .and_then(|at| self.node_of(at))
+            .or_else(|| self.node_of(tree.element_at(before?)?))
+    }
+
+    pub(super) fn nodes_in(&self, tree: &Tree, span: Span) -> Vec<Node> {
+        let from = tree
+            .elements
+            .partition_point(|at| at.tag.end() <= span.start());
+        let count = tree.elements[from..].partition_point(|at| at.tag.start() < span.end());
+        let mut nodes: Vec<_> = (from..from + count)
+            .filter_map(|at| self.node_of(at))
+            .collect();
+        nodes.dedup();
+        nodes
+    }
+
+    pub(super) fn files(&self, text: &str, tree: &Tree) -> Vec<NamedFile> {
+        let file = |&(element, attribute): &(usize, usize)| {
+            let said = tree.attributes.get(attribute)?;
+            let owner = self.node_of(element)?;
+            let name = tree.elements.get(element)?.name.of(text);
+            Some(NamedFile {
+                path: said.said(text).to_owned(),
+                span: said.value,
+                what: if self.owners.get(element) == Some(&(element as u32)) {
+                    format!("{name} texture")
+                } else {
+                    format!("{} {name} texture", self.name(owner))
+                },
+            })
+        };
+        self.files.iter().filter_map(file).collect()
+    }
+
+    pub(super) fn users(&self, node: Node) -> usize {
+        let Node::Material(material) = node else {
+            return 0;
+        };
+        let drawn = self.drawn.iter();
+        drawn
+            .filter(|&&at| self.dressed[at] == Some(material))
+            .count()
+    }
+
+    /// The attribute of an element that is one of [`WORDS`].
+    pub(in crate::scene) fn attribute(
+        &self,
+        tree: &Tree,
+        element: usize,
+        word: &str,
+    ) -> Option<usize> {
+        let word = WORDS.iter().position(|known| *known == word)? as u8;
+        let mut own = tree.elements.get(element)?.attributes();
+        own.find(|&at| self.words.get(at) == Some(&word))
+    }
+
+    /// The value of an attribute.
+    pub(in crate::scene) fn value<'t>(
+        &self,
+        tree: &'t Tree,
+        element: usize,
+        word: &str,
+    ) -> Option<&'t Attribute> {
+        tree.attributes.get(self.attribute(tree, element, word)?)
+    }
+
+    /// The element in another one that says a parameter.
+    pub(in crate::scene) fn parameter(
+        &self,
+        tree: &Tree,
+        holder: usize,
+        parameter: &'static Parameter,
+    ) -> Option<usize> {
+        let said = Role::Parameter(parameter);
+        tree.children(holder)
+            .find(|&at| self.roles.get(at) == Some(&said))
+    }
+
+    /// The element of a node.
+    fn element(&self, tree: &Tree, node: Node) -> Option<usize> {
+        use crate::scene::fields::xml::{BACKGROUND, ENVIRONMENT};
+        match node {
+            Node::View => self.camera,
+            Node::Background => self.parameter(tree, self.scene?, &BACKGROUND),
+            Node::Environment => self.parameter(tree, self.scene?, &ENVIRONMENT),
+            Node::Light(index) => Some(self.lights.get(index)?.element as usize),
+            Node::Material(index) => Some(self.materials.get(index)?.element as usize),
+            Node::Object(index) => Some(self.objects.get(index)?.element as usize),
+            Node::Ambient | Node::Texture(_) => None,
+        }
+    }
+
+    /// The node that an element belongs to.
+    pub(in crate::scene) fn node_of(&self, element: usize) -> Option<Node> {
+        let owner = *self.owners.get(element)?;
+        Some(match self.roles.get(owner as usize)? {
+            Role::Camera => Node::View,
+            Role::Light(index) => Node::Light(*index as usize),
+            Role::Material(index) => Node::Material(*index as usize),
+            Role::Object(index) => Node::Object(*index as usize),
+            Role::Parameter(parameter) if parameter.element == "background" => Node::Background,
+            Role::Parameter(parameter) if parameter.element == "environment" => Node::Environment,
+            _ => return None,
+        })
+    }
+}
+
+/// What a thing is called: by the text if it does, else by its number.
+fn called<Kind: Copy>(
+    what: &str,
+    index: usize,
+    places: &[Place<Kind>],
+    word: impl Fn(Kind) -> &'static str,
+) -> String {
+    match places.get(index) {
+        Some(Place {
+            kind,
+            name: Some(name),
+            ..
+        }) => format!("{name} ({})", word(*kind)),
+        Some(place) => format!("{what} {} ({})", index + 1, word(place.kind)),
+        None => format!("{what} {}", index + 1),
+    }
+}
