@@ -39,6 +39,8 @@ pub enum Kind {
     Choice(&'static [&'static str]),
     /// The whole number by which another thing is known.
     Reference(Category),
+    /// The name that another thing has.
+    Name(Category),
     /// A word of the user's own.
     Word,
 }
@@ -52,7 +54,12 @@ impl Kind {
     /// How many numbers it takes.
     pub const fn components(self) -> usize {
         match self {
-            Self::Number | Self::Side | Self::Choice(_) | Self::Reference(_) | Self::Word => 1,
+            Self::Number
+            | Self::Side
+            | Self::Choice(_)
+            | Self::Reference(_)
+            | Self::Name(_)
+            | Self::Word => 1,
             Self::Pixels | Self::Pair => 2,
             Self::Point | Self::Direction | Self::Axis | Self::Colour => 3,
             Self::HalfSpace | Self::ScaledVector | Self::ScaledColour | Self::Rotation => 4,
@@ -62,7 +69,12 @@ impl Kind {
     /// What its numbers are called, one name a component; a single number has no name of its own.
     pub const fn component_names(self) -> &'static [&'static str] {
         match self {
-            Self::Number | Self::Side | Self::Choice(_) | Self::Reference(_) | Self::Word => &[""],
+            Self::Number
+            | Self::Side
+            | Self::Choice(_)
+            | Self::Reference(_)
+            | Self::Name(_)
+            | Self::Word => &[""],
             Self::Pixels => &["width", "height"],
             Self::Pair => &["across", "up"],
             Self::Point | Self::Direction | Self::Axis => &["x", "y", "z"],
@@ -184,6 +196,7 @@ impl Field {
         match self.kind {
             Kind::Choice(words) => words.join(" or "),
             Kind::Reference(category) => format!("the number of one {}", category.word()),
+            Kind::Name(category) => format!("the name of one {}", category.word()),
             Kind::Word => "one word".to_owned(),
             _ => self.allowed.words(),
         }
@@ -291,6 +304,7 @@ mod tests {
             Kind::HalfSpace,
             Kind::Choice(&["yes", "no"]),
             Kind::Reference(Category::Object),
+            Kind::Name(Category::Material),
             Kind::Word,
         ] {
             assert_eq!(kind.component_names().len(), kind.components(), "{kind:?}");

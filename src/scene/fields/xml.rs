@@ -1,7 +1,7 @@
 //! The fields of `.xml`: what each element is called, which attributes it has, and what is read
 //! where they are missing.
 
-use super::{Field, Kind, Range};
+use super::{Category, Field, Kind, Range};
 
 /// An element that says something of the one around it.
 #[derive(Debug, PartialEq)]
@@ -563,7 +563,7 @@ pub static OBJECT: [Word; 3] = [
     ),
     word(
         "material",
-        Kind::Word,
+        Kind::Name(Category::Material),
         "none",
         "The name of its material; what is in it has its own.",
     ),

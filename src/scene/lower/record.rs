@@ -232,6 +232,7 @@ impl<'a> Record<'a> {
                 // What they name is looked up where they are read; cuts are read by themselves, and
                 // the rest is in no record.
                 Kind::Reference(_)
+                | Kind::Name(_)
                 | Kind::Word
                 | Kind::HalfSpace
                 | Kind::Side

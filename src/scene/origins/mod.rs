@@ -199,6 +199,16 @@ impl Origins {
         }
     }
 
+    /// The names that a field may say: those of a category, in text order, each once.
+    pub fn names(&self, text: &str, tree: &Tree, category: Category) -> Vec<String> {
+        match (self, tree, category) {
+            (Self::Xml(origins), Tree::Xml(tree), Category::Material) => {
+                origins.material_names(text, tree)
+            }
+            _ => Vec::new(),
+        }
+    }
+
     /// The picture files of its textures, in text order.
     pub fn files(&self, text: &str, tree: &Tree) -> Vec<NamedFile> {
         match (self, tree) {

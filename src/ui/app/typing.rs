@@ -36,6 +36,11 @@ impl App {
                 let known: Vec<_> = known.iter().map(i64::to_string).collect();
                 literals::next(&known, &literal, steps)
             }
+            Kind::Name(category) => {
+                let (text, tree) = (self.document.text(), self.document.tree());
+                let known = self.origins.names(text, tree, category);
+                literals::next(&known, &literal, steps)
+            }
             _ => literals::nudged(&literal, f64::from(steps) * step, step),
         };
         let Some(nudged) = nudged else {
@@ -47,7 +52,7 @@ impl App {
         };
         if nudged == literal {
             self.warn(match field.kind {
-                Kind::Choice(_) | Kind::Reference(_) => "there is no other",
+                Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => "there is no other",
                 _ => "the number is too large for this step",
             });
         } else if let Err(refused) = self.assign(&[(self.component, nudged)]) {
@@ -135,7 +140,9 @@ impl App {
             self.assign_whole(&values)
         } else {
             let words = self.current().and_then(|(field, _)| match field.kind {
-                Kind::Choice(_) | Kind::Reference(_) | Kind::Word => Some(field.expected()),
+                Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) | Kind::Word => {
+                    Some(field.expected())
+                }
                 _ => None,
             });
             let expected = words.unwrap_or_else(|| "one number".to_owned());

@@ -329,3 +329,16 @@ fn a_picture_of_another_size_fills_its_place() {
     assert_eq!(lines[0], format!("  {}", "▀".repeat(16)));
     assert_eq!(lines[5], lines[0]);
 }
+
+#[test]
+fn a_text_that_is_no_xml_is_drawn() {
+    for text in ["", "<xml>", "<scene/>"] {
+        let mut app = app_of(Format::Xml, text);
+        for (width, height) in [(80, 24), (40, 12), (9, 3), (1, 1)] {
+            let lines = screen(&mut app, width, height);
+            assert_eq!(lines.len(), usize::from(height));
+        }
+        let lines = screen(&mut app, 80, 24).join("\n");
+        assert!(lines.contains("error"), "{lines}");
+    }
+}

@@ -4,6 +4,8 @@
 mod fields;
 mod insert;
 
+use std::collections::HashSet;
+
 use super::{NamedFile, Node};
 use crate::format::xml::{Attribute, Tree};
 use crate::scene::fields::xml::{LightKind, MaterialKind, ObjectKind, Parameter};
@@ -187,6 +189,16 @@ impl Origins {
             .collect();
         nodes.dedup();
         nodes
+    }
+
+    pub(super) fn material_names(&self, text: &str, tree: &Tree) -> Vec<String> {
+        let mut known = HashSet::new();
+        let names = self.materials.iter().filter_map(|place| {
+            let name = self.value(tree, place.element as usize, "name")?;
+            Some(name.said(text))
+        });
+        let names = names.filter(|name| !name.is_empty() && known.insert(*name));
+        names.map(str::to_owned).collect()
     }
 
     pub(super) fn files(&self, text: &str, tree: &Tree) -> Vec<NamedFile> {

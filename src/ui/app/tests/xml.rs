@@ -63,6 +63,23 @@ fn what_is_not_said_is_shown_and_said_when_typed() {
 }
 
 #[test]
+fn a_material_goes_through_the_names_there_are() {
+    let text = SCENE.replace("name=\"m\"/>", "name=\"m\"/><material name=\"n &amp; o\"/>");
+    let mut app = opened_as("scene.xml", &text).0;
+    app.select(Node::Object(1));
+    let material = |app: &App| app.fields()[2].literals[0].clone();
+    press(&mut app, "ejj");
+    for (keys, expected) in [("l", "n & o"), ("l", "m"), ("h", "n & o")] {
+        press(&mut app, keys);
+        assert_eq!(material(&app), expected);
+    }
+    assert!(app.document.text().contains("material='n &amp; o'"));
+    app.select(Node::Object(0));
+    press(&mut app, "jjl");
+    assert!(app.document.text().contains(r#"name="all" material="m">"#));
+}
+
+#[test]
 fn a_missing_parameter_is_made() {
     assert_eq!(
         changed(Node::Material(0), "ejji<Back><Back><Back>1<Enter>"),

@@ -141,7 +141,7 @@ fn ten_thousand_edits_change_one_component_each() {
                 // Another type has other fields, and another gamma other defaults.
                 Kind::Choice(_) => continue,
                 Kind::Word if placed.field.key == "texture" => continue,
-                Kind::Word => random.pick(&["a", "<&>'\"", "é", "m"]).to_owned(),
+                Kind::Word | Kind::Name(_) => random.pick(&["a", "<&>'\"", "é", "m"]).to_owned(),
                 Kind::Side => (1 + random.below(900)).to_string(),
                 _ => random.literal(placed.field),
             };
