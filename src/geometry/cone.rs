@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::line::{roots, slab};
+use super::line::{between, half_line, roots, slab};
 use super::transform::normalise;
 use super::{Aabb, Affine, Chart, Crossings, Hit, Ray, Surface};
 
@@ -78,7 +78,8 @@ fn inside_side(origin: DVec3, direction: DVec3) -> Option<Crossings> {
     let b = origin.x * direction.x + origin.y * direction.y - origin.z * direction.z;
     let c = indefinite_square(origin);
     if a == 0.0 {
-        return along_generatrix(b, c);
+        // Parallel to a generatrix it crosses the side once at most.
+        return half_line(b, c, SIDE);
     }
     if 0.0 < a && discriminant < 0.0 {
         return None;
@@ -86,25 +87,12 @@ fn inside_side(origin: DVec3, direction: DVec3) -> Option<Crossings> {
     // A line steeper than the side always crosses it: a negative discriminant is rounding.
     let [first, second] = roots(a, b, c, discriminant.max(0.0).sqrt());
     if 0.0 < a {
-        Some(between(first, second))
+        Some(between(first, second, SIDE))
     } else if 0.0 < direction.z {
-        Some(between(f64::NEG_INFINITY, first))
+        Some(between(f64::NEG_INFINITY, first, SIDE))
     } else {
-        Some(between(second, f64::INFINITY))
+        Some(between(second, f64::INFINITY, SIDE))
     }
-}
-
-/// Where 2 b t + c ≤ 0: a line parallel to a generatrix crosses the side once at most.
-fn along_generatrix(b: f64, c: f64) -> Option<Crossings> {
-    if b == 0.0 {
-        return (c <= 0.0).then_some(Crossings::EVERYWHERE);
-    }
-    let t = -0.5 * (c / b);
-    Some(if 0.0 < b {
-        between(f64::NEG_INFINITY, t)
-    } else {
-        between(t, f64::INFINITY)
-    })
 }
 
 /// x² + y² − z².
@@ -112,18 +100,4 @@ fn along_generatrix(b: f64, c: f64) -> Option<Crossings> {
 fn indefinite_square(v: DVec3) -> f64 {
     let radius = v.with_z(0.0).length();
     (radius - v.z) * (radius + v.z)
-}
-
-#[inline]
-fn between(enter: f64, exit: f64) -> Crossings {
-    Crossings {
-        enter: Hit {
-            t: enter,
-            part: SIDE,
-        },
-        exit: Hit {
-            t: exit,
-            part: SIDE,
-        },
-    }
 }

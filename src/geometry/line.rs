@@ -53,6 +53,27 @@ pub(super) fn ball(origin: DVec3, direction: DVec3, radius: f64) -> Option<[f64;
     Some(roots(a, b, c, discriminant.sqrt()))
 }
 
+/// Where 2 b t + c ≤ 0, between crossings of a part of a surface.
+#[inline]
+pub(super) fn half_line(b: f64, c: f64, part: u32) -> Option<Crossings> {
+    if b == 0.0 {
+        return (c <= 0.0).then_some(Crossings::EVERYWHERE);
+    }
+    let t = -0.5 * (c / b);
+    Some(if 0.0 < b {
+        between(f64::NEG_INFINITY, t, part)
+    } else {
+        between(t, f64::INFINITY, part)
+    })
+}
+
+/// From one crossing of a part of a surface to another.
+#[inline]
+pub(super) fn between(enter: f64, exit: f64, part: u32) -> Crossings {
+    let [enter, exit] = [enter, exit].map(|t| Hit { t, part });
+    Crossings { enter, exit }
+}
+
 /// The roots of a t² + 2 b t + c = 0 in ascending order, given the square root of b² − ac; a ≠ 0.
 ///
 /// The root of lesser magnitude is c / q, so that a line which starts on a surface (c ≈ 0) finds

@@ -6,7 +6,7 @@ mod form;
 
 use glam::DVec3;
 
-use super::line::roots;
+use super::line::{between, half_line, roots};
 use super::transform::{normalise, power_of_two};
 use super::{Aabb, Chart, Crossings, Hit, Ray, Surface};
 use form::{Form, Line};
@@ -192,7 +192,7 @@ fn inside(form: &Form, line: &Line) -> [Option<Crossings>; 2] {
     let level = 2.0 * h.dot(p) + form.constant;
     let c = p.dot(sp) + level;
     if a == 0.0 {
-        return [straight(b, c), None];
+        return [half_line(b, c, CURVED), None];
     }
     let moment = p.cross(q);
     let products = DVec3::new(s.y * s.z, s.z * s.x, s.x * s.y);
@@ -202,31 +202,13 @@ fn inside(form: &Form, line: &Line) -> [Option<Crossings>; 2] {
     }
     let [first, second] = roots(a, b, c, discriminant.sqrt());
     if 0.0 < a {
-        [Some(between(first, second)), None]
+        [Some(between(first, second, CURVED)), None]
     } else {
         [
-            Some(between(f64::NEG_INFINITY, first)),
-            Some(between(second, f64::INFINITY)),
+            Some(between(f64::NEG_INFINITY, first, CURVED)),
+            Some(between(second, f64::INFINITY, CURVED)),
         ]
     }
-}
-
-/// Where 2 b t + c ≤ 0.
-fn straight(b: f64, c: f64) -> Option<Crossings> {
-    if b == 0.0 {
-        return (c <= 0.0).then_some(Crossings::EVERYWHERE);
-    }
-    let t = -0.5 * (c / b);
-    Some(if 0.0 < b {
-        between(f64::NEG_INFINITY, t)
-    } else {
-        between(t, f64::INFINITY)
-    })
-}
-
-fn between(enter: f64, exit: f64) -> Crossings {
-    let [enter, exit] = [enter, exit].map(|t| Hit { t, part: CURVED });
-    Crossings { enter, exit }
 }
 
 /// The surface near p: two steps of Newton's along the gradient bring the error of a distance down
