@@ -394,10 +394,13 @@ fn mutate(text: &mut String, random: &mut Random) {
         "100000000",
         "\u{A0}\u{1b}",
     ];
-    let (tree, _) = read(text);
-    let leaves = tree.leaves();
+    damage(text, &read(text).0.leaves(), &WORDS, random);
+}
+
+/// Takes away, doubles or replaces one of a text's leaves, or all from it on; `words` stand in.
+pub(super) fn damage(text: &mut String, leaves: &[Span], words: &[&str], random: &mut Random) {
     if leaves.is_empty() {
-        text.push_str(random.pick(&WORDS));
+        text.push_str(random.pick(words));
         return;
     }
     let span = leaves[random.below(leaves.len())];
@@ -405,7 +408,7 @@ fn mutate(text: &mut String, random: &mut Random) {
         0 => String::new(),
         1 => format!("{0} {0}", span.of(text)),
         2 => leaves[random.below(leaves.len())].of(text).to_owned(),
-        3 => random.pick(&WORDS).to_owned(),
+        3 => random.pick(words).to_owned(),
         _ => {
             let bytes: Vec<u8> = (0..6).map(|_| random.next() as u8).collect();
             String::from_utf8_lossy(&bytes).into_owned()

@@ -3,11 +3,11 @@
 use proptest::prelude::*;
 
 use super::read;
-use crate::format::{Format, Tree};
+use crate::format::Tree;
 use crate::scene::Node;
 use crate::scene::fields::dat::{HALF_SPACE, ObjectKind, Part, RecordKind, TextureKind, UseKind};
 use crate::scene::fields::{Category, Field, Kind};
-use crate::scene::lower::tests::properties::Random;
+use crate::scene::lower::tests::properties::{Random, damage};
 use crate::text::{Edit, Span, apply};
 
 /// The records of a random scene, each as its tokens. IDs are the places in their category.
@@ -248,28 +248,7 @@ fn mutate(text: &mut String, random: &mut Random) {
         "9223372036854775807",
         "\u{A0}\u{1b}",
     ];
-    let leaves = crate::format::parse(Format::Dat, text).leaves();
-    if leaves.is_empty() {
-        text.push_str(random.pick(&WORDS));
-        return;
-    }
-    let span = leaves[random.below(leaves.len())];
-    let replacement = match random.below(5) {
-        0 => String::new(),
-        1 => format!("{0} {0}", span.of(text)),
-        2 => leaves[random.below(leaves.len())].of(text).to_owned(),
-        3 => random.pick(&WORDS).to_owned(),
-        _ => {
-            let bytes: Vec<u8> = (0..6).map(|_| random.next() as u8).collect();
-            String::from_utf8_lossy(&bytes).into_owned()
-        }
-    };
-    let end = if random.below(20) == 0 {
-        text.len()
-    } else {
-        span.end()
-    };
-    text.replace_range(span.start()..end, &replacement);
+    damage(text, &read(text).0.leaves(), &WORDS, random);
 }
 
 /// Reads any text and checks that what comes out belongs to it.
