@@ -22,8 +22,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use halflight::format::{self, Format};
-use halflight::render::{DEFAULT_DEPTH, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::{Images, Scene, Transfer, lower};
+use halflight::render::{DEFAULT_DEPTH, Filter, Frames, Job, Renderer, Settings, Threads};
+use halflight::scene::{Images, Integrator, Scene, Transfer, lower};
 use halflight::ui::view::layout::Zoom;
 
 use desk::{Desk, Drawn, TERMINAL, difference, picture_cells};
@@ -319,6 +319,8 @@ fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
         depth: DEFAULT_DEPTH,
         seed: 0,
         aov: None,
+        integrator: Integrator::Whitted,
+        filter: Filter::Box,
         transfer: Transfer::default(),
     };
     let job = Job {

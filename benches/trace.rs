@@ -17,10 +17,10 @@ use halflight::accel::Bvh;
 use halflight::format::{self, Format};
 use halflight::geometry::{Aabb, Affine, Instance, Shape};
 use halflight::obj;
-use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads};
+use halflight::render::{DEFAULT_DEPTH, Filter, Frame, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::{
-    Camera, Focus, Images, Lens, Light, Material, Object, Phong, Rgb, Scene, Setting, Shadows,
-    Size, Source, Transfer, lower,
+    Camera, Focus, Images, Integrator, Lens, Light, Material, Object, Phong, Rgb, Scene, Setting,
+    Shadows, Size, Source, Transfer, lower,
 };
 
 /// Runs of everything that is timed; the median is printed.
@@ -241,6 +241,8 @@ fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
             depth: DEFAULT_DEPTH,
             seed: 0,
             aov: None,
+            integrator: Integrator::Whitted,
+            filter: Filter::Box,
             transfer: Transfer::default(),
         };
         let job = Job {

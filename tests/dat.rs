@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use std::sync::{Arc, mpsc};
 
 use halflight::format::{self, Format};
-use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::{Image, Images, Scene, Size, Transfer, lower};
+use halflight::render::{DEFAULT_DEPTH, Filter, Frame, Frames, Job, Renderer, Settings, Threads};
+use halflight::scene::{Image, Images, Integrator, Scene, Size, Transfer, lower};
 
 /// A scene whose lengths are all `s` times as large: squares of lengths and what is counted in
 /// their reciprocals follow.
@@ -123,6 +123,8 @@ fn trace(scene: &Arc<Scene>, threads: usize) -> Arc<Frame> {
                 depth: DEFAULT_DEPTH,
                 seed: 0,
                 aov: None,
+                integrator: Integrator::Whitted,
+                filter: Filter::Box,
                 transfer: Transfer::default(),
             },
             frames: Frames::Last,

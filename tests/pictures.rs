@@ -7,9 +7,9 @@ use halflight::assets::{Assets, Wanted};
 use halflight::document::Document;
 use halflight::format::{self, Format};
 use halflight::image_file::ImageFormat;
-use halflight::render::{DEFAULT_DEPTH, Frame, Frames, Job, Renderer, Settings, Threads};
+use halflight::render::{DEFAULT_DEPTH, Filter, Frame, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::fields::{Field, Kind, Range};
-use halflight::scene::{Images, Node, Scene, Size, Transfer, lower};
+use halflight::scene::{Images, Integrator, Node, Scene, Size, Transfer, lower};
 use halflight::text::{Edit, parse_number};
 
 /// Size of the pictures beside the scenes, and their samples a pixel: the README's command.
@@ -165,6 +165,8 @@ fn trace(scene: &Arc<Scene>, images: Images, size: Size, spp: u32) -> Arc<Frame>
         depth: DEFAULT_DEPTH,
         seed: 0,
         aov: None,
+        integrator: Integrator::Whitted,
+        filter: Filter::Box,
         transfer: Transfer::default(),
     };
     let job = Job {

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 use std::sync::{Arc, mpsc};
 
 use halflight::format::{self, Format};
-use halflight::render::{DEFAULT_DEPTH, Frames, Job, Renderer, Settings, Threads};
+use halflight::render::{DEFAULT_DEPTH, Filter, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::fields::Kind;
-use halflight::scene::{Images, Lowered, Node, Placed, Scene, Transfer, lower};
+use halflight::scene::{Images, Integrator, Lowered, Node, Placed, Scene, Transfer, lower};
 use halflight::text::{Diagnostic, apply};
 
 const EXAMPLE: &str = include_str!("../scenes/spheres.xml");
@@ -58,6 +58,8 @@ fn the_example_is_white_on_black() {
             depth: DEFAULT_DEPTH,
             seed: 0,
             aov: None,
+            integrator: Integrator::Whitted,
+            filter: Filter::Box,
             transfer: Transfer::default(),
         },
         scene,

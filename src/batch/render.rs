@@ -8,7 +8,7 @@ use super::progress::ProgressLine;
 use super::{Error, load, print_findings, stdout, tell, tell_error};
 use crate::file;
 use crate::image_file::ImageFormat;
-use crate::render::{Aov, Frame, Job, Renderer, Settings, Threads};
+use crate::render::{Aov, Filter, Frame, Job, Renderer, Settings, Threads};
 use crate::scene::{Camera, Images, Scene, Size, Transfer};
 use crate::text::{Diagnostic, counted};
 
@@ -105,6 +105,7 @@ fn check_output(work: &Render) -> Result<(), Error> {
 
 fn trace(work: &Render, scene: Scene, images: Images, size: Size) -> Result<Arc<Frame>, Error> {
     let transfer = work.transfer.unwrap_or(scene.setting.transfer);
+    let integrator = scene.setting.integrator;
     let job = Job {
         images,
         // The picture's ratio is the one asked for.
@@ -122,6 +123,8 @@ fn trace(work: &Render, scene: Scene, images: Images, size: Size) -> Result<Arc<
             depth: work.depth,
             seed: work.seed,
             aov: work.aov,
+            integrator,
+            filter: Filter::Box,
             transfer,
         },
         frames: work.format.frames(),

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::scene::{Camera, Images, Scene, Size, Transfer};
+use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer};
 
 /// Samples a pixel of full-size pictures unless the user says otherwise.
 pub const DEFAULT_SPP: u32 = 16;
@@ -30,8 +30,20 @@ pub struct Settings {
     pub seed: u32,
     /// What the pixels show instead of light.
     pub aov: Option<Aov>,
+    /// How light is gathered.
+    pub integrator: Integrator,
+    /// What of its surroundings a pixel is the mean of.
+    pub filter: Filter,
     /// How colours become 8-bit values.
     pub transfer: Transfer,
+}
+
+/// What of its surroundings a pixel is the mean of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Filter {
+    /// The pixel itself.
+    #[default]
+    Box,
 }
 
 /// What the first surface under a pixel is, apart from light: an arbitrary output variable.

@@ -31,7 +31,8 @@ mod worker;
 mod world;
 
 pub use frame::{
-    Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress, Settings,
+    Aov, DEFAULT_DEPTH, DEFAULT_SPP, Filter, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress,
+    Settings,
 };
 pub use renderer::{Refusal, Renderer, Threads};
 

@@ -19,11 +19,11 @@ use glam::DVec3;
 
 use super::whitted::{Seen, Tracer};
 use super::world::World;
-use super::{Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
+use super::{Filter, Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
 use crate::geometry::{Affine, Cuboid, Ray, Shape, Sphere};
 use crate::scene::{
-    Camera, Focus, Images, Lens, Light, Material, Object, Phong, Rgb, Scene, Setting, Size,
-    Transfer,
+    Camera, Focus, Images, Integrator, Lens, Light, Material, Object, Phong, Rgb, Scene, Setting,
+    Size, Transfer,
 };
 
 /// Deterministic numbers in 0..1 (Vigna's splitmix64).
@@ -198,6 +198,8 @@ fn settings(width: u32, height: u32, spp: u32) -> Settings {
         depth: 8,
         seed: 0,
         aov: None,
+        integrator: Integrator::Whitted,
+        filter: Filter::Box,
         transfer: Transfer::default(),
     }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::textures::STILL_READING;
 use super::{App, Export, Mode, Picture, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
-use crate::render::{Frame, Frames, Job, Settings};
+use crate::render::{Filter, Frame, Frames, Job, Settings};
 use crate::scene::{Camera, Size};
 use crate::ui::msg::{Destination, Effect, Existing, ExportId, Target};
 
@@ -58,6 +58,8 @@ impl App {
                 depth: self.quality.depth,
                 seed: 0,
                 aov: None,
+                integrator: scene.setting.integrator,
+                filter: Filter::Box,
                 transfer: scene.setting.transfer,
             },
             frames: Frames::Live,
