@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
+use super::warp;
 use crate::geometry::{Ray, normalise};
-use crate::scene::{Camera, Lens, Size};
+use crate::scene::{Camera, Focus, Lens, Size};
 
 /// A camera made ready to give rays for a raster of pixels.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +20,7 @@ pub(crate) struct Projection {
     half_height: f64,
     /// Between these distances along the view things are seen.
     depths: [f64; 2],
+    focus: Focus,
     raster: Size,
 }
 
@@ -52,13 +54,21 @@ impl Projection {
             half_width: half_height * aspect * camera.pixel_aspect,
             half_height,
             depths: camera.depths,
+            focus: camera.focus,
             raster,
         }
     }
 
     /// The ray through a place of the raster, in pixels from its top left corner, from where things
     /// begin to be seen; and how far along it they are.
-    pub(crate) fn ray(&self, x: f64, y: f64) -> (Ray, f64) {
+    ///
+    /// With a lens, through the place of it that `lens` says in the unit square, or else its middle.
+    pub(crate) fn ray(
+        &self,
+        x: f64,
+        y: f64,
+        lens: impl FnOnce() -> Option<[f64; 2]>,
+    ) -> (Ray, f64) {
         let across = self.half_width * (2.0 * x / f64::from(self.raster.width) - 1.0);
         let upward = self.half_height * (1.0 - 2.0 * y / f64::from(self.raster.height));
         let aside = across * self.right + upward * self.up;
@@ -77,7 +87,24 @@ impl Projection {
         if 0.0 < near {
             ray.origin = ray.at(near / slant);
         }
+        if self.focus.lens_radius != 0.0
+            && let Some(place) = lens()
+        {
+            ray = self.through_lens(&ray, slant, place);
+        }
         (ray, (far - near) / slant)
+    }
+
+    /// The ray through a place of the lens to where the one through its middle meets the plane of
+    /// what is sharp (Cook and others, "Distributed Ray Tracing", 1984).
+    fn through_lens(&self, middle: &Ray, slant: f64, place: [f64; 2]) -> Ray {
+        let sharp = middle.at(self.focus.distance / slant);
+        let place = self.focus.lens_radius * warp::in_disc(place);
+        let origin = middle.origin + place.x * self.right + place.y * self.up;
+        Ray {
+            origin,
+            direction: (sharp - origin).normalize(),
+        }
     }
 }
 
@@ -149,15 +176,15 @@ mod tests {
         );
         let through = |x, y, z| DVec3::new(x, y, z).normalize();
         assert_near(
-            projection.ray(0.5, 0.5).0.direction,
+            projection.ray(0.5, 0.5, || None).0.direction,
             through(-1.5, 0.5, -1.0),
         );
         assert_near(
-            projection.ray(3.5, 1.5).0.direction,
+            projection.ray(3.5, 1.5, || None).0.direction,
             through(1.5, -0.5, -1.0),
         );
         assert_near(
-            projection.ray(2.0, 1.0).0.direction,
+            projection.ray(2.0, 1.0, || None).0.direction,
             through(0.0, 0.0, -1.0),
         );
     }
@@ -179,8 +206,8 @@ mod tests {
             },
         );
         assert_near(
-            fine.ray(4.0, 2.0).0.direction,
-            coarse.ray(3.0, 1.0).0.direction,
+            fine.ray(4.0, 2.0, || None).0.direction,
+            coarse.ray(3.0, 1.0, || None).0.direction,
         );
     }
 
@@ -226,7 +253,7 @@ mod tests {
                 }
                 let projection = Projection::new(&camera, raster);
                 for (x, y) in [(0.0, 0.0), (1.5, 1.0), (3.0, 2.0)] {
-                    let (ray, _) = projection.ray(x, y);
+                    let (ray, _) = projection.ray(x, y, || None);
                     assert_eq!(ray.origin, camera.eye);
                     assert!(
                         (ray.direction.length() - 1.0).abs() < 1e-15,

@@ -3,18 +3,18 @@
 use std::collections::TryReserveError;
 use std::ops::Range;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::camera::Projection;
 use super::first_hit::first_hit;
 use super::frame::{Aov, Frames, NO_OBJECT, Settings};
-use super::sampler::place_in_pixel;
+use super::sampler::{Sampler, Use, place_in_pixel};
 use super::steps::{COARSEST, Step};
 use super::tone::Tone;
-use super::whitted::{Counts, Tracer};
+use super::tracer::{Counts, Sample, Tracer};
 use super::world::World;
-use crate::scene::{Rgb, Size, Transfer};
+use crate::scene::{Integrator, Rgb, Size, Transfer};
 
 /// Pixels of a tile.
 const AREA: u32 = 256;
@@ -39,6 +39,36 @@ pub(crate) struct Shot<'w> {
     pub(crate) eye: DVec3,
     /// How.
     pub(crate) settings: Settings,
+}
+
+impl Shot<'_> {
+    /// A sample of a pixel.
+    fn sample(&self, [x, y]: [u32; 2], index: u32) -> Sample {
+        let Settings {
+            size,
+            seed,
+            integrator,
+            aov,
+            ..
+        } = self.settings;
+        let sampler = Sampler::new(x, y, index, seed);
+        let [across, down] = place_in_pixel(x, y, index, seed);
+        let [x, y] = [x, y].map(f64::from);
+        let lens = || match (integrator, aov) {
+            (Integrator::Path, None) => {
+                let [u, v, ..] = sampler.four(Sampler::ROOT, Use::Lens);
+                Some([u, v])
+            }
+            _ => sampler.pair(Sampler::ROOT, Use::Lens),
+        };
+        let (ray, reach) = self.projection.ray(x + across, y + down, lens);
+        Sample {
+            ray,
+            reach,
+            screen: (DVec2::new(x, y) + 0.5) / DVec2::new(size.width.into(), size.height.into()),
+            sampler,
+        }
+    }
 }
 
 /// The tiles of a picture, row by row.
@@ -200,7 +230,12 @@ impl Film {
         self.tiles[tiles]
             .par_iter_mut()
             .map_init(
-                || Tracer::new(shot.world, shot.settings.depth),
+                || {
+                    let Settings {
+                        integrator, depth, ..
+                    } = shot.settings;
+                    Tracer::new(shot.world, integrator, depth)
+                },
                 |tracer, tile| {
                     let before = tracer.counts;
                     tile.advance(size, step, shot, tracer, &cancelled);
@@ -361,14 +396,12 @@ impl Tile {
         tracer: &mut Tracer<'_>,
         cancelled: &impl Fn() -> bool,
     ) {
-        let [across, down] = place_in_pixel(x, y, index, shot.settings.seed);
-        let (ray, reach) = shot
-            .projection
-            .ray(f64::from(x) + across, f64::from(y) + down);
+        let sample = shot.sample([x, y], index);
         let seen = match shot.settings.aov {
-            None => tracer.radiance(ray, reach, cancelled),
+            None => tracer.radiance(&sample, cancelled),
             Some(aov) => {
                 tracer.counts.rays += 1;
+                let Sample { ray, reach, .. } = sample;
                 let skipped = (ray.origin - shot.eye).dot(ray.direction);
                 first_hit(shot.world, &ray, reach, skipped, aov)
             }

@@ -3,8 +3,7 @@
 use glam::DVec3;
 
 use super::frame::{Aov, NO_OBJECT};
-use super::looks::Look;
-use super::whitted::Seen;
+use super::tracer::{Matter, Seen};
 use super::world::World;
 use crate::geometry::Ray;
 use crate::scene::Rgb;
@@ -22,20 +21,15 @@ pub(crate) fn first_hit(world: &World, ray: &Ray, reach: f64, skipped: f64, aov:
             object: NO_OBJECT,
         };
     };
-    let object = &world.scene.objects[nearest.object as usize];
-    let surface = object.shape.surface(ray, nearest.hit);
-    let look = &world.looks[object.material_at(nearest.hit) as usize];
-    let (normal, albedo) = match look {
-        Look::Lit(material, _) => {
-            let (normal, textured) = world.textured(ray, nearest, material, surface.shading);
-            (normal, textured.unwrap_or(*material).diffuse)
-        }
-        Look::Flat(colour) => (surface.shading, *colour),
+    let (point, matter) = world.arrive(ray, nearest);
+    let albedo = match &matter {
+        Matter::Phong(material) => material.diffuse,
+        Matter::Utah(answer) => answer.diffuse,
+        Matter::Flat(colour) => *colour,
     };
     let value = match aov {
         Aov::Depth => DVec3::splat(skipped + nearest.hit.t),
-        Aov::Normal if ray.direction.dot(surface.normal) < 0.0 => normal,
-        Aov::Normal => -normal,
+        Aov::Normal => point.normal,
         Aov::Object => DVec3::splat(f64::from(nearest.object) + 1.0),
         Aov::Albedo => albedo,
     };

@@ -10,15 +10,25 @@
 //! the pool to free.
 //!
 //! The way of a picture: [`renderer`] hands a job to [`worker`], which builds a [`world`] with the
-//! [`structures`] of its meshes and fills a [`film`] in [`steps`]; each sample asks [`sampler`] for
-//! its place in the pixel, [`camera`] for its ray and [`whitted`] for its radiance, or [`first_hit`]
-//! for something else; [`tone`] makes the film a frame.
+//! [`structures`] of its meshes and fills a [`film`] in [`steps`]; each sample takes its numbers from
+//! [`sampler`], its ray from [`camera`] and its radiance from a [`tracer`], or something else from
+//! [`first_hit`]; [`tone`] makes the film a frame.
+//!
+//! A tracer gathers light in one of two ways, [`whitted`] or [`path`]. Both come to surfaces of
+//! [`phong`] (with its [`texture`]s) or [`utah`] (with those of [`mapped`]) and ask [`lights`];
+//! [`optics`], [`lobes`], [`microfacet`] and [`warp`] are the formulas.
 
 mod camera;
 mod film;
 mod first_hit;
 mod frame;
-mod looks;
+mod lights;
+mod lobes;
+mod mapped;
+mod microfacet;
+mod optics;
+mod path;
+mod phong;
 mod renderer;
 mod sampler;
 mod shared;
@@ -26,6 +36,9 @@ mod steps;
 mod structures;
 mod texture;
 mod tone;
+mod tracer;
+mod utah;
+mod warp;
 mod whitted;
 mod worker;
 mod world;

@@ -1,6 +1,73 @@
-//! Where in its pixel each sample lies.
+//! The numbers that samples are made of.
 
-use sobol_burley::sample;
+use sobol_burley::{sample, sample_4d};
+
+/// The numbers of one sample, each a function of (pixel, index, seed) and what it is for: points of
+/// Sobol' sequences, each Owen-scrambled by a seed of its own (see [`place_in_pixel`]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Sampler {
+    pixel: u32,
+    index: u32,
+}
+
+/// What numbers are for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Use {
+    /// The place on the lens.
+    Lens,
+    /// How a mirrored ray is spread.
+    Reflection,
+    /// How a refracted ray is spread.
+    Refraction,
+    /// Where a path goes on.
+    Bounce,
+    /// How far a path's bounce is spread.
+    Spread,
+    /// The place on a light, by its index.
+    Light(u32),
+}
+
+impl Sampler {
+    /// The node of camera rays.
+    pub(crate) const ROOT: u32 = 0;
+
+    /// The numbers of sample `index`, below [`MAX_SPP`](super::MAX_SPP), of pixel (x, y).
+    pub(crate) fn new(x: u32, y: u32, index: u32, seed: u32) -> Self {
+        Self {
+            pixel: pixel_seed(x, y, seed),
+            index,
+        }
+    }
+
+    /// The node of a ray's `number`th child: rays with other nodes have other numbers.
+    pub(crate) fn child(node: u32, number: u32) -> u32 {
+        mix(node ^ 0x5851_F42D).wrapping_add(number + 1)
+    }
+
+    /// Two numbers in 0..1, for one use at one node; none for sample 0, which takes the middle of
+    /// everything.
+    pub(crate) fn pair(self, node: u32, purpose: Use) -> Option<[f64; 2]> {
+        if self.index == 0 {
+            return None;
+        }
+        let [u, v, ..] = self.four(node, purpose);
+        Some([u, v])
+    }
+
+    /// Four numbers in 0..1, for one use at one node, whatever the index.
+    pub(crate) fn four(self, node: u32, purpose: Use) -> [f64; 4] {
+        let purpose = match purpose {
+            Use::Lens => 0,
+            Use::Reflection => 1,
+            Use::Refraction => 2,
+            Use::Bounce => 3,
+            Use::Spread => 4,
+            Use::Light(number) => 5 + number,
+        };
+        let seed = mix(mix(self.pixel ^ node).wrapping_add(0x9E37_79B9) ^ purpose);
+        sample_4d(self.index, 0, seed).map(f64::from)
+    }
+}
 
 /// The place of sample `index` (below [`MAX_SPP`](super::MAX_SPP)) in pixel (x, y), as fractions of
 /// the pixel from its top left, in 0..1: the centre for index 0, then a Sobol' sequence,
@@ -14,17 +81,18 @@ pub(crate) fn place_in_pixel(x: u32, y: u32, index: u32, seed: u32) -> [f64; 2] 
     [0, 1].map(|dimension| f64::from(sample(index, dimension, scramble)))
 }
 
-/// Mixes coordinates and seed so that neighbouring pixels get unrelated patterns: three rounds of
-/// the finaliser of `MurmurHash3` (Appleby, public domain).
+/// Mixes coordinates and seed so that neighbouring pixels get unrelated patterns.
 fn pixel_seed(x: u32, y: u32, seed: u32) -> u32 {
-    let mix = |mut hash: u32| {
-        hash ^= hash >> 16;
-        hash = hash.wrapping_mul(0x85EB_CA6B);
-        hash ^= hash >> 13;
-        hash = hash.wrapping_mul(0xC2B2_AE35);
-        hash ^ (hash >> 16)
-    };
     mix(mix(mix(seed ^ 0x9E37_79B9) ^ x).wrapping_add(0x9E37_79B9) ^ y)
+}
+
+/// The finaliser of `MurmurHash3` (Appleby, public domain).
+fn mix(mut hash: u32) -> u32 {
+    hash ^= hash >> 16;
+    hash = hash.wrapping_mul(0x85EB_CA6B);
+    hash ^= hash >> 13;
+    hash = hash.wrapping_mul(0xC2B2_AE35);
+    hash ^ (hash >> 16)
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use crate::geometry::Chart;
 use crate::scene::{Image, Images, Pattern, Phong, Rgb, Texture};
 
 /// What stands for a picture that can't be read.
-const MAGENTA: Rgb = Rgb::new(1.0, 0.0, 1.0);
+pub(crate) const MAGENTA: Rgb = Rgb::new(1.0, 0.0, 1.0);
 
 /// How bright a colour is (Rec. 709).
 const LUMINANCE: Rgb = Rgb::new(0.2126, 0.7152, 0.0722);

@@ -1,108 +1,35 @@
-//! Whitted's recursive ray tracing with Phong highlights (Whitted, "An Improved Illumination Model
-//! for Shaded Display", 1980).
+//! Whitted's recursive ray tracing (Whitted, "An Improved Illumination Model for Shaded Display",
+//! 1980).
 
 use glam::DVec3;
 
 use super::frame::NO_OBJECT;
-use super::looks::Look;
-use super::world::{Nearest, World};
-use crate::geometry::{Ray, Surface, ulp};
-use crate::scene::{Falloff, Light, Phong, Rgb, Shadows, Source};
-
-/// Rays that one camera sample may trace, shadow rays apart. With reflection and transmission both
-/// 1 a tree of depth 30 would have two thousand million.
-const RAY_BUDGET: u32 = 4096;
-
-/// Traces samples; keeps its scratch space and counts from one to the next.
-#[derive(Debug)]
-pub(crate) struct Tracer<'w> {
-    world: &'w World,
-    depth: u32,
-    pending: Vec<Pending>,
-    crossed: Vec<(u32, u32)>,
-    /// What was traced so far.
-    pub(crate) counts: Counts,
-}
-
-/// Counts of work done.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Counts {
-    /// Rays, shadow rays included.
-    pub(crate) rays: u64,
-    /// Samples that ran out of their budget.
-    pub(crate) over_budget: u64,
-}
-
-impl Counts {
-    /// What was added since `before`.
-    pub(crate) fn since(self, before: Self) -> Self {
-        Self {
-            rays: self.rays - before.rays,
-            over_budget: self.over_budget - before.over_budget,
-        }
-    }
-
-    /// Both counts together.
-    pub(crate) fn and(self, other: Self) -> Self {
-        Self {
-            rays: self.rays + other.rays,
-            over_budget: self.over_budget + other.over_budget,
-        }
-    }
-}
-
-/// What a camera ray brings.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Seen {
-    /// Radiance.
-    pub(crate) radiance: Rgb,
-    /// The first object met, or [`NO_OBJECT`].
-    pub(crate) object: u32,
-}
+use super::optics::{fresnel, index, reflect, refract};
+use super::sampler::{Sampler, Use};
+use super::tracer::{Matter, Point, RAY_BUDGET, Sample, Seen, Tracer};
+use super::utah::Answer;
+use super::warp;
+use super::world::Nearest;
+use crate::geometry::Ray;
+use crate::scene::{Phong, Rgb};
 
 /// A ray yet to be traced.
 #[derive(Clone, Copy, Debug)]
-struct Pending {
+pub(crate) struct Pending {
     ray: Ray,
     /// Which part of its radiance reaches the eye.
-    weight: f64,
+    weight: Rgb,
+    /// What is lost per unit of length until it meets something.
+    absorption: Rgb,
     bounce: u32,
+    /// Its place in the tree of rays, for numbers of its own.
+    node: u32,
 }
 
-/// A lit point.
-struct Point<'m> {
-    surface: Surface,
-    /// The normal to shade with, its bumps included: turned round where the back was hit.
-    normal: DVec3,
-    /// Whether the ray came from outside.
-    front: bool,
-    /// Unit vector toward where the ray came from.
-    view: DVec3,
-    /// With its textures.
-    material: &'m Phong,
-}
-
-impl<'w> Tracer<'w> {
-    /// A tracer that follows rays to bounce `depth`.
-    pub(crate) fn new(world: &'w World, depth: u32) -> Self {
-        Self {
-            world,
-            depth,
-            pending: Vec::new(),
-            crossed: Vec::new(),
-            counts: Counts::default(),
-        }
-    }
-
-    /// Radiance along a camera ray, which is followed as far as `reach`. Rays are traced depth
-    /// first, reflection before refraction; those beyond the budget bring nothing. Stops early,
-    /// with a useless result, once `cancelled` says so.
-    pub(crate) fn radiance(
-        &mut self,
-        camera_ray: Ray,
-        reach: f64,
-        cancelled: impl Fn() -> bool,
-    ) -> Seen {
+impl Tracer<'_> {
+    /// Radiance along a camera ray. Rays are traced depth first, reflection before refraction; those
+    /// beyond the budget bring nothing.
+    pub(crate) fn by_whitted(&mut self, sample: &Sample, cancelled: impl Fn() -> bool) -> Seen {
         let mut seen = Seen {
             radiance: Rgb::ZERO,
             object: NO_OBJECT,
@@ -110,9 +37,11 @@ impl<'w> Tracer<'w> {
         let mut traced = 0;
         self.pending.clear();
         self.pending.push(Pending {
-            ray: camera_ray,
-            weight: 1.0,
+            ray: sample.ray,
+            weight: Rgb::ONE,
+            absorption: Rgb::ZERO,
             bounce: 0,
+            node: Sampler::ROOT,
         });
         while let Some(next) = self.pending.pop() {
             if traced == RAY_BUDGET {
@@ -122,17 +51,18 @@ impl<'w> Tracer<'w> {
             traced += 1;
             self.counts.rays += 1;
             let reach = if next.bounce == 0 {
-                reach
+                sample.reach
             } else {
                 f64::INFINITY
             };
             let Some(nearest) = self.world.nearest(&next.ray, reach) else {
+                seen.radiance += next.weight * self.world.around(&next.ray, next.bounce, sample);
                 continue;
             };
             if next.bounce == 0 {
                 seen.object = nearest.object;
             }
-            seen.radiance += next.weight * self.local(&next, nearest);
+            seen.radiance += self.local(&next, nearest, sample.sampler);
             if traced.is_multiple_of(64) && cancelled() {
                 break;
             }
@@ -140,186 +70,197 @@ impl<'w> Tracer<'w> {
         seen
     }
 
-    /// Ambient and direct light at a hit; leaves the rays that go on from it pending.
-    fn local(&mut self, arrived: &Pending, nearest: Nearest) -> Rgb {
-        let scene = &self.world.scene;
-        let object = &scene.objects[nearest.object as usize];
-        let surface = object.shape.surface(&arrived.ray, nearest.hit);
-        let look = &self.world.looks[object.material_at(nearest.hit) as usize];
-        let (material, emission) = match look {
-            Look::Lit(material, emission) => (material, *emission),
-            Look::Flat(colour) => return *colour,
-        };
-        let direction = arrived.ray.direction;
-        let front = direction.dot(surface.normal) < 0.0;
-        let (normal, textured) =
-            self.world
-                .textured(&arrived.ray, nearest, material, surface.shading);
-        let point = Point {
-            surface,
-            // Which side is seen is the surface's to say, not the bumps'.
-            normal: if front { normal } else { -normal },
-            front,
-            view: -direction,
-            material: textured.as_ref().unwrap_or(material),
-        };
-        let mut radiance = emission + point.material.ambient * scene.ambient;
-        for light in &scene.lights {
-            radiance += self.direct(&point, light);
-        }
-        if arrived.bounce < self.depth {
-            self.branch(arrived, &point);
-        }
-        radiance
-    }
-
-    /// Light from one light, by way of Phong's model.
-    fn direct(&mut self, point: &Point<'_>, light: &Light) -> Rgb {
-        let to_light = match light.source {
-            Source::Point { position, .. } => (position - point.surface.point).normalize(),
-            Source::Distant(toward) => toward,
-            Source::Everywhere => return Rgb::ZERO,
-        };
-        let cosine = point.normal.dot(to_light);
-        // It is NaN where the light stands at the point itself.
-        if cosine <= 0.0 || cosine.is_nan() {
-            return Rgb::ZERO;
-        }
-        let mirrored = 2.0 * cosine * point.normal - to_light;
-        let highlight = phong(mirrored.dot(point.view), point.material.exponent);
-        let reflected = point.material.diffuse * cosine + point.material.specular * highlight;
-        if reflected == Rgb::ZERO {
-            return Rgb::ZERO;
-        }
-        let share = match &light.source {
-            Source::Point { position, falloff } => {
-                falloff.share(position.distance(point.surface.point), to_light)
+    /// Light at a hit, as far as it reaches the eye; leaves the rays that go on from it pending.
+    fn local(&mut self, arrived: &Pending, nearest: Nearest, sampler: Sampler) -> Rgb {
+        let world = self.world;
+        let (point, matter) = world.arrive(&arrived.ray, nearest);
+        let goes_on = arrived.bounce < self.depth;
+        match matter {
+            Matter::Flat(colour) => arrived.through(nearest) * colour,
+            Matter::Phong(material) => {
+                let radiance = self.light_on_phong(&point, &material, world.scene.ambient);
+                if goes_on {
+                    self.branch(arrived, &point, &material);
+                }
+                arrived.weight * radiance
             }
-            Source::Distant(_) | Source::Everywhere => 1.0,
-        };
-        if share == 0.0 {
-            return Rgb::ZERO;
+            Matter::Utah(answer) => {
+                let answer = answer.for_whitted();
+                let arrived = Pending {
+                    weight: arrived.through(nearest),
+                    ..*arrived
+                };
+                let radiance = if answer.is_lit(&point) {
+                    self.light_on_utah(&point, &answer, sampler, arrived.node)
+                } else {
+                    Rgb::ZERO
+                };
+                if goes_on {
+                    self.branch_by_fresnel(&arrived, &point, &answer, sampler);
+                }
+                arrived.weight * radiance
+            }
         }
-        self.visibility(point, light, to_light) * (reflected * (share * light.colour))
-    }
-
-    /// The part of the light that reaches the point.
-    fn visibility(&mut self, point: &Point<'_>, light: &Light, to_light: DVec3) -> f64 {
-        if light.shadows == Shadows::Off {
-            return 1.0;
-        }
-        self.counts.rays += 1;
-        let origin = point.surface.leave(to_light);
-        let Source::Point { position, .. } = light.source else {
-            let ray = Ray {
-                origin,
-                direction: to_light,
-            };
-            return self
-                .world
-                .transmittance(&ray, f64::INFINITY, &mut self.crossed);
-        };
-        let way = position - origin;
-        let distance = way.length();
-        // The surface that a light lies on does not block it: the way ends before that surface, by
-        // as much as rounding may displace it.
-        let reach = origin.abs().max(position.abs()).max_element();
-        let ray = Ray {
-            origin,
-            direction: way / distance,
-        };
-        let end = distance - 32.0 * ulp(reach.max(distance));
-        self.world.transmittance(&ray, end, &mut self.crossed)
     }
 
     /// Leaves the mirrored and the refracted ray pending, the mirrored one to be traced first.
-    fn branch(&mut self, arrived: &Pending, point: &Point) {
+    fn branch(&mut self, arrived: &Pending, point: &Point, material: &Phong) {
         let direction = arrived.ray.direction;
-        let Phong {
-            reflection,
-            transmission,
-            index,
-            ..
-        } = *point.material;
-        let mut mirrored_weight = reflection;
-        if transmission != 0.0 {
-            let index = if 0.0 < index { index } else { 1.0 };
+        let mut mirrored_weight = material.reflection;
+        if material.transmission != 0.0 {
+            let index = index(material.index);
             let ratio = if point.front { 1.0 / index } else { index };
             match refract(direction, point.normal, ratio) {
-                Some(refracted) => self.push(arrived, point, refracted, transmission),
+                Some(refracted) => {
+                    let weight = Rgb::splat(material.transmission);
+                    self.push(arrived, point, refracted, weight, Rgb::ZERO);
+                }
                 // Total internal reflection: both rays go the same way and are traced as one.
-                None => mirrored_weight += transmission,
+                None => mirrored_weight += material.transmission,
             }
         }
         if mirrored_weight != 0.0 {
-            let mirrored = direction - 2.0 * direction.dot(point.normal) * point.normal;
-            self.push(arrived, point, mirrored.normalize(), mirrored_weight);
+            let mirrored = reflect(direction, point.normal);
+            self.push(
+                arrived,
+                point,
+                mirrored,
+                Rgb::splat(mirrored_weight),
+                Rgb::ZERO,
+            );
         }
     }
 
-    fn push(&mut self, arrived: &Pending, point: &Point<'_>, direction: DVec3, weight: f64) {
-        let ray = Ray {
-            origin: point.surface.leave(direction),
-            direction,
-        };
-        let weight = arrived.weight * weight;
-        self.pending.push(Pending {
-            ray,
-            weight,
-            bounce: arrived.bounce + 1,
-        });
-    }
-}
-
-impl Falloff {
-    /// The part of the light that goes a distance in the direction from `to_light`, a unit vector.
-    fn share(&self, distance: f64, to_light: DVec3) -> f64 {
-        let [a0, a1, a2] = self.radial;
-        let spread = a0 + a1 * distance + a2 * distance * distance;
-        let radial = if 0.0 < spread { 1.0 / spread } else { 1.0 };
-        let angular = self.spot.map_or(1.0, |(direction, exponent)| {
-            let cosine = -direction.dot(to_light);
-            // Behind a spot light it is dark, whatever the exponent.
-            if cosine <= 0.0 {
-                0.0
-            } else {
-                phong(cosine, exponent)
+    /// The same where how much goes which way depends on the angle.
+    fn branch_by_fresnel(
+        &mut self,
+        arrived: &Pending,
+        point: &Point,
+        answer: &Answer,
+        sampler: Sampler,
+    ) {
+        let direction = arrived.ray.direction;
+        let mirrored = reflect(direction, point.normal);
+        let [mut plain, mut of_glass] = [Rgb::ZERO; 2];
+        if point.front {
+            plain = answer.reflection;
+        }
+        if answer.refraction != Rgb::ZERO {
+            let Dielectric { share, refracted } = Dielectric::at(direction, point, answer);
+            of_glass = share * answer.refraction;
+            if let Some(refracted) = refracted {
+                let numbers = || sampler.pair(arrived.node, Use::Refraction);
+                let refracted = spread(refracted, answer.refraction_spread, -point.normal, numbers);
+                let absorption = answer.within(point.front);
+                let weight = (1.0 - share) * answer.refraction;
+                self.push(arrived, point, refracted, weight, absorption);
             }
-        });
-        radial * angular
-    }
-}
-
-/// Snell's law: the refracted unit direction for a unit `direction` meeting a surface whose
-/// `normal` is turned against it, `ratio` = n1/n2. `None` on total internal reflection.
-pub(crate) fn refract(direction: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
-    let cosine = -direction.dot(normal);
-    let squared = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
-    if squared < 0.0 {
-        return None;
-    }
-    Some((ratio * direction + (ratio * cosine - squared.sqrt()) * normal).normalize())
-}
-
-/// Phong's highlight: cosineⁿ, 0 for a negative cosine; 0⁰ = 1, and n < 0 reads as 0. Whole
-/// exponents to 4096 go by repeated squaring, which is exact to a few ulp, the same on every
-/// machine and ten times as fast as the general power.
-pub(crate) fn phong(cosine: f64, exponent: f64) -> f64 {
-    if cosine < 0.0 {
-        return 0.0;
-    }
-    let exponent = exponent.max(0.0);
-    let whole = exponent as u32;
-    if f64::from(whole) != exponent || 4096 < whole {
-        return libm::pow(cosine, exponent);
-    }
-    let (mut power, mut square, mut rest) = (1.0, cosine, whole);
-    while rest != 0 {
-        if rest & 1 == 1 {
-            power *= square;
         }
-        square *= square;
-        rest >>= 1;
+        // What leaves the back stays inside, and nothing else is mirrored there.
+        let absorption = answer.within(!point.front);
+        if answer.reflection_spread == answer.refraction_spread {
+            plain += of_glass;
+            of_glass = Rgb::ZERO;
+        }
+        let numbers = || sampler.pair(arrived.node, Use::Reflection);
+        let around = |tangent| spread(mirrored, tangent, point.normal, numbers);
+        // The one pushed last is traced first.
+        let glass = around(answer.refraction_spread);
+        self.push(arrived, point, glass, of_glass, absorption);
+        let mirrored = around(answer.reflection_spread);
+        self.push(arrived, point, mirrored, plain, absorption);
     }
-    power
+
+    fn push(
+        &mut self,
+        arrived: &Pending,
+        point: &Point,
+        direction: DVec3,
+        weight: Rgb,
+        absorption: Rgb,
+    ) {
+        if weight == Rgb::ZERO {
+            return;
+        }
+        self.pending.push(Pending {
+            ray: point.leave(direction),
+            weight: arrived.weight * weight,
+            absorption,
+            bounce: arrived.bounce + 1,
+            node: Sampler::child(arrived.node, self.pending.len() as u32),
+        });
+    }
+}
+
+impl Pending {
+    /// Which part of the radiance at a hit reaches the eye.
+    fn through(&self, nearest: Nearest) -> Rgb {
+        self.weight * transmitted(self.absorption, nearest.hit.t)
+    }
+}
+
+/// What is left of light after a way (Beer, Lambert): e^(−absorption · length).
+pub(crate) fn transmitted(absorption: Rgb, length: f64) -> Rgb {
+    if absorption == Rgb::ZERO {
+        return Rgb::ONE;
+    }
+    absorption.map(|lost| libm::exp(-lost * length))
+}
+
+/// What becomes of light that meets a transparent surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Dielectric {
+    /// The part that is mirrored: all of it on total internal reflection.
+    pub(crate) share: f64,
+    /// Where the rest goes.
+    pub(crate) refracted: Option<DVec3>,
+}
+
+impl Dielectric {
+    pub(crate) fn at(direction: DVec3, point: &Point, answer: &Answer) -> Self {
+        let (from, to) = if point.front {
+            (1.0, answer.index)
+        } else {
+            (answer.index, 1.0)
+        };
+        let refracted = refract(direction, point.normal, from / to);
+        let share = refracted.map_or(1.0, |refracted| {
+            let incident = -direction.dot(point.normal);
+            fresnel(from, incident, to, -refracted.dot(point.normal))
+        });
+        Self { share, refracted }
+    }
+}
+
+impl Answer {
+    /// What is lost on a way that starts into the object, or does not.
+    pub(crate) fn within(&self, inward: bool) -> Rgb {
+        if inward { self.absorption } else { Rgb::ZERO }
+    }
+}
+
+/// A direction spread in a cone whose half angle has this tangent; kept on the side of the surface
+/// that `outward` points to by folding the cone along it.
+pub(crate) fn spread(
+    direction: DVec3,
+    tangent: f64,
+    outward: DVec3,
+    numbers: impl FnOnce() -> Option<[f64; 2]>,
+) -> DVec3 {
+    if tangent == 0.0 {
+        return direction;
+    }
+    let Some(numbers) = numbers() else {
+        return direction;
+    };
+    let secant = (1.0 + tangent * tangent).sqrt();
+    let versine = tangent * tangent / (secant * (secant + 1.0));
+    let versine = if versine.is_finite() { versine } else { 1.0 };
+    let spread = warp::in_cone(direction, versine, numbers);
+    let height = spread.dot(outward);
+    if height < 0.0 && 0.0 <= direction.dot(outward) {
+        spread - 2.0 * height * outward
+    } else {
+        spread
+    }
 }

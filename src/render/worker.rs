@@ -11,7 +11,7 @@ use super::film::{Film, Raster, Shot};
 use super::frame::{Frame, Frames, Job, Progress};
 use super::shared::Shared;
 use super::steps::{Step, steps};
-use super::whitted::Counts;
+use super::tracer::Counts;
 use super::world::World;
 use crate::scene::Size;
 

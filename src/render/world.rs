@@ -5,15 +5,16 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
 use rayon::prelude::*;
 
-use super::looks::Look;
+use super::lights::{self, Ball};
+use super::mapped::{MappedTextures, environment_place};
 use super::structures::{Search, Structures};
 use super::texture::Textures;
+use super::tracer::Sample;
 use crate::accel::Bvh;
 use crate::geometry::{Aabb, Hit, Ray, Shape, ulp};
-use crate::scene::{Images, Object, Phong, Scene};
+use crate::scene::{Images, Material, Object, Rgb, Scene, Source};
 
 /// Up to this many objects every ray tries every one. Measured on the scenes of `scenes/`: with two
 /// solids that is half as fast again as a tree, with six to eleven a tree is 1.2 to 1.7 times as
@@ -27,9 +28,10 @@ const QUIET: usize = 16_384;
 #[derive(Clone, Debug)]
 pub(crate) struct World {
     pub(crate) scene: Arc<Scene>,
-    /// Of its materials, by index.
-    pub(crate) looks: Arc<[Look]>,
     pub(crate) textures: Textures,
+    pub(crate) mapped: MappedTextures,
+    /// The lights that have a size, and what they show where they are seen.
+    pub(crate) balls: Vec<(Ball, Rgb)>,
     tree: Option<Arc<Bvh>>,
     structures: Structures,
     /// For each object whether it is a mesh that lets no light through anywhere; none at all if
@@ -56,13 +58,15 @@ impl World {
         cancelled: impl Fn() -> bool + Sync,
     ) -> Option<Self> {
         let textures = Textures::new(&scene.textures, images);
-        let looks: Arc<[_]> = scene.materials.iter().map(Look::of).collect();
-        let opaque = opaque_meshes(&scene, &looks);
+        let mapped = MappedTextures::new(&scene.setting.textures, images);
+        let balls = balls(&scene);
+        let opaque = opaque_meshes(&scene);
         if let Some(previous) = previous.filter(|world| same_shapes(&world.scene, &scene)) {
             return Some(Self {
                 scene,
-                looks,
                 textures,
+                mapped,
+                balls,
                 tree: previous.tree.clone(),
                 structures: previous.structures.clone(),
                 opaque,
@@ -78,8 +82,9 @@ impl World {
         };
         Some(Self {
             scene,
-            looks,
             textures,
+            mapped,
+            balls,
             tree,
             structures,
             opaque,
@@ -117,23 +122,18 @@ impl World {
         }
     }
 
-    /// The normal at a hit with the bumps of a material, on the side of the surface's own, and the
-    /// material where textures change it.
-    pub(crate) fn textured(
-        &self,
-        ray: &Ray,
-        nearest: Nearest,
-        material: &Phong,
-        mut normal: DVec3,
-    ) -> (DVec3, Option<Phong>) {
-        if material.colour_texture.is_none() && material.bump.is_none() {
-            return (normal, None);
+    /// What a ray that meets nothing brings: a camera ray the background, others the environment.
+    pub(crate) fn around(&self, ray: &Ray, bounce: u32, sample: &Sample) -> Rgb {
+        let setting = &self.scene.setting;
+        if bounce == 0 {
+            return self.mapped.colour(setting.background, sample.screen);
         }
-        let mut material = *material;
-        let object = &self.scene.objects[nearest.object as usize];
-        let chart = object.shape.chart(ray, nearest.hit);
-        self.textures.apply(&chart, &mut material, &mut normal);
-        (normal, Some(material))
+        let environment = setting.environment;
+        if environment.texture.is_none() {
+            return environment.colour;
+        }
+        let place = environment_place(ray.direction);
+        self.mapped.colour(environment, place)
     }
 
     /// The part of light that passes along the ray up to `distance`: the product of kt over every
@@ -157,7 +157,7 @@ impl World {
                 return distance;
             };
             let material = self.scene.objects[object as usize].material_at(hit);
-            if self.looks[material as usize].transmission() == 0.0 {
+            if transmission(&self.scene, material) == 0.0 {
                 blocked = true;
                 return -1.0;
             }
@@ -170,7 +170,7 @@ impl World {
         crossed.sort_unstable();
         crossed
             .iter()
-            .map(|&(_, material)| self.looks[material as usize].transmission())
+            .map(|&(_, material)| transmission(&self.scene, material))
             .product()
     }
 
@@ -222,23 +222,46 @@ fn boxes(objects: &[Object], cancelled: impl Fn() -> bool) -> Option<Vec<Aabb>> 
     Some(boxes)
 }
 
+/// The part of light that goes through a material.
+fn transmission(scene: &Scene, material: u32) -> f64 {
+    match &scene.materials[material as usize] {
+        Material::Phong(phong) => phong.transmission,
+        // SPEC of `.xml`: anything blocks.
+        Material::Utah(_) | Material::Flat(_) => 0.0,
+    }
+}
+
 /// See [`World::opaque`].
-fn opaque_meshes(scene: &Scene, looks: &[Look]) -> Vec<bool> {
+fn opaque_meshes(scene: &Scene) -> Vec<bool> {
     let mut opaque = Vec::new();
     for (number, object) in scene.objects.iter().enumerate() {
         let Shape::Mesh(instance) = &object.shape else {
             continue;
         };
-        let transmission = |tag: Option<u32>| {
-            let material = tag.unwrap_or(object.material);
-            looks[material as usize].transmission()
-        };
-        if instance.tags().all(|tag| transmission(tag) == 0.0) {
+        let of_tag = |tag: Option<u32>| transmission(scene, tag.unwrap_or(object.material));
+        if instance.tags().all(|tag| of_tag(tag) == 0.0) {
             opaque.resize(scene.objects.len(), false);
             opaque[number] = true;
         }
     }
     opaque
+}
+
+/// See [`World::balls`].
+fn balls(scene: &Scene) -> Vec<(Ball, Rgb)> {
+    let gain = lights::path_gain(scene);
+    let sized = scene.lights.iter().filter(|light| 0.0 < light.radius);
+    let balls = sized.filter_map(|light| match light.source {
+        Source::Point { position, .. } => {
+            let ball = Ball {
+                centre: position,
+                radius: light.radius,
+            };
+            Some((ball, lights::radiance(&ball, gain * light.colour)))
+        }
+        Source::Distant(_) | Source::Everywhere => None,
+    });
+    balls.collect()
 }
 
 fn same_shapes(a: &Arc<Scene>, b: &Arc<Scene>) -> bool {

@@ -48,7 +48,7 @@ fn pixels_lie_on_the_image_plane() {
         } else {
             (eye + aside, n)
         };
-        let (ray, reach) = projection.ray(i, j);
+        let (ray, reach) = projection.ray(i, j, || None);
         let first = start + near / direction.dot(n) * direction;
         let scale = 1.0 + first.length();
         assert!((ray.direction - direction).length() < 1e-13, "{camera:?}");
@@ -71,7 +71,7 @@ fn another_size_keeps_the_height_of_the_image_plane() {
     };
     let projection = Projection::new(&camera, camera.size);
     let expected = DVec3::new(15.0 * 0.01, 0.3, -2.0).normalize();
-    let found = projection.ray(30.0, 0.0).0.direction;
+    let found = projection.ray(30.0, 0.0, || None).0.direction;
     assert!((found - expected).length() < 1e-15, "{found} {expected}");
 }
 
@@ -110,8 +110,8 @@ fn what_is_too_near_or_too_far_is_not_seen() {
             let world = world(scene);
             // In the corner as in the middle: depths are measured along the view.
             for (x, y) in [(20.0, 15.0), (0.5, 0.5), (39.5, 0.5)] {
-                let (ray, reach) = projection.ray(x, y);
-                let seen = Tracer::new(&world, 8).radiance(ray, reach, || false);
+                let (ray, reach) = projection.ray(x, y, || None);
+                let seen = tracer(&world, 8).radiance(&centred(ray, reach), || false);
                 assert_near(seen.radiance.x, expected, 1e-15);
             }
         }
@@ -142,9 +142,9 @@ fn only_rays_from_the_eye_are_cut() {
     shaded.camera = reflecting.camera;
     for (scene, expected) in [(reflecting, 0.7), (shaded, 0.0)] {
         let projection = Projection::new(&scene.camera, scene.camera.size);
-        let (ray, reach) = projection.ray(20.0, 15.0);
+        let (ray, reach) = projection.ray(20.0, 15.0, || None);
         let world = world(scene);
-        let seen = Tracer::new(&world, 8).radiance(ray, reach, || false);
+        let seen = tracer(&world, 8).radiance(&centred(ray, reach), || false);
         assert_near(seen.radiance.x, expected, 1e-12);
         assert_ne!(seen.object, NO_OBJECT);
     }

@@ -6,18 +6,21 @@ mod first_hits;
 mod invariance;
 mod meshes;
 mod optics;
+mod paths;
 mod progress;
 mod shading;
 mod solids;
 mod textures;
+mod utah;
 mod visibility;
 
 use std::sync::Arc;
 use std::sync::mpsc;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
-use super::whitted::{Seen, Tracer};
+use super::sampler::Sampler;
+use super::tracer::{Sample, Seen, Tracer};
 use super::world::World;
 use super::{Filter, Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
 use crate::geometry::{Affine, Cuboid, Ray, Shape, Sphere};
@@ -126,11 +129,26 @@ fn ray(origin: [f64; 3], toward: [f64; 3]) -> Ray {
     }
 }
 
+/// A tracer by Whitted's rays.
+fn tracer(world: &World, depth: u32) -> Tracer<'_> {
+    Tracer::new(world, Integrator::Whitted, depth)
+}
+
+/// The sample of a ray that takes the middle of everything.
+fn centred(ray: Ray, reach: f64) -> Sample {
+    Sample {
+        ray,
+        reach,
+        screen: DVec2::splat(0.5),
+        sampler: Sampler::new(0, 0, 0, 0),
+    }
+}
+
 /// What one ray sees, and the tracer's count of samples over budget.
 fn look(scene: Scene, depth: u32, ray: Ray) -> (Seen, u64) {
     let world = world(scene);
-    let mut tracer = Tracer::new(&world, depth);
-    let seen = tracer.radiance(ray, f64::INFINITY, || false);
+    let mut tracer = tracer(&world, depth);
+    let seen = tracer.radiance(&centred(ray, f64::INFINITY), || false);
     (seen, tracer.counts.over_budget)
 }
 

@@ -1,6 +1,7 @@
 //! Mirrors, glass, depth and the ray budget.
 
-use super::super::whitted::{phong, refract};
+use super::super::optics::refract;
+use super::super::phong::power;
 use super::*;
 
 /// Between two mirrors that glow with level a and reflect the part r, a ray sees a Σ rᵏ, k from 0
@@ -191,13 +192,13 @@ fn a_ray_tree_ends_with_its_budget() {
 fn whole_powers() {
     for exponent in 0..=64 {
         assert_eq!(
-            phong(0.5, f64::from(exponent)),
+            power(0.5, f64::from(exponent)),
             1.0 / (1u128 << exponent) as f64
         );
     }
     for exponent in [3.0, 255.0, 4096.0] {
-        let (ours, general) = (phong(0.999, exponent), 0.999f64.powf(exponent));
+        let (ours, general) = (power(0.999, exponent), 0.999f64.powf(exponent));
         assert!((ours / general - 1.0).abs() < 1e-12);
     }
-    assert_eq!(phong(0.0, 0.0), 1.0);
+    assert_eq!(power(0.0, 0.0), 1.0);
 }

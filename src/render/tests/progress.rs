@@ -113,10 +113,10 @@ fn one_sample_is_the_pixel_centre() {
         },
     );
     let world = world(Scene::clone(&scene));
-    let mut tracer = Tracer::new(&world, 8);
+    let mut tracer = tracer(&world, 8);
     for (y, x) in (0..15).flat_map(|y| (0..20).map(move |x| (y, x))) {
-        let (centre, reach) = projection.ray(f64::from(x) + 0.5, f64::from(y) + 0.5);
-        let expected = TONE.bytes(tracer.radiance(centre, reach, || false).radiance);
+        let (centre, reach) = projection.ray(f64::from(x) + 0.5, f64::from(y) + 0.5, || None);
+        let expected = TONE.bytes(tracer.radiance(&centred(centre, reach), || false).radiance);
         assert_eq!(frame.pixels[y as usize * 20 + x as usize], expected);
     }
 }
@@ -159,13 +159,14 @@ fn pictures_narrower_or_lower_than_a_tile_are_whole() {
         assert_eq!(frame.pixels.len(), (width * height) as usize);
         let projection = Projection::new(&scene.camera, frame.size);
         let world = world(Scene::clone(&scene));
-        let mut tracer = Tracer::new(&world, 8);
+        let mut tracer = tracer(&world, 8);
         for (at, pixel) in frame.pixels.iter().enumerate() {
             let (x, y) = (at as u32 % width, at as u32 / width);
             let samples = [0, 1].map(|index| {
                 let [across, down] = place_in_pixel(x, y, index, 0);
-                let (ray, reach) = projection.ray(f64::from(x) + across, f64::from(y) + down);
-                tracer.radiance(ray, reach, || false).radiance
+                let (ray, reach) =
+                    projection.ray(f64::from(x) + across, f64::from(y) + down, || None);
+                tracer.radiance(&centred(ray, reach), || false).radiance
             });
             assert_eq!(
                 *pixel,

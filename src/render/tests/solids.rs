@@ -93,8 +93,8 @@ fn light_goes_through_combined_solids_as_through_their_like() {
         let toward = [random.between(-9.0, 9.0), random.between(-9.0, 9.0), 0.0];
         let ray = ray([0.3, 0.2, 20.0], toward);
         let of = |world| {
-            Tracer::new(world, 8)
-                .radiance(ray, f64::INFINITY, || false)
+            tracer(world, 8)
+                .radiance(&centred(ray, f64::INFINITY), || false)
                 .radiance
                 .x
         };

@@ -49,7 +49,7 @@ fn of_coincident_faces_the_first_in_the_file_is_seen() {
                 .chain(crowd.clone().take(others))
                 .collect();
             let world = world(scene(&objects, &[]));
-            let mut tracer = Tracer::new(&world, 0);
+            let mut tracer = tracer(&world, 0);
             let mut random = Random(7);
             for _ in 0..4000 {
                 let on_top = DVec3::new(-0.9, 0.69, -0.3)
@@ -60,7 +60,10 @@ fn of_coincident_faces_the_first_in_the_file_is_seen() {
                     origin: eye,
                     direction: (on_top - eye).normalize(),
                 };
-                let seen = tracer.radiance(towards, f64::INFINITY, || false).radiance.x;
+                let seen = tracer
+                    .radiance(&centred(towards, f64::INFINITY), || false)
+                    .radiance
+                    .x;
                 assert_eq!(seen, expected, "toward {on_top}");
             }
         }
@@ -136,7 +139,7 @@ fn contact_shadows() {
             &[(floor, matte), (ball, BLACK)],
             &[white_light(light.to_array())],
         ));
-        let mut tracer = Tracer::new(&world, 0);
+        let mut tracer = tracer(&world, 0);
         let mut random = Random(5);
         let mut shadowed = 0;
         for _ in 0..20_000 {
@@ -154,14 +157,11 @@ fn contact_shadows() {
             }
             let eye = DVec3::new(place.x, place.y + 1e-2 * radius, place.z);
             let under = centre.with_y(radius - 1e-2 * radius).length() < radius;
-            let seen = tracer.radiance(
-                Ray {
-                    origin: eye,
-                    direction: DVec3::NEG_Y,
-                },
-                f64::INFINITY,
-                || false,
-            );
+            let down = Ray {
+                origin: eye,
+                direction: DVec3::NEG_Y,
+            };
+            let seen = tracer.radiance(&centred(down, f64::INFINITY), || false);
             if under || seen.object != 0 {
                 continue;
             }

@@ -6,7 +6,7 @@ use crate::scene::fields::xml::{
 };
 use crate::scene::lower::report::quoted;
 use crate::scene::lower::view::{self, Places};
-use crate::scene::{Camera, Focus, Integrator, Lens, Rgb, Size, Tinted, Transfer};
+use crate::scene::{Camera, Focus, Integrator, Lens, Size, Transfer};
 use crate::text::{Diagnostic, Span, parse_number};
 
 impl Reader<'_> {
@@ -41,15 +41,6 @@ impl Reader<'_> {
         let numbers = [FOV, FOCAL_DISTANCE, LENS, WIDTH, HEIGHT];
         let [fov, distance, lens_radius, width, height] =
             numbers.map(|at| self.number(camera, &CAMERA[at]));
-        if 0.0 < lens_radius
-            && let Some(element) = self.element_of(camera, &CAMERA[LENS])
-        {
-            self.not_traced(
-                self.place(element),
-                "what is out of focus is",
-                "all is sharp",
-            );
-        }
         let seen = Camera {
             eye,
             target,
@@ -93,8 +84,6 @@ impl Reader<'_> {
             self.origins.is_srgb = true;
             self.setting.integrator = Integrator::Path;
             self.setting.transfer = Transfer::Srgb;
-            let hint = "it is traced by Whitted's rays and written without a curve";
-            self.not_traced(said.value, "paths and the sRGB curve are", hint);
         } else if !word.eq_ignore_ascii_case("linear") {
             let message = || format!("camera gamma: {} is not known", quoted(word));
             self.warn(said.value, message, "sRGB or linear", "it counts as linear");
@@ -120,10 +109,6 @@ impl Reader<'_> {
                 continue;
             };
             let tinted = self.tinted_in(element, parameter);
-            if tinted != Tinted::default() && tinted.colour != Rgb::ZERO {
-                let what = format!("{} is", parameter.element);
-                self.not_traced(self.place(element), &what, "it is black");
-            }
             if std::ptr::eq(parameter, &raw const BACKGROUND) {
                 self.setting.background = tinted;
             } else {

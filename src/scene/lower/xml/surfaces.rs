@@ -23,11 +23,6 @@ impl Reader<'_> {
             let place = &self.origins.materials[index];
             (place.kind, place.element as usize)
         };
-        if index == 0 {
-            // Until the renderer knows the models of this language: see `render::looks`.
-            let hint = "materials are shaded by the Phong material that is most like them, without textures";
-            self.not_traced(self.place(element), "the shading of this language is", hint);
-        }
         let utah = match kind {
             MaterialKind::Blinn | MaterialKind::Phong => self.glossy(element, kind),
             MaterialKind::Microfacet => self.microfacet(element),
@@ -137,15 +132,6 @@ impl Reader<'_> {
         let position = self.vector(Some(element), of("position"));
         let radius = self.number(Some(element), of("size"));
         let attenuation = self.number(Some(element), of("attenuation"));
-        if 0.0 < radius
-            && let Some(size) = self.element_of(Some(element), of("size"))
-        {
-            self.not_traced(
-                self.place(size),
-                "the size of lights is",
-                "shadows are hard",
-            );
-        }
         let falloff = if 0.0 < attenuation {
             Falloff {
                 radial: [0.0, 0.0, attenuation * attenuation],

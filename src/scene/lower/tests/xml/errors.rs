@@ -105,10 +105,6 @@ fn lights_and_surroundings_are_judged() {
             "error: light 1 (point) size: must be 0 or more",
         ),
         (
-            "<light type='point'><size value='1'/></light>",
-            "warning: the size of lights is not traced yet",
-        ),
-        (
             "<light type='ambient'><position/></light>",
             "warning: `position`: not known in `light`",
         ),
@@ -119,10 +115,6 @@ fn lights_and_surroundings_are_judged() {
         (
             "<light type='ambient'><intensity>1</intensity></light>",
             "warning: `1`: text between tags says nothing",
-        ),
-        (
-            "<background value='1'/>",
-            "warning: background is not traced yet",
         ),
         (
             "<background texture=''/>",
@@ -165,10 +157,6 @@ fn materials_warn_of_what_they_are_not() {
         (
             "<material><glossiness value='-1'/></material>",
             "warning: material 1 (blinn) glossiness: -1 is not 0 or more",
-        ),
-        (
-            "<material name='a'/>",
-            "warning: the shading of this language is not traced yet",
         ),
     ] {
         let wrong = wrong(material);
@@ -224,14 +212,6 @@ fn the_camera_and_the_root_are_judged() {
         (
             of("<camera gamma='2.2'/>"),
             "warning: camera gamma: `2.2` is not known",
-        ),
-        (
-            of("<camera gamma='sRGB'/>"),
-            "warning: paths and the sRGB curve are not traced yet",
-        ),
-        (
-            of("<camera><dof value='1'/></camera>"),
-            "warning: what is out of focus is not traced yet",
         ),
         (
             "<xml><scene>".to_owned(),

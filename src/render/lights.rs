@@ -1,0 +1,142 @@
+//! Light as it comes from lights: where it is from, how much, and from which part of one that has a
+//! size.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::DVec3;
+
+use super::phong::power;
+use super::warp;
+use crate::geometry::Ray;
+use crate::scene::{Falloff, Integrator, Light, Rgb, Scene, Source};
+
+/// From where light comes to a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Incoming {
+    /// The unit vector toward it; NaN for a light at the point itself.
+    pub(crate) toward: DVec3,
+    /// Where it starts, unless that is infinitely far away.
+    pub(crate) source: Option<DVec3>,
+}
+
+/// From where a light comes to a point: from the middle of one that has a size unless `place`, in the
+/// unit square, chooses another part. `None` if it comes from nowhere.
+pub(crate) fn incoming(light: &Light, point: DVec3, place: Option<[f64; 2]>) -> Option<Incoming> {
+    match light.source {
+        Source::Point { position, .. } => {
+            let ball = Ball {
+                centre: position,
+                radius: light.radius,
+            };
+            let chosen = place.and_then(|place| ball.choose(point, place));
+            Some(chosen.unwrap_or_else(|| Incoming {
+                toward: (position - point).normalize(),
+                source: Some(position),
+            }))
+        }
+        Source::Distant(toward) => Some(Incoming {
+            toward,
+            source: None,
+        }),
+        Source::Everywhere => None,
+    }
+}
+
+/// The part of a light that comes to a point in a direction, whatever is in its way. Of a light with
+/// a size its centre's distance counts.
+pub(crate) fn share(light: &Light, point: DVec3, toward: DVec3) -> f64 {
+    match &light.source {
+        Source::Point { position, falloff } => falloff.share(position.distance(point), toward),
+        Source::Distant(_) | Source::Everywhere => 1.0,
+    }
+}
+
+impl Falloff {
+    /// The part of the light that goes a distance in the direction from `toward`, a unit vector.
+    fn share(&self, distance: f64, toward: DVec3) -> f64 {
+        let [a0, a1, a2] = self.radial;
+        let spread = a0 + a1 * distance + a2 * distance * distance;
+        let radial = if 0.0 < spread { 1.0 / spread } else { 1.0 };
+        let angular = self.spot.map_or(1.0, |(direction, exponent)| {
+            let cosine = -direction.dot(toward);
+            // Behind a spot light it is dark, whatever the exponent.
+            if cosine <= 0.0 {
+                0.0
+            } else {
+                power(cosine, exponent)
+            }
+        });
+        radial * angular
+    }
+}
+
+/// A light that has a size: a sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Ball {
+    pub(crate) centre: DVec3,
+    /// Above 0, or there is nothing to choose from.
+    pub(crate) radius: f64,
+}
+
+impl Ball {
+    /// Chooses a place of what is seen of it from a point, each direction as likely as any other.
+    /// `None` from inside.
+    pub(crate) fn choose(&self, point: DVec3, place: [f64; 2]) -> Option<Incoming> {
+        let versine = self.versine(point)?;
+        let axis = (self.centre - point).normalize();
+        let toward = warp::in_cone(axis, versine, place);
+        let ray = Ray {
+            origin: point,
+            direction: toward,
+        };
+        // A ray along the rim may just miss it.
+        let distance = self
+            .hit(&ray)
+            .unwrap_or_else(|| toward.dot(self.centre - point));
+        Some(Incoming {
+            toward,
+            source: Some(ray.at(distance)),
+        })
+    }
+
+    /// The density of [`Ball::choose`] over directions that meet it, per steradian; 0 from inside.
+    pub(crate) fn density(&self, point: DVec3) -> f64 {
+        self.versine(point)
+            .map_or(0.0, |versine| 1.0 / (TAU * versine))
+    }
+
+    /// How far along a ray it is; `None` if it is missed, or from inside.
+    pub(crate) fn hit(&self, ray: &Ray) -> Option<f64> {
+        let way = self.centre - ray.origin;
+        let along = way.dot(ray.direction);
+        let aside = (way - along * ray.direction).length_squared();
+        let square = self.radius * self.radius;
+        let half = square - aside;
+        let is_outside = square < way.length_squared();
+        (is_outside && 0.0 < along && 0.0 <= half).then(|| along - half.sqrt())
+    }
+
+    /// 1 − cos of half the angle that it takes as seen from a point outside.
+    fn versine(&self, point: DVec3) -> Option<f64> {
+        let sine = self.radius / self.centre.distance(point);
+        (0.0 < sine && sine < 1.0).then(|| {
+            let square = sine * sine;
+            square / (1.0 + (1.0 - square).sqrt())
+        })
+    }
+}
+
+/// What lights of some size show where they are seen: I / (π r²).
+pub(crate) fn radiance(ball: &Ball, intensity: Rgb) -> Rgb {
+    intensity / (PI * ball.radius * ball.radius)
+}
+
+/// What the intensities of a scene's lights are multiplied by where paths gather them. Those of a
+/// scene of `.xml` that was not made for it shine on even surfaces as they do without paths. (Light
+/// on other materials is weighed as without paths.)
+pub(crate) fn path_gain(scene: &Scene) -> f64 {
+    match scene.setting.integrator {
+        Integrator::Path => 1.0,
+        Integrator::Whitted => PI,
+    }
+}

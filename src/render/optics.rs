@@ -1,0 +1,78 @@
+//! Mirrors and glass: where rays go on, and how much light goes each way.
+
+use glam::DVec3;
+
+/// The mirrored unit direction of a unit `direction`: R = d − 2(d·N)N.
+pub(crate) fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
+    (direction - 2.0 * direction.dot(normal) * normal).normalize()
+}
+
+/// Snell's law: the refracted unit direction for a unit `direction` meeting a surface whose
+/// `normal` is turned against it, `ratio` = n1/n2. `None` on total internal reflection.
+pub(crate) fn refract(direction: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
+    let cosine = -direction.dot(normal);
+    let squared = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+    if squared < 0.0 {
+        return None;
+    }
+    Some((ratio * direction + (ratio * cosine - squared.sqrt()) * normal).normalize())
+}
+
+/// The index of refraction that a said one means: 0 or less reads as 1.
+pub(crate) fn index(said: f64) -> f64 {
+    if 0.0 < said { said } else { 1.0 }
+}
+
+/// The share that a surface between two indices mirrors straight on: ((n1 − n2) / (n1 + n2))².
+pub(crate) fn normal_reflectance(first: f64, second: f64) -> f64 {
+    let root = (first - second) / (first + second);
+    root * root
+}
+
+/// How far from straight-on reflectance to all of it a cosine is: (1 − c)⁵ (Schlick, "An
+/// Inexpensive BRDF Model for Physically-based Rendering", 1994).
+pub(crate) fn schlick(cosine: f64) -> f64 {
+    let rest = 1.0 - cosine.clamp(0.0, 1.0);
+    let square = rest * rest;
+    square * square * rest
+}
+
+/// The share of light that glass mirrors by Schlick's approximation: `incident` and `refracted` are
+/// the cosines on the sides of the indices `first` and `second`; that on the side of the smaller
+/// index counts. Nothing is mirrored where the indices are equal.
+pub(crate) fn fresnel(first: f64, incident: f64, second: f64, refracted: f64) -> f64 {
+    let cosine = if first < second {
+        incident
+    } else if second < first {
+        refracted
+    } else {
+        return 0.0;
+    };
+    let straight = normal_reflectance(first, second);
+    straight + (1.0 - straight) * schlick(cosine)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By hand: ((1 − 1.5) / 2.5)² = .04; at 60° 0.04 + 0.96 / 32 = .07. Leaving glass at an angle
+    /// whose sine is ⅓ the ray is in air at 30°: 1 − cos 30° = 0.133975, to the fifth 4.316e-5.
+    #[test]
+    fn schlick_s_values_known_on_paper() {
+        let from_air = |cosine| fresnel(1.0, cosine, 1.5, 0.9);
+        for (cosine, share) in [(1.0, 0.04), (0.5, 0.07), (0.0, 1.0)] {
+            assert!((from_air(cosine) - share).abs() < 1e-15, "{cosine}");
+        }
+        let from_glass = fresnel(1.5, 8.0f64.sqrt() / 3.0, 1.0, 0.75f64.sqrt());
+        assert!((from_glass - (0.04 + 0.96 * 4.316_307e-5)).abs() < 1e-9);
+        assert_eq!(fresnel(1.5, 0.1, 1.5, 0.1), 0.0);
+        // Into what is thinner than air the cosine inside counts.
+        assert!((fresnel(1.0, 0.9, 0.5, 0.5) - (1.0 / 9.0 + 8.0 / 9.0 / 32.0)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn an_index_of_0_or_less_is_1() {
+        assert_eq!([1.5, 0.0, -2.0].map(index), [1.5, 1.0, 1.0]);
+    }
+}

@@ -1,0 +1,472 @@
+//! Path tracing against closed forms, and against sums over fine grids that know nothing of it.
+
+use std::f64::consts::{PI, TAU};
+
+use super::super::lobes::Lobes;
+use super::super::tracer::{Matter, Point};
+use super::super::utah::Answer;
+use super::*;
+use crate::format::{self, Format};
+use crate::scene::lower;
+
+fn read(scene: &str) -> Scene {
+    let text = format!("<xml><scene>{scene}</scene><camera/></xml>");
+    let tree = format::parse(Format::Xml, &text);
+    let lowered = lower(&text, &tree);
+    lowered
+        .scene
+        .unwrap_or_else(|| panic!("{text}: {:?}", lowered.diagnostics))
+}
+
+/// The means of a ray's radiance over `samples`, one for each of some seeds.
+fn means(scene: Scene, depth: u32, ray: Ray, samples: u32, seeds: u32) -> Vec<Rgb> {
+    let world = world(scene);
+    let mut tracer = Tracer::new(&world, Integrator::Path, depth);
+    let mut mean = |seed| {
+        let each = (0..samples).map(|index| {
+            let sample = Sample {
+                sampler: Sampler::new(0, 0, index, seed),
+                ..centred(ray, f64::INFINITY)
+            };
+            tracer.radiance(&sample, || false).radiance
+        });
+        each.sum::<Rgb>() / f64::from(samples)
+    };
+    (0..seeds).map(&mut mean).collect()
+}
+
+fn mean(scene: Scene, depth: u32, ray: Ray, samples: u32) -> f64 {
+    means(scene, depth, ray, samples, 1)[0].x
+}
+
+/// Asserts that the mean over 64 seeds is within three standard errors of what is expected.
+fn assert_unbiased(scene: &Scene, depth: u32, ray: Ray, expected: f64, case: &str) {
+    let means = means(scene.clone(), depth, ray, 64, 64);
+    let mean = means.iter().map(|mean| mean.x).sum::<f64>() / 64.0;
+    let square = means
+        .iter()
+        .map(|each| (each.x - mean).powi(2))
+        .sum::<f64>();
+    let error = (square / 63.0 / 64.0).sqrt();
+    assert!(
+        (mean - expected).abs() <= 3.0 * error + 1e-9,
+        "{case}: {mean} ± {error} is not {expected}"
+    );
+    // A test that is passed by noise alone tells nothing.
+    assert!(error < 0.01 * expected, "{case}: {error}");
+}
+
+/// SPEC §9: e (1 − ρ^(D+1)) / (1 − ρ).
+#[test]
+fn white_furnace() {
+    for (albedo, emission) in [(0.5, 1.0), (0.8, 0.25), (0.2, 3.0)] {
+        let scene = read(&format!(
+            "<object type='sphere' material='m'/><material name='m'><diffuse value='{albedo}'/>
+             <specular value='0'/><emission value='{emission}'/></material>"
+        ));
+        for depth in [0, 1, 2, 5, 16, 64] {
+            let bounces = f64::from(depth + 1);
+            let expected = emission * (1.0 - f64::powf(albedo, bounces)) / (1.0 - albedo);
+            let inside = ray([0.1, 0.2, 0.3], [0.4, -0.5, 0.6]);
+            let seen = mean(scene.clone(), depth, inside, 4096);
+            assert_near(seen, expected, 1e-3 * expected);
+        }
+    }
+}
+
+/// The same of Phong's model, which nothing emits in: a light at the middle of a ball lights all of
+/// it straight on by kd, and what is mirrored besides sees just as much.
+#[test]
+fn furnace_around_a_light() {
+    for (diffuse, reflection, transmission) in [(0.5, 0.0, 0.0), (0.3, 0.4, 0.0), (0.3, 0.1, 0.3)] {
+        let material = Phong {
+            ambient: Rgb::ONE,
+            diffuse: Rgb::splat(diffuse),
+            reflection,
+            transmission,
+            ..BLACK
+        };
+        let scene = scene(
+            &[(sphere([0.0; 3], 1.0), material)],
+            &[white_light([0.0; 3])],
+        );
+        // What goes through is lost.
+        let kept = diffuse + reflection;
+        for depth in [0, 1, 3, 64] {
+            let expected = diffuse * (1.0 - f64::powf(kept, f64::from(depth + 1))) / (1.0 - kept);
+            let inside = ray([0.1, 0.2, 0.3], [0.4, -0.5, 0.6]);
+            let seen = mean(scene.clone(), depth, inside, 4096);
+            assert_near(seen, expected, 2e-3 * expected);
+        }
+    }
+}
+
+/// A light of radius r at height h: a white floor under it sends back I r² / h² · cos / r² …; that
+/// is, E / π with E = π L (r / h)² and L = π I / (π r²), the factor π of scenes not made for paths
+/// included: I / h², whatever r.
+#[test]
+fn lights_with_a_size_shine_as_their_intensity_says() {
+    for radius in [0.1, 1.0, 3.9] {
+        for gamma in ["", " gamma='sRGB'"] {
+            let text = format!(
+                "<xml><scene>{GROUND}<material name='m'><diffuse value='1'/><specular value='0'/>
+                 </material><light type='point'><intensity value='8'/><position z='4'/>
+                 <size value='{radius}'/></light></scene><camera{gamma}/></xml>"
+            );
+            let tree = format::parse(Format::Xml, &text);
+            let scene = lower(&text, &tree).scene.expect("the text has no errors");
+            let expected = if gamma.is_empty() { 0.5 } else { 0.5 / PI };
+            let down = ray([0.5, 0.0, 0.05], [0.0; 3]);
+            // By asking the light alone, and by both ways of finding it.
+            assert_unbiased(&scene, 0, down, expected, "asked");
+            assert_unbiased(&scene, 1, down, expected, "asked and met");
+        }
+    }
+}
+
+const GROUND: &str = "<object type='plane' material='m'><scale value='100'/></object>";
+
+#[test]
+fn lights_with_a_size_are_seen() {
+    let lamp = |z: f64| {
+        format!(
+            "<light type='point'><intensity value='12'/><position z='{z}'/><size value='2'/></light>"
+        )
+    };
+    let up = ray([0.0; 3], [0.0, 0.0, 1.0]);
+    assert_near(mean(read(&lamp(5.0)), 4, up, 16), 3.0, 1e-12);
+    assert_near(mean(read(&lamp(1.0)), 4, up, 16), 0.0, 0.0);
+    assert_near(mean(read(&lamp(-5.0)), 4, up, 16), 0.0, 0.0);
+    let hidden = format!(
+        "{}<object type='sphere' material='m'><translate z='2'/></object>
+         <material name='m'><diffuse value='0'/><specular value='0'/><emission value='7'/></material>",
+        lamp(5.0)
+    );
+    assert_near(mean(read(&hidden), 4, up, 16), 7.0, 1e-12);
+}
+
+/// The radiance that a point of the ground sends toward `view` for light of `radiance` from all
+/// directions, by a sum over a fine grid of them: ∫ BRDF cos L dω.
+fn gathered(brdf: impl Fn(DVec3) -> f64, radiance: impl Fn(DVec3) -> f64) -> f64 {
+    const FINE: usize = 700;
+    let middle = |i: usize| (i as f64 + 0.5) / FINE as f64;
+    let mut sum = 0.0;
+    for i in 0..FINE {
+        // Even in cos², which is even in cos θ dω.
+        let cosine = middle(i).sqrt();
+        let sine = (1.0 - cosine * cosine).sqrt();
+        for j in 0..FINE {
+            let (y, x) = (TAU * middle(j)).sin_cos();
+            let direction = DVec3::new(sine * x, sine * y, cosine);
+            sum += brdf(direction) * radiance(direction);
+        }
+    }
+    PI * sum / (FINE * FINE) as f64
+}
+
+/// BRDFs as SPEC §6 writes them, straight from the page: normal +z, the eye at 45°.
+fn brdf(kind: &str, toward: DVec3) -> f64 {
+    let view = DVec3::new(0.5f64.sqrt(), 0.0, 0.5f64.sqrt());
+    let halfway = (toward + view).normalize();
+    let mirrored = DVec3::new(-view.x, -view.y, view.z);
+    match kind {
+        "blinn" => 0.25 / PI + 0.5 * 12.0 / (8.0 * PI) * halfway.z.powi(10),
+        "phong" => 0.25 / PI + 0.5 * 11.0 / TAU * mirrored.dot(toward).max(0.0).powi(10),
+        // Roughness ½: α = ¼; half metal of colour ½, index 1.5: F0 = .27, kd = .25.
+        _ => {
+            let square = 0.0625;
+            let spread = square / (PI * (halfway.z * halfway.z * (square - 1.0) + 1.0).powi(2));
+            // Smith's G₂, height-correlated, over 4 N·L N·V.
+            let root = |z: f64| (z * z * (1.0 - square) + square).sqrt();
+            let shadowed = 0.5 / (toward.z * root(view.z) + view.z * root(toward.z));
+            let fresnel = 0.27 + 0.73 * (1.0 - view.dot(halfway)).powi(5);
+            0.25 / PI + spread * shadowed * fresnel
+        }
+    }
+}
+
+fn material(kind: &str) -> &'static str {
+    match kind {
+        "blinn" => {
+            "<material type='blinn' name='m'><diffuse value='.25'/><specular value='.5'/>
+             <glossiness value='10'/></material>"
+        }
+        "phong" => {
+            "<material type='phong' name='m'><diffuse value='.25'/><specular value='.5'/>
+             <glossiness value='10'/></material>"
+        }
+        _ => {
+            "<material type='microfacet' name='m'><color value='.5'/><roughness value='.5'/>
+             <metallic value='.5'/><ior value='1.5'/></material>"
+        }
+    }
+}
+
+/// A glowing ball of radius 2 at (−1, 2, 4), an even environment of ½, and a ball of light: each
+/// met by its own rays.
+#[test]
+fn every_brdf_gathers_what_the_sum_over_all_directions_says() {
+    let from = ray([1.0, 0.0, 1.0], [0.0; 3]);
+    let meets = |centre: DVec3, radius: f64, direction: DVec3| {
+        let along = centre.dot(direction);
+        0.0 < along && centre.length_squared() - along * along < radius * radius
+    };
+    let glow = DVec3::new(-1.0, 2.0, 4.0);
+    let lamp = DVec3::new(2.0, -2.0, 3.0);
+    for kind in ["blinn", "phong", "microfacet"] {
+        let material = material(kind);
+        let cases = [
+            (
+                "a glowing ball before an even environment",
+                "<object type='sphere' material='glow'><scale value='2'/>
+                 <translate x='-1' y='2' z='4'/></object><environment value='.5'/>
+                 <material name='glow'><diffuse value='0'/><specular value='0'/>
+                 <emission value='3'/></material>",
+                gathered(
+                    |direction| brdf(kind, direction),
+                    |direction| {
+                        if meets(glow, 2.0, direction) {
+                            3.0
+                        } else {
+                            0.5
+                        }
+                    },
+                ),
+            ),
+            (
+                "a ball of light half behind a plane",
+                "<light type='point'><intensity value='4'/><position x='2' y='-2' z='3'/>
+                 <size value='1'/></light>
+                 <object type='plane' material='black'><scale value='50'/>
+                 <translate x='51' z='1.5'/></object>
+                 <material name='black'><diffuse value='0'/><specular value='0'/></material>",
+                gathered(
+                    |direction| brdf(kind, direction),
+                    |direction| {
+                        let hidden = 1.0 < direction.x / direction.z * 1.5;
+                        if meets(lamp, 1.0, direction) && !hidden {
+                            4.0
+                        } else {
+                            0.0
+                        }
+                    },
+                ),
+            ),
+        ];
+        for (case, others, expected) in cases {
+            let scene = read(&format!("{GROUND}{material}{others}"));
+            assert_unbiased(&scene, 1, from, expected, &format!("{kind}, {case}"));
+        }
+    }
+}
+
+/// A matt floor and a matt ball lit by a lamp: what it sends to the floor, and what the ball sends
+/// there, by a sum over the directions that meet it.
+#[test]
+fn light_goes_from_one_surface_to_another() {
+    let lamp = DVec3::new(4.0, 0.0, 1.0);
+    let ball = DVec3::new(0.0, 0.0, 2.0);
+    let at = DVec3::new(1.2, 0.0, 0.0);
+    let scene = read(&format!(
+        "{GROUND}<material name='m'><diffuse value='.8'/><specular value='0'/></material>
+         <object type='sphere' material='ball'><translate z='2'/></object>
+         <material name='ball'><diffuse value='1'/><specular value='0'/></material>
+         <light type='point'><intensity value='10'/><position x='4' z='1'/></light>"
+    ));
+    let sent = |direction: DVec3| {
+        let way = ball - at;
+        let along = way.dot(direction);
+        let square = 1.0 - (way.length_squared() - along * along);
+        if square < 0.0 || along < 0.0 {
+            return 0.0;
+        }
+        let point = at + (along - square.sqrt()) * direction;
+        let normal = point - ball;
+        // A convex body does not hide its own lit side.
+        10.0 * normal.dot((lamp - point).normalize()).max(0.0)
+    };
+    let indirect = gathered(|_| 0.8 / PI, sent);
+    let direct = 0.8 * 10.0 * (lamp - at).normalize().z;
+    let from = ray([1.2, 0.0, 0.3], at.to_array());
+    assert_unbiased(&scene, 0, from, direct, "straight");
+    assert_unbiased(&scene, 1, from, direct + indirect, "one bounce");
+    assert!(0.02 * direct < indirect, "{indirect} tells nothing");
+}
+
+/// Where every bounce is mirrored or goes straight to a light, paths bring what Whitted's rays do,
+/// ambient light apart; a matt surface must not see itself again.
+#[test]
+fn paths_are_whitted_s_rays_where_nothing_scatters() {
+    let xml = |glass: &str| {
+        read(&format!(
+            "<object type='sphere' material='glass'/>
+             <object type='plane' material='matt'><scale value='40'/><translate z='-3'/></object>
+             <material name='matt'><diffuse r='.8' g='.4' b='.2'/><specular value='0'/></material>
+             <material name='glass'><diffuse value='0'/><specular value='0'/>{glass}</material>
+             <environment r='.1' g='.2' b='.3'/>
+             <light type='direct'><intensity value='.5'/><direction x='1' z='-1'/></light>
+             <light type='point'><intensity value='9'/><position x='3' y='2' z='6'/>
+             <attenuation value='.5'/></light>"
+        ))
+    };
+    let mirror = Phong {
+        reflection: 0.8,
+        transmission: 0.3,
+        index: 1.3,
+        ..BLACK
+    };
+    let shiny = Phong {
+        ambient: Rgb::ZERO,
+        specular: Rgb::new(0.5, 0.6, 0.7),
+        exponent: 12.0,
+        ..BLACK
+    };
+    let mut lamp = Light::point(DVec3::new(2.0, 3.0, 6.0), Rgb::new(1.0, 0.9, 0.8));
+    lamp.source = crate::scene::Source::Point {
+        position: DVec3::new(2.0, 3.0, 6.0),
+        falloff: crate::scene::Falloff {
+            radial: [1.0, 0.1, 0.01],
+            spot: None,
+        },
+    };
+    let phong = scene(
+        &[
+            (sphere([0.0; 3], 1.0), mirror),
+            (cuboid([-9.0, -9.0, -4.0], [18.0, 18.0, 1.0]), shiny),
+        ],
+        &[white_light([-4.0, 4.0, 4.0]), lamp],
+    );
+    let from = [0.3, 0.2, 5.0];
+    let [middle, rim, beside] = [[0.3, 0.2, 0.0], [0.95, 0.0, 0.0], [2.5, 0.0, -3.0]];
+    let mirrors = xml("<reflection r='.9' g='.8' b='.7'/>");
+    let absorbs = "<refraction value='.9' index='1.5'/><absorption r='.2' g='.5' b='0'/>";
+    // Beyond the bounces that a way needs, the matt floor would gather light by chance.
+    for (case, scene, depth, ways) in [
+        ("beside", mirrors.clone(), 0, vec![beside]),
+        ("mirror", mirrors, 1, vec![middle, rim]),
+        (
+            "clear glass",
+            xml("<refraction value='.9' index='1'/>"),
+            2,
+            vec![middle, rim],
+        ),
+        ("absorbing glass", xml(absorbs), 2, vec![middle]),
+        (".ray and .dat", phong, 6, vec![middle, rim, beside]),
+    ] {
+        for toward in ways {
+            let way = ray(from, toward);
+            let whitted = look(scene.clone(), depth, way).0.radiance;
+            let means = means(scene.clone(), depth, way, 1024, 64);
+            let mean = means.iter().sum::<Rgb>() / 64.0;
+            let square = means
+                .iter()
+                .map(|each| (each - mean) * (each - mean))
+                .sum::<Rgb>();
+            let error = (square / (63.0 * 64.0)).map(f64::sqrt);
+            let off = (mean - whitted).abs() - 3.0 * error;
+            assert!(
+                off.max_element() < 1e-9,
+                "{case} toward {toward:?}: {mean} ± {error} is not {whitted}"
+            );
+        }
+    }
+}
+
+fn point_seen_from(view: DVec3) -> Point {
+    let scene = read("<object type='plane' material='m'/><material name='m'/>");
+    let world = world(scene);
+    let seen = Ray {
+        origin: view,
+        direction: -view,
+    };
+    let nearest = world
+        .nearest(&seen, f64::INFINITY)
+        .expect("the plane is met");
+    let (point, matter) = world.arrive(&seen, nearest);
+    assert!(matches!(matter, Matter::Utah(_)));
+    point
+}
+
+fn answer(kind: &str) -> Answer {
+    let scene = read(&format!("<object type='plane' material='m'/>{kind}"));
+    let world = world(scene);
+    let down = ray([0.0, 0.0, 1.0], [0.0; 3]);
+    let nearest = world
+        .nearest(&down, f64::INFINITY)
+        .expect("the plane is met");
+    match world.arrive(&down, nearest).1 {
+        Matter::Utah(answer) => answer,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Directions come as often as their density says: the mean of share / density over those chosen is
+/// the integral of the share, and that of 1 / density where anything comes from is the hemisphere.
+#[test]
+fn directions_are_chosen_by_their_density() {
+    let mirrors = "<material type='microfacet' name='m'><color value='1'/>
+        <roughness value='.6'/><metallic value='1'/></material>";
+    for kind in [material("blinn"), material("phong"), material(""), mirrors] {
+        let (lobes, _) = Lobes::of(&answer(kind));
+        for tilt in [0.0, 0.7, 1.3] {
+            let point = point_seen_from(DVec3::new(f64::sin(tilt), 0.0, f64::cos(tilt)));
+            // cos θ dω is what the grid is even in.
+            let integral = gathered(
+                |direction| lobes.scatter(&point, direction).share.x / direction.z,
+                |_| 1.0,
+            );
+            let chances = gathered(
+                |direction| lobes.scatter(&point, direction).density / direction.z,
+                |_| 1.0,
+            );
+            let count = 1 << 14;
+            let (mut estimate, mut above) = (0.0, 0.0);
+            for index in 0..count {
+                let sampler = Sampler::new(1, 2, index, 3);
+                let [lobe, u, v, _] = sampler.four(0, super::super::sampler::Use::Bounce);
+                let direction = lobes.choose(&point, lobe, [u, v]);
+                let scattered = lobes.scatter(&point, direction);
+                if 0.0 < scattered.density {
+                    estimate += scattered.share.x / scattered.density;
+                    above += 1.0;
+                }
+            }
+            let count = f64::from(count);
+            assert_near(estimate / count, integral, 0.01 * integral);
+            // What is chosen below the surface is not among them.
+            assert_near(above / count, chances, 0.01);
+        }
+    }
+}
+
+/// Little mirrors that reflect all lose but what bounces among them; hardly rough ones nothing.
+#[test]
+fn little_mirrors_send_back_no_more_than_comes() {
+    for (roughness, least) in [(0.1, 0.99), (0.5, 0.85), (1.0, 0.3)] {
+        let kind = format!(
+            "<material type='microfacet' name='m'><color value='1'/>
+             <roughness value='{roughness}'/><metallic value='1'/></material>"
+        );
+        let (lobes, _) = Lobes::of(&answer(&kind));
+        for tilt in [0.0, 0.8, 1.4] {
+            let point = point_seen_from(DVec3::new(f64::sin(tilt), 0.0, f64::cos(tilt)));
+            let count = 1 << 12;
+            let sent = (0..count).map(|index| {
+                let sampler = Sampler::new(1, 2, index, 3);
+                let [lobe, u, v, _] = sampler.four(0, super::super::sampler::Use::Bounce);
+                let direction = lobes.choose(&point, lobe, [u, v]);
+                let scattered = lobes.scatter(&point, direction);
+                if 0.0 < scattered.density {
+                    scattered.share.x / scattered.density
+                } else {
+                    0.0
+                }
+            });
+            let sent = sent.sum::<f64>() / f64::from(count);
+            assert!(
+                (least..1.0 + 1e-3).contains(&sent),
+                "{roughness} {tilt}: {sent}"
+            );
+        }
+    }
+}
