@@ -62,6 +62,7 @@ const ARROWS: &[(&str, &[&str])] = &[
 /// Each dependency and the one room that may name it; `*` for the vocabulary of all.
 const DEPENDENCIES: &[(&str, &str)] = &[
     ("annotate_snippets", "batch"),
+    ("arrayvec", "accel"),
     ("clap", "cli"),
     ("crossterm", "ui"),
     ("glam", "*"),

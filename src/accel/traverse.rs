@@ -1,5 +1,7 @@
 //! The walk of a ray through the tree, near children first.
 
+use arrayvec::ArrayVec;
+
 use crate::geometry::Ray;
 
 use super::Bvh;
@@ -38,11 +40,10 @@ pub(super) fn traverse(bvh: &Bvh, ray: &Ray, mut limit: f64, mut visit: impl FnM
         entry: 0.0,
         child: Child::Inner(0),
     };
-    let mut stack = [root; STACK];
-    let mut height = 1;
-    while 0 < height {
-        height -= 1;
-        let Waiting { entry, child } = stack[height];
+    // A walk takes less time than filling an array of this size.
+    let mut stack = ArrayVec::<_, STACK>::new();
+    stack.push(root);
+    while let Some(Waiting { entry, child }) = stack.pop() {
         // The entry carries rounding errors; a box entered right at the limit still counts.
         if limit * WIDEN < entry {
             continue;
@@ -51,7 +52,7 @@ pub(super) fn traverse(bvh: &Bvh, ray: &Ray, mut limit: f64, mut visit: impl FnM
             Child::Inner(number) => {
                 let node = &bvh.nodes[number as usize];
                 let (entries, mut met) = node.entries(&ray, limit);
-                let base = height;
+                let base = stack.len();
                 while met != 0 {
                     let lane = met.trailing_zeros() as usize % WIDTH;
                     met &= met - 1;
@@ -59,8 +60,7 @@ pub(super) fn traverse(bvh: &Bvh, ray: &Ray, mut limit: f64, mut visit: impl FnM
                         entry: entries[lane],
                         child: node.child(lane),
                     };
-                    insert(&mut stack, base, height, waiting);
-                    height += 1;
+                    insert(&mut stack, base, waiting);
                 }
             }
             Child::Leaf { first, count } => {
@@ -76,14 +76,15 @@ pub(super) fn traverse(bvh: &Bvh, ray: &Ray, mut limit: f64, mut visit: impl FnM
     }
 }
 
-/// Puts a child among those from `base` to `height`, which stay sorted with the nearest on top.
+/// Puts a child among those from `base` on, which stay sorted with the nearest on top.
 #[expect(
     clippy::inline_always,
     reason = "a caller compiled for wider vectors must take this with it"
 )]
 #[inline(always)]
-fn insert(stack: &mut [Waiting; STACK], base: usize, height: usize, waiting: Waiting) {
-    let mut place = height;
+fn insert(stack: &mut ArrayVec<Waiting, STACK>, base: usize, waiting: Waiting) {
+    let mut place = stack.len();
+    stack.push(waiting);
     while base < place && stack[place - 1].entry < waiting.entry {
         stack[place] = stack[place - 1];
         place -= 1;
