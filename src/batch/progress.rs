@@ -4,6 +4,7 @@ use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
 use crate::render::Progress;
+use crate::text::percentage;
 
 /// How often the line changes at most: quick enough to show life, slow enough to be read.
 const INTERVAL: Duration = Duration::from_millis(200);
@@ -48,14 +49,17 @@ impl Drop for ProgressLine {
     }
 }
 
-/// `████████░░░░░░░░░░░░ 42 %  pass 3/6  1.2 s, about 1.7 s left  14.0 Mray/s`
+/// `████████░░░░░░░░░░░░ 42 %  pass 3/6  noise 1.3 %  1.2 s, about 1.7 s left  14.0 Mray/s`
 fn line(progress: &Progress) -> String {
     let elapsed = progress.elapsed.as_secs_f64();
     let percent = (progress.done * 100.0).floor();
     let full = (progress.done * BAR as f64) as usize;
     let bar = ["█".repeat(full), "░".repeat(BAR.saturating_sub(full))].concat();
+    let noise = progress.noise.map_or_else(String::new, |noise| {
+        format!("  noise {}", percentage(noise))
+    });
     let state = format!(
-        "{bar} {percent} %  pass {}/{}  {elapsed:.1} s",
+        "{bar} {percent} %  pass {}/{}{noise}  {elapsed:.1} s",
         progress.pass, progress.passes
     );
     // A rate taken from the first moments says nothing yet.
@@ -80,6 +84,7 @@ mod tests {
             elapsed: Duration::from_secs_f64(seconds),
             rays: 28_000_000,
             over_budget: 0,
+            noise: Some(0.0134),
             complete: false,
         }
     }
@@ -88,15 +93,15 @@ mod tests {
     fn the_line_foretells_from_the_share_done() {
         assert_eq!(
             line(&progress(0.25, 2.0)),
-            "█████░░░░░░░░░░░░░░░ 25 %  pass 3/6  2.0 s, about 6.0 s left  14.0 Mray/s"
+            "█████░░░░░░░░░░░░░░░ 25 %  pass 3/6  noise 1.3 %  2.0 s, about 6.0 s left  14.0 Mray/s"
         );
         assert_eq!(
             line(&progress(0.0, 9.0)),
-            "░░░░░░░░░░░░░░░░░░░░ 0 %  pass 3/6  9.0 s"
+            "░░░░░░░░░░░░░░░░░░░░ 0 %  pass 3/6  noise 1.3 %  9.0 s"
         );
         assert_eq!(
             line(&progress(0.999, 0.1)),
-            "███████████████████░ 99 %  pass 3/6  0.1 s"
+            "███████████████████░ 99 %  pass 3/6  noise 1.3 %  0.1 s"
         );
     }
 }

@@ -8,8 +8,8 @@ use super::progress::ProgressLine;
 use super::{Error, load, print_findings, stdout, tell, tell_error};
 use crate::file;
 use crate::image_file::ImageFormat;
-use crate::render::{Aov, Filter, Frame, Job, Renderer, Settings, Threads};
-use crate::scene::{Camera, Images, Scene, Size, Transfer};
+use crate::render::{Aov, Filter, Frame, Job, Renderer, Settings, Threads, default_depth};
+use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer};
 use crate::text::{Diagnostic, counted};
 
 /// A picture to make.
@@ -25,8 +25,12 @@ pub struct Render {
     pub size: Option<Size>,
     /// Samples a pixel.
     pub spp: u32,
-    /// Bounces.
-    pub depth: u32,
+    /// Bounces; the integrator's [`default_depth`] if `None`.
+    pub depth: Option<u32>,
+    /// How light is gathered; the scene says so if `None`.
+    pub integrator: Option<Integrator>,
+    /// What of its surroundings a pixel is the mean of.
+    pub filter: Filter,
     /// Chooses among equally good sample patterns.
     pub seed: u32,
     /// What the picture shows instead of light.
@@ -105,7 +109,7 @@ fn check_output(work: &Render) -> Result<(), Error> {
 
 fn trace(work: &Render, scene: Scene, images: Images, size: Size) -> Result<Arc<Frame>, Error> {
     let transfer = work.transfer.unwrap_or(scene.setting.transfer);
-    let integrator = scene.setting.integrator;
+    let integrator = work.integrator.unwrap_or(scene.setting.integrator);
     let job = Job {
         images,
         // The picture's ratio is the one asked for.
@@ -116,15 +120,12 @@ fn trace(work: &Render, scene: Scene, images: Images, size: Size) -> Result<Arc<
         scene: Arc::new(scene),
         settings: Settings {
             size,
-            spp: match work.aov {
-                Some(aov) if aov.is_of_one_sample() => 1,
-                _ => work.spp,
-            },
-            depth: work.depth,
+            spp: work.aov.map_or(work.spp, |aov| aov.samples(work.spp)),
+            depth: work.depth.unwrap_or_else(|| default_depth(integrator)),
             seed: work.seed,
             aov: work.aov,
             integrator,
-            filter: Filter::Box,
+            filter: work.filter,
             transfer,
         },
         frames: work.format.frames(),

@@ -1,5 +1,7 @@
 //! Arguments and exit codes; no work.
 
+mod choices;
+
 use std::ffi::OsString;
 use std::fmt::Write;
 use std::num::NonZero;
@@ -9,16 +11,18 @@ use std::time::Duration;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum, value_parser};
+use clap::{Args, CommandFactory, Parser, Subcommand, value_parser};
+
+use choices::{AovChoice, ColourChoice, FilterChoice, IntegratorChoice, TransferChoice};
 
 use crate::batch::{self, Check, Output, Render};
 use crate::file::ReadError;
 use crate::image_file::{FORMATS, ImageFormat, known_extensions};
-use crate::render::{Aov, DEFAULT_DEPTH, DEFAULT_SPP, MAX_SPP};
-use crate::scene::{Size, Transfer};
+use crate::render::{DEFAULT_SPP, MAX_SPP};
+use crate::scene::Size;
 use crate::text::{slips, visible};
 use crate::ui;
-use crate::ui::terminal::{Choice, ColourDepth, Mouse};
+use crate::ui::terminal::Mouse;
 
 /// Done.
 pub const DONE: u8 = 0;
@@ -49,79 +53,6 @@ pub enum Command {
     Render(Render),
     /// Say what is wrong with scenes.
     Check(Check),
-}
-
-/// How many colours the terminal is sent.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum ColourChoice {
-    /// As many as it is found to show.
-    #[default]
-    Auto,
-    /// 24-bit colours.
-    #[value(name = "24")]
-    True,
-    /// The 256 indexed colours.
-    #[value(name = "256")]
-    Indexed,
-    /// The 16 basic colours.
-    #[value(name = "16")]
-    Basic,
-    /// None.
-    Mono,
-}
-
-impl ColourChoice {
-    fn meaning(self) -> Choice {
-        Choice::Fixed(match self {
-            Self::Auto => return Choice::Auto,
-            Self::True => ColourDepth::TrueColour,
-            Self::Indexed => ColourDepth::Palette256,
-            Self::Basic => ColourDepth::Palette16,
-            Self::Mono => ColourDepth::Mono,
-        })
-    }
-}
-
-/// What a picture shows instead of light.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum AovChoice {
-    /// How far it is from the eye: the nearest white, the farthest black.
-    Depth,
-    /// Its normal: −1 to 1 as 0 to 255.
-    Normal,
-    /// Which object it is of: a colour each; in EXR and HDR its place, from 1.
-    Object,
-    /// Its own colour, unlit.
-    Albedo,
-}
-
-impl AovChoice {
-    fn meaning(self) -> Aov {
-        match self {
-            Self::Depth => Aov::Depth,
-            Self::Normal => Aov::Normal,
-            Self::Object => Aov::Object,
-            Self::Albedo => Aov::Albedo,
-        }
-    }
-}
-
-/// How colours become 8-bit values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum TransferChoice {
-    /// As they are, without gamma.
-    Linear,
-    /// By the curve of sRGB.
-    Srgb,
-}
-
-impl TransferChoice {
-    fn meaning(self) -> Transfer {
-        match self {
-            Self::Linear => Transfer::Linear,
-            Self::Srgb => Transfer::Srgb,
-        }
-    }
 }
 
 /// A text to print instead of doing anything, and the exit code to end with.
@@ -300,9 +231,15 @@ struct InterfaceArguments {
     /// Samples a pixel, 1 to 65536, of full-size traces and of exports [default: 16]
     #[arg(long, value_name = "N", value_parser = spp_range())]
     spp: Option<u32>,
-    /// Bounces of a ray, up to 4096; 0 is none [default: 8]
+    /// Bounces of a ray, up to 4096; 0 is none [default: 8, with path tracing 64]
     #[arg(long, value_name = "N", value_parser = depth_range())]
     depth: Option<u32>,
+    /// How light is gathered at first; P changes it [default: whitted, unless the scene says path]
+    #[arg(long, value_name = "HOW", value_enum)]
+    integrator: Option<IntegratorChoice>,
+    /// What full-size traces and exports filter pixels by; the preview has the box
+    #[arg(long, value_name = "FILTER", value_enum, default_value_t)]
+    filter: FilterChoice,
     /// Threads that trace, 1 to 1024 [default: one fewer than the machine's cores]
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
@@ -334,6 +271,8 @@ impl InterfaceArguments {
             mouse: if self.no_mouse { Mouse::Off } else { Mouse::On },
             spp: self.spp,
             depth: self.depth,
+            integrator: self.integrator.map(IntegratorChoice::meaning),
+            filter: self.filter.meaning(),
             threads: self.threads.map(usize::from),
             assets: self.assets.folders,
         })
@@ -358,8 +297,7 @@ Examples:
 GIF keeps 256 colours, JPEG has quality 95; EXR and HDR hold unclamped values, the other formats
 every pixel in 8 bits a channel.
 
-The same scene, size, spp, depth and seed give the same bytes on every machine and with any
-number of threads.";
+The same scene and options give the same bytes on every machine and with any number of threads.";
 
 #[derive(Args, Debug)]
 struct RenderArguments {
@@ -380,9 +318,15 @@ struct RenderArguments {
     /// Samples a pixel, 1 to 65536
     #[arg(long, value_name = "N", default_value_t = DEFAULT_SPP, value_parser = spp_range())]
     spp: u32,
-    /// Bounces of a ray, up to 4096; 0 is none
-    #[arg(long, value_name = "N", default_value_t = DEFAULT_DEPTH, value_parser = depth_range())]
-    depth: u32,
+    /// Bounces of a ray, up to 4096; 0 is none [default: 8, with path tracing 64]
+    #[arg(long, value_name = "N", value_parser = depth_range())]
+    depth: Option<u32>,
+    /// How light is gathered [default: whitted, unless the scene says path]
+    #[arg(long, value_name = "HOW", value_enum)]
+    integrator: Option<IntegratorChoice>,
+    /// What pixels are filtered by
+    #[arg(long, value_name = "FILTER", value_enum, default_value_t)]
+    filter: FilterChoice,
     /// Chooses among equally good sample patterns, 0 to 4294967295
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u32,
@@ -428,6 +372,8 @@ impl RenderArguments {
             size: self.size,
             spp: self.spp,
             depth: self.depth,
+            integrator: self.integrator.map(IntegratorChoice::meaning),
+            filter: self.filter.meaning(),
             seed: self.seed,
             aov: self.aov.map(AovChoice::meaning),
             transfer: self.transfer.map(TransferChoice::meaning),

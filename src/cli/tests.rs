@@ -1,5 +1,8 @@
 use super::*;
 use crate::image_file::MAX_PIXELS;
+use crate::render::Filter;
+use crate::scene::Integrator;
+use crate::ui::terminal::{Choice, ColourDepth};
 
 /// What a command line, its words separated by blanks, means.
 fn parsed(line: &str) -> Result<Command, Stop> {
@@ -36,7 +39,7 @@ fn what_is_not_said_is_left_to_the_interface() {
 
 #[test]
 fn the_interface_is_told_what_was_said() {
-    let line = "halflight --poll=20 --bandwidth 128 --color 256 --no-mouse --spp 4 --depth 0 --threads 3 --assets b --assets c a";
+    let line = "halflight --poll=20 --bandwidth 128 --color 256 --no-mouse --spp 4 --depth 0 --integrator path --filter gaussian --threads 3 --assets b --assets c a";
     assert_eq!(
         interface(line),
         ui::Options {
@@ -47,6 +50,8 @@ fn the_interface_is_told_what_was_said() {
             mouse: Mouse::Off,
             spp: Some(4),
             depth: Some(0),
+            integrator: Some(Integrator::Path),
+            filter: Filter::Gaussian,
             threads: Some(3),
             assets: vec!["b".into(), "c".into()],
         }
@@ -74,15 +79,22 @@ fn a_picture_s_format_is_its_extension_unless_said() {
 #[test]
 fn a_picture_has_defaults() {
     let default = render("halflight render a.ray -o a.bmp");
-    assert_eq!((default.spp, default.depth, default.seed), (16, 8, 0));
+    assert_eq!((default.spp, default.seed), (16, 0));
+    assert_eq!((default.depth, default.integrator), (None, None));
+    assert_eq!(default.filter, Filter::Box);
     assert_eq!(default.size, None);
     assert_eq!(default.output, Output::File("a.bmp".into()));
-    let said = render("halflight render a -o - --force --size 3X2 --spp 65536 --seed 7");
+    let said = render(
+        "halflight render a -o - --force --size 3X2 --spp 65536 --seed 7 --integrator whitted --depth 9 --filter blackman-harris",
+    );
     let size = Size {
         width: 3,
         height: 2,
     };
     assert_eq!((said.size, said.spp, said.seed), (Some(size), 65_536, 7));
+    assert_eq!(said.integrator, Some(Integrator::Whitted));
+    assert_eq!(said.depth, Some(9));
+    assert_eq!(said.filter, Filter::BlackmanHarris);
     assert_eq!(said.output, Output::StdoutTerminal);
 }
 
@@ -117,6 +129,15 @@ fn wrong_arguments_are_refused_with_a_reason() {
             "halflight render a -o b.bmp --aov light",
             "depth, normal, object, albedo",
         ),
+        (
+            "halflight render a -o b.bmp --integrator rays",
+            "whitted, path",
+        ),
+        (
+            "halflight --filter tent a",
+            "box, gaussian, blackman-harris",
+        ),
+        ("halflight --integrator rays a", "whitted, path"),
         ("halflight chekc a.ray", "did you mean check?"),
         ("halflight rendr", "did you mean render?"),
         (

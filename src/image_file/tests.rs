@@ -21,6 +21,7 @@ fn frame(width: u32, height: u32, pixels: &[[u8; 3]]) -> Frame {
             elapsed: Duration::ZERO,
             rays: 0,
             over_budget: 0,
+            noise: None,
             complete: true,
         },
     }

@@ -7,8 +7,10 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::camera::Projection;
+use super::filter::Spread;
 use super::first_hit::first_hit;
 use super::frame::{Aov, Frames, NO_OBJECT, Settings};
+use super::noise::Doubling;
 use super::sampler::{Sampler, Use, place_in_pixel};
 use super::steps::{COARSEST, Step};
 use super::tone::Tone;
@@ -39,6 +41,8 @@ pub(crate) struct Shot<'w> {
     pub(crate) eye: DVec3,
     /// How.
     pub(crate) settings: Settings,
+    /// Where around its pixel each sample lies.
+    pub(crate) spread: Spread,
 }
 
 impl Shot<'_> {
@@ -52,7 +56,7 @@ impl Shot<'_> {
             ..
         } = self.settings;
         let sampler = Sampler::new(x, y, index, seed);
-        let [across, down] = place_in_pixel(x, y, index, seed);
+        let [across, down] = self.spread.place(place_in_pixel(x, y, index, seed));
         let [x, y] = [x, y].map(f64::from);
         let lens = || match (integrator, aov) {
             (Integrator::Path, None) => {
@@ -81,6 +85,10 @@ pub(crate) struct Film {
     /// Those that a step has come to; there is room for all. A large picture's memory takes long to
     /// be first touched: it is, tile by tile, by the threads that trace.
     tiles: Vec<Tile>,
+    /// The sum of the pixels' squared errors, as far as the pass under way has come.
+    squared_errors: f64,
+    /// What it came to in the last pass that told.
+    noise: Option<f64>,
     /// Room for the finished picture: what long work has made must not be lost for want of it.
     room: Raster,
 }
@@ -162,6 +170,8 @@ struct Tile {
     grid: u32,
     /// Samples that every pixel has.
     samples: u32,
+    /// The sum of its pixels' squared errors in the last pass.
+    squared_errors: f64,
 }
 
 impl Film {
@@ -188,6 +198,8 @@ impl Film {
                 transfer,
                 shape,
                 tiles,
+                squared_errors: 0.0,
+                noise: None,
                 room,
             })
         };
@@ -227,7 +239,7 @@ impl Film {
             new.into_par_iter()
                 .map(|number| Tile::new(number, size, shape)),
         );
-        self.tiles[tiles]
+        let counts = self.tiles[tiles.clone()]
             .par_iter_mut()
             .map_init(
                 || {
@@ -242,7 +254,31 @@ impl Film {
                     tracer.counts.since(before)
                 },
             )
-            .reduce(Counts::default, Counts::and)
+            .reduce(Counts::default, Counts::and);
+        if Doubling::of(step, &shot.settings).is_some() {
+            self.gather_errors(tiles);
+        }
+        counts
+    }
+
+    /// Adds up the squared errors of tiles, one by one in their order: sums of other groups would be
+    /// other numbers. With the last tile the noise is known.
+    fn gather_errors(&mut self, tiles: Range<usize>) {
+        if tiles.start == 0 {
+            self.squared_errors = 0.0;
+        }
+        for tile in &self.tiles[tiles.clone()] {
+            self.squared_errors += tile.squared_errors;
+        }
+        if tiles.end == self.tiles() {
+            let mean = self.squared_errors / self.size.pixels() as f64;
+            self.noise = Some(mean.sqrt());
+        }
+    }
+
+    /// The root of the mean of the pixels' squared errors, in 0..1, as of the last pass that told.
+    pub(crate) fn noise(&self) -> Option<f64> {
+        self.noise
     }
 
     /// The pixels as far as they are known, on the threads of the current pool: where only a coarse
@@ -348,6 +384,7 @@ impl Tile {
             objects: [NO_OBJECT; AREA as usize],
             grid: COARSEST,
             samples: 0,
+            squared_errors: 0.0,
         }
     }
 
@@ -374,13 +411,20 @@ impl Tile {
                 self.samples = u32::from(spacing == 1);
             }
             Step::Samples(indices) => {
-                for pixel in self.pixels(size, 1) {
+                let doubling = Doubling::of(step, &shot.settings);
+                self.squared_errors = 0.0;
+                for [x, y] in self.pixels(size, 1) {
+                    let at = self.index(x, y);
+                    let before = self.sums[at];
                     for index in indices.clone() {
                         if cancelled() {
                             return;
                         }
-                        self.sample(pixel, index, shot, tracer, cancelled);
+                        self.sample([x, y], index, shot, tracer, cancelled);
                     }
+                    self.squared_errors += doubling.map_or(0.0, |doubling| {
+                        doubling.squared_error(before, self.sums[at])
+                    });
                 }
                 self.samples = indices.end;
             }

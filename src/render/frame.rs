@@ -3,13 +3,25 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::filter::Filter;
 use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer};
 
 /// Samples a pixel of full-size pictures unless the user says otherwise.
 pub const DEFAULT_SPP: u32 = 16;
 
-/// Bounces unless the user says otherwise.
+/// Bounces of Whitted's rays unless the user says otherwise.
 pub const DEFAULT_DEPTH: u32 = 8;
+
+/// Bounces of paths unless the user says otherwise: most end by themselves before.
+const DEFAULT_PATH_DEPTH: u32 = 64;
+
+/// Bounces unless the user says otherwise.
+pub fn default_depth(integrator: Integrator) -> u32 {
+    match integrator {
+        Integrator::Whitted => DEFAULT_DEPTH,
+        Integrator::Path => DEFAULT_PATH_DEPTH,
+    }
+}
 
 /// The most samples a pixel: the length of the sample sequence.
 pub const MAX_SPP: u32 = 65_536;
@@ -38,14 +50,6 @@ pub struct Settings {
     pub transfer: Transfer,
 }
 
-/// What of its surroundings a pixel is the mean of.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Filter {
-    /// The pixel itself.
-    #[default]
-    Box,
-}
-
 /// What the first surface under a pixel is, apart from light: an arbitrary output variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aov {
@@ -63,9 +67,23 @@ pub enum Aov {
 }
 
 impl Aov {
-    /// Whether several samples have no mean that means anything: one is taken, at the centre.
-    pub fn is_of_one_sample(self) -> bool {
-        matches!(self, Self::Depth | Self::Object)
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Depth => "depth",
+            Self::Normal => "normal",
+            Self::Object => "object",
+            Self::Albedo => "albedo",
+        }
+    }
+
+    /// Samples a pixel to take where so many are asked for. Several distances, or places in the
+    /// scene, have no mean that means anything: one is taken, at the centre.
+    pub fn samples(self, asked: u32) -> u32 {
+        match self {
+            Self::Depth | Self::Object => 1,
+            Self::Normal | Self::Albedo => asked,
+        }
     }
 }
 
@@ -132,6 +150,10 @@ pub struct Progress {
     pub rays: u64,
     /// Samples that ran out of their ray budget and lack the light of the rays not traced.
     pub over_budget: u64,
+    /// How far pixels are, as a root mean square, from what more samples would show: an estimate,
+    /// of displayed values from 0 to 1. `None` before the samples were first doubled, and of what is
+    /// no light.
+    pub noise: Option<f64>,
     /// Whether every sample is taken.
     pub complete: bool,
 }

@@ -11,8 +11,9 @@
 //!
 //! The way of a picture: [`renderer`] hands a job to [`worker`], which builds a [`world`] with the
 //! [`structures`] of its meshes and fills a [`film`] in [`steps`]; each sample takes its numbers from
-//! [`sampler`], its ray from [`camera`] and its radiance from a [`tracer`], or something else from
-//! [`first_hit`]; [`tone`] makes the film a frame.
+//! [`sampler`], its place around the pixel from [`filter`], its ray from [`camera`] and its radiance
+//! from a [`tracer`], or something else from [`first_hit`]; [`tone`] makes the film a frame, and
+//! [`noise`] says how far that is from the last one.
 //!
 //! A tracer gathers light in one of two ways, [`whitted`] or [`path`]. Both come to surfaces of
 //! [`phong`] (with its [`texture`]s) or [`utah`] (with those of [`mapped`]) and ask [`lights`];
@@ -20,12 +21,14 @@
 
 mod camera;
 mod film;
+mod filter;
 mod first_hit;
 mod frame;
 mod lights;
 mod lobes;
 mod mapped;
 mod microfacet;
+mod noise;
 mod optics;
 mod path;
 mod phong;
@@ -43,9 +46,10 @@ mod whitted;
 mod worker;
 mod world;
 
+pub use filter::Filter;
 pub use frame::{
-    Aov, DEFAULT_DEPTH, DEFAULT_SPP, Filter, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress,
-    Settings,
+    Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress, Settings,
+    default_depth,
 };
 pub use renderer::{Refusal, Renderer, Threads};
 

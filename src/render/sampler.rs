@@ -1,4 +1,4 @@
-//! The numbers that samples are made of.
+//! The numbers that samples are made of, even: before filters spread them.
 
 use sobol_burley::{sample, sample_4d};
 

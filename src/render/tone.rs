@@ -19,8 +19,7 @@ impl Tone {
     /// The 8-bit value of each channel.
     pub(crate) fn bytes(self, value: Rgb) -> [u8; 3] {
         match self {
-            Self::Colour(Transfer::Linear) => to_bytes(value),
-            Self::Colour(Transfer::Srgb) => to_bytes(value.map(srgb)),
+            Self::Colour(transfer) => to_bytes(curved(value, transfer)),
             Self::Depth { .. } if value.x == f64::INFINITY => [0; 3],
             Self::Depth { nearest, farthest } if nearest < farthest => {
                 to_bytes((farthest - value) / (farthest - nearest))
@@ -30,6 +29,20 @@ impl Tone {
             Self::Normal => to_bytes(0.5 * value + 0.5),
             Self::Number => colour_of(value.x as u32),
         }
+    }
+}
+
+/// A colour as it is displayed: each channel from 0 to 1.
+pub(crate) fn displayed(colour: Rgb, transfer: Transfer) -> Rgb {
+    // Clamping leaves NaN, which is taken to 0, as in bytes.
+    curved(colour, transfer).map(|channel| channel.clamp(0.0, 1.0).max(0.0))
+}
+
+/// A colour after the curve.
+fn curved(colour: Rgb, transfer: Transfer) -> Rgb {
+    match transfer {
+        Transfer::Linear => colour,
+        Transfer::Srgb => colour.map(srgb),
     }
 }
 

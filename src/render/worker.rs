@@ -8,6 +8,7 @@ use rayon::ThreadPool;
 
 use super::camera::Projection;
 use super::film::{Film, Raster, Shot};
+use super::filter::Spread;
 use super::frame::{Frame, Frames, Job, Progress};
 use super::shared::Shared;
 use super::steps::{Step, steps};
@@ -72,6 +73,7 @@ fn trace<W: Fn() + Sync>(
         projection: Projection::new(&job.camera, job.settings.size),
         eye: job.camera.eye,
         settings: job.settings,
+        spread: Spread::of(job.settings.filter),
     };
     let ticket = Ticket {
         generation,
@@ -246,6 +248,7 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
                 elapsed: self.begun.elapsed(),
                 rays: self.counts.rays,
                 over_budget: self.counts.over_budget,
+                noise: self.film.noise(),
                 complete,
             },
         });

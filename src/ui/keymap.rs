@@ -4,6 +4,7 @@ mod help;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
+use crate::render::Aov;
 use crate::ui::app::{App, Dialog, Mode, Stride};
 
 pub use help::{HelpLine, help, hints};
@@ -98,6 +99,10 @@ pub enum Action {
     Help,
     /// Gives the picture more of the screen, or less.
     Zoom,
+    /// Shows this of the first surfaces, or light.
+    Show(Option<Aov>),
+    /// Gathers light in the other way.
+    Integrator,
     /// Takes the mouse or leaves it to the terminal.
     Mouse,
     /// Draws everything anew.
@@ -178,6 +183,8 @@ const VIEW: &[Context] = &[Context::In(View)];
 const EDIT: &[Context] = &[Context::In(Edit)];
 const LIST_AND_FIELDS: &[Context] = &[Context::In(Select), Context::In(Edit)];
 const TRACE: &[Context] = &[Context::In(Trace)];
+/// Where digits are no part of a number.
+const PICTURES: &[Context] = &[Context::In(Select), Context::In(View), Context::In(Trace)];
 const PICK: &[Context] = &[Context::In(Pick)];
 const LISTS: &[Context] = &[
     Context::In(Select),
@@ -291,19 +298,26 @@ pub const TABLE: &[Binding] = &[
     bind(&[Context::Help], &[c('/')], A::Search, "search"),
     bind(&[Context::Help], &[key(Esc), c('q'), c('?')], A::Back, "close"),
 
+    bind(PICTURES, &[c('1')], A::Show(None), "show light"),
+    bind(PICTURES, &[c('2')], A::Show(Some(Aov::Depth)), "show depth: the nearest white"),
+    bind(PICTURES, &[c('3')], A::Show(Some(Aov::Normal)), "show normals"),
+    bind(PICTURES, &[c('4')], A::Show(Some(Aov::Object)), "show objects, a colour each"),
+    bind(PICTURES, &[c('5')], A::Show(Some(Aov::Albedo)), "show colours without light"),
+
     bind(TRACE, &[c('x')], A::Stop, "stop"),
     bind(SELECT, &[c('x')], A::Stop, "cancel the export"),
     bind(EVERYWHERE, &[key(Esc)], A::Back, "back"),
     bind(EVERYWHERE, &[c('?')], A::Help, "help"),
     bind(EVERYWHERE, &[c(':')], A::Command, "command"),
     bind(EVERYWHERE, &[c('w')], A::Save, "save the scene"),
-    bind(EVERYWHERE, &[c('b')], A::Export, "export a picture"),
+    bind(EVERYWHERE, &[c('b')], A::Export, "export what is shown"),
     bind(EVERYWHERE, &[key(F(5)), c('r')], A::Go(Trace), "trace at full size"),
     bind(EVERYWHERE, &[c('u')], A::Undo, "undo"),
     bind(EVERYWHERE, &[ctrl('r')], A::Redo, "redo"),
     bind(EVERYWHERE, &[c('!')], A::Errors, "errors and warnings"),
     bind(EVERYWHERE, &[c('E')], A::Editor, "open the editor at the selected thing"),
     bind(EVERYWHERE, &[c('z')], A::Zoom, "picture alone, or with panels"),
+    bind(EVERYWHERE, &[c('P')], A::Integrator, "path tracing, or Whitted's rays"),
     bind(EVERYWHERE, &[c('m')], A::Mouse, "mouse on or off"),
     bind(ALL, &[ctrl('l')], A::Repaint, "draw the screen anew"),
     bind(ALL, &[ctrl('z')], A::Suspend, "stop until continued"),

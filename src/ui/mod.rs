@@ -27,7 +27,8 @@ use std::time::Duration;
 
 use crate::file::{self, ReadError};
 use crate::format::{Format, UnknownLanguage};
-use crate::render::{DEFAULT_DEPTH, DEFAULT_SPP};
+use crate::render::{DEFAULT_SPP, Filter};
+use crate::scene::Integrator;
 use app::{App, Opening, Quality};
 use terminal::{Choice, ColourDepth, Mouse};
 
@@ -54,6 +55,10 @@ pub struct Options {
     pub spp: Option<u32>,
     /// Bounces.
     pub depth: Option<u32>,
+    /// How light is gathered at first.
+    pub integrator: Option<Integrator>,
+    /// What pixels of full-size traces and of exports are filtered by.
+    pub filter: Filter,
     /// Threads that trace.
     pub threads: Option<usize>,
     /// Folders that textures may be read from besides the scene's surroundings.
@@ -70,6 +75,8 @@ impl Default for Options {
             mouse: Mouse::On,
             spp: None,
             depth: None,
+            integrator: None,
+            filter: Filter::Box,
             threads: None,
             assets: Vec::new(),
         }
@@ -135,7 +142,9 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
         text,
         quality: Quality {
             spp: options.spp.unwrap_or(DEFAULT_SPP),
-            depth: options.depth.unwrap_or(DEFAULT_DEPTH),
+            depth: options.depth,
+            integrator: options.integrator,
+            filter: options.filter,
         },
         mouse: options.mouse,
         terminal: (size.width, size.height),

@@ -2,9 +2,11 @@
 
 mod cameras;
 mod falloff;
+mod filters;
 mod first_hits;
 mod invariance;
 mod meshes;
+mod noise;
 mod optics;
 mod paths;
 mod progress;

@@ -5,6 +5,7 @@ use std::cell::Cell;
 use super::super::Refusal;
 use super::super::camera::Projection;
 use super::super::film::{Film, Shot};
+use super::super::filter::Spread;
 use super::super::sampler::place_in_pixel;
 use super::super::steps::{Step, steps};
 use super::super::tone::Tone;
@@ -287,6 +288,7 @@ fn a_film_takes_memory_as_it_is_traced_and_stops_developing_when_told_to() {
         projection: Projection::new(&world.scene.camera, size),
         eye: world.scene.camera.eye,
         settings: settings(size.width, size.height, 1),
+        spread: Spread::of(Filter::Box),
     };
     let mut film =
         Film::new(&settings(size.width, size.height, 1), Frames::Live).expect("memory is there");

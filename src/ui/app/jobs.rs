@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::textures::STILL_READING;
 use super::{App, Export, Mode, Picture, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
-use crate::render::{Filter, Frame, Frames, Job, Settings};
+use crate::render::{Filter, Frame, Frames, Job, Settings, default_depth};
 use crate::scene::{Camera, Size};
 use crate::ui::msg::{Destination, Effect, Existing, ExportId, Target};
 
@@ -29,7 +29,7 @@ impl App {
         let size = self.preview_size();
         if self.mode != Mode::Trace && self.preview.asked != size {
             self.preview.asked = size;
-            let job = size.and_then(|size| self.job(size, PREVIEW_SPP));
+            let job = size.and_then(|size| self.job(size, PREVIEW_SPP, Filter::Box));
             effects.extend(job.map(|job| Effect::Trace(Target::Preview, job)));
         }
         effects
@@ -46,20 +46,24 @@ impl App {
         Some(Effect::Stop(Target::Trace))
     }
 
-    fn job(&self, size: Size, spp: u32) -> Option<Job> {
+    fn job(&self, size: Size, spp: u32, filter: Filter) -> Option<Job> {
         let scene = self.scene.as_ref()?;
+        let integrator = self.integrator();
         Some(Job {
             scene: Arc::clone(scene),
             images: self.images.clone(),
             camera: self.camera()?,
             settings: Settings {
                 size,
-                spp,
-                depth: self.quality.depth,
+                spp: self.samples(spp),
+                depth: self
+                    .quality
+                    .depth
+                    .unwrap_or_else(|| default_depth(integrator)),
                 seed: 0,
-                aov: None,
-                integrator: scene.setting.integrator,
-                filter: Filter::Box,
+                aov: self.aov,
+                integrator,
+                filter,
                 transfer: scene.setting.transfer,
             },
             frames: Frames::Live,
@@ -67,7 +71,7 @@ impl App {
     }
 
     fn trace_job(&self) -> Option<Job> {
-        self.job(self.output(), self.quality.spp)
+        self.job(self.output(), self.quality.spp, self.quality.filter)
     }
 
     pub(super) fn start_trace(&mut self) -> Vec<Effect> {
@@ -201,11 +205,17 @@ impl App {
         self.start_export(&self.export_path(), None, None, Existing::Kept)
     }
 
+    /// The scene's name with a picture's ending: pictures of light and of other things don't
+    /// overwrite each other.
     pub(super) fn export_path(&self) -> PathBuf {
-        self.path.as_ref().map_or_else(
-            || PathBuf::from("halflight.bmp"),
-            |path| path.with_extension("bmp"),
-        )
+        let extension = self
+            .aov
+            .map_or_else(|| "bmp".to_owned(), |aov| format!("{}.bmp", aov.name()));
+        let scene = self
+            .path
+            .as_deref()
+            .unwrap_or_else(|| Path::new("halflight"));
+        scene.with_extension(extension)
     }
 
     /// Exports the scene as it is seen now. [`Existing::Kept`] keeps only what others wrote.
@@ -217,8 +227,8 @@ impl App {
         existing: Existing,
     ) -> Vec<Effect> {
         let size = size.unwrap_or_else(|| self.output());
-        let spp = spp.unwrap_or(self.quality.spp);
-        let job = self.job(size, spp);
+        let spp = self.samples(spp.unwrap_or(self.quality.spp));
+        let job = self.job(size, spp, self.quality.filter);
         let format = ImageFormat::of_path(path);
         let refused = match (format, &job) {
             _ if self.export.is_some() => Some("an export is under way: x cancels it".to_owned()),
@@ -260,13 +270,18 @@ impl App {
             destination: destination.clone(),
             size,
             spp,
+            aov: self.aov,
             progress: traced.as_ref().map(|frame| frame.progress),
         });
+        let what = self
+            .aov
+            .map_or_else(String::new, |aov| format!("{} ", aov.name()));
+        let to = path.display();
         if self.error_count() == 0 {
-            self.say(format!("exporting to {}", path.display()));
+            self.say(format!("exporting {what}to {to}"));
         } else {
-            let path = path.display();
-            self.warn(format!("exporting the last scene without errors to {path}"));
+            let why = "the text has errors: this is the last scene without";
+            self.warn(format!("exporting {what}to {to}; {why}"));
         }
         if let Some(frame) = traced {
             return vec![Effect::WriteImage(id, frame, destination)];
@@ -290,7 +305,8 @@ impl App {
     fn traced(&self, size: Size, spp: u32) -> Option<Arc<Frame>> {
         let trace = self.trace.as_ref()?;
         let frame = trace.latest.as_ref().filter(|_| trace.is_complete())?;
-        let same = frame.size == size && size == self.output() && spp == self.quality.spp;
+        let same =
+            frame.size == size && size == self.output() && spp == self.samples(self.quality.spp);
         same.then(|| Arc::clone(frame))
     }
 
@@ -329,11 +345,14 @@ fn stop_tracing(export: &Export) -> Vec<Effect> {
     }
 }
 
-/// How large and how fine an exported picture is, and how long it took.
+/// What an exported picture shows, how large and how fine it is, and how long it took.
 fn summary(export: &Export) -> String {
     let Size { width, height } = export.size;
     let took = export.progress.map_or_else(String::new, |progress| {
         format!(", {:.1} s", progress.elapsed.as_secs_f64())
     });
-    format!(": {width}×{height}, {} spp{took}", export.spp)
+    let what = export
+        .aov
+        .map_or_else(String::new, |aov| format!("{}, ", aov.name()));
+    format!(": {what}{width}×{height}, {} spp{took}", export.spp)
 }

@@ -13,6 +13,7 @@ mod keeping;
 mod line;
 mod list;
 mod literals;
+mod making;
 mod model;
 mod navigate;
 mod picture;

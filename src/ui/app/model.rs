@@ -8,9 +8,9 @@ use tui_input::Input;
 use super::picture::Picture;
 use super::textures::Textures;
 use crate::document::{Document, Merge};
-use crate::render::Progress;
+use crate::render::{Aov, Filter, Progress};
 use crate::scene::fields::Field;
-use crate::scene::{Camera, Images, Node, Origins, Scene, Size};
+use crate::scene::{Camera, Images, Integrator, Node, Origins, Scene, Size};
 use crate::text::{Diagnostic, Findings, Severity};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Destination, ExportId, Kept};
@@ -51,8 +51,10 @@ pub struct App {
     pub images: Images,
     /// The working view, where it differs from the scene's camera.
     pub view: Option<Camera>,
-    /// How pictures are traced, as the user said at the start.
+    /// How pictures are traced, as far as the user says so.
     pub quality: Quality,
+    /// What pictures show instead of light.
+    pub aov: Option<Aov>,
     /// What keys mean.
     pub mode: Mode,
     /// How much of the screen the picture takes, outside of the full-size trace.
@@ -115,8 +117,12 @@ pub struct App {
 pub struct Quality {
     /// Samples a pixel of the full-size trace and of exports.
     pub spp: u32,
-    /// Bounces.
-    pub depth: u32,
+    /// Bounces; the integrator's [`default_depth`](crate::render::default_depth) if `None`.
+    pub depth: Option<u32>,
+    /// How light is gathered; the scene says so if `None`.
+    pub integrator: Option<Integrator>,
+    /// What pixels of the full-size trace and of exports are filtered by.
+    pub filter: Filter,
 }
 
 /// How far one nudge goes.
@@ -251,6 +257,8 @@ pub struct Export {
     pub size: Size,
     /// Samples a pixel.
     pub spp: u32,
+    /// What it shows instead of light.
+    pub aov: Option<Aov>,
     /// How far.
     pub progress: Option<Progress>,
 }

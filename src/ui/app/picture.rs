@@ -259,6 +259,7 @@ mod tests {
                 elapsed: Duration::ZERO,
                 rays: 1,
                 over_budget: 0,
+                noise: None,
                 complete,
             },
         })

@@ -41,7 +41,10 @@ const COMMANDS: [(&str, &str); 13] = [
     (":q  :q!", "quit; with ! without asking"),
     (":wq", "save and quit"),
     (":e", "read the file again"),
-    (":export [FILE] [WxH] [spp]", "write a picture"),
+    (
+        ":export [FILE] [WxH] [spp]",
+        "write a picture of what is shown",
+    ),
     (":export! FILE", "write it over a file that is there"),
     (":export cancel", "stop writing it"),
     (":render", "trace at full size"),

@@ -11,7 +11,8 @@ use super::Glyphs;
 use super::row::Row;
 use super::theme;
 use crate::render::Progress;
-use crate::text::counted;
+use crate::scene::Integrator;
+use crate::text::{counted, percentage};
 use crate::ui::app::{App, Disk, Mode, Prompt, PromptKind};
 use crate::ui::keymap::{self, Context};
 
@@ -125,6 +126,9 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
     if let Some(progress) = app.picture().progress() {
         progress_segments(progress, &mut say);
     }
+    if app.scene.is_some() {
+        making_segment(app, &mut say);
+    }
     if let Some(frame) = &app.picture().latest {
         let size = format!("{}×{}", frame.size.width, frame.size.height);
         say(30, size, theme::DIM);
@@ -181,28 +185,49 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     }
 }
 
+/// Says what is shown instead of light, or else how light is gathered, with a star where the user
+/// changed what the scene says.
+fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
+    if let Some(aov) = app.aov {
+        say(7, aov.name().to_owned(), theme::WARNING);
+        return;
+    }
+    let name = match app.integrator() {
+        Integrator::Whitted => "whitted",
+        Integrator::Path => "path",
+    };
+    if app.is_integrator_changed() {
+        say(7, format!("{name}*"), theme::WARNING);
+    } else {
+        say(28, name.to_owned(), theme::DIM);
+    }
+}
+
 fn progress_segments(progress: &Progress, say: &mut impl FnMut(u8, String, Style)) {
     let seconds = progress.elapsed.as_secs_f64();
     if !progress.complete {
         let pass = format!("pass {}/{}", progress.pass, progress.passes);
-        say(23, pass, theme::DIM);
+        say(25, pass, theme::DIM);
     }
     say(21, format!("{} spp", progress.spp), Style::new());
     if !progress.complete {
         say(20, percent(progress.done), theme::ACCENT);
     }
+    if let Some(noise) = progress.noise {
+        say(22, format!("noise {}", percentage(noise)), Style::new());
+    }
     say(24, duration(progress.elapsed), Style::new());
     if let Some(left) = time_left(progress) {
-        say(22, format!("ETA {}", duration(left)), theme::DIM);
+        say(23, format!("ETA {}", duration(left)), theme::DIM);
     }
     if 0.0 < seconds && 0 < progress.rays {
         let rate = progress.rays as f64 / seconds / 1e6;
         let digits = usize::from(rate < 10.0);
-        say(25, format!("{rate:.digits$} Mray/s"), theme::DIM);
+        say(26, format!("{rate:.digits$} Mray/s"), theme::DIM);
     }
     if 0 < progress.over_budget {
         let text = format!("{} over ray budget", progress.over_budget);
-        say(26, text, theme::WARNING);
+        say(27, text, theme::WARNING);
     }
 }
 
@@ -242,8 +267,10 @@ fn duration(time: Duration) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::format::Format;
+    use crate::render::Aov;
     use crate::ui::app::Message;
-    use crate::ui::view::tests::{app, drawn, retype};
+    use crate::ui::view::tests::{app, app_of, drawn, retype};
     use tui_input::Input;
 
     #[test]
@@ -270,6 +297,23 @@ mod tests {
     }
 
     #[test]
+    fn what_is_shown_is_said_with_a_star_where_the_scene_says_otherwise() {
+        let mut app = app();
+        let said = |app: &App| {
+            let mut words = Vec::new();
+            making_segment(app, &mut |_, text, _| words.push(text));
+            words
+        };
+        assert_eq!(said(&app), ["whitted"]);
+        app.quality.integrator = Some(Integrator::Path);
+        assert_eq!(said(&app), ["path*"]);
+        app.aov = Some(Aov::Depth);
+        assert_eq!(said(&app), ["depth"]);
+        let paths = "<xml><scene/><camera gamma='sRGB'/></xml>";
+        assert_eq!(said(&app_of(Format::Xml, paths)), ["path"]);
+    }
+
+    #[test]
     fn progress_is_said_until_it_is_complete() {
         let said = |complete| {
             let progress = Progress {
@@ -280,6 +324,7 @@ mod tests {
                 elapsed: Duration::from_millis(1500),
                 rays: 21_000_000,
                 over_budget: 0,
+                noise: Some(0.0134),
                 complete,
             };
             let mut words = Vec::new();
@@ -289,9 +334,9 @@ mod tests {
         // A quarter took 1.5 s, so that three more take 4.5 s; 21 million in 1.5 s are 14 a second.
         assert_eq!(
             said(false),
-            "pass 3/6 · 2 spp · 25 % · 1.5 s · ETA 4.5 s · 14 Mray/s"
+            "pass 3/6 · 2 spp · 25 % · noise 1.3 % · 1.5 s · ETA 4.5 s · 14 Mray/s"
         );
-        assert_eq!(said(true), "2 spp · 1.5 s · 14 Mray/s");
+        assert_eq!(said(true), "2 spp · noise 1.3 % · 1.5 s · 14 Mray/s");
     }
 
     #[test]

@@ -13,7 +13,7 @@ use super::layout::Zoom;
 use super::{Glyphs, draw};
 use crate::document::{Replaced, Side};
 use crate::format::Format;
-use crate::render::{Frame, NO_OBJECT, Progress};
+use crate::render::{Filter, Frame, NO_OBJECT, Progress};
 use crate::scene::{Node, Size, lower};
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
@@ -46,7 +46,12 @@ pub(super) fn app_of(format: Format, text: &str) -> App {
         format,
         path: Some(PathBuf::from("somewhere/test").with_extension(format.extension())),
         text: text.to_owned(),
-        quality: Quality { spp: 16, depth: 8 },
+        quality: Quality {
+            spp: 16,
+            depth: None,
+            integrator: None,
+            filter: Filter::Box,
+        },
         mouse: Mouse::Off,
         terminal: (80, 24),
     });
@@ -118,6 +123,7 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
             elapsed: std::time::Duration::from_millis(300),
             rays: 1_000_000,
             over_budget: 3,
+            noise: None,
             complete: false,
         },
     })
@@ -216,6 +222,7 @@ const STATES: &[(&str, Change)] = &[
                 height: 3,
             },
             spp: 16,
+            aov: None,
             progress: None,
         });
     }),

@@ -4,7 +4,7 @@ use super::*;
 use crate::scene::Node;
 
 /// Two materials, and three objects of which one combines the others.
-const SCENE: &str = "\
+pub(super) const SCENE: &str = "\
 camera perspective 0 -9 0  0 0 0  0 0 1  1 0.1 100
 resolution .01 .01
 viewport 40 30

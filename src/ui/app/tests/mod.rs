@@ -3,6 +3,7 @@
 mod dat;
 mod disk;
 mod editing;
+mod making;
 mod moving;
 mod pictures;
 mod textures;
@@ -14,6 +15,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::*;
 use crate::format::Format;
+use crate::render::Filter;
 use crate::ui::msg::{Effect, Msg};
 use crate::ui::terminal::Mouse;
 
@@ -55,7 +57,12 @@ fn opened_as(name: &str, text: &str) -> (App, Vec<Effect>) {
         path: Some(PathBuf::from(name)),
         format: Format::of_path(Path::new(name)).expect("a scene's name"),
         text: text.to_owned(),
-        quality: Quality { spp: 4, depth: 8 },
+        quality: Quality {
+            spp: 4,
+            depth: None,
+            integrator: None,
+            filter: Filter::Box,
+        },
         mouse: Mouse::On,
         terminal: (120, 40),
     })

@@ -23,6 +23,7 @@ pub(super) fn frame(size: Size, objects: Vec<u32>) -> Frame {
             elapsed: Duration::ZERO,
             rays: 1,
             over_budget: 0,
+            noise: None,
             complete: true,
         },
     }

@@ -1,0 +1,161 @@
+//! What a pixel is the mean of. The weights of a filter are the density of the places that samples
+//! are taken at, so that all count alike and each belongs to one pixel: no tile asks another for
+//! its samples.
+
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
+
+/// What of its surroundings a pixel is the mean of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Filter {
+    /// The pixel itself.
+    #[default]
+    Box,
+    /// A Gaussian with a standard deviation of half a pixel, three pixels wide.
+    Gaussian,
+    /// The Blackman-Harris window with four terms, three pixels wide.
+    BlackmanHarris,
+}
+
+/// Pixels from the centre to where a filter wider than a pixel ends.
+const RADIUS: f64 = 1.5;
+
+/// Standard deviation of the Gaussian, in pixels.
+const DEVIATION: f64 = 0.5;
+
+/// Weights of the window's cosines (Harris, "On the use of windows for harmonic analysis with the
+/// discrete Fourier transform", Proceedings of the IEEE 66(1), 1978).
+const TERMS: [f64; 4] = [0.35875, 0.48829, 0.14128, 0.01168];
+
+/// Steps from the centre to the end of a filter. Between them it counts as even, by which a pixel at
+/// an edge is off by less than a hundredth of an 8-bit level.
+const STEPS: usize = 256;
+
+impl Filter {
+    /// The share of the filter, along one axis, that lies within so many pixels of the centre.
+    fn within(self, distance: f64) -> f64 {
+        match self {
+            Self::Box => (2.0 * distance).min(1.0),
+            Self::Gaussian => {
+                let normal = |distance: f64| libm::erf(distance * FRAC_1_SQRT_2 / DEVIATION);
+                normal(distance) / normal(RADIUS)
+            }
+            Self::BlackmanHarris => {
+                let angle = PI * distance / RADIUS;
+                let [even, first, second, third] = TERMS;
+                let waves = first * libm::sin(angle)
+                    + second * libm::sin(2.0 * angle) / 2.0
+                    + third * libm::sin(3.0 * angle) / 3.0;
+                distance / RADIUS + waves / (PI * even)
+            }
+        }
+    }
+}
+
+/// A filter made ready to place samples.
+#[derive(Clone, Debug)]
+pub(crate) struct Spread {
+    /// The share of the filter within each of the steps; none of the box, where all is left alone.
+    shares: Vec<f64>,
+}
+
+impl Spread {
+    /// The places of a filter's samples.
+    pub(crate) fn of(filter: Filter) -> Self {
+        let at = |step| filter.within(RADIUS * step as f64 / STEPS as f64);
+        Self {
+            shares: match filter {
+                Filter::Box => Vec::new(),
+                Filter::Gaussian | Filter::BlackmanHarris => (0..=STEPS).map(at).collect(),
+            },
+        }
+    }
+
+    /// Where a sample goes whose place in the pixel, in 0..1 from its top left, would be this if
+    /// all were alike: the inverse of the filter's distribution along each axis. A centre stays.
+    pub(crate) fn place(&self, even: [f64; 2]) -> [f64; 2] {
+        if self.shares.is_empty() {
+            return even;
+        }
+        even.map(|even| {
+            let side = 2.0 * even - 1.0;
+            0.5 + self.distance(side.abs()).copysign(side)
+        })
+    }
+
+    /// How far from the centre this share of the filter ends.
+    fn distance(&self, share: f64) -> f64 {
+        let after = self.shares.partition_point(|&within| within <= share);
+        let after = after.clamp(1, STEPS);
+        let (low, high) = (self.shares[after - 1], self.shares[after]);
+        let part = (share - low) / (high - low);
+        RADIUS * ((after - 1) as f64 + part) / STEPS as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WIDE: [Filter; 2] = [Filter::Gaussian, Filter::BlackmanHarris];
+
+    /// Numbers in 0..1, each in the middle of its share.
+    fn even(count: u32) -> impl Iterator<Item = f64> {
+        (0..count).map(move |k| (f64::from(k) + 0.5) / f64::from(count))
+    }
+
+    /// Along one axis.
+    fn place(spread: &Spread, even: f64) -> f64 {
+        let [across, down] = spread.place([even, 1.0 - even]);
+        // At the ends a rounded share is a thousand times as long a way.
+        assert!((across + down - 1.0).abs() < 1e-11, "{even}");
+        across
+    }
+
+    #[test]
+    fn the_box_leaves_places_as_they_are() {
+        let spread = Spread::of(Filter::Box);
+        for even in even(1000) {
+            assert_eq!(spread.place([even, 0.1]), [even, 0.1]);
+        }
+    }
+
+    /// Of the Gaussian cut at three deviations: sigma² (1 − 2 · 3 phi(3) / erf(3/√2)). Of a window:
+    /// the integral of x² cos(2 pi k x) over −½..½ is (−1)^k / (2 pi² k²).
+    #[test]
+    fn places_have_the_mean_and_the_variance_of_the_filter() {
+        let density = (-4.5f64).exp() / (2.0 * PI).sqrt();
+        let gaussian = 0.25 * (1.0 - 6.0 * density / libm::erf(3.0 * FRAC_1_SQRT_2));
+        let wave = |k: i32| {
+            let term = TERMS[k as usize] / TERMS[0];
+            (-1.0f64).powi(k) * term / (2.0 * PI * PI * f64::from(k * k))
+        };
+        let window = 9.0 * (1.0 / 12.0 + wave(1) + wave(2) + wave(3));
+        for (filter, variance) in WIDE.into_iter().zip([gaussian, window]) {
+            let spread = Spread::of(filter);
+            let count = 1 << 14;
+            let off = || even(count).map(|even| place(&spread, even) - 0.5);
+            let mean = off().sum::<f64>() / f64::from(count);
+            let square = off().map(|off| off * off).sum::<f64>() / f64::from(count);
+            assert!(mean.abs() < 1e-12, "{filter:?}: {mean}");
+            let error = (square - variance).abs();
+            assert!(error < 1e-4, "{filter:?}: {square}, not {variance}");
+        }
+    }
+
+    #[test]
+    fn places_rise_from_end_to_end_and_the_centre_stays() {
+        for filter in WIDE {
+            let spread = Spread::of(filter);
+            let mut last = -RADIUS;
+            for even in even(10_000) {
+                let off = place(&spread, even) - 0.5;
+                assert!(last < off && off < RADIUS, "{filter:?} {even}: {off}");
+                let share = filter.within(off.abs());
+                assert!((share - (2.0 * even - 1.0).abs()).abs() < 1e-4);
+                last = off;
+            }
+            assert_eq!(spread.place([0.5; 2]), [0.5; 2]);
+            assert_eq!(spread.place([0.0, 1.0]), [0.5 - RADIUS, 0.5 + RADIUS]);
+        }
+    }
+}

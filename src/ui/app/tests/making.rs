@@ -1,0 +1,203 @@
+//! How pictures are made.
+
+use std::sync::Arc;
+
+use super::*;
+use crate::render::{Aov, Filter, Job, Settings};
+use crate::scene::Integrator;
+use crate::ui::msg::Target;
+
+/// A scene of each language.
+const SCENES: [(&str, &str); 3] = [
+    ("scene.ray", SCENE),
+    ("scene.dat", dat::SCENE),
+    ("scene.xml", include_str!("../../../../scenes/spheres.xml")),
+];
+
+/// The jobs among effects.
+fn jobs(effects: &[Effect]) -> Vec<(Target, &Job)> {
+    effects
+        .iter()
+        .filter_map(|effect| match effect {
+            Effect::Trace(target, job) => Some((*target, job)),
+            _ => None,
+        })
+        .collect()
+}
+
+/// The settings of the one picture that these keys have traced.
+fn traced(app: &mut App, said: &str) -> (Target, Settings) {
+    let effects = press(app, said);
+    let [(target, job)] = jobs(&effects)[..] else {
+        panic!("{said}: {} effects", effects.len());
+    };
+    (target, job.settings)
+}
+
+#[test]
+fn light_is_gathered_in_the_other_way_in_every_picture_at_once() {
+    for (name, text) in SCENES {
+        let mut app = opened_as(name, text).0;
+        let gathered =
+            |(target, settings): (Target, Settings)| (target, settings.integrator, settings.depth);
+        let (path, whitted) = ((Integrator::Path, 64), (Integrator::Whitted, 8));
+        for (said, target, (integrator, depth)) in [
+            ("P", Target::Preview, path),
+            ("<F5>", Target::Trace, path),
+            ("P", Target::Trace, whitted),
+            ("P", Target::Trace, path),
+            ("b", Target::Export, path),
+            ("<Esc>", Target::Preview, path),
+        ] {
+            let traced = gathered(traced(&mut app, said));
+            assert_eq!(traced, (target, integrator, depth), "{name} {said}");
+            if target == Target::Trace {
+                app.update(Msg::Started(target, 1));
+            }
+        }
+        assert_eq!(app.document.text(), text);
+    }
+}
+
+#[test]
+fn a_scene_is_followed_until_the_user_chooses_another_way() {
+    let text = SCENES[2].1;
+    let paths = text.replace("<camera>", "<camera gamma=\"sRGB\">");
+    let (mut app, effects) = opened_as("scene.xml", &paths);
+    let [(Target::Preview, job)] = jobs(&effects)[..] else {
+        panic!("{effects:?}");
+    };
+    let settings = job.settings;
+    assert_eq!(
+        (settings.integrator, settings.depth),
+        (Integrator::Path, 64)
+    );
+    press(&mut app, "P");
+    assert_eq!(app.integrator(), Integrator::Whitted);
+    assert!(app.is_integrator_changed());
+    press(&mut app, "P");
+    assert!(!app.is_integrator_changed());
+    app.update(Msg::Read(PathBuf::from("scene.xml"), Ok(text.to_owned())));
+    assert_eq!(app.error_count(), 0);
+    assert_eq!(app.integrator(), Integrator::Whitted);
+}
+
+#[test]
+fn bounces_that_the_user_said_hold_for_both_ways() {
+    let mut app = open(SCENE);
+    app.quality.depth = Some(3);
+    for integrator in [Integrator::Path, Integrator::Whitted] {
+        let settings = traced(&mut app, "P").1;
+        assert_eq!((settings.integrator, settings.depth), (integrator, 3));
+    }
+}
+
+/// What the keys show, in order, and the samples taken of it where many are asked for.
+const SHOWN: [(&str, Option<Aov>, u32); 5] = [
+    ("2", Some(Aov::Depth), 1),
+    ("3", Some(Aov::Normal), 4),
+    ("4", Some(Aov::Object), 1),
+    ("5", Some(Aov::Albedo), 4),
+    ("1", None, 4),
+];
+
+#[test]
+fn digits_choose_what_every_picture_shows() {
+    for (name, text) in SCENES {
+        let mut app = opened_as(name, text).0;
+        press(&mut app, "<F5>");
+        app.update(Msg::Started(Target::Trace, 1));
+        for (said, aov, spp) in SHOWN {
+            let (target, settings) = traced(&mut app, said);
+            assert_eq!(
+                (target, settings.aov),
+                (Target::Trace, aov),
+                "{name} {said}"
+            );
+            assert_eq!(settings.spp, spp, "{name} {said}");
+            app.update(Msg::Started(Target::Trace, 1));
+        }
+        for mode in ["<Esc>", "v"] {
+            press(&mut app, mode);
+            for (said, aov, spp) in SHOWN {
+                let (target, settings) = traced(&mut app, said);
+                assert_eq!(
+                    (target, settings.aov),
+                    (Target::Preview, aov),
+                    "{name} {said}"
+                );
+                assert_eq!(settings.spp == 1, spp == 1, "{name} {said}");
+                assert!(press(&mut app, said).is_empty(), "it is shown already");
+            }
+        }
+        assert_eq!(app.document.text(), text);
+    }
+}
+
+#[test]
+fn digits_are_typed_while_fields_are_edited() {
+    let mut app = open(SCENE);
+    press(&mut app, "2jjje3");
+    assert_eq!(app.aov, Some(Aov::Depth));
+    let typing = app.typing.as_ref().expect("a value is typed");
+    assert_eq!(typing.input.value(), "3");
+}
+
+#[test]
+fn an_export_writes_what_is_shown_and_says_so() {
+    let mut app = open(SCENE);
+    let effects = press(&mut app, "2b");
+    let [
+        Effect::CheckTarget(id, destination),
+        Effect::Trace(Target::Export, job),
+    ] = &effects[1..]
+    else {
+        panic!("{effects:?}");
+    };
+    assert_eq!((job.settings.aov, job.settings.spp), (Some(Aov::Depth), 1));
+    assert_eq!(words(&app), "exporting depth to scene.depth.bmp");
+    let path = destination.path.clone();
+    let size = job.settings.size;
+    // What is shown meanwhile is no matter.
+    press(&mut app, "1");
+    let done = Arc::new(pictures::frame(size, vec![0; size.pixels()]));
+    app.update(Msg::Frame(Target::Export, done));
+    app.update(Msg::Exported(*id, Ok(path)));
+    assert_eq!(
+        words(&app),
+        "wrote scene.depth.bmp: depth, 800×600, 1 spp, 0.0 s"
+    );
+    press(&mut app, "b");
+    assert_eq!(words(&app), "exporting to scene.bmp");
+}
+
+/// A finished trace of what is shown is written as it is, and no other.
+#[test]
+fn a_finished_trace_is_exported_while_it_shows_what_is_asked_for() {
+    let mut app = open(SCENE);
+    press(&mut app, "2<F5>");
+    app.update(Msg::Started(Target::Trace, 1));
+    let size = app.output();
+    let done = Arc::new(pictures::frame(size, vec![0; size.pixels()]));
+    app.update(Msg::Frame(Target::Trace, done));
+    let effects = press(&mut app, "b");
+    assert!(matches!(effects[..], [Effect::WriteImage(..)]));
+    press(&mut app, "x");
+    assert_eq!(traced(&mut app, "3").0, Target::Trace);
+    app.update(Msg::Started(Target::Trace, 2));
+    assert_eq!(traced(&mut app, "b").0, Target::Export);
+}
+
+#[test]
+fn the_preview_is_not_filtered_and_full_size_pictures_are_as_the_user_said() {
+    let mut app = open(SCENE);
+    app.quality.filter = Filter::Gaussian;
+    for (said, target, filter) in [
+        ("P", Target::Preview, Filter::Box),
+        ("<F5>", Target::Trace, Filter::Gaussian),
+        ("b", Target::Export, Filter::Gaussian),
+    ] {
+        let (traced, settings) = traced(&mut app, said);
+        assert_eq!((traced, settings.filter), (target, filter), "{said}");
+    }
+}
