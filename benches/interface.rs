@@ -13,6 +13,7 @@ mod desk;
 )]
 #[path = "../tests/harness/mod.rs"]
 mod harness;
+mod meshes;
 #[allow(dead_code, reason = "shared with the other bench")]
 mod scenes;
 
@@ -23,7 +24,7 @@ use std::time::{Duration, Instant};
 
 use halflight::format::{self, Format};
 use halflight::render::{DEFAULT_DEPTH, Filter, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::{Images, Integrator, Scene, Transfer, lower};
+use halflight::scene::{Images, Integrator, Meshes, Scene, Transfer, lower};
 use halflight::ui::view::layout::Zoom;
 
 use desk::{Desk, Drawn, TERMINAL, difference, picture_cells};
@@ -44,7 +45,7 @@ fn main() {
         "{columns}x{rows}, truecolour, scenes/default.ray; load {}",
         load()
     );
-    let parts: [(&str, fn()); 9] = [
+    let parts: [(&str, fn()); 10] = [
         ("start", start),
         ("edit", edit),
         ("keys", keys_while_tracing),
@@ -54,6 +55,7 @@ fn main() {
         ("held", held),
         ("bytes", bytes),
         ("link", link),
+        ("mesh", mesh),
     ];
     for (name, measure) in parts {
         if wanted.is_empty() || wanted.iter().any(|part| name.contains(part.as_str())) {
@@ -292,6 +294,48 @@ fn link() {
     );
 }
 
+/// A mesh of a million triangles, from a file of its own.
+fn mesh() {
+    const SCENE: &str = "<xml>
+  <scene>
+    <object type=\"obj\" name=\"ball.obj\" material=\"clay\"/>
+    <material type=\"blinn\" name=\"clay\"><diffuse r=\"0.7\" g=\"0.6\" b=\"0.5\"/></material>
+    <light type=\"ambient\"><intensity value=\"0.1\"/></light>
+    <light type=\"direct\"><intensity value=\"0.9\"/><direction x=\"-1\" y=\"1\" z=\"-1\"/></light>
+  </scene>
+  <camera>
+    <position x=\"1.8\" y=\"-3\" z=\"1.4\"/><target/><up z=\"1\"/>
+    <width value=\"400\"/><height value=\"300\"/>
+  </camera>
+</xml>
+";
+    let ball = meshes::bumpy_ball(1_000_000);
+    let open = || Desk::open_files(&[("scene.xml", SCENE), ("ball.obj", &ball)], &[], &[]);
+    let times = repeat(7, || {
+        let (mut desk, begun) = open();
+        desk.record(begun + 3 * SECOND);
+        let drawn = desk.look();
+        first(&drawn, begun, Drawn::is_picture)
+    });
+    times_row("mesh: start to first picture", &times, "p50 <= 1500");
+    let mut desk = open().0;
+    desk.record(Instant::now() + 4 * SECOND);
+    // The material, and its colour below its type and name.
+    for key in ["gg", "j", "j", "j", "j", "j", "e", "j", "j"] {
+        desk.press(key);
+        desk.record(Instant::now() + Duration::from_millis(50));
+    }
+    desk.rest();
+    desk.look();
+    let mut pictured = Vec::new();
+    for key in ["L", "H"].repeat(15) {
+        let pressed = desk.press(key);
+        let drawn = desk.settle();
+        pictured.extend(first(&drawn, pressed, Drawn::is_new_picture));
+    }
+    times_row("mesh: nudge to changed picture", &pictured, "p95 <= 50");
+}
+
 /// Puts the cursor on the first number of the first light.
 fn edit_light(desk: &mut Desk) {
     for key in ["gg", "j", "j", "e"] {
@@ -303,7 +347,11 @@ fn edit_light(desk: &mut Desk) {
 
 fn scene(text: &str) -> Arc<Scene> {
     let tree = format::parse(Format::Ray, text);
-    Arc::new(lower(text, &tree).scene.expect("a scene without errors"))
+    Arc::new(
+        lower(text, &tree, &Meshes::default())
+            .scene
+            .expect("a scene without errors"),
+    )
 }
 
 /// A renderer at work on all cores, and what tells of its frames.

@@ -19,8 +19,8 @@ use halflight::geometry::{Aabb, Affine, Instance, Shape};
 use halflight::obj;
 use halflight::render::{DEFAULT_DEPTH, Filter, Frame, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::{
-    Camera, Focus, Images, Integrator, Lens, Light, Material, Object, Phong, Rgb, Scene, Setting,
-    Shadows, Size, Source, Transfer, lower,
+    Camera, Focus, Images, Integrator, Lens, Light, Material, Meshes, Object, Phong, Rgb, Scene,
+    Setting, Shadows, Size, Source, Transfer, lower,
 };
 
 /// Runs of everything that is timed; the median is printed.
@@ -116,13 +116,13 @@ fn measured() -> Vec<(String, Format, Text)> {
 
 fn row(name: &str, format: Format, text: &str, cores: usize) {
     let (parse, tree) = median(|| format::parse(format, text));
-    let (lowering, lowered) = median(|| lower(text, &tree));
+    let (lowering, lowered) = median(|| lower(text, &tree, &Meshes::default()));
     drop((tree, lowered));
 
     // What an open document costs beside its text: tokens, origins, scene and acceleration tree.
     let before = resident();
     let tree = format::parse(format, text);
-    let mut lowered = lower(text, &tree);
+    let mut lowered = lower(text, &tree, &Meshes::default());
     let scene = Arc::new(lowered.scene.take().expect("a scene without errors"));
     let boxes: Vec<Aabb> = scene
         .objects
@@ -159,8 +159,9 @@ fn row(name: &str, format: Format, text: &str, cores: usize) {
 fn mesh(name: &str, cores: usize) {
     let text = meshes::bumpy_ball(1_000_000);
     let before = resident();
-    let (read, model) = median(|| obj::read(text.as_bytes(), |_| None).expect("it is sound"));
-    let mesh = Arc::new(model.mesh);
+    let no_library = |_: &str| Err::<Vec<u8>, _>("it names none".to_owned());
+    let (read, model) = median(|| obj::read(text.as_bytes(), no_library).expect("it is sound"));
+    let mesh = model.mesh;
     let count = mesh.len();
     let (build, bvh) = median(|| {
         let boxes: Vec<_> = (0..count as u32)

@@ -12,6 +12,9 @@
 //!   └───────── edit (span, text) ◀── action ◀── key, mouse, paste ◀─────────────────┘
 //! ```
 //!
+//! Files that the text names come in beside it, as values: meshes at `lower`, pictures at `build`.
+//! They may name others, which are read as if the text did.
+//!
 //! The one override outside the text is the working view: orbiting moves it in memory until the
 //! user saves it, which is an edit like any other.
 //!
@@ -29,7 +32,7 @@
 //! | [`render`] | pixels from a scene: worker, integrator, film, tone | documents, files, terminals |
 //! | [`file`](mod@file) | reading scenes and replacing files whole | what the bytes mean |
 //! | [`image_file`] | picture files: frames written, textures read | what is in a scene |
-//! | [`assets`] | the picture files that scenes name, as shared values | what they are for |
+//! | [`assets`] | the pictures and meshes that scenes name, as shared values | what they are for |
 //! | [`watch`] | paths that change on disk | what is in them |
 //! | [`ui`] | the terminal: the only room that knows ratatui and crossterm | how pixels come about |
 //! | [`batch`] | headless work: check, render | terminals |

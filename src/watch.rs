@@ -23,8 +23,8 @@ use crate::file;
 /// Links followed before a chain of them counts as endless.
 const MAX_LINKS: usize = 40;
 
-/// Bytes of a file that polling compares: of longer ones, which no scene has, a change of length or
-/// at the beginning is noticed.
+/// Bytes of a file that polling compares: of longer ones, which only meshes are, a change of length
+/// or at the beginning is noticed.
 const COMPARED: u64 = 1 << 28;
 
 /// Watches paths until it is dropped.

@@ -9,7 +9,7 @@ use halflight::format::{self, Format};
 use halflight::image_file::ImageFormat;
 use halflight::render::{DEFAULT_DEPTH, Filter, Frame, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::fields::{Field, Kind, Range};
-use halflight::scene::{Images, Integrator, Node, Scene, Size, Transfer, lower};
+use halflight::scene::{Images, Integrator, Meshes, Node, Scene, Size, Transfer, lower};
 use halflight::text::{Edit, parse_number};
 
 /// Size of the pictures beside the scenes, and their samples a pixel: the README's command.
@@ -37,7 +37,11 @@ fn the_pictures_beside_the_scenes_are_what_the_renderer_gives() {
 #[test]
 fn the_scenes_have_nothing_to_complain_of() {
     for own in scenes() {
-        let lowered = lower(&own.text, &format::parse(own.format, &own.text));
+        let lowered = lower(
+            &own.text,
+            &format::parse(own.format, &own.text),
+            &Meshes::default(),
+        );
         assert_eq!(*lowered.diagnostics, [], "{}", own.path.display());
     }
 }
@@ -91,14 +95,20 @@ impl Own {
     }
 
     fn meaning(&self) -> Arc<Scene> {
-        let lowered = lower(&self.text, &format::parse(self.format, &self.text));
+        let lowered = lower(
+            &self.text,
+            &format::parse(self.format, &self.text),
+            &Meshes::default(),
+        );
         let found = lowered.diagnostics;
         Arc::new(lowered.scene.unwrap_or_else(|| panic!("{found:?}")))
     }
 
     fn images(&self) -> Images {
         let tree = format::parse(self.format, &self.text);
-        let files = lower(&self.text, &tree).origins.files(&self.text, &tree);
+        let files = lower(&self.text, &tree, &Meshes::default())
+            .origins
+            .files(&self.text, &tree);
         let loaded = Assets::new(&[]).read(&Wanted::new(&self.path, &files));
         assert!(loaded.troubles.is_empty(), "{:?}", loaded.troubles);
         loaded.images
@@ -107,7 +117,7 @@ impl Own {
     /// The same scene, 2 to this power times as large.
     fn scaled(&self, exponent: i32) -> Self {
         let mut document = Document::new(self.format, self.text.clone());
-        let origins = lower(&self.text, document.tree()).origins;
+        let origins = lower(&self.text, document.tree(), &Meshes::default()).origins;
         let mut edits = Vec::new();
         // What is in another thing grows with that.
         let outermost = |node: &Node| origins.depth(*node) == 0;

@@ -1,19 +1,23 @@
-//! `.xml` scenes from their text to their pixels, and the course's own files.
+//! `.xml` scenes from their text to their pixels, with the files they name, and the course's own.
 
+use std::fs;
 use std::path::PathBuf;
+use std::process::Command;
 use std::sync::{Arc, mpsc};
 
+use halflight::assets::{Assets, Wanted};
 use halflight::format::{self, Format};
 use halflight::render::{DEFAULT_DEPTH, Filter, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::fields::Kind;
-use halflight::scene::{Images, Integrator, Lowered, Node, Placed, Scene, Transfer, lower};
+use halflight::scene::{Images, Integrator, Lowered, Meshes, Node, Placed, Scene, Transfer, lower};
 use halflight::text::{Diagnostic, apply};
+use tempfile::TempDir;
 
 const EXAMPLE: &str = include_str!("../scenes/spheres.xml");
 
 fn read(text: &str) -> (format::Tree, Lowered) {
     let tree = format::parse(Format::Xml, text);
-    let lowered = lower(text, &tree);
+    let lowered = lower(text, &tree, &Meshes::default());
     (tree, lowered)
 }
 
@@ -92,13 +96,17 @@ fn the_course_s_own_files_are_read_listed_and_edited() {
         println!("HALFLIGHT_EXTRA_SCENES names no folder: the course's files are not tested");
         return;
     };
-    let entries = std::fs::read_dir(folder.join("utah")).expect("the folder holds the course's");
+    let entries = fs::read_dir(folder.join("utah")).expect("the folder holds the course's");
     let paths = entries.map(|entry| entry.expect("a file").path());
     let mut scenes = 0;
     for path in paths.filter(|path| path.extension().is_some_and(|extension| extension == "xml")) {
         let name = path.display().to_string();
-        let text = std::fs::read_to_string(&path).expect("scenes are readable");
+        let text = fs::read_to_string(&path).expect("scenes are readable");
         let (tree, lowered) = read(&text);
+        let files = lowered.origins.files(&text, &tree);
+        let loaded = Assets::new(&[]).read(&Wanted::new(&path, &files));
+        assert!(loaded.troubles.is_empty(), "{name}: {:?}", loaded.troubles);
+        let lowered = lower(&text, &tree, &loaded.meshes);
         let said: Vec<_> = lowered
             .diagnostics
             .iter()
@@ -114,9 +122,8 @@ fn the_course_s_own_files_are_read_listed_and_edited() {
             .filter(|node| matches!(node, Node::Object(_)))
             .count();
         assert_eq!(listed, objects, "{name}");
-        let meshes = text.matches("type=\"obj\"").count();
         let groups = text.matches("<object name").count();
-        assert_eq!(scene.objects.len(), objects - meshes - groups, "{name}");
+        assert_eq!(scene.objects.len(), objects - groups, "{name}");
         for node in nodes {
             // Another type has other fields.
             let is_free = |placed: &Placed| !matches!(placed.field.kind, Kind::Choice(_));
@@ -156,4 +163,116 @@ fn the_course_s_own_files_are_read_listed_and_edited() {
         scenes += 1;
     }
     assert!(10 < scenes, "{scenes} files");
+}
+
+/// A triangle that fills the middle of the picture, from a file, and nothing else.
+const MESHED: &str = "<xml><scene><light type='ambient'><intensity value='1'/></light>
+  <object type='obj' name='meshes/a.obj'/></scene>
+  <camera><position z='5'/><target/><width value='40'/><height value='30'/></camera></xml>";
+
+const MESH: &str = "mtllib ../skins/a.mtl\nv -3 -3 0\nv 3 -3 0\nv 0 3 0\nusemtl a\nf 1 2 3\n";
+
+/// A directory with a scene in `a.xml`, and its mesh and that mesh's library in folders of their own.
+struct Place {
+    directory: TempDir,
+}
+
+impl Place {
+    fn new(library: &str) -> Self {
+        let directory = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).expect("a directory");
+        let place = Self { directory };
+        for folder in ["meshes", "skins"] {
+            fs::create_dir(place.at(folder)).expect("a folder");
+        }
+        place.write("a.xml", MESHED);
+        place.write("meshes/a.obj", MESH);
+        place.write("skins/a.mtl", library);
+        place
+    }
+
+    fn at(&self, name: &str) -> PathBuf {
+        self.directory.path().join(name)
+    }
+
+    fn write(&self, name: &str, content: &str) {
+        fs::write(self.at(name), content).expect("written");
+    }
+
+    /// What the program says on the error stream, which ends with a code.
+    fn told(&self, line: &str, code: i32) -> String {
+        let output = Command::new(env!("CARGO_BIN_EXE_halflight"))
+            .args(line.split_ascii_whitespace())
+            .current_dir(self.directory.path())
+            .output()
+            .expect("it starts");
+        let told = String::from_utf8(output.stderr).expect("UTF-8");
+        assert_eq!(output.status.code(), Some(code), "{line}: {told}");
+        told
+    }
+
+    /// The colour in the middle of `a.ppm`.
+    fn middle(&self) -> [u8; 3] {
+        let ppm = fs::read(self.at("a.ppm")).expect("a picture");
+        let pixels = ppm.strip_prefix(b"P6\n40 30\n255\n").expect("a PPM");
+        let middle = 3 * (15 * 40 + 20);
+        [0, 1, 2].map(|channel| pixels[middle + channel])
+    }
+}
+
+#[test]
+fn a_mesh_is_drawn_in_the_colours_of_its_library() {
+    let place = Place::new("newmtl a\nKd 0 .2 1\n");
+    assert_eq!(place.told("render a.xml -o a.ppm --spp 1", 0), "");
+    assert_eq!(place.middle(), [0, 51, 255]);
+    let told = place.told("check a.xml", 0);
+    assert_eq!(told, "1 scene checked: 0 errors, 0 warnings\n");
+
+    place.write("skins/a.mtl", "newmtl b\n");
+    let told = place.told("render a.xml -o a.ppm --spp 1", 0);
+    let first =
+        "warning: a.xml:2:28: meshes/a.obj (obj): line 5, column 8: no library defines `a`\n";
+    assert!(told.starts_with(first), "{told}");
+    assert_eq!(place.middle(), [255; 3]);
+}
+
+/// What a library names is read from beside it, or missed where the scene names the mesh.
+#[test]
+fn the_pictures_of_a_library_are_read_from_beside_it() {
+    let place = Place::new("newmtl a\nmap_Kd skin.ppm\n");
+    let told = place.told("check a.xml", 0);
+    let first = "warning: a.xml:2:28: meshes/a.obj (obj) map_Kd meshes/../skins/skin.ppm: \
+                 no such file; magenta stands for it\n";
+    assert!(told.starts_with(first), "{told}");
+    place.write("skins/skin.ppm", "P3\n1 1\n255\n1 2 3\n");
+    let told = place.told("check a.xml", 0);
+    assert_eq!(told, "1 scene checked: 0 errors, 0 warnings\n");
+}
+
+#[test]
+fn a_mesh_that_cannot_be_read_is_an_error() {
+    let place = Place::new("newmtl a\n");
+    let bad = MESH.replace("v 0 3 0", "v 0 3");
+    for (content, reason) in [
+        (
+            Some(bad),
+            "line 4, column 6: v: expected 3 numbers, found 2",
+        ),
+        (None, "no such file"),
+    ] {
+        match content {
+            Some(content) => place.write("meshes/a.obj", &content),
+            None => fs::remove_file(place.at("meshes/a.obj")).expect("it is there"),
+        }
+        let first = format!("error: a.xml:2:28: meshes/a.obj (obj): {reason}\n");
+        for line in ["render a.xml -o a.ppm --spp 1", "check a.xml"] {
+            let told = place.told(line, 65);
+            assert!(told.starts_with(&first), "{told}");
+        }
+        assert!(!place.at("a.ppm").exists());
+    }
+    // Whatever else is wrong.
+    place.write("a.xml", &MESHED.replace("<target/>", "<target x='q'/>"));
+    let told = place.told("check a.xml", 65);
+    assert!(told.contains("no such file"), "{told}");
+    assert!(told.contains("`q` is no number"), "{told}");
 }

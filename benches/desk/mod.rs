@@ -83,9 +83,20 @@ impl Drawn {
 impl Desk {
     /// Starts the program on the scene; the moment is that before it was started.
     pub(crate) fn open(arguments: &[&str], environment: &[(&str, &str)]) -> (Self, Instant) {
+        Self::open_files(&[("scene.ray", SCENE)], arguments, environment)
+    }
+
+    /// Starts the program on the first of some files, whose picture has the usual size.
+    pub(crate) fn open_files(
+        files: &[(&str, &str)],
+        arguments: &[&str],
+        environment: &[(&str, &str)],
+    ) -> (Self, Instant) {
         let folder = tempfile::tempdir().expect("a folder");
-        std::fs::write(folder.path().join("scene.ray"), SCENE).expect("the folder takes a scene");
-        let mut all = vec!["scene.ray", "--color", "24"];
+        for (name, content) in files {
+            std::fs::write(folder.path().join(name), content).expect("the folder takes a file");
+        }
+        let mut all = vec![files[0].0, "--color", "24"];
         all.extend(arguments);
         let begun = Instant::now();
         let session = Session::start(folder.path(), &all, TERMINAL, environment);

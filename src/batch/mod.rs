@@ -13,7 +13,7 @@ use crate::assets::{self, Assets, Wanted};
 use crate::file::{self, ReadError};
 use crate::format::{self, Format, Tree, UnknownLanguage};
 use crate::render::Refusal;
-use crate::scene::{self, Images, Node, Origins, Scene};
+use crate::scene::{self, Images, Lowered, Meshes, Node, Origins, Scene};
 use crate::text::{Diagnostic, Span, counted, visible};
 
 pub use render::{Output, Render, render};
@@ -65,13 +65,13 @@ pub enum Error {
 pub struct Check {
     /// The scene files.
     pub scenes: Vec<PathBuf>,
-    /// Folders that their textures may be read from besides their surroundings.
+    /// Folders that the files they name may be read from besides their surroundings.
     pub assets: Vec<PathBuf>,
 }
 
-/// Reads scenes and their textures and prints what is wrong with them, then a line that sums it up, all to the error
-/// stream. Every scene is looked at. The error of the first scene that can't be read or is wrong
-/// is returned; for wrong ones, with the errors of all.
+/// Reads scenes with the files they name and prints what is wrong with them, then a line that sums it
+/// up, all to the error stream. Every scene is looked at. The error of the first scene that can't be
+/// read or is wrong is returned; for wrong ones, with the errors of all.
 pub fn check(work: &Check) -> Result<(), Error> {
     let mut first = None;
     let mut errors = 0;
@@ -118,7 +118,7 @@ struct Loaded {
     warnings: usize,
 }
 
-/// Reads a scene with its textures, from `folders` too, and prints what is wrong with it.
+/// Reads a scene with the files it names, from `folders` too, and prints what is wrong with it.
 fn load(path: &Path, folders: &[PathBuf]) -> Result<Loaded, Error> {
     let format = Format::of_path(path).map_err(|unknown| {
         // What can't be opened is no scene under any name.
@@ -126,15 +126,8 @@ fn load(path: &Path, folders: &[PathBuf]) -> Result<Loaded, Error> {
     })?;
     let text = file::read_text(path)?;
     let tree = format::parse(format, &text);
-    let lowered = scene::lower(&text, &tree);
-    let mut findings = lowered.diagnostics;
-    let mut images = Images::default();
-    if lowered.scene.is_some() {
-        let files = lowered.origins.files(&text, &tree);
-        let loaded = Assets::new(folders).read(&Wanted::new(path, &files));
-        findings = assets::report(&loaded.troubles, &files, findings);
-        images = loaded.images;
-    }
+    let (lowered, images) = mean(path, &text, &tree, folders);
+    let findings = lowered.diagnostics;
     print_findings(path, &text, &findings);
     let (errors, warnings) = (findings.errors(), findings.warnings());
     let more = errors + warnings - findings.len();
@@ -152,6 +145,28 @@ fn load(path: &Path, folders: &[PathBuf]) -> Result<Loaded, Error> {
         errors,
         warnings,
     })
+}
+
+/// What a text means with the files it names, and the pictures among these. All that is wrong with
+/// any of them is among its diagnostics.
+fn mean(path: &Path, text: &str, tree: &Tree, folders: &[PathBuf]) -> (Lowered, Images) {
+    let mut assets = Assets::new(folders);
+    let mut lowered = scene::lower(text, tree, &Meshes::default());
+    let mut files = lowered.origins.files(text, tree);
+    let mut wanted = Wanted::new(path, &files);
+    let mut loaded = assets.read(&wanted);
+    if !wanted.meshes.is_empty() {
+        lowered = scene::lower(text, tree, &loaded.meshes);
+        // Meshes may name pictures.
+        files = lowered.origins.files(text, tree);
+        let named = wanted;
+        wanted = Wanted::new(path, &files);
+        if wanted != named {
+            loaded = assets.read(&wanted);
+        }
+    }
+    lowered.diagnostics = assets::report(&loaded.troubles, &files, lowered.diagnostics);
+    (lowered, loaded.images)
 }
 
 /// Where a text says the picture's size, if it does.

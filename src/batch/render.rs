@@ -39,7 +39,7 @@ pub struct Render {
     pub transfer: Option<Transfer>,
     /// Threads that trace.
     pub threads: usize,
-    /// Folders that textures may be read from besides the scene's surroundings.
+    /// Folders that pictures and meshes may be read from besides the scene's surroundings.
     pub assets: Vec<PathBuf>,
 }
 

@@ -197,8 +197,8 @@ enum Subcommands {
 
 #[derive(Args, Debug)]
 struct AssetArguments {
-    /// Let the scene read pictures for its textures from this folder too; may be given several
-    /// times. Without it they are read from below the folder above the scene's only
+    /// Let the scene read pictures and meshes from this folder too; may be given several times.
+    /// Without it they are read from below the folder above the scene's only
     #[arg(long = "assets", value_name = "DIR")]
     folders: Vec<PathBuf>,
 }

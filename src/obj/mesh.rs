@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
 use super::lines::{Findings, Statement, Word, statements};
-use super::{Finding, MOST_LIBRARIES, Model, mtl};
+use super::{Finding, MOST_FINDINGS, MOST_LIBRARIES, Model, mtl};
 use crate::geometry::{ABSENT, Mesh, MeshError, MeshParts, SlotRun};
 use crate::text::{counted, visible};
 
@@ -36,10 +37,10 @@ struct Reading {
 type Fault = (usize, String);
 
 /// See [`super::read`]. `most` is how many triangles there may be.
-pub(super) fn read(
+pub(super) fn read<B: AsRef<[u8]>>(
     bytes: &[u8],
     most: usize,
-    library: impl FnMut(&str) -> Option<Vec<u8>>,
+    library: impl FnMut(&str) -> Result<B, String>,
 ) -> Result<Model, Vec<Finding>> {
     let mut reading = Reading {
         most,
@@ -56,7 +57,7 @@ pub(super) fn read(
         }
     }
     reading.check_indices();
-    let materials = reading.materials(library);
+    let (materials, library_warnings) = reading.materials(library);
     let Reading {
         mut parts,
         mut findings,
@@ -74,9 +75,10 @@ pub(super) fn read(
     }
     match Mesh::new(parts) {
         Ok(mesh) => Ok(Model {
-            mesh,
+            mesh: Arc::new(mesh),
             materials,
             warnings: findings.warnings,
+            library_warnings,
         }),
         Err(error) => {
             let message = match error {
@@ -248,12 +250,13 @@ impl Reading {
         }
     }
 
-    /// The material of each slot.
-    fn materials(
+    /// The material of each slot, and what is wrong with the libraries.
+    fn materials<B: AsRef<[u8]>>(
         &mut self,
-        mut library: impl FnMut(&str) -> Option<Vec<u8>>,
-    ) -> Vec<Option<mtl::Material>> {
+        mut library: impl FnMut(&str) -> Result<B, String>,
+    ) -> (Vec<Option<mtl::Material>>, Vec<Finding>) {
         let mut materials = HashMap::new();
+        let mut doubts = Findings::default();
         let mut seen = Vec::new();
         for (names, line, column) in std::mem::take(&mut self.libraries) {
             if seen.contains(&names) {
@@ -263,7 +266,7 @@ impl Reading {
             // A line may name one library with blanks in its name, or several.
             let several = names.contains(|c: char| c.is_ascii_whitespace());
             let read: Vec<_> = match library(&names) {
-                None if several => names
+                Err(_) if several => names
                     .split_ascii_whitespace()
                     .take(MOST_LIBRARIES)
                     .map(|name| (name.to_owned(), library(name)))
@@ -271,27 +274,31 @@ impl Reading {
                 bytes => vec![(names, bytes)],
             };
             for (name, bytes) in read {
-                let Some(bytes) = bytes else {
-                    let message = format!("`{}` can't be read", visible(&name));
-                    self.findings.warn(line, column, message);
-                    continue;
-                };
-                self.findings.library = Some(name.clone());
-                mtl::read(&bytes, &name, &mut materials, &mut self.findings);
-                self.findings.library = None;
+                match bytes {
+                    Ok(bytes) => match mtl::read(bytes.as_ref(), &name) {
+                        Ok(defined) => materials.extend(defined),
+                        Err(errors) => doubts.warnings.extend(errors),
+                    },
+                    Err(reason) => {
+                        let message = format!("`{}` can't be read: {reason}", visible(&name));
+                        doubts.warn(line, column, message);
+                    }
+                }
             }
         }
-        let named = std::mem::take(&mut self.named);
+        // What a library that can't be read defines is not known.
+        let is_known = doubts.warnings.is_empty();
         let mut by_slot = vec![None];
-        for (name, line, column) in named {
+        for (name, line, column) in std::mem::take(&mut self.named) {
             let material = materials.get(&name).cloned();
-            if material.is_none() {
+            if material.is_none() && is_known {
                 let message = format!("no library defines `{}`", visible(&name));
-                self.findings.warn(line, column, message);
+                doubts.warn(line, column, message);
             }
             by_slot.push(material);
         }
-        by_slot
+        doubts.warnings.truncate(MOST_FINDINGS);
+        (by_slot, doubts.warnings)
     }
 }
 

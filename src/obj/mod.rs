@@ -12,6 +12,7 @@ mod mtl;
 mod tests;
 
 use std::fmt;
+use std::sync::Arc;
 
 use crate::geometry::Mesh;
 
@@ -30,12 +31,14 @@ const MOST_FINDINGS: usize = 10;
 #[derive(Debug)]
 pub struct Model {
     /// Its triangles.
-    pub mesh: Mesh,
+    pub mesh: Arc<Mesh>,
     /// The material of each slot; none for triangles without one, or with one that no library
     /// defines.
     pub materials: Vec<Option<Material>>,
     /// What is doubtful about the text, at most ten of it.
     pub warnings: Vec<Finding>,
+    /// What is wrong with the libraries, at most ten of it.
+    pub library_warnings: Vec<Finding>,
 }
 
 /// Something wrong with a line.
@@ -66,13 +69,14 @@ impl fmt::Display for Finding {
     }
 }
 
-/// Reads a mesh. `library` gives the bytes of a library by the name that the mesh gives it, or none
-/// if it can't be read. Polygons become fans around their first corner, in file order.
+/// Reads a mesh. `library` gives the bytes of a library by the name that the mesh gives it, or says
+/// why it can't be read. A library with errors defines nothing. Polygons become fans around their
+/// first corner, in file order.
 ///
 /// The errors of up to ten lines are told of at once.
-pub fn read(
+pub fn read<B: AsRef<[u8]>>(
     bytes: &[u8],
-    library: impl FnMut(&str) -> Option<Vec<u8>>,
+    library: impl FnMut(&str) -> Result<B, String>,
 ) -> Result<Model, Vec<Finding>> {
     mesh::read(bytes, MOST_TRIANGLES, library)
 }

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::Finding;
 use super::lines::{Findings, Statement, Word, statements};
 
 /// What a library says about a material.
@@ -43,13 +44,13 @@ impl Material {
     }
 }
 
-/// Adds the materials of a library to those known by name; of two with one name the last counts.
-pub(super) fn read(
-    bytes: &[u8],
-    library: &str,
-    materials: &mut HashMap<String, Material>,
-    findings: &mut Findings,
-) {
+/// The materials of a library by name; of two with one name the last counts.
+pub(super) fn read(bytes: &[u8], library: &str) -> Result<HashMap<String, Material>, Vec<Finding>> {
+    let mut materials = HashMap::new();
+    let mut findings = Findings {
+        library: Some(library.to_owned()),
+        ..Findings::default()
+    };
     let mut current: Option<(String, Material)> = None;
     for statement in statements(bytes) {
         if findings.is_full() {
@@ -87,6 +88,11 @@ pub(super) fn read(
         }
     }
     materials.extend(current);
+    if findings.errors.is_empty() {
+        Ok(materials)
+    } else {
+        Err(findings.errors)
+    }
 }
 
 /// Whether a statement says something about a material that is read.

@@ -1,5 +1,4 @@
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -9,19 +8,28 @@ use crate::geometry::{Affine, Instance, Ray, Shape};
 
 const SQUARE: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
 
+/// There are no libraries.
+fn nothing(_: &str) -> Result<Vec<u8>, String> {
+    Err("no such file".to_owned())
+}
+
 fn alone(text: &str) -> Result<Model, Vec<super::Finding>> {
-    read(text.as_bytes(), |_| None)
+    read(text.as_bytes(), nothing)
 }
 
 fn model(text: &str) -> Model {
     alone(text).unwrap_or_else(|errors| panic!("{text} is sound, but: {}", errors[0]))
 }
 
+fn told(findings: &[super::Finding]) -> Vec<String> {
+    findings.iter().map(ToString::to_string).collect()
+}
+
 /// The mesh in the world as it stands in the file; its slots are their own tags.
 fn shape(model: Model) -> Shape {
     let frame = Affine::of_matrix(DVec3::AXES, DVec3::ZERO).expect("the axes span a volume");
     let tags = (0..model.materials.len() as u32).collect();
-    Shape::Mesh(Box::new(Instance::new(Arc::new(model.mesh), &frame, tags)))
+    Shape::Mesh(Box::new(Instance::new(model.mesh, &frame, tags)))
 }
 
 /// Triangle, slot, texture coordinates and shading normal where a ray down on x, y meets a mesh.
@@ -101,7 +109,7 @@ fn text_may_be_laid_out_in_any_way() {
         assert!(seen(&shape(model), 0.2, 0.2).is_some(), "{text}");
     }
     let latin: &[u8] = b"# caf\xe9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3";
-    assert!(read(latin, |_| None).is_ok());
+    assert!(read(latin, nothing).is_ok());
 }
 
 #[test]
@@ -113,7 +121,7 @@ fn materials_come_from_libraries() {
     let mut asked = Vec::new();
     let model = read(format!("{SQUARE}f 1 2 2\n{text}").as_bytes(), |name| {
         asked.push(name.to_owned());
-        Some(library.into())
+        Ok::<_, String>(library)
     });
     let model = model.expect("the mesh is sound");
     assert_eq!(asked, ["my colours.mtl"]);
@@ -157,12 +165,18 @@ fn several_libraries_are_asked_for_one_by_one() {
     let mut asked = Vec::new();
     let model = read(text.as_bytes(), |name| {
         asked.push(name.to_owned());
-        (name == "b.mtl").then(|| b"newmtl b".to_vec())
+        if name == "b.mtl" {
+            Ok(b"newmtl b")
+        } else {
+            Err("no such file".to_owned())
+        }
     });
     let model = model.expect("the mesh is sound");
     assert_eq!(asked, ["a.mtl b.mtl", "a.mtl", "b.mtl"]);
-    let warnings: Vec<_> = model.warnings.iter().map(ToString::to_string).collect();
-    assert_eq!(warnings, ["line 1, column 8: `a.mtl` can't be read"]);
+    assert_eq!(
+        told(&model.library_warnings),
+        ["line 1, column 8: `a.mtl` can't be read: no such file"]
+    );
     assert_eq!(
         model.materials[1].as_ref().map(|m| &*m.library),
         Some("b.mtl")
@@ -173,13 +187,13 @@ fn several_libraries_are_asked_for_one_by_one() {
 fn doubtful_lines_are_warned_of() {
     let text = format!("{SQUARE}curv 0 1 1 2\nusemtl \u{1b}gold\nf 1 2 3\n");
     let model = model(&text);
-    let warnings: Vec<_> = model.warnings.iter().map(ToString::to_string).collect();
     assert_eq!(
-        warnings,
-        [
-            "line 5, column 1: `curv` is not drawn",
-            "line 6, column 8: no library defines `\\u{1b}gold`",
-        ]
+        told(&model.warnings),
+        ["line 5, column 1: `curv` is not drawn"]
+    );
+    assert_eq!(
+        told(&model.library_warnings),
+        ["line 6, column 8: no library defines `\\u{1b}gold`"]
     );
     assert_eq!(model.materials, [None, None]);
 }
@@ -262,7 +276,7 @@ fn malformed_lines_are_errors() {
 }
 
 #[test]
-fn malformed_libraries_are_errors() {
+fn malformed_libraries_define_nothing() {
     for (text, error) in [
         (
             "Kd 1 1 1",
@@ -301,14 +315,16 @@ fn malformed_libraries_are_errors() {
             "x.mtl: line 2, column 14: map_Kd: the path is missing",
         ),
     ] {
-        let mesh = format!("mtllib x.mtl\n{SQUARE}f 1 2 3");
-        let errors = read(mesh.as_bytes(), |_| Some(text.into())).expect_err(text);
-        assert_eq!(errors[0].to_string(), error, "{text}");
+        let mesh = format!("mtllib x.mtl\n{SQUARE}usemtl a\nf 1 2 3");
+        let read = read(mesh.as_bytes(), |_| Ok::<_, String>(text));
+        let model = read.expect("the mesh itself is sound");
+        assert_eq!(told(&model.library_warnings), [error], "{text}");
+        assert_eq!(model.materials, [None, None]);
     }
     // What is not used is not looked at.
     let others = "newmtl a\nKa x\nKe\nd -halo 1\nbump\nKd spectral x.rfl 1\nKs xyz 1 1\n";
     let mesh = format!("mtllib x.mtl\n{SQUARE}f 1 2 3");
-    assert!(read(mesh.as_bytes(), |_| Some(others.into())).is_ok());
+    assert!(read(mesh.as_bytes(), |_| Ok::<_, String>(others)).is_ok());
 }
 
 #[test]
@@ -329,8 +345,8 @@ fn several_errors_are_told_of_at_once_but_not_all() {
 #[test]
 fn there_are_limits() {
     let text = format!("{SQUARE}f 1 2 3 4\nf 1 2 3");
-    assert!(super::mesh::read(text.as_bytes(), 3, |_| None).is_ok());
-    let errors = super::mesh::read(text.as_bytes(), 2, |_| None).expect_err("three triangles");
+    assert!(super::mesh::read(text.as_bytes(), 3, nothing).is_ok());
+    let errors = super::mesh::read(text.as_bytes(), 2, nothing).expect_err("three triangles");
     let shown = errors[0].to_string();
     assert_eq!(shown, "line 6, column 1: f: more than 2 triangles");
     let libraries = |count: usize| {
@@ -355,7 +371,7 @@ fn the_teapot_is_whole() {
         ("teapot-low.obj", 16 + 2 * 112),
     ] {
         let bytes = std::fs::read(folder.join("utah").join(name)).expect("the course's mesh");
-        let model = read(&bytes, |_| None).expect("the teapot is sound");
+        let model = read(&bytes, nothing).expect("the teapot is sound");
         assert_eq!(model.mesh.len(), triangles);
         assert_eq!(model.warnings, []);
         let bounds = shape(model).bounds();
@@ -375,14 +391,14 @@ proptest! {
         text in proptest::collection::vec(any::<u8>(), 0..300),
         library in proptest::collection::vec(any::<u8>(), 0..300),
     ) {
-        let _ = read(&text, |_| Some(library.clone()));
+        let _ = read(&text, |_| Ok::<_, String>(&library));
     }
 
     #[test]
     fn no_words_make_the_reader_panic(
         text in "((v|vt|vn|f|usemtl|mtllib|g|newmtl|Kd|Ns|map_Kd|-s|illum|/|\\\\|#|-?[0-9]{1,4}|1/2/3|-1//-1|a)( |\n| {0,1}\n)){0,60}",
     ) {
-        let _ = read(text.as_bytes(), |_| Some(text.clone().into_bytes()));
+        let _ = read(text.as_bytes(), |_| Ok::<_, String>(&text));
     }
 
     #[test]
@@ -404,13 +420,13 @@ proptest! {
                 }
             }
         }
-        let _ = read(&texts[0], |_| Some(texts[1].clone()));
+        let _ = read(&texts[0], |_| Ok::<_, String>(&texts[1]));
     }
 }
 
 #[test]
 fn what_is_changed_there_is_sound() {
-    let model = read(WHOLE.as_bytes(), |_| Some(LIBRARY.into())).expect("it is sound");
+    let model = read(WHOLE.as_bytes(), |_| Ok::<_, String>(LIBRARY)).expect("it is sound");
     assert_eq!((model.mesh.len(), model.warnings.len()), (3, 0));
     assert_eq!(model.materials.iter().flatten().count(), 2);
 }

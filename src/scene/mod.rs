@@ -6,6 +6,7 @@
 
 pub mod fields;
 mod lower;
+mod mesh;
 mod origins;
 mod placed;
 mod surface;
@@ -18,7 +19,8 @@ use glam::DVec3;
 use crate::geometry::{Aabb, Hit, Shape};
 
 pub use lower::{Lowered, lower};
-pub use origins::{NamedFile, Node, Origins};
+pub use mesh::{Meshes, NoMesh, beside};
+pub use origins::{FileKind, NamedFile, Node, Origins};
 pub use placed::{Placed, Unsaid};
 pub use surface::{
     Finish, Gloss, Integrator, MappedPattern, MappedTexture, Material, Phong, Setting, Textured,

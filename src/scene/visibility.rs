@@ -89,7 +89,7 @@ pub fn visibility_edits(
 mod tests {
     use super::*;
     use crate::format::{Format, parse};
-    use crate::scene::lower;
+    use crate::scene::{Meshes, lower};
     use crate::text::apply;
 
     /// Three balls and what the first two have in common; the objects' lines end as said.
@@ -105,7 +105,7 @@ mod tests {
 
     fn changed(text: &str, id: i64, wanted: Visibility) -> Result<String, &'static str> {
         let tree = parse(Format::Dat, text);
-        let origins = lower(text, &tree).origins;
+        let origins = lower(text, &tree, &Meshes::default()).origins;
         let object = [4, 5, 6, 9].iter().position(|&known| known == id);
         let object = object.expect("one of the objects");
         let edits = visibility_edits(text, &tree, &origins, object, wanted)?;

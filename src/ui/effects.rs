@@ -11,12 +11,12 @@ use std::thread;
 use std::time::Instant;
 
 use super::Options;
+use super::assets::AssetReader;
 use super::files::{Files, Task};
 use super::msg::{Destination, Effect, Existing, ExportId, Msg, Target, Timer};
 use super::terminal::{self, Input, Terminal};
 #[cfg(unix)]
 use super::terminal::{Signals, suspend_process};
-use super::textures::Textures;
 use crate::file;
 use crate::image_file;
 use crate::render::{Frame, Job, Refusal, Renderer, Threads};
@@ -43,7 +43,7 @@ pub(crate) struct World {
     signals: Signals,
     sender: Sender<Event>,
     files: Files,
-    textures: Textures,
+    assets: AssetReader,
     threads: Option<usize>,
     preview: Option<Numbered>,
     trace: Option<Numbered>,
@@ -80,7 +80,7 @@ impl World {
             #[cfg(unix)]
             signals: Signals::start(tell(&sender))?,
             files: Files::start(send(&sender))?,
-            textures: Textures::start(&options.assets, method, send(&sender))?,
+            assets: AssetReader::start(&options.assets, method, send(&sender))?,
             threads: options.threads,
             preview: None,
             trace: None,
@@ -160,7 +160,7 @@ impl World {
                 self.files.order(Task::Save { path, text, guard })
             }
             Effect::Watch(path) => self.watch(path),
-            Effect::ReadTextures(wanted) => self.textures.order(wanted),
+            Effect::ReadAssets(wanted) => self.assets.order(wanted),
             Effect::Later(time, timer) => {
                 self.timers.retain(|&(_, set)| set != timer);
                 self.timers.push((Instant::now() + time, timer));

@@ -11,6 +11,7 @@
 //! app and nothing else.
 
 pub mod app;
+mod assets;
 mod effects;
 mod files;
 pub mod keymap;
@@ -18,7 +19,6 @@ pub mod msg;
 mod recovery;
 mod session;
 pub mod terminal;
-mod textures;
 pub mod view;
 
 use std::io;
@@ -61,7 +61,7 @@ pub struct Options {
     pub filter: Filter,
     /// Threads that trace.
     pub threads: Option<usize>,
-    /// Folders that textures may be read from besides the scene's surroundings.
+    /// Folders that pictures and meshes may be read from besides the scene's surroundings.
     pub assets: Vec<PathBuf>,
 }
 

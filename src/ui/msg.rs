@@ -50,10 +50,10 @@ pub enum Msg {
     FileChanged,
     /// The file of this name was read.
     Read(PathBuf, Result<String, ReadError>),
-    /// The pictures of the scene's textures were read.
-    Textures(Wanted, Loaded),
+    /// The files that the scene names were read.
+    AssetsRead(Wanted, Loaded),
     /// Something happened to one of their files.
-    TexturesChanged,
+    AssetsChanged,
     /// The time that [`Effect::Later`] asked for has passed.
     Elapsed(Timer),
     /// The scene was written, or not.
@@ -140,9 +140,9 @@ pub enum Effect {
     },
     /// Watch this file from here on: [`Msg::FileChanged`].
     Watch(PathBuf),
-    /// Read the pictures of the scene's textures and watch their files from here on:
-    /// [`Msg::Textures`], [`Msg::TexturesChanged`].
-    ReadTextures(Wanted),
+    /// Read the files that the scene names and watch them from here on: [`Msg::AssetsRead`],
+    /// [`Msg::AssetsChanged`].
+    ReadAssets(Wanted),
     /// Send [`Msg::Elapsed`] after a while; the same timer set again starts anew.
     Later(Duration, Timer),
     /// Keep the text of unsaved edits for the next run.

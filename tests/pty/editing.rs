@@ -14,6 +14,12 @@ use colour ID 0 mat ID 0
 obj sphere ID 0 mat ID 0  0 0 0  2
 ";
 
+/// A triangle that shines by ambient light alone, from a file.
+const MESHED: &str = "<xml><scene><light type='ambient'><intensity value='1'/></light>
+  <object type='obj' name='a.obj'/></scene>
+  <camera><position z='8'/><target/></camera></xml>
+";
+
 #[test]
 fn a_scene_is_edited_seen_reloaded_and_exported() {
     let place = Place::new();
@@ -187,12 +193,44 @@ fn the_picture_follows_the_files_of_its_textures() {
 
         // Half a picture changes nothing, but is told.
         place.write("skin.ppm", "P3\n1 1\n255\n0");
-        session.wait_for("1 texture can't be read: ! says why");
+        session.wait_for("1 file can't be read: ! says why");
         session.send("!");
         session.wait_for("its last picture is kept");
         wait_for_colour(&mut session, BLUE);
         session.send(ESC);
         place.write("skin.ppm", &skin("0 255 0"));
+        wait_for_colour(&mut session, GREEN);
+        quit(session);
+    }
+}
+
+/// Files that are named by files that the scene names are watched like those.
+#[test]
+fn the_picture_follows_meshes_their_libraries_and_pictures() {
+    let mesh = |material: &str| {
+        let corners = "v -3 -3 0\nv 3 -3 0\nv 0 3 0";
+        format!("mtllib a.mtl\n{corners}\nusemtl {material}\nf 1 2 3\n")
+    };
+    let library = |of_a: &str| format!("newmtl a\n{of_a}\nnewmtl b\nKd 0 0 1\n");
+    let place = Place::new();
+    place.write("mesh.xml", MESHED);
+    for arguments in [&["mesh.xml"][..], &["--poll=20", "mesh.xml"]] {
+        place.write("a.obj", &mesh("a"));
+        place.write("a.mtl", &library("Kd 1 0 0"));
+        let mut session = place.start(arguments, WIDE);
+        wait_for_colour(&mut session, RED);
+        place.replace("a.mtl", &library("Kd 0 1 0"));
+        wait_for_colour(&mut session, GREEN);
+        place.replace("a.obj", &mesh("b"));
+        wait_for_colour(&mut session, BLUE);
+
+        place.write("a.obj", "v 1 2\n");
+        session.wait_for("1 file can't be read: ! says why");
+        session.send("!");
+        session.wait_for("line 1, column 6: v: expected 3 numbers");
+        wait_for_colour(&mut session, BLUE);
+        session.send(ESC);
+        place.write("a.obj", &mesh("a"));
         wait_for_colour(&mut session, GREEN);
         quit(session);
     }

@@ -25,10 +25,11 @@ use super::sampler::Sampler;
 use super::tracer::{Sample, Seen, Tracer};
 use super::world::World;
 use super::{Filter, Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
+use crate::format::{self, Format};
 use crate::geometry::{Affine, Cuboid, Ray, Shape, Sphere};
 use crate::scene::{
-    Camera, Focus, Images, Integrator, Lens, Light, Material, Object, Phong, Rgb, Scene, Setting,
-    Size, Transfer,
+    Camera, Focus, Images, Integrator, Lens, Light, Material, Meshes, Object, Phong, Rgb, Scene,
+    Setting, Size, Transfer, lower,
 };
 
 /// Deterministic numbers in 0..1 (Vigna's splitmix64).
@@ -112,6 +113,25 @@ fn scene(objects: &[(Shape, Phong)], lights: &[Light]) -> Scene {
         objects: objects.iter().enumerate().map(material).collect(),
         setting: Setting::default(),
     }
+}
+
+/// A scene of `.xml`, without a camera of its own.
+fn xml(scene: &str) -> Scene {
+    xml_seen_by("<camera/>", scene)
+}
+
+/// A scene of `.xml` with its camera.
+fn xml_seen_by(camera: &str, scene: &str) -> Scene {
+    let text = format!("<xml><scene>{scene}</scene>{camera}</xml>");
+    let lowered = lower(
+        &text,
+        &format::parse(Format::Xml, &text),
+        &Meshes::default(),
+    );
+    let findings = lowered.diagnostics;
+    lowered
+        .scene
+        .unwrap_or_else(|| panic!("{text}: {findings:?}"))
 }
 
 fn white_light(position: [f64; 3]) -> Light {

@@ -6,17 +6,6 @@ use super::super::lobes::Lobes;
 use super::super::tracer::{Matter, Point};
 use super::super::utah::Answer;
 use super::*;
-use crate::format::{self, Format};
-use crate::scene::lower;
-
-fn read(scene: &str) -> Scene {
-    let text = format!("<xml><scene>{scene}</scene><camera/></xml>");
-    let tree = format::parse(Format::Xml, &text);
-    let lowered = lower(&text, &tree);
-    lowered
-        .scene
-        .unwrap_or_else(|| panic!("{text}: {:?}", lowered.diagnostics))
-}
 
 /// The means of a ray's radiance over `samples`, one for each of some seeds.
 fn means(scene: Scene, depth: u32, ray: Ray, samples: u32, seeds: u32) -> Vec<Rgb> {
@@ -60,7 +49,7 @@ fn assert_unbiased(scene: &Scene, depth: u32, ray: Ray, expected: f64, case: &st
 #[test]
 fn white_furnace() {
     for (albedo, emission) in [(0.5, 1.0), (0.8, 0.25), (0.2, 3.0)] {
-        let scene = read(&format!(
+        let scene = xml(&format!(
             "<object type='sphere' material='m'/><material name='m'><diffuse value='{albedo}'/>
              <specular value='0'/><emission value='{emission}'/></material>"
         ));
@@ -108,13 +97,14 @@ fn furnace_around_a_light() {
 fn lights_with_a_size_shine_as_their_intensity_says() {
     for radius in [0.1, 1.0, 3.9] {
         for gamma in ["", " gamma='sRGB'"] {
-            let text = format!(
-                "<xml><scene>{GROUND}<material name='m'><diffuse value='1'/><specular value='0'/>
-                 </material><light type='point'><intensity value='8'/><position z='4'/>
-                 <size value='{radius}'/></light></scene><camera{gamma}/></xml>"
+            let scene = xml_seen_by(
+                &format!("<camera{gamma}/>"),
+                &format!(
+                    "{GROUND}<material name='m'><diffuse value='1'/><specular value='0'/></material>
+                     <light type='point'><intensity value='8'/><position z='4'/>
+                     <size value='{radius}'/></light>"
+                ),
             );
-            let tree = format::parse(Format::Xml, &text);
-            let scene = lower(&text, &tree).scene.expect("the text has no errors");
             let expected = if gamma.is_empty() { 0.5 } else { 0.5 / PI };
             let down = ray([0.5, 0.0, 0.05], [0.0; 3]);
             // By asking the light alone, and by both ways of finding it.
@@ -134,15 +124,15 @@ fn lights_with_a_size_are_seen() {
         )
     };
     let up = ray([0.0; 3], [0.0, 0.0, 1.0]);
-    assert_near(mean(read(&lamp(5.0)), 4, up, 16), 3.0, 1e-12);
-    assert_near(mean(read(&lamp(1.0)), 4, up, 16), 0.0, 0.0);
-    assert_near(mean(read(&lamp(-5.0)), 4, up, 16), 0.0, 0.0);
+    assert_near(mean(xml(&lamp(5.0)), 4, up, 16), 3.0, 1e-12);
+    assert_near(mean(xml(&lamp(1.0)), 4, up, 16), 0.0, 0.0);
+    assert_near(mean(xml(&lamp(-5.0)), 4, up, 16), 0.0, 0.0);
     let hidden = format!(
         "{}<object type='sphere' material='m'><translate z='2'/></object>
          <material name='m'><diffuse value='0'/><specular value='0'/><emission value='7'/></material>",
         lamp(5.0)
     );
-    assert_near(mean(read(&hidden), 4, up, 16), 7.0, 1e-12);
+    assert_near(mean(xml(&hidden), 4, up, 16), 7.0, 1e-12);
 }
 
 /// The radiance that a point of the ground sends toward `view` for light of `radiance` from all
@@ -254,7 +244,7 @@ fn every_brdf_gathers_what_the_sum_over_all_directions_says() {
             ),
         ];
         for (case, others, expected) in cases {
-            let scene = read(&format!("{GROUND}{material}{others}"));
+            let scene = xml(&format!("{GROUND}{material}{others}"));
             assert_unbiased(&scene, 1, from, expected, &format!("{kind}, {case}"));
         }
     }
@@ -267,7 +257,7 @@ fn light_goes_from_one_surface_to_another() {
     let lamp = DVec3::new(4.0, 0.0, 1.0);
     let ball = DVec3::new(0.0, 0.0, 2.0);
     let at = DVec3::new(1.2, 0.0, 0.0);
-    let scene = read(&format!(
+    let scene = xml(&format!(
         "{GROUND}<material name='m'><diffuse value='.8'/><specular value='0'/></material>
          <object type='sphere' material='ball'><translate z='2'/></object>
          <material name='ball'><diffuse value='1'/><specular value='0'/></material>
@@ -297,8 +287,8 @@ fn light_goes_from_one_surface_to_another() {
 /// ambient light apart; a matt surface must not see itself again.
 #[test]
 fn paths_are_whitted_s_rays_where_nothing_scatters() {
-    let xml = |glass: &str| {
-        read(&format!(
+    let glassy = |glass: &str| {
+        xml(&format!(
             "<object type='sphere' material='glass'/>
              <object type='plane' material='matt'><scale value='40'/><translate z='-3'/></object>
              <material name='matt'><diffuse r='.8' g='.4' b='.2'/><specular value='0'/></material>
@@ -338,7 +328,7 @@ fn paths_are_whitted_s_rays_where_nothing_scatters() {
     );
     let from = [0.3, 0.2, 5.0];
     let [middle, rim, beside] = [[0.3, 0.2, 0.0], [0.95, 0.0, 0.0], [2.5, 0.0, -3.0]];
-    let mirrors = xml("<reflection r='.9' g='.8' b='.7'/>");
+    let mirrors = glassy("<reflection r='.9' g='.8' b='.7'/>");
     let absorbs = "<refraction value='.9' index='1.5'/><absorption r='.2' g='.5' b='0'/>";
     // Beyond the bounces that a way needs, the matt floor would gather light by chance.
     for (case, scene, depth, ways) in [
@@ -346,11 +336,11 @@ fn paths_are_whitted_s_rays_where_nothing_scatters() {
         ("mirror", mirrors, 1, vec![middle, rim]),
         (
             "clear glass",
-            xml("<refraction value='.9' index='1'/>"),
+            glassy("<refraction value='.9' index='1'/>"),
             2,
             vec![middle, rim],
         ),
-        ("absorbing glass", xml(absorbs), 2, vec![middle]),
+        ("absorbing glass", glassy(absorbs), 2, vec![middle]),
         (".ray and .dat", phong, 6, vec![middle, rim, beside]),
     ] {
         for toward in ways {
@@ -373,7 +363,7 @@ fn paths_are_whitted_s_rays_where_nothing_scatters() {
 }
 
 fn point_seen_from(view: DVec3) -> Point {
-    let scene = read("<object type='plane' material='m'/><material name='m'/>");
+    let scene = xml("<object type='plane' material='m'/><material name='m'/>");
     let world = world(scene);
     let seen = Ray {
         origin: view,
@@ -388,7 +378,7 @@ fn point_seen_from(view: DVec3) -> Point {
 }
 
 fn answer(kind: &str) -> Answer {
-    let scene = read(&format!("<object type='plane' material='m'/>{kind}"));
+    let scene = xml(&format!("<object type='plane' material='m'/>{kind}"));
     let world = world(scene);
     let down = ray([0.0, 0.0, 1.0], [0.0; 3]);
     let nearest = world

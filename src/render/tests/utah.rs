@@ -1,27 +1,10 @@
 //! The rules of `.xml`, each against a value worked out by hand.
 
 use super::*;
-use crate::format::{self, Format};
-use crate::scene::lower;
-
-/// A scene as its text says it, without a camera of its own.
-fn read(scene: &str) -> Scene {
-    seen_by("", scene)
-}
-
-/// A scene as its text says it.
-fn seen_by(camera: &str, scene: &str) -> Scene {
-    let text = format!("<xml><scene>{scene}</scene><camera>{camera}</camera></xml>");
-    let tree = format::parse(Format::Xml, &text);
-    let lowered = lower(&text, &tree);
-    lowered
-        .scene
-        .unwrap_or_else(|| panic!("{text}: {:?}", lowered.diagnostics))
-}
 
 /// What a ray that has bounced `bounces` times at most brings.
 fn brings(scene: &str, bounces: u32, ray: Ray) -> Rgb {
-    look(read(scene), bounces, ray).0.radiance
+    look(xml(scene), bounces, ray).0.radiance
 }
 
 fn assert_colour(seen: Rgb, expected: Rgb, case: &str) {
@@ -274,8 +257,8 @@ fn places_on_planes_and_spheres() {
 /// A board over the whole picture: quarters of it, each by its own pixel.
 #[test]
 fn the_background_goes_by_pixel() {
-    let scene = seen_by(
-        "<width value='4'/><height value='2'/>",
+    let scene = xml_seen_by(
+        "<camera><width value='4'/><height value='2'/></camera>",
         "<background texture='checkerboard'><color1 value='0'/><color2 value='1'/></background>",
     );
     let scene = Arc::new(scene);
@@ -294,7 +277,7 @@ fn the_background_goes_by_pixel() {
 
 /// The mean of a ray's radiance over many samples of one pixel.
 fn mean(scene: &str, ray: Ray, samples: u32) -> f64 {
-    let world = world(read(scene));
+    let world = world(xml(scene));
     let mut tracer = tracer(&world, 1);
     let each = (0..samples).map(|index| {
         let sample = Sample {
@@ -368,13 +351,13 @@ fn shadows_of_a_large_light_are_soft() {
 #[test]
 fn a_lens_blurs_what_is_out_of_focus() {
     let share = |edge: f64, distance: f64| {
-        let camera = "<position z='0'/><target z='-1'/><fov value='40'/><dof value='.5'/>
-             <focaldist value='4'/><width value='1'/><height value='1'/>";
+        let camera = "<camera><position z='0'/><target z='-1'/><fov value='40'/><dof value='.5'/>
+             <focaldist value='4'/><width value='1'/><height value='1'/></camera>";
         let scene = format!(
             "<object type='plane'><scale value='50'/><translate x='{}' z='-{distance}'/></object>",
             edge + 50.0
         );
-        let scene = seen_by(camera, &scene);
+        let scene = xml_seen_by(camera, &scene);
         let projection = super::super::camera::Projection::new(&scene.camera, scene.camera.size);
         let world = world(scene);
         let mut tracer = tracer(&world, 0);

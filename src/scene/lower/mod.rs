@@ -11,7 +11,7 @@ mod tests;
 mod view;
 mod xml;
 
-use super::{Origins, Scene};
+use super::{Meshes, Origins, Scene};
 use crate::format::Tree;
 use crate::text::{Diagnostic, Findings, Span};
 
@@ -26,12 +26,13 @@ pub struct Lowered {
     pub diagnostics: Findings,
 }
 
-/// Reads the meaning of a tree. All errors that can be told apart are reported at once.
-pub fn lower(text: &str, tree: &Tree) -> Lowered {
+/// Reads the meaning of a tree, with the meshes that are read so far. All errors that can be told
+/// apart are reported at once.
+pub fn lower(text: &str, tree: &Tree, meshes: &Meshes) -> Lowered {
     let mut lowered = match tree {
         Tree::Ray(tree) => ray::lower(text, tree),
         Tree::Dat(tree) => dat::lower(text, tree),
-        Tree::Xml(tree) => xml::lower(text, tree),
+        Tree::Xml(tree) => xml::lower(text, tree, meshes),
     };
     // In .xml all white space is alike, and comments have an end.
     let has_lines = !matches!(tree, Tree::Xml(_));

@@ -1,7 +1,7 @@
 //! Where the things of a `.dat` text stand: each in a record of its own, and what textures do to a
 //! material in further ones.
 
-use super::{NamedFile, Node, Placed};
+use super::{FileKind, NamedFile, Node, Placed};
 use crate::format::dat::Tree;
 use crate::scene::fields::dat::{HALF_SPACE, ObjectKind, Part, RecordKind};
 use crate::scene::fields::{Category, Kind, numbers};
@@ -190,6 +190,7 @@ impl Origins {
             let span = *word.spans.first()?;
             Some(NamedFile {
                 path: span.of(text).to_owned(),
+                kind: FileKind::Picture,
                 span,
                 what: format!("{} {}", self.name(Node::Texture(index)), word.field.key),
             })

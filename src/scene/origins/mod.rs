@@ -33,12 +33,23 @@ pub enum Node {
     Object(usize),
 }
 
+/// What is in a file that a text names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// A picture, of a texture.
+    Picture,
+    /// A mesh, of an object.
+    Mesh,
+}
+
 /// Another file that a text names.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedFile {
-    /// Its path as the text says it.
+    /// Its path, relative to the scene's folder: as the text says it, or a mesh that the text names.
     pub path: String,
-    /// Where the text does.
+    /// What is in it.
+    pub kind: FileKind,
+    /// Where the text names it, or the mesh.
     pub span: Span,
     /// What it is: `texture 2 file`.
     pub what: String,
@@ -209,7 +220,7 @@ impl Origins {
         }
     }
 
-    /// The picture files of its textures, in text order.
+    /// The files that a text names, or that its meshes do, as far as those were read.
     pub fn files(&self, text: &str, tree: &Tree) -> Vec<NamedFile> {
         match (self, tree) {
             (Self::Dat(origins), Tree::Dat(tree)) => origins.files(text, tree),

@@ -34,7 +34,7 @@ impl App {
         }
         self.pending.reader = Reader::User;
         let mut effects = self.read_again();
-        effects.extend(self.read_textures());
+        effects.extend(self.read_assets());
         effects
     }
 
@@ -96,7 +96,7 @@ impl App {
         }
         let dirty = self.document.is_dirty();
         let tree = format::parse(self.document.format(), &text);
-        let lowered = scene::lower(&text, &tree);
+        let lowered = scene::lower(&text, &tree, &self.meshes);
         if lowered.scene.is_none() {
             if !is_final {
                 return self.wait(QUIET);
@@ -161,7 +161,9 @@ impl App {
                 _ => false,
             };
             match place {
-                _ if same => self.say(format!("{words}: the scene is as it was")),
+                _ if same && !self.lacks_meshes() => {
+                    self.say(format!("{words}: the scene is as it was"));
+                }
                 Some(place) => self.say(format!("{words}: {place}")),
                 None => self.say(words),
             }
@@ -231,7 +233,7 @@ impl App {
                 if self.path.as_ref() != Some(&path) {
                     self.path = Some(path.clone());
                     effects.extend(watch(&path));
-                    // Textures are looked for from another folder now.
+                    // Files are looked for from another folder now.
                     self.relower();
                 }
                 self.pending.quit = quit;

@@ -13,14 +13,15 @@ impl App {
 
     /// What the text means.
     pub(super) fn lowered(&self) -> Lowered {
-        scene::lower(self.document.text(), self.document.tree())
+        scene::lower(self.document.text(), self.document.tree(), &self.meshes)
     }
 
     pub(super) fn install(&mut self, lowered: Lowered) {
         self.nodes = lowered.origins.nodes();
         self.origins = lowered.origins;
         self.diagnostics = self.with_files(lowered.diagnostics);
-        if let Some(scene) = lowered.scene {
+        // A scene that lacks a mesh may yet have an error.
+        if let Some(scene) = lowered.scene.filter(|_| !self.lacks_meshes()) {
             if let Some(view) = &mut self.view {
                 view.size = scene.camera.size;
             }

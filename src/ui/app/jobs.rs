@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::textures::STILL_READING;
+use super::assets::STILL_READING;
 use super::{App, Export, Mode, Picture, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
 use crate::render::{Filter, Frame, Frames, Job, Settings, default_depth};
@@ -16,8 +16,8 @@ const PREVIEW_SPP: u32 = 64;
 impl App {
     /// Has traced anew what no longer shows the scene.
     pub(super) fn follow(&mut self) -> Vec<Effect> {
-        let mut effects = self.follow_textures();
-        if self.awaits_textures() {
+        let mut effects = self.follow_assets();
+        if self.awaits_assets() {
             // A picture without them would only be seen for a moment.
             return effects;
         }
@@ -80,7 +80,7 @@ impl App {
         if self.mode == Mode::Trace && is_begun {
             return Vec::new();
         }
-        if self.awaits_textures() {
+        if self.awaits_assets() {
             self.fail(STILL_READING);
             return Vec::new();
         }
@@ -232,7 +232,7 @@ impl App {
         let format = ImageFormat::of_path(path);
         let refused = match (format, &job) {
             _ if self.export.is_some() => Some("an export is under way: x cancels it".to_owned()),
-            _ if self.awaits_textures() => Some(STILL_READING.to_owned()),
+            _ if self.awaits_assets() => Some(STILL_READING.to_owned()),
             (None, _) => Some(format!(
                 "{}: pictures end in {}",
                 path.display(),

@@ -3,6 +3,7 @@
 //!
 //! The step is split by concern; nothing here touches files, threads or clocks.
 
+mod assets;
 mod command;
 mod cursor;
 mod derived;
@@ -22,7 +23,6 @@ mod pointer;
 mod quit;
 #[cfg(test)]
 mod tests;
-mod textures;
 mod typing;
 mod update;
 

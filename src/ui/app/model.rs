@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use tui_input::Input;
 
+use super::assets::Assets;
 use super::picture::Picture;
-use super::textures::Textures;
 use crate::document::{Document, Merge};
 use crate::render::{Aov, Filter, Progress};
 use crate::scene::fields::Field;
-use crate::scene::{Camera, Images, Integrator, Node, Origins, Scene, Size};
+use crate::scene::{Camera, Images, Integrator, Meshes, Node, Origins, Scene, Size};
 use crate::text::{Diagnostic, Findings, Severity};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Destination, ExportId, Kept};
@@ -49,6 +49,8 @@ pub struct App {
     pub scene: Option<Arc<Scene>>,
     /// The pictures that its textures show, as far as they are read.
     pub images: Images,
+    /// The meshes of its objects, as far as they are read.
+    pub meshes: Meshes,
     /// The working view, where it differs from the scene's camera.
     pub view: Option<Camera>,
     /// How pictures are traced, as far as the user says so.
@@ -106,8 +108,8 @@ pub struct App {
     pub mouse: Mouse,
     /// Size of the terminal in cells.
     pub terminal: (u16, u16),
-    /// How the pictures of the scene's textures stand.
-    pub(super) textures: Textures,
+    /// How the files that the scene names stand.
+    pub(super) assets: Assets,
     /// What a sequence of messages has led to so far.
     pub(super) pending: Pending,
 }

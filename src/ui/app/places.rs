@@ -101,7 +101,7 @@ sphere 1 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1
 sphere 2 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1
 ";
         let tree = parse(Format::Ray, text);
-        let lowered = crate::scene::lower(text, &tree);
+        let lowered = crate::scene::lower(text, &tree, &crate::scene::Meshes::default());
         let nodes = lowered.origins.nodes();
         let at = |part: &str| text.find(part).expect("a part of the text");
         for (from, until, name) in [

@@ -5,16 +5,16 @@ use std::path::PathBuf;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
+use super::assets::{Assets, STILL_READING};
 use super::disk::watch;
 use super::model::Pending;
-use super::textures::Textures;
 use super::{
     App, Dialog, Disk, Help, HelpFocus, Message, Mode, Outline, Picture, Prompt, PromptKind,
     Quality, Stride, line,
 };
 use crate::document::Document;
 use crate::format::Format;
-use crate::scene::{Images, Node, Origins};
+use crate::scene::{Images, Meshes, Node, Origins};
 use crate::text::{Findings, Severity};
 use crate::ui::keymap::{self, Action, Context};
 use crate::ui::msg::{Effect, Msg, Timer};
@@ -49,6 +49,7 @@ impl App {
             nodes: Vec::new(),
             scene: None,
             images: Images::default(),
+            meshes: Meshes::default(),
             view: None,
             quality: opening.quality,
             aov: None,
@@ -77,7 +78,7 @@ impl App {
             net: None,
             mouse: opening.mouse,
             terminal: opening.terminal,
-            textures: Textures::default(),
+            assets: Assets::default(),
             pending: Pending::default(),
         };
         app.relower();
@@ -113,8 +114,8 @@ impl App {
             // The answer may come after the scene got another name.
             Msg::Read(path, read) if self.is_own_path(&path) => return self.was_read(read),
             Msg::Read(..) => {}
-            Msg::Textures(wanted, loaded) => self.textures_read(&wanted, loaded),
-            Msg::TexturesChanged => return self.read_textures(),
+            Msg::AssetsRead(wanted, loaded) => self.assets_read(&wanted, loaded),
+            Msg::AssetsChanged => return self.read_assets(),
             Msg::Elapsed(Timer::Settled) => return self.settled(),
             Msg::Elapsed(Timer::Interrupt) => self.pending.interrupt = false,
             Msg::Elapsed(Timer::Click) => self.pending.click = None,
@@ -278,7 +279,11 @@ impl App {
         match mode {
             Mode::Trace => return self.start_trace(),
             Mode::View | Mode::Pick if self.scene.is_none() => {
-                self.fail("there is no picture: the scene has errors");
+                self.fail(if self.awaits_assets() {
+                    STILL_READING
+                } else {
+                    "there is no picture: the scene has errors"
+                });
             }
             Mode::Edit if self.placed().is_empty() => self.fail("nothing to edit here"),
             Mode::Pick => self.start_pick(),

@@ -2,6 +2,7 @@
 
 use super::{A, Action, Binding, Chord, Context, Edit, Pick, Plain, Select, TABLE, Trace, View};
 use super::{ALL, EVERYWHERE};
+use crate::render::Aov;
 use crate::ui::app::Mode;
 
 /// A line of help.
@@ -176,7 +177,21 @@ const PICK_HINTS: &[Hint] = &[
     (&[A::Accept], "select"),
     (&[A::Back], "back"),
 ];
-const TRACE_HINTS: &[Hint] = &[(&[A::Stop], "stop"), (&[A::Back], "back")];
+const TRACE_HINTS: &[Hint] = &[
+    (&[A::Stop], "stop"),
+    (&[A::Back], "back"),
+    (&[A::Integrator], "path tracing"),
+    (
+        &[
+            A::Show(None),
+            A::Show(Some(Aov::Depth)),
+            A::Show(Some(Aov::Normal)),
+            A::Show(Some(Aov::Object)),
+            A::Show(Some(Aov::Albedo)),
+        ],
+        "light or else",
+    ),
+];
 const ERROR_HINTS: &[Hint] = &[
     (&[A::Move(1), A::Move(-1)], "move"),
     (&[A::Accept], "go there"),

@@ -120,8 +120,8 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
         let done = export.progress.map_or(0.0, |progress| progress.done);
         say(6, format!("export {}", percent(done)), theme::ACCENT);
     }
-    if app.awaits_textures() {
-        say(7, "reading textures".to_owned(), theme::ACCENT);
+    if app.awaits_assets() {
+        say(7, "reading files".to_owned(), theme::ACCENT);
     }
     if let Some(progress) = app.picture().progress() {
         progress_segments(progress, &mut say);

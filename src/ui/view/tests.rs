@@ -66,7 +66,7 @@ pub(super) fn retype(app: &mut App, old: &str, new: &str) {
         span: Span::new(at, at + old.len()),
         text: new.to_owned(),
     }]);
-    let lowered = lower(app.document.text(), app.document.tree());
+    let lowered = lower(app.document.text(), app.document.tree(), &app.meshes);
     app.nodes = lowered.origins.nodes();
     app.origins = lowered.origins;
     app.diagnostics = lowered.diagnostics;

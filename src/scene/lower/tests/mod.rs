@@ -9,7 +9,7 @@ mod xml;
 
 use super::{Lowered, lower};
 use crate::format::{Format, Tree, parse};
-use crate::scene::Scene;
+use crate::scene::{Meshes, Scene};
 use crate::text::Position;
 
 /// Ambient light and one light.
@@ -30,7 +30,7 @@ fn spelled(text: &str) -> String {
 
 fn read(text: &str) -> (Tree, Lowered) {
     let tree = parse(Format::Ray, text);
-    let lowered = lower(text, &tree);
+    let lowered = lower(text, &tree, &Meshes::default());
     (tree, lowered)
 }
 

@@ -4,30 +4,35 @@
 //! All walks are loops over the flat tree: elements may be nested as deep as a text is long.
 
 mod camera;
+mod meshes;
 mod objects;
 mod roles;
 mod surfaces;
 mod textures;
 mod values;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::Lowered;
 use crate::format::xml::Tree;
 use crate::scene::origins::xml::Origins;
-use crate::scene::{self, Light, Material, Object, Rgb, Scene, Setting, Source};
+use crate::scene::{self, Light, Material, Meshes, Object, Rgb, Scene, Setting, Source};
 use crate::text::{Diagnostic, Findings, Span};
 
 /// Reads a scene.
-pub(super) fn lower(text: &str, tree: &Tree) -> Lowered {
+pub(super) fn lower(text: &str, tree: &Tree, meshes: &Meshes) -> Lowered {
     let mut reader = Reader {
         text,
         tree,
+        meshes,
         report: Findings::default(),
         origins: Origins::default(),
         lights: Vec::new(),
         materials: Vec::new(),
         named: HashMap::new(),
+        white: None,
+        met: HashSet::new(),
+        slots: HashMap::new(),
         objects: Vec::new(),
         setting: Setting::default(),
     };
@@ -46,12 +51,19 @@ pub(super) fn lower(text: &str, tree: &Tree) -> Lowered {
 struct Reader<'a> {
     text: &'a str,
     tree: &'a Tree,
+    meshes: &'a Meshes,
     report: Findings,
     origins: Origins,
     lights: Vec<Light>,
     materials: Vec<Material>,
     /// The index of each material by its name.
     named: HashMap<&'a str, usize>,
+    /// The index of the material of what has none.
+    white: Option<usize>,
+    /// The meshes that were met, by name.
+    met: HashSet<&'a str>,
+    /// The indices of the materials that meshes bring along, by name and slot.
+    slots: HashMap<&'a str, Vec<u32>>,
     objects: Vec<Object>,
     setting: Setting,
 }
@@ -99,10 +111,5 @@ impl Reader<'_> {
     fn error(&mut self, span: Span, message: impl FnOnce() -> String, expected: &str) {
         self.report
             .error(|| Diagnostic::error(span, message(), expected));
-    }
-
-    /// Warns of what is read and kept, but not traced yet.
-    fn not_traced(&mut self, span: Span, what: &str, hint: &str) {
-        self.warn(span, || format!("{what} not traced yet"), hint, "");
     }
 }

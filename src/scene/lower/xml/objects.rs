@@ -17,7 +17,6 @@ impl Reader<'_> {
     /// Lowers all objects, those in others after them.
     pub(super) fn place_objects(&mut self) {
         let mut frames: Vec<Frame> = Vec::with_capacity(self.origins.objects.len());
-        let mut white = None;
         for index in 0..self.origins.objects.len() {
             let element = self.origins.objects[index].element as usize;
             let parent = self.tree.elements[element].parent;
@@ -32,15 +31,14 @@ impl Reader<'_> {
             frames.push(frame);
             let material = self.material_of(element);
             self.origins.dressed.push(material);
-            if let Some(frame) = frame
-                && let Some(shape) = self.shape(index, element, frame)
-            {
-                let material = material.unwrap_or_else(|| {
-                    *white.get_or_insert_with(|| {
-                        self.materials.push(Material::Flat(Rgb::ONE));
-                        self.materials.len() - 1
-                    })
-                });
+            let shaped = match self.origins.objects[index].kind {
+                ObjectKind::Group => None,
+                ObjectKind::Obj => self.mesh(index, frame, material),
+                kind => frame
+                    .and_then(|frame| self.shape(kind, element, frame))
+                    .map(|shape| (shape, material.unwrap_or_else(|| self.white()))),
+            };
+            if let Some((shape, material)) = shaped {
                 self.origins.drawn.push(index);
                 self.objects.push(Object {
                     shape,
@@ -106,17 +104,16 @@ impl Reader<'_> {
         ))
     }
 
-    /// What an object is where it is; `None` for what is not drawn.
-    fn shape(&mut self, index: usize, element: usize, frame: DAffine3) -> Option<Shape> {
-        let kind = self.origins.objects[index].kind;
-        match kind {
-            ObjectKind::Group => return None,
-            ObjectKind::Obj => {
-                self.not_traced(self.place(element), "meshes are", "the object is not drawn");
-                return None;
-            }
-            ObjectKind::Sphere | ObjectKind::Plane => {}
-        }
+    /// The index of the material of what has none.
+    pub(super) fn white(&mut self) -> usize {
+        *self.white.get_or_insert_with(|| {
+            self.materials.push(Material::Flat(Rgb::ONE));
+            self.materials.len() - 1
+        })
+    }
+
+    /// What a sphere or a plane is where it is; `None`, with an error, where it has no volume.
+    fn shape(&mut self, kind: ObjectKind, element: usize, frame: DAffine3) -> Option<Shape> {
         let columns = [frame.x_axis, frame.y_axis, frame.z_axis];
         if kind == ObjectKind::Sphere
             && let Some(radius) = scaling(columns)
@@ -127,22 +124,30 @@ impl Reader<'_> {
                 radius,
             }));
         }
-        let Some(affine) = Affine::of_matrix(columns, frame.translation) else {
-            let name = self.called(element);
-            self.report.error(|| {
-                let message = format!("{name}: its transforms leave it no volume, or no place");
-                Diagnostic::error(
-                    self.tree.elements[element].name,
-                    message,
-                    "transforms that can be undone",
-                )
-            });
-            return None;
-        };
+        let affine = self.affine(element, frame)?;
         Some(match kind {
             ObjectKind::Plane => Shape::Plane(Box::new(Plane(affine))),
             _ => Shape::Ellipsoid(Box::new(Ellipsoid(affine))),
         })
+    }
+
+    /// What an object's transforms are together; `None`, with an error, if they can't be undone.
+    pub(super) fn affine(&mut self, element: usize, frame: DAffine3) -> Option<Affine> {
+        let columns = [frame.x_axis, frame.y_axis, frame.z_axis];
+        let affine = Affine::of_matrix(columns, frame.translation);
+        if affine.is_none() {
+            self.no_volume(element);
+        }
+        affine
+    }
+
+    pub(super) fn no_volume(&mut self, element: usize) {
+        let name = self.called(element);
+        self.error(
+            self.tree.elements[element].name,
+            || format!("{name}: its transforms leave it no volume, or no place"),
+            "transforms that can be undone",
+        );
     }
 
     /// The index of an object's material.

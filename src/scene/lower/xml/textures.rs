@@ -4,6 +4,7 @@ use glam::{DAffine3, DVec3};
 
 use super::Reader;
 use crate::scene::fields::xml::{CHECKER, Parameter, Texturing};
+use crate::scene::origins::xml::{NamedPlace, What};
 use crate::scene::{MappedPattern, MappedTexture, Textured, Tinted};
 use crate::text::Diagnostic;
 
@@ -100,7 +101,11 @@ impl Reader<'_> {
             }
             MappedPattern::Checkerboard(colours)
         } else {
-            self.origins.files.push((element, attribute));
+            self.origins.files.push(NamedPlace {
+                element,
+                attribute,
+                what: What::Texture,
+            });
             MappedPattern::Image(word.to_owned())
         };
         let transform = self.transform_of(element);

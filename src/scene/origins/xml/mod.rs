@@ -6,11 +6,11 @@ mod insert;
 
 use std::collections::HashSet;
 
-use super::{NamedFile, Node};
+use super::{FileKind, NamedFile, Node};
 use crate::format::xml::{Attribute, Tree};
 use crate::scene::fields::xml::{LightKind, MaterialKind, ObjectKind, Parameter};
 use crate::scene::placed::Placed;
-use crate::text::Span;
+use crate::text::{Span, visible};
 
 /// Where everything that was lowered stands. It holds indices of elements and attributes: ask it
 /// only with the tree it was made from.
@@ -32,8 +32,8 @@ pub struct Origins {
     pub(in crate::scene) dressed: Vec<Option<usize>>,
     /// The objects that are drawn, ascending: those of the scene.
     pub(in crate::scene) drawn: Vec<usize>,
-    /// The attributes that name picture files.
-    pub(in crate::scene) files: Vec<(usize, usize)>,
+    /// The attributes that name other files.
+    pub(in crate::scene) files: Vec<NamedPlace>,
     /// Whether the scene is meant for path tracing.
     pub(in crate::scene) is_srgb: bool,
     /// What multiplies the camera's vectors.
@@ -50,6 +50,26 @@ pub(in crate::scene) struct Place<Kind> {
     pub(in crate::scene) name: Option<Box<str>>,
     /// How many objects it is in.
     pub(in crate::scene) depth: u32,
+}
+
+/// An attribute that names a file.
+#[derive(Clone, Debug)]
+pub(in crate::scene) struct NamedPlace {
+    /// Whose it is.
+    pub(in crate::scene) element: usize,
+    pub(in crate::scene) attribute: usize,
+    pub(in crate::scene) what: What,
+}
+
+/// What a file is that an attribute names.
+#[derive(Clone, Debug)]
+pub(in crate::scene) enum What {
+    /// The picture of a texture.
+    Texture,
+    /// A mesh.
+    Mesh,
+    /// The picture that a material of that mesh names: by which statement, and its path.
+    Map(&'static str, Box<str>),
 }
 
 /// What an element is.
@@ -202,18 +222,30 @@ impl Origins {
     }
 
     pub(super) fn files(&self, text: &str, tree: &Tree) -> Vec<NamedFile> {
-        let file = |&(element, attribute): &(usize, usize)| {
-            let said = tree.attributes.get(attribute)?;
-            let owner = self.node_of(element)?;
-            let name = tree.elements.get(element)?.name.of(text);
+        let file = |place: &NamedPlace| {
+            let said = tree.attributes.get(place.attribute)?;
+            let owner = self.name(self.node_of(place.element)?);
+            let name = tree.elements.get(place.element)?.name.of(text);
+            let (kind, what) = match &place.what {
+                What::Mesh => (FileKind::Mesh, owner),
+                What::Map(keyword, path) => {
+                    let what = format!("{owner} {keyword} {}", visible(path));
+                    (FileKind::Picture, what)
+                }
+                What::Texture if self.owners[place.element] as usize == place.element => {
+                    (FileKind::Picture, format!("{name} texture"))
+                }
+                What::Texture => (FileKind::Picture, format!("{owner} {name} texture")),
+            };
+            let path = match &place.what {
+                What::Map(_, path) => path,
+                What::Texture | What::Mesh => said.said(text),
+            };
             Some(NamedFile {
-                path: said.said(text).to_owned(),
+                path: path.to_owned(),
+                kind,
                 span: said.value,
-                what: if self.owners.get(element) == Some(&(element as u32)) {
-                    format!("{name} texture")
-                } else {
-                    format!("{} {name} texture", self.name(owner))
-                },
+                what,
             })
         };
         self.files.iter().filter_map(file).collect()

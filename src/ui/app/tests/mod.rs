@@ -1,12 +1,12 @@
 //! Keys, pastes and files in; text, state and effects out.
 
+mod assets;
 mod dat;
 mod disk;
 mod editing;
 mod making;
 mod moving;
 mod pictures;
-mod textures;
 mod xml;
 
 use std::path::{Path, PathBuf};

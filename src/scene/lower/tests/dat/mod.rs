@@ -12,7 +12,7 @@ mod views;
 use super::shown;
 use crate::format::{Format, Tree, parse};
 use crate::scene::lower::{Lowered, lower};
-use crate::scene::{Material, Phong, Scene};
+use crate::scene::{Material, Meshes, Phong, Scene};
 
 /// The three records of a view, on three lines.
 const VIEW: &str = "camera perspective 0 0 5  0 0 0  0 1 0  1 0 100
@@ -42,7 +42,7 @@ fn phong(material: &Material) -> &Phong {
 
 fn read(text: &str) -> (Tree, Lowered) {
     let tree = parse(Format::Dat, text);
-    let lowered = lower(text, &tree);
+    let lowered = lower(text, &tree, &Meshes::default());
     (tree, lowered)
 }
 

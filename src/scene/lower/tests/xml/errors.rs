@@ -63,8 +63,8 @@ fn each_mistake_is_told_in_words() {
             "warning: material: there is none called `m`",
         ),
         (
-            "<object type='obj' name='a.obj'/>",
-            "warning: meshes are not traced yet",
+            "<object type='obj'/>",
+            "error: object 1 (obj): there is no name",
         ),
         (
             "<object size='1'/>",

@@ -3,12 +3,13 @@
 mod edits;
 mod errors;
 mod meaning;
+mod meshes;
 mod properties;
 
 use super::shown;
 use crate::format::{Format, Tree, parse};
-use crate::scene::Scene;
 use crate::scene::lower::{Lowered, lower};
+use crate::scene::{Meshes, Scene};
 
 /// The course's own example.
 const EXAMPLE: &str = include_str!("../../../../../scenes/spheres.xml");
@@ -22,8 +23,12 @@ fn around(scene: &str) -> String {
 }
 
 fn read(text: &str) -> (Tree, Lowered) {
+    read_with(text, &Meshes::default())
+}
+
+fn read_with(text: &str, meshes: &Meshes) -> (Tree, Lowered) {
     let tree = parse(Format::Xml, text);
-    let lowered = lower(text, &tree);
+    let lowered = lower(text, &tree, meshes);
     (tree, lowered)
 }
 

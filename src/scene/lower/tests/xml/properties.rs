@@ -1,14 +1,33 @@
 //! No text, however wrong, makes lowering panic or point outside of it.
 
+use std::sync::Arc;
+
 use proptest::prelude::*;
 
 use super::edits::RICH;
-use super::{EXAMPLE, around, read};
-use crate::scene::{MappedPattern, Material};
+use super::{EXAMPLE, around, read_with};
+use crate::geometry::Shape;
+use crate::obj;
+use crate::scene::{MappedPattern, Material, Meshes, NoMesh};
 use crate::text::Span;
 
+/// One that can be read, and one that can't.
+fn meshes() -> Meshes {
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib a.mtl\nf 1 2 3\nusemtl a\nf 1 3 2\nwhat\n";
+    let library = "newmtl a\nKd 1 0 0\nmap_Ks b.png\n";
+    let sound = obj::read(text.as_bytes(), |_| Ok::<_, String>(library)).map(Arc::new);
+    let fault = NoMesh {
+        reasons: vec!["no such file".to_owned()],
+        hint: None,
+    };
+    let sound = sound.map_err(|_| fault.clone());
+    let meshes = [("a.obj", sound), ("b.obj", Err(fault))];
+    let named = meshes.map(|(name, read)| (name.to_owned(), read));
+    named.into_iter().collect()
+}
+
 fn check(text: &str) {
-    let (tree, lowered) = read(text);
+    let (tree, lowered) = read_with(text, &meshes());
     let within = |span: Span| span.end() <= text.len() && text.get(span.range()).is_some();
     assert!(
         lowered.diagnostics.iter().all(|found| within(found.span)),
@@ -50,6 +69,13 @@ fn check(text: &str) {
     let Some(scene) = lowered.scene else { return };
     for (index, object) in scene.objects.iter().enumerate() {
         assert!((object.material as usize) < scene.materials.len());
+        if let Shape::Mesh(instance) = &object.shape {
+            let tags = instance.tags().flatten();
+            assert!(
+                tags.into_iter()
+                    .all(|tag| (tag as usize) < scene.materials.len())
+            );
+        }
         let listed = origins.object(index as u32);
         assert_eq!(origins.drawn(listed), Some(index as u32));
     }
@@ -74,6 +100,11 @@ fn pieces() -> impl Strategy<Value = String> {
         "<object type='sphere' material='m'>",
         "</object>",
         "<object type='plane'/>",
+        "<object type='obj' name='a.obj'>",
+        "<object type='obj' name='a.obj' material='m'/>",
+        "<object type='obj' name='b.obj'/>",
+        "<object type='obj' name='c.obj'/>",
+        "<object type='obj'/>",
         "<scale value='2'/>",
         "<scale x='0'/>",
         "<rotate x='1' angle='45'/>",

@@ -1,0 +1,134 @@
+//! Meshes, with the libraries of materials that they name.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use super::Reading;
+use super::gate::Content;
+use super::trouble::Failure;
+use crate::obj::{self, Model};
+use crate::scene::{Meshes, NoMesh, beside};
+
+/// A mesh that was read, and what it was read from.
+#[derive(Clone, Debug)]
+pub(super) struct KnownMesh {
+    /// What stands for the bytes of its file.
+    print: u64,
+    /// The libraries it asked for, as it names them, and what stands for their bytes.
+    asked: Vec<(String, Result<u64, String>)>,
+    model: Arc<Model>,
+}
+
+/// The libraries of a reading, by name: their bytes and what stands for those, or why there are none.
+type Libraries = BTreeMap<String, Result<(Arc<[u8]>, u64), String>>;
+
+impl Reading<'_> {
+    /// Reads meshes, or learns why they can't be read.
+    pub(super) fn meshes(&mut self, names: &BTreeSet<String>) -> Meshes {
+        let mut libraries = Libraries::new();
+        let read = names
+            .iter()
+            .map(|name| (name.clone(), self.mesh(name, &mut libraries)))
+            .collect();
+        self.now.libraries = libraries.into_keys().collect();
+        read
+    }
+
+    fn mesh(&mut self, name: &str, libraries: &mut Libraries) -> Result<Arc<Model>, NoMesh> {
+        let gate = self.gate;
+        let failed = |failure: Failure| NoMesh {
+            reasons: vec![failure.to_string()],
+            hint: failure.hint(&gate.place(name)),
+        };
+        let content = gate.read(name, &mut self.room.bytes);
+        let content = content.map_err(failed)?;
+        let known = match self.known(name, content.print, libraries) {
+            Some(known) => known,
+            None => self
+                .parsed(name, &content, libraries)
+                .map_err(|reasons| NoMesh {
+                    reasons,
+                    hint: None,
+                })?,
+        };
+        let model = Arc::clone(&known.model);
+        let is_counted = |other: &KnownMesh| Arc::ptr_eq(&other.model.mesh, &model.mesh);
+        if !self.now.meshes.iter().any(is_counted) {
+            let room = self.room.triangles.checked_sub(model.mesh.len());
+            self.room.triangles = room.ok_or_else(|| failed(Failure::TooManyTriangles))?;
+        }
+        self.now.meshes.push(known);
+        Ok(model)
+    }
+
+    /// The mesh of these bytes, if its libraries are as they were.
+    fn known(&mut self, name: &str, print: u64, libraries: &mut Libraries) -> Option<KnownMesh> {
+        let known = self.now.meshes.iter().chain(&self.before.meshes);
+        let same: Vec<_> = known
+            .filter(|known| known.print == print)
+            .cloned()
+            .collect();
+        same.into_iter().find(|known| {
+            known.asked.iter().all(|(library, before)| {
+                let now = self.library(name, library, libraries);
+                now.map(|(_, print)| print) == *before
+            })
+        })
+    }
+
+    /// The mesh of a file's bytes, or all that is wrong with them.
+    fn parsed(
+        &mut self,
+        name: &str,
+        content: &Content,
+        libraries: &mut Libraries,
+    ) -> Result<KnownMesh, Vec<String>> {
+        let mut asked = Vec::new();
+        let read = obj::read(&content.bytes, |library| {
+            let answer = self.library(name, library, libraries);
+            let (bytes, print) = match answer {
+                Ok((bytes, print)) => (Ok(bytes), Ok(print)),
+                Err(reason) => (Err(reason.clone()), Err(reason)),
+            };
+            asked.push((library.to_owned(), print));
+            bytes
+        });
+        let mut model = read.map_err(|findings| {
+            let reasons = findings.iter().map(ToString::to_string);
+            reasons.collect::<Vec<_>>()
+        })?;
+        let mut known = self.now.meshes.iter().chain(&self.before.meshes);
+        if let Some(twin) = known.find(|known| known.print == content.print) {
+            // Only its materials are others: what was made for the triangles can be kept.
+            model.mesh = Arc::clone(&twin.model.mesh);
+        }
+        Ok(KnownMesh {
+            print: content.print,
+            asked,
+            model: Arc::new(model),
+        })
+    }
+
+    /// Reads a library of a mesh, once in a reading.
+    fn library(
+        &mut self,
+        mesh: &str,
+        library: &str,
+        libraries: &mut Libraries,
+    ) -> Result<(Arc<[u8]>, u64), String> {
+        let name = beside(mesh, library);
+        if let Some(known) = libraries.get(&name) {
+            return known.clone();
+        }
+        let content = self.gate.read(&name, &mut self.room.bytes);
+        let read = match content {
+            Ok(content) => Ok((content.bytes.into(), content.print)),
+            Err(failure) => Err(match failure.remedy() {
+                Some(remedy) => format!("{failure} ({remedy})"),
+                None => failure.to_string(),
+            }),
+        };
+        libraries.insert(name, read.clone());
+        read
+    }
+}

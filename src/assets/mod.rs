@@ -1,0 +1,161 @@
+//! The files that scenes name, pictures and meshes, read into shared values. What may be read is a
+//! scene's own: regular files below the folder above the scene's, or below folders that the user
+//! names. Knows nothing of what they are for.
+
+mod gate;
+mod meshes;
+mod pictures;
+mod trouble;
+
+use std::collections::{BTreeSet, HashMap};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::obj;
+use crate::scene::{FileKind, Image, Images, Meshes, NamedFile};
+
+use gate::Gate;
+use meshes::KnownMesh;
+
+pub use trouble::{Trouble, Troubles, report};
+
+/// What all files of a scene may have together: 512 MiB in files, 384 MiB of pictures in memory, and
+/// as many triangles as a mesh may have alone.
+const LIMITS: Room = Room {
+    bytes: 512 << 20,
+    pixels: 1 << 27,
+    triangles: obj::MOST_TRIANGLES,
+};
+
+/// Reads files, and keeps those of the last reading: bytes that are known are not read anew.
+#[derive(Debug)]
+pub struct Assets {
+    /// Folders that may be read besides the scene's surroundings.
+    folders: Vec<PathBuf>,
+    /// How much is read for one scene.
+    limits: Room,
+    known: Known,
+}
+
+/// What a reading found.
+#[derive(Debug, Default)]
+struct Known {
+    /// What stands for the bytes of each picture file.
+    files: HashMap<PathBuf, u64>,
+    /// The pictures by what stands for their bytes.
+    images: HashMap<u64, Arc<Image>>,
+    meshes: Vec<KnownMesh>,
+    /// The libraries of materials that meshes asked for, as if the scene's text named them.
+    libraries: BTreeSet<String>,
+}
+
+/// How much may be read for one scene.
+#[derive(Clone, Copy, Debug)]
+struct Room {
+    bytes: u64,
+    pixels: u64,
+    triangles: usize,
+}
+
+/// Which files a scene names: where it stands, and the names, relative to its folder.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Wanted {
+    /// The scene file.
+    pub scene: PathBuf,
+    /// The names of pictures, each once.
+    pub pictures: BTreeSet<String>,
+    /// The names of meshes, each once.
+    pub meshes: BTreeSet<String>,
+}
+
+/// What became of a reading.
+#[derive(Clone, Debug, Default)]
+pub struct Loaded {
+    /// The pictures, by name.
+    pub images: Images,
+    /// The meshes, by name.
+    pub meshes: Meshes,
+    /// Why there is no picture, or none of now, by name.
+    pub troubles: Troubles,
+}
+
+impl Wanted {
+    /// What the files named by a scene's text are.
+    pub fn new(scene: &Path, files: &[NamedFile]) -> Self {
+        let of = |kind: FileKind| {
+            let names = files.iter().filter(|file| file.kind == kind);
+            names.map(|file| file.path.clone()).collect()
+        };
+        Self {
+            scene: scene.to_owned(),
+            pictures: of(FileKind::Picture),
+            meshes: of(FileKind::Mesh),
+        }
+    }
+
+    /// Whether other files hold all that is wanted.
+    pub fn is_among(&self, others: &Self) -> bool {
+        self.scene == others.scene
+            && self.pictures.is_subset(&others.pictures)
+            && self.meshes.is_subset(&others.meshes)
+    }
+}
+
+impl Assets {
+    /// Reads from `folders` too.
+    pub fn new(folders: &[PathBuf]) -> Self {
+        Self {
+            folders: folders.to_vec(),
+            limits: LIMITS,
+            known: Known::default(),
+        }
+    }
+
+    /// Reads all files wanted, and the libraries of materials that the meshes name. A picture file
+    /// that holds none now but did in the last reading, such as one that is being written, keeps the
+    /// last one.
+    pub fn read(&mut self, wanted: &Wanted) -> Loaded {
+        let gate = Gate {
+            folders: &self.folders,
+            scene: &wanted.scene,
+        };
+        let mut reading = Reading {
+            gate,
+            before: std::mem::take(&mut self.known),
+            now: Known::default(),
+            room: self.limits,
+        };
+        let meshes = reading.meshes(&wanted.meshes);
+        let (images, troubles) = reading.pictures(&wanted.pictures);
+        self.known = reading.now;
+        Loaded {
+            images,
+            meshes,
+            troubles,
+        }
+    }
+
+    /// The files whose changes matter to a scene: those that may be read, there or not. Which
+    /// libraries of materials are among them is known from the last reading.
+    pub fn places(&self, wanted: &Wanted) -> Vec<PathBuf> {
+        let gate = Gate {
+            folders: &self.folders,
+            scene: &wanted.scene,
+        };
+        let libraries = self.known.libraries.iter();
+        let names = wanted.pictures.iter().chain(&wanted.meshes);
+        let places = names.chain(libraries).filter_map(|name| gate.watched(name));
+        places.collect::<BTreeSet<_>>().into_iter().collect()
+    }
+}
+
+/// A reading under way.
+struct Reading<'a> {
+    gate: Gate<'a>,
+    before: Known,
+    now: Known,
+    room: Room,
+}
+
+#[cfg(all(test, unix))]
+mod tests;

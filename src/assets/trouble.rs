@@ -1,0 +1,152 @@
+//! Why files are not read, and how that is told.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::LIMITS;
+use super::gate::folder;
+use crate::file::ReadError;
+use crate::image_file::{Unreadable, known_extensions};
+use crate::scene::{FileKind, NamedFile};
+use crate::text::{Diagnostic, Findings};
+
+/// What is wrong with pictures, by name.
+pub type Troubles = BTreeMap<String, Trouble>;
+
+/// What is wrong with a picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Trouble {
+    /// What, as the end of a sentence.
+    reason: String,
+    /// What helps.
+    hint: Option<String>,
+    /// What is seen of it.
+    shown: Shown,
+}
+
+/// What is seen of a picture that can't be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Shown {
+    /// The renderer's stand-in.
+    Magenta,
+    /// The last one that could.
+    Last,
+}
+
+impl fmt::Display for Shown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Magenta => "magenta stands for it",
+            Self::Last => "its last picture is kept",
+        })
+    }
+}
+
+impl Trouble {
+    /// What is wrong, at a name's place in the text.
+    pub(super) fn at(&self, file: &NamedFile) -> Diagnostic {
+        let message = format!("{}: {}; {}", file.what, self.reason, self.shown);
+        let expected = format!("a picture file: {}", known_extensions());
+        let warning = Diagnostic::warning(file.span, message, expected);
+        match &self.hint {
+            Some(hint) => warning.with_hint(hint),
+            None => warning,
+        }
+    }
+}
+
+/// Adds what is wrong with a scene's pictures to what is wrong with its text.
+pub fn report(troubles: &Troubles, files: &[NamedFile], mut findings: Findings) -> Findings {
+    if troubles.is_empty() {
+        return findings;
+    }
+    for file in files.iter().filter(|file| file.kind == FileKind::Picture) {
+        if let Some(trouble) = troubles.get(&file.path) {
+            findings.warning(|| trouble.at(file));
+        }
+    }
+    findings.sorted()
+}
+
+/// Why a file was not read.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum Failure {
+    #[error("an absolute path is not read")]
+    Absolute(PathBuf),
+    #[error("is outside of the folder above the scene's")]
+    Outside(PathBuf),
+    #[error("no such file")]
+    Missing,
+    #[error("{0}")]
+    Io(io::Error),
+    #[error("is {0}, not a file")]
+    NotRegular(&'static str),
+    #[error("the scene's files have more than {} MiB together", LIMITS.bytes >> 20)]
+    TooLong,
+    #[error("the scene's meshes have more than {} triangles together", LIMITS.triangles)]
+    TooManyTriangles,
+    #[error("{0}")]
+    Unreadable(#[from] Unreadable),
+}
+
+impl Failure {
+    /// Whether it may be over in a moment: a file that is being written or replaced.
+    pub(super) fn may_pass(&self) -> bool {
+        matches!(
+            self,
+            Self::Missing
+                | Self::Io(_)
+                | Self::Unreadable(Unreadable::Unknown | Unreadable::Broken(_))
+        )
+    }
+
+    /// What it means for whoever looks at a picture.
+    pub(super) fn trouble(&self, place: &Path, shown: Shown) -> Trouble {
+        Trouble {
+            reason: self.to_string(),
+            hint: self.hint(place),
+            shown,
+        }
+    }
+
+    /// What helps, with a file at that place.
+    pub(super) fn hint(&self, place: &Path) -> Option<String> {
+        match self {
+            Self::Missing => Some(format!("it is looked for as {}", place.display())),
+            _ => self.remedy(),
+        }
+    }
+
+    /// How the file is read all the same.
+    pub(super) fn remedy(&self) -> Option<String> {
+        match self {
+            Self::Absolute(real) | Self::Outside(real) => {
+                let folder = folder(real).display();
+                Some(format!("--assets {folder} lets it be read"))
+            }
+            _ => None,
+        }
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::NotFound => Self::Missing,
+            _ => Self::Io(error),
+        }
+    }
+}
+
+impl From<ReadError> for Failure {
+    fn from(error: ReadError) -> Self {
+        match error {
+            ReadError::NotRegular { kind, .. } => Self::NotRegular(kind),
+            ReadError::TooLong { .. } => Self::TooLong,
+            ReadError::Io { source, .. } => Self::Io(source),
+            ReadError::NotFound { .. } | ReadError::NotUtf8 { .. } => Self::Missing,
+        }
+    }
+}

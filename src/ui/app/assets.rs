@@ -1,0 +1,124 @@
+//! The files that the scene names, pictures and meshes: which are wanted, and which have come.
+
+use super::App;
+use crate::assets::{self, Loaded, Troubles, Wanted};
+use crate::scene::{Images, Meshes};
+use crate::text::{Findings, counted};
+use crate::ui::msg::Effect;
+
+/// Said where a picture would lack what is still being read.
+pub(super) const STILL_READING: &str = "the scene's files are still being read";
+
+/// How the files that the scene names stand.
+#[derive(Debug, Default)]
+pub(super) struct Assets {
+    /// What was asked for last: the files of the last text that had no errors.
+    asked: Option<Wanted>,
+    /// It is yet to be asked for.
+    due: bool,
+    /// Among it are files of which nothing has come yet.
+    awaited: bool,
+    /// What is wrong with pictures; what is with meshes, the meshes say.
+    troubles: Troubles,
+}
+
+impl App {
+    /// Whether files that the scene names are yet to come.
+    pub fn awaits_assets(&self) -> bool {
+        self.assets.awaited
+    }
+
+    /// Adds what is wrong with the files that a text without errors names, and wants them.
+    pub(super) fn with_files(&mut self, found: Findings) -> Findings {
+        let (text, tree) = (self.document.text(), self.document.tree());
+        let files = self.origins.files(text, tree);
+        if found.errors() == 0 {
+            let wanted = self.path.as_ref().filter(|_| !files.is_empty());
+            self.want(wanted.map(|path| Wanted::new(path, &files)));
+        }
+        assets::report(&self.assets.troubles, &files, found)
+    }
+
+    /// Whether nothing is known yet of a mesh that the scene names.
+    pub(super) fn lacks_meshes(&self) -> bool {
+        let is_missing = |name: &String| self.meshes.get(name).is_none();
+        let asked = self.assets.asked.as_ref();
+        asked.is_some_and(|asked| asked.meshes.iter().any(is_missing))
+    }
+
+    fn want(&mut self, wanted: Option<Wanted>) {
+        let assets = &mut self.assets;
+        if assets.asked == wanted {
+            return;
+        }
+        let is_known = match (&assets.asked, &wanted) {
+            (Some(asked), Some(wanted)) => wanted.is_among(asked),
+            (None, Some(_)) => false,
+            (_, None) => true,
+        };
+        // What was awaited and is still wanted goes on being awaited.
+        assets.awaited = wanted.is_some() && (assets.awaited || !is_known);
+        assets.due = wanted.is_some();
+        if wanted.is_none() {
+            self.images = Images::default();
+            self.meshes = Meshes::default();
+            assets.troubles.clear();
+        }
+        assets.asked = wanted;
+    }
+
+    /// Has the files read that are wanted since the last step.
+    pub(super) fn follow_assets(&mut self) -> Vec<Effect> {
+        if std::mem::take(&mut self.assets.due) {
+            self.read_assets()
+        } else {
+            Vec::new()
+        }
+    }
+
+    /// Has the files read, which may have changed.
+    pub(super) fn read_assets(&self) -> Vec<Effect> {
+        let asked = self.assets.asked.iter().cloned();
+        asked.map(Effect::ReadAssets).collect()
+    }
+
+    /// Takes what was read, unless something else is wanted by now.
+    pub(super) fn assets_read(&mut self, wanted: &Wanted, loaded: Loaded) {
+        if self.assets.asked.as_ref() != Some(wanted) {
+            return;
+        }
+        let is_first = std::mem::take(&mut self.assets.awaited);
+        let are_meshes_new = self.meshes != loaded.meshes;
+        let are_faults_new = self.assets.troubles != loaded.troubles
+            || are_meshes_new && 0 < self.meshes.unreadable() + loaded.meshes.unreadable();
+        let are_images_new = self.images != loaded.images;
+        self.images = loaded.images;
+        self.pending.scene |= are_images_new;
+        self.meshes = loaded.meshes;
+        self.assets.troubles = loaded.troubles;
+        if are_meshes_new || are_faults_new {
+            // Meshes may name pictures, which are wanted then.
+            self.relower();
+        }
+        if are_faults_new {
+            self.tell_of_files();
+        } else if !is_first && (are_meshes_new || are_images_new) {
+            self.say("files read again");
+        }
+    }
+
+    fn tell_of_files(&mut self) {
+        let meshes = self.meshes.unreadable();
+        match meshes + self.assets.troubles.len() {
+            0 => self.say("all files are there again"),
+            count => {
+                let words = format!("{} can't be read: ! says why", counted(count, "file"));
+                if meshes == 0 {
+                    self.warn(words);
+                } else {
+                    self.fail(words);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,315 @@
+//! The files that scenes name: asked for, awaited, taken.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use super::*;
+use crate::assets::{Assets, Loaded, Wanted};
+use crate::obj;
+use crate::scene::{Image, NoMesh, Node, Size};
+
+const TEXTURED: &str = "\
+camera perspective 0 0 8  0 0 0  0 1 0  1 0 100
+resolution .02 .02
+viewport 40 30
+light ID 0 amb 0 0 0  0 0 0  1 1 1  1 0 0  0 shadow_off
+mat ID 0  1 1 1  1 0 0 1  0 0 1
+texture ID 7 image 1 1 skin.ppm
+use colour ID 7 mat ID 0
+obj sphere ID 0 mat ID 0  0 0 0  2
+";
+
+fn open_textured(text: &str) -> (App, Vec<Effect>) {
+    opened_as("none/scene.dat", text)
+}
+
+/// What is asked for, if anything is.
+fn asked(effects: &[Effect]) -> Option<Wanted> {
+    effects.iter().find_map(|effect| match effect {
+        Effect::ReadAssets(wanted) => Some(wanted.clone()),
+        _ => None,
+    })
+}
+
+fn traces(effects: &[Effect]) -> bool {
+    wants(effects, |effect| matches!(effect, Effect::Trace(..)))
+}
+
+fn wanted(names: &[&str]) -> Wanted {
+    Wanted {
+        scene: PathBuf::from("none/scene.dat"),
+        pictures: names.iter().map(|name| (*name).to_owned()).collect(),
+        meshes: BTreeSet::new(),
+    }
+}
+
+/// What a reading of one picture in one colour gives.
+fn loaded(name: &str, pixel: [u8; 3]) -> Loaded {
+    let size = Size {
+        width: 1,
+        height: 1,
+    };
+    let image = Image::new(size, vec![pixel]).expect("as many pixels as it says");
+    Loaded {
+        images: [(name.to_owned(), Arc::new(image))].into_iter().collect(),
+        ..Loaded::default()
+    }
+}
+
+fn replaced(app: &mut App, text: &str) -> Vec<Effect> {
+    let path = PathBuf::from("none/scene.dat");
+    app.update(Msg::Read(path, Ok(text.to_owned())))
+}
+
+#[test]
+fn a_picture_is_traced_once_its_textures_are_there() {
+    let (mut app, effects) = open_textured(TEXTURED);
+    let skin = wanted(&["skin.ppm"]);
+    assert_eq!(asked(&effects), Some(skin.clone()));
+    assert!(!traces(&effects) && app.awaits_assets());
+    assert!(!traces(&press(&mut app, "b")));
+    assert_eq!(words(&app), "the scene's files are still being read");
+    press(&mut app, "<F5>");
+    assert_eq!(app.mode, Mode::Select);
+
+    let effects = app.update(Msg::AssetsRead(skin.clone(), loaded("skin.ppm", [9; 3])));
+    let job = effects.iter().find_map(|effect| match effect {
+        Effect::Trace(_, job) => Some(job),
+        _ => None,
+    });
+    let images = &job.expect("a picture is traced").images;
+    assert!(images.get("skin.ppm").is_some());
+    assert!(!app.awaits_assets());
+    assert!(traces(&press(&mut app, "b")));
+
+    // The same again changes nothing; other pixels do.
+    let same = app.update(Msg::AssetsRead(skin.clone(), loaded("skin.ppm", [9; 3])));
+    assert!(!traces(&same));
+    let other = app.update(Msg::AssetsRead(skin, loaded("skin.ppm", [8; 3])));
+    assert!(traces(&other));
+    assert_eq!(words(&app), "files read again");
+}
+
+#[test]
+fn a_scene_without_textures_waits_for_nothing() {
+    let text = TEXTURED.replace("image 1 1 skin.ppm", "checker 1 1  0 0 0  1 1 1");
+    let (app, effects) = open_textured(&text);
+    assert_eq!(asked(&effects), None);
+    assert!(traces(&effects) && !app.awaits_assets());
+}
+
+#[test]
+fn only_other_files_are_asked_for() {
+    let (mut app, _) = open_textured(TEXTURED);
+    let skin = wanted(&["skin.ppm"]);
+    app.update(Msg::AssetsRead(skin.clone(), loaded("skin.ppm", [9; 3])));
+
+    let moved = TEXTURED.replace("0 0 0  2", "0 1 0  2");
+    let effects = replaced(&mut app, &moved);
+    assert!(asked(&effects).is_none() && traces(&effects));
+
+    // While the text has errors, what the picture shows is still wanted.
+    let effects = replaced(
+        &mut app,
+        &moved.replace("skin.ppm", "fur.ppm").replace("obj", "obj x"),
+    );
+    assert_eq!(asked(&effects), None);
+    assert_eq!(asked(&app.update(Msg::AssetsChanged)), Some(skin.clone()));
+
+    let renamed = moved.replace("skin.ppm", "fur.ppm");
+    let effects = replaced(&mut app, &renamed);
+    let fur = wanted(&["fur.ppm"]);
+    assert_eq!(asked(&effects), Some(fur.clone()));
+    assert!(!traces(&effects) && app.awaits_assets());
+    // An answer to an older question is none.
+    assert!(!traces(
+        &app.update(Msg::AssetsRead(skin, loaded("skin.ppm", [7; 3])))
+    ));
+    assert!(app.awaits_assets());
+    let effects = app.update(Msg::AssetsRead(fur, loaded("fur.ppm", [7; 3])));
+    assert!(traces(&effects) && !app.awaits_assets());
+
+    let none = renamed.replace("image 1 1 fur.ppm", "checker 1 1  0 0 0  1 1 1");
+    let effects = replaced(&mut app, &none);
+    assert!(asked(&effects).is_none() && traces(&effects));
+    assert!(app.update(Msg::AssetsChanged).is_empty());
+}
+
+#[test]
+fn what_is_wrong_with_a_file_is_a_warning_at_its_name() {
+    let (mut app, _) = open_textured(TEXTURED);
+    let skin = wanted(&["skin.ppm"]);
+    let missing = Assets::new(&[]).read(&skin);
+    assert!(traces(&app.update(Msg::AssetsRead(skin.clone(), missing))));
+    assert_eq!(words(&app), "1 file can't be read: ! says why");
+    let said = |app: &App| {
+        let (text, found) = app.wrong();
+        let found = found.first()?;
+        Some((found.message.clone(), found.span.of(text).to_owned()))
+    };
+    let message = "texture 7 file: no such file; magenta stands for it";
+    let warning = Some((message.to_owned(), "skin.ppm".to_owned()));
+    assert_eq!(said(&app), warning);
+    // It moves with the text.
+    replaced(&mut app, &format!("# first\n{TEXTURED}"));
+    assert_eq!(said(&app), warning);
+
+    app.update(Msg::AssetsRead(skin, loaded("skin.ppm", [9; 3])));
+    assert_eq!(said(&app), None);
+    assert_eq!(words(&app), "all files are there again");
+}
+
+const MESHED: &str = "<xml><scene>
+  <object type='sphere'/>
+  <object type='obj' name='a.obj'/>
+</scene><camera><position z='9'/><target/></camera></xml>
+";
+
+fn wanted_mesh(pictures: &[&str]) -> Wanted {
+    Wanted {
+        scene: PathBuf::from("none/scene.xml"),
+        meshes: BTreeSet::from(["a.obj".to_owned()]),
+        ..wanted(pictures)
+    }
+}
+
+/// What a reading of a triangle of some size gives, with a library.
+fn triangle(size: &str, library: &str) -> Loaded {
+    let text = format!("mtllib a.mtl\nv 0 0 0\nv {size} 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+    let read = obj::read(text.as_bytes(), |_| Ok::<_, String>(library));
+    let model = read.expect("the mesh is sound");
+    Loaded {
+        meshes: [("a.obj".to_owned(), Ok(Arc::new(model)))]
+            .into_iter()
+            .collect(),
+        ..Loaded::default()
+    }
+}
+
+fn broken() -> Loaded {
+    let fault = NoMesh {
+        reasons: vec!["line 2, column 3: v: `x` is no number".to_owned()],
+        hint: None,
+    };
+    Loaded {
+        meshes: [("a.obj".to_owned(), Err(fault))].into_iter().collect(),
+        ..Loaded::default()
+    }
+}
+
+/// How many objects the scene has that is traced, if one is.
+fn traced_objects(effects: &[Effect]) -> Option<usize> {
+    effects.iter().find_map(|effect| match effect {
+        Effect::Trace(_, job) => Some(job.scene.objects.len()),
+        _ => None,
+    })
+}
+
+#[test]
+fn a_mesh_arrives_later_and_the_picture_follows_its_file() {
+    let (mut app, effects) = opened_as("none/scene.xml", MESHED);
+    assert_eq!(asked(&effects), Some(wanted_mesh(&[])));
+    assert!(!traces(&effects) && app.awaits_assets());
+    assert_eq!(app.error_count(), 0);
+
+    let small = triangle("1", "newmtl a\n");
+    let effects = app.update(Msg::AssetsRead(wanted_mesh(&[]), small.clone()));
+    assert_eq!(traced_objects(&effects), Some(2));
+    // What was read again is the same.
+    let effects = app.update(Msg::AssetsRead(wanted_mesh(&[]), small));
+    assert_eq!(traced_objects(&effects), None);
+
+    let asks = app.update(Msg::AssetsChanged);
+    assert_eq!(asked(&asks), Some(wanted_mesh(&[])));
+    for other in [
+        triangle("2", "newmtl a\n"),
+        triangle("2", "newmtl a\nKd 1 0 0\n"),
+    ] {
+        let effects = app.update(Msg::AssetsRead(wanted_mesh(&[]), other));
+        assert_eq!(traced_objects(&effects), Some(2));
+        assert_eq!(words(&app), "files read again");
+    }
+
+    // Another one: the picture waits for it, but the text has changed already.
+    let more = MESHED.replace(
+        "'/>\n</scene>",
+        "'/>\n  <object type='obj' name='b.obj'/>\n</scene>",
+    );
+    let path = PathBuf::from("none/scene.xml");
+    let effects = app.update(Msg::Read(path, Ok(more)));
+    assert!(!traces(&effects) && app.awaits_assets());
+    assert_eq!(words(&app), "read again: b.obj (obj)");
+}
+
+#[test]
+fn a_broken_mesh_is_an_error_and_the_picture_is_kept() {
+    let (mut app, _) = opened_as("none/scene.xml", MESHED);
+    app.update(Msg::AssetsRead(
+        wanted_mesh(&[]),
+        triangle("1", "newmtl a\n"),
+    ));
+    let scene = app.scene.clone();
+    let effects = app.update(Msg::AssetsRead(wanted_mesh(&[]), broken()));
+    assert!(!traces(&effects));
+    assert_eq!(app.scene, scene);
+    assert_eq!(words(&app), "1 file can't be read: ! says why");
+    let (text, found) = app.wrong();
+    let error = found.first_error().expect("it is told");
+    assert_eq!(error.span.of(text), "a.obj");
+    let message = "a.obj (obj): line 2, column 3: v: `x` is no number";
+    assert_eq!(error.message, message);
+    // Its file goes on being watched; what else is edited meanwhile is taken.
+    assert_eq!(
+        asked(&app.update(Msg::AssetsChanged)),
+        Some(wanted_mesh(&[]))
+    );
+    app.select(Node::Object(0));
+    press(&mut app, "<Enter>jj7<Enter>");
+    assert!(app.document.text().contains("material=\"7\""));
+    assert_eq!(app.error_count(), 1);
+
+    let effects = app.update(Msg::AssetsRead(
+        wanted_mesh(&[]),
+        triangle("3", "newmtl a\n"),
+    ));
+    assert_eq!(traced_objects(&effects), Some(2));
+    assert_eq!(words(&app), "all files are there again");
+    assert_eq!(app.error_count(), 0);
+}
+
+#[test]
+fn a_scene_whose_mesh_never_was_there_has_no_picture() {
+    let (mut app, _) = opened_as("none/scene.xml", MESHED);
+    let effects = app.update(Msg::AssetsRead(wanted_mesh(&[]), broken()));
+    // What was lowered before the file was read must not be shown as the scene.
+    assert!(!traces(&effects));
+    assert_eq!(app.error_count(), 1);
+}
+
+#[test]
+fn pictures_that_a_mesh_names_are_asked_for_once_it_is_there() {
+    let (mut app, _) = opened_as("none/scene.xml", MESHED);
+    let skinned = triangle("1", "newmtl a\nmap_Kd skin.ppm\n");
+    let effects = app.update(Msg::AssetsRead(wanted_mesh(&[]), skinned.clone()));
+    let both = wanted_mesh(&["skin.ppm"]);
+    assert_eq!(asked(&effects), Some(both.clone()));
+    assert!(!traces(&effects) && app.awaits_assets());
+    let whole = Loaded {
+        images: loaded("skin.ppm", [9; 3]).images,
+        ..skinned.clone()
+    };
+    let effects = app.update(Msg::AssetsRead(both.clone(), whole));
+    assert_eq!(traced_objects(&effects), Some(2));
+    assert!(!app.awaits_assets());
+
+    // One that is missing is a warning where the mesh is named.
+    let missing = Loaded {
+        meshes: skinned.meshes,
+        ..Assets::new(&[]).read(&wanted(&["skin.ppm"]))
+    };
+    assert!(traces(&app.update(Msg::AssetsRead(both, missing))));
+    let (text, found) = app.wrong();
+    let found = found.iter().find(|found| found.span.of(text) == "a.obj");
+    let message = "a.obj (obj) map_Kd skin.ppm: no such file; magenta stands for it";
+    assert_eq!(found.map(|found| found.message.as_str()), Some(message));
+}
