@@ -7,11 +7,17 @@ use super::assets::STILL_READING;
 use super::{App, Export, Mode, Picture, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
 use crate::render::{Filter, Frame, Frames, Job, Settings, default_depth};
-use crate::scene::{Camera, Size};
+use crate::scene::{Camera, Integrator, Size};
 use crate::ui::msg::{Destination, Effect, Existing, ExportId, Target};
 
-/// Samples a pixel at which the preview comes to rest.
-const PREVIEW_SPP: u32 = 64;
+/// Samples a pixel at which the preview comes to rest: edges are smooth by then, noise of paths is
+/// gone to the eye.
+fn preview_samples(integrator: Integrator) -> u32 {
+    match integrator {
+        Integrator::Whitted => 64,
+        Integrator::Path => 1024,
+    }
+}
 
 impl App {
     /// Has traced anew what no longer shows the scene.
@@ -29,7 +35,8 @@ impl App {
         let size = self.preview_size();
         if self.mode != Mode::Trace && self.preview.asked != size {
             self.preview.asked = size;
-            let job = size.and_then(|size| self.job(size, PREVIEW_SPP, Filter::Box));
+            let spp = preview_samples(self.integrator());
+            let job = size.and_then(|size| self.job(size, spp, Filter::Box));
             effects.extend(job.map(|job| Effect::Trace(Target::Preview, job)));
         }
         effects
