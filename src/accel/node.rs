@@ -218,7 +218,7 @@ impl SlabRay {
     )]
     #[inline(always)]
     pub(super) fn new(ray: &Ray, reference: DVec3) -> Self {
-        let slopes = array::from_fn(|axis| {
+        let slope = |axis: usize| {
             let inverse = ray.direction[axis].recip();
             let [below, above] = difference(ray.origin[axis], reference[axis]);
             let rises = inverse.is_sign_positive();
@@ -228,7 +228,9 @@ impl SlabRay {
                 far_origin: if rises { below } else { above },
                 near_side: usize::from(!rises),
             }
-        });
+        };
+        // `array::from_fn` would not be inlined into the walk.
+        let slopes = [slope(0), slope(1), slope(2)];
         Self { slopes }
     }
 }

@@ -11,7 +11,7 @@ use super::filter::Spread;
 use super::first_hit::first_hit;
 use super::frame::{Aov, Frames, NO_OBJECT, Settings};
 use super::noise::Doubling;
-use super::sampler::{Sampler, Use, place_in_pixel};
+use super::sampler::{Sampler, Use};
 use super::steps::{COARSEST, Step};
 use super::tone::Tone;
 use super::tracer::{Counts, Sample, Tracer};
@@ -56,7 +56,7 @@ impl Shot<'_> {
             ..
         } = self.settings;
         let sampler = Sampler::new(x, y, index, seed);
-        let [across, down] = self.spread.place(place_in_pixel(x, y, index, seed));
+        let [across, down] = self.spread.place(sampler.place_in_pixel());
         let [x, y] = [x, y].map(f64::from);
         let lens = || match (integrator, aov) {
             (Integrator::Path, None) => {

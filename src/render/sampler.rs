@@ -3,7 +3,8 @@
 use sobol_burley::{sample, sample_4d};
 
 /// The numbers of one sample, each a function of (pixel, index, seed) and what it is for: points of
-/// Sobol' sequences, each Owen-scrambled by a seed of its own (see [`place_in_pixel`]).
+/// Sobol' sequences, each Owen-scrambled by a seed of its own (Burley, "Practical Hash-based Owen
+/// Scrambling", JCGT 9(4), 2020).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Sampler {
     pixel: u32,
@@ -39,6 +40,14 @@ impl Sampler {
         }
     }
 
+    /// The place in the pixel as fractions of it from its top left, in 0..1: the centre for sample 0.
+    pub(crate) fn place_in_pixel(self) -> [f64; 2] {
+        if self.index == 0 {
+            return [0.5, 0.5];
+        }
+        [0, 1].map(|dimension| f64::from(sample(self.index, dimension, self.pixel)))
+    }
+
     /// The node of a ray's `number`th child: rays with other nodes have other numbers.
     pub(crate) fn child(node: u32, number: u32) -> u32 {
         mix(node ^ 0x5851_F42D).wrapping_add(number + 1)
@@ -69,18 +78,6 @@ impl Sampler {
     }
 }
 
-/// The place of sample `index` (below [`MAX_SPP`](super::MAX_SPP)) in pixel (x, y), as fractions of
-/// the pixel from its top left, in 0..1: the centre for index 0, then a Sobol' sequence,
-/// Owen-scrambled by a seed of each pixel's own (Burley, "Practical Hash-based Owen Scrambling",
-/// JCGT 9(4), 2020).
-pub(crate) fn place_in_pixel(x: u32, y: u32, index: u32, seed: u32) -> [f64; 2] {
-    if index == 0 {
-        return [0.5, 0.5];
-    }
-    let scramble = pixel_seed(x, y, seed);
-    [0, 1].map(|dimension| f64::from(sample(index, dimension, scramble)))
-}
-
 /// Mixes coordinates and seed so that neighbouring pixels get unrelated patterns.
 fn pixel_seed(x: u32, y: u32, seed: u32) -> u32 {
     mix(mix(mix(seed ^ 0x9E37_79B9) ^ x).wrapping_add(0x9E37_79B9) ^ y)
@@ -109,7 +106,7 @@ mod tests {
                     let mut strips = vec![0; count as usize];
                     // Points count..2·count are such a block that holds no centre sample.
                     for index in count..2 * count {
-                        let place = place_in_pixel(x, y, index, 0)[axis];
+                        let place = Sampler::new(x, y, index, 0).place_in_pixel()[axis];
                         assert!((0.0..1.0).contains(&place));
                         strips[(place * f64::from(count)) as usize] += 1;
                     }
@@ -125,8 +122,14 @@ mod tests {
 
     #[test]
     fn sample_zero_is_the_centre_and_pixels_differ() {
-        assert_eq!(place_in_pixel(5, 9, 0, 3), [0.5, 0.5]);
-        assert_ne!(place_in_pixel(5, 9, 1, 3), place_in_pixel(9, 5, 1, 3));
-        assert_ne!(place_in_pixel(5, 9, 1, 3), place_in_pixel(5, 9, 1, 4));
+        assert_eq!(Sampler::new(5, 9, 0, 3).place_in_pixel(), [0.5, 0.5]);
+        assert_ne!(
+            Sampler::new(5, 9, 1, 3).place_in_pixel(),
+            Sampler::new(9, 5, 1, 3).place_in_pixel()
+        );
+        assert_ne!(
+            Sampler::new(5, 9, 1, 3).place_in_pixel(),
+            Sampler::new(5, 9, 1, 4).place_in_pixel()
+        );
     }
 }

@@ -6,7 +6,6 @@ use super::super::Refusal;
 use super::super::camera::Projection;
 use super::super::film::{Film, Shot};
 use super::super::filter::Spread;
-use super::super::sampler::place_in_pixel;
 use super::super::steps::{Step, steps};
 use super::super::tone::Tone;
 use super::*;
@@ -164,7 +163,7 @@ fn pictures_narrower_or_lower_than_a_tile_are_whole() {
         for (at, pixel) in frame.pixels.iter().enumerate() {
             let (x, y) = (at as u32 % width, at as u32 / width);
             let samples = [0, 1].map(|index| {
-                let [across, down] = place_in_pixel(x, y, index, 0);
+                let [across, down] = Sampler::new(x, y, index, 0).place_in_pixel();
                 let (ray, reach) =
                     projection.ray(f64::from(x) + across, f64::from(y) + down, || None);
                 tracer.radiance(&centred(ray, reach), || false).radiance
