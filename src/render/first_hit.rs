@@ -24,7 +24,7 @@ pub(crate) fn first_hit(world: &World, ray: &Ray, reach: f64, skipped: f64, aov:
     let (point, matter) = world.arrive(ray, nearest);
     let albedo = match &matter {
         Matter::Phong(material) => material.diffuse,
-        Matter::Utah(answer) => answer.diffuse,
+        Matter::Utah(shading) => shading.diffuse,
         Matter::Flat(colour) => *colour,
     };
     let value = match aov {

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-use super::phong::power;
+use super::optics::power;
 use super::warp;
 use crate::geometry::Ray;
 use crate::scene::{Falloff, Integrator, Light, Rgb, Scene, Source};
@@ -24,11 +24,7 @@ pub(crate) struct Incoming {
 pub(crate) fn incoming(light: &Light, point: DVec3, place: Option<[f64; 2]>) -> Option<Incoming> {
     match light.source {
         Source::Point { position, .. } => {
-            let ball = Ball {
-                centre: position,
-                radius: light.radius,
-            };
-            let chosen = place.and_then(|place| ball.choose(point, place));
+            let chosen = place.and_then(|place| light.sphere()?.choose(point, place));
             Some(chosen.unwrap_or_else(|| Incoming {
                 toward: (position - point).normalize(),
                 source: Some(position),
@@ -44,10 +40,24 @@ pub(crate) fn incoming(light: &Light, point: DVec3, place: Option<[f64; 2]>) -> 
 
 /// The part of a light that comes to a point in a direction, whatever is in its way. Of a light with
 /// a size its centre's distance counts.
-pub(crate) fn share(light: &Light, point: DVec3, toward: DVec3) -> f64 {
+pub(crate) fn attenuation(light: &Light, point: DVec3, toward: DVec3) -> f64 {
     match &light.source {
         Source::Point { position, falloff } => falloff.share(position.distance(point), toward),
         Source::Distant(_) | Source::Everywhere => 1.0,
+    }
+}
+
+impl Light {
+    /// What it is where it is seen, if it has a size.
+    pub(crate) fn sphere(&self) -> Option<SphereLight> {
+        match self.source {
+            Source::Point { position, .. } if 0.0 < self.radius => Some(SphereLight {
+                centre: position,
+                radius: self.radius,
+                intensity: self.colour,
+            }),
+            _ => None,
+        }
     }
 }
 
@@ -72,13 +82,14 @@ impl Falloff {
 
 /// A light that has a size: a sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Ball {
-    pub(crate) centre: DVec3,
-    /// Above 0, or there is nothing to choose from.
-    pub(crate) radius: f64,
+pub(crate) struct SphereLight {
+    centre: DVec3,
+    /// Above 0.
+    radius: f64,
+    intensity: Rgb,
 }
 
-impl Ball {
+impl SphereLight {
     /// Chooses a place of what is seen of it from a point, each direction as likely as any other.
     /// `None` from inside.
     pub(crate) fn choose(&self, point: DVec3, place: [f64; 2]) -> Option<Incoming> {
@@ -99,10 +110,25 @@ impl Ball {
         })
     }
 
-    /// The density of [`Ball::choose`] over directions that meet it, per steradian; 0 from inside.
+    /// The density of [`SphereLight::choose`] over directions that meet it, per steradian; 0 from inside.
     pub(crate) fn density(&self, point: DVec3) -> f64 {
         self.versine(point)
             .map_or(0.0, |versine| 1.0 / (TAU * versine))
+    }
+
+    /// What it shows where it is seen: I / (π r²).
+    pub(crate) fn radiance(&self) -> Rgb {
+        self.intensity / self.radius / (PI * self.radius)
+    }
+
+    /// Radiance over density: what its light counts in one direction that was chosen.
+    pub(crate) fn irradiance(&self, point: DVec3) -> Rgb {
+        // 1 − cos is sin² / (1 + cos), and the sine is the radius over the distance, so that the
+        // radius, which may be as small as numbers are, cancels.
+        let distance = self.centre.distance(point);
+        let sine = self.radius / distance;
+        let cosine = (1.0 - sine * sine).max(0.0).sqrt();
+        2.0 * self.intensity / distance / distance / (1.0 + cosine)
     }
 
     /// How far along a ray it is; `None` if it is missed, or from inside.
@@ -119,16 +145,11 @@ impl Ball {
     /// 1 − cos of half the angle that it takes as seen from a point outside.
     fn versine(&self, point: DVec3) -> Option<f64> {
         let sine = self.radius / self.centre.distance(point);
-        (0.0 < sine && sine < 1.0).then(|| {
+        (sine < 1.0).then(|| {
             let square = sine * sine;
             square / (1.0 + (1.0 - square).sqrt())
         })
     }
-}
-
-/// What lights of some size show where they are seen: I / (π r²).
-pub(crate) fn radiance(ball: &Ball, intensity: Rgb) -> Rgb {
-    intensity / (PI * ball.radius * ball.radius)
 }
 
 /// What the intensities of a scene's lights are multiplied by where paths gather them. Those of a

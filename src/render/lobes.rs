@@ -1,26 +1,25 @@
 //! What a surface of `.xml` does with light along paths: how much it sends back between two
 //! directions, and directions chosen by that.
 //!
-//! Mirrors and glass are not of it: they have one direction each.
+//! Mirrors and glass are not of it: theirs is one direction, or a narrow cone.
 
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-use super::microfacet::Facets;
-use super::optics::{reflect, schlick};
-use super::phong::power;
+use super::microfacet::Microfacets;
+use super::optics::{power, reflect, schlick};
 use super::tracer::Point;
-use super::utah::{Answer, Gloss};
+use super::utah::{Gloss, Shading};
 use super::warp;
 use crate::scene::Rgb;
 
-/// The part of an answer that sends light back in all directions.
+/// The part of a surface at a point that sends light back in all directions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lobes {
     diffuse: Rgb,
     gloss: Gloss,
-    /// How likely a direction is chosen evenly and not by the gloss.
+    /// How likely a direction is chosen by the cosine and not by the gloss.
     even: f64,
 }
 
@@ -28,27 +27,33 @@ pub(crate) struct Lobes {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Scattered {
     /// The BRDF times the cosine to the normal.
-    pub(crate) share: Rgb,
+    pub(crate) value: Rgb,
     /// How likely [`Lobes::choose`] is to give the direction, per steradian.
     pub(crate) density: f64,
 }
 
 impl Lobes {
-    /// The lobes of an answer, and how much they send back at most, roughly.
-    pub(crate) fn of(answer: &Answer) -> (Self, f64) {
-        let gloss = match answer.gloss {
+    /// The lobes of a surface at a point, and how much they send back at most, roughly.
+    pub(crate) fn of(point: &Point, shading: &Shading) -> (Self, f64) {
+        let gloss = match shading.gloss {
             Gloss::Blinn(colour, _) | Gloss::Phong(colour, _) => strength(colour),
             // A perfect one is a mirror.
-            Gloss::Microfacet(_, alpha) if Facets::is_perfect(alpha) => 0.0,
-            // At low angles it sends back all.
+            Gloss::Microfacet(_, alpha) if Microfacets::is_perfect(alpha) => 0.0,
+            // At grazing angles it sends back all.
             Gloss::Microfacet(straight, _) => strength(straight).max(0.25),
         };
-        let diffuse = strength(answer.diffuse);
+        let diffuse = strength(shading.diffuse);
         let total = diffuse + gloss;
-        let even = if total == 0.0 { 1.0 } else { diffuse / total };
+        // From below the normal, where it leans past the eye, none of the gloss's directions is right.
+        let leans = point.normal.dot(point.view) <= 0.0;
+        let even = if total == 0.0 || leans {
+            1.0
+        } else {
+            diffuse / total
+        };
         let lobes = Self {
-            diffuse: answer.diffuse,
-            gloss: answer.gloss,
+            diffuse: shading.diffuse,
+            gloss: shading.gloss,
             even,
         };
         (lobes, total)
@@ -61,7 +66,7 @@ impl Lobes {
         let cosine = point.normal.dot(toward);
         if cosine <= 0.0 || cosine.is_nan() {
             return Scattered {
-                share: Rgb::ZERO,
+                value: Rgb::ZERO,
                 density: 0.0,
             };
         }
@@ -71,7 +76,7 @@ impl Lobes {
                 let exponent = exponent.max(0.0);
                 let halfway = (toward + view).normalize();
                 let raised = power(point.normal.dot(halfway).min(1.0), exponent);
-                let density = (exponent + 1.0) / TAU * raised / (4.0 * view.dot(halfway).abs());
+                let density = (exponent + 1.0) / TAU * raised / (4.0 * view.dot(halfway));
                 (colour * ((exponent + 2.0) / (8.0 * PI) * raised), density)
             }
             Gloss::Phong(colour, exponent) => {
@@ -80,9 +85,9 @@ impl Lobes {
                 let density = (exponent + 1.0) / TAU * raised;
                 (colour * density, density)
             }
-            Gloss::Microfacet(_, alpha) if Facets::is_perfect(alpha) => (Rgb::ZERO, 0.0),
+            Gloss::Microfacet(_, alpha) if Microfacets::is_perfect(alpha) => (Rgb::ZERO, 0.0),
             Gloss::Microfacet(straight, alpha) => {
-                let facets = Facets::new(point.normal, alpha);
+                let facets = Microfacets::new(point.normal, alpha);
                 let halfway = (toward + view).normalize();
                 let colour = straight + (Rgb::ONE - straight) * schlick(view.dot(halfway));
                 let (value, density) = facets.scatter(view, toward, halfway);
@@ -90,7 +95,7 @@ impl Lobes {
             }
         };
         Scattered {
-            share: cosine * (self.diffuse / PI + glossy),
+            value: cosine * (self.diffuse / PI + glossy),
             density: self.even * cosine / PI + (1.0 - self.even) * density,
         }
     }
@@ -111,7 +116,7 @@ impl Lobes {
                 warp::by_power_of_cosine(mirrored, exponent.max(0.0), place)
             }
             Gloss::Microfacet(_, alpha) => {
-                let halfway = Facets::new(point.normal, alpha).choose(point.view, place);
+                let halfway = Microfacets::new(point.normal, alpha).choose(point.view, place);
                 reflect(-point.view, halfway)
             }
         }

@@ -11,12 +11,12 @@ use super::warp;
 
 /// Little mirrors about a normal.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Facets {
+pub(crate) struct Microfacets {
     basis: [DVec3; 3],
     alpha: f64,
 }
 
-impl Facets {
+impl Microfacets {
     /// Below this α they are one mirror: the lobe is narrower than any pixel.
     const PERFECT: f64 = 1e-4;
 
@@ -34,7 +34,7 @@ impl Facets {
     }
 
     /// D·G / (4 N·L N·V), and the density per steradian with which `toward` is the mirrored direction
-    /// of `view` on a facet of [`Facets::choose`]. Both directions are above the surface, or nothing
+    /// of `view` on a facet of [`Microfacets::choose`]. Both directions are above the surface, or nothing
     /// is sent back.
     pub(crate) fn scatter(&self, view: DVec3, toward: DVec3, halfway: DVec3) -> (f64, f64) {
         let [_, _, normal] = self.basis;
@@ -81,7 +81,7 @@ impl Facets {
             return 0.0;
         }
         let square = self.alpha * self.alpha;
-        // cos² (α² − 1) + 1, exact where the cosine is near 1.
+        // cos² (α² − 1) + 1 without the difference of two numbers near 1.
         let sine = (1.0 - cosine) * (1.0 + cosine);
         let denominator = sine.max(0.0) + cosine * cosine * square;
         square / (PI * denominator * denominator)

@@ -1,6 +1,9 @@
-//! Mirrors and glass: where rays go on, and how much light goes each way.
+//! Mirrors, glass and highlights: where rays go on, and how much light goes each way.
 
 use glam::DVec3;
+
+use super::warp;
+use crate::scene::Rgb;
 
 /// The mirrored unit direction of a unit `direction`: R = d − 2(d·N)N.
 pub(crate) fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
@@ -50,6 +53,88 @@ pub(crate) fn fresnel(first: f64, incident: f64, second: f64, refracted: f64) ->
     };
     let straight = normal_reflectance(first, second);
     straight + (1.0 - straight) * schlick(cosine)
+}
+
+/// What becomes of light that meets a transparent surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Dielectric {
+    /// The part that is mirrored: all of it on total internal reflection.
+    pub(crate) reflectance: f64,
+    /// Where the rest goes.
+    pub(crate) refracted: Option<DVec3>,
+}
+
+impl Dielectric {
+    /// Light of a unit `direction` that goes from one index to another, at a surface whose `normal` is
+    /// turned against it.
+    pub(crate) fn new(direction: DVec3, normal: DVec3, [from, to]: [f64; 2]) -> Self {
+        let refracted = refract(direction, normal, from / to);
+        let reflectance = refracted.map_or(1.0, |refracted| {
+            let incident = -direction.dot(normal);
+            fresnel(from, incident, to, -refracted.dot(normal))
+        });
+        Self {
+            reflectance,
+            refracted,
+        }
+    }
+}
+
+/// What is left of light after a way (Beer, Lambert): e^(−absorption · length).
+pub(crate) fn transmitted(absorption: Rgb, length: f64) -> Rgb {
+    if absorption == Rgb::ZERO {
+        return Rgb::ONE;
+    }
+    absorption.map(|lost| libm::exp(-lost * length))
+}
+
+/// A direction spread in a cone whose half angle has this tangent; kept on the side of the surface
+/// that `outward` points to by folding the cone along it.
+pub(crate) fn spread(
+    direction: DVec3,
+    tangent: f64,
+    outward: DVec3,
+    numbers: impl FnOnce() -> Option<[f64; 2]>,
+) -> DVec3 {
+    if tangent == 0.0 {
+        return direction;
+    }
+    let Some(numbers) = numbers() else {
+        return direction;
+    };
+    let secant = (1.0 + tangent * tangent).sqrt();
+    let versine = tangent * tangent / (secant * (secant + 1.0));
+    let versine = if versine.is_finite() { versine } else { 1.0 };
+    let spread = warp::in_cone(direction, versine, numbers);
+    let height = spread.dot(outward);
+    if height < 0.0 && 0.0 <= direction.dot(outward) {
+        spread - 2.0 * height * outward
+    } else {
+        spread
+    }
+}
+
+/// The power of a highlight: cosineⁿ, 0 for a negative cosine; 0⁰ = 1, and n < 0 reads as 0. Whole
+/// exponents to 4096 go by repeated squaring, which is exact to a few ulp, the same on every
+/// machine and ten times as fast as the general power.
+pub(crate) fn power(cosine: f64, exponent: f64) -> f64 {
+    if cosine < 0.0 {
+        return 0.0;
+    }
+    let exponent = exponent.max(0.0);
+    let whole = exponent as u32;
+    if f64::from(whole) != exponent || 4096 < whole {
+        return libm::pow(cosine, exponent);
+    }
+    let (mut power, mut square, mut rest) = (1.0, cosine, whole);
+    while rest != 0 {
+        if rest & 1 == 1 {
+            power *= square;
+        }
+        square *= square;
+        rest >>= 1;
+    }
+    power
 }
 
 #[cfg(test)]

@@ -7,17 +7,16 @@
 use glam::DVec3;
 
 use super::frame::NO_OBJECT;
-use super::lights::{self, Ball, Incoming};
+use super::lights::{self, Incoming, SphereLight};
 use super::lobes::{Lobes, strength};
-use super::microfacet::Facets;
-use super::optics::{index, reflect, refract, schlick};
+use super::microfacet::Microfacets;
+use super::optics::{Dielectric, index, reflect, refract, schlick, spread, transmitted};
 use super::sampler::{Sampler, Use};
 use super::tracer::{Matter, Point, RAY_BUDGET, Sample, Seen, Tracer};
-use super::utah::{Answer, Gloss};
+use super::utah::{Gloss, Shading};
 use super::warp;
-use super::whitted::{Dielectric, spread, transmitted};
 use crate::geometry::Ray;
-use crate::scene::{Light, Phong, Rgb, Source};
+use crate::scene::{Light, Phong, Rgb};
 
 /// Paths that carry less than this go on by chance only.
 const FAINT: f64 = 1.0 / 16.0;
@@ -37,7 +36,7 @@ struct Path {
 
 /// How a path goes on.
 #[derive(Clone, Copy, Debug)]
-struct Turn {
+struct BsdfSample {
     ray: Ray,
     /// What its throughput is multiplied by.
     weight: Rgb,
@@ -61,8 +60,8 @@ impl Tracer<'_> {
         };
         loop {
             self.counts.rays += 1;
-            let turn = self.follow(&mut path, sample, &mut seen);
-            let Some(turn) = turn.filter(|_| path.bounce < self.depth) else {
+            let next = self.follow(&mut path, sample, &mut seen);
+            let Some(next) = next.filter(|_| path.bounce < self.depth) else {
                 return seen;
             };
             if path.bounce + 1 == RAY_BUDGET {
@@ -72,14 +71,14 @@ impl Tracer<'_> {
             if path.bounce % 64 == 63 && cancelled() {
                 return seen;
             }
-            if !path.turn(turn, sample.sampler) {
+            if !path.go_on(next, sample.sampler) {
                 return seen;
             }
         }
     }
 
     /// Adds what a path meets, and chooses how it goes on from there, if it does.
-    fn follow(&mut self, path: &mut Path, sample: &Sample, seen: &mut Seen) -> Option<Turn> {
+    fn follow(&mut self, path: &mut Path, sample: &Sample, seen: &mut Seen) -> Option<BsdfSample> {
         let world = self.world;
         let reach = if path.bounce == 0 {
             sample.reach
@@ -88,12 +87,14 @@ impl Tracer<'_> {
         };
         let nearest = world.nearest(&path.ray, reach);
         let distance = nearest.map_or(reach, |nearest| nearest.hit.t);
-        if let Some((ball, radiance, _)) = self.ball(&path.ray, distance) {
-            seen.radiance += path.throughput * radiance * path.weight_of_chance(&ball);
+        if let Some((light, distance)) = self.sphere_light(&path.ray, distance) {
+            path.throughput *= transmitted(path.absorption, distance);
+            let radiance = lights::path_gain(&world.scene) * light.radiance();
+            seen.radiance += path.throughput * radiance * path.weight_of_chance(&light);
             return None;
         }
         let Some(nearest) = nearest else {
-            seen.radiance += path.throughput * world.around(&path.ray, path.bounce, sample);
+            seen.radiance += path.throughput * world.around(&path.ray, path.bounce, sample.screen);
             return None;
         };
         if path.bounce == 0 {
@@ -110,107 +111,98 @@ impl Tracer<'_> {
                 let light = self.light_on_phong(&point, &material, Rgb::ZERO);
                 seen.radiance += path.throughput * light;
                 let numbers = sample.sampler.four(path.bounce, Use::Bounce);
-                on_from_phong(&path.ray, &point, &material, numbers)
+                sample_phong(&path.ray, &point, &material, numbers)
             }
-            Matter::Utah(answer) => {
-                let ways = Ways::at(&point, &answer);
-                if answer.is_lit(&point) {
-                    let light = self.light_on_lobes(&point, &ways, path.bounce, sample.sampler);
-                    seen.radiance += path.throughput * (answer.emission + light);
+            Matter::Utah(shading) => {
+                let bsdf = Bsdf::at(&point, &shading);
+                if shading.is_lit(point.front) {
+                    let light = self.light_on_lobes(&point, &bsdf, path.bounce, sample.sampler);
+                    seen.radiance += path.throughput * (shading.emission + light);
                 }
-                ways.choose(&path.ray, &point, &answer, sample.sampler, path.bounce)
+                bsdf.sample(&path.ray, &point, &shading, sample.sampler, path.bounce)
             }
         }
     }
 
     /// What is sent back of the light of all lights, in file order.
-    fn light_on_lobes(&mut self, point: &Point, ways: &Ways, bounce: u32, sampler: Sampler) -> Rgb {
+    fn light_on_lobes(&mut self, point: &Point, bsdf: &Bsdf, bounce: u32, sampler: Sampler) -> Rgb {
         let world = self.world;
-        let gain = lights::path_gain(&world.scene);
         let mut sum = Rgb::ZERO;
         for (number, light) in world.scene.lights.iter().enumerate() {
-            let place = || sampler.four(bounce, Use::Light(number as u32));
-            sum += gain * self.on_lobes(point, ways, bounce, light, place);
+            sum += match light.sphere() {
+                None => self.direct(point, light, None, |toward, _| {
+                    bsdf.lobes.scatter(point, toward).value
+                }),
+                Some(sphere) => {
+                    let [u, v, ..] = sampler.four(bounce, Use::Light(number as u32));
+                    self.of_sphere_light(point, bsdf, bounce, light, &sphere, [u, v])
+                }
+            };
         }
-        sum
+        lights::path_gain(&world.scene) * sum
     }
 
-    /// What is sent back of one light, whose intensity is as the scene has it.
-    fn on_lobes(
+    /// What is sent back of a light that has a size, by asking the place of it that `place` says.
+    fn of_sphere_light(
         &mut self,
         point: &Point,
-        ways: &Ways,
+        bsdf: &Bsdf,
         bounce: u32,
         light: &Light,
-        place: impl FnOnce() -> [f64; 4],
+        sphere: &SphereLight,
+        place: [f64; 2],
     ) -> Rgb {
         let from = point.surface.point;
-        let ball = ball_of(light);
-        let incoming = match &ball {
-            None => lights::incoming(light, from, None),
-            Some(ball) => {
-                let [u, v, ..] = place();
-                ball.choose(from, [u, v])
-            }
-        };
-        let Some(incoming) = incoming else {
+        let Some(incoming) = sphere.choose(from, place) else {
             return Rgb::ZERO;
         };
-        let scattered = ways.lobes.scatter(point, incoming.toward);
-        if scattered.share == Rgb::ZERO {
+        let scattered = bsdf.lobes.scatter(point, incoming.toward);
+        if scattered.value == Rgb::ZERO || self.is_behind_another(sphere, point, &incoming) {
             return Rgb::ZERO;
         }
-        let arriving = match &ball {
-            None => light.colour * lights::share(light, from, incoming.toward),
-            Some(ball) => {
-                let density = ball.density(from);
-                // At the last bounce no path goes on to meet it by chance.
-                let chance = if bounce < self.depth {
-                    ways.chance * scattered.density
-                } else {
-                    0.0
-                };
-                let weight = weight(density, chance);
-                lights::radiance(ball, light.colour) * (weight / density)
-            }
+        // At the last bounce no path goes on to meet it by chance.
+        let chance = if bounce < self.depth {
+            bsdf.lobes_chance * scattered.density
+        } else {
+            0.0
         };
-        if ball.is_some() && self.is_behind_another(point, &incoming) {
-            return Rgb::ZERO;
-        }
-        self.visibility(&point.surface, light, incoming) * (scattered.share * arriving)
+        let weight = power_heuristic(sphere.density(from), chance);
+        let arriving = weight * sphere.irradiance(from);
+        self.visibility(&point.surface, light, incoming) * (scattered.value * arriving)
     }
 
-    /// The nearest light with a size that a ray meets before a distance: it, what it shows, and where.
-    fn ball(&self, ray: &Ray, distance: f64) -> Option<(Ball, Rgb, f64)> {
-        let balls = self.world.balls.iter();
-        let hits = balls.filter_map(|(ball, radiance)| Some((*ball, *radiance, ball.hit(ray)?)));
-        hits.filter(|(_, _, hit)| *hit < distance)
-            .min_by(|(_, _, a), (_, _, b)| a.total_cmp(b))
+    /// The nearest light with a size that a ray meets before a distance, and where.
+    fn sphere_light(&self, ray: &Ray, distance: f64) -> Option<(SphereLight, f64)> {
+        let spheres = self.world.spheres.iter();
+        let hits = spheres.filter_map(|sphere| Some((*sphere, sphere.hit(ray)?)));
+        hits.filter(|(_, hit)| *hit < distance)
+            .min_by(|(_, a), (_, b)| a.total_cmp(b))
     }
 
     /// Whether a light with a size is hidden by another one.
-    fn is_behind_another(&self, point: &Point, incoming: &Incoming) -> bool {
+    fn is_behind_another(&self, own: &SphereLight, point: &Point, incoming: &Incoming) -> bool {
         let ray = point.leave(incoming.toward);
         let distance = incoming
             .source
             .map_or(f64::INFINITY, |source| source.distance(ray.origin));
-        // Its own surface is met at the distance itself, but for rounding.
-        let nearer = (1.0 - 1e-9) * distance;
-        1 < self.world.balls.len() && self.ball(&ray, nearer).is_some()
+        let is_nearer = |hit: f64| hit < distance;
+        let others = self.world.spheres.iter().filter(|sphere| *sphere != own);
+        others.filter_map(|sphere| sphere.hit(&ray)).any(is_nearer)
     }
 }
 
 impl Path {
     /// How much a light that is met by chance counts beside the one that was asked for its light.
-    fn weight_of_chance(&self, ball: &Ball) -> f64 {
-        self.chosen
-            .map_or(1.0, |(from, density)| weight(density, ball.density(from)))
+    fn weight_of_chance(&self, light: &SphereLight) -> f64 {
+        self.chosen.map_or(1.0, |(from, density)| {
+            power_heuristic(density, light.density(from))
+        })
     }
 
     /// Goes on, unless it is faint and chance ends it ("Russian roulette": Arvo and Kirk, "Particle
     /// Transport and Image Synthesis", 1990).
-    fn turn(&mut self, turn: Turn, sampler: Sampler) -> bool {
-        self.throughput *= turn.weight;
+    fn go_on(&mut self, next: BsdfSample, sampler: Sampler) -> bool {
+        self.throughput *= next.weight;
         let left = self.throughput.abs().max_element() / FAINT;
         if left < 1.0 {
             let [.., chance] = sampler.four(self.bounce, Use::Bounce);
@@ -219,34 +211,28 @@ impl Path {
             }
             self.throughput /= left;
         }
-        self.ray = turn.ray;
-        self.absorption = turn.absorption;
-        self.chosen = turn.chosen;
+        self.ray = next.ray;
+        self.absorption = next.absorption;
+        self.chosen = next.chosen;
         self.bounce += 1;
         true
     }
 }
 
-/// The weight of what was found with one density, where another way finds it with another: Veach's
-/// power heuristic.
-fn weight(own: f64, other: f64) -> f64 {
+/// Veach's power heuristic: the weight of what was found with one density, where another way of
+/// finding it has another.
+fn power_heuristic(own: f64, other: f64) -> f64 {
     let ratio = other / own;
     1.0 / (1.0 + ratio * ratio)
 }
 
-/// The sphere that a light with a size is.
-fn ball_of(light: &Light) -> Option<Ball> {
-    match light.source {
-        Source::Point { position, .. } if 0.0 < light.radius => Some(Ball {
-            centre: position,
-            radius: light.radius,
-        }),
-        _ => None,
-    }
-}
-
-/// The ways on from a surface of `.ray` or `.dat`: mirrored, through, or anywhere by the cosine.
-fn on_from_phong(ray: &Ray, point: &Point, material: &Phong, numbers: [f64; 4]) -> Option<Turn> {
+/// A way on from a surface of `.ray` or `.dat`: mirrored, through, or anywhere by the cosine.
+fn sample_phong(
+    ray: &Ray,
+    point: &Point,
+    material: &Phong,
+    numbers: [f64; 4],
+) -> Option<BsdfSample> {
     let index = index(material.index);
     let ratio = if point.front { 1.0 / index } else { index };
     let through = match material.transmission {
@@ -265,7 +251,7 @@ fn on_from_phong(ray: &Ray, point: &Point, material: &Phong, numbers: [f64; 4]) 
     let mut chosen = lobe * total;
     for (direction, weight) in specular {
         if chosen < weight.abs() {
-            return Some(Turn {
+            return Some(BsdfSample {
                 ray: point.leave(direction),
                 weight: Rgb::splat(total * weight.signum()),
                 absorption: Rgb::ZERO,
@@ -276,7 +262,7 @@ fn on_from_phong(ray: &Ray, point: &Point, material: &Phong, numbers: [f64; 4]) 
     }
     (0.0 < diffuse).then(|| {
         let direction = warp::by_cosine(point.normal, [u, v]);
-        Turn {
+        BsdfSample {
             ray: point.leave(direction),
             weight: material.diffuse * (total / diffuse),
             absorption: Rgb::ZERO,
@@ -286,93 +272,94 @@ fn on_from_phong(ray: &Ray, point: &Point, material: &Phong, numbers: [f64; 4]) 
 }
 
 /// The ways on from a surface of `.xml`, and how likely each is chosen.
-struct Ways {
+struct Bsdf {
     lobes: Lobes,
-    /// How likely the lobes are chosen.
-    chance: f64,
+    lobes_chance: f64,
     /// What is mirrored.
     mirror: Rgb,
     mirror_chance: f64,
 }
 
-impl Ways {
-    fn at(point: &Point, answer: &Answer) -> Self {
-        let (lobes, of_lobes) = Lobes::of(answer);
-        let of_lobes = if answer.is_lit(point) { of_lobes } else { 0.0 };
-        let mirror = match answer.gloss {
-            Gloss::Microfacet(straight, alpha)
-                if Facets::is_perfect(alpha) && answer.is_lit(point) =>
-            {
+impl Bsdf {
+    fn at(point: &Point, shading: &Shading) -> Self {
+        let is_lit = shading.is_lit(point.front);
+        let (lobes, of_lobes) = Lobes::of(point, shading);
+        let of_lobes = if is_lit { of_lobes } else { 0.0 };
+        let mirror = match shading.gloss {
+            Gloss::Microfacet(straight, alpha) if is_lit && Microfacets::is_perfect(alpha) => {
                 let cosine = point.normal.dot(point.view);
                 straight + (Rgb::ONE - straight) * schlick(cosine)
             }
-            _ if point.front => answer.reflection,
+            Gloss::Blinn(..) | Gloss::Phong(..) if point.front => shading.reflection,
             _ => Rgb::ZERO,
         };
-        let total = of_lobes + strength(mirror) + strength(answer.refraction);
+        let total = of_lobes + strength(mirror) + strength(shading.refraction);
         let chance = |strength: f64| if total == 0.0 { 0.0 } else { strength / total };
         Self {
             lobes,
-            chance: chance(of_lobes),
+            lobes_chance: chance(of_lobes),
             mirror,
             mirror_chance: chance(strength(mirror)),
         }
     }
 
-    fn choose(
+    /// A way on, by chance.
+    fn sample(
         &self,
         ray: &Ray,
         point: &Point,
-        answer: &Answer,
+        shading: &Shading,
         sampler: Sampler,
         bounce: u32,
-    ) -> Option<Turn> {
+    ) -> Option<BsdfSample> {
         let [way, u, v, _] = sampler.four(bounce, Use::Bounce);
-        if way < self.chance {
-            let direction = self.lobes.choose(point, way / self.chance, [u, v]);
+        if way < self.lobes_chance {
+            let direction = self.lobes.choose(point, way / self.lobes_chance, [u, v]);
             let scattered = self.lobes.scatter(point, direction);
-            let density = self.chance * scattered.density;
-            return (scattered.share != Rgb::ZERO && 0.0 < density).then(|| Turn {
+            let density = self.lobes_chance * scattered.density;
+            let leads_on = scattered.value != Rgb::ZERO && 0.0 < density;
+            return leads_on.then(|| BsdfSample {
                 ray: point.leave(direction),
-                weight: scattered.share / density,
+                weight: scattered.value / density,
                 absorption: Rgb::ZERO,
                 chosen: Some((point.surface.point, density)),
             });
         }
-        let spread = |direction, tangent, outward| {
-            let numbers = || {
-                let [u, v, ..] = sampler.four(bounce, Use::Spread);
-                Some([u, v])
-            };
-            point.leave(spread(direction, tangent, outward, numbers))
+        let numbers = || {
+            let [u, v, ..] = sampler.four(bounce, Use::Spread);
+            Some([u, v])
         };
-        let mirrored = reflect(ray.direction, point.normal);
-        let specular = |ray, weight, absorption| {
-            Some(Turn {
-                ray,
+        let specular = |direction, weight, absorption| {
+            Some(BsdfSample {
+                ray: point.leave(direction),
                 weight,
                 absorption,
                 chosen: None,
             })
         };
-        let way = way - self.chance;
+        let losses = shading.losses(point.front);
+        let mirrored = reflect(ray.direction, point.normal);
+        let way = way - self.lobes_chance;
         if way < self.mirror_chance {
-            let ray = spread(mirrored, answer.reflection_spread, point.normal);
-            let weight = self.mirror / self.mirror_chance;
-            return specular(ray, weight, answer.within(!point.front));
+            let direction = spread(mirrored, shading.reflection_spread, point.normal, numbers);
+            return specular(direction, self.mirror / self.mirror_chance, losses.mirrored);
         }
-        let chance = 1.0 - self.chance - self.mirror_chance;
-        if answer.refraction == Rgb::ZERO || chance <= 0.0 {
+        let chance = 1.0 - self.lobes_chance - self.mirror_chance;
+        if shading.refraction == Rgb::ZERO || chance <= 0.0 {
             return None;
         }
-        let weight = answer.refraction / chance;
+        let weight = shading.refraction / chance;
         let way = (way - self.mirror_chance) / chance;
-        let Dielectric { share, refracted } = Dielectric::at(ray.direction, point, answer);
-        if let Some(refracted) = refracted.filter(|_| share <= way) {
-            let ray = spread(refracted, answer.refraction_spread, -point.normal);
-            return specular(ray, weight, answer.within(point.front));
+        let tangent = shading.refraction_spread;
+        let Dielectric {
+            reflectance,
+            refracted,
+        } = Dielectric::new(ray.direction, point.normal, shading.indices(point.front));
+        if let Some(refracted) = refracted.filter(|_| reflectance <= way) {
+            let direction = spread(refracted, tangent, -point.normal, numbers);
+            return specular(direction, weight, losses.refracted);
         }
-        let ray = spread(mirrored, answer.refraction_spread, point.normal);
-        specular(ray, weight, answer.within(!point.front))
+        let direction = spread(mirrored, tangent, point.normal, numbers);
+        specular(direction, weight, losses.mirrored)
     }
 }

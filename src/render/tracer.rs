@@ -4,10 +4,9 @@ use std::borrow::Cow;
 
 use glam::{DVec2, DVec3};
 
-use super::lights::Incoming;
+use super::lights::{self, Incoming};
 use super::sampler::Sampler;
-use super::utah::Answer;
-use super::whitted::Pending;
+use super::utah::Shading;
 use super::world::{Nearest, World};
 use crate::geometry::{Ray, Surface, ulp};
 use crate::scene::{Integrator, Light, Material, Phong, Rgb, Shadows};
@@ -68,6 +67,19 @@ pub(crate) struct Sample {
     pub(crate) sampler: Sampler,
 }
 
+/// A ray yet to be traced.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pending {
+    pub(crate) ray: Ray,
+    /// Which part of its radiance reaches the eye.
+    pub(crate) weight: Rgb,
+    /// What is lost per unit of length until it meets something.
+    pub(crate) absorption: Rgb,
+    pub(crate) bounce: u32,
+    /// Its place in the tree of rays, for numbers of its own.
+    pub(crate) node: u32,
+}
+
 /// What a camera ray brings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Seen {
@@ -95,7 +107,7 @@ pub(crate) enum Matter<'w> {
     /// See [`Material::Phong`].
     Phong(Cow<'w, Phong>),
     /// See [`Material::Utah`].
-    Utah(Answer),
+    Utah(Shading),
     /// See [`Material::Flat`].
     Flat(Rgb),
 }
@@ -119,6 +131,36 @@ impl<'w> Tracer<'w> {
             Integrator::Whitted => self.by_whitted(sample, cancelled),
             Integrator::Path => self.by_path(sample, cancelled),
         }
+    }
+
+    /// What a surface sends back of a light's light, from the part of it that `place` says (see
+    /// [`lights::incoming`]): `reflected` gives how much of what comes from a direction at an angle of
+    /// some cosine above 0.
+    pub(crate) fn direct(
+        &mut self,
+        point: &Point,
+        light: &Light,
+        place: Option<[f64; 2]>,
+        reflected: impl FnOnce(DVec3, f64) -> Rgb,
+    ) -> Rgb {
+        let Some(incoming) = lights::incoming(light, point.surface.point, place) else {
+            return Rgb::ZERO;
+        };
+        let cosine = point.normal.dot(incoming.toward);
+        // It is NaN where the light stands at the point itself.
+        if cosine <= 0.0 || cosine.is_nan() {
+            return Rgb::ZERO;
+        }
+        let reflected = reflected(incoming.toward, cosine);
+        if reflected == Rgb::ZERO {
+            return Rgb::ZERO;
+        }
+        let attenuation = lights::attenuation(light, point.surface.point, incoming.toward);
+        if attenuation == 0.0 {
+            return Rgb::ZERO;
+        }
+        let arriving = attenuation * light.colour;
+        self.visibility(&point.surface, light, incoming) * (reflected * arriving)
     }
 
     /// The part of a light that reaches a surface.
@@ -184,7 +226,7 @@ impl World {
             }
             Material::Utah(utah) => {
                 let place = || chart().uv;
-                Matter::Utah(Answer::at(utah, &self.mapped, place))
+                Matter::Utah(Shading::at(utah, &self.mapped, place))
             }
             Material::Flat(colour) => Matter::Flat(*colour),
         };

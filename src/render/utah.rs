@@ -2,17 +2,13 @@
 
 use glam::{DVec2, DVec3};
 
-use super::lights;
 use super::mapped::MappedTextures;
-use super::optics::{index, normal_reflectance};
-use super::phong::power;
-use super::sampler::{Sampler, Use};
-use super::tracer::{Point, Tracer};
-use crate::scene::{Finish, Light, Rgb, Tinted, Utah};
+use super::optics::{index, normal_reflectance, power};
+use crate::scene::{Finish, Rgb, Tinted, Utah};
 
 /// A material of `.xml` at a point, with its textures.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Answer {
+pub(crate) struct Shading {
     pub(crate) emission: Rgb,
     /// What it sends back evenly.
     pub(crate) diffuse: Rgb,
@@ -24,7 +20,7 @@ pub(crate) struct Answer {
     pub(crate) refraction: Rgb,
     /// Whether it lets anything through anywhere.
     is_transparent: bool,
-    /// The same of refracted rays.
+    /// The tangent of half the angle that refracted rays are spread over.
     pub(crate) refraction_spread: f64,
     /// Index of refraction, above 0.
     pub(crate) index: f64,
@@ -43,7 +39,14 @@ pub(crate) enum Gloss {
     Microfacet(Rgb, f64),
 }
 
-impl Answer {
+/// What is lost per unit of length on two ways.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Losses {
+    pub(crate) refracted: Rgb,
+    pub(crate) mirrored: Rgb,
+}
+
+impl Shading {
     /// What a material is where `place` says.
     pub(crate) fn at(
         material: &Utah,
@@ -104,38 +107,57 @@ impl Answer {
         }
     }
 
-    /// The same as Whitted's rays see it: little mirrors are a highlight and a mirror.
-    pub(crate) fn for_whitted(self) -> Self {
+    /// What is mirrored without paths, of light from outside: by little mirrors what they reflect
+    /// straight on.
+    pub(crate) fn mirror(&self) -> Rgb {
         match self.gloss {
-            Gloss::Blinn(..) | Gloss::Phong(..) => self,
-            Gloss::Microfacet(straight, alpha) => Self {
-                gloss: Gloss::Blinn(straight, 2.0 / (alpha * alpha) - 2.0),
-                reflection: straight,
-                ..self
-            },
+            Gloss::Blinn(..) | Gloss::Phong(..) => self.reflection,
+            Gloss::Microfacet(straight, _) => straight,
         }
     }
 
-    /// Whether what it sends back and emits is seen at a point: not where light from inside goes on
+    /// Whether what it sends back and emits is seen: not on the back, where light from inside goes on
     /// through.
-    pub(crate) fn is_lit(&self, point: &Point) -> bool {
-        point.front || !self.is_transparent
+    pub(crate) fn is_lit(&self, front: bool) -> bool {
+        front || !self.is_transparent
     }
 
-    /// What it sends back toward the eye of light from a direction at an angle of some cosine above 0
-    /// to the normal, apart from that cosine, without paths.
-    fn sends_back(&self, point: &Point, toward: DVec3, cosine: f64) -> Rgb {
-        let (specular, highlight) = match self.gloss {
-            Gloss::Blinn(specular, exponent) | Gloss::Microfacet(specular, exponent) => {
-                let halfway = (toward + point.view).normalize();
-                (
-                    specular,
-                    power(point.normal.dot(halfway).min(1.0), exponent),
-                )
+    /// The indices of refraction that a ray comes from and goes to.
+    pub(crate) fn indices(&self, front: bool) -> [f64; 2] {
+        if front {
+            [1.0, self.index]
+        } else {
+            [self.index, 1.0]
+        }
+    }
+
+    /// What is lost on the ways that go on from it: inside only.
+    pub(crate) fn losses(&self, front: bool) -> Losses {
+        let [inside, outside] = [self.absorption, Rgb::ZERO];
+        if front {
+            Losses {
+                refracted: inside,
+                mirrored: outside,
             }
+        } else {
+            Losses {
+                refracted: outside,
+                mirrored: inside,
+            }
+        }
+    }
+
+    /// Without paths: the part of light from the direction `toward` that it sends to `view`, apart
+    /// from the cosine to the normal.
+    pub(crate) fn reflected(&self, normal: DVec3, view: DVec3, toward: DVec3) -> Rgb {
+        let blinn = |exponent| power(normal.dot((toward + view).normalize()).min(1.0), exponent);
+        let (specular, highlight) = match self.gloss {
+            Gloss::Blinn(specular, exponent) => (specular, blinn(exponent)),
+            // The exponent whose highlight is about as wide.
+            Gloss::Microfacet(straight, alpha) => (straight, blinn(2.0 / (alpha * alpha) - 2.0)),
             Gloss::Phong(specular, exponent) => {
-                let mirrored = 2.0 * cosine * point.normal - toward;
-                (specular, power(mirrored.dot(point.view).min(1.0), exponent))
+                let mirrored = 2.0 * normal.dot(toward) * normal - toward;
+                (specular, power(mirrored.dot(view).min(1.0), exponent))
             }
         };
         self.diffuse + specular * highlight
@@ -159,51 +181,5 @@ impl Utah {
         let others = [&self.reflection, &self.refraction, &self.emission];
         let others = others.map(|tinted| tinted.texture);
         of_finish.iter().chain(&others).any(Option::is_some)
-    }
-}
-
-impl Tracer<'_> {
-    /// Without paths: what a surface emits and sends back of ambient light and that of all lights, in
-    /// file order.
-    pub(crate) fn light_on_utah(
-        &mut self,
-        point: &Point,
-        answer: &Answer,
-        sampler: Sampler,
-        node: u32,
-    ) -> Rgb {
-        let world = self.world;
-        let mut radiance = answer.emission + world.scene.ambient * answer.diffuse;
-        for (number, light) in world.scene.lights.iter().enumerate() {
-            let place = (0.0 < light.radius)
-                .then(|| sampler.pair(node, Use::Light(number as u32)))
-                .flatten();
-            radiance += self.on_utah(point, answer, light, place);
-        }
-        radiance
-    }
-
-    fn on_utah(
-        &mut self,
-        point: &Point,
-        answer: &Answer,
-        light: &Light,
-        place: Option<[f64; 2]>,
-    ) -> Rgb {
-        let Some(incoming) = lights::incoming(light, point.surface.point, place) else {
-            return Rgb::ZERO;
-        };
-        let toward = incoming.toward;
-        let cosine = point.normal.dot(toward);
-        // It is NaN where the light stands at the point itself.
-        if cosine <= 0.0 || cosine.is_nan() {
-            return Rgb::ZERO;
-        }
-        let reflected = cosine * answer.sends_back(point, toward, cosine);
-        if reflected == Rgb::ZERO {
-            return Rgb::ZERO;
-        }
-        let share = lights::share(light, point.surface.point, toward);
-        self.visibility(&point.surface, light, incoming) * (reflected * (share * light.colour))
     }
 }

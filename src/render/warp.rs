@@ -4,8 +4,8 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
 use glam::{DVec2, DVec3};
 
-/// A direction within a cone around a unit vector, each as likely as any other within it; the centre
-/// of the axis for u = 0. `versine` is 1 − cos of the half angle, which stays exact where that is
+/// A direction within a cone around a unit vector, each as likely as any other within it; the axis
+/// itself for u = 0. `versine` is 1 − cos of the half angle, which stays exact where that is
 /// small.
 pub(crate) fn in_cone(axis: DVec3, versine: f64, [u, v]: [f64; 2]) -> DVec3 {
     let versine = u * versine;

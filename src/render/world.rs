@@ -5,16 +5,16 @@
 
 use std::sync::Arc;
 
+use glam::DVec2;
 use rayon::prelude::*;
 
-use super::lights::{self, Ball};
+use super::lights::SphereLight;
 use super::mapped::{MappedTextures, environment_place};
 use super::structures::{Search, Structures};
 use super::texture::Textures;
-use super::tracer::Sample;
 use crate::accel::Bvh;
 use crate::geometry::{Aabb, Hit, Ray, Shape, ulp};
-use crate::scene::{Images, Material, Object, Rgb, Scene, Source};
+use crate::scene::{Images, Light, Material, Object, Rgb, Scene};
 
 /// Up to this many objects every ray tries every one. Measured on the scenes of `scenes/`: with two
 /// solids that is half as fast again as a tree, with six to eleven a tree is 1.2 to 1.7 times as
@@ -30,8 +30,8 @@ pub(crate) struct World {
     pub(crate) scene: Arc<Scene>,
     pub(crate) textures: Textures,
     pub(crate) mapped: MappedTextures,
-    /// The lights that have a size, and what they show where they are seen.
-    pub(crate) balls: Vec<(Ball, Rgb)>,
+    /// The lights that have a size.
+    pub(crate) spheres: Vec<SphereLight>,
     tree: Option<Arc<Bvh>>,
     structures: Structures,
     /// For each object whether it is a mesh that lets no light through anywhere; none at all if
@@ -59,14 +59,14 @@ impl World {
     ) -> Option<Self> {
         let textures = Textures::new(&scene.textures, images);
         let mapped = MappedTextures::new(&scene.setting.textures, images);
-        let balls = balls(&scene);
+        let spheres = scene.lights.iter().filter_map(Light::sphere).collect();
         let opaque = opaque_meshes(&scene);
         if let Some(previous) = previous.filter(|world| same_shapes(&world.scene, &scene)) {
             return Some(Self {
                 scene,
                 textures,
                 mapped,
-                balls,
+                spheres,
                 tree: previous.tree.clone(),
                 structures: previous.structures.clone(),
                 opaque,
@@ -84,7 +84,7 @@ impl World {
             scene,
             textures,
             mapped,
-            balls,
+            spheres,
             tree,
             structures,
             opaque,
@@ -122,11 +122,12 @@ impl World {
         }
     }
 
-    /// What a ray that meets nothing brings: a camera ray the background, others the environment.
-    pub(crate) fn around(&self, ray: &Ray, bounce: u32, sample: &Sample) -> Rgb {
+    /// What a ray that meets nothing brings: a camera ray the background at `screen`, a place in the
+    /// unit square, others the environment.
+    pub(crate) fn around(&self, ray: &Ray, bounce: u32, screen: DVec2) -> Rgb {
         let setting = &self.scene.setting;
         if bounce == 0 {
-            return self.mapped.colour(setting.background, sample.screen);
+            return self.mapped.colour(setting.background, screen);
         }
         let environment = setting.environment;
         if environment.texture.is_none() {
@@ -245,23 +246,6 @@ fn opaque_meshes(scene: &Scene) -> Vec<bool> {
         }
     }
     opaque
-}
-
-/// See [`World::balls`].
-fn balls(scene: &Scene) -> Vec<(Ball, Rgb)> {
-    let gain = lights::path_gain(scene);
-    let sized = scene.lights.iter().filter(|light| 0.0 < light.radius);
-    let balls = sized.filter_map(|light| match light.source {
-        Source::Point { position, .. } => {
-            let ball = Ball {
-                centre: position,
-                radius: light.radius,
-            };
-            Some((ball, lights::radiance(&ball, gain * light.colour)))
-        }
-        Source::Distant(_) | Source::Everywhere => None,
-    });
-    balls.collect()
 }
 
 fn same_shapes(a: &Arc<Scene>, b: &Arc<Scene>) -> bool {

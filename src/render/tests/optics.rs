@@ -1,7 +1,6 @@
 //! Mirrors, glass, depth and the ray budget.
 
-use super::super::optics::refract;
-use super::super::phong::power;
+use super::super::optics::{power, refract};
 use super::*;
 
 /// Between two mirrors that glow with level a and reflect the part r, a ray sees a Σ rᵏ, k from 0

@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use super::super::lobes::Lobes;
+use super::super::sampler::Use;
 use super::super::tracer::{Matter, Point};
-use super::super::utah::Answer;
 use super::*;
 
 /// The means of a ray's radiance over `samples`, one for each of some seeds.
@@ -90,9 +90,8 @@ fn furnace_around_a_light() {
     }
 }
 
-/// A light of radius r at height h: a white floor under it sends back I r² / h² · cos / r² …; that
-/// is, E / π with E = π L (r / h)² and L = π I / (π r²), the factor π of scenes not made for paths
-/// included: I / h², whatever r.
+/// A light of radius r at height h above a white floor: it sends back E / π with E = π L (r / h)², and
+/// L = π I / (π r²), the factor π of scenes not made for paths included. That is I / h², whatever r.
 #[test]
 fn lights_with_a_size_shine_as_their_intensity_says() {
     for radius in [0.1, 1.0, 3.9] {
@@ -377,54 +376,68 @@ fn point_seen_from(view: DVec3) -> Point {
     point
 }
 
-fn answer(kind: &str) -> Answer {
-    let scene = xml(&format!("<object type='plane' material='m'/>{kind}"));
+/// The lobes of a material at a point.
+fn lobes_of(material: &str, point: &Point) -> Lobes {
+    let scene = xml(&format!("<object type='plane' material='m'/>{material}"));
     let world = world(scene);
     let down = ray([0.0, 0.0, 1.0], [0.0; 3]);
     let nearest = world
         .nearest(&down, f64::INFINITY)
         .expect("the plane is met");
     match world.arrive(&down, nearest).1 {
-        Matter::Utah(answer) => answer,
+        Matter::Utah(shading) => Lobes::of(point, &shading).0,
         other => panic!("{other:?}"),
     }
 }
 
-/// Directions come as often as their density says: the mean of share / density over those chosen is
-/// the integral of the share, and that of 1 / density where anything comes from is the hemisphere.
+/// Points whose normal is +z, but for one whose interpolated normal leans past the eye.
+fn points() -> Vec<Point> {
+    let seen_at = |tilt: f64| point_seen_from(DVec3::new(tilt.sin(), 0.0, tilt.cos()));
+    let mut points: Vec<_> = [0.0, 0.7, 1.3].map(seen_at).to_vec();
+    let mut leaning = seen_at(1.3);
+    leaning.view = DVec3::new(0.99, 0.0, -0.141_067_4).normalize();
+    points.push(leaning);
+    points
+}
+
+/// What a point sends back in all of many samples of its lobes, on average, and how many of them lead
+/// above the surface.
+fn sampled(lobes: &Lobes, point: &Point, count: u32) -> (f64, f64) {
+    let (mut sent, mut above) = (0.0, 0.0);
+    for index in 0..count {
+        let sampler = Sampler::new(1, 2, index, 3);
+        let [lobe, u, v, _] = sampler.four(0, Use::Bounce);
+        let direction = lobes.choose(point, lobe, [u, v]);
+        let scattered = lobes.scatter(point, direction);
+        if 0.0 < scattered.density {
+            sent += scattered.value.x / scattered.density;
+            above += 1.0;
+        }
+    }
+    (sent / f64::from(count), above / f64::from(count))
+}
+
+/// Directions come as often as their density says: the mean of value over density is the integral of
+/// the value, and as many are above the surface as the density has there.
 #[test]
 fn directions_are_chosen_by_their_density() {
     let mirrors = "<material type='microfacet' name='m'><color value='1'/>
         <roughness value='.6'/><metallic value='1'/></material>";
     for kind in [material("blinn"), material("phong"), material(""), mirrors] {
-        let (lobes, _) = Lobes::of(&answer(kind));
-        for tilt in [0.0, 0.7, 1.3] {
-            let point = point_seen_from(DVec3::new(f64::sin(tilt), 0.0, f64::cos(tilt)));
+        for point in points() {
+            let lobes = lobes_of(kind, &point);
             // cos θ dω is what the grid is even in.
             let integral = gathered(
-                |direction| lobes.scatter(&point, direction).share.x / direction.z,
+                |direction| lobes.scatter(&point, direction).value.x / direction.z,
                 |_| 1.0,
             );
             let chances = gathered(
                 |direction| lobes.scatter(&point, direction).density / direction.z,
                 |_| 1.0,
             );
-            let count = 1 << 14;
-            let (mut estimate, mut above) = (0.0, 0.0);
-            for index in 0..count {
-                let sampler = Sampler::new(1, 2, index, 3);
-                let [lobe, u, v, _] = sampler.four(0, super::super::sampler::Use::Bounce);
-                let direction = lobes.choose(&point, lobe, [u, v]);
-                let scattered = lobes.scatter(&point, direction);
-                if 0.0 < scattered.density {
-                    estimate += scattered.share.x / scattered.density;
-                    above += 1.0;
-                }
-            }
-            let count = f64::from(count);
-            assert_near(estimate / count, integral, 0.01 * integral);
-            // What is chosen below the surface is not among them.
-            assert_near(above / count, chances, 0.01);
+            let (sent, above) = sampled(&lobes, &point, 1 << 14);
+            assert_near(sent, integral, 0.01 * integral + 1e-12);
+            assert_near(above, chances, 0.01);
         }
     }
 }
@@ -437,26 +450,100 @@ fn little_mirrors_send_back_no_more_than_comes() {
             "<material type='microfacet' name='m'><color value='1'/>
              <roughness value='{roughness}'/><metallic value='1'/></material>"
         );
-        let (lobes, _) = Lobes::of(&answer(&kind));
         for tilt in [0.0, 0.8, 1.4] {
             let point = point_seen_from(DVec3::new(f64::sin(tilt), 0.0, f64::cos(tilt)));
-            let count = 1 << 12;
-            let sent = (0..count).map(|index| {
-                let sampler = Sampler::new(1, 2, index, 3);
-                let [lobe, u, v, _] = sampler.four(0, super::super::sampler::Use::Bounce);
-                let direction = lobes.choose(&point, lobe, [u, v]);
-                let scattered = lobes.scatter(&point, direction);
-                if 0.0 < scattered.density {
-                    scattered.share.x / scattered.density
-                } else {
-                    0.0
-                }
-            });
-            let sent = sent.sum::<f64>() / f64::from(count);
+            let (sent, _) = sampled(&lobes_of(&kind, &point), &point, 1 << 12);
             assert!(
                 (least..1.0 + 1e-3).contains(&sent),
                 "{roughness} {tilt}: {sent}"
             );
         }
     }
+}
+
+/// One light behind another brings nothing; beside it, all; wherever in the world they are.
+#[test]
+fn lights_with_a_size_hide_each_other() {
+    for far in [0.0, 1e6, 1e7] {
+        let lamp = |x: f64, z: f64, size: f64, intensity: f64| {
+            format!(
+                "<light type='point'><intensity value='{intensity}'/>
+                 <position x='{}' z='{z}'/><size value='{size}'/></light>",
+                far + x
+            )
+        };
+        let floor = format!(
+            "<object type='plane' material='m'><scale value='100'/><translate x='{far}'/></object>
+             <material name='m'><diffuse value='1'/><specular value='0'/></material>"
+        );
+        let down = ray([far, 0.0, 0.5], [far, 0.0, 0.0]);
+        // A dark light of radius 2 at half the height hides all of the bright one, whose cosines are
+        // those of lights straight above.
+        for (x, expected) in [(0.0, 0.0), (50.0, 0.5)] {
+            let lights = lamp(0.0, 4.0, 1.0, 8.0) + &lamp(x, 2.5, 2.0, 0.0);
+            let scene = xml(&format!("{floor}{lights}"));
+            for depth in [0, 1] {
+                let seen = mean(scene.clone(), depth, down, 1 << 14);
+                assert_near(seen, expected, 2e-3);
+            }
+        }
+    }
+}
+
+/// The way to a light counts as any other: through a ball that absorbs half in every unit, to a light
+/// of radius ½ in its middle, at 1½ from its surface.
+#[test]
+fn lights_are_seen_through_what_absorbs() {
+    let absorption = 2.0f64.ln();
+    let scene = xml(&format!(
+        "<object type='sphere' material='m'><scale value='2'/></object>
+         <material name='m'><diffuse value='0'/><specular value='0'/>
+         <refraction value='1' index='1'/><absorption value='{absorption}'/></material>
+         <light type='point'><intensity value='1'/><size value='.5'/></light>"
+    ));
+    let seen = mean(scene, 4, ray([5.0, 0.0, 0.0], [0.0; 3]), 16);
+    assert_near(seen, 4.0 * 0.5f64.powf(1.5), 1e-12);
+}
+
+/// However small a light is, it shines as a point does.
+#[test]
+fn tiny_lights_are_points() {
+    for size in ["1e-9", "1e-150", "1e-300", "5e-324"] {
+        let scene = xml(&format!(
+            "{GROUND}<material name='m'><diffuse value='1'/><specular value='0'/></material>
+             <light type='point'><intensity value='8'/><position z='4'/><size value='{size}'/></light>"
+        ));
+        let down = ray([0.0, 0.0, 0.5], [0.0; 3]);
+        assert_near(mean(scene, 1, down, 64), 0.5, 1e-12);
+    }
+}
+
+/// Pictures made by paths are the same bits for any number of threads.
+#[test]
+fn threads_leave_no_trace_in_paths() {
+    let scene = Arc::new(xml_seen_by(
+        "<camera gamma='sRGB'><position y='-6' z='3'/><target z='1'/><up z='1'/><dof value='.1'/>
+         <focaldist value='6'/></camera>",
+        &format!(
+            "{GROUND}{}<object type='sphere' material='g'><translate z='1'/></object>
+             <material name='g'><reflection value='.5' glossiness='.2'/>
+             <refraction value='.4' index='1.5' glossiness='.1'/></material>
+             <light type='point'><intensity value='20'/><position x='2' z='4'/><size value='1'/></light>
+             <environment value='.2'/>",
+            material("microfacet")
+        ),
+    ));
+    let traced = |threads| {
+        let (renderer, woken) = renderer(threads);
+        let settings = Settings {
+            integrator: Integrator::Path,
+            ..settings(33, 17, 8)
+        };
+        let generation = restart(&renderer, job(&scene, settings));
+        finish(&renderer, &woken, generation).pixels.clone()
+    };
+    let alone = traced(1);
+    assert!(alone.iter().any(|pixel| pixel != &alone[0]));
+    assert_eq!(traced(2), alone);
+    assert_eq!(traced(5), alone);
 }
