@@ -57,7 +57,15 @@ fn options_of_making_hold_for_every_language() {
             made("--integrator whitted --depth 8 --filter box") == plain,
             "{name}"
         );
-        assert_eq!(made("--integrator path").len(), plain.len(), "{name}");
+        // The ball shows ambient light alone, which paths drop and which is no colour of its own; or
+        // white, whatever light there is.
+        let header = plain.len() - 3 * 40 * 30;
+        let mut unlit = plain.clone();
+        if name != "ball.xml" {
+            unlit[header..].fill(0);
+        }
+        assert!(made("--integrator path") == unlit, "{name}");
+        assert!(made("--aov albedo") == unlit, "{name}");
         let others = ["filter gaussian", "filter blackman-harris", "aov depth"]
             .into_iter()
             .chain(["aov normal", "aov object"]);
@@ -67,6 +75,5 @@ fn options_of_making_hold_for_every_language() {
             assert!(!seen.contains(&picture), "{name} {other}");
             seen.push(picture);
         }
-        assert_eq!(made("--aov albedo").len(), seen[0].len(), "{name}");
     }
 }

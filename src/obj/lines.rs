@@ -56,13 +56,21 @@ impl Statement<'_> {
             })
     }
 
-    /// All after the first word, which may be a name with blanks in it.
+    /// All after the first word, which may be a name with blanks in it, up to a comment.
     pub(super) fn rest(&self) -> Word<'_> {
         let text = self.text.trim_ascii_start();
         let keyword = text.iter().take_while(|byte| !byte.is_ascii_whitespace());
         let after = text[keyword.count()..].trim_ascii_start();
+        let comment = after
+            .windows(2)
+            .position(|pair| pair[0].is_ascii_whitespace() && pair[1] == b'#');
+        let end = match (after.first(), comment) {
+            (Some(b'#'), _) => 0,
+            (_, Some(blank)) => blank,
+            _ => after.len(),
+        };
         Word {
-            text: after,
+            text: after[..end].trim_ascii_end(),
             column: 1 + self.text.len() - after.len(),
         }
     }

@@ -116,8 +116,7 @@ fn text_may_be_laid_out_in_any_way() {
 fn materials_come_from_libraries() {
     let library = "# two\nnewmtl red one\nKd 1 0 0\nKs .5\nNs 20\nNi 1.5\nillum 6\nTf .1 .2 .3\n\
                    map_Kd -s 2 2 -clamp on wood grain.png\nd 1\nnewmtl blue\nKd 0 0 1 # blue\n";
-    let text =
-        "mtllib my colours.mtl\nusemtl blue\nusemtl red one\nf 1 2 3\nusemtl blue\nf 1 3 4\n";
+    let text = "mtllib my colours.mtl # two\nusemtl blue\nusemtl red one # shiny\nf 1 2 3\nusemtl blue\nf 1 3 4\n";
     let mut asked = Vec::new();
     let model = read(format!("{SQUARE}f 1 2 2\n{text}").as_bytes(), |name| {
         asked.push(name.to_owned());

@@ -59,6 +59,7 @@ impl Shot<'_> {
         let [across, down] = self.spread.place(sampler.place_in_pixel());
         let [x, y] = [x, y].map(f64::from);
         let lens = || match (integrator, aov) {
+            // An unbiased sample has no middle.
             (Integrator::Path, None) => {
                 let [u, v, ..] = sampler.four(Sampler::ROOT, Use::Lens);
                 Some([u, v])

@@ -104,16 +104,11 @@ impl Reader<'_> {
             });
             return;
         };
-        for parameter in [&BACKGROUND, &ENVIRONMENT] {
-            let Some(element) = self.element_of(Some(scene), parameter) else {
-                continue;
-            };
-            let tinted = self.tinted_in(element, parameter);
-            if std::ptr::eq(parameter, &raw const BACKGROUND) {
-                self.setting.background = tinted;
-            } else {
-                self.setting.environment = tinted;
-            }
+        if let Some(element) = self.element_of(Some(scene), &BACKGROUND) {
+            self.setting.background = self.tinted_in(element, &BACKGROUND);
+        }
+        if let Some(element) = self.element_of(Some(scene), &ENVIRONMENT) {
+            self.setting.environment = self.tinted_in(element, &ENVIRONMENT);
         }
     }
 }

@@ -109,16 +109,11 @@ impl Reader<'_> {
             MappedPattern::Image(word.to_owned())
         };
         let transform = self.transform_of(element);
-        let inverse = transform.map_or(DAffine3::IDENTITY, |transform| {
-            let inverse = transform.inverse();
-            let columns = [inverse.x_axis, inverse.y_axis, inverse.z_axis];
-            let is_finite = columns.into_iter().all(DVec3::is_finite);
-            if is_finite && inverse.translation.is_finite() {
-                return inverse;
-            }
+        let inverse = transform.map_or(Some(DAffine3::IDENTITY), inverse);
+        let inverse = inverse.unwrap_or_else(|| {
             self.report.error(|| {
                 let message = "texture: its transforms leave it no area";
-                Diagnostic::error(span, message, "scales other than 0")
+                Diagnostic::error(span, message, "transforms that can be undone")
             });
             DAffine3::IDENTITY
         });
@@ -126,5 +121,47 @@ impl Reader<'_> {
             .textures
             .push(MappedTexture { inverse, pattern });
         Some(texture as u32)
+    }
+}
+
+/// The inverse of a transform, however large or small; `None` if |determinant| < 1e-12 · the product
+/// of the columns' lengths, or a number is not finite.
+fn inverse(transform: DAffine3) -> Option<DAffine3> {
+    // Powers of two change no bits, and leave no determinant too small for numbers.
+    let columns = [transform.x_axis, transform.y_axis, transform.z_axis];
+    let factors = columns.map(|column| {
+        let (_, exponent) = libm::frexp(column.abs().max_element());
+        libm::scalbn(1.0, -exponent)
+    });
+    let near = DAffine3::from_cols(
+        factors[0] * columns[0],
+        factors[1] * columns[1],
+        factors[2] * columns[2],
+        transform.translation,
+    );
+    let lengths = [near.x_axis, near.y_axis, near.z_axis].map(DVec3::length);
+    let is_flat = near.matrix3.determinant().abs() < 1e-12 * lengths.iter().product::<f64>();
+    let inverse = DAffine3::from_scale(DVec3::from_array(factors)) * near.inverse();
+    (!is_flat && inverse.is_finite()).then_some(inverse)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn however_small_a_map_is_it_can_be_undone_unless_it_is_flat() {
+        for size in [1e-110, 1.0, 1e110] {
+            let undone = inverse(DAffine3::from_scale(DVec3::splat(size)));
+            let undone = undone.expect("it is not flat").matrix3.x_axis.x * size;
+            assert!((undone - 1.0).abs() < 1e-15, "{size}");
+        }
+        let flat =
+            DAffine3::from_cols(DVec3::X, DVec3::new(1.0, 1e-13, 0.0), DVec3::Z, DVec3::ZERO);
+        assert_eq!(inverse(flat), None);
+        assert_eq!(
+            inverse(DAffine3::from_scale(DVec3::new(1.0, 0.0, 1.0))),
+            None
+        );
     }
 }
