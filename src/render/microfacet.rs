@@ -20,6 +20,9 @@ impl Microfacets {
     /// Below this α they are one mirror: the lobe is narrower than any pixel.
     const PERFECT: f64 = 1e-4;
 
+    /// From this α on they stand on edge, and more would overflow.
+    const ROUGHEST: f64 = 1e6;
+
     /// Whether they are one mirror.
     pub(crate) fn is_perfect(alpha: f64) -> bool {
         alpha < Self::PERFECT
@@ -29,7 +32,7 @@ impl Microfacets {
         let [x, y] = warp::basis(normal);
         Self {
             basis: [x, y, normal],
-            alpha: alpha.max(Self::PERFECT),
+            alpha: alpha.clamp(Self::PERFECT, Self::ROUGHEST),
         }
     }
 

@@ -203,6 +203,10 @@ impl Path {
     /// Transport and Image Synthesis", 1990).
     fn go_on(&mut self, next: BsdfSample, sampler: Sampler) -> bool {
         self.throughput *= next.weight;
+        if !self.throughput.is_finite() {
+            // Materials that send back more than comes, beyond what numbers hold.
+            return false;
+        }
         let left = self.throughput.abs().max_element() / FAINT;
         if left < 1.0 {
             let [.., chance] = sampler.four(self.bounce, Use::Bounce);

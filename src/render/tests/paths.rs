@@ -505,6 +505,29 @@ fn lights_are_seen_through_what_absorbs() {
     assert_near(seen, 4.0 * 0.5f64.powf(1.5), 1e-12);
 }
 
+/// Whatever numbers a text says, there is a picture.
+#[test]
+fn numbers_out_of_all_proportion_give_numbers() {
+    for material in [
+        "<material type='microfacet' name='m'><roughness value='1e100'/></material>",
+        "<material type='microfacet' name='m'><roughness value='0'/><metallic value='1'/></material>",
+        "<material name='m'><glossiness value='1e300'/></material>",
+        "<material name='m'><diffuse value='1e200'/></material>",
+        "<material name='m'><refraction value='1' index='1e300' glossiness='1e300'/></material>",
+        "<material name='m'><absorption value='1e300'/><refraction value='1' index='1e-300'/></material>",
+    ] {
+        let scene = xml(&format!(
+            "{material}<object type='sphere' material='m'><scale value='2'/></object>
+             <light type='point'><intensity value='1'/><position z='1'/><size value='.1'/></light>
+             <light type='direct'><intensity value='1'/></light><environment value='1'/>"
+        ));
+        for origin in [[0.1, 0.2, 0.3], [0.0, 0.0, 5.0]] {
+            let seen = mean(scene.clone(), 64, ray(origin, [0.2, 0.1, 0.0]), 256);
+            assert!(!seen.is_nan(), "{material}");
+        }
+    }
+}
+
 /// However small a light is, it shines as a point does.
 #[test]
 fn tiny_lights_are_points() {
