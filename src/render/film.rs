@@ -247,11 +247,11 @@ impl Film {
                     let Settings {
                         integrator, depth, ..
                     } = shot.settings;
-                    Tracer::new(shot.world, integrator, depth)
+                    Tracer::new(shot.world, integrator, depth, &cancelled)
                 },
                 |tracer, tile| {
                     let before = tracer.counts;
-                    tile.advance(size, step, shot, tracer, &cancelled);
+                    tile.advance(size, step, shot, tracer);
                     tracer.counts.since(before)
                 },
             )
@@ -389,13 +389,12 @@ impl Tile {
         }
     }
 
-    fn advance(
+    fn advance<C: Fn() -> bool>(
         &mut self,
         size: Size,
         step: &Step,
         shot: &Shot<'_>,
-        tracer: &mut Tracer<'_>,
-        cancelled: &impl Fn() -> bool,
+        tracer: &mut Tracer<'_, C>,
     ) {
         match step {
             &Step::Grid(spacing) => {
@@ -403,10 +402,10 @@ impl Tile {
                 let held =
                     |[x, y]: [u32; 2]| spacing < COARSEST && x % coarser == 0 && y % coarser == 0;
                 for pixel in self.pixels(size, spacing).filter(|&pixel| !held(pixel)) {
-                    if cancelled() {
+                    if (tracer.cancelled)() {
                         return;
                     }
-                    self.sample(pixel, 0, shot, tracer, cancelled);
+                    self.sample(pixel, 0, shot, tracer);
                 }
                 self.grid = spacing;
                 self.samples = u32::from(spacing == 1);
@@ -418,10 +417,10 @@ impl Tile {
                     let at = self.index(x, y);
                     let before = self.sums[at];
                     for index in indices.clone() {
-                        if cancelled() {
+                        if (tracer.cancelled)() {
                             return;
                         }
-                        self.sample([x, y], index, shot, tracer, cancelled);
+                        self.sample([x, y], index, shot, tracer);
                     }
                     self.squared_errors += doubling.map_or(0.0, |doubling| {
                         doubling.squared_error(before, self.sums[at])
@@ -433,17 +432,16 @@ impl Tile {
     }
 
     /// Adds one sample to its pixel.
-    fn sample(
+    fn sample<C: Fn() -> bool>(
         &mut self,
         [x, y]: [u32; 2],
         index: u32,
         shot: &Shot<'_>,
-        tracer: &mut Tracer<'_>,
-        cancelled: &impl Fn() -> bool,
+        tracer: &mut Tracer<'_, C>,
     ) {
         let sample = shot.sample([x, y], index);
         let seen = match shot.settings.aov {
-            None => tracer.radiance(&sample, cancelled),
+            None => tracer.radiance(&sample),
             Some(aov) => {
                 tracer.counts.rays += 1;
                 let Sample { ray, reach, .. } = sample;

@@ -2,12 +2,14 @@
 //! size.
 
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 use glam::DVec3;
 
 use super::optics::power;
 use super::warp;
-use crate::geometry::Ray;
+use crate::accel::Bvh;
+use crate::geometry::{Aabb, Ray};
 use crate::scene::{Falloff, Integrator, Light, Rgb, Scene, Source};
 
 /// From where light comes to a point.
@@ -142,6 +144,13 @@ impl SphereLight {
         (is_outside && 0.0 < along && 0.0 <= half).then(|| along - half.sqrt())
     }
 
+    fn bounds(&self) -> Aabb {
+        Aabb {
+            min: self.centre - self.radius,
+            max: self.centre + self.radius,
+        }
+    }
+
     /// 1 − cos of half the angle that it takes as seen from a point outside.
     fn versine(&self, point: DVec3) -> Option<f64> {
         let sine = self.radius / self.centre.distance(point);
@@ -149,6 +158,50 @@ impl SphereLight {
             let square = sine * sine;
             square / (1.0 + (1.0 - square).sqrt())
         })
+    }
+}
+
+/// All lights of a scene that have a size.
+#[derive(Clone, Debug)]
+pub(crate) struct SphereLights {
+    all: Vec<SphereLight>,
+    tree: Arc<Bvh>,
+}
+
+impl SphereLights {
+    /// `None` if `cancelled` said so.
+    pub(crate) fn new(lights: &[Light], cancelled: impl Fn() -> bool + Sync) -> Option<Self> {
+        let all: Vec<_> = lights.iter().filter_map(Light::sphere).collect();
+        let boxes: Vec<_> = all.iter().map(SphereLight::bounds).collect();
+        let tree = Arc::new(Bvh::build(&boxes, cancelled)?);
+        Some(Self { all, tree })
+    }
+
+    /// The nearest one that a ray meets before a distance, and where; of several at the same place
+    /// the first in file order.
+    pub(crate) fn nearest(&self, ray: &Ray, distance: f64) -> Option<(SphereLight, f64)> {
+        let mut nearest: Option<(f64, u32)> = None;
+        self.tree.traverse(ray, distance, |number| {
+            if let Some(hit) = self.all[number as usize].hit(ray)
+                && hit < distance
+                && nearest.is_none_or(|nearest| (hit, number) < nearest)
+            {
+                nearest = Some((hit, number));
+            }
+            nearest.map_or(distance, |(hit, _)| hit)
+        });
+        nearest.map(|(hit, number)| (self.all[number as usize], hit))
+    }
+
+    /// Whether a ray meets one other than its own target before a distance.
+    pub(crate) fn hide(&self, target: &SphereLight, ray: &Ray, distance: f64) -> bool {
+        let mut hidden = false;
+        self.tree.traverse(ray, distance, |number| {
+            let sphere = &self.all[number as usize];
+            hidden = sphere != target && sphere.hit(ray).is_some_and(|hit| hit < distance);
+            if hidden { -1.0 } else { distance }
+        });
+        hidden
     }
 }
 

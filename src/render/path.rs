@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use super::frame::NO_OBJECT;
-use super::lights::{self, Incoming, SphereLight};
+use super::lights::{self, SphereLight};
 use super::lobes::{Lobes, strength};
 use super::microfacet::Microfacets;
 use super::optics::{Dielectric, index, reflect, refract, schlick, spread, transmitted};
@@ -44,9 +44,9 @@ struct BsdfSample {
     chosen: Option<(DVec3, f64)>,
 }
 
-impl Tracer<'_> {
+impl<C: Fn() -> bool> Tracer<'_, C> {
     /// Radiance along a camera ray.
-    pub(crate) fn by_path(&mut self, sample: &Sample, cancelled: impl Fn() -> bool) -> Seen {
+    pub(crate) fn by_path(&mut self, sample: &Sample) -> Seen {
         let mut seen = Seen {
             radiance: Rgb::ZERO,
             object: NO_OBJECT,
@@ -68,7 +68,7 @@ impl Tracer<'_> {
                 self.counts.over_budget += 1;
                 return seen;
             }
-            if path.bounce % 64 == 63 && cancelled() {
+            if path.bounce % 64 == 63 && (self.cancelled)() {
                 return seen;
             }
             if !path.go_on(next, sample.sampler) {
@@ -87,7 +87,7 @@ impl Tracer<'_> {
         };
         let nearest = world.nearest(&path.ray, reach);
         let distance = nearest.map_or(reach, |nearest| nearest.hit.t);
-        if let Some((light, distance)) = self.sphere_light(&path.ray, distance) {
+        if let Some((light, distance)) = world.spheres.nearest(&path.ray, distance) {
             path.throughput *= transmitted(path.absorption, distance);
             let radiance = lights::path_gain(&world.scene) * light.radiance();
             seen.radiance += path.throughput * radiance * path.weight_of_chance(&light);
@@ -129,6 +129,9 @@ impl Tracer<'_> {
         let world = self.world;
         let mut sum = Rgb::ZERO;
         for (number, light) in world.scene.lights.iter().enumerate() {
+            if self.is_cancelled_at(number) {
+                break;
+            }
             sum += match light.sphere() {
                 None => self.direct(point, light, None, |toward, _| {
                     bsdf.lobes.scatter(point, toward).value
@@ -157,7 +160,12 @@ impl Tracer<'_> {
             return Rgb::ZERO;
         };
         let scattered = bsdf.lobes.scatter(point, incoming.toward);
-        if scattered.value == Rgb::ZERO || self.is_behind_another(sphere, point, &incoming) {
+        let ray = point.leave(incoming.toward);
+        let hides = |place: DVec3| {
+            let distance = place.distance(ray.origin);
+            self.world.spheres.hide(sphere, &ray, distance)
+        };
+        if scattered.value == Rgb::ZERO || incoming.source.is_some_and(hides) {
             return Rgb::ZERO;
         }
         // At the last bounce no path goes on to meet it by chance.
@@ -169,25 +177,6 @@ impl Tracer<'_> {
         let weight = power_heuristic(sphere.density(from), chance);
         let arriving = weight * sphere.irradiance(from);
         self.visibility(&point.surface, light, incoming) * (scattered.value * arriving)
-    }
-
-    /// The nearest light with a size that a ray meets before a distance, and where.
-    fn sphere_light(&self, ray: &Ray, distance: f64) -> Option<(SphereLight, f64)> {
-        let spheres = self.world.spheres.iter();
-        let hits = spheres.filter_map(|sphere| Some((*sphere, sphere.hit(ray)?)));
-        hits.filter(|(_, hit)| *hit < distance)
-            .min_by(|(_, a), (_, b)| a.total_cmp(b))
-    }
-
-    /// Whether a light with a size is hidden by another one.
-    fn is_behind_another(&self, own: &SphereLight, point: &Point, incoming: &Incoming) -> bool {
-        let ray = point.leave(incoming.toward);
-        let distance = incoming
-            .source
-            .map_or(f64::INFINITY, |source| source.distance(ray.origin));
-        let is_nearer = |hit: f64| hit < distance;
-        let others = self.world.spheres.iter().filter(|sphere| *sphere != own);
-        others.filter_map(|sphere| sphere.hit(&ray)).any(is_nearer)
     }
 }
 

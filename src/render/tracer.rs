@@ -16,9 +16,13 @@ use crate::scene::{Integrator, Light, Material, Phong, Rgb, Shadows};
 pub(crate) const RAY_BUDGET: u32 = 4096;
 
 /// Traces samples; keeps its scratch space and counts from one to the next.
+///
+/// Once `cancelled` says so, what it gives is of no use.
 #[derive(Debug)]
-pub(crate) struct Tracer<'w> {
+pub(crate) struct Tracer<'w, C> {
     pub(crate) world: &'w World,
+    /// Whether to stop; asked every few hundred rays.
+    pub(crate) cancelled: C,
     integrator: Integrator,
     /// Bounces that rays are followed to.
     pub(crate) depth: u32,
@@ -112,11 +116,12 @@ pub(crate) enum Matter<'w> {
     Flat(Rgb),
 }
 
-impl<'w> Tracer<'w> {
+impl<'w, C: Fn() -> bool> Tracer<'w, C> {
     /// A tracer that follows rays to bounce `depth`.
-    pub(crate) fn new(world: &'w World, integrator: Integrator, depth: u32) -> Self {
+    pub(crate) fn new(world: &'w World, integrator: Integrator, depth: u32, cancelled: C) -> Self {
         Self {
             world,
+            cancelled,
             integrator,
             depth,
             pending: Vec::new(),
@@ -125,12 +130,18 @@ impl<'w> Tracer<'w> {
         }
     }
 
-    /// Radiance along a camera ray. Stops early, with a useless result, once `cancelled` says so.
-    pub(crate) fn radiance(&mut self, sample: &Sample, cancelled: impl Fn() -> bool) -> Seen {
+    /// Radiance along a camera ray.
+    pub(crate) fn radiance(&mut self, sample: &Sample) -> Seen {
         match self.integrator {
-            Integrator::Whitted => self.by_whitted(sample, cancelled),
-            Integrator::Path => self.by_path(sample, cancelled),
+            Integrator::Whitted => self.by_whitted(sample),
+            Integrator::Path => self.by_path(sample),
         }
+    }
+
+    /// Whether to stop before the light of this number, which is asked for some of them: a scene may
+    /// have a hundred thousand.
+    pub(crate) fn is_cancelled_at(&self, light: usize) -> bool {
+        light % 256 == 255 && (self.cancelled)()
     }
 
     /// What a surface sends back of a light's light, from the part of it that `place` says (see

@@ -22,10 +22,10 @@ struct Branch {
     absorption: Rgb,
 }
 
-impl Tracer<'_> {
+impl<C: Fn() -> bool> Tracer<'_, C> {
     /// Radiance along a camera ray. Rays are traced depth first, reflection before refraction; those
     /// beyond the budget bring nothing.
-    pub(crate) fn by_whitted(&mut self, sample: &Sample, cancelled: impl Fn() -> bool) -> Seen {
+    pub(crate) fn by_whitted(&mut self, sample: &Sample) -> Seen {
         let mut seen = Seen {
             radiance: Rgb::ZERO,
             object: NO_OBJECT,
@@ -60,7 +60,7 @@ impl Tracer<'_> {
                 seen.object = nearest.object;
             }
             seen.radiance += self.local(&next, nearest, sample.sampler);
-            if traced.is_multiple_of(64) && cancelled() {
+            if traced.is_multiple_of(64) && (self.cancelled)() {
                 break;
             }
         }
@@ -111,6 +111,9 @@ impl Tracer<'_> {
         let world = self.world;
         let mut radiance = shading.emission + world.scene.ambient * shading.diffuse;
         for (number, light) in world.scene.lights.iter().enumerate() {
+            if self.is_cancelled_at(number) {
+                break;
+            }
             let place = (0.0 < light.radius)
                 .then(|| sampler.pair(node, Use::Light(number as u32)))
                 .flatten();

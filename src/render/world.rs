@@ -8,13 +8,13 @@ use std::sync::Arc;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::lights::SphereLight;
+use super::lights::SphereLights;
 use super::mapped::{MappedTextures, environment_place};
 use super::structures::{Search, Structures};
 use super::texture::Textures;
 use crate::accel::Bvh;
 use crate::geometry::{Aabb, Hit, Ray, Shape, ulp};
-use crate::scene::{Images, Light, Material, Object, Rgb, Scene};
+use crate::scene::{Images, Material, Object, Rgb, Scene};
 
 /// Up to this many objects every ray tries every one. Measured on the scenes of `scenes/`: with two
 /// solids that is half as fast again as a tree, with six to eleven a tree is 1.2 to 1.7 times as
@@ -31,7 +31,7 @@ pub(crate) struct World {
     pub(crate) textures: Textures,
     pub(crate) mapped: MappedTextures,
     /// The lights that have a size.
-    pub(crate) spheres: Vec<SphereLight>,
+    pub(crate) spheres: SphereLights,
     tree: Option<Arc<Bvh>>,
     structures: Structures,
     /// For each object whether it is a mesh that lets no light through anywhere; none at all if
@@ -59,7 +59,7 @@ impl World {
     ) -> Option<Self> {
         let textures = Textures::new(&scene.textures, images);
         let mapped = MappedTextures::new(&scene.setting.textures, images);
-        let spheres = scene.lights.iter().filter_map(Light::sphere).collect();
+        let spheres = SphereLights::new(&scene.lights, &cancelled)?;
         let opaque = opaque_meshes(&scene);
         if let Some(previous) = previous.filter(|world| same_shapes(&world.scene, &scene)) {
             return Some(Self {

@@ -111,7 +111,7 @@ fn what_is_too_near_or_too_far_is_not_seen() {
             // In the corner as in the middle: depths are measured along the view.
             for (x, y) in [(20.0, 15.0), (0.5, 0.5), (39.5, 0.5)] {
                 let (ray, reach) = projection.ray(x, y, || None);
-                let seen = tracer(&world, 8).radiance(&centred(ray, reach), || false);
+                let seen = tracer(&world, 8).radiance(&centred(ray, reach));
                 assert_near(seen.radiance.x, expected, 1e-15);
             }
         }
@@ -144,7 +144,7 @@ fn only_rays_from_the_eye_are_cut() {
         let projection = Projection::new(&scene.camera, scene.camera.size);
         let (ray, reach) = projection.ray(20.0, 15.0, || None);
         let world = world(scene);
-        let seen = tracer(&world, 8).radiance(&centred(ray, reach), || false);
+        let seen = tracer(&world, 8).radiance(&centred(ray, reach));
         assert_near(seen.radiance.x, expected, 1e-12);
         assert_ne!(seen.object, NO_OBJECT);
     }

@@ -152,8 +152,8 @@ fn ray(origin: [f64; 3], toward: [f64; 3]) -> Ray {
 }
 
 /// A tracer by Whitted's rays.
-fn tracer(world: &World, depth: u32) -> Tracer<'_> {
-    Tracer::new(world, Integrator::Whitted, depth)
+fn tracer(world: &World, depth: u32) -> Tracer<'_, impl Fn() -> bool> {
+    Tracer::new(world, Integrator::Whitted, depth, || false)
 }
 
 /// The sample of a ray that takes the middle of everything.
@@ -170,7 +170,7 @@ fn centred(ray: Ray, reach: f64) -> Sample {
 fn look(scene: Scene, depth: u32, ray: Ray) -> (Seen, u64) {
     let world = world(scene);
     let mut tracer = tracer(&world, depth);
-    let seen = tracer.radiance(&centred(ray, f64::INFINITY), || false);
+    let seen = tracer.radiance(&centred(ray, f64::INFINITY));
     (seen, tracer.counts.over_budget)
 }
 

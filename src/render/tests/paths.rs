@@ -10,14 +10,14 @@ use super::*;
 /// The means of a ray's radiance over `samples`, one for each of some seeds.
 fn means(scene: Scene, depth: u32, ray: Ray, samples: u32, seeds: u32) -> Vec<Rgb> {
     let world = world(scene);
-    let mut tracer = Tracer::new(&world, Integrator::Path, depth);
+    let mut tracer = Tracer::new(&world, Integrator::Path, depth, || false);
     let mut mean = |seed| {
         let each = (0..samples).map(|index| {
             let sample = Sample {
                 sampler: Sampler::new(0, 0, index, seed),
                 ..centred(ray, f64::INFINITY)
             };
-            tracer.radiance(&sample, || false).radiance
+            tracer.radiance(&sample).radiance
         });
         each.sum::<Rgb>() / f64::from(samples)
     };

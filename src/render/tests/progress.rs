@@ -116,7 +116,7 @@ fn one_sample_is_the_pixel_centre() {
     let mut tracer = tracer(&world, 8);
     for (y, x) in (0..15).flat_map(|y| (0..20).map(move |x| (y, x))) {
         let (centre, reach) = projection.ray(f64::from(x) + 0.5, f64::from(y) + 0.5, || None);
-        let expected = TONE.bytes(tracer.radiance(&centred(centre, reach), || false).radiance);
+        let expected = TONE.bytes(tracer.radiance(&centred(centre, reach)).radiance);
         assert_eq!(frame.pixels[y as usize * 20 + x as usize], expected);
     }
 }
@@ -166,7 +166,7 @@ fn pictures_narrower_or_lower_than_a_tile_are_whole() {
                 let [across, down] = Sampler::new(x, y, index, 0).place_in_pixel();
                 let (ray, reach) =
                     projection.ray(f64::from(x) + across, f64::from(y) + down, || None);
-                tracer.radiance(&centred(ray, reach), || false).radiance
+                tracer.radiance(&centred(ray, reach)).radiance
             });
             assert_eq!(
                 *pixel,

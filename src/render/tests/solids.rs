@@ -94,7 +94,7 @@ fn light_goes_through_combined_solids_as_through_their_like() {
         let ray = ray([0.3, 0.2, 20.0], toward);
         let of = |world| {
             tracer(world, 8)
-                .radiance(&centred(ray, f64::INFINITY), || false)
+                .radiance(&centred(ray, f64::INFINITY))
                 .radiance
                 .x
         };

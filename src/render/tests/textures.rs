@@ -46,7 +46,7 @@ fn painted(shape: Shape, texture: Texture, images: &Images) -> World {
 
 fn colour(world: &World, from: DVec3, toward: DVec3) -> Rgb {
     let ray = ray(from.to_array(), toward.to_array());
-    let seen = tracer(world, 0).radiance(&centred(ray, f64::INFINITY), || false);
+    let seen = tracer(world, 0).radiance(&centred(ray, f64::INFINITY));
     assert_ne!(seen.object, NO_OBJECT);
     seen.radiance
 }

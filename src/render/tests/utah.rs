@@ -284,7 +284,7 @@ fn mean(scene: &str, ray: Ray, samples: u32) -> f64 {
             sampler: Sampler::new(0, 0, index, 0),
             ..centred(ray, f64::INFINITY)
         };
-        tracer.radiance(&sample, || false).radiance.x
+        tracer.radiance(&sample).radiance.x
     });
     each.sum::<f64>() / f64::from(samples)
 }
@@ -367,7 +367,7 @@ fn a_lens_blurs_what_is_out_of_focus() {
             let sampler = Sampler::new(0, 0, index, 0);
             let lens = || sampler.pair(Sampler::ROOT, super::super::sampler::Use::Lens);
             let (ray, reach) = projection.ray(0.5, 0.5, lens);
-            tracer.radiance(&centred(ray, reach), || false).radiance.x
+            tracer.radiance(&centred(ray, reach)).radiance.x
         });
         each.sum::<f64>() / f64::from(count)
     };

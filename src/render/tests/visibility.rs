@@ -60,10 +60,7 @@ fn of_coincident_faces_the_first_in_the_file_is_seen() {
                     origin: eye,
                     direction: (on_top - eye).normalize(),
                 };
-                let seen = tracer
-                    .radiance(&centred(towards, f64::INFINITY), || false)
-                    .radiance
-                    .x;
+                let seen = tracer.radiance(&centred(towards, f64::INFINITY)).radiance.x;
                 assert_eq!(seen, expected, "toward {on_top}");
             }
         }
@@ -161,7 +158,7 @@ fn contact_shadows() {
                 origin: eye,
                 direction: DVec3::NEG_Y,
             };
-            let seen = tracer.radiance(&centred(down, f64::INFINITY), || false);
+            let seen = tracer.radiance(&centred(down, f64::INFINITY));
             if under || seen.object != 0 {
                 continue;
             }
