@@ -6,23 +6,6 @@ use super::*;
 use crate::geometry::{Attribute, Instance, Mesh, MeshParts, Plane, SlotRun};
 use crate::render::structures::{Search, Structures};
 
-/// Deterministic numbers in −1..1 (Vigna's splitmix64).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut bits = self.0;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((bits ^ (bits >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    fn point(&mut self) -> DVec3 {
-        DVec3::new(self.next(), self.next(), self.next())
-    }
-}
-
 /// A closed, bumpy ball of `rings` rings with a place of its own for each corner, its poles fans of
 /// many needles.
 fn ball(rings: u32) -> MeshParts {
@@ -110,8 +93,8 @@ fn the_structure_finds_what_every_triangle_tried_finds() {
         let [centre, half] = [bounds.centre(), 0.5 * bounds.size()];
         for number in 0..1000 {
             let distance = [1.5, 0.5, 1e4][number % 3];
-            let origin = centre + distance * half * random.point();
-            let toward = centre + half * random.point();
+            let origin = centre + distance * half * random.point(1.0);
+            let toward = centre + half * random.point(1.0);
             let direction = (toward - origin).normalize();
             let ray = Ray { origin, direction };
             for limit in [f64::INFINITY, half.length()] {
@@ -138,14 +121,14 @@ fn a_closed_mesh_has_no_gaps() {
         let [x, y, z] = columns;
         let at = |place: DVec3| translation + (place.x * x + place.y * y + place.z * z);
         for number in 0..60_000 {
-            let triangle = (random.next().abs() * parts.triangles.len() as f64) as usize;
+            let triangle = (random.next() * parts.triangles.len() as f64) as usize;
             let [a, b, _] = parts.triangles[triangle].map(|i| parts.positions[i as usize]);
             let target = match number % 3 {
                 0 => a,
                 1 => 0.5 * (a + b),
-                _ => random.point(),
+                _ => random.point(1.0),
             };
-            let origin = at(0.5 * random.point());
+            let origin = at(0.5 * random.point(1.0));
             let direction = (at(target) - origin).normalize();
             let ray = Ray { origin, direction };
             for search in [Search::Nearest, Search::Any] {

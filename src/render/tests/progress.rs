@@ -305,3 +305,19 @@ fn a_film_takes_memory_as_it_is_traced_and_stops_developing_when_told_to() {
     let raster = film.develop(|| false).expect("nothing cancels");
     assert_eq!(raster.pixels.len(), size.pixels());
 }
+
+/// A sample that asks ten thousand lights does not go on to the last one.
+#[test]
+fn light_is_left_when_told_to() {
+    let lights: Vec<_> = (0..10_000).map(|_| white_light([0.0, 5.0, 5.0])).collect();
+    let matte = Phong {
+        diffuse: Rgb::ONE,
+        ..BLACK
+    };
+    let world = world(scene(&[(sphere([0.0; 3], 1.0), matte)], &lights));
+    for integrator in [Integrator::Whitted, Integrator::Path] {
+        let mut tracer = Tracer::new(&world, integrator, 0, || true);
+        tracer.radiance(&centred(ray([0.0, 0.0, 5.0], [0.0; 3]), f64::INFINITY));
+        assert!((2..300).contains(&tracer.counts.rays), "{integrator:?}");
+    }
+}
