@@ -17,6 +17,7 @@ mod meshes;
 #[allow(dead_code, reason = "shared with the other bench")]
 mod scenes;
 
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver};
 use std::thread;
@@ -45,7 +46,7 @@ fn main() {
         "{columns}x{rows}, truecolour, scenes/default.ray; load {}",
         load()
     );
-    let parts: [(&str, fn()); 10] = [
+    let parts: [(&str, fn()); 11] = [
         ("start", start),
         ("edit", edit),
         ("keys", keys_while_tracing),
@@ -56,6 +57,7 @@ fn main() {
         ("bytes", bytes),
         ("link", link),
         ("mesh", mesh),
+        ("scenes", own_and_course_scenes),
     ];
     for (name, measure) in parts {
         if wanted.is_empty() || wanted.iter().any(|part| name.contains(part.as_str())) {
@@ -334,6 +336,49 @@ fn mesh() {
         pictured.extend(first(&drawn, pressed, Drawn::is_new_picture));
     }
     times_row("mesh: nudge to changed picture", &pictured, "p95 <= 50");
+}
+
+/// Scenes of `.xml`, ours and those of the course if `HALFLIGHT_EXTRA_SCENES` names their folder:
+/// the first picture, and that of a camera that is moved.
+fn own_and_course_scenes() {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let mut scenes: Vec<_> = ["carousel.xml", "courtyard.xml", "lamp.xml"]
+        .map(|name| own.join(name))
+        .to_vec();
+    if let Some(folder) = std::env::var_os("HALFLIGHT_EXTRA_SCENES") {
+        let folder = Path::new(&folder).join("utah");
+        let course = [
+            "prj2_F2013.xml",
+            "prj4_F2013.xml",
+            "prj5_F2013.xml",
+            "prj7_F2013.xml",
+        ];
+        scenes.extend(course.map(|name| folder.join(name)));
+    }
+    for scene in scenes {
+        let name = scene.file_name().unwrap_or_default().to_string_lossy();
+        let times = repeat(7, || {
+            let (mut desk, begun) = Desk::open_scene(&scene);
+            desk.record(begun + SECOND);
+            first(&desk.look(), begun, Drawn::is_picture)
+        });
+        times_row(&format!("{name}: first picture"), &times, "p50 <= 100");
+        let mut desk = Desk::open_scene(&scene).0;
+        desk.record(Instant::now() + SECOND);
+        desk.press("v");
+        desk.record(Instant::now() + SECOND);
+        desk.look();
+        let mut pictured = Vec::new();
+        for key in ["h", "l"].repeat(10) {
+            let pressed = desk.press(key);
+            pictured.extend(first(&desk.settle(), pressed, Drawn::is_new_picture));
+        }
+        times_row(
+            &format!("{name}: camera to picture"),
+            &pictured,
+            "p95 <= 50",
+        );
+    }
 }
 
 /// Puts the cursor on the first number of the first light.

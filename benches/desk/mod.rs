@@ -1,6 +1,7 @@
 //! The program on a terminal. What it writes is recorded with its time and looked at only when the
 //! program is at rest, so that looking takes no time from it.
 
+use std::path::Path;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
@@ -96,7 +97,23 @@ impl Desk {
         for (name, content) in files {
             std::fs::write(folder.path().join(name), content).expect("the folder takes a file");
         }
-        let mut all = vec![files[0].0, "--color", "24"];
+        Self::start(folder, files[0].0, arguments, environment)
+    }
+
+    /// Starts the program on a scene where it is, whose picture has the usual ratio.
+    pub(crate) fn open_scene(scene: &Path) -> (Self, Instant) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let scene = scene.to_str().expect("a path of plain letters");
+        Self::start(folder, scene, &[], &[])
+    }
+
+    fn start(
+        folder: tempfile::TempDir,
+        scene: &str,
+        arguments: &[&str],
+        environment: &[(&str, &str)],
+    ) -> (Self, Instant) {
+        let mut all = vec![scene, "--color", "24"];
         all.extend(arguments);
         let begun = Instant::now();
         let session = Session::start(folder.path(), &all, TERMINAL, environment);
