@@ -2,15 +2,15 @@
 //!
 //! Editors save in many ways: in place, by moving the old file away, by renaming a new one over
 //! it. A notice bound to the file itself is lost with the old file, so directories are watched and
-//! notices picked by name: the directory of the path, those of what its links lead to, and the
-//! ones above, to notice a directory that goes and comes back.
+//! notices picked by name. Folders and links on the way come and go just so: every directory that
+//! the system looks into to find the file is watched, from the root on.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::hash::{DefaultHasher, Hasher};
 use std::io::{self, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
@@ -48,9 +48,8 @@ impl Watcher {
     /// the name itself or to what a symbolic link there leads to. What happened, and to which, is
     /// for the caller to see: it compares contents. Reading a file is nothing that happens to it.
     ///
-    /// Changes made after this returns are noticed; more calls than changes may come. If a path's
-    /// directory is missing, or goes and comes back, it is watched from then on, as long as the
-    /// directory above is there.
+    /// Changes made after this returns are noticed; more calls than changes may come. The folders
+    /// and links on the way to a path need not be there, and may be replaced.
     pub fn new(
         paths: &[PathBuf],
         method: Method,
@@ -123,18 +122,7 @@ impl Places {
             system,
             watched: BTreeSet::new(),
         };
-        let homes: BTreeSet<_> = places.paths.iter().map(|path| directory_of(path)).collect();
-        for home in homes {
-            match places.system.watch(&home, RecursiveMode::NonRecursive) {
-                Ok(()) => {
-                    places.watched.insert(home);
-                }
-                // One that is missing may come.
-                Err(error) if home.is_dir() => return Err(error),
-                Err(_) => {}
-            }
-        }
-        places.renew(Meaning::File);
+        places.renew(Meaning::File)?;
         Ok(places)
     }
 
@@ -143,49 +131,74 @@ impl Places {
             let meaning = self.names.meaning(event);
             if meaning != Meaning::Nothing {
                 // Watches first: what happens after the reader has looked must not be missed.
-                self.renew(meaning);
+                // Directories that can't be watched now are tried again at the next notice.
+                let _ = self.renew(meaning);
                 changed();
             }
         }
     }
 
-    /// Reads the links anew and watches the directories they lead to now. What can't be watched is
-    /// tried again at the next notice.
-    fn renew(&mut self, meaning: Meaning) {
-        self.names = Names::of(&self.paths);
-        let wanted: BTreeSet<_> = self.names.holders.keys().cloned().collect();
-        if meaning == Meaning::Directory {
-            // The same path may be another directory now.
-            for directory in std::mem::take(&mut self.watched) {
-                let _ = self.system.unwatch(&directory);
+    /// Finds the ways to the files anew and watches the directories on them. It is an error if a
+    /// file's own can't be watched; some of those above never can.
+    fn renew(&mut self, mut meaning: Meaning) -> notify::Result<()> {
+        loop {
+            if meaning == Meaning::Directory {
+                // The same path may be another directory now.
+                for directory in std::mem::take(&mut self.watched) {
+                    let _ = self.system.unwatch(&directory);
+                }
+            }
+            self.names = Names::of(&self.paths);
+            let outcome = self.watch();
+            // What came before its directory was watched was not told.
+            if Names::of(&self.paths) == self.names {
+                return outcome;
+            }
+            meaning = Meaning::Directory;
+        }
+    }
+
+    /// Watches the directories that hold names, each after the one above it, which tells when it is
+    /// replaced from then on.
+    fn watch(&mut self) -> notify::Result<()> {
+        let holders = &self.names.holders;
+        let system = &mut self.system;
+        self.watched.retain(|directory| {
+            let is_wanted = holders.contains_key(directory);
+            if !is_wanted {
+                let _ = system.unwatch(directory);
+            }
+            is_wanted
+        });
+        let mut outcome = Ok(());
+        for (directory, names) in holders {
+            if self.watched.contains(directory) {
+                continue;
+            }
+            match system.watch(directory, RecursiveMode::NonRecursive) {
+                Ok(()) => {
+                    self.watched.insert(directory.clone());
+                }
+                Err(error) if names.values().any(|&name| name == Meaning::File) => {
+                    outcome = Err(error);
+                }
+                Err(_) => {}
             }
         }
-        for directory in self.watched.difference(&wanted) {
-            let _ = self.system.unwatch(directory);
-        }
-        self.watched.retain(|directory| wanted.contains(directory));
-        for directory in wanted {
-            let known = self.watched.contains(&directory);
-            if !known
-                && self
-                    .system
-                    .watch(&directory, RecursiveMode::NonRecursive)
-                    .is_ok()
-            {
-                self.watched.insert(directory);
-            }
-        }
+        outcome
     }
 }
 
-/// Which names matter, by the directory that holds them.
+/// Which names matter on the ways to the files.
+#[derive(PartialEq, Eq)]
 struct Names {
+    /// The names by the directory that holds them, which is there and has no links on its way: the
+    /// system would take two paths of a directory for one watch.
     holders: BTreeMap<PathBuf, BTreeMap<OsString, Meaning>>,
 }
 
 impl Names {
-    /// The names on the way from `paths` through their links, and those of the directories they
-    /// are in.
+    /// The names on the ways to `paths`, as far as there are directories.
     fn of(paths: &[PathBuf]) -> Self {
         let mut names = Self {
             holders: BTreeMap::new(),
@@ -196,25 +209,53 @@ impl Names {
         names
     }
 
+    /// Goes to a file as the system does, name by name.
     fn add_way(&mut self, path: &Path) {
-        let mut path = path.to_owned();
-        for _ in 0..MAX_LINKS {
-            self.add(&path, Meaning::File);
-            let directory = directory_of(&path);
-            self.add(&directory, Meaning::Directory);
-            match fs::read_link(&path) {
-                Ok(next) => path = directory.join(next),
-                Err(_) => break,
-            }
+        let mut directory = PathBuf::new();
+        let mut ahead = path.to_owned();
+        let mut links = 0;
+        while let Some(next) = ahead.components().next() {
+            let rest: PathBuf = ahead.components().skip(1).collect();
+            ahead = match next {
+                Component::Normal(name) => {
+                    let is_last = rest.as_os_str().is_empty();
+                    let meaning = if is_last {
+                        Meaning::File
+                    } else {
+                        Meaning::Directory
+                    };
+                    self.add(&directory, name, meaning);
+                    let place = directory.join(name);
+                    match fs::read_link(&place) {
+                        Ok(target) if links < MAX_LINKS => {
+                            links += 1;
+                            target.join(rest)
+                        }
+                        Err(_) if !is_last && place.is_dir() => {
+                            directory = place;
+                            rest
+                        }
+                        _ => return,
+                    }
+                }
+                Component::ParentDir => {
+                    directory.pop();
+                    rest
+                }
+                Component::CurDir => rest,
+                // Here an absolute path begins, perhaps a link's.
+                Component::RootDir | Component::Prefix(_) => {
+                    directory.push(next);
+                    rest
+                }
+            };
         }
     }
 
-    fn add(&mut self, path: &Path, meaning: Meaning) {
-        // A path ending in `..` has no name to wait for.
-        if let Some(name) = path.file_name() {
-            let holder = self.holders.entry(directory_of(path)).or_default();
-            holder.entry(name.to_owned()).or_insert(meaning);
-        }
+    fn add(&mut self, directory: &Path, name: &OsStr, meaning: Meaning) {
+        let names = self.holders.entry(directory.to_owned()).or_default();
+        let known = names.entry(name.to_owned()).or_insert(meaning);
+        *known = meaning.max(*known);
     }
 
     /// Compares last names only: the system may spell a directory in another way than we do. Two
@@ -231,17 +272,13 @@ impl Names {
         if event.kind.is_access() && event.kind != written {
             return Meaning::Nothing;
         }
-        let meanings = event.paths.iter().filter_map(|path| {
-            let name = path.file_name()?;
-            self.holders.values().find_map(|names| names.get(name))
+        let names = event.paths.iter().filter_map(|path| path.file_name());
+        let meanings = names.flat_map(|name| {
+            let holders = self.holders.values();
+            holders.filter_map(move |names| names.get(name))
         });
         meanings.copied().max().unwrap_or(Meaning::Nothing)
     }
-}
-
-fn directory_of(path: &Path) -> PathBuf {
-    // Only the root has no parent, and it holds itself.
-    path.parent().unwrap_or(path).to_owned()
 }
 
 /// Compares contents, not dates: those can stand still within a second, and go back.

@@ -1,6 +1,10 @@
 //! Saves as editors make them, step by step: whoever looks at the file when told, and only then,
 //! ends with its final content.
 
+mod folders;
+#[cfg(unix)]
+mod links;
+
 use std::fs::{self, File, FileTimes};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -106,7 +110,16 @@ impl Watched {
             self.take(step);
             self.settle();
         }
-        while self.seen.as_deref() != Some(content) {
+        self.wait(Some(content), steps);
+    }
+
+    /// Looks at every notice until the file is gone.
+    fn expect_none(&mut self) {
+        self.wait(None, &[]);
+    }
+
+    fn wait(&mut self, content: Option<&str>, steps: &[Step]) {
+        while self.seen.as_deref() != content {
             let notice = self.notices.recv_timeout(PATIENCE);
             notice.unwrap_or_else(|_| panic!("{steps:?}: saw only {:?}", self.seen));
             self.look();
@@ -291,22 +304,6 @@ fn looking_at_the_file_is_not_noticed() {
 }
 
 #[test]
-fn a_directory_that_goes_and_comes_back_is_watched_again() {
-    let before = [Directory("d"), Save("d/s.ray", "old")];
-    let mut watched = Watched::new("d/s.ray", Method::Native, &before);
-    watched.expect(
-        &[RemoveDirectory("d"), Directory("d"), Save("d/s.ray", "new")],
-        "new",
-    );
-    watched.expect(
-        &[Rename("d", "e"), Directory("d"), Save("d/s.ray", "newer")],
-        "newer",
-    );
-    watched.expect(&[RemoveDirectory("d"), Rename("e", "d")], "new");
-    watched.expect(&[Save("d/s.ray", "newest")], "newest");
-}
-
-#[test]
 fn polling_notices_saves_within_a_second_and_dates_that_go_back() {
     let mut watched = Watched::new("s.ray", POLL, &[Save("s.ray", "0")]);
     for content in ["1", "2", "3"] {
@@ -325,60 +322,4 @@ fn directory_file_with_date(watched: &Watched, content: &str) -> PathBuf {
     let date = FileTimes::new().set_modified(SystemTime::UNIX_EPOCH);
     file.set_times(date).expect("dated");
     path
-}
-
-#[cfg(unix)]
-mod links {
-    use super::*;
-    use Step::Link;
-
-    const LINKED: [Step; 5] = [
-        Directory("d"),
-        Directory("e"),
-        Save("e/real.ray", "old"),
-        Link("../e/real.ray", "d/middle"),
-        Link("d/middle", "s.ray"),
-    ];
-
-    #[test]
-    fn what_a_link_leads_to_is_watched() {
-        let cases: [(&[Step], &str); 5] = [
-            (&[Save("e/real.ray", "at the target")], "at the target"),
-            (&[Save("s.ray", "through the link")], "through the link"),
-            (
-                &[Save("x", "renamed over"), Rename("x", "e/real.ray")],
-                "renamed over",
-            ),
-            (
-                &[
-                    Save("e/b", "middle"),
-                    Remove("d/middle"),
-                    Link("../e/b", "d/middle"),
-                ],
-                "middle",
-            ),
-            (&[Save("x", "file now"), Rename("x", "s.ray")], "file now"),
-        ];
-        for (steps, content) in cases {
-            for method in [Method::Native, POLL] {
-                let mut watched = Watched::new("s.ray", method, &LINKED);
-                watched.expect(steps, content);
-            }
-        }
-    }
-
-    #[test]
-    fn a_new_target_is_watched_and_a_dangling_link_waited_for() {
-        let mut watched = Watched::new("s.ray", Method::Native, &[Save("s.ray", "old")]);
-        watched.expect(
-            &[
-                Directory("d"),
-                Link("d/real", "l"),
-                Rename("l", "s.ray"),
-                Save("d/real", "new"),
-            ],
-            "new",
-        );
-        watched.expect(&[Save("x", "newer"), Rename("x", "d/real")], "newer");
-    }
 }
