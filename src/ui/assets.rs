@@ -47,6 +47,7 @@ impl AssetReader {
 struct Work<S> {
     assets: Assets,
     method: Method,
+    /// What `watcher` watches.
     watched: Vec<PathBuf>,
     /// Its end is that of the watch.
     watcher: Option<Watcher>,
@@ -73,23 +74,30 @@ impl<S: Fn(Msg) + Send + Sync + 'static> Work<S> {
     }
 
     /// Watches the files that matter: what changes from here on is noticed. Whether they are others
-    /// than before.
+    /// than before, which it is not where they can't be watched: the next order tries again.
     fn watch(&mut self, wanted: &Wanted) -> bool {
         let places = self.assets.places(wanted);
         if places == self.watched {
             return false;
         }
         drop(self.watcher.take());
+        self.watched.clear();
         if !places.is_empty() {
             let send = Arc::clone(&self.send);
             match Watcher::new(&places, self.method, move || send(Msg::AssetsChanged)) {
                 Ok(watcher) => self.watcher = Some(watcher),
-                Err(error) => (self.send)(Msg::Failed(format!(
-                    "changes of the scene's files go unnoticed: {error}; try --poll"
-                ))),
+                Err(error) => {
+                    (self.send)(Msg::Failed(format!(
+                        "changes of the scene's files go unnoticed: {error}; try --poll"
+                    )));
+                    return false;
+                }
             }
         }
         self.watched = places;
         true
     }
 }
+
+#[cfg(all(test, unix))]
+mod tests;

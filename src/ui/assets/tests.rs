@@ -1,0 +1,41 @@
+use std::collections::BTreeSet;
+use std::fs::{self, Permissions};
+use std::os::unix::fs::PermissionsExt;
+
+use super::*;
+
+/// A folder that may be searched but not listed can't be watched.
+#[test]
+fn what_could_not_be_watched_is_tried_again() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let allow = |mode| {
+        let permissions = Permissions::from_mode(mode);
+        fs::set_permissions(directory.path(), permissions).expect("its owner");
+    };
+    allow(0o300);
+    if fs::read_dir(directory.path()).is_ok() {
+        // Whoever may do everything can't see the system say no.
+        return;
+    }
+    let (send, told) = mpsc::channel();
+    let mut work = Work {
+        assets: Assets::new(&[]),
+        method: Method::Native,
+        watched: Vec::new(),
+        watcher: None,
+        send: Arc::new(move |msg| {
+            let _ = send.send(msg);
+        }),
+    };
+    let wanted = Wanted {
+        scene: directory.path().join("x.ray"),
+        pictures: BTreeSet::from(["a.ppm".to_owned()]),
+        meshes: BTreeSet::new(),
+    };
+    assert!(!work.watch(&wanted));
+    assert!(matches!(told.try_recv(), Ok(Msg::Failed(_))));
+    allow(0o700);
+    assert!(work.watch(&wanted));
+    assert!(!work.watch(&wanted));
+    assert!(told.try_recv().is_err());
+}
