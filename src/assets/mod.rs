@@ -111,9 +111,9 @@ impl Assets {
         }
     }
 
-    /// Reads all files wanted, and the libraries of materials that the meshes name. A picture file
-    /// that holds none now but did in the last reading, such as one that is being written, keeps the
-    /// last one.
+    /// Reads all files wanted, and the libraries of materials that the meshes name. A picture
+    /// that can't be read now but could in the last reading, such as one whose file is being
+    /// written, stays as it was then.
     pub fn read(&mut self, wanted: &Wanted) -> Loaded {
         let gate = Gate {
             folders: &self.folders,

@@ -18,11 +18,8 @@ impl Reading<'_> {
             let image = match self.picture(name) {
                 Ok(known) => Some(known),
                 Err(failure) => {
-                    let last = failure
-                        .may_pass()
-                        .then(|| self.before.image_of(&place))
-                        .flatten()
-                        .filter(|(print, image)| self.has_room(*print, image));
+                    let last = self.before.image_of(&place);
+                    let last = last.filter(|(print, image)| self.has_room(*print, image));
                     let shown = match last {
                         Some(_) => Shown::Last,
                         None => Shown::Magenta,

@@ -92,16 +92,6 @@ pub(super) enum Failure {
 }
 
 impl Failure {
-    /// Whether it may be over in a moment: a file that is being written or replaced.
-    pub(super) fn may_pass(&self) -> bool {
-        matches!(
-            self,
-            Self::Missing
-                | Self::Io(_)
-                | Self::Unreadable(Unreadable::Unknown | Unreadable::Broken(_))
-        )
-    }
-
     /// What it means for whoever looks at a picture.
     pub(super) fn trouble(&self, place: &Path, shown: Shown) -> Trouble {
         Trouble {

@@ -1,0 +1,206 @@
+//! Meshes and their libraries.
+
+use super::*;
+use crate::obj::Model;
+
+/// A triangle with a library beside it.
+const TRIANGLE: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
+
+impl Place {
+    fn wanted_meshes(&self, names: &[&str]) -> Wanted {
+        Wanted {
+            meshes: names.iter().map(|name| (*name).to_owned()).collect(),
+            ..self.wanted(&[])
+        }
+    }
+}
+
+fn model(loaded: &Loaded, name: &str) -> Arc<Model> {
+    match loaded.meshes.get(name) {
+        Some(Ok(model)) => Arc::clone(model),
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+fn doubts(loaded: &Loaded, name: &str) -> Vec<String> {
+    let model = model(loaded, name);
+    let doubts = model.warnings.iter().chain(&model.library_warnings);
+    doubts.map(ToString::to_string).collect()
+}
+
+#[test]
+fn meshes_are_read_with_their_libraries() {
+    let place = Place::new();
+    fs::create_dir_all(place.at("meshes/skins")).expect("a folder");
+    let mesh = TRIANGLE.replace("a.mtl", "skins/a.mtl");
+    place.write("meshes/a.obj", mesh);
+    place.write("meshes/skins/a.mtl", "newmtl a\nKd 0 1 0\n");
+    let name = "meshes/a.obj";
+    let wanted = place.wanted_meshes(&[name]);
+    let mut assets = Assets::new(&[]);
+    assert_eq!(assets.places(&wanted), [place.at(name)]);
+    let loaded = assets.read(&wanted);
+    assert_eq!(doubts(&loaded, name), [""; 0]);
+    let model = model(&loaded, name);
+    let colours: Vec<_> = model
+        .materials
+        .iter()
+        .flatten()
+        .map(|m| m.diffuse)
+        .collect();
+    assert_eq!(colours, [[0.0, 1.0, 0.0]]);
+    // Now it is known what else is to be watched.
+    let library = place.at("meshes/skins/a.mtl");
+    assert_eq!(assets.places(&wanted), [place.at(name), library]);
+}
+
+#[test]
+fn a_mesh_that_cannot_be_read_is_told_with_its_reason() {
+    let place = Place::new();
+    let elsewhere = tempfile::tempdir().expect("a directory");
+    let folder = fs::canonicalize(elsewhere.path()).expect("a place");
+    let outside = folder.join("a.obj");
+    fs::write(&outside, TRIANGLE).expect("written");
+    symlink(&outside, place.at("link.obj")).expect("a link");
+    fs::create_dir(place.at("folder.obj")).expect("a folder");
+    place.write("bad.obj", "v 0 0 0\nv 1 0 x\nv 0 1 0\nf 1 2\nf 1 2 3\n");
+    place.write("empty.obj", "");
+    let long = fs::File::create(place.at("long.obj")).expect("made");
+    long.set_len(LIMITS.bytes + 1).expect("a hole");
+    let looked_for = format!("it is looked for as {}", place.at("none.obj").display());
+    let leave = format!("--assets {} lets it be read", folder.display());
+    let absolute = outside.to_str().expect("a plain path");
+    let refused = |name: &str| match Assets::new(&[])
+        .read(&place.wanted_meshes(&[name]))
+        .meshes
+        .get(name)
+    {
+        Some(Err(fault)) => (fault.reasons.clone(), fault.hint.clone()),
+        other => panic!("{name}: {other:?}"),
+    };
+    for (name, reasons, hint) in [
+        ("none.obj", &["no such file"][..], Some(looked_for)),
+        ("folder.obj", &["is a folder, not a file"], None),
+        (
+            absolute,
+            &["an absolute path is not read"],
+            Some(leave.clone()),
+        ),
+        (
+            "link.obj",
+            &["is outside of the folder above the scene's"],
+            Some(leave),
+        ),
+        (
+            "bad.obj",
+            &[
+                "line 2, column 7: v: `x` is no number",
+                "line 4, column 6: f: expected three corners or more, found 2 corners",
+            ],
+            None,
+        ),
+        (
+            "empty.obj",
+            &["line 1, column 1: the file has no faces"],
+            None,
+        ),
+        (
+            "long.obj",
+            &["the scene's files have more than 512 MiB together"],
+            None,
+        ),
+    ] {
+        let reasons: Vec<_> = reasons.iter().map(|&reason| reason.to_owned()).collect();
+        assert_eq!(refused(name), (reasons, hint), "{name}");
+    }
+    let loaded = Assets::new(&[folder]).read(&place.wanted_meshes(&[absolute]));
+    assert_eq!(model(&loaded, absolute).mesh.len(), 1);
+}
+
+#[test]
+fn a_library_that_cannot_be_read_is_a_doubt() {
+    let place = Place::new();
+    let elsewhere = tempfile::tempdir().expect("a directory");
+    let folder = fs::canonicalize(elsewhere.path()).expect("a place");
+    fs::write(folder.join("a.mtl"), "newmtl a\n").expect("written");
+    let absolute = folder.join("a.mtl").display().to_string();
+    place.write("bad.mtl", "newmtl a\nKd x\n");
+    for (library, doubt) in [
+        (
+            "none.mtl",
+            "line 1, column 8: `none.mtl` can't be read: no such file".to_owned(),
+        ),
+        (
+            absolute.as_str(),
+            format!(
+                "line 1, column 8: `{absolute}` can't be read: an absolute path is not read \
+                 (--assets {} lets it be read)",
+                folder.display()
+            ),
+        ),
+        (
+            "bad.mtl",
+            "bad.mtl: line 2, column 4: Kd: `x` is no number".to_owned(),
+        ),
+    ] {
+        place.write("a.obj", TRIANGLE.replace("a.mtl", library));
+        let loaded = Assets::new(&[]).read(&place.wanted_meshes(&["a.obj"]));
+        assert_eq!(doubts(&loaded, "a.obj"), [doubt]);
+        assert_eq!(model(&loaded, "a.obj").materials, [None, None]);
+    }
+}
+
+#[test]
+fn meshes_that_are_known_are_not_read_anew() {
+    let place = Place::new();
+    place.write("a.obj", TRIANGLE);
+    place.write("b.obj", TRIANGLE);
+    place.write("a.mtl", "newmtl a\nKd 0 1 0\n");
+    let wanted = place.wanted_meshes(&["a.obj", "b.obj"]);
+    let mut assets = Assets::new(&[]);
+    let first = assets.read(&wanted);
+    assert!(Arc::ptr_eq(
+        &model(&first, "a.obj"),
+        &model(&first, "b.obj")
+    ));
+    let again = assets.read(&wanted);
+    assert_eq!(first.meshes, again.meshes);
+
+    // Other materials, the same triangles.
+    place.write("a.mtl", "newmtl a\nKd 0 0 1\n");
+    let second = assets.read(&wanted);
+    assert_ne!(first.meshes, second.meshes);
+    let (old, new) = (model(&first, "a.obj"), model(&second, "a.obj"));
+    assert!(Arc::ptr_eq(&old.mesh, &new.mesh));
+    let blue = new.materials[1].as_ref().map(|material| material.diffuse);
+    assert_eq!(blue, Some([0.0, 0.0, 1.0]));
+    fs::remove_file(place.at("a.mtl")).expect("it is there");
+    assert_eq!(doubts(&assets.read(&wanted), "a.obj").len(), 1);
+    place.write("a.mtl", "newmtl a\nKd 0 0 1\n");
+    assert_eq!(doubts(&assets.read(&wanted), "a.obj"), [""; 0]);
+
+    place.write("a.obj", TRIANGLE.replace("1 2 3", "1 3 2"));
+    let third = assets.read(&wanted);
+    assert!(!Arc::ptr_eq(&model(&third, "a.obj").mesh, &new.mesh));
+    assert!(Arc::ptr_eq(&model(&third, "b.obj").mesh, &new.mesh));
+}
+
+#[test]
+fn meshes_that_are_too_much_together_are_refused() {
+    let place = Place::new();
+    for (name, scale) in [
+        ("a.obj", "1"),
+        ("b.obj", "2"),
+        ("c.obj", "3"),
+        ("d.obj", "1"),
+    ] {
+        place.write(name, TRIANGLE.replace("v 1", &format!("v {scale}")));
+    }
+    place.write("a.mtl", "newmtl a\n");
+    let mut assets = Assets::new(&[]);
+    assets.limits.triangles = 2;
+    let loaded = assets.read(&place.wanted_meshes(&["a.obj", "b.obj", "c.obj", "d.obj"]));
+    // The fourth is the first's twin.
+    assert_eq!(loaded.meshes.unreadable(), 1);
+    assert!(matches!(loaded.meshes.get("c.obj"), Some(Err(_))));
+}
