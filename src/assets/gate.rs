@@ -32,10 +32,10 @@ impl Gate<'_> {
 
     /// Reads a file, and takes its length from the `room` there is.
     pub(super) fn read(&self, name: &str, room: &mut u64) -> Result<Content, Failure> {
-        let real = fs::canonicalize(self.place(name));
-        if Path::new(name).is_absolute() && !real.as_ref().is_ok_and(|real| self.is_allowed(real)) {
-            let real = real.unwrap_or_else(|_| PathBuf::from(name));
-            return Err(Failure::Absolute(real));
+        let place = self.place(name);
+        let real = fs::canonicalize(&place);
+        if Path::new(name).is_absolute() && !self.may_come(&place) {
+            return Err(Failure::Absolute(real.unwrap_or(place)));
         }
         let real = real?;
         if !self.may_read(name, &real) {
@@ -60,7 +60,7 @@ impl Gate<'_> {
                 let own = fs::canonicalize(folder(&place));
                 self.may_read(name, &real) || own.is_ok_and(|own| self.may_read(name, &own))
             }
-            Err(_) => !Path::new(name).is_absolute(),
+            Err(_) => !Path::new(name).is_absolute() || self.may_come(&place),
         };
         may.then_some(place)
     }
@@ -73,6 +73,12 @@ impl Gate<'_> {
         };
         let is_near = || surroundings().is_some_and(|folder| real.starts_with(folder));
         self.is_allowed(real) || !Path::new(name).is_absolute() && is_near()
+    }
+
+    /// Whether the user has named a folder above a file that is there or may come.
+    fn may_come(&self, place: &Path) -> bool {
+        let mut there = place.ancestors().filter_map(|at| fs::canonicalize(at).ok());
+        there.next().is_some_and(|real| self.is_allowed(&real))
     }
 
     /// Whether the user has named a folder above it.

@@ -295,6 +295,20 @@ fn places_to_watch_are_those_that_may_be_read() {
 }
 
 #[test]
+fn a_missing_file_below_a_named_folder_is_waited_for() {
+    let place = Place::new();
+    let elsewhere = tempfile::tempdir().expect("a directory");
+    let missing = elsewhere.path().join("m/deep/a.ppm");
+    let name = &missing.display().to_string();
+    let folders = [elsewhere.path().to_owned()];
+    let told = place.refusal(name, &folders).expect(name);
+    assert!(told.contains("no such file; magenta"), "{told}");
+    let wanted = place.wanted(&[name]);
+    assert!(Assets::new(&[]).places(&wanted).is_empty());
+    assert_eq!(Assets::new(&folders).places(&wanted), [missing]);
+}
+
+#[test]
 fn warnings_stand_at_every_place_that_names_a_file() {
     let place = Place::new();
     let loaded = Assets::new(&[]).read(&place.wanted(&["none"]));
