@@ -5,7 +5,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use super::trouble::Failure;
-use crate::file;
+use crate::file::{self, directory_of};
 
 /// Whether and from where a scene's files are read.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +27,7 @@ pub(super) struct Content {
 impl Gate<'_> {
     /// Where a file of this name stands.
     pub(super) fn place(&self, name: &str) -> PathBuf {
-        folder(self.scene).join(name)
+        directory_of(self.scene).join(name)
     }
 
     /// Reads a file, and takes its length from the `room` there is.
@@ -57,7 +57,7 @@ impl Gate<'_> {
         let may = match fs::canonicalize(&place) {
             // A link that leads elsewhere may give way to a file.
             Ok(real) => {
-                let own = fs::canonicalize(folder(&place));
+                let own = fs::canonicalize(directory_of(&place));
                 self.may_read(name, &real) || own.is_ok_and(|own| self.may_read(name, &own))
             }
             Err(_) => !Path::new(name).is_absolute() || self.may_come(&place),
@@ -68,7 +68,7 @@ impl Gate<'_> {
     /// Whether a file without links on its way may be read for a name.
     fn may_read(&self, name: &str, real: &Path) -> bool {
         let surroundings = || {
-            let folder = fs::canonicalize(folder(self.scene)).ok()?;
+            let folder = fs::canonicalize(directory_of(self.scene)).ok()?;
             Some(folder.parent().unwrap_or(&folder).to_owned())
         };
         let is_near = || surroundings().is_some_and(|folder| real.starts_with(folder));
@@ -86,13 +86,5 @@ impl Gate<'_> {
         let folders = self.folders.iter();
         let mut real_folders = folders.filter_map(|folder| fs::canonicalize(folder).ok());
         real_folders.any(|folder| real.starts_with(folder))
-    }
-}
-
-/// The folder that a file is in.
-pub(super) fn folder(path: &Path) -> &Path {
-    match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
     }
 }

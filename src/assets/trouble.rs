@@ -6,8 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::LIMITS;
-use super::gate::folder;
-use crate::file::ReadError;
+use crate::file::{ReadError, directory_of};
 use crate::image_file::{Unreadable, known_extensions};
 use crate::scene::{FileKind, NamedFile};
 use crate::text::{Diagnostic, Findings};
@@ -113,7 +112,7 @@ impl Failure {
     pub(super) fn remedy(&self) -> Option<String> {
         match self {
             Self::Absolute(real) | Self::Outside(real) => {
-                let folder = folder(real).display();
+                let folder = directory_of(real).display();
                 Some(format!("--assets {folder} lets it be read"))
             }
             _ => None,

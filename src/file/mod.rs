@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use crate::text::{Position, Span};
 
-pub use replace::{check_target, replace, replace_if};
+pub use replace::{check_target, directory_of, replace, replace_if};
 
 /// The longest file that is read, in bytes: positions in a text are 32-bit numbers.
 pub const MAX_BYTES: u64 = u32::MAX as u64;

@@ -116,7 +116,7 @@ fn end_of_links(path: &Path) -> io::Result<PathBuf> {
 }
 
 /// The directory that holds a path's last name.
-fn directory_of(path: &Path) -> &Path {
+pub fn directory_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
