@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::mapped::MappedTextures;
 use super::optics::{index, normal_reflectance, power};
-use crate::scene::{Finish, Rgb, Tinted, Utah};
+use crate::scene::{self, Finish, Rgb, Tinted, Utah};
 
 /// A material of `.xml` at a point, with its textures.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,23 +72,17 @@ impl Shading {
             index,
             absorption: material.absorption,
         };
+        let glossy = |gloss: &scene::Gloss, kind: fn(Rgb, f64) -> Gloss| Self {
+            diffuse: colour(gloss.diffuse),
+            gloss: kind(
+                colour(gloss.specular),
+                textures.number(gloss.glossiness, place),
+            ),
+            ..plain
+        };
         match &material.finish {
-            Finish::Blinn(gloss) => Self {
-                diffuse: colour(gloss.diffuse),
-                gloss: Gloss::Blinn(
-                    colour(gloss.specular),
-                    textures.number(gloss.glossiness, place),
-                ),
-                ..plain
-            },
-            Finish::Phong(gloss) => Self {
-                diffuse: colour(gloss.diffuse),
-                gloss: Gloss::Phong(
-                    colour(gloss.specular),
-                    textures.number(gloss.glossiness, place),
-                ),
-                ..plain
-            },
+            Finish::Blinn(gloss) => glossy(gloss, Gloss::Blinn),
+            Finish::Phong(gloss) => glossy(gloss, Gloss::Phong),
             Finish::Microfacet {
                 colour: base,
                 roughness,
