@@ -65,6 +65,7 @@ const DEPENDENCIES: &[(&str, &str)] = &[
     ("arrayvec", "accel"),
     ("clap", "cli"),
     ("crossterm", "ui"),
+    ("fearless_simd", "geometry"),
     ("glam", "*"),
     ("image", "image_file"),
     ("libm", "*"),

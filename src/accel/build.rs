@@ -46,14 +46,14 @@ pub(super) fn build(
         grow(&mut references, &whole, 0, &patience, &mut nodes)?;
     }
     nodes.shrink_to_fit();
+    let mut order = Vec::with_capacity(references.len() + unbounded.len());
+    order.par_extend(references.par_iter().map(|reference| reference.index));
+    order.extend(unbounded);
     Ok(Bvh {
         reference,
         nodes,
-        indices: references
-            .par_iter()
-            .map(|reference| reference.index)
-            .collect(),
-        unbounded,
+        order,
+        bounded: references.len(),
     })
 }
 

@@ -20,15 +20,19 @@
 
 mod build;
 mod node;
+mod packet;
 mod split;
 mod traverse;
 
 #[cfg(test)]
 mod tests;
 
+use std::ops::Range;
+
 use glam::DVec3;
 
-use crate::geometry::{Aabb, Ray};
+use crate::geometry::lanes::{Eight, Simd};
+use crate::geometry::{Aabb, Ray, Rays};
 use node::Node;
 
 /// A bounding volume hierarchy over the boxes it was built from.
@@ -38,11 +42,15 @@ pub struct Bvh {
     reference: DVec3,
     /// The root first; none if no box is in the tree.
     nodes: Vec<Node>,
-    /// Indices of boxes; a leaf is a run of them.
-    indices: Vec<u32>,
-    /// Boxes without finite planes, which every ray visits.
-    unbounded: Vec<u32>,
+    /// Indices of boxes; a leaf is a run of them. Last stand those without finite planes, which every
+    /// ray visits.
+    order: Vec<u32>,
+    /// How many have finite planes.
+    bounded: usize,
 }
+
+/// The most boxes of a leaf, and of any run that is visited at once.
+pub const RUN: usize = 8;
 
 impl Bvh {
     /// Builds the tree, in parallel on the current rayon pool; the same boxes give the same tree.
@@ -55,21 +63,49 @@ impl Bvh {
         build::build(boxes, &cancelled).ok()
     }
 
-    /// Calls `visit` with the index of every box the ray may meet at a distance in `0..=limit`,
-    /// roughly near ones first. `visit` returns the limit from there on: the same, or less once
-    /// something nearer was found; below 0 ends the walk. Never misses a box the ray meets; may
-    /// visit ones it does not.
+    /// The indices of the boxes in the order of the tree: those of a leaf stand side by side.
+    pub fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    /// Calls `visit` with places in [`Bvh::order`], at most [`RUN`] at once: those of every box the
+    /// ray may meet at a distance in `0..=limit` are among them, roughly near ones first. `visit`
+    /// returns the limit from there on: the same, or less once something nearer was found; below 0
+    /// ends the walk. Never misses a box the ray meets; may visit ones it does not.
     ///
     /// Inlined into the caller, so that it uses whatever vectors the caller was compiled for; the
     /// visits are the same with any.
     ///
-    /// Each index is visited at most once. A ray that is not finite visits anything or nothing.
+    /// Each place is visited at most once. A ray that is not finite visits anything or nothing.
     #[expect(
         clippy::inline_always,
         reason = "a caller compiled for wider vectors must take this with it"
     )]
     #[inline(always)]
-    pub fn traverse(&self, ray: &Ray, limit: f64, visit: impl FnMut(u32) -> f64) {
-        traverse::traverse(self, ray, limit, visit);
+    pub fn traverse<S: Simd>(
+        &self,
+        simd: S,
+        ray: &Ray,
+        limit: f64,
+        visit: impl FnMut(Range<usize>) -> f64,
+    ) {
+        traverse::traverse(self, simd, ray, limit, visit);
+    }
+
+    /// The same for rays side by side, those whose bit in `lanes` is 1: `visit` is told which of
+    /// them may meet what is there, and their limits, and returns the limits from there on.
+    #[expect(
+        clippy::inline_always,
+        reason = "a caller compiled for wider vectors must take this with it"
+    )]
+    #[inline(always)]
+    pub fn traverse_packet<S: Simd>(
+        &self,
+        rays: &Rays<Eight<S>>,
+        lanes: u32,
+        limits: Eight<S>,
+        visit: impl FnMut(Range<usize>, u32, Eight<S>) -> Eight<S>,
+    ) {
+        packet::traverse(self, rays, lanes, limits, visit);
     }
 }

@@ -4,6 +4,7 @@ use std::array;
 
 use glam::DVec3;
 
+use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, bits};
 use crate::geometry::{Aabb, Ray};
 
 /// Children of a node.
@@ -164,6 +165,33 @@ impl Node {
         }
     }
 
+    /// A bit for each lane that something is in.
+    #[inline]
+    pub(super) fn filled(&self) -> u32 {
+        let mut filled = 0;
+        for (lane, &count) in self.count.iter().enumerate() {
+            filled |= u32::from(count != 0) << lane;
+        }
+        filled
+    }
+
+    /// The planes of all children across an axis, those on a side first.
+    #[expect(
+        clippy::inline_always,
+        reason = "a caller compiled for wider vectors must take this with it"
+    )]
+    #[inline(always)]
+    pub(super) fn planes<S: Simd>(&self, simd: S, axis: usize, side: usize) -> [Eight<S>; 2] {
+        sorted(simd, &self.planes[axis], side)
+    }
+
+    /// The low and the high plane across an axis of the box in a lane.
+    #[inline]
+    pub(super) fn box_planes(&self, lane: usize, axis: usize) -> [f64; 2] {
+        let [low, high] = &self.planes[axis];
+        [f64::from(low[lane]), f64::from(high[lane])]
+    }
+
     /// The distances at which the ray enters the children's boxes, 0 inside of one, and a bit for
     /// each child that it enters at a distance up to `limit`, both with the margin of [`WIDEN`].
     #[expect(
@@ -171,74 +199,121 @@ impl Node {
         reason = "a caller compiled for wider vectors must take this with it"
     )]
     #[inline(always)]
-    pub(super) fn entries(&self, ray: &SlabRay, limit: f64) -> ([f64; WIDTH], u32) {
-        let mut entry = [0.0; WIDTH];
-        let mut exit = [limit; WIDTH];
+    pub(super) fn entries<S: Simd>(&self, ray: &SlabRay<S>, limit: f64) -> ([f64; WIDTH], u32) {
+        let simd = ray.slopes[0].inverse.simd;
+        let mut entry = Eight::splat(simd, 0.0);
+        let mut exit = Eight::splat(simd, limit);
         for (sides, slope) in self.planes.iter().zip(&ray.slopes) {
-            let near = &sides[slope.near_side & 1];
-            let far = &sides[(slope.near_side & 1) ^ 1];
-            for lane in 0..WIDTH {
-                let t = (f64::from(near[lane]) - slope.near_origin) * slope.inverse;
-                // A NaN, 0 · ∞ of a ray that runs in a face, fails the comparison and cuts nothing.
-                entry[lane] = if entry[lane] < t { t } else { entry[lane] };
-                let t = (f64::from(far[lane]) - slope.far_origin) * slope.inverse;
-                exit[lane] = if t < exit[lane] { t } else { exit[lane] };
-            }
+            let [near, far] = sorted(simd, sides, slope.near_side);
+            let near = (near - slope.near_origin) * slope.inverse;
+            let far = (far - slope.far_origin) * slope.inverse;
+            [entry, exit] = cut([entry, exit], near, far);
         }
-        let mut met = 0;
-        for lane in 0..WIDTH {
-            met |= u32::from(entry[lane] <= exit[lane] * WIDEN) << lane;
-        }
-        (entry, met)
+        let met = entry.up_to(exit * WIDEN);
+        (*entry, bits::<S>(met))
     }
 }
 
-/// A ray as nodes test it.
-pub(super) struct SlabRay {
-    slopes: [Slope; 3],
+/// Planes of both sides in `f64`, those of a side first.
+#[expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take this with it"
+)]
+#[inline(always)]
+fn sorted<S: Simd>(simd: S, sides: &[[f32; WIDTH]; 2], side: usize) -> [Eight<S>; 2] {
+    [
+        widened(simd, &sides[side & 1]),
+        widened(simd, &sides[side & 1 ^ 1]),
+    ]
 }
 
-/// A ray along one axis.
-struct Slope {
+/// Planes in `f64`.
+#[expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take this with it"
+)]
+#[inline(always)]
+fn widened<S: Simd>(simd: S, planes: &[f32; WIDTH]) -> Eight<S> {
+    let mut widened = [0.0; WIDTH];
+    for lane in 0..WIDTH {
+        widened[lane] = f64::from(planes[lane]);
+    }
+    Eight::load_array(simd, widened)
+}
+
+/// The part of an interval that is beyond the `near` and before the `far`. A NaN, 0 · ∞ of a ray that
+/// runs in a face, fails the comparison and cuts nothing.
+#[expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take this with it"
+)]
+#[inline(always)]
+pub(super) fn cut<N: Lanes>([entry, exit]: [N; 2], near: N, far: N) -> [N; 2] {
+    [
+        N::select(entry.below(near), near, entry),
+        N::select(far.below(exit), far, exit),
+    ]
+}
+
+/// A ray as nodes test it.
+pub(super) struct SlabRay<S: Simd> {
+    slopes: [Slope<S>; 3],
+}
+
+/// A ray along one axis, in each lane the same.
+struct Slope<S: Simd> {
     /// 1 over the direction; infinite for 0, with its sign.
-    inverse: f64,
+    inverse: Eight<S>,
     /// The origin against planes where the ray comes in, such that they are not too far.
-    near_origin: f64,
+    near_origin: Eight<S>,
     /// The origin against planes where the ray goes out, such that they are not too near.
-    far_origin: f64,
+    far_origin: Eight<S>,
     /// Where the ray comes in: 0 for low planes, 1 for high ones.
     near_side: usize,
 }
 
-impl SlabRay {
+impl<S: Simd> SlabRay<S> {
     /// The ray relative to the reference point of a tree.
     #[expect(
         clippy::inline_always,
         reason = "a caller compiled for wider vectors must take this with it"
     )]
     #[inline(always)]
-    pub(super) fn new(ray: &Ray, reference: DVec3) -> Self {
-        let slope = |axis: usize| {
-            let inverse = ray.direction[axis].recip();
-            let [below, above] = difference(ray.origin[axis], reference[axis]);
-            let rises = inverse.is_sign_positive();
-            Slope {
-                inverse,
-                near_origin: if rises { above } else { below },
-                far_origin: if rises { below } else { above },
-                near_side: usize::from(!rises),
-            }
-        };
-        // `array::from_fn` would not be inlined into the walk.
-        let slopes = [slope(0), slope(1), slope(2)];
-        Self { slopes }
+    pub(super) fn new(simd: S, ray: &Ray, reference: DVec3) -> Self {
+        let Ray { origin, direction } = ray;
+        Self {
+            slopes: [
+                Slope::new(simd, origin.x, direction.x, reference.x),
+                Slope::new(simd, origin.y, direction.y, reference.y),
+                Slope::new(simd, origin.z, direction.z, reference.z),
+            ],
+        }
+    }
+}
+
+impl<S: Simd> Slope<S> {
+    #[expect(
+        clippy::inline_always,
+        reason = "a caller compiled for wider vectors must take this with it"
+    )]
+    #[inline(always)]
+    fn new(simd: S, origin: f64, direction: f64, reference: f64) -> Self {
+        let inverse = direction.recip();
+        let [below, above] = difference(origin, reference);
+        let rises = inverse.is_sign_positive();
+        Self {
+            inverse: Eight::splat(simd, inverse),
+            near_origin: Eight::splat(simd, if rises { above } else { below }),
+            far_origin: Eight::splat(simd, if rises { below } else { above }),
+            near_side: usize::from(!rises),
+        }
     }
 }
 
 /// The nearest `f64`s not above and not below the exact a − b. The sign of the rounding error is
 /// that of Knuth's two-sum, which is exact.
 #[inline]
-fn difference(a: f64, b: f64) -> [f64; 2] {
+pub(super) fn difference(a: f64, b: f64) -> [f64; 2] {
     let sum = a - b;
     let part = sum - a;
     let error = (a - (sum - part)) - (b + part);

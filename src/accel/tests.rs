@@ -6,7 +6,8 @@ use super::Bvh;
 use super::build::LEVELS;
 use super::node::{Bounds, Child, WIDTH};
 use super::split::{Extent, Patience, Reference, by_count};
-use crate::geometry::{Aabb, Ray};
+use crate::geometry::lanes::{Eight, Level, SimdBase, dispatch};
+use crate::geometry::{Aabb, Ray, Rays};
 
 /// The generator of Steele, Lea and Flood (2014): repeatable numbers without a dependency.
 struct Random(u64);
@@ -93,13 +94,47 @@ fn span(aabb: &Aabb, ray: &Ray) -> [f64; 2] {
     [enter, exit]
 }
 
-fn visits(bvh: &Bvh, ray: &Ray, limit: f64) -> Vec<u32> {
-    let mut seen = Vec::new();
-    bvh.traverse(ray, limit, |index| {
-        seen.push(index);
+/// Walks with the vectors of the machine; `visit` is told indices.
+fn walk(bvh: &Bvh, ray: &Ray, limit: f64, mut visit: impl FnMut(u32) -> f64) {
+    dispatch!(Level::new(), simd => bvh.traverse(simd, ray, limit, |places| {
+        let mut limit = limit;
+        for &index in &bvh.order()[places] {
+            limit = visit(index);
+        }
         limit
-    });
+    }));
+}
+
+fn visits_at(level: Level, bvh: &Bvh, ray: &Ray, limit: f64) -> Vec<u32> {
+    let mut seen = Vec::new();
+    dispatch!(level, simd => bvh.traverse(simd, ray, limit, |places| {
+        seen.extend_from_slice(&bvh.order()[places]);
+        limit
+    }));
     seen.sort_unstable();
+    seen
+}
+
+fn visits(bvh: &Bvh, ray: &Ray, limit: f64) -> Vec<u32> {
+    visits_at(Level::new(), bvh, ray, limit)
+}
+
+/// What each of some rays visits that walk side by side, in no order.
+fn visits_together(bvh: &Bvh, rays: &[Ray], limit: f64) -> Vec<Vec<u32>> {
+    let mut seen = vec![Vec::new(); rays.len()];
+    let all = (1 << rays.len()) - 1;
+    dispatch!(Level::new(), simd => {
+        let packet = Rays::gather(simd, rays);
+        let limits = Eight::splat(simd, limit);
+        bvh.traverse_packet(&packet, all, limits, |places, lanes, limits| {
+            for (lane, seen) in seen.iter_mut().enumerate() {
+                if lanes >> lane & 1 == 1 {
+                    seen.extend_from_slice(&bvh.order()[places.clone()]);
+                }
+            }
+            limits
+        });
+    });
     seen
 }
 
@@ -119,7 +154,7 @@ fn check_node(bvh: &Bvh, boxes: &[Aabb], number: u32, outer: &Bounds, held: &mut
                 levels = levels.max(check_node(bvh, boxes, child, &bounds, held));
             }
             Child::Leaf { first, count } => {
-                for &index in &bvh.indices[first as usize..][..usize::from(count)] {
+                for &index in &bvh.order[first as usize..][..usize::from(count)] {
                     held[index as usize] += 1;
                     let own = boxes[index as usize];
                     for axis in 0..3 {
@@ -150,9 +185,7 @@ fn check_tree(bvh: &Bvh, boxes: &[Aabb]) -> usize {
 
 /// Bytes on the heap.
 fn memory(bvh: &Bvh) -> usize {
-    size_of_val(bvh.nodes.as_slice())
-        + size_of_val(bvh.indices.as_slice())
-        + size_of_val(bvh.unbounded.as_slice())
+    size_of_val(bvh.nodes.as_slice()) + size_of_val(bvh.order.as_slice())
 }
 
 #[test]
@@ -174,6 +207,49 @@ fn every_box_that_is_met_is_visited() {
                     );
                 }
             }
+        }
+    }
+}
+
+/// Rays side by side, as different as they may be, visit no less than each alone must.
+#[test]
+fn every_box_that_is_met_is_visited_side_by_side() {
+    let mut random = Random(21);
+    for scale in [1e-6, 1.0, 1e6] {
+        let boxes = random_boxes(&mut random, 300, scale, DVec3::new(1e6, -3e5, 7.0) * scale);
+        let bvh = build(&boxes);
+        for count in (1..=8).cycle().take(800) {
+            let mut aimed = || {
+                let aim = random.pick(&boxes);
+                ray_at(&mut random, aim, scale)
+            };
+            let rays: Vec<_> = (0..count).map(|_| aimed()).collect();
+            for (ray, seen) in rays.iter().zip(visits_together(&bvh, &rays, f64::INFINITY)) {
+                for (index, aabb) in (0..).zip(&boxes) {
+                    let [enter, exit] = span(aabb, ray);
+                    assert!(
+                        exit < enter || seen.contains(&index),
+                        "{ray:?} misses {aabb:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// The vectors that every machine of its kind has and those that this one has besides make the same
+/// visits.
+#[test]
+fn visits_are_the_same_with_any_vectors() {
+    let mut random = Random(22);
+    let boxes = random_boxes(&mut random, 1000, 1.0, DVec3::ZERO);
+    let bvh = build(&boxes);
+    for _ in 0..2000 {
+        let aim = random.pick(&boxes);
+        let ray = ray_at(&mut random, aim, 1.0);
+        for limit in [0.3, f64::INFINITY] {
+            let plain = visits_at(Level::baseline(), &bvh, &ray, limit);
+            assert_eq!(visits(&bvh, &ray, limit), plain);
         }
     }
 }
@@ -246,7 +322,7 @@ fn a_shrinking_limit_finds_the_nearest_sphere() {
             direction: random.point().normalize(),
         };
         let mut nearest = f64::INFINITY;
-        bvh.traverse(&ray, nearest, |index| {
+        walk(&bvh, &ray, nearest, |index| {
             visited += 1;
             nearest = nearest.min(sphere(&boxes[index as usize], &ray));
             nearest
@@ -269,12 +345,13 @@ fn a_negative_limit_ends_the_walk() {
         origin: DVec3::ZERO,
         direction: DVec3::X,
     };
-    let mut count = 0;
-    build(&boxes).traverse(&ray, 1.0, |_| {
-        count += 1;
+    let mut runs = 0;
+    let bvh = build(&boxes);
+    dispatch!(Level::new(), simd => bvh.traverse(simd, &ray, 1.0, |_| {
+        runs += 1;
         -1.0
-    });
-    assert_eq!(count, 1);
+    }));
+    assert_eq!(runs, 1);
 }
 
 #[test]
@@ -340,7 +417,7 @@ fn thread_count_does_not_change_the_tree() {
         pool.expect("threads start").install(|| build(&boxes))
     });
     assert_eq!(one.nodes, two.nodes);
-    assert_eq!(one.indices, two.indices);
+    assert_eq!(one.order, two.order);
 }
 
 #[test]

@@ -1,15 +1,18 @@
 //! The walk of a ray through the tree, near children first.
 
+use std::ops::Range;
+
 use arrayvec::ArrayVec;
 
 use crate::geometry::Ray;
+use crate::geometry::lanes::Simd;
 
-use super::Bvh;
 use super::build::LEVELS;
 use super::node::{Child, SlabRay, WIDEN, WIDTH};
+use super::{Bvh, RUN};
 
 /// The most children that can wait: a node takes one off and leaves at most [`WIDTH`], once a level.
-const STACK: usize = 1 + LEVELS * (WIDTH - 1);
+pub(super) const STACK: usize = 1 + LEVELS * (WIDTH - 1);
 
 /// A child whose turn has not come.
 #[derive(Clone, Copy)]
@@ -19,23 +22,39 @@ struct Waiting {
     child: Child,
 }
 
+impl Bvh {
+    /// The places of boxes without finite planes.
+    #[inline]
+    pub(super) fn unbounded(&self) -> impl Iterator<Item = Range<usize>> + use<> {
+        let end = self.order.len();
+        let starts = (self.bounded..end).step_by(RUN);
+        starts.map(move |start| start..end.min(start + RUN))
+    }
+}
+
 /// See [`Bvh::traverse`].
 #[expect(
     clippy::inline_always,
     reason = "a caller compiled for wider vectors must take this with it"
 )]
 #[inline(always)]
-pub(super) fn traverse(bvh: &Bvh, ray: &Ray, mut limit: f64, mut visit: impl FnMut(u32) -> f64) {
-    for &index in &bvh.unbounded {
+pub(super) fn traverse<S: Simd>(
+    bvh: &Bvh,
+    simd: S,
+    ray: &Ray,
+    mut limit: f64,
+    mut visit: impl FnMut(Range<usize>) -> f64,
+) {
+    for run in bvh.unbounded() {
         if limit < 0.0 {
             return;
         }
-        limit = visit(index);
+        limit = visit(run);
     }
     if bvh.nodes.is_empty() {
         return;
     }
-    let ray = SlabRay::new(ray, bvh.reference);
+    let ray = SlabRay::new(simd, ray, bvh.reference);
     let root = Waiting {
         entry: 0.0,
         child: Child::Inner(0),
@@ -65,11 +84,9 @@ pub(super) fn traverse(bvh: &Bvh, ray: &Ray, mut limit: f64, mut visit: impl FnM
             }
             Child::Leaf { first, count } => {
                 let first = first as usize;
-                for &index in &bvh.indices[first..first + usize::from(count)] {
-                    limit = visit(index);
-                    if limit < 0.0 {
-                        return;
-                    }
+                limit = visit(first..first + usize::from(count));
+                if limit < 0.0 {
+                    return;
                 }
             }
         }

@@ -1,10 +1,16 @@
 //! Affine images of the cone x² + y² ≤ (1 − z)², 0 ≤ z ≤ 1.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take these with it"
+)]
+
 use glam::DVec3;
 
-use super::line::{between, half_line, roots, slab};
+use super::lanes::{Lanes, Vector};
+use super::line::{Ends, half_line, roots, slab};
 use super::transform::normalise;
-use super::{Aabb, Affine, Chart, Crossings, Hit, Ray, Surface};
+use super::{Aabb, Affine, Chart, Hit, Ray, Rays, Surface};
 
 const SIDE: u32 = 0;
 const BASE: u32 = 1;
@@ -27,13 +33,14 @@ impl Cone {
         }
     }
 
-    /// Where the ray's line crosses the cone: where it is inside the endless side, and between base
-    /// and apex. The side has a second nappe above the apex, which that excludes.
-    #[inline]
-    pub fn crossings(&self, ray: &Ray) -> Option<Crossings> {
-        let line = self.0.line(ray);
+    /// Where the lines cross the cone, in each lane: where they are inside the endless side, and
+    /// between base and apex. The side has a second nappe above the apex, which that excludes.
+    #[inline(always)]
+    pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
+        let line = self.0.line(rays);
+        let from_apex = line.origin - Vector::all(line.start, DVec3::Z);
         slab(line.origin.z, line.direction.z, [BASE, SIDE])?
-            .overlap(inside_side(line.origin - DVec3::Z, line.direction)?)?
+            .overlap(inside_side(from_apex, line.direction)?)?
             .after(line.start)
     }
 
@@ -63,41 +70,43 @@ impl Cone {
     }
 }
 
-/// Where a line, as seen from the apex, is inside the endless cone x² + y² = z²; of two such
-/// parts the one in the lower nappe.
+/// Where lines, as seen from the apex, are inside the endless cone x² + y² = z²; of two such parts
+/// the one in the lower nappe.
 ///
-/// With the indefinite product ⟨u, v⟩ = ux vx + uy vy − uz vz the line is inside where
+/// With the indefinite product ⟨u, v⟩ = ux vx + uy vy − uz vz a line is inside where
 /// a t² + 2 b t + c ≤ 0, a = ⟨d, d⟩, b = ⟨o, d⟩, c = ⟨o, o⟩. Lagrange's identity gives the
 /// discriminant from the cross product n = o × d: b² − ac = nx² + ny² − nz², here a product of a
 /// sum and a difference, exact relative to the line's distance from the apex.
-#[inline]
-fn inside_side(origin: DVec3, direction: DVec3) -> Option<Crossings> {
-    let normal = origin.cross(direction);
-    let discriminant = indefinite_square(normal);
+#[inline(always)]
+fn inside_side<N: Lanes>(origin: Vector<N>, direction: Vector<N>) -> Option<Ends<N>> {
+    let discriminant = indefinite_square(origin.cross(direction));
     let a = indefinite_square(direction);
     let b = origin.x * direction.x + origin.y * direction.y - origin.z * direction.z;
     let c = indefinite_square(origin);
-    if a == 0.0 {
-        // Parallel to a generatrix it crosses the side once at most.
-        return half_line(b, c, SIDE);
-    }
-    if 0.0 < a && discriminant < 0.0 {
-        return None;
-    }
+    let (before, after) = (a.all(f64::NEG_INFINITY), a.all(f64::INFINITY));
+    let zero = a.all(0.0);
     // A line steeper than the side always crosses it: a negative discriminant is rounding.
-    let [first, second] = roots(a, b, c, discriminant.max(0.0).sqrt());
-    if 0.0 < a {
-        Some(between(first, second, SIDE))
-    } else if 0.0 < direction.z {
-        Some(between(f64::NEG_INFINITY, first, SIDE))
-    } else {
-        Some(between(second, f64::INFINITY, SIDE))
+    let root = N::select(zero.below(discriminant), discriminant, zero).sqrt();
+    let [first, second] = roots(a, b, c, root);
+    let (flatter, rises) = (zero.below(a), zero.below(direction.z));
+    let enter = N::select(flatter, first, N::select(rises, before, second));
+    let exit = N::select(flatter, second, N::select(rises, first, after));
+    let missed = flatter & discriminant.below(zero);
+    // Parallel to a generatrix it crosses the side once at most.
+    let parallel = a.equals(zero);
+    let crossed = Ends::between(enter, exit, SIDE, !missed & !parallel);
+    if !N::any(parallel) {
+        return crossed.if_any();
+    }
+    match half_line(b, c, SIDE) {
+        Some(once) => Ends::select(parallel, once, crossed).if_any(),
+        None => crossed.if_any(),
     }
 }
 
 /// x² + y² − z².
-#[inline]
-fn indefinite_square(v: DVec3) -> f64 {
-    let radius = v.with_z(0.0).length();
+#[inline(always)]
+fn indefinite_square<N: Lanes>(v: Vector<N>) -> N {
+    let radius = v.flat().length_squared().sqrt();
     (radius - v.z) * (radius + v.z)
 }

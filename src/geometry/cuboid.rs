@@ -1,9 +1,15 @@
 //! Affine images of the cube [0, 1]³.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take these with it"
+)]
+
 use glam::DVec3;
 
-use super::line::slab;
-use super::{Aabb, Affine, Chart, Crossings, Hit, Ray, Surface};
+use super::lanes::Lanes;
+use super::line::{Ends, slab};
+use super::{Aabb, Affine, Chart, Hit, Ray, Rays, Surface};
 
 /// An affine image of the cube [0, 1]³.
 ///
@@ -23,10 +29,10 @@ impl Cuboid {
         }
     }
 
-    /// Where the ray's line crosses the box: where it is between all three pairs of faces.
-    #[inline]
-    pub fn crossings(&self, ray: &Ray) -> Option<Crossings> {
-        let line = self.0.line(ray);
+    /// Where the lines cross the box, in each lane: where they are between all three pairs of faces.
+    #[inline(always)]
+    pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
+        let line = self.0.line(rays);
         slab(line.origin.x, line.direction.x, [0, 1])?
             .overlap(slab(line.origin.y, line.direction.y, [2, 3])?)?
             .overlap(slab(line.origin.z, line.direction.z, [4, 5])?)?

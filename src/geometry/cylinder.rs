@@ -1,12 +1,17 @@
 //! Affine images of the cylinder x² + y² ≤ 1, 0 ≤ z ≤ 1.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take these with it"
+)]
+
 use glam::DVec3;
 
-use super::line::{ball, slab};
+use super::lanes::{Lanes, Vector};
+use super::line::{Ends, ball, slab};
 use super::transform::normalise;
-use super::{Aabb, Affine, Chart, Crossings, Hit, Ray, Surface};
+use super::{Aabb, Affine, Chart, Hit, Ray, Rays, Surface};
 
-const SIDE: u32 = 0;
 const BASE: u32 = 1;
 const TOP: u32 = 2;
 
@@ -28,16 +33,13 @@ impl Cylinder {
         }
     }
 
-    /// Where the ray's line crosses the cylinder: where it is inside the endless side, which is a
-    /// circle in the plane, and between the caps.
-    #[inline]
-    pub fn crossings(&self, ray: &Ray) -> Option<Crossings> {
-        let line = self.0.line(ray);
+    /// Where the lines cross the cylinder, in each lane: where they are inside the endless side, which
+    /// is a circle in the plane, and between the caps.
+    #[inline(always)]
+    pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
+        let line = self.0.line(rays);
         slab(line.origin.z, line.direction.z, [BASE, TOP])?
-            .overlap(inside_side(
-                line.origin.with_z(0.0),
-                line.direction.with_z(0.0),
-            )?)?
+            .overlap(inside_side(line.origin.flat(), line.direction.flat())?)?
             .after(line.start)
     }
 
@@ -72,22 +74,20 @@ impl Cylinder {
     }
 }
 
-/// Where a line in the plane is inside the unit circle. A line along the cylinder's axis is a point
+/// Where lines in the plane are inside the unit circle. A line along the cylinder's axis is a point
 /// there: always inside or never.
-#[inline]
-fn inside_side(origin: DVec3, direction: DVec3) -> Option<Crossings> {
-    if direction.length_squared() == 0.0 {
-        return (origin.length_squared() <= 1.0).then_some(Crossings::EVERYWHERE);
+#[inline(always)]
+fn inside_side<N: Lanes>(origin: Vector<N>, direction: Vector<N>) -> Option<Ends<N>> {
+    let (zero, one) = (origin.x.all(0.0), origin.x.all(1.0));
+    let crossed = ball(origin, direction, one);
+    let stays = direction.length_squared().equals(zero);
+    if !N::any(stays) {
+        return crossed;
     }
-    let [enter, exit] = ball(origin, direction, 1.0)?;
-    Some(Crossings {
-        enter: Hit {
-            t: enter,
-            part: SIDE,
-        },
-        exit: Hit {
-            t: exit,
-            part: SIDE,
-        },
-    })
+    let inside = stays & origin.length_squared().up_to(one);
+    let stay = Ends::everywhere(zero, inside);
+    match crossed {
+        Some(crossed) => Ends::select(stays, stay, crossed).if_any(),
+        None => stay.if_any(),
+    }
 }

@@ -1,10 +1,16 @@
 //! Affine images of the unit sphere.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take these with it"
+)]
+
 use glam::DVec3;
 
-use super::line::ball;
+use super::lanes::Lanes;
+use super::line::{Ends, ball};
 use super::transform::normalise;
-use super::{Aabb, Affine, Chart, Crossings, Hit, Ray, Surface};
+use super::{Aabb, Affine, Chart, Hit, Ray, Rays, Surface};
 
 /// An affine image of the unit sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,16 +27,11 @@ impl Ellipsoid {
         }
     }
 
-    /// Where the ray's line crosses the ellipsoid. Its only part is 0.
-    #[inline]
-    pub fn crossings(&self, ray: &Ray) -> Option<Crossings> {
-        let line = self.0.line(ray);
-        let [enter, exit] = ball(line.origin, line.direction, 1.0)?;
-        Crossings {
-            enter: Hit { t: enter, part: 0 },
-            exit: Hit { t: exit, part: 0 },
-        }
-        .after(line.start)
+    /// Where the lines cross the ellipsoid, in each lane. Its only part is 0.
+    #[inline(always)]
+    pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
+        let line = self.0.line(rays);
+        ball(line.origin, line.direction, line.start.all(1.0))?.after(line.start)
     }
 
     /// The surface at a hit.

@@ -6,117 +6,253 @@
 //! (2019), chapter 7; M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 4th edition,
 //! section 6.8.
 
-use glam::DVec3;
+#![expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take these with it"
+)]
 
-use super::{Crossings, Hit};
+use super::lanes::{Lanes, Vector};
 
 /// How many times its size a solid may be away before the line is followed toward it first. The
 /// products of nearer lines lose at most these six bits, and need no fused operations.
 pub(super) const FAR: f64 = 64.0;
 
-/// Follows a line that starts far from a solid to where it passes the solid's origin closest, and
+/// A line in the space of a unit solid, in each lane. Distances along it are those along the ray.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line<N> {
+    /// The place at `start`.
+    pub(super) origin: Vector<N>,
+    /// The ray's direction, not of unit length here.
+    pub(super) direction: Vector<N>,
+    /// How far along the ray `origin` is.
+    pub(super) start: N,
+}
+
+/// Where a line enters or leaves a solid, in each lane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct End<N> {
+    /// The distance.
+    pub(super) t: N,
+    /// Which of the solid's surfaces, a whole number.
+    pub(super) part: N,
+}
+
+/// Where lines enter and leave a solid, in each lane that `met` is true in.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ends<N: Lanes> {
+    pub(super) enter: End<N>,
+    pub(super) exit: End<N>,
+    pub(super) met: N::Mask,
+}
+
+impl<N: Lanes> End<N> {
+    #[inline(always)]
+    fn select(mask: N::Mask, yes: Self, no: Self) -> Self {
+        Self {
+            t: N::select(mask, yes.t, no.t),
+            part: N::select(mask, yes.part, no.part),
+        }
+    }
+
+    /// Whether it is at 0 < t < `limit`.
+    #[inline(always)]
+    fn is_within(self, limit: N) -> N::Mask {
+        limit.all(0.0).below(self.t) & self.t.below(limit)
+    }
+}
+
+impl<N: Lanes> Ends<N> {
+    /// From one crossing of a part of a surface to another.
+    #[inline(always)]
+    pub(super) fn between(enter: N, exit: N, part: u32, met: N::Mask) -> Self {
+        let part = enter.all(f64::from(part));
+        Self {
+            enter: End { t: enter, part },
+            exit: End { t: exit, part },
+            met,
+        }
+    }
+
+    /// The whole line, which no surface bounds.
+    #[inline(always)]
+    pub(super) fn everywhere(like: N, met: N::Mask) -> Self {
+        let (before, after) = (like.all(f64::NEG_INFINITY), like.all(f64::INFINITY));
+        Self::between(before, after, 0, met)
+    }
+
+    #[inline(always)]
+    pub(super) fn select(mask: N::Mask, yes: Self, no: Self) -> Self {
+        Self {
+            enter: End::select(mask, yes.enter, no.enter),
+            exit: End::select(mask, yes.exit, no.exit),
+            met: (mask & yes.met) | (!mask & no.met),
+        }
+    }
+
+    /// Itself, if any lane is met.
+    #[inline(always)]
+    pub(super) fn if_any(self) -> Option<Self> {
+        N::any(self.met).then_some(self)
+    }
+
+    /// The part of the line that is in both solids, if any.
+    #[inline(always)]
+    pub(super) fn overlap(self, other: Self) -> Option<Self> {
+        let enter = End::select(self.enter.t.below(other.enter.t), other.enter, self.enter);
+        let exit = End::select(other.exit.t.below(self.exit.t), other.exit, self.exit);
+        let met = self.met & other.met & enter.t.up_to(exit.t);
+        Self { enter, exit, met }.if_any()
+    }
+
+    /// The same as seen from `start` farther back, but for lanes where a distance is beyond what
+    /// `f64` holds: a line without direction, sizes near the ends of its range.
+    #[inline(always)]
+    pub(super) fn after(mut self, start: N) -> Option<Self> {
+        self.enter.t = self.enter.t + start;
+        self.exit.t = self.exit.t + start;
+        let ordered = self.enter.t.up_to(self.exit.t);
+        self.met = self.met & ordered & is_finite(self.enter.t) & is_finite(self.exit.t);
+        self.if_any()
+    }
+
+    /// The nearer crossing at 0 < t < `limit`, and whether there is one.
+    #[inline(always)]
+    pub(super) fn nearest(self, limit: N) -> (End<N>, N::Mask) {
+        let enters = self.enter.is_within(limit);
+        let met = self.met & (enters | self.exit.is_within(limit));
+        (End::select(enters, self.enter, self.exit), met)
+    }
+}
+
+/// Whether numbers are finite.
+#[inline(always)]
+fn is_finite<N: Lanes>(number: N) -> N::Mask {
+    let zero = number.all(0.0);
+    (zero * number).equals(zero)
+}
+
+/// Follows lines that start far from a solid to where they pass the solid's origin closest, and
 /// gives that place and the distance to it; a line that starts near stays.
 ///
 /// `offset` is the line's start as seen from the solid's origin, `reach` the solid's size. The
 /// fused product makes the new place as exact as its own, small, coordinates: an error in the
 /// distance moves it along the line only, which changes nothing.
-#[inline]
-pub(super) fn approach(offset: DVec3, direction: DVec3, reach: f64) -> (DVec3, f64) {
-    let limit = FAR * reach;
-    if offset.length_squared() <= limit * limit {
-        return (offset, 0.0);
+#[inline(always)]
+pub(super) fn approach<N: Lanes>(
+    offset: Vector<N>,
+    direction: Vector<N>,
+    reach: N,
+) -> (Vector<N>, N) {
+    let limit = reach.all(FAR) * reach;
+    let near = offset.length_squared().up_to(limit * limit);
+    let stays = reach.all(0.0);
+    if !N::any(!near) {
+        return (offset, stays);
     }
     let t = -offset.dot(direction) / direction.length_squared();
-    let place = DVec3::new(
-        t.mul_add(direction.x, offset.x),
-        t.mul_add(direction.y, offset.y),
-        t.mul_add(direction.z, offset.z),
-    );
-    (place, t)
+    let place = Vector {
+        x: t.mul_add(direction.x, offset.x),
+        y: t.mul_add(direction.y, offset.y),
+        z: t.mul_add(direction.z, offset.z),
+    };
+    (
+        Vector::select(near, offset, place),
+        N::select(near, stays, t),
+    )
 }
 
-/// Where a line crosses a ball around the origin, or `None` if it misses it or has no direction.
+/// Where lines cross a ball around the origin; not where they miss it or have no direction.
 ///
 /// With l the point of the line closest to the centre, the discriminant is a (r − |l|) (r + |l|),
 /// and its sign as exact as |l|.
-#[inline]
-pub(super) fn ball(origin: DVec3, direction: DVec3, radius: f64) -> Option<[f64; 2]> {
+#[inline(always)]
+pub(super) fn ball<N: Lanes>(
+    origin: Vector<N>,
+    direction: Vector<N>,
+    radius: N,
+) -> Option<Ends<N>> {
     let a = direction.length_squared();
     let b = origin.dot(direction);
-    let closest = (origin - (b / a) * direction).length();
-    let discriminant = a * ((radius - closest) * (radius + closest));
-    if discriminant.is_nan() || discriminant < 0.0 {
+    let aside = (origin - direction.scaled(b / a)).length_squared();
+    let square = radius * radius;
+    // A line that passes at more than the radius and rounding misses: most do, and no root is
+    // needed for them.
+    let surely = square + square.all(1e-9) * square + square.all(f64::MIN_POSITIVE);
+    if !N::any(!surely.below(aside)) {
         return None;
     }
-    let distance = origin.length();
+    let closest = aside.sqrt();
+    let discriminant = a * ((radius - closest) * (radius + closest));
+    let met = discriminant.all(0.0).up_to(discriminant);
+    if !N::any(met) {
+        return None;
+    }
+    let distance = origin.length_squared().sqrt();
     let c = (distance - radius) * (distance + radius);
-    Some(roots(a, b, c, discriminant.sqrt()))
+    let [enter, exit] = roots(a, b, c, discriminant.sqrt());
+    Some(Ends::between(enter, exit, 0, met))
 }
 
 /// Where 2 b t + c ≤ 0, between crossings of a part of a surface.
-#[inline]
-pub(super) fn half_line(b: f64, c: f64, part: u32) -> Option<Crossings> {
-    if b == 0.0 {
-        return (c <= 0.0).then_some(Crossings::EVERYWHERE);
-    }
-    let t = -0.5 * (c / b);
-    Some(if 0.0 < b {
-        between(f64::NEG_INFINITY, t, part)
-    } else {
-        between(t, f64::INFINITY, part)
-    })
-}
-
-/// From one crossing of a part of a surface to another.
-#[inline]
-pub(super) fn between(enter: f64, exit: f64, part: u32) -> Crossings {
-    let [enter, exit] = [enter, exit].map(|t| Hit { t, part });
-    Crossings { enter, exit }
+#[inline(always)]
+pub(super) fn half_line<N: Lanes>(b: N, c: N, part: u32) -> Option<Ends<N>> {
+    let t = b.all(-0.5) * (c / b);
+    let (before, after) = (b.all(f64::NEG_INFINITY), b.all(f64::INFINITY));
+    let zero = b.all(0.0);
+    let rises = zero.below(b);
+    let level = b.equals(zero);
+    let crossed = Ends::between(
+        N::select(rises, before, t),
+        N::select(rises, t, after),
+        part,
+        !level,
+    );
+    Ends::select(level, Ends::everywhere(b, c.up_to(zero)), crossed).if_any()
 }
 
 /// The roots of a t² + 2 b t + c = 0 in ascending order, given the square root of b² − ac; a ≠ 0.
 ///
 /// The root of lesser magnitude is c / q, so that a line which starts on a surface (c ≈ 0) finds
 /// that crossing at t ≈ 0 without cancellation, on the side that the sign of c says.
-#[inline]
-pub(super) fn roots(a: f64, b: f64, c: f64, root: f64) -> [f64; 2] {
+#[inline(always)]
+pub(super) fn roots<N: Lanes>(a: N, b: N, c: N, root: N) -> [N; 2] {
     let q = -(b + root.copysign(b));
-    if q == 0.0 {
-        return [0.0, 0.0];
-    }
     let (greater, lesser) = (q / a, c / q);
-    if greater < lesser {
-        [greater, lesser]
-    } else {
-        [lesser, greater]
-    }
+    let ordered = greater.below(lesser);
+    let zero = q.all(0.0);
+    let both_zero = q.equals(zero);
+    let first = N::select(ordered, greater, lesser);
+    let second = N::select(ordered, lesser, greater);
+    [
+        N::select(both_zero, zero, first),
+        N::select(both_zero, zero, second),
+    ]
 }
 
-/// Where one coordinate of a line is in [0, 1], or `None` if it never is. `parts` are the surfaces
-/// at 0 and at 1.
+/// Where one coordinate of lines is in [0, 1]. `parts` are the surfaces at 0 and at 1.
 ///
-/// A coordinate that stays the same is inside for ever or never, and must not be divided by its
-/// speed: 0 / 0 is no distance.
-#[inline]
-pub(super) fn slab(origin: f64, speed: f64, parts: [u32; 2]) -> Option<Crossings> {
-    let [low, high] = parts;
-    if speed == 0.0 {
-        return (0.0..=1.0)
-            .contains(&origin)
-            .then_some(Crossings::EVERYWHERE);
-    }
-    let low = Hit {
+/// A coordinate that stays the same is inside for ever or never: 0 / 0 is no distance.
+#[inline(always)]
+pub(super) fn slab<N: Lanes>(origin: N, speed: N, parts: [u32; 2]) -> Option<Ends<N>> {
+    let (zero, one) = (origin.all(0.0), origin.all(1.0));
+    let low = End {
         t: -origin / speed,
-        part: low,
+        part: origin.all(f64::from(parts[0])),
     };
-    let high = Hit {
-        t: (1.0 - origin) / speed,
-        part: high,
+    let high = End {
+        t: (one - origin) / speed,
+        part: origin.all(f64::from(parts[1])),
     };
-    let (enter, exit) = if 0.0 < speed {
-        (low, high)
-    } else {
-        (high, low)
+    let rises = zero.below(speed);
+    let stays = speed.equals(zero);
+    let crossed = Ends {
+        enter: End::select(rises, low, high),
+        exit: End::select(rises, high, low),
+        met: !stays,
     };
-    Some(Crossings { enter, exit })
+    if !N::any(stays) {
+        return Some(crossed);
+    }
+    let inside = zero.up_to(origin) & origin.up_to(one);
+    Ends::select(stays, Ends::everywhere(origin, inside), crossed).if_any()
 }

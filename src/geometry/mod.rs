@@ -1,5 +1,7 @@
 //! Rays against shapes, in `f64`, one shape a file. Knows no lights, materials or text.
 //!
+//! Formulas of the simple solids are written once, for one ray and for eight side by side ([`lanes`]).
+//!
 //! Hits come in two steps: [`Shape::hit`] gives a distance for every candidate, and
 //! [`Shape::surface`] the point and normal once, for the winner. [`Shape::spans`] gives all of a
 //! line that is inside, which is more than one span if the solid is not convex; squares and meshes
@@ -15,10 +17,12 @@ mod cuboid;
 mod cylinder;
 mod double_double;
 mod ellipsoid;
+pub mod lanes;
 mod line;
 mod mesh;
 mod plane;
 mod quadric;
+mod ray;
 mod shape;
 mod sphere;
 mod transform;
@@ -37,6 +41,7 @@ pub use ellipsoid::Ellipsoid;
 pub use mesh::{ABSENT, Attribute, Instance, Mesh, MeshError, MeshLine, MeshParts, SlotRun};
 pub use plane::Plane;
 pub use quadric::Quadric;
-pub use shape::{Crossings, Hit, Ray, Shape, Spans, Surface, ulp};
-pub use sphere::Sphere;
+pub use ray::{Ray, Rays};
+pub use shape::{Crossings, Hit, Hits, Shape, Spans, Surface, ulp};
+pub use sphere::{Sphere, sphere_hits};
 pub use transform::{Affine, FLATTEST, normalise};

@@ -22,9 +22,9 @@ impl Plane {
     /// Where the ray crosses the square at 0 < t < `limit`. Its only part is 0.
     #[inline]
     pub fn hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
-        let line = self.0.line(ray);
+        let line = self.0.line(&ray.into());
         let t = -line.origin.z / line.direction.z;
-        let place = line.origin + t * line.direction;
+        let place = DVec3::from(line.origin) + t * DVec3::from(line.direction);
         let t = line.start + t;
         let inside = place.x.abs() <= 1.0 && place.y.abs() <= 1.0;
         (inside && 0.0 < t && t < limit).then_some(Hit { t, part: 0 })

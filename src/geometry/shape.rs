@@ -1,29 +1,21 @@
 //! What rays, hits and shapes have in common.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take these with it"
+)]
+
 use std::sync::Arc;
 
 use glam::DVec3;
 use smallvec::SmallVec;
 
+use super::lanes::{Eight, Lanes, Simd, WIDTH, bits};
+use super::line::{End, Ends};
+use super::ray::{Ray, Rays};
 use super::{
     Aabb, Chart, Cone, Csg, Cuboid, Cylinder, Ellipsoid, Instance, Plane, Quadric, Sphere,
 };
-
-/// A half line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ray {
-    /// Where it starts.
-    pub origin: DVec3,
-    /// Where it goes; of unit length, so that distances along it are in world units.
-    pub direction: DVec3,
-}
-
-impl Ray {
-    /// The point at distance `t`.
-    pub fn at(&self, t: f64) -> DVec3 {
-        self.origin + t * self.direction
-    }
-}
 
 /// A crossing of a ray and a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +24,78 @@ pub struct Hit {
     pub t: f64,
     /// Which of the shape's surfaces: numbered by each shape for itself.
     pub part: u32,
+}
+
+/// Crossings of eight rays, side by side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hits {
+    /// A bit for each ray that crosses, the lowest for the first.
+    pub lanes: u32,
+    distances: [f64; WIDTH],
+    parts: [f64; WIDTH],
+}
+
+impl Hits {
+    /// Those of one lane after the other; `None` if there is none.
+    #[inline]
+    pub fn one_by_one(lanes: u32, mut hit: impl FnMut(usize) -> Option<Hit>) -> Option<Self> {
+        let mut hits = Self {
+            lanes: 0,
+            distances: [0.0; WIDTH],
+            parts: [0.0; WIDTH],
+        };
+        for lane in (0..WIDTH).filter(|lane| lanes >> lane & 1 == 1) {
+            if let Some(Hit { t, part }) = hit(lane) {
+                hits.lanes |= 1 << lane;
+                hits.distances[lane] = t;
+                hits.parts[lane] = f64::from(part);
+            }
+        }
+        (hits.lanes != 0).then_some(hits)
+    }
+
+    /// The crossing of a ray that has its bit in `lanes`.
+    #[inline]
+    pub fn hit(&self, lane: usize) -> Hit {
+        Hit {
+            t: self.distances[lane % WIDTH],
+            part: self.parts[lane % WIDTH] as u32,
+        }
+    }
+}
+
+impl From<End<f64>> for Hit {
+    #[inline(always)]
+    fn from(End { t, part }: End<f64>) -> Self {
+        Self {
+            t,
+            part: part as u32,
+        }
+    }
+}
+
+impl From<Ends<f64>> for Crossings {
+    #[inline(always)]
+    fn from(Ends { enter, exit, .. }: Ends<f64>) -> Self {
+        Self {
+            enter: enter.into(),
+            exit: exit.into(),
+        }
+    }
+}
+
+impl<S: Simd> Ends<Eight<S>> {
+    /// The nearer crossings at 0 < t < limit, in some lanes.
+    #[inline(always)]
+    pub(super) fn hits(self, limits: Eight<S>, lanes: u32) -> Option<Hits> {
+        let (end, met) = self.nearest(limits);
+        let lanes = bits(met) & lanes;
+        (lanes != 0).then(|| Hits {
+            lanes,
+            distances: *end.t,
+            parts: *end.part,
+        })
+    }
 }
 
 /// Where a line enters and leaves a solid, as distances along a ray, either of which may be
@@ -84,15 +148,7 @@ impl Crossings {
         (enter.t <= exit.t).then_some(Self { enter, exit })
     }
 
-    /// The same crossings as seen from `start` farther back, or `None` if a distance is beyond
-    /// what `f64` holds: a line without direction, sizes near the ends of its range.
-    #[inline]
-    pub(super) fn after(self, start: f64) -> Option<Self> {
-        self.later(start)
-            .filter(|moved| moved.enter.t.is_finite() && moved.exit.t.is_finite())
-    }
-
-    /// The same for a solid that need not have ends; `None` if a distance is no number.
+    /// The same crossings as seen from `start` farther back; `None` if a distance is no number.
     #[inline]
     pub(super) fn later(mut self, start: f64) -> Option<Self> {
         self.enter.t += start;
@@ -184,14 +240,14 @@ impl Shape {
     /// Adds the parts of the ray's line that are inside the solid; none for what is no solid.
     pub fn spans(&self, ray: &Ray, spans: &mut Spans) {
         match self {
-            Self::Sphere(sphere) => spans.extend(sphere.crossings(ray)),
-            Self::Ellipsoid(ellipsoid) => spans.extend(ellipsoid.crossings(ray)),
-            Self::Cuboid(cuboid) => spans.extend(cuboid.crossings(ray)),
-            Self::Cylinder(cylinder) => spans.extend(cylinder.crossings(ray)),
-            Self::Cone(cone) => spans.extend(cone.crossings(ray)),
             Self::Quadric(quadric) => spans.extend(quadric.crossings(ray).into_iter().flatten()),
             Self::Csg(csg) => csg.spans(ray, spans),
             Self::Plane(_) | Self::Mesh(_) => {}
+            Self::Sphere(_)
+            | Self::Ellipsoid(_)
+            | Self::Cuboid(_)
+            | Self::Cylinder(_)
+            | Self::Cone(_) => spans.extend(self.ends(&ray.into()).map(Crossings::from)),
         }
     }
 
@@ -200,15 +256,52 @@ impl Shape {
     #[inline]
     pub fn hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
         match self {
-            Self::Sphere(sphere) => sphere.crossings(ray)?.nearest(limit),
-            Self::Ellipsoid(ellipsoid) => ellipsoid.crossings(ray)?.nearest(limit),
-            Self::Cuboid(cuboid) => cuboid.crossings(ray)?.nearest(limit),
-            Self::Cylinder(cylinder) => cylinder.crossings(ray)?.nearest(limit),
-            Self::Cone(cone) => cone.crossings(ray)?.nearest(limit),
             Self::Quadric(quadric) => quadric.hit(ray, limit),
             Self::Csg(csg) => csg.hit(ray, limit),
             Self::Plane(plane) => plane.hit(ray, limit),
             Self::Mesh(instance) => instance.hit(ray, limit),
+            Self::Sphere(_)
+            | Self::Ellipsoid(_)
+            | Self::Cuboid(_)
+            | Self::Cylinder(_)
+            | Self::Cone(_) => {
+                let (end, met) = self.ends(&ray.into())?.nearest(limit);
+                met.then_some(end.into())
+            }
+        }
+    }
+
+    /// The same for eight rays side by side; `None` if no lane may be hit. Lanes whose bit in `lanes`
+    /// is 0 may be left out.
+    #[inline(always)]
+    pub fn hits<S: Simd>(
+        &self,
+        rays: &Rays<Eight<S>>,
+        limits: Eight<S>,
+        lanes: u32,
+    ) -> Option<Hits> {
+        match self {
+            Self::Quadric(_) | Self::Csg(_) | Self::Plane(_) | Self::Mesh(_) => {
+                Hits::one_by_one(lanes, |lane| self.hit(&rays.ray(lane), limits[lane]))
+            }
+            Self::Sphere(_)
+            | Self::Ellipsoid(_)
+            | Self::Cuboid(_)
+            | Self::Cylinder(_)
+            | Self::Cone(_) => self.ends(rays)?.hits(limits, lanes),
+        }
+    }
+
+    /// Where the lines cross one of the five simple solids, in each lane.
+    #[inline(always)]
+    fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
+        match self {
+            Self::Sphere(sphere) => sphere.ends(rays),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.ends(rays),
+            Self::Cuboid(cuboid) => cuboid.ends(rays),
+            Self::Cylinder(cylinder) => cylinder.ends(rays),
+            Self::Cone(cone) => cone.ends(rays),
+            Self::Quadric(_) | Self::Csg(_) | Self::Plane(_) | Self::Mesh(_) => None,
         }
     }
 

@@ -1,11 +1,17 @@
 //! Spheres. They stay in world space, where every ray has unit speed; see [`ball`] for the
 //! formula.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take these with it"
+)]
+
 use glam::DVec3;
 
-use super::line::{approach, ball};
+use super::lanes::{Eight, Lanes, Simd, Vector};
+use super::line::{Ends, approach, ball};
 use super::transform::normalise;
-use super::{Aabb, Chart, Crossings, Hit, Ray, Surface};
+use super::{Aabb, Chart, Hit, Hits, Ray, Rays, Surface};
 
 /// A sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,16 +31,11 @@ impl Sphere {
         }
     }
 
-    /// Where the ray's line crosses the sphere. Its only part is 0.
-    #[inline]
-    pub fn crossings(&self, ray: &Ray) -> Option<Crossings> {
-        let (place, start) = approach(ray.origin - self.centre, ray.direction, self.radius);
-        let [enter, exit] = ball(place, ray.direction, self.radius)?;
-        Crossings {
-            enter: Hit { t: enter, part: 0 },
-            exit: Hit { t: exit, part: 0 },
-        }
-        .after(start)
+    /// Where the lines cross the sphere, in each lane. Its only part is 0.
+    #[inline(always)]
+    pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
+        let like = rays.origin.x;
+        ends(Vector::all(like, self.centre), like.all(self.radius), rays)
     }
 
     /// The surface at a hit.
@@ -53,4 +54,24 @@ impl Sphere {
         Chart::of_ball((ray.at(hit.t) - self.centre) / self.radius)
             .with_gradients(|gradient| gradient / self.radius)
     }
+}
+
+/// Where rays meet spheres, side by side, at 0 < t < limit; in lanes whose bit is 0 none do. `None`
+/// if none does in any.
+#[inline(always)]
+pub fn sphere_hits<S: Simd>(
+    centre: Vector<Eight<S>>,
+    radius: Eight<S>,
+    rays: &Rays<Eight<S>>,
+    limits: Eight<S>,
+    lanes: u32,
+) -> Option<Hits> {
+    ends(centre, radius, rays)?.hits(limits, lanes)
+}
+
+/// Where lines cross spheres, in each lane.
+#[inline(always)]
+pub(super) fn ends<N: Lanes>(centre: Vector<N>, radius: N, rays: &Rays<N>) -> Option<Ends<N>> {
+    let (place, start) = approach(rays.origin - centre, rays.direction, radius);
+    ball(place, rays.direction, radius)?.after(start)
 }

@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
-use super::line::approach;
+use super::lanes::{Lanes, Vector};
+use super::line::{Line, approach};
 use super::shape::CLEARANCE;
-use super::{Chart, Hit, Ray, Surface, ulp};
+use super::{Chart, Hit, Ray, Rays, Surface, ulp};
 
 /// The least |determinant| of a frame's unit directions: flatter ones span no volume.
 pub const FLATTEST: f64 = 1e-6;
@@ -23,16 +24,9 @@ pub struct Affine {
     duals: [DVec3; 3],
     /// No point of a unit solid is farther from the origin.
     reach: f64,
-}
-
-/// A ray's line in the space of a unit solid. Distances along it are those along the ray.
-pub(super) struct Line {
-    /// The place at `start`.
-    pub(super) origin: DVec3,
-    /// The ray's direction, not of unit length here.
-    pub(super) direction: DVec3,
-    /// How far along the ray `origin` is.
-    pub(super) start: f64,
+    /// How far a step of length 1 in the world goes at most along each axis of the unit solid: the
+    /// lengths of the duals.
+    steps: DVec3,
 }
 
 impl Affine {
@@ -73,26 +67,30 @@ impl Affine {
             let across = exact_cross(next, last);
             across / exact_dot(across, own) / length
         };
+        let duals = [
+            dual(u, v, w, lengths.x),
+            dual(v, w, u, lengths.y),
+            dual(w, u, v, lengths.z),
+        ];
         Some(Self {
             origin,
             axes: [lengths.x * u, lengths.y * v, lengths.z * w],
-            duals: [
-                dual(u, v, w, lengths.x),
-                dual(v, w, u, lengths.y),
-                dual(w, u, v, lengths.z),
-            ],
+            duals,
             reach: lengths.element_sum(),
+            steps: steps(duals),
         })
     }
 
     /// The frame of the cube of half edge `size`, a power of two, around a place of this one.
     pub(super) fn around(&self, place: DVec3, size: f64) -> Self {
         let [x, y, z] = self.axes;
+        let duals = self.duals.map(|dual| dual / size);
         Self {
             origin: self.origin + (place.x * x + place.y * y + place.z * z),
             axes: self.axes.map(|axis| size * axis),
-            duals: self.duals.map(|dual| dual / size),
+            duals,
             reach: size * self.reach,
+            steps: steps(duals),
         }
     }
 
@@ -119,13 +117,25 @@ impl Affine {
         DVec3::new(row(0), row(1), row(2))
     }
 
-    /// The ray's line in the space of the unit solid.
-    #[inline]
-    pub(super) fn line(&self, ray: &Ray) -> Line {
-        let (offset, start) = approach(ray.origin - self.origin, ray.direction, self.reach);
+    /// The rays' lines in the space of the unit solid, in each lane.
+    #[expect(
+        clippy::inline_always,
+        reason = "a caller compiled for wider vectors must take this with it"
+    )]
+    #[inline(always)]
+    pub(super) fn line<N: Lanes>(&self, rays: &Rays<N>) -> Line<N> {
+        let like = rays.origin.x;
+        let offset = rays.origin - Vector::all(like, self.origin);
+        let (offset, start) = approach(offset, rays.direction, like.all(self.reach));
+        let [x, y, z] = self.duals;
+        let duals = [
+            Vector::all(like, x),
+            Vector::all(like, y),
+            Vector::all(like, z),
+        ];
         Line {
-            origin: self.dual_products(offset),
-            direction: self.dual_products(ray.direction),
+            origin: products(duals, offset),
+            direction: products(duals, rays.direction),
             start,
         }
     }
@@ -147,10 +157,8 @@ impl Affine {
         let terms = (outward.x * u).abs() + (outward.y * v).abs() + (outward.z * w).abs();
         let cancellation = terms.max_element() / gradient.abs().max_element();
         let scale = self.origin.abs().max_element().max(self.reach) * cancellation;
-        let margin = self
-            .duals
-            .map(|dual| (2.0 * CLEARANCE * ulp(scale) * dual.length()).min(0.25));
-        let place = project(DVec3::from_array(margin));
+        let margin = (2.0 * CLEARANCE * ulp(scale) * self.steps).min(DVec3::splat(0.25));
+        let place = project(margin);
         let [x, y, z] = self.axes;
         let normal = normalise(gradient).unwrap_or(DVec3::Z);
         Surface {
@@ -177,6 +185,24 @@ impl Affine {
     fn dual_products(&self, v: DVec3) -> DVec3 {
         let [x, y, z] = self.duals;
         DVec3::new(x.dot(v), y.dot(v), z.dot(v))
+    }
+}
+
+fn steps(duals: [DVec3; 3]) -> DVec3 {
+    DVec3::from_array(duals.map(DVec3::length))
+}
+
+/// The scalar products of a vector with three.
+#[expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take this with it"
+)]
+#[inline(always)]
+fn products<N: Lanes>([x, y, z]: [Vector<N>; 3], v: Vector<N>) -> Vector<N> {
+    Vector {
+        x: x.dot(v),
+        y: y.dot(v),
+        z: z.dot(v),
     }
 }
 

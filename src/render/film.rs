@@ -11,10 +11,11 @@ use super::filter::Spread;
 use super::first_hit::first_hit;
 use super::frame::{Aov, Frames, NO_OBJECT, Settings};
 use super::noise::Doubling;
+use super::probe::{Counts, Sample, Seen};
 use super::sampler::{Sampler, Use};
 use super::steps::{COARSEST, Step};
 use super::tone::Tone;
-use super::tracer::{Counts, Sample, Tracer};
+use super::tracer::Tracer;
 use super::world::World;
 use crate::scene::{Integrator, Rgb, Size, Transfer};
 
@@ -74,6 +75,17 @@ impl Shot<'_> {
             sampler,
         }
     }
+}
+
+/// What a thread traces tiles with: room that it keeps from one to the next.
+struct Work<'w, C> {
+    tracer: Tracer<'w, C>,
+    /// The pixels that are sampled.
+    pixels: Vec<[u32; 2]>,
+    /// A sample of each.
+    samples: Vec<Sample>,
+    /// What each brings.
+    seen: Vec<Seen>,
 }
 
 /// The tiles of a picture, row by row.
@@ -247,12 +259,17 @@ impl Film {
                     let Settings {
                         integrator, depth, ..
                     } = shot.settings;
-                    Tracer::new(shot.world, integrator, depth, &cancelled)
+                    Work {
+                        tracer: Tracer::new(shot.world, integrator, depth, &cancelled),
+                        pixels: Vec::new(),
+                        samples: Vec::new(),
+                        seen: Vec::new(),
+                    }
                 },
-                |tracer, tile| {
-                    let before = tracer.counts;
-                    tile.advance(size, step, shot, tracer);
-                    tracer.counts.since(before)
+                |work, tile| {
+                    let before = work.tracer.counts();
+                    tile.advance(size, step, shot, work);
+                    work.tracer.counts().since(before)
                 },
             )
             .reduce(Counts::default, Counts::and);
@@ -394,36 +411,36 @@ impl Tile {
         size: Size,
         step: &Step,
         shot: &Shot<'_>,
-        tracer: &mut Tracer<'_, C>,
+        work: &mut Work<'_, C>,
     ) {
         match step {
             &Step::Grid(spacing) => {
                 let coarser = 2 * spacing;
                 let held =
                     |[x, y]: [u32; 2]| spacing < COARSEST && x % coarser == 0 && y % coarser == 0;
-                for pixel in self.pixels(size, spacing).filter(|&pixel| !held(pixel)) {
-                    if (tracer.cancelled)() {
-                        return;
-                    }
-                    self.sample(pixel, 0, shot, tracer);
-                }
+                let pixels = self.pixels(size, spacing).filter(|&pixel| !held(pixel));
+                work.pixels.clear();
+                work.pixels.extend(pixels);
+                self.sample(0, shot, work);
                 self.grid = spacing;
                 self.samples = u32::from(spacing == 1);
             }
             Step::Samples(indices) => {
                 let doubling = Doubling::of(step, &shot.settings);
-                self.squared_errors = 0.0;
-                for [x, y] in self.pixels(size, 1) {
-                    let at = self.index(x, y);
-                    let before = self.sums[at];
-                    for index in indices.clone() {
-                        if (tracer.cancelled)() {
-                            return;
-                        }
-                        self.sample([x, y], index, shot, tracer);
+                let before = self.sums;
+                work.pixels.clear();
+                work.pixels.extend(self.pixels(size, 1));
+                for index in indices.clone() {
+                    if work.tracer.is_cancelled() {
+                        return;
                     }
+                    self.sample(index, shot, work);
+                }
+                self.squared_errors = 0.0;
+                for &[x, y] in &work.pixels {
+                    let at = self.index(x, y);
                     self.squared_errors += doubling.map_or(0.0, |doubling| {
-                        doubling.squared_error(before, self.sums[at])
+                        doubling.squared_error(before[at], self.sums[at])
                     });
                 }
                 self.samples = indices.end;
@@ -431,39 +448,51 @@ impl Tile {
         }
     }
 
-    /// Adds one sample to its pixel.
-    fn sample<C: Fn() -> bool>(
-        &mut self,
-        [x, y]: [u32; 2],
-        index: u32,
-        shot: &Shot<'_>,
-        tracer: &mut Tracer<'_, C>,
-    ) {
-        let sample = shot.sample([x, y], index);
-        let seen = match shot.settings.aov {
-            None => tracer.radiance(&sample),
+    /// Adds one sample to each of some pixels.
+    fn sample<C: Fn() -> bool>(&mut self, index: u32, shot: &Shot<'_>, work: &mut Work<'_, C>) {
+        let Work {
+            tracer,
+            pixels,
+            samples,
+            seen,
+        } = work;
+        samples.clear();
+        samples.extend(pixels.iter().map(|&pixel| shot.sample(pixel, index)));
+        match shot.settings.aov {
+            None => tracer.trace(samples, seen),
             Some(aov) => {
-                tracer.counts.rays += 1;
-                let Sample { ray, reach, .. } = sample;
-                let skipped = (ray.origin - shot.eye).dot(ray.direction);
-                first_hit(shot.world, &ray, reach, skipped, aov)
+                tracer.count(samples.len());
+                seen.clear();
+                seen.extend(samples.iter().map(|&Sample { ray, reach, .. }| {
+                    let skipped = (ray.origin - shot.eye).dot(ray.direction);
+                    first_hit(shot.world, &ray, reach, skipped, aov)
+                }));
             }
-        };
-        let at = self.index(x, y);
-        self.sums[at] += seen.radiance;
-        if index == 0 {
-            self.objects[at] = seen.object;
+        }
+        for (&[x, y], seen) in pixels.iter().zip(seen) {
+            let at = self.index(x, y);
+            self.sums[at] += seen.radiance;
+            if index == 0 {
+                self.objects[at] = seen.object;
+            }
         }
     }
 
-    /// Its pixels within the picture on a grid of some spacing, row by row.
+    /// Its pixels within the picture on a grid of some spacing, in blocks of four by two: those that
+    /// stand side by side are traced side by side.
     fn pixels(&self, size: Size, spacing: u32) -> impl Iterator<Item = [u32; 2]> + use<> {
         let [left, top] = self.corner;
         let right = left + (size.width - left).min(self.shape.width);
         let bottom = top + (size.height - top).min(self.shape.height);
-        (top..bottom)
-            .step_by(spacing as usize)
-            .flat_map(move |y| (left..right).step_by(spacing as usize).map(move |x| [x, y]))
+        let step = spacing as usize;
+        let part = move |from: u32, to: u32, count: u32| {
+            (from..to.min(from + count * spacing)).step_by(step)
+        };
+        (top..bottom).step_by(2 * step).flat_map(move |y0| {
+            (left..right).step_by(4 * step).flat_map(move |x0| {
+                part(y0, bottom, 2).flat_map(move |y| part(x0, right, 4).map(move |x| [x, y]))
+            })
+        })
     }
 
     /// Where the pixel that stands for (x, y) is.

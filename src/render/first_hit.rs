@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::frame::{Aov, NO_OBJECT};
-use super::tracer::{Matter, Seen};
+use super::probe::{Matter, Seen};
 use super::world::World;
 use crate::geometry::Ray;
 use crate::scene::Rgb;

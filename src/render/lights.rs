@@ -9,6 +9,7 @@ use glam::DVec3;
 use super::optics::power;
 use super::warp;
 use crate::accel::Bvh;
+use crate::geometry::lanes::{Level, dispatch};
 use crate::geometry::{Aabb, Ray};
 use crate::scene::{Falloff, Integrator, Light, Rgb, Scene, Source};
 
@@ -23,6 +24,7 @@ pub(crate) struct Incoming {
 
 /// From where a light comes to a point: from the middle of one that has a size unless `place`, in the
 /// unit square, chooses another part. `None` if it comes from nowhere.
+#[inline]
 pub(crate) fn incoming(light: &Light, point: DVec3, place: Option<[f64; 2]>) -> Option<Incoming> {
     match light.source {
         Source::Point { position, .. } => {
@@ -42,8 +44,10 @@ pub(crate) fn incoming(light: &Light, point: DVec3, place: Option<[f64; 2]>) -> 
 
 /// The part of a light that comes to a point in a direction, whatever is in its way. Of a light with
 /// a size its centre's distance counts.
+#[inline]
 pub(crate) fn attenuation(light: &Light, point: DVec3, toward: DVec3) -> f64 {
     match &light.source {
+        Source::Point { falloff, .. } if *falloff == Falloff::NONE => 1.0,
         Source::Point { position, falloff } => falloff.share(position.distance(point), toward),
         Source::Distant(_) | Source::Everywhere => 1.0,
     }
@@ -181,7 +185,7 @@ impl SphereLights {
     /// the first in file order.
     pub(crate) fn nearest(&self, ray: &Ray, distance: f64) -> Option<(SphereLight, f64)> {
         let mut nearest: Option<(f64, u32)> = None;
-        self.tree.traverse(ray, distance, |number| {
+        self.visit(ray, distance, |number| {
             if let Some(hit) = self.all[number as usize].hit(ray)
                 && hit < distance
                 && nearest.is_none_or(|nearest| (hit, number) < nearest)
@@ -196,12 +200,31 @@ impl SphereLights {
     /// Whether a ray meets one other than its own target before a distance.
     pub(crate) fn hide(&self, target: &SphereLight, ray: &Ray, distance: f64) -> bool {
         let mut hidden = false;
-        self.tree.traverse(ray, distance, |number| {
+        self.visit(ray, distance, |number| {
             let sphere = &self.all[number as usize];
             hidden = sphere != target && sphere.hit(ray).is_some_and(|hit| hit < distance);
             if hidden { -1.0 } else { distance }
         });
         hidden
+    }
+
+    /// Visits those that the ray may meet; `visit` gives the limit from there on, below 0 to end.
+    fn visit(&self, ray: &Ray, limit: f64, mut visit: impl FnMut(u32) -> f64) {
+        if self.all.is_empty() {
+            return;
+        }
+        dispatch!(Level::new(), simd => {
+            self.tree.traverse(simd, ray, limit, |places| {
+                let mut limit = limit;
+                for &number in &self.tree.order()[places] {
+                    limit = visit(number);
+                    if limit < 0.0 {
+                        break;
+                    }
+                }
+                limit
+            });
+        });
     }
 }
 

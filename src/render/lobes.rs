@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::microfacet::Microfacets;
 use super::optics::{power, reflect, schlick};
-use super::tracer::Point;
+use super::probe::Point;
 use super::utah::{Gloss, Shading};
 use super::warp;
 use crate::scene::Rgb;

@@ -15,15 +15,19 @@
 //! from a [`tracer`], or something else from [`first_hit`]; [`tone`] makes the film a frame, and
 //! [`noise`] says how far that is from the last one.
 //!
-//! A tracer gathers light in one of two ways, [`whitted`] or [`path`]. Both come to surfaces of
-//! [`phong`] (with its [`texture`]s) or [`utah`] (with those of [`mapped`]) and ask [`lights`];
-//! [`optics`], [`lobes`], [`microfacet`] and [`warp`] are the formulas.
+//! A tracer gathers light in one of two ways, [`whitted`] or [`path`]. Both ask the world by a
+//! [`probe`], come to surfaces of [`phong`] (with its [`texture`]s) or [`utah`] (with those of
+//! [`mapped`]) and ask [`lights`]; [`optics`], [`lobes`], [`microfacet`] and [`warp`] are the formulas.
+//!
+//! Rays meet the world in [`intersect`]: eight side by side against one object after the other, or
+//! one alone against up to eight [`spheres`] at once. Neither changes a bit of what is met.
 
 mod camera;
 mod film;
 mod filter;
 mod first_hit;
 mod frame;
+mod intersect;
 mod lights;
 mod lobes;
 mod mapped;
@@ -32,9 +36,11 @@ mod noise;
 mod optics;
 mod path;
 mod phong;
+mod probe;
 mod renderer;
 mod sampler;
 mod shared;
+mod spheres;
 mod steps;
 mod structures;
 mod texture;

@@ -11,8 +11,9 @@ use super::lights::{self, SphereLight};
 use super::lobes::{Lobes, strength};
 use super::microfacet::Microfacets;
 use super::optics::{Dielectric, index, reflect, refract, schlick, spread, transmitted};
+use super::phong;
+use super::probe::{Matter, Point, Probe, RAY_BUDGET, Sample, Seen, shadow};
 use super::sampler::{Sampler, Use};
-use super::tracer::{Matter, Point, RAY_BUDGET, Sample, Seen, Tracer};
 use super::utah::{Gloss, Shading};
 use super::warp;
 use crate::geometry::Ray;
@@ -44,7 +45,7 @@ struct BsdfSample {
     chosen: Option<(DVec3, f64)>,
 }
 
-impl<C: Fn() -> bool> Tracer<'_, C> {
+impl<C: Fn() -> bool> Probe<'_, C> {
     /// Radiance along a camera ray.
     pub(crate) fn by_path(&mut self, sample: &Sample) -> Seen {
         let mut seen = Seen {
@@ -87,7 +88,7 @@ impl<C: Fn() -> bool> Tracer<'_, C> {
         };
         let nearest = world.nearest(&path.ray, reach);
         let distance = nearest.map_or(reach, |nearest| nearest.hit.t);
-        if let Some((light, distance)) = world.spheres.nearest(&path.ray, distance) {
+        if let Some((light, distance)) = world.sphere_lights.nearest(&path.ray, distance) {
             path.throughput *= transmitted(path.absorption, distance);
             let radiance = lights::path_gain(&world.scene) * light.radiance();
             seen.radiance += path.throughput * radiance * path.weight_of_chance(&light);
@@ -108,7 +109,7 @@ impl<C: Fn() -> bool> Tracer<'_, C> {
                 None
             }
             Matter::Phong(material) => {
-                let light = self.light_on_phong(&point, &material, Rgb::ZERO);
+                let light = self.light_on_phong(&point, &material);
                 seen.radiance += path.throughput * light;
                 let numbers = sample.sampler.four(path.bounce, Use::Bounce);
                 sample_phong(&path.ray, &point, &material, numbers)
@@ -122,6 +123,21 @@ impl<C: Fn() -> bool> Tracer<'_, C> {
                 bsdf.sample(&path.ray, &point, &shading, sample.sampler, path.bounce)
             }
         }
+    }
+
+    /// What a surface of `.ray` or `.dat` sends back of the light of all lights, in file order.
+    fn light_on_phong(&mut self, point: &Point, material: &Phong) -> Rgb {
+        let world = self.world;
+        let mut sum = Rgb::ZERO;
+        for (number, light) in world.scene.lights.iter().enumerate() {
+            if self.is_cancelled_at(number) {
+                break;
+            }
+            sum += self.direct(point, light, None, |toward, cosine| {
+                phong::reflected(material, point, toward, cosine)
+            });
+        }
+        sum
     }
 
     /// What is sent back of the light of all lights, in file order.
@@ -163,7 +179,7 @@ impl<C: Fn() -> bool> Tracer<'_, C> {
         let ray = point.leave(incoming.toward);
         let hides = |place: DVec3| {
             let distance = place.distance(ray.origin);
-            self.world.spheres.hide(sphere, &ray, distance)
+            self.world.sphere_lights.hide(sphere, &ray, distance)
         };
         if scattered.value == Rgb::ZERO || incoming.source.is_some_and(hides) {
             return Rgb::ZERO;
@@ -176,7 +192,8 @@ impl<C: Fn() -> bool> Tracer<'_, C> {
         };
         let weight = power_heuristic(sphere.density(from), chance);
         let arriving = weight * sphere.irradiance(from);
-        self.visibility(&point.surface, light, incoming) * (scattered.value * arriving)
+        let shadow = shadow(&point.surface, light, incoming);
+        self.visibility(shadow) * (scattered.value * arriving)
     }
 }
 

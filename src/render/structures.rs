@@ -5,6 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::accel::Bvh;
+use crate::geometry::lanes::Simd;
 use crate::geometry::{Aabb, Hit, Instance, Mesh, Ray, Shape};
 use crate::scene::Object;
 
@@ -16,8 +17,8 @@ const QUIET: usize = 16_384;
 pub(crate) enum Search {
     /// The nearest one.
     Nearest,
-    /// Whichever is found first.
-    Any,
+    /// Whichever is found first, to know whether light is blocked.
+    Blocker,
 }
 
 /// The trees of a scene's meshes.
@@ -57,8 +58,14 @@ impl Structures {
     }
 
     /// A hit of an object that is this instance, with `0 < t < limit`.
-    pub(crate) fn hit(
+    #[expect(
+        clippy::inline_always,
+        reason = "a caller compiled for wider vectors must take this with it"
+    )]
+    #[inline(always)]
+    pub(crate) fn hit<S: Simd>(
         &self,
+        simd: S,
         object: u32,
         instance: &Instance,
         ray: &Ray,
@@ -69,14 +76,23 @@ impl Structures {
         let line = instance.line(ray)?;
         let limit_on_line = line.limit(limit);
         let mut nearest = None;
-        tree.traverse(line.ray(), limit_on_line, |triangle| {
-            let farthest = line.meet(triangle, limit_on_line, &mut nearest);
-            let met = nearest.is_some_and(|nearest| line.hit(nearest, limit).is_some());
-            if met && search == Search::Any {
-                return -1.0;
-            }
-            farthest
-        });
+        tree.traverse(
+            simd,
+            line.ray(),
+            limit_on_line,
+            #[inline(always)]
+            |places| {
+                let mut farthest = limit_on_line;
+                for &triangle in &tree.order()[places] {
+                    farthest = line.meet(triangle, limit_on_line, &mut nearest);
+                    let met = nearest.is_some_and(|nearest| line.hit(nearest, limit).is_some());
+                    if met && search == Search::Blocker {
+                        return -1.0;
+                    }
+                }
+                farthest
+            },
+        );
         line.hit(nearest?, limit)
     }
 

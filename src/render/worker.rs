@@ -10,9 +10,9 @@ use super::camera::Projection;
 use super::film::{Film, Raster, Shot};
 use super::filter::Spread;
 use super::frame::{Frame, Frames, Job, Progress};
+use super::probe::Counts;
 use super::shared::Shared;
 use super::steps::{Step, steps};
-use super::tracer::Counts;
 use super::world::World;
 use crate::scene::Size;
 

@@ -72,31 +72,30 @@ impl Instance {
     /// enough, else before all of the mesh.
     #[inline]
     pub fn line(&self, ray: &Ray) -> Option<MeshLine<'_>> {
-        let mut line = self.frame.line(ray);
-        if line.start != 0.0 || NEAR * NEAR < line.origin.length_squared() {
-            let speed = line.direction.length();
+        let line = self.frame.line(&ray.into());
+        let [mut origin, direction] = [line.origin, line.direction].map(DVec3::from);
+        let mut start = line.start;
+        if start != 0.0 || NEAR * NEAR < origin.length_squared() {
+            let speed = direction.length();
             let back = NEAR / speed;
-            let closest = -line.origin.dot(line.direction) / (speed * speed);
-            if line.start + closest + back < 0.0 {
+            let closest = -origin.dot(direction) / (speed * speed);
+            if start + closest + back < 0.0 {
                 return None;
             }
             // An error in the distance moves the start along the line only.
             let step = closest - back;
-            line.origin = DVec3::new(
-                step.mul_add(line.direction.x, line.origin.x),
-                step.mul_add(line.direction.y, line.origin.y),
-                step.mul_add(line.direction.z, line.origin.z),
+            origin = DVec3::new(
+                step.mul_add(direction.x, origin.x),
+                step.mul_add(direction.y, origin.y),
+                step.mul_add(direction.z, origin.z),
             );
-            line.start += step;
+            start += step;
         }
         Some(MeshLine {
             mesh: &self.mesh,
-            line: Ray {
-                origin: line.origin,
-                direction: line.direction,
-            },
-            sheared: Sheared::new(line.origin, line.direction),
-            start: line.start,
+            line: Ray { origin, direction },
+            sheared: Sheared::new(origin, direction),
+            start,
         })
     }
 
@@ -119,7 +118,7 @@ impl Instance {
         let across = exact_cross(sides[2], -sides[1]);
         // Corners in a row leave the plane open: it faces the ray.
         let outward = if across == DVec3::ZERO {
-            -normalise(self.frame.line(ray).direction).unwrap_or(DVec3::NEG_Z)
+            -normalise(self.frame.line(&ray.into()).direction.into()).unwrap_or(DVec3::NEG_Z)
         } else {
             across
         };

@@ -6,7 +6,7 @@ mod form;
 
 use glam::DVec3;
 
-use super::line::{between, half_line, roots};
+use super::line::{Ends, half_line, roots};
 use super::transform::{normalise, power_of_two};
 use super::{Aabb, Chart, Crossings, Hit, Ray, Surface};
 use form::{Form, Line};
@@ -192,7 +192,7 @@ fn inside(form: &Form, line: &Line) -> [Option<Crossings>; 2] {
     let level = 2.0 * h.dot(p) + form.constant;
     let c = p.dot(sp) + level;
     if a == 0.0 {
-        return [half_line(b, c, CURVED), None];
+        return [half_line(b, c, CURVED).map(Crossings::from), None];
     }
     let moment = p.cross(q);
     let products = DVec3::new(s.y * s.z, s.z * s.x, s.x * s.y);
@@ -201,6 +201,7 @@ fn inside(form: &Form, line: &Line) -> [Option<Crossings>; 2] {
         return [(a < 0.0).then_some(Crossings::EVERYWHERE), None];
     }
     let [first, second] = roots(a, b, c, discriminant.sqrt());
+    let between = |enter, exit, part| Crossings::from(Ends::between(enter, exit, part, true));
     if 0.0 < a {
         [Some(between(first, second, CURVED)), None]
     } else {

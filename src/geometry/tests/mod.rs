@@ -5,6 +5,7 @@ mod csg;
 mod csg_faces;
 mod exact;
 mod known;
+mod lanes;
 mod leaving;
 mod mesh_known;
 mod meshes;

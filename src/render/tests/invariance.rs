@@ -2,6 +2,7 @@
 //! scaled or moved.
 
 use super::*;
+use crate::geometry::lanes::Level;
 use crate::geometry::{Cone, Cylinder, Ellipsoid, ulp};
 
 /// A solid of any kind, before it is placed.
@@ -145,6 +146,33 @@ fn of_hits_that_are_one_the_first_in_the_file_is_met() {
         }
     }
     assert!(1000 < ties, "the test saw {ties} ties");
+}
+
+/// Camera samples bring the same, to the bit, with the vectors that every machine of its kind has and
+/// with those that this one has besides, side by side and each alone.
+#[test]
+fn radiance_is_the_same_with_any_vectors_and_in_any_company() {
+    let mut random = Random(14);
+    for _ in 0..40 {
+        let scene = Still::random(&mut random).placed(1.0, DVec3::ZERO);
+        let mut world = world(Scene::clone(&scene));
+        let samples: Vec<_> = (0..100)
+            .map(|_| {
+                let origin = random.point(4.0);
+                let direction = (random.point(1.0) - origin).normalize();
+                centred(Ray { origin, direction }, f64::INFINITY)
+            })
+            .collect();
+        let mut best = Vec::new();
+        tracer(&world, 8).trace(&samples, &mut best);
+        for (sample, seen) in samples.iter().zip(&best) {
+            assert_eq!(tracer(&world, 8).radiance(sample), *seen);
+        }
+        world.level = Level::baseline();
+        let mut plain = Vec::new();
+        tracer(&world, 8).trace(&samples, &mut plain);
+        assert_eq!(plain, best);
+    }
 }
 
 /// SPEC: a scene scaled by 2^k is the same picture to the bit.

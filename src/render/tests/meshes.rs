@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::*;
+use crate::geometry::lanes::{Level, dispatch};
 use crate::geometry::{Attribute, Instance, Mesh, MeshParts, Plane, SlotRun};
 use crate::render::structures::{Search, Structures};
 
@@ -131,8 +132,10 @@ fn a_closed_mesh_has_no_gaps() {
             let origin = at(0.5 * random.point(1.0));
             let direction = (at(target) - origin).normalize();
             let ray = Ray { origin, direction };
-            for search in [Search::Nearest, Search::Any] {
-                let hit = structures.hit(0, &instance, &ray, f64::INFINITY, search);
+            for search in [Search::Nearest, Search::Blocker] {
+                let hit = dispatch!(Level::new(), simd => {
+                    structures.hit(simd, 0, &instance, &ray, f64::INFINITY, search)
+                });
                 assert!(hit.is_some(), "{ray:?} leaks");
             }
         }

@@ -21,8 +21,9 @@ use std::sync::mpsc;
 
 use glam::{DVec2, DVec3};
 
+use super::probe::{Sample, Seen};
 use super::sampler::Sampler;
-use super::tracer::{Sample, Seen, Tracer};
+use super::tracer::Tracer;
 use super::world::World;
 use super::{Filter, Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
 use crate::format::{self, Format};
@@ -31,6 +32,15 @@ use crate::scene::{
     Camera, Focus, Images, Integrator, Lens, Light, Material, Meshes, Object, Phong, Rgb, Scene,
     Setting, Size, Transfer, lower,
 };
+
+impl<C: Fn() -> bool> Tracer<'_, C> {
+    /// Radiance along one camera ray.
+    fn radiance(&mut self, sample: &Sample) -> Seen {
+        let mut seen = Vec::new();
+        self.trace(&[*sample], &mut seen);
+        seen[0]
+    }
+}
 
 /// Deterministic numbers in 0..1 (Vigna's splitmix64).
 struct Random(u64);
@@ -171,7 +181,7 @@ fn look(scene: Scene, depth: u32, ray: Ray) -> (Seen, u64) {
     let world = world(scene);
     let mut tracer = tracer(&world, depth);
     let seen = tracer.radiance(&centred(ray, f64::INFINITY));
-    (seen, tracer.counts.over_budget)
+    (seen, tracer.counts().over_budget)
 }
 
 /// Grey level that a ray sees.

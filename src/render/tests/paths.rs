@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use super::super::lobes::Lobes;
+use super::super::probe::{Matter, Point};
 use super::super::sampler::Use;
-use super::super::tracer::{Matter, Point};
 use super::*;
 
 /// The means of a ray's radiance over `samples`, one for each of some seeds.

@@ -1,0 +1,69 @@
+//! Eight rays side by side meet what each meets alone, to the bit, with any vectors.
+
+use glam::DVec3;
+
+use super::random::Random;
+use super::{KINDS, unit};
+use crate::geometry::lanes::{Eight, Level, SimdBase, WIDTH, dispatch};
+use crate::geometry::{Hit, Ray, Rays, Shape};
+
+/// The vectors that this machine can be asked to use.
+fn levels() -> Vec<Level> {
+    let best = Level::new();
+    let mut levels = vec![Level::baseline(), best];
+    #[cfg(target_arch = "x86_64")]
+    {
+        levels.extend(best.as_sse4_2().map(Level::Sse4_2));
+        levels.extend(best.as_avx2().map(Level::Avx2));
+    }
+    levels
+}
+
+/// What each ray meets, side by side.
+fn together(level: Level, shape: &Shape, rays: &[Ray; WIDTH], limit: f64) -> Vec<Option<Hit>> {
+    let hits = dispatch!(level, simd => {
+        let packet = Rays::gather(simd, rays);
+        shape.hits(&packet, Eight::splat(simd, limit), 0xFF)
+    });
+    let of = |lane| Some(hits?).filter(|hits| hits.lanes >> lane & 1 == 1);
+    (0..WIDTH)
+        .map(|lane| of(lane).map(|hits| hits.hit(lane)))
+        .collect()
+}
+
+/// From inside, near or far, toward a place of the solid or past it, often along an axis of it.
+fn ray_at(random: &mut Random, frame: &super::Frame) -> Ray {
+    let target = frame.world(1.1 * random.in_cube());
+    let direction = match random.bits() % 4 {
+        0 => unit(frame.directions[random.bits() as usize % 3]),
+        1 => DVec3::AXES[random.bits() as usize % 3],
+        _ => random.direction(),
+    };
+    let back = [0.0, 1.0, 30.0, 1e4, -2.0][random.bits() as usize % 5];
+    Ray {
+        origin: target - back * direction,
+        direction,
+    }
+}
+
+#[test]
+fn lanes_meet_what_each_meets_alone() {
+    let mut random = Random(31);
+    let mut met = 0;
+    for round in 0..400 {
+        let frame = random.frame();
+        for kind in KINDS {
+            let frame = frame.of(kind);
+            let shape = frame.shape(kind);
+            let rays = [(); WIDTH].map(|()| ray_at(&mut random, &frame));
+            let limit = [f64::INFINITY, 3.0][round % 2];
+            let alone: Vec<_> = rays.iter().map(|ray| shape.hit(ray, limit)).collect();
+            met += alone.iter().flatten().count();
+            for level in levels() {
+                let hits = together(level, &shape, &rays, limit);
+                assert_eq!(hits, alone, "{kind:?} {level:?} {rays:?}");
+            }
+        }
+    }
+    assert!(4000 < met, "{met} rays met something");
+}

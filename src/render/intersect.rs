@@ -1,0 +1,471 @@
+//! Rays against a world: which object a ray meets first, and how much light passes.
+
+#![expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take these with it"
+)]
+
+use std::ops::Range;
+
+use super::structures::Search;
+use super::world::World;
+use crate::geometry::lanes::{Eight, Simd, SimdBase, WIDTH, dispatch};
+use crate::geometry::{Hit, Hits, Ray, Rays, Shape, ulp};
+
+/// What shadow rays cross: which of the rays, the object and its material there.
+pub(crate) type Crossed = Vec<(u32, u32, u32)>;
+
+/// The first object on a ray's way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Nearest {
+    /// Its index.
+    pub(crate) object: u32,
+    /// Where it is met.
+    pub(crate) hit: Hit,
+}
+
+/// The nearest object of those that were met so far.
+///
+/// Of objects that are met within 64 ulp of the least distance the first of the file counts, so that
+/// touching solids show no speckle. Which of several hits in that window comes first depends on the
+/// order of a walk until the least distance is known, so ties are only noticed here. They are rare.
+#[derive(Clone, Copy, Debug)]
+struct Closest {
+    best: Option<Nearest>,
+    tied: bool,
+    /// How far along the ray something may still count.
+    limit: f64,
+    /// How far the ray's origin is from that of the world.
+    reach: f64,
+}
+
+impl Closest {
+    #[inline(always)]
+    fn before(limit: f64, ray: &Ray) -> Self {
+        Self {
+            best: None,
+            tied: false,
+            limit,
+            reach: ray.origin.length(),
+        }
+    }
+
+    #[inline(always)]
+    fn offer(&mut self, object: u32, hit: Hit) {
+        if self.limit <= hit.t {
+            return;
+        }
+        let window = 64.0 * ulp(self.reach.max(hit.t));
+        match self.best {
+            Some(before) if before.hit.t <= hit.t => {
+                self.tied = true;
+                return;
+            }
+            Some(before) => self.tied = before.hit.t <= hit.t + window,
+            None => {}
+        }
+        self.best = Some(Nearest { object, hit });
+        self.limit = self.limit.min((hit.t + window).next_up());
+    }
+}
+
+impl World {
+    /// The nearest object on the ray nearer than `limit`; of those that are met within 64 ulp of
+    /// the least distance, the first of the file.
+    pub(crate) fn nearest(&self, ray: &Ray, limit: f64) -> Option<Nearest> {
+        dispatch!(self.level, simd => self.nearest_alone(simd, ray, limit))
+    }
+
+    /// The part of light that passes along the ray up to `distance`: the product of kt over every
+    /// solid whose surface the way crosses, each once, in file order. `crossed` is scratch space.
+    pub(crate) fn transmittance(&self, ray: &Ray, distance: f64, crossed: &mut Crossed) -> f64 {
+        dispatch!(self.level, simd => self.transmittance_alone(simd, ray, distance, crossed))
+    }
+
+    /// [`World::nearest`] for each of several rays.
+    pub(crate) fn nearest_each(
+        &self,
+        rays: &[Ray],
+        limits: &[f64],
+        nearest: &mut Vec<Option<Nearest>>,
+    ) {
+        nearest.clear();
+        dispatch!(self.level, simd => {
+            for (rays, limits) in rays.chunks(WIDTH).zip(limits.chunks(WIDTH)) {
+                self.nearest_together(simd, rays, limits, nearest);
+            }
+        });
+    }
+
+    /// [`World::transmittance`] for each of several rays up to its end. `blocker` is an object that
+    /// may block them, tried first; the last that did comes back.
+    pub(crate) fn transmittance_each(
+        &self,
+        rays: &[Ray],
+        ends: &[f64],
+        blocker: &mut Option<u32>,
+        crossed: &mut Crossed,
+        transmittances: &mut Vec<f64>,
+    ) {
+        transmittances.clear();
+        dispatch!(self.level, simd => {
+            for (rays, ends) in rays.chunks(WIDTH).zip(ends.chunks(WIDTH)) {
+                self.transmittance_together(simd, rays, ends, blocker, crossed, transmittances);
+            }
+        });
+    }
+
+    #[inline(always)]
+    fn transmittance_together<S: Simd>(
+        &self,
+        simd: S,
+        rays: &[Ray],
+        ends: &[f64],
+        blocker: &mut Option<u32>,
+        crossed: &mut Crossed,
+        transmittances: &mut Vec<f64>,
+    ) {
+        crossed.clear();
+        let packet = Rays::gather(simd, rays);
+        let mut limits = Eight::splat(simd, -1.0);
+        for (lane, &end) in ends.iter().enumerate() {
+            limits[lane] = end;
+        }
+        let mut open = (1 << rays.len()) - 1;
+        if let Some(object) = *blocker
+            && let Some(hits) = self.hits(&packet, object, open, &limits, Search::Blocker)
+        {
+            let blocked = self.blocked(object, &hits);
+            open &= !blocked;
+            close(&mut limits, blocked);
+        }
+        self.visit_together(
+            &packet,
+            open,
+            limits,
+            #[inline(always)]
+            |places, lanes, mut limits| {
+                for &object in &self.order()[places] {
+                    let lanes = lanes & open;
+                    let hits = self.hits(&packet, object, lanes, &limits, Search::Blocker);
+                    let Some(hits) = hits else { continue };
+                    let blocked = self.blocked(object, &hits);
+                    if blocked != 0 {
+                        *blocker = Some(object);
+                        open &= !blocked;
+                        close(&mut limits, blocked);
+                    }
+                    let mut passed = hits.lanes & !blocked;
+                    while passed != 0 {
+                        let lane = passed.trailing_zeros();
+                        passed &= passed - 1;
+                        let hit = hits.hit(lane as usize);
+                        let material = self.scene.objects[object as usize].material_at(hit);
+                        crossed.push((lane, object, material));
+                    }
+                }
+                limits
+            },
+        );
+        crossed.sort_unstable();
+        let mut next = 0;
+        for lane in 0..rays.len() as u32 {
+            let mut transmittance = 1.0;
+            while let Some(&(of, _, material)) = crossed.get(next)
+                && of == lane
+            {
+                transmittance *= self.transmission(material);
+                next += 1;
+            }
+            let is_open = open >> lane & 1 == 1;
+            transmittances.push(if is_open { transmittance } else { 0.0 });
+        }
+    }
+
+    /// Of lanes that meet an object, those where it lets nothing through.
+    #[inline(always)]
+    fn blocked(&self, object: u32, hits: &Hits) -> u32 {
+        let mut blocked = 0;
+        let mut lanes = hits.lanes;
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros();
+            lanes &= lanes - 1;
+            let hit = hits.hit(lane as usize);
+            let material = self.scene.objects[object as usize].material_at(hit);
+            blocked |= u32::from(self.transmission(material) == 0.0) << lane;
+        }
+        blocked
+    }
+
+    #[inline(always)]
+    fn nearest_together<S: Simd>(
+        &self,
+        simd: S,
+        rays: &[Ray],
+        limits: &[f64],
+        nearest: &mut Vec<Option<Nearest>>,
+    ) {
+        let packet = Rays::gather(simd, rays);
+        let mut closest = [Closest::before(0.0, &rays[0]); WIDTH];
+        let mut farthest = [0.0; WIDTH];
+        for (lane, (ray, &limit)) in rays.iter().zip(limits).enumerate() {
+            closest[lane] = Closest::before(limit, ray);
+            farthest[lane] = limit;
+        }
+        let lanes = (1 << rays.len()) - 1;
+        let farthest = Eight::load_array(simd, farthest);
+        self.visit_together(
+            &packet,
+            lanes,
+            farthest,
+            #[inline(always)]
+            |places, lanes, mut limits| {
+                for &object in &self.order()[places] {
+                    let hits = self.hits(&packet, object, lanes, &limits, Search::Nearest);
+                    let Some(hits) = hits else { continue };
+                    let mut met = hits.lanes;
+                    while met != 0 {
+                        let lane = met.trailing_zeros() as usize % WIDTH;
+                        met &= met - 1;
+                        closest[lane].offer(object, hits.hit(lane));
+                        limits[lane] = closest[lane].limit;
+                    }
+                }
+                limits
+            },
+        );
+        for (ray, closest) in rays.iter().zip(closest) {
+            nearest.push(if closest.tied {
+                self.first_in_file(simd, ray, closest.limit)
+            } else {
+                closest.best
+            });
+        }
+    }
+
+    #[inline(always)]
+    fn nearest_alone<S: Simd>(&self, simd: S, ray: &Ray, limit: f64) -> Option<Nearest> {
+        let rays = Rays::all(simd, ray);
+        let mut closest = Closest::before(limit, ray);
+        self.visit(
+            simd,
+            ray,
+            limit,
+            #[inline(always)]
+            |places| {
+                let limit = closest.limit;
+                self.meet(
+                    &rays,
+                    ray,
+                    limit,
+                    places,
+                    Search::Nearest,
+                    #[inline(always)]
+                    |object, hit| {
+                        closest.offer(object, hit);
+                    },
+                );
+                closest.limit
+            },
+        );
+        if closest.tied {
+            self.first_in_file(simd, ray, closest.limit)
+        } else {
+            closest.best
+        }
+    }
+
+    #[inline(always)]
+    fn transmittance_alone<S: Simd>(
+        &self,
+        simd: S,
+        ray: &Ray,
+        distance: f64,
+        crossed: &mut Crossed,
+    ) -> f64 {
+        crossed.clear();
+        let rays = Rays::all(simd, ray);
+        let mut blocked = false;
+        self.visit(
+            simd,
+            ray,
+            distance,
+            #[inline(always)]
+            |places| {
+                self.meet(
+                    &rays,
+                    ray,
+                    distance,
+                    places,
+                    Search::Blocker,
+                    #[inline(always)]
+                    |object, hit| {
+                        let material = self.scene.objects[object as usize].material_at(hit);
+                        if self.transmission(material) == 0.0 {
+                            blocked = true;
+                        } else {
+                            crossed.push((0, object, material));
+                        }
+                    },
+                );
+                if blocked { -1.0 } else { distance }
+            },
+        );
+        if blocked {
+            return 0.0;
+        }
+        crossed.sort_unstable();
+        crossed
+            .iter()
+            .map(|&(_, _, material)| self.transmission(material))
+            .product()
+    }
+
+    /// The first object of the file that is met before a limit. It settles ties.
+    #[inline(never)]
+    fn first_in_file<S: Simd>(&self, simd: S, ray: &Ray, limit: f64) -> Option<Nearest> {
+        let mut first: Option<Nearest> = None;
+        self.visit(
+            simd,
+            ray,
+            limit,
+            #[inline(always)]
+            |places| {
+                for &object in &self.order()[places] {
+                    if first.is_none_or(|before| object < before.object)
+                        && let Some(hit) = self.hit(simd, object, ray, limit, Search::Nearest)
+                    {
+                        first = Some(Nearest { object, hit });
+                    }
+                }
+                limit
+            },
+        );
+        first
+    }
+
+    /// Tells of the objects at some places that the ray, which is also in all lanes of `rays`, meets
+    /// before a limit.
+    #[inline(always)]
+    fn meet<S: Simd>(
+        &self,
+        rays: &Rays<Eight<S>>,
+        ray: &Ray,
+        limit: f64,
+        places: Range<usize>,
+        search: Search,
+        mut met: impl FnMut(u32, Hit),
+    ) {
+        let order = &self.order()[places.clone()];
+        let (hits, mut others) = self.spheres.hits(rays, limit, &places);
+        if let Some(hits) = hits {
+            let mut lanes = hits.lanes;
+            while lanes != 0 {
+                let lane = lanes.trailing_zeros() as usize;
+                lanes &= lanes - 1;
+                met(order[lane], hits.hit(lane));
+            }
+        }
+        while others != 0 {
+            let object = order[others.trailing_zeros() as usize];
+            others &= others - 1;
+            if let Some(hit) = self.hit(rays.origin.x.simd, object, ray, limit, search) {
+                met(object, hit);
+            }
+        }
+    }
+
+    /// Where an object is met by rays side by side, those whose bit in `lanes` is 1.
+    ///
+    /// Not inlined, but compiled for the vectors of `simd`: it holds the code of all shapes.
+    #[inline(always)]
+    fn hits<S: Simd>(
+        &self,
+        rays: &Rays<Eight<S>>,
+        object: u32,
+        lanes: u32,
+        limits: &Eight<S>,
+        search: Search,
+    ) -> Option<Hits> {
+        let simd = limits.simd;
+        simd.vectorize(
+            #[inline(always)]
+            || match &self.scene.objects[object as usize].shape {
+                Shape::Mesh(_) => Hits::one_by_one(
+                    lanes,
+                    #[inline(always)]
+                    |lane| self.hit(simd, object, &rays.ray(lane), limits[lane], search),
+                ),
+                shape => shape.hits(rays, *limits, lanes),
+            },
+        )
+    }
+
+    /// Where an object is met; shapes other than meshes always say where first.
+    #[inline(always)]
+    fn hit<S: Simd>(
+        &self,
+        simd: S,
+        object: u32,
+        ray: &Ray,
+        limit: f64,
+        search: Search,
+    ) -> Option<Hit> {
+        match &self.scene.objects[object as usize].shape {
+            Shape::Mesh(instance) => {
+                let search = match (search, self.opaque.get(object as usize)) {
+                    // Of an opaque mesh any hit says as much as the nearest.
+                    (Search::Blocker, Some(true)) => Search::Blocker,
+                    _ => Search::Nearest,
+                };
+                let structures = &self.structures;
+                structures.hit(simd, object, instance, ray, limit, search)
+            }
+            shape => shape.hit(ray, limit),
+        }
+    }
+
+    /// Visits runs of places in [`World::order`], at least those of all objects that the ray may
+    /// meet.
+    #[inline(always)]
+    fn visit<S: Simd>(
+        &self,
+        simd: S,
+        ray: &Ray,
+        limit: f64,
+        mut visit: impl FnMut(Range<usize>) -> f64,
+    ) {
+        match &self.tree {
+            Some(tree) => tree.traverse(simd, ray, limit, visit),
+            None => {
+                visit(0..self.scene.objects.len());
+            }
+        }
+    }
+
+    /// The same for rays side by side.
+    #[inline(always)]
+    fn visit_together<S: Simd>(
+        &self,
+        rays: &Rays<Eight<S>>,
+        lanes: u32,
+        limits: Eight<S>,
+        mut visit: impl FnMut(Range<usize>, u32, Eight<S>) -> Eight<S>,
+    ) {
+        match &self.tree {
+            Some(tree) => tree.traverse_packet(rays, lanes, limits, visit),
+            None => {
+                visit(0..self.scene.objects.len(), lanes, limits);
+            }
+        }
+    }
+}
+
+/// Lets some rays end before they begin.
+#[inline(always)]
+fn close<S: Simd>(limits: &mut Eight<S>, mut lanes: u32) {
+    while lanes != 0 {
+        limits[lanes.trailing_zeros() as usize % WIDTH] = -1.0;
+        lanes &= lanes - 1;
+    }
+}

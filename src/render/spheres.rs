@@ -1,0 +1,76 @@
+//! The spheres among a scene's objects, side by side in the order that the tree visits them in.
+
+use std::ops::Range;
+
+use crate::accel::RUN;
+use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, Vector, bits};
+use crate::geometry::{Hits, Rays, Shape, sphere_hits};
+use crate::scene::Object;
+
+/// Centres and radii by place; the radius is NaN where an object is no sphere, and after the last.
+#[derive(Clone, Debug)]
+pub(crate) struct Spheres {
+    x: Vec<f64>,
+    y: Vec<f64>,
+    z: Vec<f64>,
+    radius: Vec<f64>,
+}
+
+impl Spheres {
+    /// Those among the objects with these numbers, in their order.
+    pub(crate) fn new(objects: &[Object], order: &[u32]) -> Self {
+        let room = || Vec::with_capacity(order.len() + RUN);
+        let mut spheres = Self {
+            x: room(),
+            y: room(),
+            z: room(),
+            radius: room(),
+        };
+        let shapes = order.iter().map(|&number| &objects[number as usize].shape);
+        for shape in shapes.map(Some).chain([None; RUN]) {
+            let [x, y, z, radius] = match shape {
+                Some(Shape::Sphere(sphere)) => {
+                    let [x, y, z] = sphere.centre.to_array();
+                    [x, y, z, sphere.radius]
+                }
+                _ => [0.0, 0.0, 0.0, f64::NAN],
+            };
+            spheres.x.push(x);
+            spheres.y.push(y);
+            spheres.z.push(z);
+            spheres.radius.push(radius);
+        }
+        spheres
+    }
+
+    /// Where a ray, the same in each lane, meets spheres of a run before a limit, and a bit for each
+    /// place of the run that is no sphere.
+    #[expect(
+        clippy::inline_always,
+        reason = "a caller compiled for wider vectors must take this with it"
+    )]
+    #[inline(always)]
+    pub(crate) fn hits<S: Simd>(
+        &self,
+        ray: &Rays<Eight<S>>,
+        limit: f64,
+        places: &Range<usize>,
+    ) -> (Option<Hits>, u32) {
+        let simd = ray.origin.x.simd;
+        let run = places.start..places.start + RUN;
+        let all = (1 << places.len()) - 1;
+        let radius = Eight::from_slice(simd, &self.radius[run.clone()]);
+        let spheres = bits::<S>(radius.equals(radius)) & all;
+        if spheres == 0 {
+            return (None, all);
+        }
+        let centre = Vector {
+            x: Eight::from_slice(simd, &self.x[run.clone()]),
+            y: Eight::from_slice(simd, &self.y[run.clone()]),
+            z: Eight::from_slice(simd, &self.z[run]),
+        };
+        let limits = Eight::splat(simd, limit);
+        let hits = sphere_hits(centre, radius, ray, limits, spheres);
+        (hits, all & !spheres)
+    }
+}
