@@ -6,6 +6,7 @@
 //! shows what came of it.
 
 mod desk;
+mod encoding;
 #[allow(
     dead_code,
     unreachable_pub,
@@ -46,7 +47,7 @@ fn main() {
         "{columns}x{rows}, truecolour, scenes/default.ray; load {}",
         load()
     );
-    let parts: [(&str, fn()); 11] = [
+    let parts: [(&str, fn()); 12] = [
         ("start", start),
         ("edit", edit),
         ("keys", keys_while_tracing),
@@ -55,6 +56,7 @@ fn main() {
         ("cancel", cancel),
         ("held", held),
         ("bytes", bytes),
+        ("encode", encode),
         ("link", link),
         ("mesh", mesh),
         ("scenes", own_and_course_scenes),
@@ -277,6 +279,20 @@ fn bytes() {
     row("refined pictures, bytes", &spread(&mut refined), &most);
 }
 
+/// The way of a picture that fills the screen from a frame to bytes.
+fn encode() {
+    let scene = include_str!("../scenes/default.ray");
+    // The ratio of the screen's pixels, so that all of it but the status line is picture.
+    let scene = scene.replace("size 400 300", "size 1600 784");
+    for (name, encoded) in [
+        ("frame to bytes", encoding::by_turns(&scene, TERMINAL, 200)),
+        ("  of noise", encoding::noise(&scene, TERMINAL, 200)),
+    ] {
+        times_row(name, &encoded.times, "p50 <= 2");
+        row("  its bytes", &encoded.bytes.to_string(), "-");
+    }
+}
+
 fn link() {
     let mut desk = Desk::at_rest(&[], SSH);
     edit_light(&mut desk);
@@ -298,21 +314,14 @@ fn link() {
 
 /// A mesh of a million triangles, from a file of its own.
 fn mesh() {
-    const SCENE: &str = "<xml>
-  <scene>
-    <object type=\"obj\" name=\"ball.obj\" material=\"clay\"/>
-    <material type=\"blinn\" name=\"clay\"><diffuse r=\"0.7\" g=\"0.6\" b=\"0.5\"/></material>
-    <light type=\"ambient\"><intensity value=\"0.1\"/></light>
-    <light type=\"direct\"><intensity value=\"0.9\"/><direction x=\"-1\" y=\"1\" z=\"-1\"/></light>
-  </scene>
-  <camera>
-    <position x=\"1.8\" y=\"-3\" z=\"1.4\"/><target/><up z=\"1\"/>
-    <width value=\"400\"/><height value=\"300\"/>
-  </camera>
-</xml>
-";
     let ball = meshes::bumpy_ball(1_000_000);
-    let open = || Desk::open_files(&[("scene.xml", SCENE), ("ball.obj", &ball)], &[], &[]);
+    let open = || {
+        Desk::open_files(
+            &[("scene.xml", meshes::BALL_SCENE), ("ball.obj", &ball)],
+            &[],
+            &[],
+        )
+    };
     let times = repeat(7, || {
         let (mut desk, begun) = open();
         desk.record(begun + 3 * SECOND);

@@ -4,7 +4,9 @@
 //! `cargo bench --bench trace` prints it; `cargo bench --bench trace -- flake` only the scenes with
 //! that in their name. A mesh of a million triangles has a table of its own.
 
+#[allow(dead_code, reason = "shared with the other benches")]
 mod meshes;
+#[allow(dead_code, reason = "shared with the other benches")]
 mod scenes;
 
 use std::path::Path;

@@ -3,6 +3,21 @@
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 
+/// A scene around `ball.obj`, as `.xml` text.
+pub(crate) const BALL_SCENE: &str = "<xml>
+  <scene>
+    <object type=\"obj\" name=\"ball.obj\" material=\"clay\"/>
+    <material type=\"blinn\" name=\"clay\"><diffuse r=\"0.7\" g=\"0.6\" b=\"0.5\"/></material>
+    <light type=\"ambient\"><intensity value=\"0.1\"/></light>
+    <light type=\"direct\"><intensity value=\"0.9\"/><direction x=\"-1\" y=\"1\" z=\"-1\"/></light>
+  </scene>
+  <camera>
+    <position x=\"1.8\" y=\"-3\" z=\"1.4\"/><target/><up z=\"1\"/>
+    <width value=\"400\"/><height value=\"300\"/>
+  </camera>
+</xml>
+";
+
 /// Writes a bumpy ball of about `count` triangles as `.obj` text: rings of quadrilaterals, each
 /// given as two triangles.
 pub(crate) fn bumpy_ball(count: usize) -> String {

@@ -10,6 +10,21 @@ type Vector = [f64; 3];
 /// with nine of a third its size on it, and so on for `levels`, over a floor. Level 4 has 7,381
 /// spheres.
 pub(crate) fn sphereflake(levels: u32) -> String {
+    let lights = [[4.0, 3.0, 2.0], [1.0, -4.0, 4.0], [-3.0, 1.0, 5.0]];
+    sphereflake_under(levels, &lights)
+}
+
+/// As [`sphereflake`], with so many lights in a ring above it.
+pub(crate) fn lit_sphereflake(levels: u32, lights: usize) -> String {
+    let place = |light| {
+        let turn = 2.0 * PI * light as f64 / lights as f64;
+        [4.0 * turn.cos(), 4.0 * turn.sin(), 4.0]
+    };
+    let lights: Vec<_> = (0..lights).map(place).collect();
+    sphereflake_under(levels, &lights)
+}
+
+fn sphereflake_under(levels: u32, lights: &[Vector]) -> String {
     let mut spheres = Vec::new();
     grow(
         levels,
@@ -21,8 +36,12 @@ pub(crate) fn sphereflake(levels: u32) -> String {
     );
     let mut text = String::from(
         "// view: eye 2.1 1.3 1.7 target 0 0 0 up 0 0 1 fov 45 size 1280 720\n\
-         .05 .05 .05\n3\n4 3 2\n.5 .5 .5\n1 -4 4\n.5 .5 .5\n-3 1 5\n.5 .5 .5\n",
+         .05 .05 .05\n",
     );
+    put(&mut text, format_args!("{}\n", lights.len()));
+    for [x, y, z] in lights {
+        put(&mut text, format_args!("{x} {y} {z}\n.5 .5 .5\n"));
+    }
     let floor = "box\n-6 -6 -.7 1 0 0 0 1 0 0 0 1 12 12 .2\n\
                  .8 .6 .26\n.8 .6 .26\n0 0 0\n1 0 0 1\n";
     put(&mut text, format_args!("{}\n{floor}", spheres.len() + 1));
@@ -37,8 +56,8 @@ pub(crate) fn sphereflake(levels: u32) -> String {
     text
 }
 
-/// Writes `count` small spheres in eight colours, spread evenly over a cube of edge 2. The same seed
-/// gives the same text.
+/// Writes `count` small spheres in eight colours, spread evenly over a cube of edge 2, the same part
+/// of which they fill whatever their number. The same seed gives the same text.
 pub(crate) fn random_spheres(count: usize, seed: u64) -> String {
     const COLOURS: [&str; 8] = [
         ".8 .2 .2", ".2 .7 .2", ".2 .3 .8", ".8 .7 .2", ".7 .2 .7", ".2 .7 .7", ".8 .8 .8",
@@ -53,12 +72,12 @@ pub(crate) fn random_spheres(count: usize, seed: u64) -> String {
     for _ in 0..count {
         let [x, y, z, size, shade] = [(); 5].map(|()| unit(&mut state));
         let [x, y, z] = [x, y, z].map(|coordinate| 2.0 * coordinate - 1.0);
-        let radius = 0.002 + 0.002 * size;
+        let radius = (0.2 + 0.2 * size) / (count as f64).cbrt();
         let colour = COLOURS[(shade * 8.0) as usize % 8];
         put(
             &mut text,
             format_args!(
-                "sphere\n{x:.5} {y:.5} {z:.5} {radius:.5}\n{colour}\n{colour}\n.3 .3 .3\n20 0 0 1\n"
+                "sphere\n{x:.5} {y:.5} {z:.5} {radius:.6}\n{colour}\n{colour}\n.3 .3 .3\n20 0 0 1\n"
             ),
         );
     }

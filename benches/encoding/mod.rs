@@ -1,0 +1,122 @@
+//! A picture on its way to the terminal, without the terminal: from a frame to the bytes.
+
+use std::convert::Infallible;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc;
+use std::time::{Duration, Instant};
+
+use crossterm::event::{KeyCode, KeyEvent};
+use halflight::format::Format;
+use halflight::render::{Filter, Frame, Job, Renderer, Threads};
+use halflight::ui::app::{App, Opening, Quality};
+use halflight::ui::msg::{Effect, Msg, Target};
+use halflight::ui::terminal::{AnsiBackend, ColourDepth, Mouse};
+use halflight::ui::view::{self, Glyphs};
+use ratatui::layout::Size;
+
+/// What drawing pictures took.
+pub(crate) struct Encoded {
+    /// From each frame to the last of its bytes.
+    pub(crate) times: Vec<Duration>,
+    /// Of one frame.
+    pub(crate) bytes: usize,
+}
+
+/// Shows by turns what a scene's camera sees and the same from farther off, nearly every cell
+/// another, on all of a terminal of so many columns and rows.
+pub(crate) fn by_turns(scene: &str, (columns, rows): (u16, u16), turns: usize) -> Encoded {
+    let (mut app, job) = opened(scene, (columns, rows));
+    let mut farther = job.clone();
+    farther.camera.eye += 0.2 * (farther.camera.eye - farther.camera.target);
+    show(&mut app, &[traced(job), traced(farther)], turns)
+}
+
+/// As [`by_turns`], with two pictures of noise: the most bytes that a picture takes.
+pub(crate) fn noise(scene: &str, (columns, rows): (u16, u16), turns: usize) -> Encoded {
+    let (mut app, job) = opened(scene, (columns, rows));
+    let frame = traced(job);
+    let noisy = |seed: u32| {
+        let mut state = seed;
+        let mut byte = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 24) as u8
+        };
+        let mut noisy = Frame::clone(&frame);
+        noisy.pixels.fill_with(|| [byte(), byte(), byte()]);
+        Arc::new(noisy)
+    };
+    show(&mut app, &[noisy(1), noisy(2)], turns)
+}
+
+/// The interface with nothing but a picture on screen, and how that is traced.
+fn opened(scene: &str, terminal: (u16, u16)) -> (App, Job) {
+    let (mut app, mut effects) = App::open(Opening {
+        path: Some(PathBuf::from("scene.ray")),
+        format: Format::Ray,
+        text: scene.to_owned(),
+        quality: Quality {
+            spp: 1,
+            depth: None,
+            integrator: None,
+            filter: Filter::Box,
+        },
+        mouse: Mouse::On,
+        terminal,
+    });
+    effects.extend(app.update(Msg::Key(KeyEvent::from(KeyCode::Char('z')))));
+    let jobs = effects.into_iter().filter_map(|effect| match effect {
+        Effect::Trace(Target::Preview, job) => Some(job),
+        _ => None,
+    });
+    let mut job = jobs.last().expect("the scene is traced");
+    job.settings.spp = 4;
+    (app, job)
+}
+
+fn traced(job: Job) -> Arc<Frame> {
+    let (wake, woken) = mpsc::channel();
+    let renderer = Renderer::new(Threads::Preview, move || {
+        let _ = wake.send(());
+    });
+    renderer.restart(job).expect("the worker runs");
+    loop {
+        woken.recv().expect("the worker runs");
+        match renderer.latest() {
+            Some(frame) if frame.progress.complete => return frame,
+            _ => {}
+        }
+    }
+}
+
+fn show(app: &mut App, frames: &[Arc<Frame>], turns: usize) -> Encoded {
+    let (columns, rows) = app.terminal;
+    let depth = ColourDepth::TrueColour;
+    let backend = AnsiBackend::new(depth, Size::new(columns, rows));
+    let Ok(mut terminal) = ratatui::Terminal::new(backend);
+    let mut sent = Vec::new();
+    let mut times = Vec::new();
+    for turn in 0..turns {
+        let frame = Arc::clone(&frames[turn % frames.len()]);
+        sent.clear();
+        let begun = Instant::now();
+        app.update(Msg::Frame(Target::Preview, frame));
+        let (_, size) = app.raster().expect("there is room");
+        app.picture_mut().advance(size, usize::MAX);
+        let glyphs = Glyphs::for_depth(depth);
+        let Ok(_) = terminal.draw(|frame| view::draw(app, glyphs, frame));
+        let taken = terminal.backend_mut().finish(|bytes| {
+            sent.extend_from_slice(bytes);
+            Ok::<_, Infallible>(())
+        });
+        let Ok(_) = taken;
+        // The first one is all of the screen, and finds memory cold.
+        if 2 <= turn {
+            times.push(begun.elapsed());
+        }
+    }
+    Encoded {
+        times,
+        bytes: sent.len(),
+    }
+}

@@ -1,0 +1,289 @@
+//! What becomes of a scene step by step, in a process of its own so that its memory is its own.
+
+use std::fmt::Write as _;
+use std::path::Path;
+use std::process::Command;
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver};
+use std::time::{Duration, Instant};
+
+use halflight::assets::{Assets, Wanted};
+use halflight::format::{self, Format, Tree};
+use halflight::geometry::Shape;
+use halflight::render::{Filter, Frame, Frames, Job, Renderer, Settings, Threads, default_depth};
+use halflight::scene::{Camera, FileKind, Images, Lowered, Meshes, Object, Scene, Size, lower};
+
+use crate::cases::Case;
+use crate::programs::{kilobytes, median};
+use crate::{LONG, RUNS, THREADS, WHOLE};
+
+/// The first argument of a process that measures.
+pub(crate) const VERB: &str = "phases-of";
+
+/// What threads are started with.
+const SPHERE: &str = "0 0 0 1 0 0 9 1 1 1 1 sphere 0 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1";
+
+/// The least picture.
+const PIXEL: Size = Size {
+    width: 1,
+    height: 1,
+};
+
+/// What was measured; times are medians.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Phases {
+    /// Bytes of the scene's text.
+    pub(crate) text: usize,
+    /// Objects, and the triangles of each mesh.
+    pub(crate) objects: usize,
+    /// Text to tree; with it, files that the text names are read.
+    pub(crate) parse: Duration,
+    /// Tree to scene.
+    pub(crate) lower: Duration,
+    /// Scene to what rays are traced through.
+    pub(crate) build: Duration,
+    /// The tracing.
+    pub(crate) render: Duration,
+    /// Rays from the camera, one for each sample.
+    pub(crate) camera_rays: u64,
+    /// All rays.
+    pub(crate) rays: u64,
+    /// What an open scene takes beside its text, in bytes: tree, origins, scene, structures.
+    pub(crate) open: usize,
+}
+
+/// Measures a scene in a process of its own.
+pub(crate) fn measure(case: &Case) -> Phases {
+    let program = std::env::current_exe().expect("a program knows its name");
+    let mut command = Command::new(program);
+    command.arg(VERB).arg(&case.scene).arg(case.spp.to_string());
+    command.args(case.depth.map(|depth| depth.to_string()));
+    let said = command.output().expect("it runs");
+    assert!(
+        said.status.success(),
+        "{}: {}",
+        case.name,
+        String::from_utf8_lossy(&said.stderr)
+    );
+    let said = String::from_utf8_lossy(&said.stdout);
+    let mut numbers = said.split_whitespace().map(|number| {
+        number
+            .parse::<u64>()
+            .expect("the process tells numbers only")
+    });
+    let mut next = || numbers.next().expect("the process tells all numbers");
+    Phases {
+        text: next() as usize,
+        objects: next() as usize,
+        parse: Duration::from_nanos(next()),
+        lower: Duration::from_nanos(next()),
+        build: Duration::from_nanos(next()),
+        render: Duration::from_nanos(next()),
+        camera_rays: next(),
+        rays: next(),
+        open: next() as usize,
+    }
+}
+
+/// Measures the scene that the arguments name and prints the numbers.
+pub(crate) fn tell(arguments: &[String]) {
+    let [scene, spp, depth @ ..] = arguments else {
+        panic!("a scene and its samples are asked for");
+    };
+    let spp = spp.parse().expect("samples are a number");
+    let depth = depth.first().map(|depth| depth.parse().expect("a number"));
+    let phases = of(Path::new(scene), spp, depth);
+    let mut said = String::new();
+    for number in [
+        phases.text as u128,
+        phases.objects as u128,
+        phases.parse.as_nanos(),
+        phases.lower.as_nanos(),
+        phases.build.as_nanos(),
+        phases.render.as_nanos(),
+        phases.camera_rays.into(),
+        phases.rays.into(),
+        phases.open as u128,
+    ] {
+        let _ = write!(said, "{number} ");
+    }
+    println!("{said}");
+}
+
+fn of(path: &Path, spp: u32, depth: Option<u32>) -> Phases {
+    let format = Format::of_path(path).expect("a scene by its name");
+    let text = std::fs::read_to_string(path).expect("a scene");
+
+    // First of all: later the system does not know what of the memory is free.
+    let before = resident();
+    let opened = Opened::new(path, format, &text);
+    let stage = Stage::new(depth);
+    stage.build(&opened);
+    let open = resident().saturating_sub(before);
+    let objects = opened.objects();
+    drop((opened, stage));
+
+    let mut times = [const { Vec::new() }; 4];
+    let mut rays = 0;
+    for run in 0..RUNS {
+        let long = times.iter().flatten().any(|&time| LONG < time);
+        if long && 3 <= run {
+            break;
+        }
+        let opened = Opened::new(path, format, &text);
+        let stage = Stage::new(depth);
+        let build = stage.build(&opened);
+        let (render, frame) = stage.trace(&opened.scene, &opened.images, WHOLE, spp);
+        rays = frame.progress.rays;
+        for (times, time) in times
+            .iter_mut()
+            .zip([opened.parse, opened.lower, build, render])
+        {
+            times.push(time);
+        }
+    }
+    let [parse, lower, build, render] = times.map(|times| median(&times));
+    Phases {
+        text: text.len(),
+        objects,
+        parse,
+        lower,
+        build,
+        render,
+        camera_rays: WHOLE.pixels() as u64 * u64::from(spp),
+        rays,
+        open,
+    }
+}
+
+/// A scene as far as it is understood, and what that took.
+struct Opened {
+    /// Kept as long as the scene, as an open document does.
+    _tree: Tree,
+    _lowered: Lowered,
+    scene: Arc<Scene>,
+    images: Images,
+    parse: Duration,
+    lower: Duration,
+}
+
+impl Opened {
+    fn new(path: &Path, format: Format, text: &str) -> Self {
+        let (mut parse, tree) = timed(|| format::parse(format, text));
+        let (mut lowering, mut lowered) = timed(|| lower(text, &tree, &Meshes::default()));
+        let mut assets = Assets::new(&[]);
+        let mut read = |lowered: &Lowered| {
+            let files = lowered.origins.files(text, &tree);
+            let (time, loaded) = timed(|| assets.read(&Wanted::new(path, &files)));
+            parse += time;
+            (files, loaded)
+        };
+        let (files, mut loaded) = read(&lowered);
+        if files.iter().any(|file| file.kind == FileKind::Mesh) {
+            (lowering, lowered) = timed(|| lower(text, &tree, &loaded.meshes));
+            // Meshes may name pictures, which are known once they are read.
+            loaded = read(&lowered).1;
+        }
+        let scene = lowered.scene.take().expect("a scene without errors");
+        Self {
+            scene: Arc::new(scene),
+            images: loaded.images,
+            parse,
+            lower: lowering,
+            _tree: tree,
+            _lowered: lowered,
+        }
+    }
+
+    fn objects(&self) -> usize {
+        let count = |object: &Object| match &object.shape {
+            Shape::Mesh(instance) => instance.mesh().len(),
+            _ => 1,
+        };
+        self.scene.objects.iter().map(count).sum()
+    }
+}
+
+/// A renderer whose threads run already.
+struct Stage {
+    renderer: Renderer,
+    woken: Receiver<()>,
+    depth: Option<u32>,
+}
+
+impl Stage {
+    fn new(depth: Option<u32>) -> Self {
+        let (wake, woken) = mpsc::channel();
+        let renderer = Renderer::new(Threads::Exactly(THREADS), move || {
+            let _ = wake.send(());
+        });
+        let stage = Self {
+            renderer,
+            woken,
+            depth,
+        };
+        let tree = format::parse(Format::Ray, SPHERE);
+        let lowered = lower(SPHERE, &tree, &Meshes::default());
+        let scene = lowered.scene.expect("a scene without errors");
+        stage.trace(&Arc::new(scene), &Images::default(), PIXEL, 1);
+        stage
+    }
+
+    /// Makes a scene ready, for a picture of one pixel; how long that took.
+    fn build(&self, opened: &Opened) -> Duration {
+        self.trace(&opened.scene, &opened.images, PIXEL, 1).0
+    }
+
+    /// Traces a picture; how long that took.
+    fn trace(
+        &self,
+        scene: &Arc<Scene>,
+        images: &Images,
+        size: Size,
+        spp: u32,
+    ) -> (Duration, Arc<Frame>) {
+        let integrator = scene.setting.integrator;
+        let job = Job {
+            scene: Arc::clone(scene),
+            images: images.clone(),
+            camera: Camera {
+                size,
+                ..scene.camera
+            },
+            settings: Settings {
+                size,
+                spp,
+                depth: self.depth.unwrap_or_else(|| default_depth(integrator)),
+                seed: 0,
+                aov: None,
+                integrator,
+                filter: Filter::Box,
+                transfer: scene.setting.transfer,
+            },
+            frames: Frames::Last,
+        };
+        let begun = Instant::now();
+        let generation = self.renderer.restart(job).expect("the worker runs");
+        loop {
+            self.woken.recv().expect("the worker runs");
+            match self.renderer.latest() {
+                Some(frame) if frame.generation == generation && frame.progress.complete => {
+                    return (begun.elapsed(), frame);
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
+    let begun = Instant::now();
+    let outcome = work();
+    (begun.elapsed(), outcome)
+}
+
+/// Memory of this process that is in use, in bytes; 0 where the system does not say so.
+fn resident() -> usize {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    kilobytes(&status, "VmRSS:") * 1024
+}
