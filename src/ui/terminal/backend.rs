@@ -147,15 +147,16 @@ impl AnsiBackend {
     }
 
     fn put(&mut self, at: Position, cell: &Cell) {
+        let fg = self.depth.ink(cell.fg);
+        let bg = self.depth.ink(cell.bg);
+        let halves = Halves::of(cell, fg, bg);
         self.blank_wide(at);
-        if is_wide(cell) {
+        if halves.is_none() && is_wide(cell) {
             self.blank_wide(Position { x: at.x + 1, ..at });
             self.wide.insert((at.y, at.x));
         }
         self.move_to(at);
-        let fg = self.depth.ink(cell.fg);
-        let bg = self.depth.ink(cell.bg);
-        let advance = if let Some(halves) = Halves::of(cell, fg, bg) {
+        let advance = if let Some(halves) = halves {
             let (glyph, style) = halves.cheapest(&self.pen);
             self.pen.apply(&style, &mut self.out);
             self.out.extend_from_slice(glyph.as_bytes());

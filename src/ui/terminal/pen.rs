@@ -104,18 +104,16 @@ impl Pen {
     }
 }
 
-/// Writes a number in decimal.
+/// Writes a number in decimal. Nearly all are parts of colours, and a picture has thousands.
+#[inline]
 pub(super) fn push_number(out: &mut Vec<u8>, number: u16) {
-    let start = out.len();
-    let mut rest = number;
-    loop {
-        out.push(b'0' + (rest % 10) as u8);
-        rest /= 10;
-        if rest == 0 {
-            break;
-        }
+    let digit = |place: u16| b'0' + (number / place % 10) as u8;
+    match number {
+        0..10 => out.push(digit(1)),
+        10..100 => out.extend_from_slice(&[digit(10), digit(1)]),
+        100..1000 => out.extend_from_slice(&[digit(100), digit(10), digit(1)]),
+        _ => out.extend_from_slice(number.to_string().as_bytes()),
     }
-    out[start..].reverse();
 }
 
 /// The parameters of one SGR sequence, opened by the first of them.
