@@ -107,22 +107,36 @@ fn edit() {
     times_row("nudge to rest (64 spp)", &rested, "-");
 }
 
+/// Keys while a picture is traced at its full size on all cores, of S1 too if `HALFLIGHT_BENCH` names
+/// a folder with it.
 fn keys_while_tracing() {
-    let mut desk = Desk::at_rest(&["--spp", "4096"], &[]);
+    keys_over(
+        "key to list, tracing",
+        include_str!("../scenes/default.ray"),
+    );
+    let folder = std::env::var_os("HALFLIGHT_BENCH").unwrap_or_default();
+    if let Ok(scene) = std::fs::read_to_string(Path::new(&folder).join("s1.ray")) {
+        keys_over("  S1 of 1280x720", &scene);
+    }
+}
+
+fn keys_over(name: &str, scene: &str) {
+    let mut desk = Desk::open_files(&[("scene.ray", scene)], &["--spp", "4096"], &[]).0;
+    desk.rest();
     let begun = desk.press("\x1b[15~");
     desk.record(begun + SECOND);
-    let back = desk.press("\x1b");
-    desk.record(back + SECOND);
+    for key in ["\x1b", "gg"] {
+        let pressed = desk.press(key);
+        desk.record(pressed + SECOND / 2);
+    }
     desk.look();
-    let keys = ["j", "j", "k"]
-        .repeat(12)
-        .into_iter()
-        .chain(["k", "k", "j"].repeat(12));
-    let pressed = desk.press_all(keys.chain(["j", "k"].repeat(14)), Duration::from_millis(41));
+    // Down and up again, never against an end of the list, where a key changes nothing.
+    let keys = [["j"; 9], ["k"; 9]].concat().repeat(6);
+    let pressed = desk.press_all(keys, Duration::from_millis(41));
     desk.record(Instant::now() + Duration::from_millis(200));
     let drawn = desk.look();
     times_row(
-        "key to list, tracing",
+        name,
         &each(&drawn, &pressed, |d| d.list),
         "p95 <= 16, max 33",
     );
