@@ -4,6 +4,8 @@ use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
+
 use super::trouble::Failure;
 use crate::file::{self, directory_of};
 
@@ -43,10 +45,8 @@ impl Gate<'_> {
         }
         let bytes = file::read_bytes(&real, *room)?;
         *room -= bytes.len() as u64;
-        let mut hasher = DefaultHasher::new();
-        bytes.hash(&mut hasher);
         Ok(Content {
-            print: hasher.finish(),
+            print: print(&bytes),
             bytes,
         })
     }
@@ -87,4 +87,19 @@ impl Gate<'_> {
         let mut real_folders = folders.filter_map(|folder| fs::canonicalize(folder).ok());
         real_folders.any(|folder| real.starts_with(folder))
     }
+}
+
+/// What stands for bytes. Those of large files are taken in by parts, side by side.
+fn print(bytes: &[u8]) -> u64 {
+    const PART: usize = 1 << 20;
+    fn of(value: impl Hash) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        value.hash(&mut hasher);
+        hasher.finish()
+    }
+    if bytes.len() <= PART {
+        return of(bytes);
+    }
+    let parts: Vec<u64> = bytes.par_chunks(PART).map(of).collect();
+    of(parts)
 }

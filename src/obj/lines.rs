@@ -22,10 +22,9 @@ pub(super) struct Word<'s> {
     pub(super) column: usize,
 }
 
-/// The statements of a text that are not blank.
-pub(super) fn statements(bytes: &[u8]) -> impl Iterator<Item = Statement<'_>> {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let mut lines = bytes.split(|&byte| byte == b'\n').zip(1..);
+/// The statements that are not blank of a text whose first line has this number.
+pub(super) fn statements(bytes: &[u8], line: usize) -> impl Iterator<Item = Statement<'_>> {
+    let mut lines = bytes.split(|&byte| byte == b'\n').zip(line..);
     std::iter::from_fn(move || {
         let (first, line) = lines.next()?;
         let mut text = Cow::Borrowed(first.trim_ascii_end());

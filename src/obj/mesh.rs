@@ -1,12 +1,13 @@
 //! Meshes: vertices, faces, and which material they have.
 
 use std::collections::HashMap;
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
 use super::lines::{Findings, Statement, Word, statements};
+use super::plain::{self, Part, Plain, lines};
 use super::{Finding, MOST_FINDINGS, MOST_LIBRARIES, Model, mtl};
 use crate::geometry::{ABSENT, Mesh, MeshError, MeshParts, SlotRun};
 use crate::text::{counted, visible};
@@ -42,19 +43,46 @@ pub(super) fn read<B: AsRef<[u8]>>(
     most: usize,
     library: impl FnMut(&str) -> Result<B, String>,
 ) -> Result<Model, Vec<Finding>> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    read_parts(bytes, plain::parts(bytes, plain::PART), most, library)
+}
+
+/// Reads a text whose parts are these.
+pub(super) fn read_parts<B: AsRef<[u8]>>(
+    bytes: &[u8],
+    parts: Vec<Part>,
+    most: usize,
+    library: impl FnMut(&str) -> Result<B, String>,
+) -> Result<Model, Vec<Finding>> {
     let mut reading = Reading {
         most,
         ..Reading::default()
     };
     let mut last = 1;
-    for statement in statements(bytes) {
-        last = statement.line;
-        if let Err((column, message)) = reading.take(&statement) {
-            reading.findings.error(statement.line, column, message);
+    let mut line = 1;
+    reading.reserve(&parts);
+    for part in parts {
+        match part.plain {
+            Some(plain) if reading.has_room(&plain) => {
+                reading.append(plain, line);
+                let text = bytes[part.range].trim_ascii_end();
+                if !text.is_empty() {
+                    last = line + lines(text);
+                }
+            }
+            _ => {
+                for statement in statements(&bytes[part.range], line) {
+                    last = statement.line;
+                    if let Err((column, message)) = reading.take(&statement) {
+                        reading.findings.error(statement.line, column, message);
+                    }
+                    if reading.findings.is_full() {
+                        return Err(reading.findings.errors);
+                    }
+                }
+            }
         }
-        if reading.findings.is_full() {
-            return Err(reading.findings.errors);
-        }
+        line += part.lines;
     }
     reading.check_indices();
     let (materials, library_warnings) = reading.materials(library);
@@ -92,6 +120,51 @@ pub(super) fn read<B: AsRef<[u8]>>(
 }
 
 impl Reading {
+    /// Makes room for what parts say.
+    fn reserve(&mut self, parts: &[Part]) {
+        let plain = || parts.iter().filter_map(|part| part.plain.as_ref());
+        let sum = |of: fn(&Plain) -> usize| plain().map(of).sum();
+        let own = &mut self.parts;
+        own.positions.reserve(sum(|plain| plain.positions.len()));
+        own.triangles.reserve(sum(|plain| plain.triangles.len()));
+        own.uvs.values.reserve(sum(|plain| plain.uvs.len()));
+        own.uvs.corners.reserve(sum(|plain| plain.uv_corners.len()));
+        own.normals.values.reserve(sum(|plain| plain.normals.len()));
+        let corners = sum(|plain| plain.normal_corners.len());
+        own.normals.corners.reserve(corners);
+    }
+
+    /// Whether there may be the triangles of a part too.
+    fn has_room(&self, plain: &Plain) -> bool {
+        self.parts.triangles.len() + plain.triangles.len() <= self.most
+    }
+
+    /// Takes what plain lines say, the first of which is this one.
+    fn append(&mut self, plain: Plain, line: usize) {
+        let parts = &mut self.parts;
+        let before = parts.triangles.len();
+        parts.positions.extend(plain.positions);
+        parts.uvs.values.extend(plain.uvs);
+        parts.normals.values.extend(plain.normals);
+        let added = plain.triangles.len();
+        parts.triangles.extend(plain.triangles);
+        note_all(
+            &mut parts.uvs.corners,
+            before..before + added,
+            plain.uv_corners,
+        );
+        note_all(
+            &mut parts.normals.corners,
+            before..before + added,
+            plain.normal_corners,
+        );
+        for (known, greatest) in self.greatest.iter_mut().zip(plain.greatest) {
+            if known.0 < greatest.0 {
+                *known = (greatest.0, line + greatest.1, greatest.2);
+            }
+        }
+    }
+
     fn take(&mut self, statement: &Statement<'_>) -> Result<(), Fault> {
         let Some(keyword) = statement.words().next() else {
             return Ok(());
@@ -304,11 +377,21 @@ impl Reading {
 
 /// Adds the indices of a triangle, which is the `number`th, unless none before and none of it has
 /// any.
-fn note(corners: &mut Vec<[u32; 3]>, number: usize, triangle: [u32; 3]) {
+pub(super) fn note(corners: &mut Vec<[u32; 3]>, number: usize, triangle: [u32; 3]) {
     if !corners.is_empty() || triangle != [ABSENT; 3] {
         corners.resize(number - 1, [ABSENT; 3]);
         corners.push(triangle);
     }
+}
+
+/// Adds the indices of a run of triangles as [`note`] does.
+fn note_all(corners: &mut Vec<[u32; 3]>, run: Range<usize>, triangles: Vec<[u32; 3]>) {
+    if corners.is_empty() && triangles.is_empty() {
+        return;
+    }
+    corners.resize(run.start, [ABSENT; 3]);
+    corners.extend(triangles);
+    corners.resize(run.end, [ABSENT; 3]);
 }
 
 /// The first N numbers of a statement, 0 where there are none, and what is wrong with it: it has as

@@ -7,6 +7,7 @@
 mod lines;
 mod mesh;
 mod mtl;
+mod plain;
 
 #[cfg(test)]
 mod tests;

@@ -52,7 +52,8 @@ pub(super) fn read(bytes: &[u8], library: &str) -> Result<HashMap<String, Materi
         ..Findings::default()
     };
     let mut current: Option<(String, Material)> = None;
-    for statement in statements(bytes) {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    for statement in statements(bytes, 1) {
         if findings.is_full() {
             break;
         }

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
-use super::{MOST_FINDINGS, Material, Model, read};
+use super::{MOST_FINDINGS, Material, Model, mesh, plain, read};
 use crate::geometry::{Affine, Instance, Ray, Shape};
 
 const SQUARE: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
@@ -344,8 +344,8 @@ fn several_errors_are_told_of_at_once_but_not_all() {
 #[test]
 fn there_are_limits() {
     let text = format!("{SQUARE}f 1 2 3 4\nf 1 2 3");
-    assert!(super::mesh::read(text.as_bytes(), 3, nothing).is_ok());
-    let errors = super::mesh::read(text.as_bytes(), 2, nothing).expect_err("three triangles");
+    assert!(mesh::read(text.as_bytes(), 3, nothing).is_ok());
+    let errors = mesh::read(text.as_bytes(), 2, nothing).expect_err("three triangles");
     let shown = errors[0].to_string();
     assert_eq!(shown, "line 6, column 1: f: more than 2 triangles");
     let libraries = |count: usize| {
@@ -391,6 +391,27 @@ proptest! {
         library in proptest::collection::vec(any::<u8>(), 0..300),
     ) {
         let _ = read(&text, |_| Ok::<_, String>(&library));
+    }
+
+    #[test]
+    fn parts_are_read_as_the_whole_is(
+        mixed in prop_oneof![Just(""), Just("mtllib l\n"), Just("v 1 2\n"), Just("\n \n")],
+        lines in prop::collection::vec("(v -?[0-9.]{1,4} 1 [0-9]|v 1 2 3 4|vt [0-9]( 1)?|vn 0 0 1|usemtl [ab]|g a|# f|v 1 2 3 \\\\|f 1 [1-3] 3( 4)?|f [1-5]/[1-3]/[1-2] 2/1/[1-4] 1//2|f -1 2 3|f 0 1 2|f 1/ 2 3/|fo 1 2 3|x| |)( #c| {0,2}\r?)\n", 0..40),
+        size in 1usize..80,
+        most in 3usize..60,
+    ) {
+        let corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nvn 0 1 0\n";
+        let text = format!("{mixed}{corners}{}", lines.concat());
+        let parts = plain::parts(text.as_bytes(), size);
+        let in_order = |size| {
+            let parts = plain::parts(text.as_bytes(), size).into_iter();
+            parts.map(|part| plain::Part { plain: None, ..part }).collect::<Vec<_>>()
+        };
+        let read = |parts| {
+            let read = mesh::read_parts(text.as_bytes(), parts, most, nothing);
+            read.map(|model| (model.mesh, model.materials, model.warnings, model.library_warnings))
+        };
+        prop_assert_eq!(read(parts), read(in_order(usize::MAX / 2)));
     }
 
     #[test]
