@@ -1,5 +1,6 @@
 //! Building the tree: wide nodes straight from the boxes, top down.
 
+use arrayvec::ArrayVec;
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -7,7 +8,7 @@ use crate::geometry::Aabb;
 
 use super::Bvh;
 use super::node::{Bounds, Child, Node, WIDTH};
-use super::split::{CHUNK, Cancelled, Extent, Patience, Reference, by_area, by_count};
+use super::split::{Cancelled, Extent, Patience, Reference, by_area, by_count};
 
 /// Levels of nodes divided by area; good trees of 2³² boxes have fewer. Below them nodes are divided
 /// by count.
@@ -21,29 +22,38 @@ pub(super) const LEVELS: usize = AREA_LEVELS + 11;
 const LEAF: usize = 4;
 
 /// References from which the children of a node are built as tasks.
-const PARALLEL: usize = CHUNK;
+const PARALLEL: usize = 32_768;
+
+/// Boxes that are looked at between two checks: about a millisecond.
+const SORTED: usize = 65_536;
 
 /// References below which a subtree is built without asking whether to stop: about 0.2 ms.
 const QUIET: usize = 1024;
 
 /// See [`Bvh::build`].
 pub(super) fn build(
-    boxes: &[Aabb],
+    count: usize,
+    aabb: &(impl Fn(u32) -> Aabb + Sync),
     cancelled: &(impl Fn() -> bool + Sync),
 ) -> Result<Bvh, Cancelled> {
     let patience = Patience(cancelled);
     patience.check()?;
-    let boxes = &boxes[..boxes.len().min(u32::MAX as usize)];
-    let reference = median_centre(boxes);
-    let (mut references, unbounded) = sort_out(boxes, reference, &patience)?;
+    let count = u32::try_from(count).unwrap_or(u32::MAX);
+    let reference = median_centre(count, aabb);
+    let (mut references, unbounded) = sort_out(count, aabb, reference, &patience)?;
     let mut nodes = Vec::new();
     if !references.is_empty() {
-        let whole = Part {
-            extent: Extent::of(&references, &patience)?,
-            first: 0,
-            count: references.len(),
-        };
-        grow(&mut references, &whole, 0, &patience, &mut nodes)?;
+        let extent = Extent::of(&references, &patience)?;
+        let whole = Part::new(extent, 0, references.len());
+        let mut spare: Vec<_> = references.par_iter().copied().collect();
+        grow(
+            &mut references,
+            &mut spare,
+            &whole,
+            0,
+            &patience,
+            &mut nodes,
+        )?;
     }
     nodes.shrink_to_fit();
     let mut order = Vec::with_capacity(references.len() + unbounded.len());
@@ -59,9 +69,9 @@ pub(super) fn build(
 
 /// The median of the boxes' centres along each axis, or of a thousand of them: near most boxes,
 /// wherever a few far ones are.
-fn median_centre(boxes: &[Aabb]) -> DVec3 {
-    let step = boxes.len() / 1000 + 1;
-    let centres = boxes.iter().step_by(step).map(|aabb| aabb.centre());
+fn median_centre(count: u32, aabb: impl Fn(u32) -> Aabb) -> DVec3 {
+    let step = count as usize / 1000 + 1;
+    let centres = (0..count).step_by(step).map(|index| aabb(index).centre());
     let centres: Vec<DVec3> = centres.filter(|centre| centre.is_finite()).collect();
     let median = |axis: usize| {
         let mut values: Vec<f64> = centres.iter().map(|centre| centre[axis]).collect();
@@ -73,38 +83,37 @@ fn median_centre(boxes: &[Aabb]) -> DVec3 {
 
 /// The boxes to build from, and the indices of those without finite planes.
 fn sort_out(
-    boxes: &[Aabb],
+    count: u32,
+    aabb: &(impl Fn(u32) -> Aabb + Sync),
     reference: DVec3,
     patience: &Patience<impl Fn() -> bool + Sync>,
 ) -> Result<(Vec<Reference>, Vec<u32>), Cancelled> {
-    let chunks = boxes.par_chunks(CHUNK).enumerate();
-    let parts: Result<Vec<_>, Cancelled> = chunks
-        .map(|(number, chunk)| {
-            patience.check()?;
-            let mut bounded = Vec::with_capacity(chunk.len());
-            let mut unbounded = Vec::new();
-            let first = number * CHUNK;
-            for (index, aabb) in (first..).zip(chunk) {
-                let index = index as u32;
-                let bounds = Bounds::around(*aabb, reference);
-                if is_empty(aabb) {
-                    continue;
-                }
-                if bounds.is_finite() {
-                    bounded.push(Reference { bounds, index });
-                } else {
-                    unbounded.push(index);
-                }
-            }
-            Ok((bounded, unbounded))
-        })
-        .collect();
-    let mut references = Vec::with_capacity(boxes.len());
+    let mut references = Vec::with_capacity(count as usize);
     let mut unbounded = Vec::new();
-    for part in parts? {
+    for first in (0..count).step_by(SORTED) {
         patience.check()?;
-        references.extend(part.0);
-        unbounded.extend(part.1);
+        let sorted = references.len();
+        let part = first..count.min(first.saturating_add(SORTED as u32));
+        references.par_extend(part.into_par_iter().map(|index| {
+            let aabb = aabb(index);
+            let bounds = if is_empty(&aabb) {
+                Bounds::EMPTY
+            } else {
+                Bounds::around(aabb, reference)
+            };
+            Reference { bounds, index }
+        }));
+        let is_plain = |reference: &Reference| reference.bounds.is_finite();
+        if references[sorted..].par_iter().all(is_plain) {
+            continue;
+        }
+        for reference in references.split_off(sorted) {
+            if is_plain(&reference) {
+                references.push(reference);
+            } else if !is_empty(&aabb(reference.index)) {
+                unbounded.push(reference.index);
+            }
+        }
     }
     Ok((references, unbounded))
 }
@@ -115,15 +124,31 @@ fn is_empty(aabb: &Aabb) -> bool {
 }
 
 /// A run of the references.
+#[derive(Clone, Copy)]
 struct Part {
     extent: Extent,
+    /// Half the surface of its box.
+    half_area: f64,
     first: usize,
     count: usize,
 }
 
-/// Appends the node of `part`, whose references are given, and all below it.
+impl Part {
+    fn new(extent: Extent, first: usize, count: usize) -> Self {
+        Self {
+            half_area: extent.bounds.half_area(),
+            extent,
+            first,
+            count,
+        }
+    }
+}
+
+/// Appends the node of `part`, whose references are given, and all below it. What is in `spare`, of
+/// the same length, is of no account.
 fn grow(
     references: &mut [Reference],
+    spare: &mut [Reference],
     part: &Part,
     level: usize,
     patience: &Patience<impl Fn() -> bool + Sync>,
@@ -132,14 +157,26 @@ fn grow(
     if QUIET <= part.count {
         patience.check()?;
     }
-    let parts = divide(references, part, level, patience)?;
     let number = nodes.len();
     nodes.push(Node::EMPTY);
-    let mut rest = references;
-    let mut inner = Vec::with_capacity(WIDTH);
+    // With a lane for each there is nothing to choose.
+    if part.count <= WIDTH {
+        for (lane, reference) in references.iter().enumerate() {
+            let leaf = Child::Leaf {
+                first: (part.first + lane) as u32,
+                count: 1,
+            };
+            nodes[number].put(lane, &reference.bounds, leaf);
+        }
+        return Ok(());
+    }
+    let parts = divide(references, spare, part, level, patience)?;
+    let mut rest = (references, spare);
+    let mut inner = ArrayVec::<_, WIDTH>::new();
     for (lane, part) in parts.iter().enumerate() {
-        let (own, after) = rest.split_at_mut(part.count);
-        rest = after;
+        let (own, references) = rest.0.split_at_mut(part.count);
+        let (own_spare, spare) = rest.1.split_at_mut(part.count);
+        rest = (references, spare);
         if part.count <= LEAF {
             let leaf = Child::Leaf {
                 first: part.first as u32,
@@ -147,32 +184,42 @@ fn grow(
             };
             nodes[number].put(lane, &part.extent.bounds, leaf);
         } else {
-            inner.push((lane, part, own));
+            inner.push((lane, part, own, own_spare));
         }
     }
     if PARALLEL <= part.count {
+        let inner: Vec<_> = inner.into_iter().collect();
         let trees: Result<Vec<_>, Cancelled> = inner
             .into_par_iter()
-            .map(|(lane, part, own)| {
+            .map(|(lane, part, own, spare)| {
                 let mut nodes = Vec::new();
-                grow(own, part, level + 1, patience, &mut nodes)?;
+                grow(own, spare, part, level + 1, patience, &mut nodes)?;
                 Ok((lane, part, nodes))
             })
             .collect();
-        for (lane, part, mut tree) in trees? {
-            patience.check()?;
-            let child = nodes.len() as u32;
-            nodes[number].put(lane, &part.extent.bounds, Child::Inner(child));
-            for node in &mut tree {
-                node.shift(child);
-            }
-            nodes.append(&mut tree);
+        let trees = trees?;
+        let mut ends = Vec::with_capacity(trees.len());
+        let mut end = nodes.len();
+        for (lane, part, tree) in &trees {
+            let child = Child::Inner(end as u32);
+            nodes[number].put(*lane, &part.extent.bounds, child);
+            end += tree.len();
+            ends.push(end);
         }
+        patience.check()?;
+        nodes.par_extend((nodes.len()..end).into_par_iter().map(|at| {
+            let of = ends.partition_point(|&end| end <= at);
+            let tree = &trees[of].2;
+            let first = ends[of] - tree.len();
+            let mut node = tree[at - first].clone();
+            node.shift(first as u32);
+            node
+        }));
     } else {
-        for (lane, part, own) in inner {
+        for (lane, part, own, spare) in inner {
             let child = Child::Inner(nodes.len() as u32);
             nodes[number].put(lane, &part.extent.bounds, child);
-            grow(own, part, level + 1, patience, nodes)?;
+            grow(own, spare, part, level + 1, patience, nodes)?;
         }
     }
     Ok(())
@@ -182,12 +229,13 @@ fn grow(
 /// divided as long as there is room, down to single boxes, those of the largest area first.
 fn divide(
     references: &mut [Reference],
+    spare: &mut [Reference],
     whole: &Part,
     level: usize,
     patience: &Patience<impl Fn() -> bool + Sync>,
-) -> Result<Vec<Part>, Cancelled> {
-    let mut parts = Vec::with_capacity(WIDTH);
-    parts.push(Part { ..*whole });
+) -> Result<ArrayVec<Part, WIDTH>, Cancelled> {
+    let mut parts = ArrayVec::new();
+    parts.push(*whole);
     while parts.len() < WIDTH {
         let Some(at) = next_to_divide(&parts, level) else {
             break;
@@ -196,25 +244,18 @@ fn divide(
             extent,
             first,
             count,
+            ..
         } = parts[at];
         let start = first - whole.first;
         let own = &mut references[start..start + count];
         let half = if level < AREA_LEVELS {
-            by_area(own, &extent, patience)?
+            by_area(own, &mut spare[start..start + count], &extent, patience)?
         } else {
             by_count(own, &extent)
         };
         let (left, right) = own.split_at(half);
-        parts[at] = Part {
-            extent: Extent::of(left, patience)?,
-            first,
-            count: half,
-        };
-        let right = Part {
-            extent: Extent::of(right, patience)?,
-            first: first + half,
-            count: count - half,
-        };
+        parts[at] = Part::new(Extent::of(left, patience)?, first, half);
+        let right = Part::new(Extent::of(right, patience)?, first + half, count - half);
         parts.insert(at + 1, right);
     }
     Ok(parts)
@@ -225,7 +266,7 @@ fn divide(
 fn next_to_divide(parts: &[Part], level: usize) -> Option<usize> {
     let key = |part: &Part| {
         let area = if level < AREA_LEVELS {
-            part.extent.bounds.half_area()
+            part.half_area
         } else {
             0.0
         };

@@ -60,7 +60,17 @@ impl Bvh {
     /// reaches from most others is visited by every ray. Boxes beyond the first 2³² − 1 are
     /// ignored.
     pub fn build(boxes: &[Aabb], cancelled: impl Fn() -> bool + Sync) -> Option<Self> {
-        build::build(boxes, &cancelled).ok()
+        Self::over(boxes.len(), |index| boxes[index as usize], cancelled)
+    }
+
+    /// As [`Bvh::build`] over so many boxes, each made when it is needed: a million of them would take
+    /// 48 MB.
+    pub fn over(
+        count: usize,
+        aabb: impl Fn(u32) -> Aabb + Sync,
+        cancelled: impl Fn() -> bool + Sync,
+    ) -> Option<Self> {
+        build::build(count, &aabb, &cancelled).ok()
     }
 
     /// The indices of the boxes in the order of the tree: those of a leaf stand side by side.

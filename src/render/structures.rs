@@ -2,15 +2,10 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use crate::accel::Bvh;
 use crate::geometry::lanes::Simd;
-use crate::geometry::{Aabb, Hit, Instance, Mesh, Ray, Shape};
+use crate::geometry::{Hit, Instance, Mesh, Ray, Shape};
 use crate::scene::Object;
-
-/// Triangles whose boxes are made without asking whether to stop: less than half a millisecond.
-const QUIET: usize = 16_384;
 
 /// Which hit of a mesh is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,9 +40,11 @@ impl Structures {
             let number = number.unwrap_or(structures.trees.len());
             if number == structures.trees.len() {
                 let known = known.and_then(|known| Some((known, known.number(mesh)?)));
-                let tree = match known {
-                    Some((known, number)) => Arc::clone(&known.trees[number].1),
-                    None => Arc::new(Bvh::build(&boxes(mesh, cancelled)?, cancelled)?),
+                let tree = if let Some((known, number)) = known {
+                    Arc::clone(&known.trees[number].1)
+                } else {
+                    let bounds = |triangle: u32| mesh.triangle_bounds(triangle);
+                    Arc::new(Bvh::over(mesh.len(), bounds, cancelled)?)
                 };
                 structures.trees.push((Arc::clone(mesh), tree));
             }
@@ -116,20 +113,4 @@ fn instances(objects: &[Object]) -> impl Iterator<Item = (usize, &Instance)> {
         Shape::Mesh(instance) => Some((object, &**instance)),
         _ => None,
     })
-}
-
-/// The box of each triangle; `None` if `cancelled` said so.
-fn boxes(mesh: &Mesh, cancelled: impl Fn() -> bool) -> Option<Vec<Aabb>> {
-    let mut boxes = Vec::with_capacity(mesh.len());
-    for first in (0..mesh.len()).step_by(QUIET) {
-        if cancelled() {
-            return None;
-        }
-        let part = first as u32..mesh.len().min(first + QUIET) as u32;
-        boxes.par_extend(
-            part.into_par_iter()
-                .map(|number| mesh.triangle_bounds(number)),
-        );
-    }
-    Some(boxes)
 }

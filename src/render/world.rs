@@ -6,7 +6,6 @@
 use std::sync::Arc;
 
 use glam::DVec2;
-use rayon::prelude::*;
 
 use super::lights::SphereLights;
 use super::mapped::{MappedTextures, environment_place};
@@ -15,8 +14,8 @@ use super::structures::Structures;
 use super::texture::Textures;
 use crate::accel::Bvh;
 use crate::geometry::lanes::Level;
-use crate::geometry::{Aabb, Ray, Shape};
-use crate::scene::{Images, Material, Object, Rgb, Scene};
+use crate::geometry::{Ray, Shape};
+use crate::scene::{Images, Material, Rgb, Scene};
 
 /// Up to this many objects every ray tries every one. Measured on the scenes of `scenes/`: with two
 /// solids that is half as fast again as a tree, with six to eleven a tree is 1.2 to 1.7 times as
@@ -25,9 +24,6 @@ const FEW: usize = 4;
 
 /// The order of so few.
 const FILE_ORDER: [u32; FEW] = [0, 1, 2, 3];
-
-/// Objects whose boxes are made without asking whether to stop: less than half a millisecond.
-const QUIET: usize = 16_384;
 
 /// A scene and its acceleration structure.
 #[derive(Clone, Debug)]
@@ -80,8 +76,9 @@ impl World {
         let tree = if scene.objects.len() <= FEW {
             None
         } else {
-            let boxes = boxes(&scene.objects, &cancelled)?;
-            Some(Arc::new(Bvh::build(&boxes, cancelled)?))
+            let objects = &scene.objects;
+            let bounds = |object: u32| objects[object as usize].shape.bounds();
+            Some(Arc::new(Bvh::over(objects.len(), bounds, cancelled)?))
         };
         let order = match &tree {
             Some(tree) => tree.order(),
@@ -129,18 +126,6 @@ impl World {
     pub(crate) fn transmission(&self, material: u32) -> f64 {
         transmission(&self.scene, material)
     }
-}
-
-/// The box of each object; `None` if `cancelled` said so.
-fn boxes(objects: &[Object], cancelled: impl Fn() -> bool) -> Option<Vec<Aabb>> {
-    let mut boxes = Vec::with_capacity(objects.len());
-    for part in objects.chunks(QUIET) {
-        if cancelled() {
-            return None;
-        }
-        boxes.par_extend(part.par_iter().map(|object| object.shape.bounds()));
-    }
-    Some(boxes)
 }
 
 /// The part of light that goes through a material.
