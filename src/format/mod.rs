@@ -90,7 +90,7 @@ impl Tree {
         let mut leaves: Vec<_> = match self {
             Self::Ray(tree) => {
                 let comments = tree.comments.iter().map(|comment| comment.span);
-                tree.tokens.iter().copied().chain(comments).collect()
+                tree.tokens.all().into_iter().chain(comments).collect()
             }
             Self::Dat(tree) => tree.tokens.iter().chain(&tree.comments).copied().collect(),
             Self::Xml(tree) => tree.leaves(),

@@ -34,6 +34,21 @@ impl Findings {
         }
     }
 
+    /// Adds what was found later, as if one by one.
+    pub fn append(&mut self, later: Self) {
+        let more = (later.errors, later.warnings);
+        for diagnostic in later.kept {
+            if diagnostic.is_error() {
+                self.error(|| diagnostic);
+            } else {
+                self.warning(|| diagnostic);
+            }
+        }
+        let kept = |count: usize| count.saturating_sub(LIMIT);
+        self.errors += kept(more.0);
+        self.warnings += kept(more.1);
+    }
+
     /// How many errors there are, kept or not.
     pub fn errors(&self) -> usize {
         self.errors

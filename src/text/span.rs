@@ -25,6 +25,12 @@ impl Span {
         Self::new(offset, offset)
     }
 
+    /// The same bytes of a text that has so many more before them.
+    #[must_use]
+    pub fn later(self, bytes: usize) -> Self {
+        Self::new(self.start() + bytes, self.end() + bytes)
+    }
+
     /// The first byte.
     pub fn start(self) -> usize {
         self.start as usize

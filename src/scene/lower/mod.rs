@@ -1,6 +1,7 @@
 //! Tree → scene, one language a file. Never panics, never loops, never allocates by a number that
 //! the text merely declares, and takes time linear in the text.
 
+mod blocks;
 mod dat;
 mod objects;
 mod ray;

@@ -10,6 +10,13 @@ use crate::scene::origins::ray::ObjectPlace;
 use crate::scene::{Material, Object};
 use crate::text::{Diagnostic, Span, counted};
 
+/// Objects that are read without knowing of those before them. Equal materials of different blocks
+/// are not one.
+pub(super) const BLOCK: usize = 1024;
+
+/// The most materials that one is compared with. Colours come from short lists, or are all different.
+const MOST_COMPARED: usize = 32;
+
 /// The words an object may begin with.
 const TYPES: &str = "sphere, ellipsoid, box, cylinder or cone";
 
@@ -75,7 +82,7 @@ impl Reader<'_> {
 
     /// Reads one object; whether all its numbers are there. `count` is the number of objects, if
     /// it counts this one.
-    fn object(&mut self, kind: ShapeKind, count: Option<Count>) -> bool {
+    pub(super) fn object(&mut self, kind: ShapeKind, count: Option<Count>) -> bool {
         let keyword = self.at;
         let token = self.tokens[keyword];
         let word = token.of(self.text);
@@ -87,7 +94,7 @@ impl Reader<'_> {
             });
         }
         self.at += 1;
-        let name = Name::Object(self.origins.objects.len(), kind);
+        let name = Name::Object(self.before + self.origins.objects.len(), kind);
         let mut values = [0.0; LONGEST];
         let record = self.record(name, kind.fields(), &mut values);
         self.origins.objects.push(ObjectPlace {
@@ -112,8 +119,7 @@ impl Reader<'_> {
     /// Adds an object without errors to the scene.
     fn keep(&mut self, record: Record, kind: ShapeKind) {
         let (geometry, material) = record.split_at(numbers(kind.geometry()));
-        let material = material.gather(MATERIAL.iter()).material();
-        let material = Material::Phong(material);
+        let material = Material::Phong(material.gather(MATERIAL.iter()).material());
         let Some(shape) = geometry.gather(kind.geometry().iter()).shape(kind) else {
             let span = record.spans[0].to(record.spans[record.spans.len() - 1]);
             self.report.error(|| {
@@ -122,13 +128,26 @@ impl Reader<'_> {
             });
             return;
         };
-        if self.materials.last() != Some(&material) {
+        let material = self.material(material);
+        self.objects.push(Object { shape, material });
+    }
+
+    /// The index of a material: of an equal one, if that is among the last ones of its block.
+    fn material(&mut self, material: Material) -> u32 {
+        if self.objects.len().is_multiple_of(BLOCK) {
+            self.of_block = self.materials.len();
+        }
+        let first = self
+            .of_block
+            .max(self.materials.len().saturating_sub(MOST_COMPARED));
+        let known = self.materials[first..]
+            .iter()
+            .rposition(|known| *known == material);
+        let at = known.map_or(self.materials.len(), |known| first + known);
+        if at == self.materials.len() {
             self.materials.push(material);
         }
-        self.objects.push(Object {
-            shape,
-            material: (self.materials.len() - 1) as u32,
-        });
+        at as u32
     }
 
     /// Reports an object that the text's end cuts short.

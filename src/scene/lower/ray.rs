@@ -3,6 +3,7 @@
 //! After an error the reader goes on where the text makes sense again: after a token that is no
 //! number at the next token, everywhere else at the next object keyword.
 
+use super::blocks;
 use super::record::{LONGEST, Record, what};
 use super::report::{nearest_kind, no_number, quoted};
 use super::{Lowered, view};
@@ -18,21 +19,35 @@ pub(super) const LEAST_NUMBERS: usize = ShapeKind::Sphere.numbers();
 
 /// Reads a scene.
 pub(super) fn lower(text: &str, tree: &ray::Tree) -> Lowered {
+    let blocks = |report| blocks::read(text, &tree.tokens, report);
+    lower_by(text, tree, blocks)
+}
+
+/// Reads a scene whose text need not be regular.
+#[cfg(test)]
+pub(super) fn lower_in_order(text: &str, tree: &ray::Tree) -> Lowered {
+    lower_by(text, tree, Err)
+}
+
+/// Reads a scene by blocks, or else in order.
+fn lower_by<'a>(
+    text: &'a str,
+    tree: &ray::Tree,
+    blocks: impl FnOnce(Findings) -> Result<(Reader<'a>, Span), Findings>,
+) -> Lowered {
     let mut report = Findings::default();
     let view = view::find(text, &tree.comments, &mut report);
-    let mut reader = Reader {
-        text,
-        tokens: &tree.tokens,
-        at: 0,
-        report,
-        origins: Origins::default(),
-        ambient: Rgb::ZERO,
-        lights: Vec::new(),
-        materials: Vec::new(),
-        objects: Vec::new(),
+    let tokens: Vec<Span>;
+    let (mut reader, objects) = match blocks(report) {
+        Ok(read) => read,
+        Err(report) => {
+            tokens = tree.tokens.all();
+            let mut reader = Reader::new(text, &tokens, report);
+            let objects = reader.read();
+            (reader, objects)
+        }
     };
     reader.origins.view = view.as_ref().map(view::View::place);
-    let objects = reader.read();
     // A view that says both eye and target can be judged though the objects are not all known.
     let judged = reader.report.errors() == 0 || view.as_ref().is_some_and(view::View::is_placed);
     let camera = judged.then(|| {
@@ -77,15 +92,35 @@ pub(super) struct Reader<'a> {
     pub(super) at: usize,
     pub(super) report: Findings,
     pub(super) origins: Origins,
-    ambient: Rgb,
-    lights: Vec<Light>,
-    /// Without repetitions in a row.
+    /// How many objects there are before the tokens.
+    pub(super) before: usize,
+    pub(super) ambient: Rgb,
+    pub(super) lights: Vec<Light>,
     pub(super) materials: Vec<Material>,
+    /// The first material of the present block of objects.
+    pub(super) of_block: usize,
     /// Complete up to the first error.
     pub(super) objects: Vec<Object>,
 }
 
 impl<'a> Reader<'a> {
+    /// A reader of tokens.
+    pub(super) fn new(text: &'a str, tokens: &'a [Span], report: Findings) -> Self {
+        Self {
+            text,
+            tokens,
+            at: 0,
+            report,
+            origins: Origins::default(),
+            before: 0,
+            ambient: Rgb::ZERO,
+            lights: Vec::new(),
+            materials: Vec::new(),
+            of_block: 0,
+            objects: Vec::new(),
+        }
+    }
+
     /// Reads everything; returns where the number of objects stands.
     fn read(&mut self) -> Span {
         if self.tokens.is_empty() {
@@ -109,7 +144,7 @@ impl<'a> Reader<'a> {
 
     /// Reads ambient light and lights; returns the number of objects, if it could be read. Stops
     /// at the first object.
-    fn header(&mut self) -> Option<Count> {
+    pub(super) fn header(&mut self) -> Option<Count> {
         let mut values = [0.0; LONGEST];
         let ambient = self.record(Name::Ambient, AMBIENT.iter(), &mut values);
         self.origins.ambient = ambient.values.len();
@@ -251,6 +286,17 @@ impl<'a> Reader<'a> {
         'a: 'v,
     {
         let start = self.at;
+        let due = fields.clone().map(|field| field.kind.components()).sum();
+        if self.numbers(&mut values[..due]) {
+            self.at += due;
+            let record = Record {
+                name,
+                values: &values[..due],
+                spans: &self.tokens[start..self.at],
+            };
+            record.check(fields, &mut self.report);
+            return record;
+        }
         'fields: for field in fields.clone() {
             for component in field.kind.component_names() {
                 let Some(&token) = self.tokens.get(self.at) else {
@@ -279,6 +325,21 @@ impl<'a> Reader<'a> {
         };
         record.check(fields, &mut self.report);
         record
+    }
+
+    /// Reads as many numbers from here as are due; whether there are so many. Moves nowhere.
+    fn numbers(&self, due: &mut [f64]) -> bool {
+        let tokens = self.tokens.get(self.at..self.at + due.len());
+        tokens.is_some_and(|tokens| {
+            let mut pairs = due.iter_mut().zip(tokens);
+            pairs.all(|(value, token)| match parse_number(token.of(self.text)) {
+                Ok(number) => {
+                    *value = number;
+                    true
+                }
+                Err(_) => false,
+            })
+        })
     }
 
     /// Reports a record that breaks off here, before an object or the end of the text.

@@ -73,7 +73,7 @@ impl Origins {
     }
 
     pub(super) fn fields(&self, tree: &Tree, node: Node) -> Vec<Placed> {
-        let tokens = self.numbers(tree, node);
+        let tokens = &self.numbers(tree, node);
         match node {
             Node::View => self.view_fields(),
             Node::Ambient => hand_out(tokens, AMBIENT.iter()),
@@ -95,7 +95,7 @@ impl Origins {
             Node::Object(index) => self
                 .objects
                 .get(index)
-                .and_then(|object| tree.tokens.get(object.token as usize).copied()),
+                .and_then(|object| tree.tokens.get(object.token as usize)),
             _ => None,
         };
         let numbers = self.numbers(tree, node);
@@ -117,7 +117,7 @@ impl Origins {
             let before = tree
                 .tokens
                 .partition_point(|token| token.end() <= comment.start());
-            let token = tree.tokens[before.checked_sub(1)?];
+            let token = tree.tokens.get(before.checked_sub(1)?)?;
             let follows = own.start() <= token.start() && token.end() <= own.end();
             let in_line = follows && !text[from..comment.start()].contains('\n');
             let is_view = self.view.is_some_and(|view| view.comment == comment);
@@ -137,7 +137,11 @@ impl Origins {
         let from = tree
             .tokens
             .partition_point(|token| token.end() < span.start());
-        let mut touched = (from..tree.tokens.len()).take_while(|&at| tree.tokens[at].touches(span));
+        let touches = |&at: &usize| {
+            let token = tree.tokens.get(at);
+            token.is_some_and(|token| token.touches(span))
+        };
+        let mut touched = (from..).take_while(touches);
         touched
             .find_map(|at| self.node_of_token(at))
             .or_else(|| comment?.touches(span).then_some(Node::View))
@@ -165,7 +169,7 @@ impl Origins {
     }
 
     /// The tokens that are a node's numbers; none for the view, whose numbers are no tokens.
-    fn numbers<'a>(&self, tree: &'a Tree, node: Node) -> &'a [Span] {
+    fn numbers(&self, tree: &Tree, node: Node) -> Vec<Span> {
         let (start, len) = match node {
             Node::View
             | Node::Material(_)
@@ -183,9 +187,7 @@ impl Origins {
                 (object.token as usize + 1, usize::from(object.numbers))
             }),
         };
-        tree.tokens
-            .get(start..start.saturating_add(len))
-            .unwrap_or_default()
+        tree.tokens.range(start..start.saturating_add(len))
     }
 
     fn view_fields(&self) -> Vec<Placed> {

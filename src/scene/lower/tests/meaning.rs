@@ -90,12 +90,12 @@ fn unusual_values_are_kept_as_given() {
 }
 
 #[test]
-fn equal_materials_in_a_row_are_one() {
+fn equal_materials_near_each_other_are_one() {
     let plain = "sphere 0 0 0 1 MAT ";
     let other = "sphere 0 0 0 1  1 1 1  1 1 1  1 1 1  1 0 0 1 ";
     let scene = scene(&spelled(&format!("HEAD 4 {plain}{plain}{other}{plain}")));
     let indices: Vec<_> = scene.objects.iter().map(|object| object.material).collect();
-    assert_eq!((indices, scene.materials.len()), (vec![0, 0, 1, 2], 3));
+    assert_eq!((indices, scene.materials.len()), (vec![0, 0, 1, 0], 2));
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! What texts mean, as data.
 
+mod blocks;
 mod dat;
 mod errors;
 mod meaning;

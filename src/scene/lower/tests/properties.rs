@@ -174,12 +174,14 @@ impl Model {
                 )),
                 Node::Object(_) => {
                     let material = Material::Phong(material(said));
-                    if scene.materials.last() != Some(&material) {
+                    let known = scene.materials.iter().position(|known| *known == material);
+                    let index = known.unwrap_or(scene.materials.len());
+                    if known.is_none() {
                         scene.materials.push(material);
                     }
                     scene.objects.push(Object {
                         shape: shape(said, kind.expect("objects have a kind")),
-                        material: scene.materials.len() as u32 - 1,
+                        material: index as u32,
                     });
                 }
             }

@@ -1,13 +1,18 @@
 //! The `.ray` language: a stream of tokens separated by white space, with comments.
 
-use super::{trim_end, white_space};
+mod scan;
+mod tokens;
+
+use super::white_space;
 use crate::text::Span;
+
+pub use tokens::Tokens;
 
 /// The tokens and comments of a text, each in order.
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
     /// Words and numbers.
-    pub tokens: Vec<Span>,
+    pub tokens: Tokens,
     /// Comments, from their marker to before the line's end.
     pub comments: Vec<Comment>,
 }
@@ -32,29 +37,7 @@ pub enum Marker {
 
 /// Reads tokens and comments. White space is ASCII's, the no-break space and the byte order mark.
 pub fn parse(text: &str) -> Tree {
-    let bytes = text.as_bytes();
-    let mut tree = Tree::default();
-    let mut at = 0;
-    while at < bytes.len() {
-        if let Some(width) = white_space(&bytes[at..]) {
-            at += width;
-        } else if let Some(marker) = comment_marker(&bytes[at..]) {
-            let end = bytes[at..]
-                .iter()
-                .position(|&b| b == b'\n')
-                .map_or(bytes.len(), |n| at + n);
-            tree.comments.push(Comment {
-                span: trim_end(text, Span::new(at, end)),
-                marker,
-            });
-            at = end;
-        } else {
-            let end = token_end(bytes, at);
-            tree.tokens.push(Span::new(at, end));
-            at = end;
-        }
-    }
-    tree
+    scan::scan(text, scan::PIECE)
 }
 
 /// The words inside `span` of `text`, separated by white space: how the inside of a comment is
@@ -77,26 +60,6 @@ pub fn words(text: &str, span: Span) -> Vec<Span> {
     words
 }
 
-fn comment_marker(bytes: &[u8]) -> Option<Marker> {
-    match bytes {
-        [b'/', b'/', ..] => Some(Marker::Slashes),
-        [b'\\', b'\\', ..] => Some(Marker::Backslashes),
-        _ => None,
-    }
-}
-
-/// Where the token that begins at `start` ends: before white space or a comment.
-fn token_end(bytes: &[u8], start: usize) -> usize {
-    let mut end = start + 1;
-    while end < bytes.len()
-        && white_space(&bytes[end..]).is_none()
-        && comment_marker(&bytes[end..]).is_none()
-    {
-        end += 1;
-    }
-    end
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -105,6 +68,7 @@ mod tests {
     fn tokens(text: &str) -> Vec<&str> {
         parse(text)
             .tokens
+            .all()
             .iter()
             .map(|span| span.of(text))
             .collect()
@@ -154,7 +118,7 @@ mod tests {
         fn every_character_is_a_token_a_comment_or_white_space(text in "[01a/\\\\\n\r \u{A0}\u{FEFF}é]{0,40}") {
             let tree = parse(&text);
             let mut covered = vec![false; text.len()];
-            let spans = tree.tokens.iter().copied().chain(tree.comments.iter().map(|c| c.span));
+            let spans = tree.tokens.all().into_iter().chain(tree.comments.iter().map(|c| c.span));
             for span in spans {
                 prop_assert!(!span.is_empty());
                 for at in span.range() {

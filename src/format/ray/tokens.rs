@@ -1,0 +1,198 @@
+//! The tokens of a text in two bytes each: how far a token is from the one before, and how long.
+//!
+//! They are kept by pieces of the text, lines of about 64 KiB together, whose tokens are known
+//! without those before: pieces are read side by side, and read again alone when they are edited.
+
+use std::ops::Range;
+
+use crate::text::Span;
+
+/// Tokens between two whose place a piece knows by heart.
+const STRIDE: usize = 64;
+
+/// Stands for a distance or a length of this and more.
+const LONG: usize = u8::MAX as usize;
+
+/// The tokens of a text, in order.
+#[derive(Clone, Debug, Default)]
+pub struct Tokens {
+    pieces: Vec<Piece>,
+}
+
+/// The tokens of some lines of a text. Places in it count from its start.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Piece {
+    /// Where its text begins.
+    start: usize,
+    /// How many tokens there are before it.
+    first: usize,
+    steps: Vec<Step>,
+    /// Where every [`STRIDE`]th token's gap begins.
+    marks: Vec<u32>,
+    /// The tokens that begin with a letter, and where.
+    words: Vec<(u32, u32)>,
+    /// The tokens that a step can't tell of.
+    long: Vec<(u32, Span)>,
+}
+
+/// From the end of one token to that of the next.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    gap: u8,
+    len: u8,
+}
+
+impl Piece {
+    /// A piece without tokens as yet.
+    pub(super) fn new(start: usize) -> Self {
+        Self {
+            start,
+            ..Self::default()
+        }
+    }
+
+    /// Adds a token behind the last one, which ends at `end`; all of it as places in the piece.
+    #[inline]
+    pub(super) fn push(&mut self, end: usize, token: Span, first: u8) {
+        let number = self.steps.len() as u32;
+        if number.is_multiple_of(STRIDE as u32) {
+            self.marks.push(end as u32);
+        }
+        let (gap, len) = (token.start() - end, token.len());
+        if LONG <= gap.max(len) {
+            self.long.push((number, token));
+        }
+        if first.is_ascii_alphabetic() {
+            self.words.push((number, token.start() as u32));
+        }
+        self.steps.push(Step {
+            gap: gap.min(LONG) as u8,
+            len: len.min(LONG) as u8,
+        });
+    }
+
+    /// The span of a token, given the end of the one before.
+    #[inline]
+    fn span(&self, number: usize, end: usize) -> Span {
+        let Step { gap, len } = self.steps[number];
+        if usize::from(gap.max(len)) == LONG {
+            return self.long_span(number);
+        }
+        let start = end + usize::from(gap);
+        Span::new(start, start + usize::from(len))
+    }
+
+    #[cold]
+    fn long_span(&self, number: usize) -> Span {
+        let at = self
+            .long
+            .partition_point(|&(long, _)| (long as usize) < number);
+        self.long[at].1
+    }
+
+    /// Where the token before one ends.
+    fn end_before(&self, number: usize) -> usize {
+        let mark = number / STRIDE;
+        let near = self.marks.get(mark).map_or(0, |&end| end as usize);
+        (mark * STRIDE..number).fold(near, |end, number| self.span(number, end).end())
+    }
+
+    /// The span of a token in the text.
+    fn get(&self, number: usize) -> Span {
+        self.span(number, self.end_before(number)).later(self.start)
+    }
+}
+
+impl Tokens {
+    /// Joins the pieces of a text.
+    pub(super) fn of(mut pieces: Vec<Piece>) -> Self {
+        // Of one without tokens it can't be said whether a place is before or behind.
+        pieces.retain(|piece| !piece.steps.is_empty());
+        let mut first = 0;
+        for piece in &mut pieces {
+            piece.first = first;
+            first += piece.steps.len();
+        }
+        Self { pieces }
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        let last = self.pieces.last();
+        last.map_or(0, |piece| piece.first + piece.steps.len())
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The place of a token.
+    pub fn get(&self, token: usize) -> Option<Span> {
+        let piece = &self.pieces[self.piece_of(token)?];
+        Some(piece.get(token - piece.first))
+    }
+
+    /// Appends the tokens of a range, as far as there are any.
+    pub fn append_to(&self, spans: &mut Vec<Span>, range: Range<usize>) {
+        let from = self.piece_of(range.start).unwrap_or(self.pieces.len());
+        for piece in &self.pieces[from..] {
+            if range.end <= piece.first {
+                break;
+            }
+            let first = range.start.saturating_sub(piece.first);
+            let last = piece.steps.len().min(range.end - piece.first);
+            let mut end = piece.end_before(first);
+            spans.extend((first..last).map(|number| {
+                let span = piece.span(number, end);
+                end = span.end();
+                span.later(piece.start)
+            }));
+        }
+    }
+
+    /// The tokens of a range, as far as there are any.
+    pub fn range(&self, range: Range<usize>) -> Vec<Span> {
+        let mut spans = Vec::new();
+        self.append_to(&mut spans, range);
+        spans
+    }
+
+    /// All of them.
+    pub fn all(&self) -> Vec<Span> {
+        self.range(0..self.len())
+    }
+
+    /// Those that begin with an ASCII letter, in order, with their numbers.
+    pub fn words(&self) -> impl Iterator<Item = (usize, Span)> + '_ {
+        self.pieces.iter().flat_map(|piece| {
+            piece.words.iter().map(|&(number, start)| {
+                let (number, start) = (number as usize, start as usize);
+                let before = start - usize::from(piece.steps[number].gap);
+                let span = piece.span(number, before);
+                (piece.first + number, span.later(piece.start))
+            })
+        })
+    }
+
+    /// The first token that does not fulfil what all before it do.
+    pub fn partition_point(&self, fulfils: impl Fn(Span) -> bool) -> usize {
+        let whole = |piece: &Piece| {
+            let last = piece.steps.len().checked_sub(1);
+            last.is_none_or(|last| fulfils(piece.get(last)))
+        };
+        let at = self.pieces.partition_point(whole);
+        let Some(piece) = self.pieces.get(at) else {
+            return self.len();
+        };
+        let spans = self.range(piece.first..piece.first + piece.steps.len());
+        piece.first + spans.partition_point(|&span| fulfils(span))
+    }
+
+    fn piece_of(&self, token: usize) -> Option<usize> {
+        let after = self.pieces.partition_point(|piece| piece.first <= token);
+        let at = after.checked_sub(1)?;
+        let piece = &self.pieces[at];
+        (token < piece.first + piece.steps.len()).then_some(at)
+    }
+}

@@ -1,0 +1,134 @@
+//! The objects of long `.ray` texts, read by blocks side by side. Only what is regular is read so:
+//! after the lights nothing but objects, as many as the text says, none with an error.
+
+use rayon::prelude::*;
+
+use super::objects::BLOCK;
+use super::ray::{LEAST_NUMBERS, Reader};
+use crate::format::ray::Tokens;
+use crate::scene::fields::ray::ShapeKind;
+use crate::scene::origins::ray::ObjectPlace;
+use crate::scene::{Material, Object};
+use crate::text::{Findings, Span};
+
+/// A block of objects as it was read; its materials count from 0.
+struct Block {
+    materials: Vec<Material>,
+    objects: Vec<Object>,
+    report: Findings,
+}
+
+/// Reads a text of several blocks; what was read, and where the number of objects stands. Gives the
+/// findings so far back if it must be read in order.
+pub(super) fn read<'a>(
+    text: &'a str,
+    tokens: &Tokens,
+    report: Findings,
+) -> Result<(Reader<'a>, Span), Findings> {
+    let places = places(text, tokens);
+    if places.len() <= BLOCK {
+        return Err(report);
+    }
+    let Some((mut reader, count)) = header(text, tokens, &places) else {
+        return Err(report);
+    };
+    let blocks: Option<Vec<Block>> = (0..places.len().div_ceil(BLOCK))
+        .into_par_iter()
+        .map_init(Vec::new, |spans, number| {
+            let first = number * BLOCK;
+            let end = places.get(first + BLOCK);
+            let end = end.map_or(tokens.len(), |next| next.token as usize);
+            spans.clear();
+            tokens.append_to(spans, places[first].token as usize..end);
+            block(text, spans, first)
+        })
+        .collect();
+    let Some(blocks) = blocks else {
+        return Err(report);
+    };
+    let found = std::mem::replace(&mut reader.report, report);
+    reader.report.append(found);
+    reader.objects.reserve_exact(places.len());
+    for block in blocks {
+        let base = reader.materials.len() as u32;
+        reader.materials.extend(block.materials);
+        reader
+            .objects
+            .extend(block.objects.into_iter().map(|object| Object {
+                material: base + object.material,
+                ..object
+            }));
+        reader.report.append(block.report);
+    }
+    reader.origins.objects = places;
+    Ok((reader, count))
+}
+
+/// Where each keyword stands, with the numbers that a whole object has.
+fn places(text: &str, tokens: &Tokens) -> Vec<ObjectPlace> {
+    let words = tokens.words();
+    words
+        .filter_map(|(token, word)| {
+            let kind = ShapeKind::of_word(word.of(text))?;
+            Some(ObjectPlace {
+                token: token as u32,
+                kind,
+                numbers: kind.numbers() as u8,
+            })
+        })
+        .collect()
+}
+
+/// Reads what stands before the first object, if that and the number of objects is as it should be.
+fn header<'a>(
+    text: &'a str,
+    tokens: &Tokens,
+    places: &[ObjectPlace],
+) -> Option<(Reader<'a>, Span)> {
+    let first = places[0].token as usize;
+    // Whether a word begins an object is told by the numbers behind it.
+    let spans = tokens.range(0..first + 1 + LEAST_NUMBERS);
+    let mut reader = Reader::new(text, &spans, Findings::default());
+    let count = reader.header()?;
+    let is_regular =
+        reader.report.errors() == 0 && reader.at == first && count.declared == places.len() as u64;
+    let Reader {
+        report,
+        origins,
+        ambient,
+        lights,
+        ..
+    } = reader;
+    let reader = Reader {
+        report,
+        origins,
+        ambient,
+        lights,
+        ..Reader::new(text, &[], Findings::default())
+    };
+    is_regular.then_some((reader, count.token))
+}
+
+/// Reads a block whose first object has `first` ones before it, if it is regular.
+fn block(text: &str, tokens: &[Span], first: usize) -> Option<Block> {
+    let mut reader = Reader::new(text, tokens, Findings::default());
+    reader.before = first;
+    reader.objects.reserve(BLOCK);
+    while let Some(token) = tokens.get(reader.at) {
+        let kind = ShapeKind::of_word(token.of(text))?;
+        if !reader.object(kind, None) {
+            return None;
+        }
+    }
+    let Reader {
+        materials,
+        objects,
+        report,
+        ..
+    } = reader;
+    (report.errors() == 0).then_some(Block {
+        materials,
+        objects,
+        report,
+    })
+}
