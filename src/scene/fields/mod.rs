@@ -146,6 +146,18 @@ impl Range {
             }
     }
 
+    /// The least and the greatest number within the bounds; none where not all between are.
+    pub const fn ends(self) -> Option<[f64; 2]> {
+        match self {
+            Self::Any => Some([f64::MIN, f64::MAX]),
+            Self::Positive => Some([0.0_f64.next_up(), f64::MAX]),
+            Self::NotNegative => Some([0.0, f64::MAX]),
+            Self::Unit => Some([0.0, 1.0]),
+            Self::Between(low, high) => Some([low.next_up(), high.next_down()]),
+            Self::Count | Self::Identity => None,
+        }
+    }
+
     /// The bounds as a noun: `a number greater than 0`.
     pub fn words(self) -> String {
         match self {
@@ -352,6 +364,11 @@ mod tests {
             assert!(!outside.iter().any(|&x| range.contains(x)), "{words}");
             assert!(!range.contains(f64::NAN) && !range.contains(f64::INFINITY));
             assert_eq!(range.words(), words);
+            if let Some([least, greatest]) = range.ends() {
+                assert!(range.contains(least) && range.contains(greatest));
+                assert!(!range.contains(least.next_down()), "{words}");
+                assert!(!range.contains(greatest.next_up()), "{words}");
+            }
         }
     }
 }

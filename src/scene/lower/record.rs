@@ -86,6 +86,14 @@ impl<'a> Record<'a> {
 
     fn check_numbers(self, part: &Part, report: &mut Findings) {
         let field = part.field;
+        if let Some([least, greatest]) = field.usual.ends()
+            && part
+                .values
+                .iter()
+                .all(|&value| least <= value && value <= greatest)
+        {
+            return;
+        }
         let names = field.kind.component_names();
         for ((&value, &span), component) in part.values.iter().zip(part.spans).zip(names) {
             if value.is_nan() || field.usual.contains(value) {
