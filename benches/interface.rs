@@ -205,7 +205,7 @@ fn cancel() {
         })
     };
     times_row("drop while tracing", &busy(&default, 50), "<= 10");
-    times_row("  1,000,000 spheres", &busy(&million, 5), "<= 10");
+    times_row("  1,000,000 spheres", &busy(&million, 20), "<= 10");
     let mut wait = 0;
     let building = repeat(20, || {
         let (renderer, _woken) = tracing(&million);

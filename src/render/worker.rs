@@ -46,6 +46,9 @@ pub(crate) fn run<W: Fn() + Sync>(
         let order = orders.try_iter().last().unwrap_or(newest);
         world = pool.install(|| trace(order, shared, wake, world.take()));
     }
+    // Nobody is to wait while the system takes back the structure of a large scene: up to 16 ms for a
+    // million spheres.
+    pool.spawn(move || drop(world));
 }
 
 /// Traces a job to its end, unless it is cancelled; returns the world for the next job.
