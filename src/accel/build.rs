@@ -64,6 +64,7 @@ pub(super) fn build(
         nodes,
         order,
         bounded: references.len(),
+        moved: 0,
     })
 }
 

@@ -2,8 +2,8 @@
 //! box holds is the caller's closure.
 //!
 //! `build` sorts boxes into a tree of [`node::WIDTH`]-wide nodes by the surface area heuristic,
-//! `node` holds such a node and tests a ray against all its children at once, and `traverse` walks
-//! the tree, near children first.
+//! `node` holds such a node and tests a ray against all its children at once, `refit` follows boxes
+//! that move, and `traverse` walks the tree, near children first.
 //!
 //! # How nothing is missed
 //!
@@ -21,6 +21,7 @@
 mod build;
 mod node;
 mod packet;
+mod refit;
 mod split;
 mod traverse;
 
@@ -47,6 +48,8 @@ pub struct Bvh {
     order: Vec<u32>,
     /// How many have finite planes.
     bounded: usize,
+    /// How many boxes moved since it was built.
+    moved: usize,
 }
 
 /// The most boxes of a leaf, and of any run that is visited at once.
@@ -71,6 +74,12 @@ impl Bvh {
         cancelled: impl Fn() -> bool + Sync,
     ) -> Option<Self> {
         build::build(count, &aabb, &cancelled).ok()
+    }
+
+    /// The same tree with a few boxes that are others now. `None` where a new one is better: of many
+    /// changes, of few boxes, and where a box begins or ceases to be empty or without bounds.
+    pub fn refitted(&self, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> Option<Self> {
+        refit::refit(self, changed, aabb)
     }
 
     /// The indices of the boxes in the order of the tree: those of a leaf stand side by side.

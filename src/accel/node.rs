@@ -153,7 +153,6 @@ impl Node {
     }
 
     /// The box of the child in a lane.
-    #[cfg(test)]
     pub(super) fn bounds(&self, lane: usize) -> Bounds {
         let plane = |side: usize, axis: usize| match self.planes.get(axis) {
             Some(sides) => sides[side][lane],

@@ -421,6 +421,29 @@ fn thread_count_does_not_change_the_tree() {
 }
 
 #[test]
+fn a_tree_follows_boxes_that_move() {
+    let mut random = Random(8);
+    let mut boxes = random_boxes(&mut random, 20_000, 1.0, DVec3::ZERO);
+    let mut bvh = build(&boxes);
+    for turn in 0..19 {
+        let moved = random.bits() as u32 % 20_000;
+        boxes[moved as usize] = cube(3.0 * random.point(), random.point().abs());
+        let refitted = bvh.refitted(&[moved], |index| boxes[index as usize]);
+        bvh = refitted.unwrap_or_else(|| panic!("box {turn} is among many"));
+        check_tree(&bvh, &boxes);
+    }
+    assert!(bvh.refitted(&[1], |index| boxes[index as usize]).is_none());
+    let bvh = build(&boxes);
+    assert!(bvh.refitted(&[1], |_| Aabb::EMPTY).is_none());
+    let endless = cube(DVec3::ZERO, DVec3::INFINITY);
+    assert!(bvh.refitted(&[1], |_| endless).is_none());
+    assert!(
+        bvh.refitted(&[0; 17], |index| boxes[index as usize])
+            .is_none()
+    );
+}
+
+#[test]
 fn a_power_of_two_scales_the_visits_away() {
     let mut random = Random(5);
     let boxes = random_boxes(&mut random, 500, 1.0, DVec3::ONE);

@@ -58,7 +58,8 @@ impl World {
         let sphere_lights = SphereLights::new(&scene.lights, &cancelled)?;
         let level = Level::new();
         let opaque = opaque_meshes(&scene);
-        if let Some(previous) = previous.filter(|world| same_shapes(&world.scene, &scene)) {
+        let changed = previous.and_then(|world| changed_shapes(&world.scene, &scene));
+        if let Some(previous) = previous.filter(|_| changed.as_deref() == Some(&[])) {
             return Some(Self {
                 scene,
                 textures,
@@ -78,7 +79,14 @@ impl World {
         } else {
             let objects = &scene.objects;
             let bounds = |object: u32| objects[object as usize].shape.bounds();
-            Some(Arc::new(Bvh::over(objects.len(), bounds, cancelled)?))
+            let known = previous.and_then(|world| world.tree.as_ref());
+            let refitted = known.zip(changed);
+            let refitted = refitted.and_then(|(tree, changed)| tree.refitted(&changed, bounds));
+            let tree = match refitted {
+                Some(tree) => tree,
+                None => Bvh::over(objects.len(), bounds, cancelled)?,
+            };
+            Some(Arc::new(tree))
         };
         let order = match &tree {
             Some(tree) => tree.order(),
@@ -153,11 +161,24 @@ fn opaque_meshes(scene: &Scene) -> Vec<bool> {
     opaque
 }
 
-fn same_shapes(a: &Arc<Scene>, b: &Arc<Scene>) -> bool {
-    Arc::ptr_eq(a, b)
-        || (a.objects.len() == b.objects.len()
-            && a.objects
-                .iter()
-                .zip(&b.objects)
-                .all(|(a, b)| a.shape == b.shape))
+/// The objects whose shapes are others; `None` where they are many, or not as many objects.
+fn changed_shapes(a: &Arc<Scene>, b: &Arc<Scene>) -> Option<Vec<u32>> {
+    /// A tree can follow fewer.
+    const MANY: usize = 32;
+    let mut changed = Vec::new();
+    if Arc::ptr_eq(a, b) {
+        return Some(changed);
+    }
+    if a.objects.len() != b.objects.len() {
+        return None;
+    }
+    for (number, (a, b)) in (0..).zip(a.objects.iter().zip(&b.objects)) {
+        if a.shape != b.shape {
+            changed.push(number);
+        }
+        if MANY < changed.len() {
+            return None;
+        }
+    }
+    Some(changed)
 }
