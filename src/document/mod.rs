@@ -224,7 +224,9 @@ impl Document {
     /// Changes text and tree; the edits that lead back.
     fn change(&mut self, edits: &[Edit]) -> Vec<Edit> {
         let inverse = text::apply(&mut self.text, edits);
-        self.tree = format::parse(self.format, &self.text);
+        let old = cover(edits).unwrap_or_default();
+        let changed = cover(&inverse).unwrap_or_default();
+        self.tree.follow(&self.text, old, changed);
         inverse
     }
 }

@@ -68,6 +68,16 @@ pub fn parse(format: Format, text: &str) -> Tree {
 }
 
 impl Tree {
+    /// Becomes the tree of the text after an edit, of which `changed` is what it put in the place of
+    /// the bytes `old`: that of [`parse`], sooner in long texts.
+    pub fn follow(&mut self, text: &str, old: Span, changed: Span) {
+        match self {
+            Self::Ray(tree) => tree.follow(text, old, changed),
+            Self::Dat(tree) => *tree = dat::parse(text),
+            Self::Xml(tree) => *tree = xml::parse(text),
+        }
+    }
+
     /// What a leaf says.
     pub fn said<'t>(&'t self, text: &'t str, leaf: Span) -> &'t str {
         match self {

@@ -40,6 +40,14 @@ pub fn parse(text: &str) -> Tree {
     scan::scan(text, scan::PIECE)
 }
 
+impl Tree {
+    /// Becomes the tree of the text after an edit, of which `changed` is what it put in the place of
+    /// the bytes `old`. Only the lines around it are read.
+    pub fn follow(&mut self, text: &str, old: Span, changed: Span) {
+        scan::follow(self, text, old, changed, scan::PIECE);
+    }
+}
+
 /// The words inside `span` of `text`, separated by white space: how the inside of a comment is
 /// read.
 pub fn words(text: &str, span: Span) -> Vec<Span> {

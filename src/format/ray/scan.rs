@@ -18,7 +18,38 @@ const BLOCK: usize = 64;
 
 /// Reads a text by pieces of about so many bytes.
 pub(super) fn scan(text: &str, piece: usize) -> Tree {
-    let pieces = cut(text, piece);
+    let (pieces, comments) = read(text, 0..text.len(), piece);
+    let tokens = Tokens::of(pieces);
+    Tree { tokens, comments }
+}
+
+/// Makes the tree of a text that of the text after an edit, of which `changed` is what it put in the
+/// place of the bytes `old`.
+pub(super) fn follow(tree: &mut Tree, text: &str, old: Span, changed: Span, piece: usize) {
+    let grown = changed.len() as isize - old.len() as isize;
+    let len = text.len().wrapping_add_signed(-grown);
+    let is_line = |start: usize| {
+        let before = start.wrapping_add_signed(grown).checked_sub(1);
+        before.is_none_or(|before| text.as_bytes()[before] == b'\n')
+    };
+    let (touched, lines) = tree.tokens.touched(old, len, is_line);
+    let now = lines.start..lines.end.wrapping_add_signed(grown);
+    let (pieces, found) = read(text, now, piece);
+    tree.tokens.replace(touched, pieces, grown);
+    let comments = &mut tree.comments;
+    let before = |place: usize| move |comment: &Comment| comment.span.start() < place;
+    let first = comments.partition_point(before(lines.start));
+    let end = comments.partition_point(before(lines.end));
+    for comment in &mut comments[end..] {
+        let start = comment.span.start().wrapping_add_signed(grown);
+        comment.span = Span::new(start, start + comment.span.len());
+    }
+    comments.splice(first..end, found);
+}
+
+/// Reads whole lines of a text by pieces of about so many bytes.
+fn read(text: &str, lines: Range<usize>, piece: usize) -> (Vec<Piece>, Vec<Comment>) {
+    let pieces = cut(text, lines, piece);
     let read: Vec<_> = match &pieces[..] {
         [all] => vec![Reader::read(text, all.clone())],
         // Smaller texts are read before other threads are awake.
@@ -32,15 +63,14 @@ pub(super) fn scan(text: &str, piece: usize) -> Tree {
         comments.extend(reader.comments);
         reader.piece
     });
-    let tokens = Tokens::of(pieces.collect());
-    Tree { tokens, comments }
+    (pieces.collect(), comments)
 }
 
 /// Cuts a text behind line ends, which neither tokens nor comments contain. One piece at least.
-fn cut(text: &str, piece: usize) -> Vec<Range<usize>> {
-    let bytes = text.as_bytes();
-    let mut pieces = Vec::with_capacity(1 + bytes.len() / piece);
-    let mut start = 0;
+fn cut(text: &str, lines: Range<usize>, piece: usize) -> Vec<Range<usize>> {
+    let bytes = &text.as_bytes()[..lines.end];
+    let mut pieces = Vec::with_capacity(1 + lines.len() / piece);
+    let mut start = lines.start;
     loop {
         let end = match bytes.get(start + piece..) {
             Some(rest) => start + piece + line_len(rest),
@@ -222,6 +252,33 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn a_tree_follows_its_text(
+            text in "([-0-9.]{0,3}[ \n\t]{0,2}|//|/|\\\\\\\\|é|\u{A0}){0,30}",
+            edits in prop::collection::vec(
+                (any::<prop::sample::Index>(), any::<prop::sample::Index>(), "[/\n 1a]{0,4}"),
+                1..6,
+            ),
+            piece in 1usize..20,
+        ) {
+            let mut text = text;
+            let mut tree = scan(&text, piece);
+            for (one, other, put) in edits {
+                let places: Vec<_> = (0..=text.len()).filter(|&at| text.is_char_boundary(at)).collect();
+                let (one, other) = (*one.get(&places), *other.get(&places));
+                let old = Span::new(one.min(other), one.max(other).min(one.min(other) + 9));
+                if !text.is_char_boundary(old.end()) {
+                    continue;
+                }
+                text.replace_range(old.range(), &put);
+                let changed = Span::new(old.start(), old.start() + put.len());
+                follow(&mut tree, &text, old, changed, piece);
+                let (tokens, comments) = read_plainly(&text);
+                prop_assert_eq!(tree.tokens.all(), tokens, "{:?}", text);
+                prop_assert_eq!(&tree.comments, &comments);
+            }
+        }
+
         #[test]
         fn blocks_and_pieces_are_read_as_bytes_are(
             text in "([-0-9.]{0,9}[ \n\t\r]{0,3}|[ -~\t-\r\x01]|//|\\\\\\\\|\u{A0}|é){0,60}( {270}| {0,3})[a-z]{0,300}[ -~\n]{0,80}",

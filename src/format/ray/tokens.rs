@@ -104,6 +104,36 @@ impl Piece {
 }
 
 impl Tokens {
+    /// The pieces to be read again when the bytes of `old` are edited, and the text that they take:
+    /// whole lines before and after the edit. `is_line` tells of a place behind the edit whether a
+    /// line begins there.
+    pub(super) fn touched(
+        &self,
+        old: Span,
+        len: usize,
+        is_line: impl Fn(usize) -> bool,
+    ) -> (Range<usize>, Range<usize>) {
+        let pieces = &self.pieces;
+        let after = pieces.partition_point(|piece| piece.start <= old.start());
+        let first = after.saturating_sub(1);
+        let behind = |piece: &Piece| old.end() <= piece.start && is_line(piece.start);
+        let end = (first..pieces.len())
+            .find(|&at| behind(&pieces[at]))
+            .unwrap_or(pieces.len());
+        let start = if after == 0 { 0 } else { pieces[first].start };
+        let end_of_text = pieces.get(end).map_or(len, |piece| piece.start);
+        (first..end, start..end_of_text)
+    }
+
+    /// Puts pieces in the place of others; those behind stand elsewhere now, by `grown` bytes.
+    pub(super) fn replace(&mut self, pieces: Range<usize>, by: Vec<Piece>, grown: isize) {
+        for piece in &mut self.pieces[pieces.end..] {
+            piece.start = piece.start.wrapping_add_signed(grown);
+        }
+        self.pieces.splice(pieces, by);
+        *self = Self::of(std::mem::take(&mut self.pieces));
+    }
+
     /// Joins the pieces of a text.
     pub(super) fn of(mut pieces: Vec<Piece>) -> Self {
         // Of one without tokens it can't be said whether a place is before or behind.
@@ -185,8 +215,12 @@ impl Tokens {
         let Some(piece) = self.pieces.get(at) else {
             return self.len();
         };
-        let spans = self.range(piece.first..piece.first + piece.steps.len());
-        piece.first + spans.partition_point(|&span| fulfils(span))
+        // Of each run between marks the first token tells whether all before it fulfil it.
+        let runs: Vec<usize> = (0..piece.marks.len()).collect();
+        let runs = runs.partition_point(|run| fulfils(piece.get(run * STRIDE)));
+        let first = piece.first + runs.saturating_sub(1) * STRIDE;
+        let spans = self.range(first..self.len().min(first + STRIDE));
+        first + spans.partition_point(|&span| fulfils(span))
     }
 
     fn piece_of(&self, token: usize) -> Option<usize> {
