@@ -18,7 +18,7 @@ use glam::DVec3;
 
 use crate::geometry::{Aabb, Hit, Shape};
 
-pub use lower::{Lowered, lower};
+pub use lower::{Before, Lowered, lower, lower_again};
 pub use mesh::{Meshes, NoMesh, beside};
 pub use origins::{FileKind, NamedFile, Node, Origins};
 pub use placed::{Placed, Unsaid};

@@ -12,10 +12,10 @@ use crate::scene::{Material, Object};
 use crate::text::{Findings, Span};
 
 /// A block of objects as it was read; its materials count from 0.
-struct Block {
-    materials: Vec<Material>,
-    objects: Vec<Object>,
-    report: Findings,
+pub(super) struct Block {
+    pub(super) materials: Vec<Material>,
+    pub(super) objects: Vec<Object>,
+    pub(super) report: Findings,
 }
 
 /// Reads a text of several blocks; what was read, and where the number of objects stands. Gives the
@@ -60,7 +60,7 @@ pub(super) fn read<'a>(
             }));
         reader.report.append(block.report);
     }
-    reader.origins.objects = places;
+    reader.places = places;
     Ok((reader, count))
 }
 
@@ -110,7 +110,7 @@ fn header<'a>(
 }
 
 /// Reads a block whose first object has `first` ones before it, if it is regular.
-fn block(text: &str, tokens: &[Span], first: usize) -> Option<Block> {
+pub(super) fn block(text: &str, tokens: &[Span], first: usize) -> Option<Block> {
     let mut reader = Reader::new(text, tokens, Findings::default());
     reader.before = first;
     reader.objects.reserve(BLOCK);

@@ -1,6 +1,7 @@
 //! Tree → scene, one language a file. Never panics, never loops, never allocates by a number that
 //! the text merely declares, and takes time linear in the text.
 
+mod again;
 mod blocks;
 mod dat;
 mod objects;
@@ -47,6 +48,33 @@ pub fn lower(text: &str, tree: &Tree, meshes: &Meshes) -> Lowered {
         lowered.diagnostics = found.sorted();
     }
     lowered
+}
+
+/// What a text without errors meant before an edit.
+#[derive(Clone, Copy, Debug)]
+pub struct Before<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Where its fields stood.
+    pub origins: &'a Origins,
+    /// Warnings.
+    pub diagnostics: &'a Findings,
+}
+
+/// Reads the meaning of a tree after an edit, of which `changed` is what it put in the place of the
+/// bytes `old`: that of [`lower`], sooner for a number of an object among very many.
+pub fn lower_again(
+    text: &str,
+    tree: &Tree,
+    meshes: &Meshes,
+    before: Before<'_>,
+    [old, changed]: [Span; 2],
+) -> Lowered {
+    let again = match tree {
+        Tree::Ray(tree) => again::lower(text, tree, &before, old, changed),
+        Tree::Dat(_) | Tree::Xml(_) => None,
+    };
+    again.unwrap_or_else(|| lower(text, tree, meshes))
 }
 
 /// The first line end of a text whose lines all end as on an old Macintosh.

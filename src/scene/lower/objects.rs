@@ -50,7 +50,7 @@ impl Reader<'_> {
                 self.surplus(token);
             }
         }
-        let found = self.origins.objects.len() as u64;
+        let found = self.places.len() as u64;
         if let Some(count) = count.filter(|count| count.declared < found) {
             let more = match found - count.declared {
                 1 => "1 more object follows".to_owned(),
@@ -58,8 +58,8 @@ impl Reader<'_> {
             };
             self.miscounted(count, &more);
         } else if let Some(count) = count.filter(|count| found < count.declared && !lost) {
-            let after = match self.origins.objects.len().checked_sub(1) {
-                Some(last) => format!("after {}", self.origins.object_name(last)),
+            let after = match self.places.len().checked_sub(1) {
+                Some(last) => format!("after {}", object_name(&self.places, last)),
                 None => "before any object".to_owned(),
             };
             self.miscounted(count, &format!("the text ends {after}"));
@@ -68,7 +68,7 @@ impl Reader<'_> {
 
     /// Reports a number of objects that is not the one that was found.
     fn miscounted(&mut self, count: Count, truth: &str) {
-        let found = self.origins.objects.len();
+        let found = self.places.len();
         let says = quoted(count.token.of(self.text));
         let message = format!("nObjects: says {says}, but {truth}");
         self.report.error(|| {
@@ -94,10 +94,10 @@ impl Reader<'_> {
             });
         }
         self.at += 1;
-        let name = Name::Object(self.before + self.origins.objects.len(), kind);
+        let name = Name::Object(self.before + self.places.len(), kind);
         let mut values = [0.0; LONGEST];
         let record = self.record(name, kind.fields(), &mut values);
-        self.origins.objects.push(ObjectPlace {
+        self.places.push(ObjectPlace {
             token: keyword as u32,
             kind,
             numbers: record.values.len() as u8,
@@ -172,7 +172,7 @@ impl Reader<'_> {
     fn unknown_type(&mut self, token: Span) -> bool {
         let word = token.of(self.text);
         self.report.error(|| {
-            let object = self.origins.objects.len() + 1;
+            let object = self.places.len() + 1;
             let message = format!("object {object}: unknown type {}", quoted(word));
             let diagnostic = Diagnostic::error(token, message, TYPES);
             match nearest_kind(word) {
@@ -196,11 +196,11 @@ impl Reader<'_> {
         }
         let surplus = self.at - from;
         let span = first.to(self.tokens[self.at - 1]);
-        let previous = self.origins.objects.last().map(|object| object.kind);
+        let previous = self.places.last().map(|object| object.kind);
         self.report.error(|| {
             let too_many = format!("{} too many", counted(surplus, "number"));
-            let message = match self.origins.objects.len().checked_sub(1) {
-                Some(last) => format!("{}: {too_many}", self.origins.object_name(last)),
+            let message = match self.places.len().checked_sub(1) {
+                Some(last) => format!("{}: {too_many}", object_name(&self.places, last)),
                 None => format!("nObjects: {too_many} after it"),
             };
             let diagnostic = Diagnostic::error(span, message, TYPES);
@@ -236,4 +236,9 @@ impl Reader<'_> {
         self.begins_object(at)
             || (is_word(self.tokens[at].of(self.text)) && self.numbers_follow(at))
     }
+}
+
+/// What an object is called.
+fn object_name(places: &[ObjectPlace], index: usize) -> String {
+    Name::Object(index, places[index].kind).to_string()
 }

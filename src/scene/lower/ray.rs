@@ -3,6 +3,8 @@
 //! After an error the reader goes on where the text makes sense again: after a token that is no
 //! number at the next token, everywhere else at the next object keyword.
 
+use std::sync::Arc;
+
 use super::blocks;
 use super::record::{LONGEST, Record, what};
 use super::report::{nearest_kind, no_number, quoted};
@@ -10,7 +12,8 @@ use super::{Lowered, view};
 use crate::format::ray;
 use crate::scene::fields::ray::{AMBIENT, LIGHT, ShapeKind};
 use crate::scene::fields::{self, Field, Range};
-use crate::scene::origins::{Name, ray::Origins};
+use crate::scene::origins::Name;
+use crate::scene::origins::ray::{ObjectPlace, Origins};
 use crate::scene::{Light, Material, Object, Rgb, Scene, Setting, bounds};
 use crate::text::{Diagnostic, Findings, Severity, Span, counted, is_integer, parse_number};
 
@@ -48,6 +51,9 @@ fn lower_by<'a>(
         }
     };
     reader.origins.view = view.as_ref().map(view::View::place);
+    reader.origins.objects = Arc::new(std::mem::take(&mut reader.places));
+    reader.origins.tokens = tree.tokens.len();
+    reader.origins.comments = tree.comments.len();
     // A view that says both eye and target can be judged though the objects are not all known.
     let judged = reader.report.errors() == 0 || view.as_ref().is_some_and(view::View::is_placed);
     let camera = judged.then(|| {
@@ -92,6 +98,8 @@ pub(super) struct Reader<'a> {
     pub(super) at: usize,
     pub(super) report: Findings,
     pub(super) origins: Origins,
+    /// Where the objects stand.
+    pub(super) places: Vec<ObjectPlace>,
     /// How many objects there are before the tokens.
     pub(super) before: usize,
     pub(super) ambient: Rgb,
@@ -112,6 +120,7 @@ impl<'a> Reader<'a> {
             at: 0,
             report,
             origins: Origins::default(),
+            places: Vec::new(),
             before: 0,
             ambient: Rgb::ZERO,
             lights: Vec::new(),

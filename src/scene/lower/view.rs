@@ -53,7 +53,7 @@ impl View {
 
     /// Whether it says both where the camera stands and where it looks.
     pub(super) fn is_placed(&self) -> bool {
-        self.parts[EYE].is_some() && self.parts[TARGET].is_some()
+        says_place(&self.parts)
     }
 
     /// The text of a part, or of the whole comment if the part is missing.
@@ -62,6 +62,11 @@ impl View {
             found.spans[0].to(found.spans[VIEW[part].kind.components() - 1])
         })
     }
+}
+
+/// Whether these parts of a view say both where the camera stands and where it looks.
+pub(super) fn says_place<T>(parts: &[Option<T>; VIEW.len()]) -> bool {
+    parts[EYE].is_some() && parts[TARGET].is_some()
 }
 
 /// The first well-formed view comment. Warns of malformed ones, which are ignored whole, and of

@@ -84,6 +84,14 @@ impl Origins {
         }
     }
 
+    /// Whether the nodes are those of others, as far as that is known without a look at each.
+    pub fn lists_as(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Ray(one), Self::Ray(other)) => one.lists_as(other),
+            _ => false,
+        }
+    }
+
     /// What a node is called: `view`, `ambient`, `light 2`, `object 3 (box)`.
     pub fn name(&self, node: Node) -> String {
         match self {

@@ -3,6 +3,8 @@
 //! A million objects cost eight bytes each: their place is the index of a token, and spans are
 //! looked up in the tree when asked for.
 
+use std::sync::Arc;
+
 use super::{Name, Node, Placed, hand_out};
 use crate::format::ray::Tree;
 use crate::scene::fields;
@@ -18,7 +20,10 @@ pub struct Origins {
     pub(in crate::scene) ambient: usize,
     /// The first token of the lights, and how many of their numbers follow.
     pub(in crate::scene) lights: (usize, usize),
-    pub(in crate::scene) objects: Vec<ObjectPlace>,
+    pub(in crate::scene) objects: Arc<Vec<ObjectPlace>>,
+    /// How many tokens and comments the text has.
+    pub(in crate::scene) tokens: usize,
+    pub(in crate::scene) comments: usize,
 }
 
 /// Where a view comment's parts stand.
@@ -42,6 +47,12 @@ pub(in crate::scene) struct ObjectPlace {
 }
 
 impl Origins {
+    /// Whether the same things are listed, as far as that is known without a look at each.
+    pub(super) fn lists_as(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.objects, &other.objects)
+            && (self.ambient, self.lights.1) == (other.ambient, other.lights.1)
+    }
+
     pub(super) fn nodes(&self) -> Vec<Node> {
         let ambient = (self.ambient == fields::numbers(AMBIENT)).then_some(Node::Ambient);
         std::iter::once(Node::View)
@@ -202,7 +213,7 @@ impl Origins {
     }
 
     /// The node a token belongs to; counts and surplus tokens belong to none.
-    fn node_of_token(&self, token: usize) -> Option<Node> {
+    pub(in crate::scene) fn node_of_token(&self, token: usize) -> Option<Node> {
         if token < self.ambient {
             return Some(Node::Ambient);
         }

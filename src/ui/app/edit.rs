@@ -2,7 +2,7 @@
 
 use super::{App, Mode};
 use crate::scene::fields::Field;
-use crate::scene::{self, Camera, Lowered, Node, Visibility};
+use crate::scene::{self, Before, Camera, Lowered, Node, Visibility};
 use crate::text::{Diagnostic, Edit, Span};
 
 impl App {
@@ -11,13 +11,30 @@ impl App {
         self.install(self.lowered());
     }
 
+    /// What the text means after an edit, of which `changed` is what it put in the place of the bytes
+    /// `old`. What is known of the text is what it meant before.
+    fn lowered_again(&self, old: Span, changed: Span) -> Lowered {
+        let Some(scene) = self.scene.as_ref().filter(|_| self.error_count() == 0) else {
+            return self.lowered();
+        };
+        let before = Before {
+            scene,
+            origins: &self.origins,
+            diagnostics: &self.diagnostics,
+        };
+        let (text, tree) = (self.document.text(), self.document.tree());
+        scene::lower_again(text, tree, &self.meshes, before, [old, changed])
+    }
+
     /// What the text means.
     pub(super) fn lowered(&self) -> Lowered {
         scene::lower(self.document.text(), self.document.tree(), &self.meshes)
     }
 
     pub(super) fn install(&mut self, lowered: Lowered) {
-        self.nodes = lowered.origins.nodes();
+        if !lowered.origins.lists_as(&self.origins) {
+            self.nodes = lowered.origins.nodes();
+        }
         self.origins = lowered.origins;
         self.diagnostics = self.with_files(lowered.diagnostics);
         // A scene that lacks a mesh may yet have an error.
@@ -70,8 +87,11 @@ impl App {
             [edit] if !edit.span.is_empty() => self.document.set(edit.span, &edit.text),
             _ => self.document.edit(edits),
         }
-        let lowered = self.lowered();
         let touched = spans_after(edits);
+        let lowered = match (edits, &touched[..]) {
+            ([edit], &[changed]) => self.lowered_again(edit.span, changed),
+            _ => self.lowered(),
+        };
         let touches = |d: &&Diagnostic| touched.iter().any(|span| d.span.touches(*span));
         let found = &lowered.diagnostics;
         let mut refused = found.iter().filter(|d| d.is_error()).find(touches);
@@ -177,22 +197,28 @@ impl App {
     }
 
     pub(super) fn undo(&mut self) {
+        let length = self.document.text().len();
         let changed = self.document.undo();
-        self.show_change(changed, "undone", "nothing to undo");
+        self.show_change(length, changed, "undone", "nothing to undo");
     }
 
     pub(super) fn redo(&mut self) {
+        let length = self.document.text().len();
         let changed = self.document.redo();
-        self.show_change(changed, "redone", "nothing to redo");
+        self.show_change(length, changed, "redone", "nothing to redo");
     }
 
-    /// Reads the text again, goes to the thing that changed and says which it is.
-    fn show_change(&mut self, changed: Option<Span>, done: &str, otherwise: &str) {
+    /// Reads the text again, which had this length before, goes to the thing that changed and says
+    /// which it is.
+    fn show_change(&mut self, length: usize, changed: Option<Span>, done: &str, otherwise: &str) {
         let Some(span) = changed else {
             self.say(otherwise);
             return;
         };
-        self.relower();
+        // As much is behind the change as was before it.
+        let behind = self.document.text().len() - span.end();
+        let old = Span::new(span.start(), length - behind);
+        self.install(self.lowered_again(old, span));
         if let Some(node) = self.origins.node_at(self.document.tree(), span)
             && node != self.selected
         {

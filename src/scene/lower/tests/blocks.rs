@@ -6,26 +6,130 @@ use super::read;
 use crate::format::Tree;
 use crate::scene::lower::objects::BLOCK;
 use crate::scene::lower::ray::lower_in_order;
+use crate::scene::lower::{Before, Lowered, again, lower, lower_again};
+use crate::scene::{Meshes, Scene};
+use crate::text::Span;
 
-/// A text of so many objects, some unusual: a plain one of each kind and colour in turn.
-fn text(objects: usize, declared: usize) -> String {
+/// A text of so many objects in colours in turn, one in so many with something to be warned of.
+fn text(objects: usize, declared: usize, warned: usize) -> String {
     let frame = "1 2 3  1 0 0  0 1 0  0 0 1  4 5 6";
     let mut text = format!("1 1 1  1  0 5 5  1 1 1  {declared}\n");
     for number in 0..objects {
         let shape = match number % 7 {
             0 => format!("box {frame}"),
-            3 => format!("Cone {frame}"),
+            _ if number % warned == 3 => format!("Cone {frame}"),
             _ => format!("sphere {number} 2 3 0.5"),
         };
-        let red = f64::from(number as u32 * 7 % 40) / 30.0;
+        let red = f64::from(number as u32 * 7 % 40) / 39.0;
         let object = format!("{shape}  {red} 0 0  0 1 0  0 0 1  20 0 0 1 // {number}\n");
         text.push_str(&object);
     }
     text
 }
 
+/// A text under edit, and what it means.
+struct Edited {
+    text: String,
+    tree: Tree,
+    lowered: Lowered,
+}
+
+impl Edited {
+    fn new(text: String) -> Self {
+        let (tree, lowered) = read(&text);
+        Self {
+            text,
+            tree,
+            lowered,
+        }
+    }
+
+    /// Puts something in the place of some bytes.
+    fn put(&mut self, old: Span, literal: &str) -> [Span; 2] {
+        self.text.replace_range(old.range(), literal);
+        let changed = Span::new(old.start(), old.start() + literal.len());
+        self.tree.follow(&self.text, old, changed);
+        [old, changed]
+    }
+
+    fn before(&self) -> Option<Before<'_>> {
+        Some(Before {
+            scene: self.lowered.scene.as_ref()?,
+            origins: &self.lowered.origins,
+            diagnostics: &self.lowered.diagnostics,
+        })
+    }
+}
+
+fn parts(lowered: &Lowered) -> (&Option<Scene>, String) {
+    let rest = format!("{:?} {:?}", lowered.diagnostics, lowered.origins);
+    (&lowered.scene, rest)
+}
+
+#[test]
+fn a_number_of_an_object_is_read_with_its_block_alone() {
+    let text = text(2 * BLOCK + 9, 2 * BLOCK + 9, 400);
+    let mut edited = Edited::new(format!("// view: eye 0 0 9 target 0 0 0\n{text}"));
+    for (number, literal) in [(900, "0.25"), (30_000, "1e-1"), (500, "+7")] {
+        let Tree::Ray(tree) = &edited.tree else {
+            unreachable!("the text was read as .ray");
+        };
+        let is_number = |token: &Span| token.of(&edited.text).starts_with('0');
+        let spans = tree.tokens.range(number..number + 40);
+        let old = spans.into_iter().find(is_number).expect("a number");
+        let spans = edited.put(old, literal);
+        let Tree::Ray(tree) = &edited.tree else {
+            unreachable!("the text was read as .ray");
+        };
+        let before = edited.before().expect("a scene without errors");
+        let again = again::lower(&edited.text, tree, &before, spans[0], spans[1]);
+        let again = again.expect("nothing else has changed");
+        let (_, expected) = read(&edited.text);
+        assert_eq!(parts(&again), parts(&expected));
+        edited.lowered = again;
+    }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn edits_mean_what_their_texts_do(
+        view in prop_oneof![
+            4 => Just("// view: eye 0 0 9 target 0 0 0 fov 40\n"),
+            1 => Just("// view: eye 0 0 9\n"),
+        ],
+        behind in prop_oneof![Just(""), Just("// view: up 0 0 1\n"), Just("left over")],
+        edits in prop::collection::vec(
+            (
+                any::<prop::sample::Index>(),
+                prop_oneof![
+                    8 => "[0-9]{0,2}\\.[0-9]", 2 => "-[0-9]", 1 => "[ /x]{0,2}1", 1 => "sphere|1 2|",
+                ],
+            ),
+            1..12,
+        ),
+    ) {
+        let mut edited = Edited::new(format!("{view}{}{behind}", text(BLOCK + 70, BLOCK + 70, 400)));
+        for (place, literal) in edits {
+            let Tree::Ray(tree) = &edited.tree else {
+                unreachable!("the text was read as .ray");
+            };
+            let token = place.index(tree.tokens.len());
+            let old = tree.tokens.get(token).expect("a token");
+            let spans = edited.put(old, &literal);
+            let (text, tree) = (&edited.text, &edited.tree);
+            let expected = lower(text, &crate::format::parse(crate::format::Format::Ray, text), &Meshes::default());
+            if let Some(before) = edited.before() {
+                let again = lower_again(text, tree, &Meshes::default(), before, spans);
+                prop_assert_eq!(parts(&again), parts(&expected));
+                edited.lowered = again;
+            } else {
+                edited.lowered = expected;
+            }
+        }
+    }
+
 
     #[test]
     fn blocks_mean_what_the_whole_does(
@@ -38,7 +142,7 @@ proptest! {
         removed in 0usize..9,
         place: prop::sample::Index,
     ) {
-        let mut text = text(2 * BLOCK + more, 2 * BLOCK + more + miscounted);
+        let mut text = text(2 * BLOCK + more, 2 * BLOCK + more + miscounted, 7);
         let at = place.index(text.len() - 9);
         text.replace_range(at..at + removed, change);
         let (tree, lowered) = read(&text);
