@@ -21,6 +21,10 @@ pub struct Document {
     text: String,
     tree: Tree,
     saved: String,
+    /// Whether the two differ: asked with every key, and in a text of 85 MB an answer of 10 ms.
+    is_dirty: bool,
+    /// How often the text has changed.
+    revision: u64,
     history: History,
 }
 
@@ -48,6 +52,8 @@ impl Document {
             saved: text.clone(),
             text,
             tree,
+            is_dirty: false,
+            revision: 0,
             history: History::default(),
         }
     }
@@ -74,7 +80,12 @@ impl Document {
 
     /// Whether the text differs from the saved one.
     pub fn is_dirty(&self) -> bool {
-        self.text != self.saved
+        self.is_dirty
+    }
+
+    /// What stands for the text: another number for any other text.
+    pub fn revision(&self) -> u64 {
+        self.revision
     }
 
     /// Replaces the text of one leaf of the tree as an undoable step. Consecutive calls on the same
@@ -153,7 +164,7 @@ impl Document {
     /// been edited while it was written.
     pub fn mark_saved(&mut self, text: String) {
         self.history.close();
-        self.saved = text;
+        self.set_saved(text);
     }
 
     /// Takes a text that the file holds now. What it brings is a step where it is merged with
@@ -166,7 +177,7 @@ impl Document {
             return Replaced::Unchanged;
         }
         if theirs == self.text {
-            self.saved = theirs;
+            self.set_saved(theirs);
             return Replaced::Unchanged;
         }
         if !self.is_dirty() {
@@ -191,6 +202,8 @@ impl Document {
             saved: text.clone(),
             text,
             tree,
+            is_dirty: false,
+            revision: self.revision + 1,
             history: History::default(),
         };
     }
@@ -218,7 +231,12 @@ impl Document {
     fn take(&mut self, edits: &[Edit], theirs: String) {
         self.edit(edits);
         self.history.settle();
-        self.saved = theirs;
+        self.set_saved(theirs);
+    }
+
+    fn set_saved(&mut self, text: String) {
+        self.saved = text;
+        self.is_dirty = self.text != self.saved;
     }
 
     /// Changes text and tree; the edits that lead back.
@@ -227,6 +245,8 @@ impl Document {
         let old = cover(edits).unwrap_or_default();
         let changed = cover(&inverse).unwrap_or_default();
         self.tree.follow(&self.text, old, changed);
+        self.is_dirty = self.text != self.saved;
+        self.revision += 1;
         inverse
     }
 }

@@ -105,8 +105,8 @@ impl Piece {
 
 impl Tokens {
     /// The pieces to be read again when the bytes of `old` are edited, and the text that they take:
-    /// whole lines before and after the edit. `is_line` tells of a place behind the edit whether a
-    /// line begins there.
+    /// whole lines before and after the edit, in places of the text before, which had this length.
+    /// `is_line` tells of a place behind the edit whether a line begins there after it.
     pub(super) fn touched(
         &self,
         old: Span,

@@ -228,7 +228,7 @@ impl App {
                 self.disk = Disk::Known;
                 self.broken = None;
                 self.say(format!("wrote {}", path.display()));
-                let kept = self.pending.keeping.text.take();
+                let kept = self.pending.keeping.revision.take();
                 let mut effects: Vec<_> = kept.map(|_| Effect::DropRecovery).into_iter().collect();
                 if self.path.as_ref() != Some(&path) {
                     self.path = Some(path.clone());

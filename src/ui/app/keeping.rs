@@ -21,8 +21,8 @@ impl App {
 
     /// Whether what is kept is what would be lost.
     fn is_kept(&self) -> bool {
-        match &self.pending.keeping.text {
-            Some(kept) => kept == self.document.text() && self.document.is_dirty(),
+        match self.pending.keeping.revision {
+            Some(kept) => kept == self.document.revision() && self.document.is_dirty(),
             None => !self.document.is_dirty(),
         }
     }
@@ -33,11 +33,11 @@ impl App {
             return Vec::new();
         }
         if !self.document.is_dirty() {
-            self.pending.keeping.text = None;
+            self.pending.keeping.revision = None;
             return vec![Effect::DropRecovery];
         }
         let text = self.document.text().to_owned();
-        self.pending.keeping.text = Some(text.clone());
+        self.pending.keeping.revision = Some(self.document.revision());
         let scene = self.path.clone();
         vec![Effect::WriteRecovery { scene, text }]
     }
@@ -47,7 +47,7 @@ impl App {
         let kept = self
             .pending
             .keeping
-            .text
+            .revision
             .take()
             .map(|_| Effect::DropRecovery);
         kept.into_iter().chain([Effect::Quit]).collect()
@@ -70,7 +70,7 @@ impl App {
         self.document.edit(&edits);
         self.relower();
         self.say("restored; u undoes");
-        self.pending.keeping.text = Some(kept.text);
+        self.pending.keeping.revision = Some(self.document.revision());
         vec![Effect::AdoptKept {
             scene: self.path.clone(),
             place: kept.place,

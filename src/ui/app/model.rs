@@ -337,8 +337,8 @@ pub(super) struct Pending {
 /// What is kept for the next run, and whether that is to change.
 #[derive(Debug, Default)]
 pub(super) struct Keeping {
-    /// The text that is kept.
-    pub(super) text: Option<String>,
+    /// The revision of the document whose text is kept.
+    pub(super) revision: Option<u64>,
     /// Unsaved edits are to be kept in a moment.
     pub(super) due: bool,
 }
