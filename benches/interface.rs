@@ -47,7 +47,7 @@ fn main() {
         "{columns}x{rows}, truecolour, scenes/default.ray; load {}",
         load()
     );
-    let parts: [(&str, fn()); 12] = [
+    let parts: [(&str, fn()); 13] = [
         ("start", start),
         ("edit", edit),
         ("keys", keys_while_tracing),

@@ -38,7 +38,9 @@ pub use csg::{Csg, Node, Operation};
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use ellipsoid::Ellipsoid;
-pub use mesh::{ABSENT, Attribute, Instance, Mesh, MeshError, MeshLine, MeshParts, SlotRun};
+pub use mesh::{
+    ABSENT, Attribute, Instance, Mesh, MeshError, MeshLine, MeshLines, MeshParts, SlotRun,
+};
 pub use plane::Plane;
 pub use quadric::Quadric;
 pub use ray::{Ray, Rays};

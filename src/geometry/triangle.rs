@@ -7,8 +7,14 @@
 //! triangles that share an edge agree on its side, and edges belong to both: a ray that meets a
 //! closed mesh slips through nowhere, however the corners were rounded.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take these with it"
+)]
+
 use glam::DVec3;
 
+use super::lanes::{Eight, Lanes, Simd, SimdBase, WIDTH, bits};
 use super::transform::exact_difference;
 
 /// A line in the space of its triangles, ready to be tested against them.
@@ -80,6 +86,78 @@ impl Sheared {
         let [shear_x, shear_y, shear_z] = self.shear;
         [x - shear_x * z, y - shear_y * z, shear_z * z]
     }
+}
+
+/// Lines side by side in the space of their triangles that run fastest along the same axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ShearedLines<S: Simd> {
+    origin: [Eight<S>; 3],
+    axes: [usize; 3],
+    shear: [Eight<S>; 2],
+}
+
+impl<S: Simd> ShearedLines<S> {
+    /// `None` if they run fastest along different axes.
+    #[inline(always)]
+    pub(super) fn new(simd: S, lines: [&Sheared; WIDTH]) -> Option<Self> {
+        let axes = lines[0].axes;
+        let mut numbers = [[0.0; WIDTH]; 5];
+        for (lane, line) in lines.into_iter().enumerate() {
+            if line.axes != axes {
+                return None;
+            }
+            let [x, y, z] = line.axes.map(|axis| line.origin[axis]);
+            let [shear_x, shear_y, _] = line.shear;
+            for (numbers, number) in numbers.iter_mut().zip([x, y, z, shear_x, shear_y]) {
+                numbers[lane] = number;
+            }
+        }
+        let [x, y, z, shear_x, shear_y] = numbers;
+        Some(Self {
+            origin: [
+                Eight::load_array(simd, x),
+                Eight::load_array(simd, y),
+                Eight::load_array(simd, z),
+            ],
+            axes,
+            shear: [
+                Eight::load_array(simd, shear_x),
+                Eight::load_array(simd, shear_y),
+            ],
+        })
+    }
+
+    /// A bit for each line that [`Sheared::crossing`] may find to cross a triangle: for all but those
+    /// that pass beside it, which most do, by the same signs. Equal products count as on the edge.
+    #[inline(always)]
+    pub(super) fn may_cross(&self, [a, b, c]: [DVec3; 3]) -> u32 {
+        let (a, b, c) = (self.seen(a), self.seen(b), self.seen(c));
+        let (u, v, w) = (across(c, b), across(a, c), across(b, a));
+        let zero = u.all(0.0);
+        let below = u.below(zero) | v.below(zero) | w.below(zero);
+        let above = zero.below(u) | zero.below(v) | zero.below(w);
+        bits::<S>(!(below & above))
+    }
+
+    /// A corner as seen across the lines.
+    #[inline(always)]
+    fn seen(&self, corner: DVec3) -> [Eight<S>; 2] {
+        let [x, y, z] = self.origin;
+        let [i, j, k] = self.axes;
+        let (x, y, z) = (
+            x.all(corner[i]) - x,
+            y.all(corner[j]) - y,
+            z.all(corner[k]) - z,
+        );
+        let [shear_x, shear_y] = self.shear;
+        [x - shear_x * z, y - shear_y * z]
+    }
+}
+
+/// [`edge`] in each lane, 0 where rounding hides the sign.
+#[inline(always)]
+fn across<S: Simd>(a: [Eight<S>; 2], b: [Eight<S>; 2]) -> Eight<S> {
+    a[0] * b[1] - a[1] * b[0]
 }
 
 /// Twice the area that an edge spans with the origin, with the right sign: that of rounded products

@@ -151,7 +151,7 @@ impl World {
                     let Some(hits) = hits else { continue };
                     let blocked = self.blocked(object, &hits);
                     if blocked != 0 {
-                        *blocker = Some(object);
+                        *blocker = self.is_simple(object).then_some(object);
                         open &= !blocked;
                         close(&mut limits, blocked);
                     }
@@ -391,11 +391,11 @@ impl World {
         simd.vectorize(
             #[inline(always)]
             || match &self.scene.objects[object as usize].shape {
-                Shape::Mesh(_) => Hits::one_by_one(
-                    lanes,
-                    #[inline(always)]
-                    |lane| self.hit(simd, object, &rays.ray(lane), limits[lane], search),
-                ),
+                Shape::Mesh(instance) => {
+                    let search = self.search(object, search);
+                    let structures = &self.structures;
+                    structures.hits(object, instance, rays, lanes, limits, search)
+                }
                 shape => shape.hits(rays, *limits, lanes),
             },
         )
@@ -413,15 +413,28 @@ impl World {
     ) -> Option<Hit> {
         match &self.scene.objects[object as usize].shape {
             Shape::Mesh(instance) => {
-                let search = match (search, self.opaque.get(object as usize)) {
-                    // Of an opaque mesh any hit says as much as the nearest.
-                    (Search::Blocker, Some(true)) => Search::Blocker,
-                    _ => Search::Nearest,
-                };
+                let search = self.search(object, search);
                 let structures = &self.structures;
-                structures.hit(simd, object, instance, ray, limit, search)
+                simd.vectorize(
+                    #[inline(always)]
+                    || structures.hit(simd, object, instance, ray, limit, search),
+                )
             }
             shape => shape.hit(ray, limit),
+        }
+    }
+
+    /// Whether an object is met as soon as the boxes around it.
+    fn is_simple(&self, object: u32) -> bool {
+        let shape = &self.scene.objects[object as usize].shape;
+        !matches!(shape, Shape::Mesh(_) | Shape::Csg(_))
+    }
+
+    /// What is asked of a mesh: of one that is opaque any hit says as much as the nearest.
+    fn search(&self, object: u32, search: Search) -> Search {
+        match (search, self.opaque.get(object as usize)) {
+            (Search::Blocker, Some(true)) => Search::Blocker,
+            _ => Search::Nearest,
         }
     }
 

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use crate::accel::RUN;
 use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, Vector, bits};
 use crate::geometry::{Hits, Rays, Shape, sphere_hits};
@@ -19,27 +21,22 @@ pub(crate) struct Spheres {
 impl Spheres {
     /// Those among the objects with these numbers, in their order.
     pub(crate) fn new(objects: &[Object], order: &[u32]) -> Self {
-        let room = || Vec::with_capacity(order.len() + RUN);
+        let none = |value| vec![value; order.len() + RUN];
         let mut spheres = Self {
-            x: room(),
-            y: room(),
-            z: room(),
-            radius: room(),
+            x: none(0.0),
+            y: none(0.0),
+            z: none(0.0),
+            radius: none(f64::NAN),
         };
-        let shapes = order.iter().map(|&number| &objects[number as usize].shape);
-        for shape in shapes.map(Some).chain([None; RUN]) {
-            let [x, y, z, radius] = match shape {
-                Some(Shape::Sphere(sphere)) => {
-                    let [x, y, z] = sphere.centre.to_array();
-                    [x, y, z, sphere.radius]
-                }
-                _ => [0.0, 0.0, 0.0, f64::NAN],
-            };
-            spheres.x.push(x);
-            spheres.y.push(y);
-            spheres.z.push(z);
-            spheres.radius.push(radius);
-        }
+        let x = spheres.x.par_iter_mut();
+        let rest = spheres.y.par_iter_mut().zip(&mut spheres.z);
+        let places = x.zip(rest).zip(&mut spheres.radius).zip(order);
+        places.for_each(|(((x, (y, z)), radius), &object)| {
+            if let Shape::Sphere(sphere) = &objects[object as usize].shape {
+                [*x, *y, *z] = sphere.centre.to_array();
+                *radius = sphere.radius;
+            }
+        });
         spheres
     }
 

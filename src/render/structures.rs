@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use crate::accel::Bvh;
-use crate::geometry::lanes::Simd;
-use crate::geometry::{Hit, Instance, Mesh, Ray, Shape};
+use crate::geometry::lanes::{Eight, Simd, WIDTH};
+use crate::geometry::{Hit, Hits, Instance, Mesh, Ray, Rays, Shape};
 use crate::scene::Object;
 
 /// Which hit of a mesh is asked for.
@@ -91,6 +91,52 @@ impl Structures {
             },
         );
         line.hit(nearest?, limit)
+    }
+
+    /// The same for rays side by side, those whose bit in `lanes` is 1.
+    #[expect(
+        clippy::inline_always,
+        reason = "a caller compiled for wider vectors must take this with it"
+    )]
+    #[inline(always)]
+    pub(crate) fn hits<S: Simd>(
+        &self,
+        object: u32,
+        instance: &Instance,
+        rays: &Rays<Eight<S>>,
+        lanes: u32,
+        limits: &Eight<S>,
+        search: Search,
+    ) -> Option<Hits> {
+        let (_, tree) = &self.trees[self.numbers[object as usize] as usize];
+        let lines = instance.lines(rays, lanes)?;
+        let limits_on_lines = lines.limits(limits);
+        let mut nearest = [None; WIDTH];
+        tree.traverse_packet(
+            lines.rays(),
+            lines.lanes,
+            limits_on_lines,
+            #[inline(always)]
+            |places, lanes, mut farthest| {
+                for &triangle in &tree.order()[places] {
+                    let mut candidates = lines.may_meet(triangle, lanes);
+                    while candidates != 0 {
+                        let lane = candidates.trailing_zeros() as usize % WIDTH;
+                        candidates &= candidates - 1;
+                        let (line, nearest) = (lines.line(lane), &mut nearest[lane]);
+                        farthest[lane] = line.meet(triangle, limits_on_lines[lane], nearest);
+                        let met = nearest.is_some_and(|hit| line.hit(hit, limits[lane]).is_some());
+                        if met && search == Search::Blocker {
+                            farthest[lane] = -1.0;
+                        }
+                    }
+                }
+                farthest
+            },
+        );
+        Hits::one_by_one(lines.lanes, |lane| {
+            lines.line(lane).hit(nearest[lane]?, limits[lane])
+        })
     }
 
     /// The trees, in the order of their meshes' first objects.

@@ -182,6 +182,11 @@ impl Instance {
 }
 
 impl MeshLine<'_> {
+    /// The line in the space of its triangles.
+    pub(super) fn sheared(&self) -> &Sheared {
+        &self.sheared
+    }
+
     /// The line as a ray, of any speed, among [`Mesh::triangle_bounds`].
     pub fn ray(&self) -> &Ray {
         &self.line

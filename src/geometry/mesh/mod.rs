@@ -6,12 +6,14 @@
 //! the candidates.
 
 mod instance;
+mod lines;
 
 use glam::{DVec2, DVec3};
 
 use super::Aabb;
 
 pub use instance::{Instance, MeshLine};
+pub use lines::MeshLines;
 
 /// How much larger than its triangle a box is, in the unit space of the mesh: a line's crossing is
 /// computed from corners seen from at most 6 away, and is off the line by less than half of this.
