@@ -9,6 +9,9 @@ use tempfile::{Builder, NamedTempFile};
 /// Links followed before a chain of them counts as endless, as Linux does.
 const MAX_LINKS: usize = 40;
 
+/// Bytes handed to the system at once: pictures come in rows of a few hundred.
+const CHUNK: usize = 1 << 18;
+
 /// Replaces a file, or creates it, so that at every moment it holds either its old content or the
 /// new one whole. Follows symbolic links; keeps mode, owner and extended attributes. A device or a
 /// pipe, which has no content to keep, is written to.
@@ -236,7 +239,7 @@ fn write_and_rename<E: From<io::Error>>(
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     may: impl FnOnce() -> Result<(), E>,
 ) -> Result<(), E> {
-    let mut out = BufWriter::new(temporary.as_file());
+    let mut out = BufWriter::with_capacity(CHUNK, temporary.as_file());
     write(&mut out)?;
     out.flush()?;
     drop(out);
