@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use super::frame::Frames;
+
 /// What one walk over all tiles adds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Step {
@@ -18,9 +20,14 @@ pub(crate) const COARSEST: u32 = 8;
 /// whole picture, and none of its samples is wasted.
 const GRIDS: [u32; 4] = [COARSEST, 4, 2, 1];
 
-/// The steps to `spp` samples a pixel: sample 0 from coarse to fine, then 1, 2, 4, 8 … more.
-pub(crate) fn steps(spp: u32) -> Vec<Step> {
-    let mut steps = GRIDS.map(Step::Grid).to_vec();
+/// The steps to `spp` samples a pixel: sample 0, then 1, 2, 4, 8 … more. Sample 0 is taken from coarse
+/// to fine where frames are looked at before the last; else at once, as rays that start side by side
+/// are faster.
+pub(crate) fn steps(spp: u32, frames: Frames) -> Vec<Step> {
+    let mut steps = match frames {
+        Frames::Live => GRIDS.map(Step::Grid).to_vec(),
+        Frames::Last | Frames::LastWithValues => vec![Step::Samples(0..1)],
+    };
     let mut taken = 1;
     while taken < spp {
         let next = (2 * taken).min(spp);

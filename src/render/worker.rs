@@ -84,7 +84,7 @@ fn trace<W: Fn() + Sync>(
         shared,
     };
     let mut picture = Picture::new(ticket, begun, &job, film, wake);
-    for step in steps(job.settings.spp) {
+    for step in steps(job.settings.spp, job.frames) {
         if !picture.take(&step, &shot) {
             break;
         }
@@ -161,7 +161,9 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
 
     /// Takes a step; `false` if it was cancelled.
     fn take(&mut self, step: &Step, shot: &Shot<'_>) -> bool {
-        if let Step::Samples(_) = step {
+        if let Step::Samples(indices) = step
+            && 0 < indices.start
+        {
             self.pass += 1;
         }
         let before = self.taken;
@@ -210,8 +212,11 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
             _ => 500,
         };
         let interval = Duration::from_millis(interval).max(4 * self.developing);
-        self.published
-            .is_some_and(|last| interval <= last.elapsed())
+        match self.published {
+            Some(last) => interval <= last.elapsed(),
+            // What only tells how far it is can do so before every tile was come to.
+            None => self.frames != Frames::Live,
+        }
     }
 
     fn publish(&mut self) {

@@ -62,15 +62,20 @@ fn trace(scene: &Arc<Scene>, settings: Settings, threads: usize) -> Arc<Frame> {
 #[test]
 fn passes_double() {
     let samples = |spp| {
-        let passes = steps(spp).into_iter().filter_map(|step| match step {
-            Step::Samples(indices) => Some(indices),
-            Step::Grid(_) => None,
-        });
+        let passes = steps(spp, Frames::Live)
+            .into_iter()
+            .filter_map(|step| match step {
+                Step::Samples(indices) => Some(indices),
+                Step::Grid(_) => None,
+            });
         passes.collect::<Vec<_>>()
     };
     assert_eq!(samples(1), []);
     assert_eq!(samples(8), [1..2, 2..4, 4..8]);
     assert_eq!(samples(11), [1..2, 2..4, 4..8, 8..11]);
+    // Nobody looks at coarse grids of what is not shown before it is done.
+    let unseen = steps(3, Frames::Last);
+    assert_eq!(unseen, [0..1, 1..2, 2..3].map(Step::Samples));
 }
 
 #[test]
