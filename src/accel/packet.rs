@@ -3,6 +3,9 @@
 //! A node is first asked which of its children's boxes any ray between the packet's bounds could
 //! meet, all at once; only those are tested against each ray (after Wald, Boulos and Shirley, "Ray
 //! Tracing Deformable Scenes Using Dynamic Bounding Volume Hierarchies", TOG 2007).
+//!
+//! Tried and lost: rays that do not go the same way walking alone, for any measure of that. On a
+//! sphereflake of mirrors all alone took 1.3 times as long as all side by side, and no mixture less.
 
 #![expect(
     clippy::inline_always,
