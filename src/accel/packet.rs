@@ -21,17 +21,7 @@ use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, bits};
 
 use super::Bvh;
 use super::node::{Child, Node, WIDEN, WIDTH, cut, difference};
-use super::traverse::STACK;
-
-/// A child whose turn has not come.
-#[derive(Clone, Copy)]
-struct Waiting {
-    /// Where the first of its rays enters its box.
-    entry: f64,
-    child: Child,
-    /// The rays that meet it.
-    lanes: u32,
-}
+use super::traverse::{STACK, Waiting, insert};
 
 /// Rays along one axis.
 struct Slopes<S: Simd> {
@@ -211,16 +201,4 @@ fn meet<S: Simd>(
     let entry = Lanes::select(met, entry, entry.all(f64::INFINITY));
     // No entry is NaN.
     (entry.reduce_min(), bits::<S>(met) & lanes)
-}
-
-/// Puts a child among those from `base` on, which stay sorted with the nearest on top.
-#[inline(always)]
-fn insert(stack: &mut ArrayVec<Waiting, STACK>, base: usize, waiting: Waiting) {
-    let mut place = stack.len();
-    stack.push(waiting);
-    while base < place && stack[place - 1].entry < waiting.entry {
-        stack[place] = stack[place - 1];
-        place -= 1;
-    }
-    stack[place] = waiting;
 }

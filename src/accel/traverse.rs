@@ -16,10 +16,12 @@ pub(super) const STACK: usize = 1 + LEVELS * (WIDTH - 1);
 
 /// A child whose turn has not come.
 #[derive(Clone, Copy)]
-struct Waiting {
-    /// Where the ray enters its box.
-    entry: f64,
-    child: Child,
+pub(super) struct Waiting<L> {
+    /// Where the first of its rays enters its box.
+    pub(super) entry: f64,
+    pub(super) child: Child,
+    /// The rays that meet it; nothing where there is but one.
+    pub(super) lanes: L,
 }
 
 impl Bvh {
@@ -58,11 +60,12 @@ pub(super) fn traverse<S: Simd>(
     let root = Waiting {
         entry: 0.0,
         child: Child::Inner(0),
+        lanes: (),
     };
     // A walk takes less time than filling an array of this size.
     let mut stack = ArrayVec::<_, STACK>::new();
     stack.push(root);
-    while let Some(Waiting { entry, child }) = stack.pop() {
+    while let Some(Waiting { entry, child, .. }) = stack.pop() {
         // The entry carries rounding errors; a box entered right at the limit still counts.
         if limit * WIDEN < entry {
             continue;
@@ -78,6 +81,7 @@ pub(super) fn traverse<S: Simd>(
                     let waiting = Waiting {
                         entry: entries[lane],
                         child: node.child(lane),
+                        lanes: (),
                     };
                     insert(&mut stack, base, waiting);
                 }
@@ -99,7 +103,11 @@ pub(super) fn traverse<S: Simd>(
     reason = "a caller compiled for wider vectors must take this with it"
 )]
 #[inline(always)]
-fn insert(stack: &mut ArrayVec<Waiting, STACK>, base: usize, waiting: Waiting) {
+pub(super) fn insert<L: Copy>(
+    stack: &mut ArrayVec<Waiting<L>, STACK>,
+    base: usize,
+    waiting: Waiting<L>,
+) {
     let mut place = stack.len();
     stack.push(waiting);
     while base < place && stack[place - 1].entry < waiting.entry {

@@ -9,8 +9,8 @@ use std::ops::Range;
 
 use super::structures::Search;
 use super::world::World;
-use crate::geometry::lanes::{Eight, Simd, SimdBase, WIDTH, dispatch};
-use crate::geometry::{Hit, Hits, Ray, Rays, Shape, ulp};
+use crate::geometry::lanes::{Eight, Simd, dispatch};
+use crate::geometry::{Hit, Ray, Rays, Shape, ulp};
 
 /// What shadow rays cross: which of the rays, the object and its material there.
 pub(crate) type Crossed = Vec<(u32, u32, u32)>;
@@ -30,18 +30,18 @@ pub(crate) struct Nearest {
 /// touching solids show no speckle. Which of several hits in that window comes first depends on the
 /// order of a walk until the least distance is known, so ties are only noticed here. They are rare.
 #[derive(Clone, Copy, Debug)]
-struct Closest {
+pub(crate) struct Closest {
     best: Option<Nearest>,
     tied: bool,
     /// How far along the ray something may still count.
-    limit: f64,
+    pub(crate) limit: f64,
     /// How far the ray's origin is from that of the world.
     reach: f64,
 }
 
 impl Closest {
     #[inline(always)]
-    fn before(limit: f64, ray: &Ray) -> Self {
+    pub(crate) fn before(limit: f64, ray: &Ray) -> Self {
         Self {
             best: None,
             tied: false,
@@ -51,7 +51,7 @@ impl Closest {
     }
 
     #[inline(always)]
-    fn offer(&mut self, object: u32, hit: Hit) {
+    pub(crate) fn offer(&mut self, object: u32, hit: Hit) {
         if self.limit <= hit.t {
             return;
         }
@@ -82,167 +82,6 @@ impl World {
         dispatch!(self.level, simd => self.transmittance_alone(simd, ray, distance, crossed))
     }
 
-    /// [`World::nearest`] for each of several rays.
-    pub(crate) fn nearest_each(
-        &self,
-        rays: &[Ray],
-        limits: &[f64],
-        nearest: &mut Vec<Option<Nearest>>,
-    ) {
-        nearest.clear();
-        dispatch!(self.level, simd => {
-            for (rays, limits) in rays.chunks(WIDTH).zip(limits.chunks(WIDTH)) {
-                self.nearest_together(simd, rays, limits, nearest);
-            }
-        });
-    }
-
-    /// [`World::transmittance`] for each of several rays up to its end. `blocker` is an object that
-    /// may block them, tried first; the last that did comes back.
-    pub(crate) fn transmittance_each(
-        &self,
-        rays: &[Ray],
-        ends: &[f64],
-        blocker: &mut Option<u32>,
-        crossed: &mut Crossed,
-        transmittances: &mut Vec<f64>,
-    ) {
-        transmittances.clear();
-        dispatch!(self.level, simd => {
-            for (rays, ends) in rays.chunks(WIDTH).zip(ends.chunks(WIDTH)) {
-                self.transmittance_together(simd, rays, ends, blocker, crossed, transmittances);
-            }
-        });
-    }
-
-    #[inline(always)]
-    fn transmittance_together<S: Simd>(
-        &self,
-        simd: S,
-        rays: &[Ray],
-        ends: &[f64],
-        blocker: &mut Option<u32>,
-        crossed: &mut Crossed,
-        transmittances: &mut Vec<f64>,
-    ) {
-        crossed.clear();
-        let packet = Rays::gather(simd, rays);
-        let mut limits = Eight::splat(simd, -1.0);
-        for (lane, &end) in ends.iter().enumerate() {
-            limits[lane] = end;
-        }
-        let mut open = (1 << rays.len()) - 1;
-        if let Some(object) = *blocker
-            && let Some(hits) = self.hits(&packet, object, open, &limits, Search::Blocker)
-        {
-            let blocked = self.blocked(object, &hits);
-            open &= !blocked;
-            close(&mut limits, blocked);
-        }
-        self.visit_together(
-            &packet,
-            open,
-            limits,
-            #[inline(always)]
-            |places, lanes, mut limits| {
-                for &object in &self.order()[places] {
-                    let lanes = lanes & open;
-                    let hits = self.hits(&packet, object, lanes, &limits, Search::Blocker);
-                    let Some(hits) = hits else { continue };
-                    let blocked = self.blocked(object, &hits);
-                    if blocked != 0 {
-                        *blocker = self.is_simple(object).then_some(object);
-                        open &= !blocked;
-                        close(&mut limits, blocked);
-                    }
-                    let mut passed = hits.lanes & !blocked;
-                    while passed != 0 {
-                        let lane = passed.trailing_zeros();
-                        passed &= passed - 1;
-                        let hit = hits.hit(lane as usize);
-                        let material = self.scene.objects[object as usize].material_at(hit);
-                        crossed.push((lane, object, material));
-                    }
-                }
-                limits
-            },
-        );
-        crossed.sort_unstable();
-        let mut next = 0;
-        for lane in 0..rays.len() as u32 {
-            let mut transmittance = 1.0;
-            while let Some(&(of, _, material)) = crossed.get(next)
-                && of == lane
-            {
-                transmittance *= self.transmission(material);
-                next += 1;
-            }
-            let is_open = open >> lane & 1 == 1;
-            transmittances.push(if is_open { transmittance } else { 0.0 });
-        }
-    }
-
-    /// Of lanes that meet an object, those where it lets nothing through.
-    #[inline(always)]
-    fn blocked(&self, object: u32, hits: &Hits) -> u32 {
-        let mut blocked = 0;
-        let mut lanes = hits.lanes;
-        while lanes != 0 {
-            let lane = lanes.trailing_zeros();
-            lanes &= lanes - 1;
-            let hit = hits.hit(lane as usize);
-            let material = self.scene.objects[object as usize].material_at(hit);
-            blocked |= u32::from(self.transmission(material) == 0.0) << lane;
-        }
-        blocked
-    }
-
-    #[inline(always)]
-    fn nearest_together<S: Simd>(
-        &self,
-        simd: S,
-        rays: &[Ray],
-        limits: &[f64],
-        nearest: &mut Vec<Option<Nearest>>,
-    ) {
-        let packet = Rays::gather(simd, rays);
-        let mut closest = [Closest::before(0.0, &rays[0]); WIDTH];
-        let mut farthest = [0.0; WIDTH];
-        for (lane, (ray, &limit)) in rays.iter().zip(limits).enumerate() {
-            closest[lane] = Closest::before(limit, ray);
-            farthest[lane] = limit;
-        }
-        let lanes = (1 << rays.len()) - 1;
-        let farthest = Eight::load_array(simd, farthest);
-        self.visit_together(
-            &packet,
-            lanes,
-            farthest,
-            #[inline(always)]
-            |places, lanes, mut limits| {
-                for &object in &self.order()[places] {
-                    let hits = self.hits(&packet, object, lanes, &limits, Search::Nearest);
-                    let Some(hits) = hits else { continue };
-                    let mut met = hits.lanes;
-                    while met != 0 {
-                        let lane = met.trailing_zeros() as usize % WIDTH;
-                        met &= met - 1;
-                        closest[lane].offer(object, hits.hit(lane));
-                        limits[lane] = closest[lane].limit;
-                    }
-                }
-                limits
-            },
-        );
-        for (ray, closest) in rays.iter().zip(closest) {
-            nearest.push(if closest.tied {
-                self.first_in_file(simd, ray, closest.limit)
-            } else {
-                closest.best
-            });
-        }
-    }
-
     #[inline(always)]
     fn nearest_alone<S: Simd>(&self, simd: S, ray: &Ray, limit: f64) -> Option<Nearest> {
         let rays = Rays::all(simd, ray);
@@ -268,11 +107,7 @@ impl World {
                 closest.limit
             },
         );
-        if closest.tied {
-            self.first_in_file(simd, ray, closest.limit)
-        } else {
-            closest.best
-        }
+        self.settle(simd, ray, &closest)
     }
 
     #[inline(always)]
@@ -319,6 +154,16 @@ impl World {
             .iter()
             .map(|&(_, _, material)| self.transmission(material))
             .product()
+    }
+
+    /// What was met first, ties settled.
+    #[inline(always)]
+    pub(crate) fn settle<S: Simd>(&self, simd: S, ray: &Ray, closest: &Closest) -> Option<Nearest> {
+        if closest.tied {
+            self.first_in_file(simd, ray, closest.limit)
+        } else {
+            closest.best
+        }
     }
 
     /// The first object of the file that is met before a limit. It settles ties.
@@ -375,35 +220,9 @@ impl World {
         }
     }
 
-    /// Where an object is met by rays side by side, those whose bit in `lanes` is 1.
-    ///
-    /// Not inlined, but compiled for the vectors of `simd`: it holds the code of all shapes.
-    #[inline(always)]
-    fn hits<S: Simd>(
-        &self,
-        rays: &Rays<Eight<S>>,
-        object: u32,
-        lanes: u32,
-        limits: &Eight<S>,
-        search: Search,
-    ) -> Option<Hits> {
-        let simd = limits.simd;
-        simd.vectorize(
-            #[inline(always)]
-            || match &self.scene.objects[object as usize].shape {
-                Shape::Mesh(instance) => {
-                    let search = self.search(object, search);
-                    let structures = &self.structures;
-                    structures.hits(object, instance, rays, lanes, limits, search)
-                }
-                shape => shape.hits(rays, *limits, lanes),
-            },
-        )
-    }
-
     /// Where an object is met; shapes other than meshes always say where first.
     #[inline(always)]
-    fn hit<S: Simd>(
+    pub(crate) fn hit<S: Simd>(
         &self,
         simd: S,
         object: u32,
@@ -424,14 +243,8 @@ impl World {
         }
     }
 
-    /// Whether an object is met as soon as the boxes around it.
-    fn is_simple(&self, object: u32) -> bool {
-        let shape = &self.scene.objects[object as usize].shape;
-        !matches!(shape, Shape::Mesh(_) | Shape::Csg(_))
-    }
-
     /// What is asked of a mesh: of one that is opaque any hit says as much as the nearest.
-    fn search(&self, object: u32, search: Search) -> Search {
+    pub(crate) fn search(&self, object: u32, search: Search) -> Search {
         match (search, self.opaque.get(object as usize)) {
             (Search::Blocker, Some(true)) => Search::Blocker,
             _ => Search::Nearest,
@@ -454,31 +267,5 @@ impl World {
                 visit(0..self.scene.objects.len());
             }
         }
-    }
-
-    /// The same for rays side by side.
-    #[inline(always)]
-    fn visit_together<S: Simd>(
-        &self,
-        rays: &Rays<Eight<S>>,
-        lanes: u32,
-        limits: Eight<S>,
-        mut visit: impl FnMut(Range<usize>, u32, Eight<S>) -> Eight<S>,
-    ) {
-        match &self.tree {
-            Some(tree) => tree.traverse_packet(rays, lanes, limits, visit),
-            None => {
-                visit(0..self.scene.objects.len(), lanes, limits);
-            }
-        }
-    }
-}
-
-/// Lets some rays end before they begin.
-#[inline(always)]
-fn close<S: Simd>(limits: &mut Eight<S>, mut lanes: u32) {
-    while lanes != 0 {
-        limits[lanes.trailing_zeros() as usize % WIDTH] = -1.0;
-        lanes &= lanes - 1;
     }
 }

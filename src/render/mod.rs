@@ -19,8 +19,8 @@
 //! [`probe`], come to surfaces of [`phong`] (with its [`texture`]s) or [`utah`] (with those of
 //! [`mapped`]) and ask [`lights`]; [`optics`], [`lobes`], [`microfacet`] and [`warp`] are the formulas.
 //!
-//! Rays meet the world in [`intersect`]: eight side by side against one object after the other, or
-//! one alone against up to eight [`spheres`] at once. Neither changes a bit of what is met.
+//! Rays meet the world eight side by side, against one object after the other ([`packets`]), or alone,
+//! against up to eight [`spheres`] at once ([`intersect`]). Neither changes a bit of what is met.
 
 mod camera;
 mod film;
@@ -34,6 +34,7 @@ mod mapped;
 mod microfacet;
 mod noise;
 mod optics;
+mod packets;
 mod path;
 mod phong;
 mod probe;
