@@ -8,9 +8,9 @@
 use glam::DVec3;
 
 use super::lanes::{Lanes, Vector};
-use super::line::{Ends, half_line, roots, slab};
-use super::transform::normalise;
-use super::{Aabb, Affine, Chart, Hit, Ray, Rays, Surface};
+use super::line::{End, Ends, half_line, roots, slab};
+use super::transform::normalised;
+use super::{Aabb, Affine, Chart, Hit, Ray, Rays, Surfaces};
 
 const SIDE: u32 = 0;
 const BASE: u32 = 1;
@@ -44,21 +44,35 @@ impl Cone {
             .after(line.start)
     }
 
-    /// The surface at a hit. At the apex any normal would do; it is that of one generatrix.
-    pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
-        let place = self.0.place(ray.at(hit.t));
-        let flat = place.with_z(0.0);
-        if hit.part == BASE {
-            return self.0.surface(DVec3::NEG_Z, |margin| {
-                flat.clamp_length_max(1.0 - margin.element_sum())
-            });
-        }
-        let radial = normalise(flat).unwrap_or(DVec3::X);
-        self.0.surface(radial.with_z(1.0), |margin| {
-            // Drawn from the tip by all three margins, a ray that goes in has an inside to go to.
-            let z = place.z.max(margin.z).min(1.0 - margin.element_sum());
-            ((1.0 - z) * radial).with_z(z)
-        })
+    /// The surfaces at hits, in each lane. At the apex any normal would do; it is that of one generatrix.
+    #[inline(always)]
+    pub(super) fn surface<N: Lanes>(&self, rays: &Rays<N>, at: End<N>) -> Surfaces<N> {
+        let (zero, one) = (at.t.all(0.0), at.t.all(1.0));
+        let place = self.0.places(rays, at.t);
+        let flat = place.flat();
+        let on_base = at.part.equals(at.part.all(BASE.into()));
+        let radial = normalised(flat, DVec3::X);
+        let outward = Vector {
+            x: N::select(on_base, zero, radial.x),
+            y: N::select(on_base, zero, radial.y),
+            z: N::select(on_base, -one, one),
+        };
+        self.0.surface(
+            outward,
+            #[inline(always)]
+            |margin| {
+                // Drawn from the tip by all three margins, a ray that goes in has an inside to go to.
+                let rim = one - margin.sum();
+                let across = flat.within(rim);
+                let z = place.z.larger(margin.z).smaller(rim);
+                let around = radial.scaled(one - z);
+                Vector {
+                    x: N::select(on_base, across.x, around.x),
+                    y: N::select(on_base, across.y, around.y),
+                    z: N::select(on_base, zero, z),
+                }
+            },
+        )
     }
 
     /// The texture coordinates at a hit: around the side and up it, or across the disc.

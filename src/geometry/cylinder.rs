@@ -8,9 +8,9 @@
 use glam::DVec3;
 
 use super::lanes::{Lanes, Vector};
-use super::line::{Ends, ball, slab};
-use super::transform::normalise;
-use super::{Aabb, Affine, Chart, Hit, Ray, Rays, Surface};
+use super::line::{End, Ends, ball, slab};
+use super::transform::normalised;
+use super::{Aabb, Affine, Chart, Hit, Ray, Rays, Surfaces};
 
 const BASE: u32 = 1;
 const TOP: u32 = 2;
@@ -43,26 +43,34 @@ impl Cylinder {
             .after(line.start)
     }
 
-    /// The surface at a hit.
-    pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
-        let place = self.0.place(ray.at(hit.t));
-        let flat = place.with_z(0.0);
-        match hit.part {
-            BASE | TOP => {
-                let z = if hit.part == TOP { 1.0 } else { 0.0 };
-                let outward = DVec3::new(0.0, 0.0, 2.0 * z - 1.0);
-                self.0.surface(outward, |margin| {
-                    let rim = 1.0 - (margin.x + margin.y);
-                    flat.clamp_length_max(rim).with_z(z)
-                })
-            }
-            _ => {
-                let outward = normalise(flat).unwrap_or(DVec3::X);
-                self.0.surface(outward, |margin| {
-                    outward.with_z(place.z.max(margin.z).min(1.0 - margin.z))
-                })
-            }
-        }
+    /// The surfaces at hits, in each lane.
+    #[inline(always)]
+    pub(super) fn surface<N: Lanes>(&self, rays: &Rays<N>, at: End<N>) -> Surfaces<N> {
+        let (zero, one) = (at.t.all(0.0), at.t.all(1.0));
+        let place = self.0.places(rays, at.t);
+        let flat = place.flat();
+        let on_base = at.part.equals(one);
+        let on_top = at.part.equals(at.part.all(TOP.into()));
+        let on_cap = on_base | on_top;
+        let radial = normalised(flat, DVec3::X);
+        let outward = Vector {
+            x: N::select(on_cap, zero, radial.x),
+            y: N::select(on_cap, zero, radial.y),
+            z: N::select(on_top, one, N::select(on_base, -one, zero)),
+        };
+        self.0.surface(
+            outward,
+            #[inline(always)]
+            |margin| {
+                let across = flat.within(one - (margin.x + margin.y));
+                let height = place.z.larger(margin.z).smaller(one - margin.z);
+                Vector {
+                    x: N::select(on_cap, across.x, radial.x),
+                    y: N::select(on_cap, across.y, radial.y),
+                    z: N::select(on_top, one, N::select(on_base, zero, height)),
+                }
+            },
+        )
     }
 
     /// The texture coordinates at a hit: around the side and up it, or across the disc.

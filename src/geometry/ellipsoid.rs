@@ -8,9 +8,9 @@
 use glam::DVec3;
 
 use super::lanes::Lanes;
-use super::line::{Ends, ball};
-use super::transform::normalise;
-use super::{Aabb, Affine, Chart, Hit, Ray, Rays, Surface};
+use super::line::{End, Ends, ball};
+use super::transform::normalised;
+use super::{Aabb, Affine, Chart, Hit, Ray, Rays, Surfaces};
 
 /// An affine image of the unit sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,10 +34,15 @@ impl Ellipsoid {
         ball(line.origin, line.direction, line.start.all(1.0))?.after(line.start)
     }
 
-    /// The surface at a hit.
-    pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
-        let place = normalise(self.0.place(ray.at(hit.t))).unwrap_or(DVec3::Z);
-        self.0.surface(place, |_| place)
+    /// The surfaces at hits, in each lane.
+    #[inline(always)]
+    pub(super) fn surface<N: Lanes>(&self, rays: &Rays<N>, at: End<N>) -> Surfaces<N> {
+        let place = normalised(self.0.places(rays, at.t), DVec3::Z);
+        self.0.surface(
+            place,
+            #[inline(always)]
+            |_| place,
+        )
     }
 
     /// The texture coordinates at a hit: those of the unit sphere.

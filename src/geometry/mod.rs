@@ -25,6 +25,7 @@ mod quadric;
 mod ray;
 mod shape;
 mod sphere;
+mod surface;
 mod transform;
 mod triangle;
 
@@ -43,7 +44,8 @@ pub use mesh::{
 };
 pub use plane::Plane;
 pub use quadric::Quadric;
-pub use ray::{Ray, Rays};
-pub use shape::{Crossings, Hit, Hits, Shape, Spans, Surface, ulp};
-pub use sphere::{Sphere, sphere_hits};
+pub use ray::{Packet, Packets, Ray, Rays};
+pub use shape::{Crossings, Hit, Hits, Shape, Spans};
+pub use sphere::{Sphere, sphere_hits, sphere_surfaces};
+pub use surface::{Surface, Surfaces, ulp};
 pub use transform::{Affine, FLATTEST, normalise};

@@ -32,8 +32,8 @@ impl Plane {
 
     /// The surface at a hit.
     pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
-        let place = self.0.place(ray.at(hit.t));
-        self.0.surface(DVec3::Z, |_| place.with_z(0.0))
+        let place = self.0.place(ray.at(hit.t)).with_z(0.0);
+        self.0.surface(DVec3::Z.into(), |_| place.into()).into()
     }
 
     /// The texture coordinates at a hit: from 0, 0 at the corner (−1, −1) to 1, 1.

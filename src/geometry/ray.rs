@@ -5,9 +5,11 @@
     reason = "a caller compiled for wider vectors must take these with it"
 )]
 
+use std::ops::Deref;
+
 use glam::DVec3;
 
-use super::lanes::{Eight, Simd, SimdBase, Vector, WIDTH};
+use super::lanes::{Eight, Lanes, Row, Simd, SimdBase, Vector, WIDTH};
 
 /// A half line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +36,14 @@ pub struct Rays<N> {
     pub direction: Vector<N>,
 }
 
+impl<N: Lanes> Rays<N> {
+    /// The points at distances `t`.
+    #[inline(always)]
+    pub fn at(&self, t: N) -> Vector<N> {
+        self.origin + self.direction.scaled(t)
+    }
+}
+
 impl From<&Ray> for Rays<f64> {
     #[inline(always)]
     fn from(ray: &Ray) -> Self {
@@ -55,41 +65,122 @@ impl<S: Simd> Rays<Eight<S>> {
         }
     }
 
-    /// Up to eight rays; the last stands in the lanes that are left. There is at least one.
+    /// Up to eight rays; the first stands in the lanes that are left. There is at least one.
     #[inline(always)]
     pub fn gather(simd: S, rays: &[Ray]) -> Self {
-        let last = rays.len() - 1;
-        let mut coordinates = [[0.0; WIDTH]; 6];
-        for lane in 0..WIDTH {
-            let Ray { origin, direction } = rays[lane.min(last)];
-            coordinates[0][lane] = origin.x;
-            coordinates[1][lane] = origin.y;
-            coordinates[2][lane] = origin.z;
-            coordinates[3][lane] = direction.x;
-            coordinates[4][lane] = direction.y;
-            coordinates[5][lane] = direction.z;
+        let mut packet = Packet::new(&rays[0], 0.0);
+        for (lane, ray) in rays.iter().enumerate().take(WIDTH) {
+            packet.rays.origin.set(lane, ray.origin);
+            packet.rays.direction.set(lane, ray.direction);
         }
+        packet.rays.load(simd)
+    }
+
+    /// The ray in a lane.
+    #[inline(always)]
+    pub fn ray(&self, lane: usize) -> Ray {
+        Ray {
+            origin: self.origin.lane(lane),
+            direction: self.direction.lane(lane),
+        }
+    }
+}
+
+/// Up to eight rays as they lie in memory, each with a distance where it ends.
+#[derive(Clone, Copy, Debug)]
+pub struct Packet {
+    /// The rays; the first stands in the lanes that are left.
+    pub rays: Rays<Row>,
+    /// How far they go.
+    pub ends: Row,
+    /// A bit for each lane that holds one, the lowest for the first.
+    pub lanes: u32,
+}
+
+impl Packet {
+    /// A packet of one ray.
+    pub fn new(ray: &Ray, end: f64) -> Self {
         Self {
-            origin: Vector {
-                x: Eight::load_array(simd, coordinates[0]),
-                y: Eight::load_array(simd, coordinates[1]),
-                z: Eight::load_array(simd, coordinates[2]),
+            rays: Rays {
+                origin: Vector::repeat(ray.origin),
+                direction: Vector::repeat(ray.direction),
             },
-            direction: Vector {
-                x: Eight::load_array(simd, coordinates[3]),
-                y: Eight::load_array(simd, coordinates[4]),
-                z: Eight::load_array(simd, coordinates[5]),
-            },
+            ends: Row::all(end),
+            lanes: 1,
         }
     }
 
     /// The ray in a lane.
     #[inline(always)]
     pub fn ray(&self, lane: usize) -> Ray {
-        let (origin, direction) = (self.origin, self.direction);
         Ray {
-            origin: DVec3::new(origin.x[lane], origin.y[lane], origin.z[lane]),
-            direction: DVec3::new(direction.x[lane], direction.y[lane], direction.z[lane]),
+            origin: self.rays.origin.get(lane),
+            direction: self.rays.direction.get(lane),
         }
+    }
+}
+
+impl Rays<Row> {
+    /// Those, in vectors.
+    #[inline(always)]
+    pub fn load<S: Simd>(&self, simd: S) -> Rays<Eight<S>> {
+        Rays {
+            origin: self.origin.load(simd),
+            direction: self.direction.load(simd),
+        }
+    }
+}
+
+/// Rays in packets of eight, of which the last may hold fewer.
+#[derive(Clone, Debug, Default)]
+pub struct Packets {
+    packets: Vec<Packet>,
+    count: usize,
+}
+
+impl Packets {
+    /// Takes all rays out.
+    pub fn clear(&mut self) {
+        self.packets.clear();
+        self.count = 0;
+    }
+
+    /// How many rays there are.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Adds a ray and how far it goes.
+    #[inline]
+    pub fn push(&mut self, ray: &Ray, end: f64) {
+        let lane = self.count % WIDTH;
+        self.count += 1;
+        match self.packets.last_mut() {
+            Some(packet) if lane != 0 => {
+                packet.rays.origin.set(lane, ray.origin);
+                packet.rays.direction.set(lane, ray.direction);
+                packet.ends.0[lane] = end;
+                packet.lanes |= 1 << lane;
+            }
+            _ => self.packets.push(Packet::new(ray, end)),
+        }
+    }
+}
+
+impl FromIterator<(Ray, f64)> for Packets {
+    fn from_iter<I: IntoIterator<Item = (Ray, f64)>>(rays: I) -> Self {
+        let mut packets = Self::default();
+        for (ray, end) in rays {
+            packets.push(&ray, end);
+        }
+        packets
+    }
+}
+
+impl Deref for Packets {
+    type Target = [Packet];
+
+    fn deref(&self) -> &[Packet] {
+        &self.packets
     }
 }

@@ -7,14 +7,14 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::lanes::{Eight, Lanes, Simd, WIDTH, bits};
+use super::lanes::{Eight, Lanes, Simd, SimdBase, WIDTH, bits};
 use super::line::{End, Ends};
 use super::ray::{Ray, Rays};
 use super::{
-    Aabb, Chart, Cone, Csg, Cuboid, Cylinder, Ellipsoid, Instance, Plane, Quadric, Sphere,
+    Aabb, Chart, Cone, Csg, Cuboid, Cylinder, Ellipsoid, Instance, Plane, Quadric, Sphere, Surface,
+    Surfaces,
 };
 
 /// A crossing of a ray and a surface.
@@ -36,22 +36,44 @@ pub struct Hits {
 }
 
 impl Hits {
-    /// Those of one lane after the other; `None` if there is none.
-    #[inline]
-    pub fn one_by_one(lanes: u32, mut hit: impl FnMut(usize) -> Option<Hit>) -> Option<Self> {
+    /// Those of each lane.
+    #[inline(always)]
+    pub fn new(mut hit: impl FnMut(usize) -> Option<Hit>) -> Self {
         let mut hits = Self {
             lanes: 0,
             distances: [0.0; WIDTH],
             parts: [0.0; WIDTH],
         };
-        for lane in (0..WIDTH).filter(|lane| lanes >> lane & 1 == 1) {
+        for lane in 0..WIDTH {
             if let Some(Hit { t, part }) = hit(lane) {
                 hits.lanes |= 1 << lane;
                 hits.distances[lane] = t;
                 hits.parts[lane] = f64::from(part);
             }
         }
+        hits
+    }
+
+    /// Those of some lanes, one after the other; `None` if there is none.
+    #[inline]
+    pub fn one_by_one(lanes: u32, mut hit: impl FnMut(usize) -> Option<Hit>) -> Option<Self> {
+        let hits = Self::new(|lane| (lanes >> lane & 1 == 1).then(|| hit(lane))?);
         (hits.lanes != 0).then_some(hits)
+    }
+
+    /// How far along their rays they are.
+    #[inline(always)]
+    pub fn distances<S: Simd>(&self, simd: S) -> Eight<S> {
+        Eight::load_array(simd, self.distances)
+    }
+
+    /// Both in vectors.
+    #[inline(always)]
+    fn ends<S: Simd>(&self, simd: S) -> End<Eight<S>> {
+        End {
+            t: self.distances(simd),
+            part: Eight::load_array(simd, self.parts),
+        }
     }
 
     /// The crossing of a ray that has its bit in `lanes`.
@@ -60,6 +82,16 @@ impl Hits {
         Hit {
             t: self.distances[lane % WIDTH],
             part: self.parts[lane % WIDTH] as u32,
+        }
+    }
+}
+
+impl From<Hit> for End<f64> {
+    #[inline(always)]
+    fn from(Hit { t, part }: Hit) -> Self {
+        Self {
+            t,
+            part: part.into(),
         }
     }
 }
@@ -155,47 +187,6 @@ impl Crossings {
         self.exit.t += start;
         (self.enter.t <= self.exit.t).then_some(self)
     }
-}
-
-/// A point on a surface, as exact as `f64` holds it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Surface {
-    /// The point, re-projected onto the surface.
-    pub point: DVec3,
-    /// The outward geometric normal, of unit length.
-    pub normal: DVec3,
-    /// The normal that light is computed with, of unit length: the geometric one, but on a mesh
-    /// with normals of its own.
-    pub shading: DVec3,
-    /// The largest magnitude that entered the computation of the point (coordinates of the shape's
-    /// origin, its size), times the cancellation of a skewed frame: a few [`ulp`] of it bound how
-    /// far from the surface the point is.
-    pub scale: f64,
-}
-
-/// How many [`ulp`] of its scale a ray starts off the surface it leaves.
-///
-/// Rounding the point costs one, taking it into the shape's frame again a few more. Of the five
-/// million rays of the tests thousands come back from 1 and none from 2; 16 has a factor of eight
-/// in hand for frames that those do not meet, and is still far below any distance that shows.
-pub(super) const CLEARANCE: f64 = 16.0;
-
-impl Surface {
-    /// The start of a ray that leaves the surface toward `direction`: moved off it by a few units
-    /// in the last place of `scale`, to the side the direction points to.
-    pub fn leave(&self, direction: DVec3) -> DVec3 {
-        let clearance = CLEARANCE * ulp(self.scale);
-        if direction.dot(self.normal) < 0.0 {
-            self.point - clearance * self.normal
-        } else {
-            self.point + clearance * self.normal
-        }
-    }
-}
-
-/// The unit in the last place of `x`: the gap from |x| to the next larger `f64`. `x` is finite.
-pub fn ulp(x: f64) -> f64 {
-    x.abs().next_up() - x.abs()
 }
 
 /// What a ray can meet: a closed solid, or a surface that need not bound one.
@@ -308,15 +299,34 @@ impl Shape {
     /// The surface at a hit of this shape.
     pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
         match self {
-            Self::Sphere(sphere) => sphere.surface(ray, hit),
-            Self::Ellipsoid(ellipsoid) => ellipsoid.surface(ray, hit),
-            Self::Cuboid(cuboid) => cuboid.surface(ray, hit),
-            Self::Cylinder(cylinder) => cylinder.surface(ray, hit),
-            Self::Cone(cone) => cone.surface(ray, hit),
+            Self::Sphere(sphere) => sphere.surface(&ray.into(), hit.into()).into(),
+            Self::Ellipsoid(ellipsoid) => ellipsoid.surface(&ray.into(), hit.into()).into(),
+            Self::Cuboid(cuboid) => cuboid.surface(&ray.into(), hit.into()).into(),
+            Self::Cylinder(cylinder) => cylinder.surface(&ray.into(), hit.into()).into(),
+            Self::Cone(cone) => cone.surface(&ray.into(), hit.into()).into(),
             Self::Quadric(quadric) => quadric.surface(ray, hit),
             Self::Csg(csg) => csg.surface(ray, hit),
             Self::Plane(plane) => plane.surface(ray, hit),
             Self::Mesh(instance) => instance.surface(ray, hit),
+        }
+    }
+
+    /// The same for eight rays side by side, with nothing of use in lanes that no hit is said of;
+    /// `None` if this shape's are only had one by one.
+    #[inline(always)]
+    pub fn surfaces<S: Simd>(
+        &self,
+        rays: &Rays<Eight<S>>,
+        hits: &Hits,
+    ) -> Option<Surfaces<Eight<S>>> {
+        let at = hits.ends(rays.origin.x.simd);
+        match self {
+            Self::Sphere(sphere) => Some(sphere.surface(rays, at)),
+            Self::Ellipsoid(ellipsoid) => Some(ellipsoid.surface(rays, at)),
+            Self::Cuboid(cuboid) => Some(cuboid.surface(rays, at)),
+            Self::Cylinder(cylinder) => Some(cylinder.surface(rays, at)),
+            Self::Cone(cone) => Some(cone.surface(rays, at)),
+            Self::Quadric(_) | Self::Csg(_) | Self::Plane(_) | Self::Mesh(_) => None,
         }
     }
 

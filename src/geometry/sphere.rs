@@ -9,9 +9,9 @@
 use glam::DVec3;
 
 use super::lanes::{Eight, Lanes, Simd, Vector};
-use super::line::{Ends, approach, ball};
-use super::transform::normalise;
-use super::{Aabb, Chart, Hit, Hits, Ray, Rays, Surface};
+use super::line::{End, Ends, approach, ball};
+use super::transform::normalised;
+use super::{Aabb, Chart, Hit, Hits, Ray, Rays, Surfaces};
 
 /// A sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,15 +38,11 @@ impl Sphere {
         ends(Vector::all(like, self.centre), like.all(self.radius), rays)
     }
 
-    /// The surface at a hit.
-    pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
-        let normal = normalise(ray.at(hit.t) - self.centre).unwrap_or(DVec3::Z);
-        Surface {
-            point: self.centre + self.radius * normal,
-            normal,
-            shading: normal,
-            scale: self.centre.abs().max_element().max(self.radius),
-        }
+    /// The surfaces at hits, in each lane.
+    #[inline(always)]
+    pub(super) fn surface<N: Lanes>(&self, rays: &Rays<N>, at: End<N>) -> Surfaces<N> {
+        let centre = Vector::all(at.t, self.centre);
+        sphere_surfaces(centre, at.t.all(self.radius), rays, at.t)
     }
 
     /// The texture coordinates at a hit.
@@ -67,6 +63,22 @@ pub fn sphere_hits<S: Simd>(
     lanes: u32,
 ) -> Option<Hits> {
     ends(centre, radius, rays)?.hits(limits, lanes)
+}
+
+/// The surfaces of spheres where rays meet them at distances `t`, in each lane.
+#[inline(always)]
+pub fn sphere_surfaces<N: Lanes>(
+    centre: Vector<N>,
+    radius: N,
+    rays: &Rays<N>,
+    t: N,
+) -> Surfaces<N> {
+    let normal = normalised(rays.at(t) - centre, DVec3::Z);
+    Surfaces {
+        point: centre + normal.scaled(radius),
+        normal,
+        scale: centre.abs().largest().larger(radius),
+    }
 }
 
 /// Where lines cross spheres, in each lane.

@@ -1,11 +1,16 @@
 //! Affine frames: where a unit solid stands in the world.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take these with it"
+)]
+
 use glam::DVec3;
 
 use super::lanes::{Lanes, Vector};
 use super::line::{Line, approach};
-use super::shape::CLEARANCE;
-use super::{Chart, Hit, Ray, Rays, Surface, ulp};
+use super::surface::CLEARANCE;
+use super::{Chart, Hit, Ray, Rays, Surfaces};
 
 /// The least |determinant| of a frame's unit directions: flatter ones span no volume.
 pub const FLATTEST: f64 = 1e-6;
@@ -118,21 +123,12 @@ impl Affine {
     }
 
     /// The rays' lines in the space of the unit solid, in each lane.
-    #[expect(
-        clippy::inline_always,
-        reason = "a caller compiled for wider vectors must take this with it"
-    )]
     #[inline(always)]
     pub(super) fn line<N: Lanes>(&self, rays: &Rays<N>) -> Line<N> {
         let like = rays.origin.x;
         let offset = rays.origin - Vector::all(like, self.origin);
         let (offset, start) = approach(offset, rays.direction, like.all(self.reach));
-        let [x, y, z] = self.duals;
-        let duals = [
-            Vector::all(like, x),
-            Vector::all(like, y),
-            Vector::all(like, z),
-        ];
+        let duals = all(like, self.duals);
         Line {
             origin: products(duals, offset),
             direction: products(duals, rays.direction),
@@ -145,26 +141,37 @@ impl Affine {
         self.dual_products(point - self.origin)
     }
 
+    /// Where rays are in the space of the unit solid at distances `t`.
+    #[inline(always)]
+    pub(super) fn places<N: Lanes>(&self, rays: &Rays<N>, t: N) -> Vector<N> {
+        let offset = rays.at(t) - Vector::all(t, self.origin);
+        products(all(t, self.duals), offset)
+    }
+
     /// The surface at a place of the unit solid where its outward normal is `outward`, of any
-    /// length. `project` gives that place, on the surface and at least a margin, in each
+    /// length, in each lane. `project` gives that place, on the surface and at least a margin, in each
     /// coordinate, from the solid's edges: a ray that leaves inward must start inside.
     ///
     /// Normals go to the world by the inverse transpose. Where the terms of that sum cancel, the
     /// rounding of a place does not: it is as much larger beside the gradient, and so is the scale.
-    pub(super) fn surface(&self, outward: DVec3, project: impl FnOnce(DVec3) -> DVec3) -> Surface {
-        let [u, v, w] = self.duals;
-        let gradient = self.gradient(outward);
-        let terms = (outward.x * u).abs() + (outward.y * v).abs() + (outward.z * w).abs();
-        let cancellation = terms.max_element() / gradient.abs().max_element();
-        let scale = self.origin.abs().max_element().max(self.reach) * cancellation;
-        let margin = (2.0 * CLEARANCE * ulp(scale) * self.steps).min(DVec3::splat(0.25));
-        let place = project(margin);
-        let [x, y, z] = self.axes;
-        let normal = normalise(gradient).unwrap_or(DVec3::Z);
-        Surface {
-            point: self.origin + (place.x * x + place.y * y + place.z * z),
-            normal,
-            shading: normal,
+    #[inline(always)]
+    pub(super) fn surface<N: Lanes>(
+        &self,
+        outward: Vector<N>,
+        project: impl FnOnce(Vector<N>) -> Vector<N>,
+    ) -> Surfaces<N> {
+        let like = outward.x;
+        let duals @ [u, v, w] = all(like, self.duals);
+        let gradient = outward.weigh(duals);
+        let terms =
+            u.scaled(outward.x).abs() + v.scaled(outward.y).abs() + w.scaled(outward.z).abs();
+        let cancellation = terms.largest() / gradient.abs().largest();
+        let scale = like.all(self.origin.abs().max_element().max(self.reach)) * cancellation;
+        let margin = Vector::all(like, self.steps).scaled(like.all(2.0 * CLEARANCE) * scale.ulp());
+        let place = project(margin.smaller(Vector::all(like, DVec3::splat(0.25))));
+        Surfaces {
+            point: Vector::all(like, self.origin) + place.weigh(all(like, self.axes)),
+            normal: normalised(gradient, DVec3::Z),
             scale,
         }
     }
@@ -192,11 +199,17 @@ fn steps(duals: [DVec3; 3]) -> DVec3 {
     DVec3::from_array(duals.map(DVec3::length))
 }
 
+/// Three vectors, in each lane the same.
+#[inline(always)]
+fn all<N: Lanes>(like: N, [x, y, z]: [DVec3; 3]) -> [Vector<N>; 3] {
+    [
+        Vector::all(like, x),
+        Vector::all(like, y),
+        Vector::all(like, z),
+    ]
+}
+
 /// The scalar products of a vector with three.
-#[expect(
-    clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take this with it"
-)]
 #[inline(always)]
 fn products<N: Lanes>([x, y, z]: [Vector<N>; 3], v: Vector<N>) -> Vector<N> {
     Vector {
@@ -207,16 +220,25 @@ fn products<N: Lanes>([x, y, z]: [Vector<N>; 3], v: Vector<N>) -> Vector<N> {
 }
 
 /// The vector of unit length in the direction of `v`, or `None` if `v` is zero or not finite.
+pub fn normalise(v: DVec3) -> Option<DVec3> {
+    let largest = v.abs().max_element();
+    (0.0 < largest && largest.is_finite()).then(|| normalised(v.into(), v).into())
+}
+
+/// The vector of unit length in the direction of `v`, or another if `v` is zero or not finite, in
+/// each lane.
 ///
 /// Divided by a power of two first, which changes no bits of the result, no component is too large
 /// or too small to be squared.
-pub fn normalise(v: DVec3) -> Option<DVec3> {
-    let largest = v.abs().max_element();
-    if !largest.is_finite() || largest == 0.0 {
-        return None;
-    }
-    let v = v / power_of_two(largest);
-    Some(v / v.length())
+#[inline(always)]
+pub(super) fn normalised<N: Lanes>(v: Vector<N>, otherwise: DVec3) -> Vector<N> {
+    let largest = v.abs().largest();
+    let has_direction = largest.all(0.0).below(largest) & largest.below(largest.all(f64::INFINITY));
+    // Of half the largest, as there may be none next to it.
+    let power = (largest.all(0.5) * largest).ulp() * largest.all(2.0 / f64::EPSILON);
+    let v = v.over(power);
+    let unit = v.over(v.length());
+    Vector::select(has_direction, unit, Vector::all(largest, otherwise))
 }
 
 /// The length of a vector whose components may be too large or too small to be squared.

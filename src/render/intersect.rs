@@ -41,12 +41,12 @@ pub(crate) struct Closest {
 
 impl Closest {
     #[inline(always)]
-    pub(crate) fn before(limit: f64, ray: &Ray) -> Self {
+    pub(crate) fn before(limit: f64, reach: f64) -> Self {
         Self {
             best: None,
             tied: false,
             limit,
-            reach: ray.origin.length(),
+            reach,
         }
     }
 
@@ -85,7 +85,7 @@ impl World {
     #[inline(always)]
     fn nearest_alone<S: Simd>(&self, simd: S, ray: &Ray, limit: f64) -> Option<Nearest> {
         let rays = Rays::all(simd, ray);
-        let mut closest = Closest::before(limit, ray);
+        let mut closest = Closest::before(limit, ray.origin.length());
         self.visit(
             simd,
             ray,
@@ -107,7 +107,7 @@ impl World {
                 closest.limit
             },
         );
-        self.settle(simd, ray, &closest)
+        self.settle(simd, || *ray, &closest)
     }
 
     #[inline(always)]
@@ -158,9 +158,14 @@ impl World {
 
     /// What was met first, ties settled.
     #[inline(always)]
-    pub(crate) fn settle<S: Simd>(&self, simd: S, ray: &Ray, closest: &Closest) -> Option<Nearest> {
+    pub(crate) fn settle<S: Simd>(
+        &self,
+        simd: S,
+        ray: impl FnOnce() -> Ray,
+        closest: &Closest,
+    ) -> Option<Nearest> {
         if closest.tied {
-            self.first_in_file(simd, ray, closest.limit)
+            self.first_in_file(simd, &ray(), closest.limit)
         } else {
             closest.best
         }

@@ -9,33 +9,37 @@ use glam::DVec3;
 use super::optics::power;
 use super::warp;
 use crate::accel::Bvh;
-use crate::geometry::lanes::{Level, dispatch};
+use crate::geometry::lanes::{Eight, Lanes, Level, Simd, Vector, dispatch};
 use crate::geometry::{Aabb, Ray};
 use crate::scene::{Falloff, Integrator, Light, Rgb, Scene, Source};
 
-/// From where light comes to a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Incoming {
-    /// The unit vector toward it; NaN for a light at the point itself.
-    pub(crate) toward: DVec3,
+/// From where light comes to points, in each lane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Incoming<N> {
+    /// The unit vectors toward it; NaN for a light at the point itself.
+    pub(crate) toward: Vector<N>,
     /// Where it starts, unless that is infinitely far away.
-    pub(crate) source: Option<DVec3>,
+    pub(crate) source: Option<Vector<N>>,
 }
 
-/// From where a light comes to a point: from the middle of one that has a size unless `place`, in the
-/// unit square, chooses another part. `None` if it comes from nowhere.
-#[inline]
-pub(crate) fn incoming(light: &Light, point: DVec3, place: Option<[f64; 2]>) -> Option<Incoming> {
+/// From where a light comes to points: from the middle of one that has a size. `None` if it comes
+/// from nowhere.
+#[expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take this with it"
+)]
+#[inline(always)]
+pub(crate) fn incoming<N: Lanes>(light: &Light, points: Vector<N>) -> Option<Incoming<N>> {
     match light.source {
         Source::Point { position, .. } => {
-            let chosen = place.and_then(|place| light.sphere()?.choose(point, place));
-            Some(chosen.unwrap_or_else(|| Incoming {
-                toward: (position - point).normalize(),
-                source: Some(position),
-            }))
+            let source = Vector::all(points.x, position);
+            Some(Incoming {
+                toward: (source - points).unit(),
+                source: Some(source),
+            })
         }
         Source::Distant(toward) => Some(Incoming {
-            toward,
+            toward: Vector::all(points.x, toward),
             source: None,
         }),
         Source::Everywhere => None,
@@ -50,6 +54,21 @@ pub(crate) fn attenuation(light: &Light, point: DVec3, toward: DVec3) -> f64 {
         Source::Point { falloff, .. } if *falloff == Falloff::NONE => 1.0,
         Source::Point { position, falloff } => falloff.share(position.distance(point), toward),
         Source::Distant(_) | Source::Everywhere => 1.0,
+    }
+}
+
+impl<S: Simd> Incoming<Eight<S>> {
+    /// Lets the light in a lane come from elsewhere.
+    #[expect(
+        clippy::inline_always,
+        reason = "a caller compiled for wider vectors must take this with it"
+    )]
+    #[inline(always)]
+    pub(crate) fn put(&mut self, lane: usize, incoming: Incoming<f64>) {
+        self.toward.put(lane, incoming.toward.into());
+        if let (Some(sources), Some(source)) = (&mut self.source, incoming.source) {
+            sources.put(lane, source.into());
+        }
     }
 }
 
@@ -98,7 +117,7 @@ pub(crate) struct SphereLight {
 impl SphereLight {
     /// Chooses a place of what is seen of it from a point, each direction as likely as any other.
     /// `None` from inside.
-    pub(crate) fn choose(&self, point: DVec3, place: [f64; 2]) -> Option<Incoming> {
+    pub(crate) fn choose(&self, point: DVec3, place: [f64; 2]) -> Option<Incoming<f64>> {
         let versine = self.versine(point)?;
         let axis = (self.centre - point).normalize();
         let toward = warp::in_cone(axis, versine, place);
@@ -111,8 +130,8 @@ impl SphereLight {
             .hit(&ray)
             .unwrap_or_else(|| toward.dot(self.centre - point));
         Some(Incoming {
-            toward,
-            source: Some(ray.at(distance)),
+            toward: toward.into(),
+            source: Some(ray.at(distance).into()),
         })
     }
 

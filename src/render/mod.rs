@@ -15,14 +15,18 @@
 //! from a [`tracer`], or something else from [`first_hit`]; [`tone`] makes the film a frame, and
 //! [`noise`] says how far that is from the last one.
 //!
-//! A tracer gathers light in one of two ways, [`whitted`] or [`path`]. Both ask the world by a
-//! [`probe`], come to surfaces of [`phong`] (with its [`texture`]s) or [`utah`] (with those of
-//! [`mapped`]) and ask [`lights`]; [`optics`], [`lobes`], [`microfacet`] and [`warp`] are the formulas.
+//! A tracer gathers light in one of two ways: [`whitted`], a [`wave`] of samples at once, whose rays
+//! land on [`surfaces`] and [`branch`]; or [`path`], one sample after the other. Both ask the world by
+//! a [`probe`], come to matter of [`phong`] (with its [`texture`]s) or [`utah`] (with those of
+//! [`mapped`]) and ask [`lights`] for their [`direct`] light; [`optics`], [`lobes`], [`microfacet`] and
+//! [`warp`] are the formulas.
 //!
 //! Rays meet the world eight side by side, against one object after the other ([`packets`]), or alone,
 //! against up to eight [`spheres`] at once ([`intersect`]). Neither changes a bit of what is met.
 
+mod branch;
 mod camera;
+mod direct;
 mod film;
 mod filter;
 mod first_hit;
@@ -44,11 +48,13 @@ mod shared;
 mod spheres;
 mod steps;
 mod structures;
+mod surfaces;
 mod texture;
 mod tone;
 mod tracer;
 mod utah;
 mod warp;
+mod wave;
 mod whitted;
 mod worker;
 mod world;

@@ -1,24 +1,48 @@
 //! Mirrors, glass and highlights: where rays go on, and how much light goes each way.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take these with it"
+)]
+
 use glam::DVec3;
 
 use super::warp;
+use crate::geometry::lanes::{Lanes, Vector};
 use crate::scene::Rgb;
 
-/// The mirrored unit direction of a unit `direction`: R = d − 2(d·N)N.
-pub(crate) fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
-    (direction - 2.0 * direction.dot(normal) * normal).normalize()
+/// The mirrored unit directions of unit directions, in each lane: R = d − 2(d·N)N.
+#[inline(always)]
+pub(crate) fn mirror<N: Lanes>(direction: Vector<N>, normal: Vector<N>) -> Vector<N> {
+    let along = direction.dot(normal);
+    (direction - normal.scaled(along.all(2.0) * along)).unit()
 }
 
-/// Snell's law: the refracted unit direction for a unit `direction` meeting a surface whose
-/// `normal` is turned against it, `ratio` = n1/n2. `None` on total internal reflection.
-pub(crate) fn refract(direction: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
+/// The same for one.
+pub(crate) fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
+    mirror(direction.into(), normal.into()).into()
+}
+
+/// Snell's law: the refracted unit directions for unit directions meeting surfaces whose normals are
+/// turned against them, `ratio` = n1/n2, in each lane that has no total internal reflection.
+#[inline(always)]
+pub(crate) fn refract_all<N: Lanes>(
+    direction: Vector<N>,
+    normal: Vector<N>,
+    ratio: N,
+) -> (Vector<N>, N::Mask) {
+    let (zero, one) = (ratio.all(0.0), ratio.all(1.0));
     let cosine = -direction.dot(normal);
-    let squared = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
-    if squared < 0.0 {
-        return None;
-    }
-    Some((ratio * direction + (ratio * cosine - squared.sqrt()) * normal).normalize())
+    let squared = one - ratio * ratio * (one - cosine * cosine);
+    let along = normal.scaled(ratio * cosine - squared.sqrt());
+    let refracted = (direction.scaled(ratio) + along).unit();
+    (refracted, !squared.below(zero))
+}
+
+/// The same for one: `None` on total internal reflection.
+pub(crate) fn refract(direction: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
+    let (refracted, passes) = refract_all(direction.into(), normal.into(), ratio);
+    passes.then(|| refracted.into())
 }
 
 /// The index of refraction that a said one means: 0 or less reads as 1.

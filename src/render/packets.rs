@@ -10,21 +10,16 @@ use std::ops::Range;
 use super::intersect::{Closest, Crossed, Nearest};
 use super::structures::Search;
 use super::world::World;
-use crate::geometry::lanes::{Eight, Simd, SimdBase, WIDTH, dispatch};
-use crate::geometry::{Hits, Ray, Rays, Shape};
+use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, WIDTH, dispatch, mask};
+use crate::geometry::{Hits, Packet, Rays, Shape};
 
 impl World {
     /// [`World::nearest`] for each of several rays.
-    pub(crate) fn nearest_each(
-        &self,
-        rays: &[Ray],
-        limits: &[f64],
-        nearest: &mut Vec<Option<Nearest>>,
-    ) {
+    pub(crate) fn nearest_each(&self, packets: &[Packet], nearest: &mut Vec<Option<Nearest>>) {
         nearest.clear();
         dispatch!(self.level, simd => {
-            for (rays, limits) in rays.chunks(WIDTH).zip(limits.chunks(WIDTH)) {
-                self.nearest_together(simd, rays, limits, nearest);
+            for packet in packets {
+                self.nearest_together(simd, packet, nearest);
             }
         });
     }
@@ -33,16 +28,15 @@ impl World {
     /// may block them, tried first; the last that did comes back.
     pub(crate) fn transmittance_each(
         &self,
-        rays: &[Ray],
-        ends: &[f64],
+        packets: &[Packet],
         blocker: &mut Option<u32>,
         crossed: &mut Crossed,
         transmittances: &mut Vec<f64>,
     ) {
         transmittances.clear();
         dispatch!(self.level, simd => {
-            for (rays, ends) in rays.chunks(WIDTH).zip(ends.chunks(WIDTH)) {
-                self.transmittance_together(simd, rays, ends, blocker, crossed, transmittances);
+            for packet in packets {
+                self.transmittance_together(simd, packet, blocker, crossed, transmittances);
             }
         });
     }
@@ -51,35 +45,32 @@ impl World {
     fn transmittance_together<S: Simd>(
         &self,
         simd: S,
-        rays: &[Ray],
-        ends: &[f64],
+        packet: &Packet,
         blocker: &mut Option<u32>,
         crossed: &mut Crossed,
         transmittances: &mut Vec<f64>,
     ) {
         crossed.clear();
-        let packet = Rays::gather(simd, rays);
-        let mut limits = Eight::splat(simd, -1.0);
-        for (lane, &end) in ends.iter().enumerate() {
-            limits[lane] = end;
-        }
-        let mut open = (1 << rays.len()) - 1;
+        let rays = packet.rays.load(simd);
+        let mut open = packet.lanes;
+        let closed = Eight::splat(simd, -1.0);
+        let mut limits = Lanes::select(mask(simd, open), packet.ends.load(simd), closed);
         if let Some(object) = *blocker
-            && let Some(hits) = self.hits(&packet, object, open, &limits, Search::Blocker)
+            && let Some(hits) = self.hits(&rays, object, open, &limits, Search::Blocker)
         {
             let blocked = self.blocked(object, &hits);
             open &= !blocked;
             close(&mut limits, blocked);
         }
         self.visit_together(
-            &packet,
+            &rays,
             open,
             limits,
             #[inline(always)]
             |places, lanes, mut limits| {
                 for &object in &self.order()[places] {
                     let lanes = lanes & open;
-                    let hits = self.hits(&packet, object, lanes, &limits, Search::Blocker);
+                    let hits = self.hits(&rays, object, lanes, &limits, Search::Blocker);
                     let Some(hits) = hits else { continue };
                     let blocked = self.blocked(object, &hits);
                     if blocked != 0 {
@@ -101,7 +92,7 @@ impl World {
         );
         crossed.sort_unstable();
         let mut next = 0;
-        for lane in 0..rays.len() as u32 {
+        for lane in 0..packet.lanes.count_ones() {
             let mut transmittance = 1.0;
             while let Some(&(of, _, material)) = crossed.get(next)
                 && of == lane
@@ -133,27 +124,23 @@ impl World {
     fn nearest_together<S: Simd>(
         &self,
         simd: S,
-        rays: &[Ray],
-        limits: &[f64],
+        packet: &Packet,
         nearest: &mut Vec<Option<Nearest>>,
     ) {
-        let packet = Rays::gather(simd, rays);
-        let mut closest = [Closest::before(0.0, &rays[0]); WIDTH];
-        let mut farthest = [0.0; WIDTH];
-        for (lane, (ray, &limit)) in rays.iter().zip(limits).enumerate() {
-            closest[lane] = Closest::before(limit, ray);
-            farthest[lane] = limit;
+        let rays = packet.rays.load(simd);
+        let reach = rays.origin.length();
+        let mut closest = [Closest::before(0.0, 0.0); WIDTH];
+        for (lane, closest) in closest.iter_mut().enumerate() {
+            *closest = Closest::before(packet.ends.0[lane], reach[lane]);
         }
-        let lanes = (1 << rays.len()) - 1;
-        let farthest = Eight::load_array(simd, farthest);
         self.visit_together(
-            &packet,
-            lanes,
-            farthest,
+            &rays,
+            packet.lanes,
+            packet.ends.load(simd),
             #[inline(always)]
             |places, lanes, mut limits| {
                 for &object in &self.order()[places] {
-                    let hits = self.hits(&packet, object, lanes, &limits, Search::Nearest);
+                    let hits = self.hits(&rays, object, lanes, &limits, Search::Nearest);
                     let Some(hits) = hits else { continue };
                     let mut met = hits.lanes;
                     while met != 0 {
@@ -166,8 +153,9 @@ impl World {
                 limits
             },
         );
-        for (ray, closest) in rays.iter().zip(closest) {
-            nearest.push(self.settle(simd, ray, &closest));
+        let count = packet.lanes.count_ones() as usize;
+        for (lane, closest) in closest.iter().enumerate().take(count) {
+            nearest.push(self.settle(simd, || packet.ray(lane), closest));
         }
     }
 

@@ -6,17 +6,19 @@
 
 use glam::DVec3;
 
+use super::direct::shadow;
 use super::frame::NO_OBJECT;
 use super::lights::{self, SphereLight};
 use super::lobes::{Lobes, strength};
 use super::microfacet::Microfacets;
 use super::optics::{Dielectric, index, reflect, refract, schlick, spread, transmitted};
 use super::phong;
-use super::probe::{Matter, Point, Probe, RAY_BUDGET, Sample, Seen, shadow};
+use super::probe::{Matter, Point, Probe, RAY_BUDGET, Sample, Seen};
 use super::sampler::{Sampler, Use};
 use super::utah::{Gloss, Shading};
 use super::warp;
 use crate::geometry::Ray;
+use crate::geometry::lanes::Vector;
 use crate::scene::{Light, Phong, Rgb};
 
 /// Paths that carry less than this go on by chance only.
@@ -133,8 +135,8 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             if self.is_cancelled_at(number) {
                 break;
             }
-            sum += self.direct(point, light, None, |toward, cosine| {
-                phong::reflected(material, point, toward, cosine)
+            sum += self.direct(point, light, |facing| {
+                phong::reflected(material, facing.cosine, facing.mirrored)
             });
         }
         sum
@@ -149,8 +151,8 @@ impl<C: Fn() -> bool> Probe<'_, C> {
                 break;
             }
             sum += match light.sphere() {
-                None => self.direct(point, light, None, |toward, _| {
-                    bsdf.lobes.scatter(point, toward).value
+                None => self.direct(point, light, |facing| {
+                    bsdf.lobes.scatter(point, facing.toward.into()).value
                 }),
                 Some(sphere) => {
                     let [u, v, ..] = sampler.four(bounce, Use::Light(number as u32));
@@ -175,10 +177,10 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let Some(incoming) = sphere.choose(from, place) else {
             return Rgb::ZERO;
         };
-        let scattered = bsdf.lobes.scatter(point, incoming.toward);
-        let ray = point.leave(incoming.toward);
-        let hides = |place: DVec3| {
-            let distance = place.distance(ray.origin);
+        let scattered = bsdf.lobes.scatter(point, incoming.toward.into());
+        let ray = point.leave(incoming.toward.into());
+        let hides = |place: Vector<f64>| {
+            let distance = DVec3::from(place).distance(ray.origin);
             self.world.sphere_lights.hide(sphere, &ray, distance)
         };
         if scattered.value == Rgb::ZERO || incoming.source.is_some_and(hides) {
@@ -192,7 +194,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         };
         let weight = power_heuristic(sphere.density(from), chance);
         let arriving = weight * sphere.irradiance(from);
-        let shadow = shadow(&point.surface, light, incoming);
+        let shadow = shadow(&point.surface.into(), light, incoming);
         self.visibility(shadow) * (scattered.value * arriving)
     }
 }

@@ -1,16 +1,16 @@
-//! What both ways of gathering light share: samples, the points that rays come to, shadow rays.
+//! What both ways of gathering light share: samples, and the points that rays come to.
 
 use std::borrow::Cow;
 
 use glam::{DVec2, DVec3};
 
+use super::frame::NO_OBJECT;
 use super::intersect::{Crossed, Nearest};
-use super::lights::{self, Incoming};
 use super::sampler::Sampler;
 use super::utah::Shading;
 use super::world::World;
-use crate::geometry::{Ray, Surface, ulp};
-use crate::scene::{Light, Material, Phong, Rgb, Shadows};
+use crate::geometry::{Ray, Surface};
+use crate::scene::{Material, Phong, Rgb};
 
 /// Rays that one camera sample may trace, shadow rays apart. With reflection and transmission both
 /// 1 a tree of depth 30 would have two thousand million.
@@ -80,6 +80,14 @@ pub(crate) struct Seen {
     pub(crate) object: u32,
 }
 
+impl Seen {
+    /// What a ray brings that has met nothing yet.
+    pub(crate) const NOTHING: Self = Self {
+        radiance: Rgb::ZERO,
+        object: NO_OBJECT,
+    };
+}
+
 /// A point that a ray has come to.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Point {
@@ -120,105 +128,6 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
     pub(crate) fn is_cancelled_at(&self, light: usize) -> bool {
         light % 16 == 15 && (self.cancelled)()
     }
-
-    /// What a surface sends back of a light's light: see [`ask`].
-    pub(crate) fn direct(
-        &mut self,
-        point: &Point,
-        light: &Light,
-        place: Option<[f64; 2]>,
-        reflected: impl FnOnce(DVec3, f64) -> Rgb,
-    ) -> Rgb {
-        match ask(point, light, place, reflected) {
-            Some(asked) => self.visibility(asked.shadow) * asked.unblocked,
-            None => Rgb::ZERO,
-        }
-    }
-
-    /// The part of light that passes along a shadow ray; all of it without one.
-    pub(crate) fn visibility(&mut self, shadow: Option<Shadow>) -> f64 {
-        let Some(Shadow { ray, end }) = shadow else {
-            return 1.0;
-        };
-        self.counts.rays += 1;
-        self.world.transmittance(&ray, end, &mut self.crossed)
-    }
-}
-
-/// A ray toward a light.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Shadow {
-    pub(crate) ray: Ray,
-    /// How far along it something is in the way.
-    pub(crate) end: f64,
-}
-
-/// Light that is asked for.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Asked {
-    /// What is sent back of it if nothing is in the way.
-    pub(crate) unblocked: Rgb,
-    /// Where something may be.
-    pub(crate) shadow: Option<Shadow>,
-}
-
-/// What a surface sends back of a light's light, from the part of it that `place` says (see
-/// [`lights::incoming`]): `reflected` gives how much of what comes from a direction at an angle of
-/// some cosine above 0. `None` if that is nothing.
-#[inline]
-pub(crate) fn ask(
-    point: &Point,
-    light: &Light,
-    place: Option<[f64; 2]>,
-    reflected: impl FnOnce(DVec3, f64) -> Rgb,
-) -> Option<Asked> {
-    let incoming = lights::incoming(light, point.surface.point, place)?;
-    let cosine = point.normal.dot(incoming.toward);
-    // It is NaN where the light stands at the point itself.
-    if cosine <= 0.0 || cosine.is_nan() {
-        return None;
-    }
-    let reflected = reflected(incoming.toward, cosine);
-    if reflected == Rgb::ZERO {
-        return None;
-    }
-    let attenuation = lights::attenuation(light, point.surface.point, incoming.toward);
-    if attenuation == 0.0 {
-        return None;
-    }
-    let arriving = attenuation * light.colour;
-    Some(Asked {
-        unblocked: reflected * arriving,
-        shadow: shadow(&point.surface, light, incoming),
-    })
-}
-
-/// The ray from a surface to a light, unless nothing keeps that light from others.
-#[inline]
-pub(crate) fn shadow(surface: &Surface, light: &Light, incoming: Incoming) -> Option<Shadow> {
-    if light.shadows == Shadows::Off {
-        return None;
-    }
-    let origin = surface.leave(incoming.toward);
-    let Some(source) = incoming.source else {
-        let ray = Ray {
-            origin,
-            direction: incoming.toward,
-        };
-        let end = f64::INFINITY;
-        return Some(Shadow { ray, end });
-    };
-    let way = source - origin;
-    let distance = way.length();
-    // The surface that a light lies on does not block it: the way ends before that surface, by
-    // as much as rounding may displace it.
-    let reach = origin.abs().max(source.abs()).max_element();
-    let ray = Ray {
-        origin,
-        direction: way / distance,
-    };
-    let end = distance - 32.0 * ulp(reach.max(distance));
-    Some(Shadow { ray, end })
 }
 
 impl Point {
@@ -234,25 +143,10 @@ impl Point {
 impl World {
     /// The point where a ray meets an object, and what that is made of there.
     pub(crate) fn arrive(&self, ray: &Ray, nearest: Nearest) -> (Point, Matter<'_>) {
-        let object = &self.scene.objects[nearest.object as usize];
-        let surface = object.shape.surface(ray, nearest.hit);
-        let chart = || object.shape.chart(ray, nearest.hit);
-        let mut normal = surface.shading;
-        let matter = match &self.scene.materials[object.material_at(nearest.hit) as usize] {
-            Material::Phong(phong) if phong.colour_texture.is_none() && phong.bump.is_none() => {
-                Matter::Phong(Cow::Borrowed(phong))
-            }
-            Material::Phong(phong) => {
-                let mut phong = *phong;
-                self.textures.apply(&chart(), &mut phong, &mut normal);
-                Matter::Phong(Cow::Owned(phong))
-            }
-            Material::Utah(utah) => {
-                let place = || chart().uv;
-                Matter::Utah(Shading::at(utah, &self.mapped, place))
-            }
-            Material::Flat(colour) => Matter::Flat(*colour),
-        };
+        let shape = &self.scene.objects[nearest.object as usize].shape;
+        let surface = shape.surface(ray, nearest.hit);
+        let (matter, bumped) = self.matter(nearest, || (*ray, surface.shading));
+        let normal = bumped.unwrap_or(surface.shading);
         // Which side is seen is the surface's to say, not the bumps'.
         let front = ray.direction.dot(surface.normal) < 0.0;
         let point = Point {
@@ -262,5 +156,32 @@ impl World {
             view: -ray.direction,
         };
         (point, matter)
+    }
+
+    /// What an object is made of where a ray meets it, and the normal to shade with if it has bumps:
+    /// `coming` is that ray, and the normal without them.
+    pub(crate) fn matter(
+        &self,
+        nearest: Nearest,
+        coming: impl Fn() -> (Ray, DVec3),
+    ) -> (Matter<'_>, Option<DVec3>) {
+        let object = &self.scene.objects[nearest.object as usize];
+        let chart = || object.shape.chart(&coming().0, nearest.hit);
+        match &self.scene.materials[object.material_at(nearest.hit) as usize] {
+            Material::Phong(phong) if phong.colour_texture.is_none() && phong.bump.is_none() => {
+                (Matter::Phong(Cow::Borrowed(phong)), None)
+            }
+            Material::Phong(phong) => {
+                let mut phong = *phong;
+                let (_, mut normal) = coming();
+                self.textures.apply(&chart(), &mut phong, &mut normal);
+                (Matter::Phong(Cow::Owned(phong)), Some(normal))
+            }
+            Material::Utah(utah) => {
+                let place = || chart().uv;
+                (Matter::Utah(Shading::at(utah, &self.mapped, place)), None)
+            }
+            Material::Flat(colour) => (Matter::Flat(*colour), None),
+        }
     }
 }

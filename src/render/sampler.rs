@@ -7,8 +7,9 @@ use sobol_burley::{sample, sample_4d};
 /// Scrambling", JCGT 9(4), 2020).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Sampler {
-    pixel: u32,
+    pixel: [u32; 2],
     index: u32,
+    seed: u32,
 }
 
 /// What numbers are for.
@@ -35,8 +36,9 @@ impl Sampler {
     /// The numbers of sample `index`, below [`MAX_SPP`](super::MAX_SPP), of pixel (x, y).
     pub(crate) fn new(x: u32, y: u32, index: u32, seed: u32) -> Self {
         Self {
-            pixel: pixel_seed(x, y, seed),
+            pixel: [x, y],
             index,
+            seed,
         }
     }
 
@@ -45,7 +47,8 @@ impl Sampler {
         if self.index == 0 {
             return [0.5, 0.5];
         }
-        [0, 1].map(|dimension| f64::from(sample(self.index, dimension, self.pixel)))
+        let seed = self.pixel_seed();
+        [0, 1].map(|dimension| f64::from(sample(self.index, dimension, seed)))
     }
 
     /// The node of a ray's `number`th child: rays with other nodes have other numbers.
@@ -73,14 +76,16 @@ impl Sampler {
             Use::Spread => 4,
             Use::Light(number) => 5 + number,
         };
-        let seed = mix(mix(self.pixel ^ node).wrapping_add(0x9E37_79B9) ^ purpose);
+        let seed = mix(mix(self.pixel_seed() ^ node).wrapping_add(0x9E37_79B9) ^ purpose);
         sample_4d(self.index, 0, seed).map(f64::from)
     }
-}
 
-/// Mixes coordinates and seed so that neighbouring pixels get unrelated patterns.
-fn pixel_seed(x: u32, y: u32, seed: u32) -> u32 {
-    mix(mix(mix(seed ^ 0x9E37_79B9) ^ x).wrapping_add(0x9E37_79B9) ^ y)
+    /// Mixes coordinates and seed so that neighbouring pixels get unrelated patterns. When it is
+    /// asked for: a picture of one sample a pixel has no use for it.
+    fn pixel_seed(self) -> u32 {
+        let [x, y] = self.pixel;
+        mix(mix(mix(self.seed ^ 0x9E37_79B9) ^ x).wrapping_add(0x9E37_79B9) ^ y)
+    }
 }
 
 /// The finaliser of `MurmurHash3` (Appleby, public domain).

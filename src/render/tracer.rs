@@ -1,7 +1,7 @@
 //! Radiance along camera rays, gathered in one of two ways.
 
 use super::probe::{Counts, Probe, Sample, Seen};
-use super::whitted::Wave;
+use super::wave::Wave;
 use super::world::World;
 use crate::scene::Integrator;
 

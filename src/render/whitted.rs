@@ -1,81 +1,24 @@
 //! Whitted's recursive ray tracing (Whitted, "An Improved Illumination Model for Shaded Display",
 //! 1980).
 
+#![expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take these with it"
+)]
+
 use glam::DVec3;
 
-use super::frame::NO_OBJECT;
+use super::direct::{Facing, Points, Shadow, sent_back};
 use super::intersect::Nearest;
-use super::optics::{Dielectric, index, reflect, refract, spread, transmitted};
+use super::lights::{self, Incoming};
+use super::optics::transmitted;
 use super::phong;
-use super::probe::{Asked, Counts, Matter, Point, Probe, RAY_BUDGET, Sample, Seen, ask};
-use super::sampler::{Sampler, Use};
-use super::utah::Shading;
-use crate::geometry::Ray;
-use crate::scene::{Light, Phong, Rgb};
-
-/// A ray that goes on from a point.
-struct Branch {
-    /// Which one of the point's it is.
-    number: u32,
-    direction: DVec3,
-    /// Which part of its radiance leaves the point toward where the ray came from.
-    weight: Rgb,
-    /// What is lost per unit of length until it meets something.
-    absorption: Rgb,
-}
-
-/// A ray yet to be traced.
-#[derive(Clone, Copy, Debug)]
-struct Pending {
-    ray: Ray,
-    /// Which part of its radiance reaches the eye.
-    weight: Rgb,
-    /// What is lost per unit of length until it meets something.
-    absorption: Rgb,
-    bounce: u32,
-    /// Its place in the tree of rays, for numbers of its own.
-    node: u32,
-}
-
-/// The rays of a camera sample.
-#[derive(Debug, Default)]
-struct Tree {
-    pending: Vec<Pending>,
-    traced: u32,
-}
-
-/// A ray that has come to a surface.
-#[derive(Debug)]
-struct Arrived<'w> {
-    /// The number of its tree.
-    tree: usize,
-    /// The number of its ray in the front.
-    ray: usize,
-    /// Which part of its radiance reaches the eye.
-    weight: Rgb,
-    point: Point,
-    matter: Matter<'w>,
-    /// What leaves the point toward where the ray came from.
-    radiance: Rgb,
-}
-
-/// Camera samples on their way side by side: one ray of each at a time.
-#[derive(Debug, Default)]
-pub(crate) struct Wave<'w> {
-    trees: Vec<Tree>,
-    /// The numbers of the trees that are not done.
-    growing: Vec<usize>,
-    front: Vec<(usize, Pending)>,
-    rays: Vec<Ray>,
-    limits: Vec<f64>,
-    nearest: Vec<Option<Nearest>>,
-    arrived: Vec<Arrived<'w>>,
-    /// The numbers of those that ask for light, and what they would send back of it.
-    asking: Vec<(usize, Rgb)>,
-    /// By light: the last object that kept it from a surface.
-    blockers: Vec<Option<u32>>,
-    transmittances: Vec<f64>,
-}
+use super::probe::{Matter, Probe, Sample, Seen};
+use super::sampler::Use;
+use super::wave::{Arrived, Wave, Way};
+use super::world::World;
+use crate::geometry::lanes::{Simd, WIDTH, bits, dispatch};
+use crate::scene::{Light, Rgb};
 
 impl<'w, C: Fn() -> bool> Probe<'w, C> {
     /// Radiance along camera rays. The rays of each are traced depth first, reflection before
@@ -89,299 +32,185 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
         samples: &[Sample],
         seen: &mut Vec<Seen>,
     ) {
-        wave.start(samples, seen);
-        while wave.advance(samples, &mut self.counts) && !(self.cancelled)() {
-            self.world
-                .nearest_each(&wave.rays, &wave.limits, &mut wave.nearest);
-            self.arrive(wave, samples, seen);
-            self.light(wave, samples);
-            self.go_on(wave, samples, seen);
-        }
-    }
-
-    /// Takes the front to the surfaces that it meets.
-    fn arrive(&self, wave: &mut Wave<'w>, samples: &[Sample], seen: &mut [Seen]) {
         let world = self.world;
-        wave.arrived.clear();
-        for (number, (nearest, &(tree, ref ray))) in
-            wave.nearest.iter().zip(&wave.front).enumerate()
-        {
-            let seen = &mut seen[tree];
-            let Some(nearest) = *nearest else {
-                let screen = samples[tree].screen;
-                seen.radiance += ray.weight * world.around(&ray.ray, ray.bounce, screen);
-                continue;
-            };
-            if ray.bounce == 0 {
-                seen.object = nearest.object;
-            }
-            let (point, matter) = world.arrive(&ray.ray, nearest);
-            let ambient = world.scene.ambient;
-            let (radiance, weight) = match &matter {
-                Matter::Flat(colour) => {
-                    seen.radiance += ray.through(nearest) * *colour;
-                    continue;
+        wave.start(samples);
+        seen.resize(seen.len() + samples.len(), Seen::NOTHING);
+        while wave.advance(samples, &mut self.counts) && !(self.cancelled)() {
+            world.nearest_each(&wave.rays, &mut wave.nearest);
+            world.land_each(&wave.rays, &wave.nearest, &mut wave.landings);
+            wave.arrive(world, samples, seen);
+            self.light(wave, samples);
+            dispatch!(world.level, simd => {
+                for packet in 0..wave.rays.len() {
+                    wave.go_on(simd, packet, self.depth, samples, seen);
                 }
-                Matter::Phong(material) => (material.ambient * ambient, ray.weight),
-                Matter::Utah(shading) => {
-                    let own = if shading.is_lit(point.front) {
-                        shading.emission + ambient * shading.diffuse
-                    } else {
-                        Rgb::ZERO
-                    };
-                    (own, ray.through(nearest))
-                }
-            };
-            wave.arrived.push(Arrived {
-                tree,
-                ray: number,
-                weight,
-                point,
-                matter,
-                radiance,
             });
         }
     }
 
     /// Adds what surfaces send back of the light of all lights, in file order.
     fn light(&mut self, wave: &mut Wave<'_>, samples: &[Sample]) {
-        let lights = &self.world.scene.lights;
+        let world = self.world;
+        let lights = &world.scene.lights;
         wave.blockers.resize(lights.len(), None);
         for (number, light) in lights.iter().enumerate() {
             if self.is_cancelled_at(number) {
                 break;
             }
             wave.asking.clear();
-            wave.rays.clear();
-            wave.limits.clear();
-            for (index, arrived) in wave.arrived.iter_mut().enumerate() {
-                let node = wave.front[arrived.ray].1.node;
-                let sampler = samples[arrived.tree].sampler;
-                let place = || sampler.pair(node, Use::Light(number as u32));
-                let Some(asked) = arrived.ask(light, place) else {
-                    continue;
-                };
-                match asked.shadow {
-                    None => arrived.radiance += asked.unblocked,
-                    Some(shadow) => {
-                        wave.asking.push((index, asked.unblocked));
-                        wave.rays.push(shadow.ray);
-                        wave.limits.push(shadow.end);
-                    }
+            wave.shadows.clear();
+            dispatch!(world.level, simd => {
+                for packet in 0..wave.rays.len() {
+                    wave.ask(simd, packet, (number, light), samples);
                 }
-            }
-            self.counts.rays += wave.rays.len() as u64;
-            self.world.transmittance_each(
-                &wave.rays,
-                &wave.limits,
+            });
+            self.counts.rays += wave.asking.len() as u64;
+            world.transmittance_each(
+                &wave.shadows,
                 &mut wave.blockers[number],
                 &mut self.crossed,
                 &mut wave.transmittances,
             );
             let asking = wave.asking.iter().zip(&wave.transmittances);
-            for (&(index, unblocked), &transmittance) in asking {
-                wave.arrived[index].radiance += transmittance * unblocked;
-            }
-        }
-    }
-
-    /// Adds what leaves surfaces to what is seen, and leaves the rays that go on pending.
-    fn go_on(&self, wave: &mut Wave<'_>, samples: &[Sample], seen: &mut [Seen]) {
-        for arrived in &wave.arrived {
-            seen[arrived.tree].radiance += arrived.weight * arrived.radiance;
-            let (_, ray) = &wave.front[arrived.ray];
-            if ray.bounce < self.depth {
-                let pending = &mut wave.trees[arrived.tree].pending;
-                arrived.branch(ray, samples[arrived.tree].sampler, pending);
+            for (&(ray, unblocked), &transmittance) in asking {
+                wave.arrived[ray].radiance += transmittance * unblocked;
             }
         }
     }
 }
 
-impl Wave<'_> {
-    /// Plants a tree for each sample.
-    fn start(&mut self, samples: &[Sample], seen: &mut Vec<Seen>) {
-        self.trees.resize_with(samples.len(), Tree::default);
-        self.growing.clear();
-        self.growing.extend(0..samples.len());
-        for (tree, sample) in self.trees.iter_mut().zip(samples) {
-            tree.traced = 0;
-            tree.pending.clear();
-            tree.pending.push(Pending {
-                ray: sample.ray,
-                weight: Rgb::ONE,
-                absorption: Rgb::ZERO,
-                bounce: 0,
-                node: Sampler::ROOT,
-            });
-            seen.push(Seen {
+impl<'w> Wave<'w> {
+    /// Finds what the rays of the front have come to.
+    fn arrive(&mut self, world: &'w World, samples: &[Sample], seen: &mut [Seen]) {
+        self.arrived.clear();
+        for (number, (nearest, way)) in self.nearest.iter().zip(&self.ways).enumerate() {
+            let seen = &mut seen[way.tree];
+            let (packet, lane) = (&self.rays[number / WIDTH], number % WIDTH);
+            let landing = &mut self.landings[number / WIDTH];
+            let mut arrived = Arrived {
+                matter: Matter::Flat(Rgb::ZERO),
+                weight: way.weight,
                 radiance: Rgb::ZERO,
-                object: NO_OBJECT,
-            });
+            };
+            if let Some(nearest) = *nearest {
+                if way.bounce == 0 {
+                    seen.object = nearest.object;
+                }
+                let turned = |normal: DVec3| {
+                    if landing.is_front(lane) {
+                        normal
+                    } else {
+                        -normal
+                    }
+                };
+                let coming = || (packet.ray(lane), turned(landing.normal.get(lane)));
+                let (matter, bumped) = world.matter(nearest, coming);
+                if let Some(normal) = bumped {
+                    landing.normal.set(lane, turned(normal));
+                }
+                let ambient = world.scene.ambient;
+                match &matter {
+                    Matter::Flat(colour) => seen.radiance += way.through(nearest) * *colour,
+                    Matter::Phong(material) => arrived.radiance = material.ambient * ambient,
+                    Matter::Utah(shading) => {
+                        arrived.weight = way.through(nearest);
+                        if shading.is_lit(landing.is_front(lane)) {
+                            arrived.radiance = shading.emission + ambient * shading.diffuse;
+                        }
+                    }
+                }
+                arrived.matter = matter;
+            } else {
+                let screen = samples[way.tree].screen;
+                let around = world.around(&packet.ray(lane), way.bounce, screen);
+                seen.radiance += way.weight * around;
+            }
+            self.arrived.push(arrived);
         }
     }
 
-    /// Takes the next ray of each tree to the front; `false` if there is none.
-    fn advance(&mut self, samples: &[Sample], counts: &mut Counts) -> bool {
-        self.front.clear();
-        self.rays.clear();
-        self.limits.clear();
-        let Self {
-            trees,
-            growing,
-            front,
-            rays,
-            limits,
-            ..
-        } = self;
-        growing.retain(|&number| {
-            let tree = &mut trees[number];
-            let Some(next) = tree.pending.pop() else {
-                return false;
-            };
-            if tree.traced == RAY_BUDGET {
-                counts.over_budget += 1;
-                return false;
+    /// Lets the points that a packet has come to ask for a light's light.
+    #[inline(always)]
+    fn ask<S: Simd>(
+        &mut self,
+        simd: S,
+        packet: usize,
+        (number, light): (usize, &Light),
+        samples: &[Sample],
+    ) {
+        let landing = &self.landings[packet];
+        let rays = &self.rays[packet].rays;
+        let first = packet * WIDTH;
+        let points = Points {
+            surface: landing.surface.load(simd),
+            normal: landing.normal.load(simd),
+            view: -rays.direction.load(simd),
+        };
+        let Some(mut incoming) = lights::incoming(light, points.surface.point) else {
+            return;
+        };
+        let last = self.arrived.len().min(first + WIDTH);
+        let arrived = &mut self.arrived[first..last];
+        if 0.0 < light.radius {
+            for (lane, (arrived, way)) in arrived.iter().zip(&self.ways[first..]).enumerate() {
+                let sampler = samples[way.tree].sampler;
+                let place = || sampler.pair(way.node, Use::Light(number as u32));
+                let point = landing.surface.point.get(lane);
+                if let Some(chosen) = arrived.chosen(light, point, place) {
+                    incoming.put(lane, chosen);
+                }
             }
-            tree.traced += 1;
-            rays.push(next.ray);
-            limits.push(match next.bounce {
-                0 => samples[number].reach,
-                _ => f64::INFINITY,
-            });
-            front.push((number, next));
-            true
-        });
-        counts.rays += rays.len() as u64;
-        !rays.is_empty()
+        }
+        let facing = Facing::new(&points, light, incoming);
+        let mut lit = bits::<S>(facing.is_lit) & self.rays[packet].lanes;
+        while lit != 0 {
+            let lane = lit.trailing_zeros() as usize % WIDTH;
+            lit &= lit - 1;
+            let arrived = &mut arrived[lane];
+            let reflected = match &arrived.matter {
+                Matter::Phong(material) => {
+                    phong::reflected(material, facing.cosine[lane], facing.mirrored[lane])
+                }
+                Matter::Utah(shading) if shading.is_lit(landing.is_front(lane)) => {
+                    let view = -rays.direction.get(lane);
+                    let toward = facing.toward.lane(lane);
+                    let normal = landing.normal.get(lane);
+                    facing.cosine[lane] * shading.reflected(normal, view, toward)
+                }
+                Matter::Utah(_) | Matter::Flat(_) => continue,
+            };
+            let place = landing.surface.point.get(lane);
+            let toward = || facing.toward.lane(lane);
+            let Some(unblocked) = sent_back(light, place, toward, reflected) else {
+                continue;
+            };
+            match &facing.shadow {
+                None => arrived.radiance += unblocked,
+                Some(Shadow { rays, ends }) => {
+                    self.asking.push((first + lane, unblocked));
+                    self.shadows.push(&rays.ray(lane), ends[lane]);
+                }
+            }
+        }
     }
 }
 
 impl Arrived<'_> {
-    /// What is sent back of a light's light.
-    #[inline]
-    fn ask(&self, light: &Light, place: impl FnOnce() -> Option<[f64; 2]>) -> Option<Asked> {
-        let point = &self.point;
-        match &self.matter {
-            Matter::Phong(material) => ask(point, light, None, |toward, cosine| {
-                phong::reflected(material, point, toward, cosine)
-            }),
-            Matter::Utah(shading) if shading.is_lit(point.front) => {
-                let place = (0.0 < light.radius).then(place).flatten();
-                ask(point, light, place, |toward, cosine| {
-                    cosine * shading.reflected(point.normal, point.view, toward)
-                })
-            }
-            Matter::Utah(_) | Matter::Flat(_) => None,
-        }
-    }
-
-    /// Leaves the rays that go on pending, the mirrored one to be traced first.
-    fn branch(&self, ray: &Pending, sampler: Sampler, pending: &mut Vec<Pending>) {
-        match &self.matter {
-            Matter::Flat(_) => {}
-            Matter::Phong(material) => self.branch_clear(ray, material, pending),
-            Matter::Utah(shading) => self.branch_by_fresnel(ray, shading, sampler, pending),
-        }
-    }
-
-    /// The mirrored and the refracted ray.
-    fn branch_clear(&self, ray: &Pending, material: &Phong, pending: &mut Vec<Pending>) {
-        let point = &self.point;
-        let direction = ray.ray.direction;
-        let mut mirrored_weight = material.reflection;
-        let clear = |number, direction, weight| Branch {
-            number,
-            direction,
-            weight: Rgb::splat(weight),
-            absorption: Rgb::ZERO,
-        };
-        if material.transmission != 0.0 {
-            let index = index(material.index);
-            let ratio = if point.front { 1.0 / index } else { index };
-            match refract(direction, point.normal, ratio) {
-                Some(refracted) => {
-                    let branch = clear(0, refracted, material.transmission);
-                    self.push(ray, &branch, pending);
-                }
-                // Total internal reflection: both rays go the same way and are traced as one.
-                None => mirrored_weight += material.transmission,
-            }
-        }
-        let mirrored = clear(1, reflect(direction, point.normal), mirrored_weight);
-        self.push(ray, &mirrored, pending);
-    }
-
-    /// The same where how much goes which way depends on the angle.
-    fn branch_by_fresnel(
+    /// From where a light that has a size comes to the point, if it does not come from its middle.
+    fn chosen(
         &self,
-        ray: &Pending,
-        shading: &Shading,
-        sampler: Sampler,
-        pending: &mut Vec<Pending>,
-    ) {
-        let point = &self.point;
-        let direction = ray.ray.direction;
-        let losses = shading.losses(point.front);
-        let mut by_mirror = if point.front {
-            shading.mirror()
-        } else {
-            Rgb::ZERO
-        };
-        let mut by_glass = Rgb::ZERO;
-        if shading.refraction != Rgb::ZERO {
-            let Dielectric {
-                reflectance,
-                refracted,
-            } = Dielectric::new(direction, point.normal, shading.indices(point.front));
-            by_glass = reflectance * shading.refraction;
-            if let Some(refracted) = refracted {
-                let numbers = || sampler.pair(ray.node, Use::Refraction);
-                let branch = Branch {
-                    number: 0,
-                    direction: spread(refracted, shading.refraction_spread, -point.normal, numbers),
-                    weight: (1.0 - reflectance) * shading.refraction,
-                    absorption: losses.refracted,
-                };
-                self.push(ray, &branch, pending);
-            }
+        light: &Light,
+        point: DVec3,
+        place: impl FnOnce() -> Option<[f64; 2]>,
+    ) -> Option<Incoming<f64>> {
+        match &self.matter {
+            Matter::Utah(_) => light.sphere()?.choose(point, place()?),
+            Matter::Phong(_) | Matter::Flat(_) => None,
         }
-        if shading.reflection_spread == shading.refraction_spread {
-            by_mirror += by_glass;
-            by_glass = Rgb::ZERO;
-        }
-        let mirrored = reflect(direction, point.normal);
-        let numbers = || sampler.pair(ray.node, Use::Reflection);
-        // The one pushed last is traced first.
-        for (number, tangent, weight) in [
-            (1, shading.refraction_spread, by_glass),
-            (2, shading.reflection_spread, by_mirror),
-        ] {
-            let branch = Branch {
-                number,
-                direction: spread(mirrored, tangent, point.normal, numbers),
-                weight,
-                absorption: losses.mirrored,
-            };
-            self.push(ray, &branch, pending);
-        }
-    }
-
-    fn push(&self, ray: &Pending, branch: &Branch, pending: &mut Vec<Pending>) {
-        if branch.weight == Rgb::ZERO {
-            return;
-        }
-        pending.push(Pending {
-            ray: self.point.leave(branch.direction),
-            weight: self.weight * branch.weight,
-            absorption: branch.absorption,
-            bounce: ray.bounce + 1,
-            node: Sampler::child(ray.node, branch.number),
-        });
     }
 }
 
-impl Pending {
+impl Way {
     /// Which part of the radiance at a hit reaches the eye.
     fn through(&self, nearest: Nearest) -> Rgb {
         self.weight * transmitted(self.absorption, nearest.hit.t)

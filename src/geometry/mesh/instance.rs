@@ -122,12 +122,13 @@ impl Instance {
         } else {
             across
         };
-        let mut surface = self.frame.surface(outward, |margin| {
+        let surface = self.frame.surface(outward.into(), |margin| {
             // A corner's weight is the place's distance from the side opposite, over the height.
-            let margin = margin.max_element() / across.length();
+            let margin = margin.largest() / across.length();
             let least = sides.map(|side| (margin * side.length()).min(0.25));
-            weighted(inside(weights, least), corners)
+            weighted(inside(weights, least), corners).into()
         });
+        let mut surface = Surface::from(surface);
         if let [Some(a), Some(b), Some(c)] = self.mesh.normals.at(hit.part, triangle) {
             let normal = self.frame.gradient(weighted(weights, [a, b, c]));
             surface.shading = normalise(normal).unwrap_or(surface.normal);

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::random::Random;
 use super::{KINDS, unit};
 use crate::geometry::lanes::{Eight, Level, SimdBase, WIDTH, dispatch};
-use crate::geometry::{Hit, Ray, Rays, Shape};
+use crate::geometry::{Hit, Hits, Ray, Rays, Shape, Surface, Surfaces, ulp};
 
 /// The vectors that this machine can be asked to use.
 fn levels() -> Vec<Level> {
@@ -29,6 +29,20 @@ fn together(level: Level, shape: &Shape, rays: &[Ray; WIDTH], limit: f64) -> Vec
     (0..WIDTH)
         .map(|lane| of(lane).map(|hits| hits.hit(lane)))
         .collect()
+}
+
+/// The surfaces where rays meet a shape, side by side.
+fn surfaces(level: Level, shape: &Shape, rays: &[Ray; WIDTH], hits: &Hits) -> Vec<Surface> {
+    dispatch!(level, simd => {
+        let packet = Rays::gather(simd, rays);
+        let surfaces = shape.surfaces(&packet, hits).map(Surfaces::store);
+        surfaces.into_iter().flat_map(|found| (0..WIDTH).map(move |lane| Surface {
+            point: found.point.get(lane),
+            normal: found.normal.get(lane),
+            shading: found.normal.get(lane),
+            scale: found.scale.0[lane],
+        })).collect()
+    })
 }
 
 /// From inside, near or far, toward a place of the solid or past it, often along an axis of it.
@@ -66,4 +80,44 @@ fn lanes_meet_what_each_meets_alone() {
         }
     }
     assert!(4000 < met, "{met} rays met something");
+}
+
+#[test]
+fn lanes_come_to_the_surfaces_that_each_comes_to() {
+    let mut random = Random(32);
+    for _ in 0..200 {
+        let frame = random.frame();
+        for kind in KINDS {
+            let frame = frame.of(kind);
+            let shape = frame.shape(kind);
+            let rays = [(); WIDTH].map(|()| ray_at(&mut random, &frame));
+            let hits = Hits::new(|lane| shape.hit(&rays[lane], f64::INFINITY));
+            for level in levels() {
+                let together = surfaces(level, &shape, &rays, &hits);
+                for lane in (0..WIDTH).filter(|lane| hits.lanes >> lane & 1 == 1) {
+                    let alone = shape.surface(&rays[lane], hits.hit(lane));
+                    assert_eq!(together[lane], alone, "{kind:?} {level:?} {rays:?}");
+                }
+            }
+        }
+    }
+}
+
+/// Between 2⁻¹⁰²² and 2⁻¹⁰²⁰ it may be twice that.
+#[test]
+fn a_unit_in_the_last_place_is_the_gap_to_the_next_number() {
+    let mut random = Random(33);
+    let powers = (-1074..1024).map(|exponent| match exponent {
+        ..-1022 => f64::from_bits(1 << (exponent + 1074)),
+        _ => 2.0_f64.powi(exponent),
+    });
+    let numbers = powers.flat_map(|power| {
+        let between = random.between(power, 2.0 * power);
+        [power, power.next_down(), between.min(f64::MAX.next_down())]
+    });
+    for x in numbers.chain([0.0, f64::MIN_POSITIVE, f64::MAX.next_down()]) {
+        let gap = x.next_up() - x;
+        let is_rare = (f64::MIN_POSITIVE..=4.0 * f64::MIN_POSITIVE).contains(&x);
+        assert!(ulp(-x) == gap || is_rare && ulp(x) == 2.0 * gap, "{x:e}");
+    }
 }

@@ -9,14 +9,16 @@
     reason = "a caller compiled for wider vectors must take these with it"
 )]
 
+mod vector;
+
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
-use glam::DVec3;
 
 pub use fearless_simd::prelude::SimdBase;
 pub use fearless_simd::{Level, Simd, dispatch};
+pub use vector::Vector;
 
 /// How many numbers stand side by side.
 pub const WIDTH: usize = 8;
@@ -45,6 +47,9 @@ pub trait Lanes:
     /// The square root.
     #[must_use]
     fn sqrt(self) -> Self;
+    /// The magnitude.
+    #[must_use]
+    fn abs(self) -> Self;
     /// The magnitude of this with the sign of the other.
     #[must_use]
     fn copysign(self, sign: Self) -> Self;
@@ -62,6 +67,32 @@ pub trait Lanes:
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// Whether the mask is true in any lane.
     fn any(mask: Self::Mask) -> bool;
+
+    /// The larger of two numbers.
+    #[must_use]
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        Self::select(self.below(other), other, self)
+    }
+
+    /// The smaller of two numbers.
+    #[must_use]
+    #[inline(always)]
+    fn smaller(self, other: Self) -> Self {
+        Self::select(other.below(self), other, self)
+    }
+
+    /// The unit in the last place: the gap from the magnitude to the next larger number, or twice
+    /// that between 2⁻¹⁰²² and 2⁻¹⁰²⁰ (S. Rump, P. Zimmermann, S. Boldo, G. Melquiond, "Computing
+    /// predecessor and successor in rounding to nearest", BIT 49, 2009).
+    #[must_use]
+    #[inline(always)]
+    fn ulp(self) -> Self {
+        const HALF: f64 = 0.5 * f64::EPSILON * (1.0 + f64::EPSILON);
+        const LEAST: f64 = f64::from_bits(1);
+        let size = self.abs();
+        size + (self.all(HALF) * size + self.all(LEAST)) - size
+    }
 }
 
 impl Lanes for f64 {
@@ -75,6 +106,11 @@ impl Lanes for f64 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         self.sqrt()
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
     }
 
     #[inline(always)]
@@ -127,6 +163,11 @@ impl<S: Simd> Lanes for f64x8<S> {
     }
 
     #[inline(always)]
+    fn abs(self) -> Self {
+        SimdBase::abs(self)
+    }
+
+    #[inline(always)]
     fn copysign(self, sign: Self) -> Self {
         SimdFloat::copysign(self, sign)
     }
@@ -168,107 +209,33 @@ pub fn bits<S: Simd>(mask: <Eight<S> as Lanes>::Mask) -> u32 {
     mask.to_bitmask() as u32
 }
 
-/// Three coordinates, in each lane.
+/// The mask of such bits.
+#[inline(always)]
+pub fn mask<S: Simd>(simd: S, bits: u32) -> <Eight<S> as Lanes>::Mask {
+    SimdMask::from_bitmask(simd, bits.into())
+}
+
+/// Eight numbers as they lie in memory.
 #[derive(Clone, Copy, Debug)]
-pub struct Vector<N> {
-    /// Along the first axis.
-    pub x: N,
-    /// Along the second.
-    pub y: N,
-    /// Along the third.
-    pub z: N,
-}
+#[repr(align(64))]
+pub struct Row(pub [f64; WIDTH]);
 
-impl<N: Lanes> Vector<N> {
-    /// The same vector in each lane, of as many as `like` has.
-    #[inline(always)]
-    pub fn all(like: N, vector: DVec3) -> Self {
-        Self {
-            x: like.all(vector.x),
-            y: like.all(vector.y),
-            z: like.all(vector.z),
-        }
+impl Row {
+    /// The same number eight times.
+    pub fn all(value: f64) -> Self {
+        Self([value; WIDTH])
     }
 
-    /// The scalar product, summed in the order of the axes.
+    /// Those, in a vector.
     #[inline(always)]
-    pub fn dot(self, other: Self) -> N {
-        self.x * other.x + self.y * other.y + self.z * other.z
-    }
-
-    /// Its image on the plane of the first two axes.
-    #[must_use]
-    #[inline(always)]
-    pub fn flat(self) -> Self {
-        Self {
-            z: self.z.all(0.0),
-            ..self
-        }
-    }
-
-    /// The square of the length.
-    #[inline(always)]
-    pub fn length_squared(self) -> N {
-        self.dot(self)
-    }
-
-    /// The product with a number.
-    #[must_use]
-    #[inline(always)]
-    pub fn scaled(self, factor: N) -> Self {
-        Self {
-            x: factor * self.x,
-            y: factor * self.y,
-            z: factor * self.z,
-        }
-    }
-
-    /// The vector product.
-    #[must_use]
-    #[inline(always)]
-    pub fn cross(self, other: Self) -> Self {
-        Self {
-            x: self.y * other.z - other.y * self.z,
-            y: self.z * other.x - other.z * self.x,
-            z: self.x * other.y - other.x * self.y,
-        }
-    }
-
-    /// The one where the mask is true, the other where it is not.
-    #[must_use]
-    #[inline(always)]
-    pub fn select(mask: N::Mask, yes: Self, no: Self) -> Self {
-        Self {
-            x: N::select(mask, yes.x, no.x),
-            y: N::select(mask, yes.y, no.y),
-            z: N::select(mask, yes.z, no.z),
-        }
+    pub fn load<S: Simd>(&self, simd: S) -> Eight<S> {
+        Eight::load_array(simd, self.0)
     }
 }
 
-impl<N: Lanes> Sub for Vector<N> {
-    type Output = Self;
-
+impl<S: Simd> From<Eight<S>> for Row {
     #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self {
-            x: self.x - other.x,
-            y: self.y - other.y,
-            z: self.z - other.z,
-        }
-    }
-}
-
-impl From<DVec3> for Vector<f64> {
-    #[inline(always)]
-    fn from(DVec3 { x, y, z }: DVec3) -> Self {
-        Self { x, y, z }
-    }
-}
-
-impl From<Vector<f64>> for DVec3 {
-    #[inline(always)]
-    fn from(Vector { x, y, z }: Vector<f64>) -> Self {
-        Self { x, y, z }
+    fn from(eight: Eight<S>) -> Self {
+        Self(*eight)
     }
 }

@@ -1,0 +1,154 @@
+//! The surfaces that rays have come to, eight side by side.
+
+#![expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take these with it"
+)]
+
+use glam::DVec3;
+
+use super::intersect::Nearest;
+use super::probe::Point;
+use super::world::World;
+use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector, WIDTH, bits, dispatch, mask};
+use crate::geometry::{Hits, Packet, Rays, Shape, Surface, Surfaces, sphere_surfaces};
+
+/// Up to eight points that rays have come to, as they lie in memory; lanes of rays that meet nothing
+/// hold nothing of use.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Landing {
+    pub(crate) surface: Surfaces<Row>,
+    /// The normals to shade with, turned round where the back was hit.
+    pub(crate) normal: Vector<Row>,
+    /// A bit for each ray that came from outside.
+    pub(crate) front: u32,
+}
+
+impl Landing {
+    /// Whether the ray came from outside.
+    pub(crate) fn is_front(&self, lane: usize) -> bool {
+        self.front >> lane & 1 == 1
+    }
+
+    /// The point in a lane of a packet.
+    pub(crate) fn point(&self, packet: &Packet, lane: usize) -> Point {
+        Point {
+            surface: Surface {
+                point: self.surface.point.get(lane),
+                normal: self.surface.normal.get(lane),
+                shading: self.normal.get(lane),
+                scale: self.surface.scale.0[lane],
+            },
+            normal: self.normal.get(lane),
+            front: self.is_front(lane),
+            view: -packet.rays.direction.get(lane),
+        }
+    }
+}
+
+impl World {
+    /// Where rays come to, packet by packet; `nearest` has what each of them meets.
+    pub(crate) fn land_each(
+        &self,
+        packets: &[Packet],
+        nearest: &[Option<Nearest>],
+        landings: &mut Vec<Landing>,
+    ) {
+        landings.clear();
+        dispatch!(self.level, simd => {
+            for (packet, nearest) in packets.iter().zip(nearest.chunks(WIDTH)) {
+                landings.push(self.land_together(simd, packet, nearest));
+            }
+        });
+    }
+
+    #[inline(always)]
+    fn land_together<S: Simd>(
+        &self,
+        simd: S,
+        packet: &Packet,
+        nearest: &[Option<Nearest>],
+    ) -> Landing {
+        let hits = Hits::new(
+            #[inline(always)]
+            |lane| nearest.get(lane)?.map(|nearest| nearest.hit),
+        );
+        let rays = packet.rays.load(simd);
+        let zero = Vector::all(rays.origin.x, DVec3::ZERO);
+        let mut surface = Surfaces {
+            point: zero,
+            normal: zero,
+            scale: zero.x,
+        };
+        let mut shading = zero;
+        let mut rest = hits.lanes;
+        while rest != 0 {
+            let first = rest.trailing_zeros() as usize % WIDTH;
+            let Some(met) = nearest[first] else { break };
+            let shape = &self.scene.objects[met.object as usize].shape;
+            let found = match shape {
+                Shape::Sphere(_) => Some(self.of_spheres(&rays, nearest, &hits)),
+                _ => shape
+                    .surfaces(&rays, &hits)
+                    .map(|found| (lanes_of(nearest, met.object), found)),
+            };
+            if let Some((lanes, found)) = found {
+                let chosen = mask(simd, lanes);
+                surface = Surfaces::select(chosen, found, surface);
+                shading = Vector::select(chosen, found.normal, shading);
+                rest &= !lanes;
+            } else {
+                let found = shape.surface(&packet.ray(first), met.hit);
+                surface.point.put(first, found.point);
+                surface.normal.put(first, found.normal);
+                surface.scale[first] = found.scale;
+                shading.put(first, found.shading);
+                rest &= rest - 1;
+            }
+        }
+        // Which side is seen is the surface's to say, not that of its normals for light.
+        let front = rays.direction.dot(surface.normal).below(zero.x);
+        Landing {
+            surface: surface.store(),
+            normal: Vector::select(front, shading, -shading).store(),
+            front: bits::<S>(front),
+        }
+    }
+
+    /// The surfaces of all spheres that were met, and their lanes.
+    #[inline(always)]
+    fn of_spheres<S: Simd>(
+        &self,
+        rays: &Rays<Eight<S>>,
+        nearest: &[Option<Nearest>],
+        hits: &Hits,
+    ) -> (u32, Surfaces<Eight<S>>) {
+        let simd = rays.origin.x.simd;
+        let mut centre = Vector::repeat(DVec3::ZERO);
+        let mut radius = Row::all(1.0);
+        let mut lanes = 0;
+        for (lane, nearest) in nearest.iter().enumerate().take(WIDTH) {
+            if let Some(Nearest { object, .. }) = *nearest
+                && let Shape::Sphere(sphere) = &self.scene.objects[object as usize].shape
+            {
+                centre.set(lane, sphere.centre);
+                radius.0[lane] = sphere.radius;
+                lanes |= 1 << lane;
+            }
+        }
+        let (centre, radius) = (centre.load(simd), radius.load(simd));
+        let found = sphere_surfaces(centre, radius, rays, hits.distances(simd));
+        (lanes, found)
+    }
+}
+
+/// The lanes where an object was met.
+#[inline(always)]
+fn lanes_of(nearest: &[Option<Nearest>], object: u32) -> u32 {
+    let mut lanes = 0;
+    for (lane, nearest) in nearest.iter().enumerate() {
+        let same = nearest.is_some_and(|nearest| nearest.object == object);
+        lanes |= u32::from(same) << lane;
+    }
+    lanes
+}
