@@ -1,6 +1,6 @@
 //! Frames to picture files.
 
-use std::io::{self, Cursor, Write};
+use std::io::{self, BufWriter, Cursor, Write};
 use std::path::Path;
 
 use image::codecs::bmp::BmpEncoder;
@@ -52,7 +52,12 @@ impl ImageFormat {
         let pixels = frame.pixels.as_flattened();
         let colour = ExtendedColorType::Rgb8;
         match self {
-            Self::Bmp => BmpEncoder::new(out).write_image(pixels, width, height, colour),
+            Self::Bmp => {
+                // The encoder writes pixel by pixel.
+                let mut out = BufWriter::new(out);
+                BmpEncoder::new(&mut out).write_image(pixels, width, height, colour)?;
+                out.flush().map_err(ImageError::IoError)
+            }
             Self::Png => PngEncoder::new(out).write_image(pixels, width, height, colour),
             // The `image` crate writes another header, which readers of three lines refuse.
             Self::Ppm => write!(out, "P6\n{width} {height}\n255\n")

@@ -10,8 +10,8 @@ use std::ops::Range;
 use super::intersect::{Closest, Crossed, Nearest};
 use super::structures::Search;
 use super::world::World;
-use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, WIDTH, dispatch, mask};
-use crate::geometry::{Hits, Packet, Rays, Shape};
+use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, Vector, WIDTH, dispatch, mask};
+use crate::geometry::{Hits, Packet, Rays, Shape, sphere_hits};
 
 impl World {
     /// [`World::nearest`] for each of several rays.
@@ -68,10 +68,11 @@ impl World {
             limits,
             #[inline(always)]
             |places, lanes, mut limits| {
-                for &object in &self.order()[places] {
+                for place in places {
                     let lanes = lanes & open;
-                    let hits = self.hits(&rays, object, lanes, &limits, Search::Blocker);
+                    let hits = self.hits_at(&rays, place, lanes, &limits, Search::Blocker);
                     let Some(hits) = hits else { continue };
+                    let object = self.order()[place];
                     let blocked = self.blocked(object, &hits);
                     if blocked != 0 {
                         *blocker = self.is_simple(object).then_some(object);
@@ -139,9 +140,10 @@ impl World {
             packet.ends.load(simd),
             #[inline(always)]
             |places, lanes, mut limits| {
-                for &object in &self.order()[places] {
-                    let hits = self.hits(&rays, object, lanes, &limits, Search::Nearest);
+                for place in places {
+                    let hits = self.hits_at(&rays, place, lanes, &limits, Search::Nearest);
                     let Some(hits) = hits else { continue };
+                    let object = self.order()[place];
                     let mut met = hits.lanes;
                     while met != 0 {
                         let lane = met.trailing_zeros() as usize % WIDTH;
@@ -157,6 +159,32 @@ impl World {
         for (lane, closest) in closest.iter().enumerate().take(count) {
             nearest.push(self.settle(simd, || packet.ray(lane), closest));
         }
+    }
+
+    /// [`World::hits`] by an object's place in [`World::order`].
+    ///
+    /// What is near in space is near in that order, so that of a million spheres those that rays
+    /// come to next are mostly in the cache.
+    #[inline(always)]
+    fn hits_at<S: Simd>(
+        &self,
+        rays: &Rays<Eight<S>>,
+        place: usize,
+        lanes: u32,
+        limits: &Eight<S>,
+        search: Search,
+    ) -> Option<Hits> {
+        let Some((centre, radius)) = self.spheres.at(place) else {
+            return self.hits(rays, self.order()[place], lanes, limits, search);
+        };
+        let like = limits;
+        sphere_hits(
+            Vector::all(*like, centre),
+            like.all(radius),
+            rays,
+            *limits,
+            lanes,
+        )
     }
 
     /// Where an object is met by rays side by side, those whose bit in `lanes` is 1.

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::accel::RUN;
@@ -38,6 +39,14 @@ impl Spheres {
             }
         });
         spheres
+    }
+
+    /// Centre and radius of the sphere at a place; `None` if the object there is none.
+    #[inline]
+    pub(crate) fn at(&self, place: usize) -> Option<(DVec3, f64)> {
+        let radius = self.radius[place];
+        let centre = DVec3::new(self.x[place], self.y[place], self.z[place]);
+        (!radius.is_nan()).then_some((centre, radius))
     }
 
     /// Where a ray, the same in each lane, meets spheres of a run before a limit, and a bit for each
