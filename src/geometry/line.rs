@@ -47,7 +47,7 @@ pub(super) struct Ends<N: Lanes> {
 
 impl<N: Lanes> End<N> {
     #[inline(always)]
-    fn select(mask: N::Mask, yes: Self, no: Self) -> Self {
+    pub(super) fn select(mask: N::Mask, yes: Self, no: Self) -> Self {
         Self {
             t: N::select(mask, yes.t, no.t),
             part: N::select(mask, yes.part, no.part),
@@ -56,7 +56,7 @@ impl<N: Lanes> End<N> {
 
     /// Whether it is at 0 < t < `limit`.
     #[inline(always)]
-    fn is_within(self, limit: N) -> N::Mask {
+    pub(super) fn is_within(self, limit: N) -> N::Mask {
         limit.all(0.0).below(self.t) & self.t.below(limit)
     }
 }

@@ -36,29 +36,49 @@ pub struct Hits {
 }
 
 impl Hits {
+    /// No ray crosses.
+    pub(super) const NONE: Self = Self {
+        lanes: 0,
+        distances: [0.0; WIDTH],
+        parts: [0.0; WIDTH],
+    };
+
     /// Those of each lane.
     #[inline(always)]
     pub fn new(mut hit: impl FnMut(usize) -> Option<Hit>) -> Self {
-        let mut hits = Self {
-            lanes: 0,
-            distances: [0.0; WIDTH],
-            parts: [0.0; WIDTH],
-        };
+        let mut hits = Self::NONE;
         for lane in 0..WIDTH {
-            if let Some(Hit { t, part }) = hit(lane) {
-                hits.lanes |= 1 << lane;
-                hits.distances[lane] = t;
-                hits.parts[lane] = f64::from(part);
-            }
+            hits.put(lane, hit(lane));
         }
         hits
     }
 
     /// Those of some lanes, one after the other; `None` if there is none.
     #[inline]
-    pub fn one_by_one(lanes: u32, mut hit: impl FnMut(usize) -> Option<Hit>) -> Option<Self> {
-        let hits = Self::new(|lane| (lanes >> lane & 1 == 1).then(|| hit(lane))?);
-        (hits.lanes != 0).then_some(hits)
+    pub fn one_by_one(lanes: u32, hit: impl FnMut(usize) -> Option<Hit>) -> Option<Self> {
+        Self::NONE.and(lanes, hit)
+    }
+
+    /// Those of other lanes as well, one after the other; `None` if there is none at all.
+    #[inline]
+    pub(super) fn and(
+        mut self,
+        lanes: u32,
+        mut hit: impl FnMut(usize) -> Option<Hit>,
+    ) -> Option<Self> {
+        for lane in (0..WIDTH).filter(|lane| lanes >> lane & 1 == 1) {
+            self.put(lane, hit(lane));
+        }
+        (self.lanes != 0).then_some(self)
+    }
+
+    #[inline(always)]
+    fn put(&mut self, lane: usize, hit: Option<Hit>) {
+        if let Some(Hit { t, part }) = hit {
+            self.lanes |= 1 << lane;
+            self.distances[lane] = t;
+            self.parts[lane] = f64::from(part);
+        }
     }
 
     /// How far along their rays they are.
@@ -116,17 +136,25 @@ impl From<Ends<f64>> for Crossings {
     }
 }
 
+impl<S: Simd> End<Eight<S>> {
+    /// The crossings in some lanes.
+    #[inline(always)]
+    pub(super) fn hits(self, lanes: u32) -> Hits {
+        Hits {
+            lanes,
+            distances: *self.t,
+            parts: *self.part,
+        }
+    }
+}
+
 impl<S: Simd> Ends<Eight<S>> {
     /// The nearer crossings at 0 < t < limit, in some lanes.
     #[inline(always)]
     pub(super) fn hits(self, limits: Eight<S>, lanes: u32) -> Option<Hits> {
         let (end, met) = self.nearest(limits);
         let lanes = bits(met) & lanes;
-        (lanes != 0).then(|| Hits {
-            lanes,
-            distances: *end.t,
-            parts: *end.part,
-        })
+        (lanes != 0).then(|| end.hits(lanes))
     }
 }
 
@@ -272,7 +300,8 @@ impl Shape {
         lanes: u32,
     ) -> Option<Hits> {
         match self {
-            Self::Quadric(_) | Self::Csg(_) | Self::Plane(_) | Self::Mesh(_) => {
+            Self::Csg(csg) => csg.hits(rays, limits, lanes),
+            Self::Quadric(_) | Self::Plane(_) | Self::Mesh(_) => {
                 Hits::one_by_one(lanes, |lane| self.hit(&rays.ray(lane), limits[lane]))
             }
             Self::Sphere(_)
@@ -283,9 +312,17 @@ impl Shape {
         }
     }
 
+    /// Whether it is one of the five simple solids.
+    pub(super) fn is_simple(&self) -> bool {
+        !matches!(
+            self,
+            Self::Quadric(_) | Self::Csg(_) | Self::Plane(_) | Self::Mesh(_)
+        )
+    }
+
     /// Where the lines cross one of the five simple solids, in each lane.
     #[inline(always)]
-    fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
+    pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
         match self {
             Self::Sphere(sphere) => sphere.ends(rays),
             Self::Ellipsoid(ellipsoid) => ellipsoid.ends(rays),

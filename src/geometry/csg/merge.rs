@@ -1,6 +1,7 @@
 //! Two lists of boundaries made one by an operation.
 
-use super::{Boundaries, Csg, Operation};
+use super::exact::Boundaries;
+use super::{Csg, Operation};
 use crate::geometry::{Hit, Ray, ulp};
 
 /// Within how many units in the last place of their scale two boundaries are the same.
@@ -8,7 +9,7 @@ const SAME: f64 = 64.0;
 
 /// Boundaries farther apart than this part of their scale are never the same: surfaces so close
 /// that a line sees them so far apart meet it at an angle below 2⁻²⁶.
-const APART: f64 = 1.0 / (1 << 20) as f64;
+pub(super) const APART: f64 = 1.0 / (1 << 20) as f64;
 
 /// Normals whose cosine differs from 1 by less are parallel, as of a surface and itself.
 const PARALLEL: f64 = 1.0 / (1 << 30) as f64;

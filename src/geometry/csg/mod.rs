@@ -3,14 +3,24 @@
 //! S. Roth, "Ray casting for modeling solids", Computer Graphics and Image Processing 18 (1982): a
 //! line is cut into spans by each operand, and the operation is done on the spans. Operations are
 //! regularised: what they leave has volume, and its boundary.
+//!
+//! Most lines cross no two surfaces at nearly the same place. These are taken side by side, on lists
+//! without an order ([`apart`]); the others one by one, where it is seen what coincides ([`exact`]).
 
+#![expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take these with it"
+)]
+
+mod apart;
 mod evaluate;
+mod exact;
 mod merge;
 
 use glam::DVec3;
-use smallvec::SmallVec;
 
-use super::{Aabb, Chart, Crossings, Hit, Ray, Shape, Spans, Surface, ulp};
+use super::lanes::{Eight, Simd, bits, mask};
+use super::{Aabb, Chart, Crossings, Hit, Hits, Ray, Rays, Shape, Spans, Surface, ulp};
 
 /// A set operation on two closed solids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,6 +62,8 @@ pub struct Csg {
     leaves: Vec<Leaf>,
     /// How many steps are operands more than once.
     shared: u32,
+    /// Whether none is, and each leaf is met in one span.
+    is_simple: bool,
     bounds: Aabb,
     /// The largest of the leaves'.
     magnitude: f64,
@@ -60,8 +72,8 @@ pub struct Csg {
 /// A node ready for rays.
 #[derive(Clone, Debug, PartialEq)]
 struct Step {
-    /// The box, widened by more than a leaf's rounding.
-    bounds: Aabb,
+    /// The box, widened by more than a leaf's rounding; `None` if other steps' boxes stand for it.
+    bounds: Option<Aabb>,
     kind: Kind,
     /// Which of the shared steps it is, if it is an operand more than once.
     shared: Option<u32>,
@@ -85,9 +97,6 @@ struct Leaf {
     magnitude: f64,
 }
 
-/// Where a line crosses the boundary of a solid, in ascending order; in and out alternate.
-type Boundaries = SmallVec<[Hit; 32]>;
-
 impl Csg {
     /// Makes the last of the nodes. Each operand stands before its users; one may have several, and
     /// is computed once for all of them. There is a node, and none that the last is not made of.
@@ -103,6 +112,7 @@ impl Csg {
             steps: Vec::with_capacity(nodes.len()),
             leaves: Vec::new(),
             shared: 0,
+            is_simple: true,
             bounds: Aabb::EMPTY,
             magnitude: 0.0,
         };
@@ -120,6 +130,7 @@ impl Csg {
                     };
                     parts += leaf.shape.parts();
                     csg.magnitude = csg.magnitude.max(leaf.magnitude);
+                    csg.is_simple &= leaf.shape.is_simple();
                     csg.leaves.push(leaf);
                     (Kind::Leaf(csg.leaves.len() as u32 - 1), bounds)
                 }
@@ -142,12 +153,40 @@ impl Csg {
             boxes.push(bounds);
             csg.bounds = bounds;
             csg.steps.push(Step {
-                bounds: widened(bounds),
+                bounds: Some(widened(bounds)),
                 kind,
                 shared,
             });
         }
+        csg.is_simple &= csg.shared == 0;
+        csg.ask_once(&boxes);
         csg
+    }
+
+    /// Leaves out boxes that are surely met by a line on which others are: a difference's is that of
+    /// its first operand, and the overlap of two lies in both.
+    fn ask_once(&mut self, boxes: &[Aabb]) {
+        for index in (0..self.steps.len()).rev() {
+            let Kind::Operation(operation, operands) = self.steps[index].kind else {
+                continue;
+            };
+            let asked: &[u32] = match operation {
+                Operation::Union => &[],
+                Operation::Intersection if boxes[index].is_empty() => &[],
+                Operation::Intersection => &operands,
+                Operation::Difference => match self.steps[index].bounds.take() {
+                    Some(_) => &[],
+                    None => &operands[..1],
+                },
+            };
+            for &operand in asked {
+                let step = &mut self.steps[operand as usize];
+                // Without an end, it would be widened less than the overlap.
+                if step.shared.is_none() && boxes[operand as usize].is_bounded() {
+                    step.bounds = None;
+                }
+            }
+        }
     }
 
     /// A box around the solid, with infinite sides where it may have no end: the operands' combined
@@ -167,9 +206,45 @@ impl Csg {
 
     /// The nearest boundary with `0 < t < limit`.
     pub fn hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
-        self.boundaries(ray, [0.0, limit])
-            .into_iter()
-            .find(|hit| 0.0 < hit.t && hit.t < limit)
+        if self.is_simple {
+            let nearest = self.nearest(&ray.into(), limit, true);
+            if !nearest.close {
+                return nearest.met.then(|| nearest.end.into());
+            }
+        }
+        self.exact_hit(ray, limit)
+    }
+
+    /// The same for some of eight rays side by side.
+    #[inline(always)]
+    pub fn hits<S: Simd>(
+        &self,
+        rays: &Rays<Eight<S>>,
+        limits: Eight<S>,
+        lanes: u32,
+    ) -> Option<Hits> {
+        let simd = limits.simd;
+        let mut hits = Hits::NONE;
+        let mut rest = lanes;
+        if self.is_simple {
+            // Not inlined: the room for boundaries would be made for every shape.
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    let nearest = self.nearest(rays, limits, mask(simd, lanes));
+                    rest = bits::<S>(nearest.close);
+                    hits = nearest.end.hits(bits::<S>(nearest.met) & !rest);
+                },
+            );
+        }
+        hits.and(rest, |lane| self.exact_hit(&rays.ray(lane), limits[lane]))
+    }
+
+    /// The same by way of all boundaries, each looked at for being one with another.
+    pub(super) fn exact_hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
+        let boundaries = self.boundaries(ray, [0.0, limit]);
+        let mut hits = boundaries.iter();
+        hits.find(|hit| 0.0 < hit.t && hit.t < limit).copied()
     }
 
     /// The surface at a hit; what was taken away is turned inside out.

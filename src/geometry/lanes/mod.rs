@@ -11,7 +11,7 @@
 
 mod vector;
 
-use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
@@ -39,6 +39,7 @@ pub trait Lanes:
     type Mask: Copy
         + BitAnd<Output = Self::Mask>
         + BitOr<Output = Self::Mask>
+        + BitXor<Output = Self::Mask>
         + Not<Output = Self::Mask>;
 
     /// The same value in each lane, of as many as here.
@@ -203,16 +204,16 @@ impl<S: Simd> Lanes for f64x8<S> {
     }
 }
 
+/// The lanes whose bit is 1, the lowest for the first.
+#[inline(always)]
+pub fn mask<S: Simd>(simd: S, bits: u32) -> <Eight<S> as Lanes>::Mask {
+    SimdMask::from_bitmask(simd, u64::from(bits))
+}
+
 /// A bit for each lane of a mask, the lowest for the first.
 #[inline(always)]
 pub fn bits<S: Simd>(mask: <Eight<S> as Lanes>::Mask) -> u32 {
     mask.to_bitmask() as u32
-}
-
-/// The mask of such bits.
-#[inline(always)]
-pub fn mask<S: Simd>(simd: S, bits: u32) -> <Eight<S> as Lanes>::Mask {
-    SimdMask::from_bitmask(simd, bits.into())
 }
 
 /// Eight numbers as they lie in memory.

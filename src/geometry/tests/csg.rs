@@ -79,7 +79,7 @@ fn leaf(random: &mut Random) -> Solid {
 }
 
 /// A tree of a depth up to 6, in which a solid may be an operand twice.
-fn tree(random: &mut Random) -> Vec<Solid> {
+pub(super) fn tree(random: &mut Random) -> Vec<Solid> {
     let depth = random.bits() % 6 + 1;
     let mut solids = Vec::new();
     let mut row: Vec<u32> = Vec::new();

@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
+use super::csg::{csg, tree};
 use super::random::Random;
-use super::{KINDS, unit};
+use super::{Frame, KINDS, unit};
 use crate::geometry::lanes::{Eight, Level, SimdBase, WIDTH, dispatch};
 use crate::geometry::{Hit, Hits, Ray, Rays, Shape, Surface, Surfaces, ulp};
 
@@ -46,7 +47,7 @@ fn surfaces(level: Level, shape: &Shape, rays: &[Ray; WIDTH], hits: &Hits) -> Ve
 }
 
 /// From inside, near or far, toward a place of the solid or past it, often along an axis of it.
-fn ray_at(random: &mut Random, frame: &super::Frame) -> Ray {
+fn ray_at(random: &mut Random, frame: &Frame) -> Ray {
     let target = frame.world(1.1 * random.in_cube());
     let direction = match random.bits() % 4 {
         0 => unit(frame.directions[random.bits() as usize % 3]),
@@ -120,4 +121,28 @@ fn a_unit_in_the_last_place_is_the_gap_to_the_next_number() {
         let is_rare = (f64::MIN_POSITIVE..=4.0 * f64::MIN_POSITIVE).contains(&x);
         assert!(ulp(-x) == gap || is_rare && ulp(x) == 2.0 * gap, "{x:e}");
     }
+}
+
+/// Trees of up to 32 leaves, with faces that coincide, leaves used twice, and more boundaries than
+/// there is room for.
+#[test]
+fn lanes_meet_what_a_tree_has() {
+    let mut random = Random(32);
+    let around = Frame::upright(DVec3::ZERO, DVec3::splat(2.5));
+    let mut met = 0;
+    for round in 0..2000 {
+        let shape = csg(&tree(&mut random));
+        let Shape::Csg(tree) = &shape else { continue };
+        let rays = [(); WIDTH].map(|()| ray_at(&mut random, &around));
+        let limit = [f64::INFINITY, 3.0][round % 2];
+        let exact = rays.each_ref().map(|ray| tree.exact_hit(ray, limit));
+        met += exact.iter().flatten().count();
+        let alone = rays.each_ref().map(|ray| shape.hit(ray, limit));
+        assert_eq!(alone, exact, "{rays:?}");
+        for level in levels() {
+            let hits = together(level, &shape, &rays, limit);
+            assert_eq!(hits, exact, "{level:?} {rays:?}");
+        }
+    }
+    assert!(1500 < met, "{met} rays met something");
 }
