@@ -48,6 +48,8 @@ pub(crate) struct Phases {
     pub(crate) camera_rays: u64,
     /// All rays.
     pub(crate) rays: u64,
+    /// Shadow rays among them.
+    pub(crate) shadow_rays: u64,
     /// What an open scene takes beside its text, in bytes: tree, origins, scene, structures.
     pub(crate) open: usize,
 }
@@ -81,6 +83,7 @@ pub(crate) fn measure(case: &Case) -> Phases {
         render: Duration::from_nanos(next()),
         camera_rays: next(),
         rays: next(),
+        shadow_rays: next(),
         open: next() as usize,
     }
 }
@@ -103,6 +106,7 @@ pub(crate) fn tell(arguments: &[String]) {
         phases.render.as_nanos(),
         phases.camera_rays.into(),
         phases.rays.into(),
+        phases.shadow_rays.into(),
         phases.open as u128,
     ] {
         let _ = write!(said, "{number} ");
@@ -124,7 +128,7 @@ fn of(path: &Path, spp: u32, depth: Option<u32>) -> Phases {
     drop((opened, stage));
 
     let mut times = [const { Vec::new() }; 4];
-    let mut rays = 0;
+    let (mut rays, mut shadow_rays) = (0, 0);
     for run in 0..RUNS {
         let long = times.iter().flatten().any(|&time| LONG < time);
         if long && 3 <= run {
@@ -135,6 +139,7 @@ fn of(path: &Path, spp: u32, depth: Option<u32>) -> Phases {
         let build = stage.build(&opened);
         let (render, frame) = stage.trace(&opened.scene, &opened.images, WHOLE, spp);
         rays = frame.progress.rays;
+        shadow_rays = frame.progress.shadow_rays;
         for (times, time) in times
             .iter_mut()
             .zip([opened.parse, opened.lower, build, render])
@@ -152,6 +157,7 @@ fn of(path: &Path, spp: u32, depth: Option<u32>) -> Phases {
         render,
         camera_rays: WHOLE.pixels() as u64 * u64::from(spp),
         rays,
+        shadow_rays,
         open,
     }
 }

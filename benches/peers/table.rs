@@ -102,9 +102,8 @@ pub(crate) fn print(row: &Row<'_>) {
         milliseconds(row.ours),
         in_milliseconds(row.first),
         of_phases(&|phases| megarays(phases.camera_rays)),
-        // The renderer does not tell these apart.
-        String::new(),
-        String::new(),
+        of_phases(&|phases| megarays(phases.rays - phases.shadow_rays - phases.camera_rays)),
+        of_phases(&|phases| megarays(phases.shadow_rays)),
         of_phases(&|phases| megarays(phases.rays)),
         of_phases(&|phases| {
             let seconds = phases.render.as_secs_f64() * THREADS as f64;

@@ -106,6 +106,8 @@ pub(super) struct Node {
     first: [u32; WIDTH],
     /// The number of indices of a leaf, [`INNER`] for a node.
     count: [u8; WIDTH],
+    /// A bit for each lane that something is in.
+    filled: u8,
 }
 
 /// The count that marks an inner child.
@@ -117,6 +119,7 @@ impl Node {
         planes: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3],
         first: [0; WIDTH],
         count: [0; WIDTH],
+        filled: 0,
     };
 
     /// Fills one lane.
@@ -129,6 +132,7 @@ impl Node {
             Child::Inner(node) => (node, INNER),
             Child::Leaf { first, count } => (first, count),
         };
+        self.filled |= u8::from(self.count[lane] != 0) << lane;
     }
 
     /// Adds `offset` to the numbers of the nodes below.
@@ -167,11 +171,7 @@ impl Node {
     /// A bit for each lane that something is in.
     #[inline]
     pub(super) fn filled(&self) -> u32 {
-        let mut filled = 0;
-        for (lane, &count) in self.count.iter().enumerate() {
-            filled |= u32::from(count != 0) << lane;
-        }
-        filled
+        self.filled.into()
     }
 
     /// The planes of all children across an axis, those on a side first.
@@ -272,6 +272,22 @@ struct Slope<S: Simd> {
 }
 
 impl<S: Simd> SlabRay<S> {
+    /// A ray by 1 over its direction and its origin against low and high planes, along each axis.
+    #[expect(
+        clippy::inline_always,
+        reason = "a caller compiled for wider vectors must take this with it"
+    )]
+    #[inline(always)]
+    pub(super) fn of(simd: S, [x, y, z]: [[f64; 3]; 3]) -> Self {
+        Self {
+            slopes: [
+                Slope::of(simd, x[0], x[1], x[2]),
+                Slope::of(simd, y[0], y[1], y[2]),
+                Slope::of(simd, z[0], z[1], z[2]),
+            ],
+        }
+    }
+
     /// The ray relative to the reference point of a tree.
     #[expect(
         clippy::inline_always,
@@ -291,21 +307,31 @@ impl<S: Simd> SlabRay<S> {
 }
 
 impl<S: Simd> Slope<S> {
+    /// A ray by 1 over its direction and its origin against low and high planes.
+    #[expect(
+        clippy::inline_always,
+        reason = "a caller compiled for wider vectors must take this with it"
+    )]
+    #[inline(always)]
+    fn of(simd: S, inverse: f64, low: f64, high: f64) -> Self {
+        let rises = inverse.is_sign_positive();
+        let (near, far) = if rises { (low, high) } else { (high, low) };
+        Self {
+            inverse: Eight::splat(simd, inverse),
+            near_origin: Eight::splat(simd, near),
+            far_origin: Eight::splat(simd, far),
+            near_side: usize::from(!rises),
+        }
+    }
+
     #[expect(
         clippy::inline_always,
         reason = "a caller compiled for wider vectors must take this with it"
     )]
     #[inline(always)]
     fn new(simd: S, origin: f64, direction: f64, reference: f64) -> Self {
-        let inverse = direction.recip();
         let [below, above] = difference(origin, reference);
-        let rises = inverse.is_sign_positive();
-        Self {
-            inverse: Eight::splat(simd, inverse),
-            near_origin: Eight::splat(simd, if rises { above } else { below }),
-            far_origin: Eight::splat(simd, if rises { below } else { above }),
-            near_side: usize::from(!rises),
-        }
+        Self::of(simd, direction.recip(), above, below)
     }
 }
 

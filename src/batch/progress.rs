@@ -83,6 +83,7 @@ mod tests {
             done,
             elapsed: Duration::from_secs_f64(seconds),
             rays: 28_000_000,
+            shadow_rays: 0,
             over_budget: 0,
             noise: Some(0.0134),
             complete: false,

@@ -20,6 +20,7 @@ fn frame(width: u32, height: u32, pixels: &[[u8; 3]]) -> Frame {
             done: 1.0,
             elapsed: Duration::ZERO,
             rays: 0,
+            shadow_rays: 0,
             over_budget: 0,
             noise: None,
             complete: true,

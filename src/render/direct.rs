@@ -154,6 +154,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             return 1.0;
         };
         self.counts.rays += 1;
+        self.counts.shadow_rays += 1;
         let ray = Ray {
             origin: rays.origin.into(),
             direction: rays.direction.into(),

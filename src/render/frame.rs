@@ -148,6 +148,8 @@ pub struct Progress {
     pub elapsed: Duration,
     /// Rays traced, shadow rays included.
     pub rays: u64,
+    /// Shadow rays among them.
+    pub shadow_rays: u64,
     /// Samples that ran out of their ray budget and lack the light of the rays not traced.
     pub over_budget: u64,
     /// How far pixels are, as a root mean square, from what more samples would show: an estimate,

@@ -197,7 +197,7 @@ impl World {
     /// Tells of the objects at some places that the ray, which is also in all lanes of `rays`, meets
     /// before a limit.
     #[inline(always)]
-    fn meet<S: Simd>(
+    pub(crate) fn meet<S: Simd>(
         &self,
         rays: &Rays<Eight<S>>,
         ray: &Ray,

@@ -11,7 +11,7 @@ use super::intersect::{Closest, Crossed, Nearest};
 use super::structures::Search;
 use super::world::World;
 use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, Vector, WIDTH, dispatch, mask};
-use crate::geometry::{Hits, Packet, Rays, Shape, sphere_hits};
+use crate::geometry::{Hit, Hits, Packet, Rays, Shape, sphere_hits};
 
 impl World {
     /// [`World::nearest`] for each of several rays.
@@ -68,6 +68,29 @@ impl World {
             limits,
             #[inline(always)]
             |places, lanes, mut limits| {
+                let left = lanes & open;
+                if left.is_power_of_two() {
+                    let lane = left.trailing_zeros();
+                    self.meet_alone(
+                        packet,
+                        lane as usize,
+                        &limits,
+                        places,
+                        Search::Blocker,
+                        #[inline(always)]
+                        |object, hit| {
+                            let material = self.scene.objects[object as usize].material_at(hit);
+                            if self.transmission(material) == 0.0 {
+                                *blocker = self.is_simple(object).then_some(object);
+                                open &= !left;
+                            } else {
+                                crossed.push((lane, object, material));
+                            }
+                        },
+                    );
+                    close(&mut limits, left & !open);
+                    return limits;
+                }
                 for place in places {
                     let lanes = lanes & open;
                     let hits = self.hits_at(&rays, place, lanes, &limits, Search::Blocker);
@@ -140,6 +163,20 @@ impl World {
             packet.ends.load(simd),
             #[inline(always)]
             |places, lanes, mut limits| {
+                if lanes.is_power_of_two() {
+                    let lane = lanes.trailing_zeros() as usize % WIDTH;
+                    self.meet_alone(
+                        packet,
+                        lane,
+                        &limits,
+                        places,
+                        Search::Nearest,
+                        #[inline(always)]
+                        |object, hit| closest[lane].offer(object, hit),
+                    );
+                    limits[lane] = closest[lane].limit;
+                    return limits;
+                }
                 for place in places {
                     let hits = self.hits_at(&rays, place, lanes, &limits, Search::Nearest);
                     let Some(hits) = hits else { continue };
@@ -159,6 +196,22 @@ impl World {
         for (lane, closest) in closest.iter().enumerate().take(count) {
             nearest.push(self.settle(simd, || packet.ray(lane), closest));
         }
+    }
+
+    /// [`World::meet`] for one ray of a packet.
+    #[inline(always)]
+    fn meet_alone<S: Simd>(
+        &self,
+        packet: &Packet,
+        lane: usize,
+        limits: &Eight<S>,
+        places: Range<usize>,
+        search: Search,
+        met: impl FnMut(u32, Hit),
+    ) {
+        let ray = packet.ray(lane);
+        let rays = Rays::all(limits.simd, &ray);
+        self.meet(&rays, &ray, limits[lane], places, search, met);
     }
 
     /// [`World::hits`] by an object's place in [`World::order`].

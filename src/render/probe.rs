@@ -37,6 +37,8 @@ pub(crate) struct Probe<'w, C> {
 pub(crate) struct Counts {
     /// Rays, shadow rays included.
     pub(crate) rays: u64,
+    /// Shadow rays.
+    pub(crate) shadow_rays: u64,
     /// Samples that ran out of their budget.
     pub(crate) over_budget: u64,
 }
@@ -46,6 +48,7 @@ impl Counts {
     pub(crate) fn since(self, before: Self) -> Self {
         Self {
             rays: self.rays - before.rays,
+            shadow_rays: self.shadow_rays - before.shadow_rays,
             over_budget: self.over_budget - before.over_budget,
         }
     }
@@ -54,6 +57,7 @@ impl Counts {
     pub(crate) fn and(self, other: Self) -> Self {
         Self {
             rays: self.rays + other.rays,
+            shadow_rays: self.shadow_rays + other.shadow_rays,
             over_budget: self.over_budget + other.over_budget,
         }
     }

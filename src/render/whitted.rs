@@ -64,7 +64,9 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
                     wave.ask(simd, packet, (number, light), samples);
                 }
             });
-            self.counts.rays += wave.asking.len() as u64;
+            let asking = wave.asking.len() as u64;
+            self.counts.rays += asking;
+            self.counts.shadow_rays += asking;
             world.transmittance_each(
                 &wave.shadows,
                 &mut wave.blockers[number],

@@ -255,6 +255,7 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
                 },
                 elapsed: self.begun.elapsed(),
                 rays: self.counts.rays,
+                shadow_rays: self.counts.shadow_rays,
                 over_budget: self.counts.over_budget,
                 noise: self.film.noise(),
                 complete,

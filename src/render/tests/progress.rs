@@ -147,6 +147,30 @@ fn frames_tell_how_far_they_are() {
     assert!(30 * 20 * 5 <= progress.rays);
 }
 
+/// A matte ball that fills the picture, lit by both of two lights everywhere.
+#[test]
+fn rays_are_counted_by_kind() {
+    let lights = [-1.0, 1.0].map(|x| Light::point(DVec3::new(x, 0.0, 40.0), Rgb::ONE));
+    let matte = Phong {
+        diffuse: Rgb::splat(0.5),
+        ..BLACK
+    };
+    let mut scene = scene(&[(sphere([0.0, 0.0, -30.0], 30.0), matte)], &lights);
+    scene.camera.eye = DVec3::new(0.0, 0.0, 10.0);
+    scene.camera.target = DVec3::ZERO;
+    for integrator in [Integrator::Whitted, Integrator::Path] {
+        let settings = Settings {
+            integrator,
+            depth: 0,
+            ..settings(20, 10, 3)
+        };
+        let progress = trace(&Arc::new(scene.clone()), settings, 2).progress;
+        let samples = 20 * 10 * 3;
+        assert_eq!(progress.rays, 3 * samples, "{integrator:?}");
+        assert_eq!(progress.shadow_rays, 2 * samples, "{integrator:?}");
+    }
+}
+
 /// The shape of tiles depends on the picture's, the pixels do not: each is its own samples' mean.
 #[test]
 fn pictures_narrower_or_lower_than_a_tile_are_whole() {

@@ -258,6 +258,7 @@ mod tests {
                 done: 0.5,
                 elapsed: Duration::ZERO,
                 rays: 1,
+                shadow_rays: 0,
                 over_budget: 0,
                 noise: None,
                 complete,

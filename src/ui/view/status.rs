@@ -323,6 +323,7 @@ mod tests {
                 done: 0.25,
                 elapsed: Duration::from_millis(1500),
                 rays: 21_000_000,
+                shadow_rays: 0,
                 over_budget: 0,
                 noise: Some(0.0134),
                 complete,

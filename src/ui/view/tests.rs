@@ -122,6 +122,7 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
             done: 0.5,
             elapsed: std::time::Duration::from_millis(300),
             rays: 1_000_000,
+            shadow_rays: 0,
             over_budget: 3,
             noise: None,
             complete: false,

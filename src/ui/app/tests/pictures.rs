@@ -22,6 +22,7 @@ pub(super) fn frame(size: Size, objects: Vec<u32>) -> Frame {
             done: 1.0,
             elapsed: Duration::ZERO,
             rays: 1,
+            shadow_rays: 0,
             over_budget: 0,
             noise: None,
             complete: true,
