@@ -14,6 +14,7 @@ mod encoding;
 )]
 #[path = "../tests/harness/mod.rs"]
 mod harness;
+mod large;
 mod meshes;
 #[allow(dead_code, reason = "shared with the other bench")]
 mod scenes;
@@ -59,7 +60,7 @@ fn main() {
         ("encode", encode),
         ("link", link),
         ("mesh", mesh),
-        ("large", large),
+        ("large", large::measure),
         ("scenes", own_and_course_scenes),
     ];
     for (name, measure) in parts {
@@ -360,54 +361,6 @@ fn mesh() {
         pictured.extend(first(&drawn, pressed, Drawn::is_new_picture));
     }
     times_row("mesh: nudge to changed picture", &pictured, "p95 <= 50");
-}
-
-/// Edits of one object among very many: of its colour, of its shape, and of the file.
-fn large() {
-    let flake = scenes::sphereflake(5);
-    let spheres = scenes::random_spheres(1_000_000, 1);
-    // The first one large enough to be seen.
-    let (head, rest) = spheres.split_once("sphere\n").expect("there are spheres");
-    let (_, rest) = rest.split_once('\n').expect("its material follows");
-    let spheres = format!("{head}sphere\n0 0 0 .7\n{rest}");
-    // The first object below the lights, its colour and a number of its shape below its first field.
-    for (name, text, row, colour, shape, target) in [
-        ("66,431", flake, 5, 8, 4, "p95 <= 50"),
-        ("1,000,000", spheres, 3, 3, 1, "p95 <= 250"),
-    ] {
-        let text = text.replace("size 1280 720", "size 400 300");
-        let (mut desk, begun) = Desk::open_files(&[("scene.ray", &text)], &[], &[]);
-        desk.record(begun + 8 * SECOND);
-        desk.rest();
-        let drawn = desk.look();
-        let opened: Vec<_> = first(&drawn, begun, Drawn::is_picture)
-            .into_iter()
-            .collect();
-        times_row(&format!("{name}: start to picture"), &opened, "-");
-        let down = |desk: &mut Desk, keys: &[&str]| {
-            for key in keys {
-                desk.press(key);
-                desk.record(Instant::now() + Duration::from_millis(100));
-            }
-            desk.rest();
-            desk.look();
-        };
-        down(&mut desk, &["gg"]);
-        down(&mut desk, &vec!["j"; row]);
-        down(&mut desk, &["e"]);
-        for (what, field) in [("shape", shape), ("colour", colour - shape)] {
-            down(&mut desk, &vec!["j"; field]);
-            let (mut answered, mut pictured) = (Vec::new(), Vec::new());
-            for key in ["L", "H"].repeat(7) {
-                let pressed = desk.press(key);
-                let drawn = desk.settle();
-                answered.extend(first(&drawn, pressed, |drawn| drawn.fields));
-                pictured.extend(first(&drawn, pressed, Drawn::is_new_picture));
-            }
-            times_row(&format!("{name}: nudge to field"), &answered, "-");
-            times_row(&format!("{name}: {what} to picture"), &pictured, target);
-        }
-    }
 }
 
 /// Scenes of `.xml`, ours and those of the course if `HALFLIGHT_EXTRA_SCENES` names their folder:

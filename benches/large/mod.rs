@@ -1,0 +1,142 @@
+//! Edits of one object among very many: of its colour, of its shape, and by another program.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use crate::desk::{Desk, Drawn};
+use crate::{SECOND, each, first, scenes, times_row};
+
+/// A scene, where in it the edits are made, and how soon they are to be seen.
+struct Case {
+    name: &'static str,
+    text: String,
+    /// The first object below the lights.
+    row: usize,
+    /// Its colour and a number of its shape, below its first field.
+    colour: usize,
+    shape: usize,
+    target: &'static str,
+    from_disk: &'static str,
+}
+
+pub(crate) fn measure() {
+    let spheres = scenes::random_spheres(1_000_000, 1);
+    // The first one large enough to be seen.
+    let (head, rest) = spheres.split_once("sphere\n").expect("there are spheres");
+    let (_, rest) = rest.split_once('\n').expect("its material follows");
+    for case in [
+        Case {
+            name: "66,431",
+            text: scenes::sphereflake(5),
+            row: 5,
+            colour: 8,
+            shape: 4,
+            target: "p95 <= 50",
+            from_disk: "-",
+        },
+        Case {
+            name: "1,000,000",
+            text: format!("{head}sphere\n0 0 0 .7\n{rest}"),
+            row: 3,
+            colour: 3,
+            shape: 1,
+            target: "p95 <= 250",
+            from_disk: "p95 <= 1000",
+        },
+    ] {
+        edit(&case);
+    }
+}
+
+fn edit(case: &Case) {
+    let name = case.name;
+    let text = case.text.replace("size 1280 720", "size 400 300");
+    let (mut desk, begun) = Desk::open_files(&[("scene.ray", &text)], &[], &[]);
+    desk.record(begun + 8 * SECOND);
+    desk.rest();
+    let drawn = desk.look();
+    let opened: Vec<_> = first(&drawn, begun, Drawn::is_picture)
+        .into_iter()
+        .collect();
+    times_row(&format!("{name}: start to picture"), &opened, "-");
+    save(&mut desk, case, &text);
+    down(&mut desk, &["gg"]);
+    down(&mut desk, &vec!["j"; case.row]);
+    down(&mut desk, &["e"]);
+    let (shape, colour) = (case.shape, case.colour - case.shape);
+    for (what, field) in [("shape", shape), ("colour", colour)] {
+        down(&mut desk, &vec!["j"; field]);
+        let (mut answered, mut pictured) = (Vec::new(), Vec::new());
+        for key in ["L", "H"].repeat(7) {
+            let pressed = desk.press(key);
+            let drawn = desk.settle();
+            answered.extend(first(&drawn, pressed, |drawn| drawn.fields));
+            pictured.extend(first(&drawn, pressed, Drawn::is_new_picture));
+        }
+        times_row(&format!("{name}: nudge to field"), &answered, "-");
+        times_row(
+            &format!("{name}: {what} to picture"),
+            &pictured,
+            case.target,
+        );
+    }
+}
+
+/// Another program makes the first sphere larger and smaller again, once with no key pressed and
+/// once with many of them.
+fn save(desk: &mut Desk, case: &Case, text: &str) {
+    let path = desk.folder.path().join("scene.ray");
+    let larger = with_larger_sphere(text);
+    let (mut pictured, mut answered) = (Vec::new(), Vec::new());
+    for text in [&larger, text].repeat(5) {
+        let at = put(&path, text);
+        desk.record(at + 3 * SECOND);
+        desk.rest();
+        pictured.extend(first(&desk.look(), at, Drawn::is_new_picture));
+    }
+    for text in [&larger, text].repeat(2) {
+        let at = put(&path, text);
+        // Down and up again, never against an end of the list, where a key changes nothing.
+        let pressed = desk.press_all(["j", "k"].repeat(18), Duration::from_millis(41));
+        desk.record(at + 3 * SECOND);
+        desk.rest();
+        answered.extend(each(&desk.look(), &pressed, |drawn| drawn.list));
+    }
+    let name = case.name;
+    times_row(
+        &format!("{name}: save to picture"),
+        &pictured,
+        case.from_disk,
+    );
+    times_row(
+        &format!("{name}: key to list, read"),
+        &answered,
+        "p95 <= 16, max 33",
+    );
+}
+
+/// Puts a text in the place of a file, as a whole; the moment that it is there.
+fn put(path: &Path, text: &str) -> Instant {
+    let new = path.with_extension("new");
+    std::fs::write(&new, text).expect("the folder takes a file");
+    let at = Instant::now();
+    std::fs::rename(&new, path).expect("the file is replaced");
+    at
+}
+
+fn with_larger_sphere(text: &str) -> String {
+    let (head, rest) = text.split_once("sphere\n").expect("there are spheres");
+    let (centre, rest) = rest.split_once('\n').expect("its material follows");
+    let (centre, radius) = centre.rsplit_once(' ').expect("its radius is the last");
+    let radius: f64 = radius.parse().expect("a number");
+    format!("{head}sphere\n{centre} {}\n{rest}", 1.2 * radius)
+}
+
+fn down(desk: &mut Desk, keys: &[&str]) {
+    for key in keys {
+        desk.press(key);
+        desk.record(Instant::now() + Duration::from_millis(100));
+    }
+    desk.rest();
+    desk.look();
+}
