@@ -155,7 +155,8 @@ impl World {
                 let refused = check_target(&to).err()?;
                 return Some(Msg::Exported(id, Err(refused)));
             }
-            Effect::Read(path) => self.files.order(Task::Read(path)),
+            Effect::Read(path, known) => self.files.order(Task::Read(path, known)),
+            Effect::Free(unneeded) => self.files.order(Task::Free(unneeded)),
             Effect::Save { path, text, guard } => {
                 self.files.order(Task::Save { path, text, guard })
             }

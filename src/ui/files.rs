@@ -1,14 +1,17 @@
 //! The thread that touches scene files and the edits kept for the next run, one task after the
 //! other.
 
+use std::any::Any;
 use std::collections::VecDeque;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 use std::time::Duration;
 
 use super::msg::{Guard, Msg, SaveOutcome};
+use super::reading::{Known, Understanding};
 use super::recovery::{self, Journal};
 use crate::file::{self, ReadError};
 
@@ -17,7 +20,10 @@ const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Work for the thread.
 pub(super) enum Task {
-    Read(PathBuf),
+    Read(PathBuf, Known),
+    /// Have what was read understood.
+    Understand(PathBuf, Result<String, ReadError>, Known),
+    Free(Arc<dyn Any + Send + Sync>),
     Save {
         path: PathBuf,
         text: String,
@@ -48,14 +54,16 @@ pub(super) struct Files {
 
 impl Files {
     /// Starts the thread; `send` is called on it.
-    pub(super) fn start(send: impl Fn(Msg) + Send + 'static) -> io::Result<Self> {
+    pub(super) fn start(send: impl Fn(Msg) + Clone + Send + 'static) -> io::Result<Self> {
+        let understanding = Understanding::start(send.clone())?;
         let (tasks, inbox) = mpsc::channel();
         let (tell, kept) = mpsc::channel();
         let work = move || {
             let mut journal = Journal::default();
             let mut waiting = VecDeque::new();
             while let Some(task) = next(&inbox, &mut waiting) {
-                perform(task, &mut journal).into_iter().for_each(&send);
+                let came = perform(task, &mut waiting, &mut journal, &understanding);
+                came.into_iter().for_each(&send);
             }
             // A program that has lost its patience is gone.
             let _ = tell.send(journal.is_kept());
@@ -79,7 +87,8 @@ impl Files {
     }
 }
 
-/// The next task; `None` at the end. One reading answers all that wait for it.
+/// The next task; `None` at the end. One reading answers all that wait for it, and of a file that
+/// changed while it was read only the next reading counts.
 fn next(inbox: &Receiver<Task>, waiting: &mut VecDeque<Task>) -> Option<Task> {
     if waiting.is_empty() {
         waiting.push_back(inbox.recv().ok()?);
@@ -88,7 +97,9 @@ fn next(inbox: &Receiver<Task>, waiting: &mut VecDeque<Task>) -> Option<Task> {
     loop {
         let task = waiting.pop_front()?;
         let is_again = |later: &Task| match (&task, later) {
-            (Task::Read(path), Task::Read(again)) => path == again,
+            (Task::Read(path, _) | Task::Understand(path, ..), Task::Read(again, _)) => {
+                path == again
+            }
             _ => false,
         };
         if !waiting.iter().any(is_again) {
@@ -97,11 +108,28 @@ fn next(inbox: &Receiver<Task>, waiting: &mut VecDeque<Task>) -> Option<Task> {
     }
 }
 
-fn perform(task: Task, journal: &mut Journal) -> Option<Msg> {
+fn perform(
+    task: Task,
+    waiting: &mut VecDeque<Task>,
+    journal: &mut Journal,
+    understanding: &Understanding,
+) -> Option<Msg> {
     let (done, words) = match task {
-        Task::Read(path) => {
+        Task::Read(path, known) => {
             let read = file::read_text(&path);
-            return Some(Msg::Read(path, read));
+            // Unless the file has changed again by now.
+            waiting.push_front(Task::Understand(path, read, known));
+            return None;
+        }
+        Task::Free(unneeded) => {
+            drop(unneeded);
+            return None;
+        }
+        Task::Understand(path, read, known) => {
+            return understanding
+                .order(path, read, known)
+                .err()
+                .map(Msg::Failed);
         }
         Task::Save { path, text, guard } => return Some(Msg::Saved(save(path, text, &guard))),
         Task::Keep { scene, text } => (
@@ -133,7 +161,7 @@ fn save(path: PathBuf, text: String, guard: &Guard) -> SaveOutcome {
     );
     match saved {
         Ok(()) => SaveOutcome::Saved { path, text },
-        Err(Refusal::Changed(found)) => SaveOutcome::ChangedOnDisk(found),
+        Err(Refusal::Changed) => SaveOutcome::ChangedOnDisk,
         Err(Refusal::Other(reason)) => SaveOutcome::Failed(reason),
         Err(Refusal::Io(error)) => SaveOutcome::Failed(format!("{}: {error}", path.display())),
     }
@@ -142,7 +170,7 @@ fn save(path: PathBuf, text: String, guard: &Guard) -> SaveOutcome {
 /// Why a scene was not written.
 enum Refusal {
     /// The file holds something else than what we know.
-    Changed(String),
+    Changed,
     Other(String),
     Io(io::Error),
 }
@@ -162,8 +190,8 @@ fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), Refusal> {
     };
     match (held, file::read_text(path)) {
         (_, Err(ReadError::NotFound { .. })) => Ok(()),
-        (Some(held), Ok(found)) if found == *held || found == text => Ok(()),
-        (Some(_), Ok(found)) => Err(Refusal::Changed(found)),
+        (Some(held), Ok(found)) if found == **held || found == text => Ok(()),
+        (Some(_), Ok(_)) => Err(Refusal::Changed),
         (Some(_), Err(error)) => Err(Refusal::Other(error.to_string())),
         (None, _) => {
             let path = path.display();
@@ -176,20 +204,45 @@ fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), Refusal> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::format::Format;
+    use crate::scene::Meshes;
+
+    fn known() -> Known {
+        Known {
+            format: Format::Ray,
+            saved: Arc::default(),
+            meshes: Meshes::default(),
+        }
+    }
 
     #[test]
     fn a_file_that_is_waited_for_several_times_is_read_once() {
         let (tasks, inbox) = mpsc::channel();
         for name in ["a", "b", "a", "a", "b"] {
-            tasks.send(Task::Read(name.into())).expect("it is there");
+            let read = Task::Read(name.into(), known());
+            tasks.send(read).expect("it is there");
         }
         drop(tasks);
         let mut waiting = VecDeque::new();
         let mut names = Vec::new();
-        while let Some(Task::Read(path)) = next(&inbox, &mut waiting) {
+        while let Some(Task::Read(path, _)) = next(&inbox, &mut waiting) {
             names.push(path);
         }
         assert_eq!(names, ["a", "b"].map(PathBuf::from));
+    }
+
+    #[test]
+    fn a_file_that_changed_while_it_was_read_is_not_understood() {
+        let (tasks, inbox) = mpsc::channel();
+        let understand = |name: &str| Task::Understand(name.into(), Ok(String::new()), known());
+        let read = Task::Read("a".into(), known());
+        tasks.send(read).expect("it is there");
+        drop(tasks);
+        let mut waiting = VecDeque::from([understand("b"), understand("a")]);
+        let mut left = std::iter::from_fn(|| next(&inbox, &mut waiting));
+        assert!(matches!(left.next(), Some(Task::Understand(path, ..)) if path == Path::new("b")));
+        assert!(matches!(left.next(), Some(Task::Read(path, _)) if path == Path::new("a")));
+        assert!(left.next().is_none());
     }
 
     #[test]

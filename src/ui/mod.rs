@@ -16,6 +16,7 @@ mod effects;
 mod files;
 pub mod keymap;
 pub mod msg;
+pub mod reading;
 mod recovery;
 mod session;
 pub mod terminal;

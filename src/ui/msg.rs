@@ -1,5 +1,6 @@
 //! Everything that can happen to the interface, and everything it asks for.
 
+use std::any::Any;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -9,6 +10,7 @@ use crossterm::event::{KeyEvent, MouseEvent};
 use crate::assets::{Loaded, Wanted};
 use crate::file::ReadError;
 use crate::render::{Frame, Job};
+use crate::ui::reading::{Known, Reading};
 use crate::ui::terminal::Mouse;
 
 /// Which picture a frame belongs to.
@@ -49,7 +51,7 @@ pub enum Msg {
     /// Something happened to the scene file.
     FileChanged,
     /// The file of this name was read.
-    Read(PathBuf, Result<String, ReadError>),
+    Read(PathBuf, Result<Reading, ReadError>),
     /// The files that the scene names were read.
     AssetsRead(Wanted, Loaded),
     /// Something happened to one of their files.
@@ -111,7 +113,7 @@ pub enum SaveOutcome {
         text: String,
     },
     /// The file holds something that neither we wrote nor read: nothing was written.
-    ChangedOnDisk(String),
+    ChangedOnDisk,
     /// Nothing was written; why.
     Failed(String),
 }
@@ -128,7 +130,9 @@ pub enum Effect {
     /// Say whether a picture can be written there, if not: [`Msg::Exported`].
     CheckTarget(ExportId, Destination),
     /// Read the scene file: [`Msg::Read`].
-    Read(PathBuf),
+    Read(PathBuf, Known),
+    /// Free what is no longer needed: of a large scene that takes longer than a key may wait.
+    Free(Arc<dyn Any + Send + Sync>),
     /// Write the scene file: [`Msg::Saved`].
     Save {
         /// Where.
@@ -186,7 +190,7 @@ pub enum Effect {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Guard {
     /// A file that holds this text, or none.
-    Holding(String),
+    Holding(Arc<String>),
     /// None.
     Absent,
     /// Any.

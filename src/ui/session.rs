@@ -2,7 +2,6 @@
 
 use std::collections::VecDeque;
 use std::io::{self, Write};
-use std::path::Path;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
@@ -135,14 +134,7 @@ impl Session {
         };
         let mut urgency = Urgency::Never;
         let events: Vec<_> = first.into_iter().chain(self.inbox.try_iter()).collect();
-        // Of several readings of the file only the last is worth understanding: a large scene that
-        // is written in many pieces is read after each.
-        let mut left = VecDeque::from(events);
-        while let Some(event) = left.pop_front() {
-            let read = read_path(&event);
-            if read.is_some() && left.iter().any(|later| read_path(later) == read) {
-                continue;
-            }
+        for event in events {
             if let Some(msg) = self.world.message(event) {
                 urgency = urgency.max(self.urgency_of(&msg));
                 self.step(msg);
@@ -216,13 +208,5 @@ fn ending(msg: &Msg) -> Ending {
         Msg::Terminate => Ending::Terminated,
         Msg::HangUp => Ending::HungUp,
         _ => Ending::Quit,
-    }
-}
-
-/// The file that was read, if one was.
-fn read_path(event: &Event) -> Option<&Path> {
-    match event {
-        Event::Msg(Msg::Read(path, _)) => Some(path),
-        _ => None,
     }
 }

@@ -1,14 +1,16 @@
 //! The cursor while the text changes under it.
 
+use std::sync::Arc;
+
 use super::App;
 use crate::scene::Placed;
-use crate::text::{Span, smallest_edit};
+use crate::text::{Edit, Span};
 
 /// Where the cursor was before a text came from outside.
 #[derive(Debug)]
 pub(super) struct Held {
     /// The text it was in.
-    pub(super) text: String,
+    pub(super) text: Arc<String>,
     /// The field it was on, and the place of its component where the text says it.
     field: Option<(&'static str, Option<Span>)>,
 }
@@ -20,19 +22,20 @@ impl App {
             let span = placed.spans.get(self.component).copied();
             (placed.field.key, span)
         });
-        Held {
-            text: self.document.text().to_owned(),
-            field,
-        }
+        let text = if self.document.is_dirty() {
+            Arc::new(self.document.text().to_owned())
+        } else {
+            Arc::clone(self.document.saved())
+        };
+        Held { text, field }
     }
 
-    /// Puts the cursor back on the number that it was on, and keeps what is typed there; whether
-    /// that had to be dropped because the field is gone.
-    pub(super) fn follow_cursor(&mut self, held: &Held) -> bool {
+    /// Puts the cursor back on the number that it was on before an edit, and keeps what is typed
+    /// there; whether that had to be dropped because the field is gone.
+    pub(super) fn follow_cursor(&mut self, held: &Held, edit: Option<&Edit>) -> bool {
         let Some((key, span)) = held.field else {
             return self.typing.take().is_some();
         };
-        let edit = smallest_edit(&held.text, self.document.text());
         let moved = span.zip(edit).and_then(|(span, edit)| {
             if edit.span.end() <= span.start() {
                 let by = |at: usize| at + edit.text.len() - edit.span.len();

@@ -9,11 +9,11 @@ use super::model::{Reader, Settle};
 use super::{App, Broken, Dialog, Disk, PromptKind};
 use crate::document::{Replaced, Side};
 use crate::file::ReadError;
-use crate::format;
-use crate::scene::{self, Lowered};
-use crate::text::{Findings, Position, Span, smallest_edit};
+use crate::scene::Lowered;
+use crate::text::{Edit, Findings, Position, Span, smallest_edit};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Guard, SaveOutcome, Timer};
+use crate::ui::reading::{Known, News, Reading};
 
 /// Many programs empty a file before they write it: what is wrong with it must last so long.
 const QUIET: Duration = Duration::from_millis(100);
@@ -39,7 +39,17 @@ impl App {
     }
 
     fn read_effect(&self) -> Vec<Effect> {
-        self.path.iter().cloned().map(Effect::Read).collect()
+        let read = |path| Effect::Read(path, self.known());
+        self.path.iter().cloned().map(read).collect()
+    }
+
+    /// What the scene's file is read with.
+    pub(super) fn known(&self) -> Known {
+        Known {
+            format: self.document.format(),
+            saved: Arc::clone(self.document.saved()),
+            meshes: self.meshes.clone(),
+        }
     }
 
     pub(super) fn settled(&mut self) -> Vec<Effect> {
@@ -50,10 +60,18 @@ impl App {
         self.read_effect()
     }
 
-    pub(super) fn was_read(&mut self, read: Result<String, ReadError>) -> Vec<Effect> {
+    pub(super) fn was_read(&mut self, read: Result<Reading, ReadError>) -> Vec<Effect> {
+        // A save or a mesh has come in between: what was read is no longer what is new.
+        if let Ok(reading) = &read
+            && !reading.holds(&self.known())
+        {
+            let mut effects = self.read_effect();
+            effects.push(Effect::Free(Arc::new(read)));
+            return effects;
+        }
         let is_final = std::mem::take(&mut self.pending.settle) == Settle::Final;
         match read {
-            Ok(text) => self.take_text(text, is_final),
+            Ok(reading) => self.take_text(reading, is_final),
             Err(error) if !is_final => self.wait(match error {
                 ReadError::NotFound { .. } => GONE,
                 _ => QUIET,
@@ -78,13 +96,13 @@ impl App {
         vec![Effect::Later(time, Timer::Settled)]
     }
 
-    fn take_text(&mut self, text: String, is_final: bool) -> Vec<Effect> {
+    fn take_text(&mut self, reading: Reading, is_final: bool) -> Vec<Effect> {
         let reader = std::mem::take(&mut self.pending.reader);
         // A merge that was being decided is out of date, whatever the file holds now.
         if let Some(Dialog::Conflict { .. }) = self.dialog {
             self.dialog = None;
         }
-        if text == self.document.saved() {
+        let Some(news) = reading.news else {
             if self.disk != Disk::Known {
                 self.disk = Disk::Known;
                 self.broken = None;
@@ -93,32 +111,42 @@ impl App {
                 self.say(format!("{} holds nothing new", self.file_name()));
             }
             return Vec::new();
-        }
+        };
         let dirty = self.document.is_dirty();
-        let tree = format::parse(self.document.format(), &text);
-        let lowered = scene::lower(&text, &tree, &self.meshes);
-        if lowered.scene.is_none() {
-            if !is_final {
-                return self.wait(QUIET);
-            }
-            if dirty {
-                self.keep_apart(text, lowered.diagnostics);
-                return Vec::new();
-            }
+        let is_broken = news.lowered.scene.is_none();
+        if is_broken && !is_final {
+            let mut effects = self.wait(QUIET);
+            effects.push(Effect::Free(Arc::new(news)));
+            return effects;
+        }
+        let News {
+            document,
+            lowered,
+            edit,
+        } = *news;
+        if is_broken && dirty {
+            self.keep_apart(document.into_text(), lowered.diagnostics);
+            return Vec::new();
         }
         let held = self.hold();
         self.disk = Disk::Known;
         self.broken = None;
         if !dirty {
-            self.document.load(text, tree);
-            self.show_reload(&held, lowered, "read again");
-            return Vec::new();
+            let former = self.document.load(document);
+            let former = (
+                former,
+                std::mem::take(&mut self.origins),
+                self.scene.clone(),
+            );
+            self.show_reload(&held, edit.as_ref(), lowered, "read again");
+            return vec![Effect::Free(Arc::new(former))];
         }
-        match self.document.replace(text) {
+        // Merging stays with the interface: edits that go on in between would have to be merged again.
+        match self.document.replace(document.into_text()) {
             Replaced::Unchanged | Replaced::Loaded => {}
             Replaced::Merged => {
                 let words = "the file's changes are merged; u undoes";
-                self.show_reload(&held, self.lowered(), words);
+                self.show_merged(&held, words);
             }
             Replaced::Conflict(merge) => {
                 self.disk = Disk::Changed;
@@ -140,20 +168,28 @@ impl App {
         ));
     }
 
-    /// Takes what the text means now, keeps the cursor where it was and says what changed.
-    fn show_reload(&mut self, held: &Held, lowered: Lowered, words: &str) {
+    fn show_merged(&mut self, held: &Held, words: &str) {
+        let edit = smallest_edit(&held.text, self.document.text());
+        self.show_reload(held, edit.as_ref(), self.lowered(), words);
+    }
+
+    /// Takes what the text means now, keeps the cursor where it was and says what changed; `edit`
+    /// leads to it from the text before.
+    fn show_reload(&mut self, held: &Held, edit: Option<&Edit>, lowered: Lowered, words: &str) {
         let (scene, sound) = (self.scene.clone(), self.error_count() == 0);
         self.install(lowered);
-        let lost = self.follow_cursor(held);
+        let lost = self.follow_cursor(held, edit);
         if 0 < self.error_count() {
             if sound {
-                self.pending.sound = Some(held.text.clone());
+                self.pending.sound = Some(Arc::clone(&held.text));
             }
             self.fail(format!("the scene has errors: {}", self.error_count()));
         } else {
             let sound = self.pending.sound.take();
-            let before = sound.as_ref().unwrap_or(&held.text);
-            let place = smallest_edit(before, self.document.text())
+            let from_sound = sound.map(|sound| smallest_edit(&sound, self.document.text()));
+            let place = from_sound
+                .as_ref()
+                .map_or(edit, Option::as_ref)
                 .map(|edit| (edit.span.start(), edit.text.len()))
                 .and_then(|(start, len)| self.place_name(Span::new(start, start + len)));
             let same = match (&scene, &self.scene) {
@@ -192,7 +228,7 @@ impl App {
         if self.refuses_errors(&path) {
             return Vec::new();
         }
-        let guard = Guard::Holding(self.document.saved().to_owned());
+        let guard = Guard::Holding(Arc::clone(self.document.saved()));
         self.save_to(path, guard)
     }
 
@@ -231,8 +267,8 @@ impl App {
                 let kept = self.pending.keeping.revision.take();
                 let mut effects: Vec<_> = kept.map(|_| Effect::DropRecovery).into_iter().collect();
                 if self.path.as_ref() != Some(&path) {
-                    self.path = Some(path.clone());
-                    effects.extend(watch(&path));
+                    self.path = Some(path);
+                    effects.extend(self.watch());
                     // Files are looked for from another folder now.
                     self.relower();
                 }
@@ -240,10 +276,10 @@ impl App {
                 effects.extend(self.quit_when_done());
                 effects
             }
-            SaveOutcome::ChangedOnDisk(text) => {
+            SaveOutcome::ChangedOnDisk => {
                 self.warn("the file has changed: nothing was written yet");
                 self.pending.settle = Settle::Final;
-                self.was_read(Ok(text))
+                self.read_effect()
             }
             SaveOutcome::Failed(reason) => {
                 self.fail(reason);
@@ -290,7 +326,7 @@ impl App {
             Replaced::Conflict(merge) => self.dialog = Some(Dialog::Conflict { merge, at: 0 }),
             Replaced::Unchanged | Replaced::Loaded | Replaced::Merged => {
                 self.disk = Disk::Known;
-                self.show_reload(&held, self.lowered(), "merged; u undoes");
+                self.show_merged(&held, "merged; u undoes");
             }
         }
     }
@@ -325,14 +361,14 @@ impl App {
         self.read_again()
     }
 
+    /// Has the scene's file watched, and read once more: it may have changed before the watch began.
+    pub(super) fn watch(&self) -> Vec<Effect> {
+        let watch = self.path.iter().cloned().map(Effect::Watch);
+        watch.chain(self.read_effect()).collect()
+    }
+
     /// Whether a path is that of the scene.
     pub(super) fn is_own_path(&self, path: &Path) -> bool {
         self.path.as_deref() == Some(path)
     }
-}
-
-/// Has a file watched, and read once more: it may have changed before the watch began.
-pub(super) fn watch(path: &Path) -> Vec<Effect> {
-    let path = path.to_owned();
-    vec![Effect::Watch(path.clone()), Effect::Read(path)]
 }

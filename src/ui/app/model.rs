@@ -317,7 +317,7 @@ pub(super) struct Pending {
     /// Who wants the file to be read.
     pub(super) reader: Reader,
     /// The last text without errors, while the text has some.
-    pub(super) sound: Option<String>,
+    pub(super) sound: Option<Arc<String>>,
     /// What is kept for the next run.
     pub(super) keeping: Keeping,
     /// The export that was begun last.

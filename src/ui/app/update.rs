@@ -6,7 +6,6 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
 use super::assets::{Assets, STILL_READING};
-use super::disk::watch;
 use super::model::Pending;
 use super::{
     App, Dialog, Disk, Help, HelpFocus, Message, Mode, Outline, Picture, Prompt, PromptKind,
@@ -86,7 +85,7 @@ impl App {
         app.select(Node::Object(0));
         app.keep_selection();
         app.scroll();
-        let mut effects = app.path.as_deref().map_or_else(Vec::new, watch);
+        let mut effects = app.watch();
         effects.extend(app.follow());
         (app, effects)
     }

@@ -57,8 +57,7 @@ fn loaded(name: &str, pixel: [u8; 3]) -> Loaded {
 }
 
 fn replaced(app: &mut App, text: &str) -> Vec<Effect> {
-    let path = PathBuf::from("none/scene.dat");
-    app.update(Msg::Read(path, Ok(text.to_owned())))
+    read(app, "none/scene.dat", text)
 }
 
 #[test]
@@ -219,6 +218,11 @@ fn a_mesh_arrives_later_and_the_picture_follows_its_file() {
     let effects = app.update(Msg::AssetsRead(wanted_mesh(&[]), small));
     assert_eq!(traced_objects(&effects), None);
 
+    let more = MESHED.replace(
+        "'/>\n</scene>",
+        "'/>\n  <object type='obj' name='b.obj'/>\n</scene>",
+    );
+    let late = Reading::new(more.clone(), app.known());
     let asks = app.update(Msg::AssetsChanged);
     assert_eq!(asked(&asks), Some(wanted_mesh(&[])));
     for other in [
@@ -230,13 +234,13 @@ fn a_mesh_arrives_later_and_the_picture_follows_its_file() {
         assert_eq!(words(&app), "files read again");
     }
 
+    // What was understood by other meshes than there are now is read anew.
+    let effects = app.update(Msg::Read(PathBuf::from("none/scene.xml"), Ok(late)));
+    assert!(matches!(effects[..], [Effect::Read(..), Effect::Free(_)]));
+    assert_eq!(app.document.text(), MESHED);
+
     // Another one: the picture waits for it, but the text has changed already.
-    let more = MESHED.replace(
-        "'/>\n</scene>",
-        "'/>\n  <object type='obj' name='b.obj'/>\n</scene>",
-    );
-    let path = PathBuf::from("none/scene.xml");
-    let effects = app.update(Msg::Read(path, Ok(more)));
+    let effects = read(&mut app, "none/scene.xml", &more);
     assert!(!traces(&effects) && app.awaits_assets());
     assert_eq!(words(&app), "read again: b.obj (obj)");
 }

@@ -1,5 +1,7 @@
 //! Reading again, saving, conflicts, quitting, recovering.
 
+use std::sync::Arc;
+
 use super::*;
 use crate::document::Side;
 use crate::file::ReadError;
@@ -14,7 +16,7 @@ fn a_save_may_only_replace_what_was_last_seen() {
     };
     assert_eq!(path, &PathBuf::from("scene.ray"));
     assert_eq!(text, app.document.text());
-    assert_eq!(guard, &Guard::Holding(SCENE.to_owned()));
+    assert_eq!(guard, &Guard::Holding(Arc::new(SCENE.to_owned())));
     let outcome = SaveOutcome::Saved {
         path: path.clone(),
         text: text.clone(),
@@ -28,7 +30,14 @@ fn a_save_over_a_changed_file_asks() {
     let mut app = open(SCENE);
     press(&mut app, "jjjelw");
     let theirs = SCENE.replace("sphere\n0 0 0", "sphere\n9 0 0");
-    app.update(Msg::Saved(SaveOutcome::ChangedOnDisk(theirs.clone())));
+    let effects = app.update(Msg::Saved(SaveOutcome::ChangedOnDisk));
+    assert!(matches!(&effects[..], [Effect::Read(..)]), "{effects:?}");
+    assert!(
+        words(&app).contains("nothing was written"),
+        "{}",
+        words(&app)
+    );
+    outside(&mut app, &theirs);
     let Some(Dialog::Conflict { merge, .. }) = &app.dialog else {
         panic!("{:?}", app.dialog);
     };
@@ -50,7 +59,7 @@ fn a_conflict_put_off_comes_back_with_the_next_save() {
     assert!(app.dialog.is_none());
     assert_eq!(changed_lines(&app), ["0.1 0 0"], "mine is kept");
     let effects = press(&mut app, "w");
-    assert!(wants(&effects, |effect| matches!(effect, Effect::Read(_))));
+    assert!(wants(&effects, |effect| matches!(effect, Effect::Read(..))));
 }
 
 #[test]
@@ -76,7 +85,7 @@ fn a_changed_file_is_taken_when_nothing_is_unsaved() {
     let mut app = open(SCENE);
     let theirs = SCENE.replace("1.5", "1.7");
     let effects = app.update(Msg::FileChanged);
-    assert!(wants(&effects, |effect| matches!(effect, Effect::Read(_))));
+    assert!(wants(&effects, |effect| matches!(effect, Effect::Read(..))));
     let effects = outside(&mut app, &theirs);
     assert!(wants(&effects, |effect| matches!(
         effect,
@@ -87,11 +96,37 @@ fn a_changed_file_is_taken_when_nothing_is_unsaved() {
     assert!(outside(&mut app, &theirs).is_empty(), "nothing is new");
 }
 
+/// Keys come in while a large file is understood.
+#[test]
+fn what_was_read_is_read_anew_if_what_it_was_compared_with_is_another() {
+    let mut app = open(SCENE);
+    let late = |app: &App| {
+        let theirs = app.document.text().replace("1.5", "1.7");
+        let reading = Reading::new(theirs, app.known());
+        Msg::Read(PathBuf::from("scene.ray"), Ok(reading))
+    };
+    let before = late(&app);
+    press(&mut app, "jjjelw");
+    app.update(Msg::Saved(SaveOutcome::Saved {
+        path: PathBuf::from("scene.ray"),
+        text: app.document.text().to_owned(),
+    }));
+    let effects = app.update(before);
+    assert!(matches!(effects[..], [Effect::Read(..), Effect::Free(_)]));
+    assert_eq!(changed_lines(&app), ["0.1 0 0"]);
+
+    // Edits alone are merged with what it says.
+    let before = late(&app);
+    press(&mut app, "l");
+    app.update(before);
+    assert_eq!(changed_lines(&app), ["0.2 0 0", "1.7 // the radius"]);
+}
+
 #[test]
 fn what_another_file_holds_is_not_taken_for_the_scene() {
     let mut app = open(SCENE);
     let theirs = SCENE.replace("1.5", "1.7");
-    app.update(Msg::Read(PathBuf::from("before.ray"), Ok(theirs)));
+    read(&mut app, "before.ray", &theirs);
     assert_eq!(app.document.text(), SCENE);
 }
 
@@ -100,7 +135,7 @@ fn a_file_is_read_again_once_it_is_watched() {
     let (mut app, effects) = opened(SCENE);
     assert!(matches!(
         &effects[..],
-        [Effect::Watch(path), Effect::Read(read), ..] if path == read
+        [Effect::Watch(path), Effect::Read(read, _), ..] if path == read
     ));
     assert!(outside(&mut app, SCENE).is_empty());
     assert_eq!(words(&app), "");
@@ -122,10 +157,13 @@ fn a_text_with_errors_must_last_before_it_is_shown() {
     for broken in ["", "1 1 1 2", "nonsense"] {
         let mut app = open(SCENE);
         let effects = outside(&mut app, broken);
-        assert!(matches!(effects[..], [Effect::Later(_, Timer::Settled)]));
+        assert!(matches!(
+            effects[..],
+            [Effect::Later(_, Timer::Settled), Effect::Free(_)]
+        ));
         assert_eq!(app.document.text(), SCENE, "not yet");
         let effects = app.update(Msg::Elapsed(Timer::Settled));
-        assert!(matches!(effects[..], [Effect::Read(_)]));
+        assert!(matches!(effects[..], [Effect::Read(..)]));
         outside(&mut app, broken);
         assert_eq!(app.document.text(), broken);
         assert!(0 < app.error_count());
@@ -181,7 +219,7 @@ fn what_is_wrong_with_the_file_is_what_was_read_last() {
     assert_eq!(words(&app), "scene.ray: is a folder, not a file");
     assert_eq!((app.disk, app.wrong().1.len()), (Disk::Broken, 0));
     let effects = press(&mut app, "w");
-    assert!(matches!(effects[..], [Effect::Read(_)]), "{effects:?}");
+    assert!(matches!(effects[..], [Effect::Read(..)]), "{effects:?}");
 }
 
 #[test]
@@ -411,7 +449,7 @@ fn the_list_of_errors_follows_what_is_wrong() {
         assert_eq!(app.error_count(), 2);
         press(&mut app, "!j");
         assert_eq!(app.errors, Some(1));
-        app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(text.to_owned())));
+        outside(&mut app, text);
         app.update(Msg::Elapsed(Timer::Settled));
         outside(&mut app, text);
         app.errors
@@ -424,7 +462,7 @@ fn the_list_of_errors_follows_what_is_wrong() {
 fn a_reload_names_what_differs_from_the_last_good_text() {
     let mut app = open(SCENE);
     let broken = |app: &mut App, text: &str| {
-        app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(text.to_owned())));
+        outside(app, text);
         app.update(Msg::Elapsed(Timer::Settled));
         outside(app, text);
     };

@@ -77,7 +77,7 @@ fn a_scene_is_followed_until_the_user_chooses_another_way() {
     assert!(app.is_integrator_changed());
     press(&mut app, "P");
     assert!(!app.is_integrator_changed());
-    app.update(Msg::Read(PathBuf::from("scene.xml"), Ok(text.to_owned())));
+    read(&mut app, "scene.xml", text);
     assert_eq!(app.error_count(), 0);
     assert_eq!(app.integrator(), Integrator::Whitted);
 }

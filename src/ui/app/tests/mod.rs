@@ -17,6 +17,7 @@ use super::*;
 use crate::format::Format;
 use crate::render::Filter;
 use crate::ui::msg::{Effect, Msg};
+use crate::ui::reading::Reading;
 use crate::ui::terminal::Mouse;
 
 /// Two spheres, far apart, without a view comment.
@@ -136,7 +137,13 @@ fn words(app: &App) -> &str {
 }
 
 fn outside(app: &mut App, text: &str) -> Vec<Effect> {
-    app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(text.to_owned())))
+    read(app, "scene.ray", text)
+}
+
+/// What a reading of a file gives.
+fn read(app: &mut App, path: &str, text: &str) -> Vec<Effect> {
+    let reading = Reading::new(text.to_owned(), app.known());
+    app.update(Msg::Read(PathBuf::from(path), Ok(reading)))
 }
 
 fn wants(effects: &[Effect], wanted: fn(&Effect) -> bool) -> bool {

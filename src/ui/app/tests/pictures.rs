@@ -115,7 +115,10 @@ fn the_full_size_trace_goes_on_behind_until_the_scene_changes() {
     assert!(press(&mut app, "r").is_empty(), "it is still under way");
     let theirs = SCENE.replace("1.5", "1.7");
     let effects = outside(&mut app, &theirs);
-    assert!(matches!(effects[..], [Effect::Trace(Target::Trace, _)]));
+    assert!(matches!(
+        effects[..],
+        [Effect::Free(_), Effect::Trace(Target::Trace, _)]
+    ));
     let effects = press(&mut app, "<Esc>");
     assert!(matches!(effects[..], [Effect::Trace(Target::Preview, _)]));
     let effects = outside(&mut app, SCENE);
@@ -169,7 +172,7 @@ fn only_a_session_s_own_pictures_are_overwritten_unasked() {
 fn pictures_of_a_text_with_errors_say_that_they_are_of_the_last_one_without() {
     for said in ["b", "<F5>"] {
         let mut app = open(SCENE);
-        app.update(Msg::Read(PathBuf::from("scene.ray"), Ok("x".to_owned())));
+        outside(&mut app, "x");
         app.update(Msg::Elapsed(Timer::Settled));
         outside(&mut app, "x");
         assert!(0 < app.error_count());
