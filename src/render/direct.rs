@@ -159,6 +159,8 @@ impl<C: Fn() -> bool> Probe<'_, C> {
             origin: rays.origin.into(),
             direction: rays.direction.into(),
         };
-        self.world.transmittance(&ray, ends, &mut self.crossed)
+        let transmittance = self.world.transmittance(&ray, ends, &mut self.crossed);
+        self.touched |= self.crossed.touched.first().copied().unwrap_or_default();
+        transmittance
     }
 }

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::frame::{Aov, NO_OBJECT};
 use super::probe::{Matter, Seen};
+use super::touched::Touched;
 use super::world::World;
 use crate::geometry::Ray;
 use crate::scene::Rgb;
@@ -19,6 +20,7 @@ pub(crate) fn first_hit(world: &World, ray: &Ray, reach: f64, skipped: f64, aov:
         return Seen {
             radiance,
             object: NO_OBJECT,
+            touched: Touched::default(),
         };
     };
     let (point, matter) = world.arrive(ray, nearest);
@@ -36,5 +38,6 @@ pub(crate) fn first_hit(world: &World, ray: &Ray, reach: f64, skipped: f64, aov:
     Seen {
         radiance: value,
         object: nearest.object,
+        touched: Touched::object(nearest.object),
     }
 }

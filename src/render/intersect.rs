@@ -8,12 +8,48 @@
 use std::ops::Range;
 
 use super::structures::Search;
+use super::touched::Touched;
 use super::world::World;
 use crate::geometry::lanes::{Eight, Simd, dispatch};
 use crate::geometry::{Hit, Ray, Rays, Shape, ulp};
 
-/// What shadow rays cross: which of the rays, the object and its material there.
-pub(crate) type Crossed = Vec<(u32, u32, u32)>;
+/// What shadow rays meet.
+#[derive(Debug, Default)]
+pub(crate) struct Crossed {
+    /// What they go through: which of the rays, the object and its material there.
+    pub(crate) passed: Vec<(u32, u32, u32)>,
+    /// Whether to note what they depend on.
+    pub(crate) notes: bool,
+    /// What each of the last ones depends on, where that is noted.
+    pub(crate) touched: Vec<Touched>,
+    /// The place there of the first of those that are together.
+    first: usize,
+}
+
+impl Crossed {
+    /// Begins with so many rays together.
+    #[inline]
+    pub(crate) fn begin(&mut self, rays: usize) {
+        self.passed.clear();
+        if self.notes {
+            self.first = self.touched.len();
+            self.touched.resize(self.first + rays, Touched::default());
+        }
+    }
+
+    /// Notes that those of the rays whose bit in `lanes` is 1 meet an object.
+    #[inline]
+    pub(crate) fn touch(&mut self, object: u32, mut lanes: u32) {
+        if !self.notes {
+            return;
+        }
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize;
+            lanes &= lanes - 1;
+            self.touched[self.first + lane] |= Touched::object(object);
+        }
+    }
+}
 
 /// The first object on a ray's way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,7 +154,8 @@ impl World {
         distance: f64,
         crossed: &mut Crossed,
     ) -> f64 {
-        crossed.clear();
+        crossed.touched.clear();
+        crossed.begin(1);
         let rays = Rays::all(simd, ray);
         let mut blocked = false;
         self.visit(
@@ -135,11 +172,12 @@ impl World {
                     Search::Blocker,
                     #[inline(always)]
                     |object, hit| {
+                        crossed.touch(object, 1);
                         let material = self.scene.objects[object as usize].material_at(hit);
                         if self.transmission(material) == 0.0 {
                             blocked = true;
                         } else {
-                            crossed.push((0, object, material));
+                            crossed.passed.push((0, object, material));
                         }
                     },
                 );
@@ -149,8 +187,9 @@ impl World {
         if blocked {
             return 0.0;
         }
-        crossed.sort_unstable();
+        crossed.passed.sort_unstable();
         crossed
+            .passed
             .iter()
             .map(|&(_, _, material)| self.transmission(material))
             .product()

@@ -10,10 +10,13 @@
 //! the pool to free.
 //!
 //! The way of a picture: [`renderer`] hands a job to [`worker`], which builds a [`world`] with the
-//! [`structures`] of its meshes and fills a [`film`] in [`steps`]; each sample takes its numbers from
+//! [`structures`] of its meshes and fills the [`tile`]s of a [`film`] in [`steps`]; each sample takes its numbers from
 //! [`sampler`], its place around the pixel from [`filter`], its ray from [`camera`] and its radiance
 //! from a [`tracer`], or something else from [`first_hit`]; [`tone`] makes the film a frame, and
 //! [`noise`] says how far that is from the last one.
+//!
+//! Pixels of live pictures remember what they depend on ([`touched`]): an edit of a material or of a
+//! light's colour takes over the film as far as it is, and only what depends on it is traced anew.
 //!
 //! A tracer gathers light in one of two ways: [`whitted`], a [`wave`] of samples at once, whose rays
 //! land on [`surfaces`] and [`branch`]; or [`path`], one sample after the other. Both ask the world by
@@ -50,7 +53,9 @@ mod steps;
 mod structures;
 mod surfaces;
 mod texture;
+mod tile;
 mod tone;
+mod touched;
 mod tracer;
 mod utah;
 mod warp;

@@ -34,6 +34,7 @@ impl World {
         transmittances: &mut Vec<f64>,
     ) {
         transmittances.clear();
+        crossed.touched.clear();
         dispatch!(self.level, simd => {
             for packet in packets {
                 self.transmittance_together(simd, packet, blocker, crossed, transmittances);
@@ -50,7 +51,7 @@ impl World {
         crossed: &mut Crossed,
         transmittances: &mut Vec<f64>,
     ) {
-        crossed.clear();
+        crossed.begin(packet.lanes.count_ones() as usize);
         let rays = packet.rays.load(simd);
         let mut open = packet.lanes;
         let closed = Eight::splat(simd, -1.0);
@@ -59,6 +60,7 @@ impl World {
             && let Some(hits) = self.hits(&rays, object, open, &limits, Search::Blocker)
         {
             let blocked = self.blocked(object, &hits);
+            crossed.touch(object, hits.lanes);
             open &= !blocked;
             close(&mut limits, blocked);
         }
@@ -79,12 +81,13 @@ impl World {
                         Search::Blocker,
                         #[inline(always)]
                         |object, hit| {
+                            crossed.touch(object, left);
                             let material = self.scene.objects[object as usize].material_at(hit);
                             if self.transmission(material) == 0.0 {
                                 *blocker = self.is_simple(object).then_some(object);
                                 open &= !left;
                             } else {
-                                crossed.push((lane, object, material));
+                                crossed.passed.push((lane, object, material));
                             }
                         },
                     );
@@ -97,6 +100,7 @@ impl World {
                     let Some(hits) = hits else { continue };
                     let object = self.order()[place];
                     let blocked = self.blocked(object, &hits);
+                    crossed.touch(object, hits.lanes);
                     if blocked != 0 {
                         *blocker = self.is_simple(object).then_some(object);
                         open &= !blocked;
@@ -108,17 +112,17 @@ impl World {
                         passed &= passed - 1;
                         let hit = hits.hit(lane as usize);
                         let material = self.scene.objects[object as usize].material_at(hit);
-                        crossed.push((lane, object, material));
+                        crossed.passed.push((lane, object, material));
                     }
                 }
                 limits
             },
         );
-        crossed.sort_unstable();
+        crossed.passed.sort_unstable();
         let mut next = 0;
         for lane in 0..packet.lanes.count_ones() {
             let mut transmittance = 1.0;
-            while let Some(&(of, _, material)) = crossed.get(next)
+            while let Some(&(of, _, material)) = crossed.passed.get(next)
                 && of == lane
             {
                 transmittance *= self.transmission(material);

@@ -15,6 +15,7 @@ use super::optics::{Dielectric, index, reflect, refract, schlick, spread, transm
 use super::phong;
 use super::probe::{Matter, Point, Probe, RAY_BUDGET, Sample, Seen};
 use super::sampler::{Sampler, Use};
+use super::touched::Touched;
 use super::utah::{Gloss, Shading};
 use super::warp;
 use crate::geometry::Ray;
@@ -53,6 +54,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let mut seen = Seen {
             radiance: Rgb::ZERO,
             object: NO_OBJECT,
+            touched: Touched::default(),
         };
         let mut path = Path {
             ray: sample.ray,
@@ -103,6 +105,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         if path.bounce == 0 {
             seen.object = nearest.object;
         }
+        self.touched |= Touched::object(nearest.object);
         path.throughput *= transmitted(path.absorption, nearest.hit.t);
         let (point, matter) = world.arrive(&path.ray, nearest);
         match matter {

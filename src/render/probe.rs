@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 use super::frame::NO_OBJECT;
 use super::intersect::{Crossed, Nearest};
 use super::sampler::Sampler;
+use super::touched::Touched;
 use super::utah::Shading;
 use super::world::World;
 use crate::geometry::{Ray, Surface};
@@ -28,6 +29,8 @@ pub(crate) struct Probe<'w, C> {
     pub(crate) depth: u32,
     /// Scratch space.
     pub(crate) crossed: Crossed,
+    /// What a path has depended on so far.
+    pub(crate) touched: Touched,
     /// What was traced so far.
     pub(crate) counts: Counts,
 }
@@ -82,6 +85,8 @@ pub(crate) struct Seen {
     pub(crate) radiance: Rgb,
     /// The first object met, or [`NO_OBJECT`](super::NO_OBJECT).
     pub(crate) object: u32,
+    /// What that depends on.
+    pub(crate) touched: Touched,
 }
 
 impl Seen {
@@ -89,6 +94,7 @@ impl Seen {
     pub(crate) const NOTHING: Self = Self {
         radiance: Rgb::ZERO,
         object: NO_OBJECT,
+        touched: Touched::NOTHING,
     };
 }
 
@@ -122,7 +128,8 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
             world,
             cancelled,
             depth,
-            crossed: Vec::new(),
+            crossed: Crossed::default(),
+            touched: Touched::default(),
             counts: Counts::default(),
         }
     }

@@ -55,4 +55,34 @@ impl Step {
             Self::Samples(indices) => indices.end,
         }
     }
+
+    /// The spacing of the pixels that it is for.
+    pub(crate) fn spacing(&self) -> u32 {
+        match self {
+            Self::Grid(spacing) => *spacing,
+            Self::Samples(_) => 1,
+        }
+    }
+
+    /// The samples that it adds to each of them.
+    pub(crate) fn indices(&self) -> Range<u32> {
+        match self {
+            Self::Grid(_) => 0..1,
+            Self::Samples(indices) => indices.clone(),
+        }
+    }
+
+    /// What it brings them to, which tells how many samples they have (see [`samples_at`]): 1 with
+    /// sample 0, and 1 more each time their samples double or come to the last one.
+    pub(crate) fn level(&self) -> u8 {
+        1 + self.indices().end.next_power_of_two().ilog2() as u8
+    }
+}
+
+/// The samples of a pixel at a level, where `spp` are all; none at level 0.
+pub(crate) fn samples_at(level: u8, spp: u32) -> u32 {
+    match level {
+        0 => 0,
+        level => spp.min(1 << (level - 1)),
+    }
 }

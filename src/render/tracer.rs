@@ -1,6 +1,7 @@
 //! Radiance along camera rays, gathered in one of two ways.
 
 use super::probe::{Counts, Probe, Sample, Seen};
+use super::touched::Touched;
 use super::wave::Wave;
 use super::world::World;
 use crate::scene::Integrator;
@@ -25,13 +26,26 @@ impl<'w, C: Fn() -> bool> Tracer<'w, C> {
         }
     }
 
+    /// The same, which tells what all that samples bring depends on.
+    pub(crate) fn noting(mut self) -> Self {
+        self.probe.crossed.notes = true;
+        self
+    }
+
     /// What camera samples bring, in their order.
     pub(crate) fn trace(&mut self, samples: &[Sample], seen: &mut Vec<Seen>) {
         seen.clear();
         let probe = &mut self.probe;
         match self.integrator {
             Integrator::Whitted => probe.by_whitted(&mut self.wave, samples, seen),
-            Integrator::Path => seen.extend(samples.iter().map(|sample| probe.by_path(sample))),
+            Integrator::Path => seen.extend(samples.iter().map(|sample| {
+                probe.touched = Touched::default();
+                let seen = probe.by_path(sample);
+                Seen {
+                    touched: probe.touched,
+                    ..seen
+                }
+            })),
         }
     }
 

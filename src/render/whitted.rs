@@ -15,6 +15,7 @@ use super::optics::transmitted;
 use super::phong;
 use super::probe::{Matter, Probe, Sample, Seen};
 use super::sampler::Use;
+use super::touched::Touched;
 use super::wave::{Arrived, Wave, Way};
 use super::world::World;
 use crate::geometry::lanes::{Simd, WIDTH, bits, dispatch};
@@ -39,7 +40,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
             world.nearest_each(&wave.rays, &mut wave.nearest);
             world.land_each(&wave.rays, &wave.nearest, &mut wave.landings);
             wave.arrive(world, samples, seen);
-            self.light(wave, samples);
+            self.light(wave, samples, seen);
             dispatch!(world.level, simd => {
                 for packet in 0..wave.rays.len() {
                     wave.go_on(simd, packet, self.depth, samples, seen);
@@ -49,7 +50,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
     }
 
     /// Adds what surfaces send back of the light of all lights, in file order.
-    fn light(&mut self, wave: &mut Wave<'_>, samples: &[Sample]) {
+    fn light(&mut self, wave: &mut Wave<'_>, samples: &[Sample], seen: &mut [Seen]) {
         let world = self.world;
         let lights = &world.scene.lights;
         wave.blockers.resize(lights.len(), None);
@@ -61,7 +62,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
             wave.shadows.clear();
             dispatch!(world.level, simd => {
                 for packet in 0..wave.rays.len() {
-                    wave.ask(simd, packet, (number, light), samples);
+                    wave.ask(simd, packet, (number, light), samples, seen);
                 }
             });
             let asking = wave.asking.len() as u64;
@@ -74,8 +75,19 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
                 &mut wave.transmittances,
             );
             let asking = wave.asking.iter().zip(&wave.transmittances);
-            for (&(ray, unblocked), &transmittance) in asking {
-                wave.arrived[ray].radiance += transmittance * unblocked;
+            for (&(ray, unblocked), &transmittance) in asking.clone() {
+                // Light that does not come counts nothing, were it infinitely strong.
+                if transmittance != 0.0 {
+                    wave.arrived[ray].radiance += transmittance * unblocked;
+                }
+            }
+            // Of what nobody notes there is nothing.
+            for ((&(ray, _), &transmittance), &touched) in asking.zip(&self.crossed.touched) {
+                let seen = &mut seen[wave.ways[ray].tree];
+                seen.touched |= touched;
+                if transmittance != 0.0 {
+                    seen.touched |= Touched::light(number);
+                }
             }
         }
     }
@@ -98,6 +110,7 @@ impl<'w> Wave<'w> {
                 if way.bounce == 0 {
                     seen.object = nearest.object;
                 }
+                seen.touched |= Touched::object(nearest.object);
                 let turned = |normal: DVec3| {
                     if landing.is_front(lane) {
                         normal
@@ -139,6 +152,7 @@ impl<'w> Wave<'w> {
         packet: usize,
         (number, light): (usize, &Light),
         samples: &[Sample],
+        seen: &mut [Seen],
     ) {
         let landing = &self.landings[packet];
         let rays = &self.rays[packet].rays;
@@ -187,7 +201,10 @@ impl<'w> Wave<'w> {
                 continue;
             };
             match &facing.shadow {
-                None => arrived.radiance += unblocked,
+                None => {
+                    seen[self.ways[first + lane].tree].touched |= Touched::light(number);
+                    arrived.radiance += unblocked;
+                }
                 Some(Shadow { rays, ends }) => {
                     self.asking.push((first + lane, unblocked));
                     self.shadows.push(&rays.ray(lane), ends[lane]);

@@ -7,12 +7,14 @@ use std::time::{Duration, Instant};
 use rayon::ThreadPool;
 
 use super::camera::Projection;
-use super::film::{Film, Raster, Shot};
+use super::film::{Film, Raster};
 use super::filter::Spread;
 use super::frame::{Frame, Frames, Job, Progress};
 use super::probe::Counts;
 use super::shared::Shared;
 use super::steps::{Step, steps};
+use super::tile::Shot;
+use super::touched::Touched;
 use super::world::World;
 use crate::scene::Size;
 
@@ -34,6 +36,13 @@ pub(crate) struct Order {
     pub(crate) film: Film,
 }
 
+/// What a job leaves to the next one.
+struct Left {
+    world: World,
+    /// What it traced, and how far it came, if that may be gone on with.
+    traced: Option<(Job, Film)>,
+}
+
 /// Traces jobs until the renderer is dropped, or a panic ends the thread.
 pub(crate) fn run<W: Fn() + Sync>(
     orders: &Receiver<Order>,
@@ -41,36 +50,54 @@ pub(crate) fn run<W: Fn() + Sync>(
     wake: &W,
     pool: &ThreadPool,
 ) {
-    let mut world = None;
+    let mut left = None;
     while let Ok(newest) = orders.recv() {
         let order = orders.try_iter().last().unwrap_or(newest);
-        world = pool.install(|| trace(order, shared, wake, world.take()));
+        left = pool.install(|| trace(order, shared, wake, left.take()));
     }
     // Nobody is to wait while the system takes back the structure of a large scene: up to 16 ms for a
     // million spheres.
-    pool.spawn(move || drop(world));
+    pool.spawn(move || {
+        if let Some(Left { world, traced }) = left {
+            drop(world);
+            if let Some((_, film)) = traced {
+                film.free_later();
+            }
+        }
+    });
 }
 
-/// Traces a job to its end, unless it is cancelled; returns the world for the next job.
+/// Traces a job to its end, unless it is cancelled.
 fn trace<W: Fn() + Sync>(
     order: Order,
     shared: &Shared,
     wake: &W,
-    previous: Option<World>,
-) -> Option<World> {
+    mut previous: Option<Left>,
+) -> Option<Left> {
     let Order {
         generation,
         job,
-        film,
+        mut film,
     } = order;
     let begun = Instant::now();
     // A newer job does not cancel the building: it may need the same structure, and if a held key
     // moved the objects of a large scene, no structure would ever be finished.
     let quit = || shared.is_quitting();
-    let Some(world) = World::build(Arc::clone(&job.scene), &job.images, previous.as_ref(), quit)
-    else {
+    let known = previous.as_ref().map(|left| &left.world);
+    let Some(world) = World::build(Arc::clone(&job.scene), &job.images, known, quit) else {
         return previous;
     };
+    if let Some(Left {
+        world: before,
+        traced,
+    }) = &mut previous
+        && let Some((job_before, old)) = traced.take()
+    {
+        match Touched::between((&job_before, before), (&job, &world)) {
+            Some(changed) => film.take_over(old, changed),
+            None => old.free_later(),
+        }
+    }
     let shot = Shot {
         world: &world,
         projection: Projection::new(&job.camera, job.settings.size),
@@ -89,8 +116,14 @@ fn trace<W: Fn() + Sync>(
             break;
         }
     }
-    picture.film.free_later();
-    Some(world)
+    let film = picture.film;
+    let traced = if film.remembers() {
+        Some((job, film))
+    } else {
+        film.free_later();
+        None
+    };
+    Some(Left { world, traced })
 }
 
 /// What says whether a job may go on.
@@ -170,7 +203,7 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
         let tiles = self.film.tiles();
         let mut next = 0;
         while next < tiles {
-            let until = tiles.min(next + self.batch);
+            let until = self.film.stretch(next, self.batch, step);
             let begun = Instant::now();
             let (ticket, published) = (self.ticket, self.published);
             let cancelled = || ticket.cancelled(published);
@@ -256,7 +289,7 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
                 elapsed: self.begun.elapsed(),
                 rays: self.counts.rays,
                 shadow_rays: self.counts.shadow_rays,
-                over_budget: self.counts.over_budget,
+                over_budget: self.film.over_budget(),
                 noise: self.film.noise(),
                 complete,
             },

@@ -106,6 +106,11 @@ impl World {
         })
     }
 
+    /// Whether this is the world of the same shapes, which is built with those of the one before.
+    pub(crate) fn has_shapes_of(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.spheres, &other.spheres)
+    }
+
     /// What a ray that meets nothing brings: a camera ray the background at `screen`, a place in the
     /// unit square, others the environment.
     pub(crate) fn around(&self, ray: &Ray, bounce: u32, screen: DVec2) -> Rgb {

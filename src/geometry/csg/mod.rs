@@ -264,6 +264,11 @@ impl Csg {
         leaf.shape.chart(ray, own)
     }
 
+    /// The tags of its leaves.
+    pub fn tags(&self) -> impl Iterator<Item = u32> {
+        self.leaves.iter().map(|leaf| leaf.tag)
+    }
+
     /// The tag of the leaf whose surface was hit.
     pub fn tag(&self, hit: Hit) -> u32 {
         self.leaf(hit).0.tag

@@ -163,15 +163,18 @@ fn radiance_is_the_same_with_any_vectors_and_in_any_company() {
                 centred(Ray { origin, direction }, f64::INFINITY)
             })
             .collect();
+        // Which of several objects blocks a shadow ray, and is touched, depends on its company.
+        let brought = |seen: &Seen| (seen.radiance, seen.object);
         let mut best = Vec::new();
         tracer(&world, 8).trace(&samples, &mut best);
         for (sample, seen) in samples.iter().zip(&best) {
-            assert_eq!(tracer(&world, 8).radiance(sample), *seen);
+            let alone = tracer(&world, 8).radiance(sample);
+            assert_eq!(brought(&alone), brought(seen));
         }
         world.level = Level::baseline();
         let mut plain = Vec::new();
         tracer(&world, 8).trace(&samples, &mut plain);
-        assert_eq!(plain, best);
+        assert!(plain.iter().map(brought).eq(best.iter().map(brought)));
     }
 }
 

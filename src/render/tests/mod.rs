@@ -1,6 +1,7 @@
 //! Pictures whose pixels are known on paper.
 
 mod cameras;
+mod edits;
 mod falloff;
 mod filters;
 mod first_hits;
@@ -23,6 +24,7 @@ use glam::{DVec2, DVec3};
 
 use super::probe::{Sample, Seen};
 use super::sampler::Sampler;
+use super::touched::Touched;
 use super::tracer::Tracer;
 use super::world::World;
 use super::{Filter, Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};

@@ -4,9 +4,10 @@ use std::cell::Cell;
 
 use super::super::Refusal;
 use super::super::camera::Projection;
-use super::super::film::{Film, Shot};
+use super::super::film::Film;
 use super::super::filter::Spread;
 use super::super::steps::{Step, steps};
+use super::super::tile::Shot;
 use super::super::tone::Tone;
 use super::*;
 

@@ -13,7 +13,8 @@ fn nothing_is_black() {
         seen,
         Seen {
             radiance: Rgb::ZERO,
-            object: NO_OBJECT
+            object: NO_OBJECT,
+            touched: Touched::default(),
         }
     );
 }

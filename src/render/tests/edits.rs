@@ -1,0 +1,445 @@
+//! Edits of materials and of lights' colours: what is traced anew, and what is kept, make the picture
+//! that tracing all of it would.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
+
+use super::super::camera::Projection;
+use super::super::film::Film;
+use super::super::filter::Spread;
+use super::super::probe::Counts;
+use super::super::steps::steps;
+use super::super::tile::Shot;
+use super::super::{Aov, Progress};
+use super::*;
+use crate::geometry::{Csg, Instance, Mesh, MeshParts, Node, Operation, SlotRun};
+use crate::scene::{
+    Falloff, Finish, Gloss, Image, Pattern, Shadows, Source, Texture, Textured, Tinted, Utah,
+};
+
+/// A job under way, a step at a time.
+struct Easel {
+    job: Job,
+    world: World,
+    film: Film,
+    counts: Counts,
+}
+
+impl Easel {
+    fn new(job: Job) -> Self {
+        let world = World::build(Arc::clone(&job.scene), &job.images, None, || false);
+        let film = Film::new(&job.settings, job.frames);
+        Self {
+            job,
+            world: world.expect("nothing cancels"),
+            film: film.expect("memory is there"),
+            counts: Counts::default(),
+        }
+    }
+
+    /// Goes on with another job, keeping what it may.
+    fn turn_to(&mut self, job: Job) {
+        let before = Some(&self.world);
+        let world = World::build(Arc::clone(&job.scene), &job.images, before, || false);
+        let world = world.expect("nothing cancels");
+        let changed = Touched::between((&self.job, &self.world), (&job, &world));
+        let film = Film::new(&job.settings, job.frames).expect("memory is there");
+        let old = std::mem::replace(&mut self.film, film);
+        self.film
+            .take_over(old, changed.expect("materials and colours of lights"));
+        (self.job, self.world) = (job, world);
+        self.counts = Counts::default();
+    }
+
+    /// Traces until it was asked so often whether to stop; whether it came to the end.
+    fn trace(&mut self, patience: u64) -> bool {
+        let asked = AtomicU64::new(0);
+        let cancelled = || patience <= asked.fetch_add(1, Ordering::Relaxed);
+        let shot = Shot {
+            world: &self.world,
+            projection: Projection::new(&self.job.camera, self.job.settings.size),
+            eye: self.job.camera.eye,
+            settings: self.job.settings,
+            spread: Spread::of(self.job.settings.filter),
+        };
+        for step in steps(self.job.settings.spp, self.job.frames) {
+            let tiles = 0..self.film.tiles();
+            let counts = self.film.advance(tiles, &step, &shot, cancelled);
+            self.counts = self.counts.and(counts);
+            if cancelled() {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// All that is shown of it.
+    fn shows(&self) -> impl PartialEq + std::fmt::Debug + use<> {
+        let pixels = 0..self.job.settings.size.pixels();
+        let bits = |at| self.film.value(at).to_array().map(f64::to_bits);
+        let values: Vec<_> = pixels.clone().map(bits).collect();
+        let objects: Vec<_> = pixels.map(|at| self.film.object(at)).collect();
+        let noise = self.film.noise().map(f64::to_bits);
+        (values, objects, noise, self.film.over_budget())
+    }
+}
+
+fn one_of<T: Copy>(choices: &[T], random: &mut Random) -> T {
+    choices[(random.next() * choices.len() as f64) as usize]
+}
+
+fn colour(random: &mut Random) -> Rgb {
+    0.5 * (random.point(1.0) + 1.0)
+}
+
+/// Any material of any kind.
+fn material(random: &mut Random) -> Material {
+    let tinted = |colour| Tinted {
+        colour,
+        texture: None,
+    };
+    let glass = one_of(&[0.0, 0.0, 0.7], random);
+    let mirror = one_of(&[0.0, 0.0, 0.5], random);
+    match one_of(&[0, 1, 1, 1, 1, 2, 2, 3], random) {
+        0 => Material::Flat(colour(random)),
+        1 => Material::Phong(Phong {
+            ambient: Rgb::splat(0.1),
+            diffuse: colour(random),
+            specular: Rgb::splat(0.3),
+            exponent: 10.0,
+            reflection: mirror,
+            transmission: glass,
+            index: 1.3,
+            colour_texture: one_of(&[None, None, Some(0)], random),
+            bump: None,
+        }),
+        kind => {
+            let finish = if kind == 2 {
+                Finish::Blinn(Gloss {
+                    diffuse: tinted(colour(random)),
+                    specular: tinted(Rgb::splat(0.5)),
+                    glossiness: Textured {
+                        value: 20.0,
+                        texture: None,
+                    },
+                })
+            } else {
+                Finish::Microfacet {
+                    colour: tinted(colour(random)),
+                    roughness: Textured {
+                        value: random.next(),
+                        texture: None,
+                    },
+                    metallic: Textured {
+                        value: random.next(),
+                        texture: None,
+                    },
+                }
+            };
+            Material::Utah(Box::new(Utah {
+                finish,
+                reflection: tinted(Rgb::splat(mirror)),
+                reflection_spread: one_of(&[0.0, 0.2], random),
+                refraction: tinted(Rgb::splat(glass)),
+                refraction_spread: 0.0,
+                index: 1.3,
+                absorption: colour(random),
+                emission: tinted(one_of(&[Rgb::ZERO, Rgb::splat(0.2)], random)),
+            }))
+        }
+    }
+}
+
+/// A leaning square of two triangles, called by two tags.
+fn leaf(centre: DVec3, size: f64, tags: [u32; 2]) -> Shape {
+    let corner = |x: f64, y: f64| DVec3::new(x, y, x);
+    let mesh = Mesh::new(MeshParts {
+        positions: vec![
+            corner(-1.0, -1.0),
+            corner(1.0, -1.0),
+            corner(1.0, 1.0),
+            corner(-1.0, 1.0),
+        ],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        slots: vec![SlotRun { first: 1, slot: 1 }],
+        ..MeshParts::default()
+    });
+    let frame = Affine::of_matrix(DVec3::AXES.map(|axis| size * axis), centre);
+    Shape::Mesh(Box::new(Instance::new(
+        Arc::new(mesh.expect("the mesh is sound")),
+        &frame.expect("it has a volume"),
+        tags.to_vec(),
+    )))
+}
+
+/// A ball without a bite, each of a tag.
+fn bitten(centre: DVec3, size: f64, tags: [u32; 2]) -> Shape {
+    let ball = |off: f64, tag| Node::Leaf {
+        shape: sphere((centre + off * size).to_array(), size),
+        tag,
+    };
+    Shape::Csg(Arc::new(Csg::new(vec![
+        ball(0.0, tags[0]),
+        ball(0.4, tags[1]),
+        Node::Operation {
+            operation: Operation::Difference,
+            first: 0,
+            second: 1,
+        },
+    ])))
+}
+
+/// A floor and solids of all kinds above it, each of a material of its own or of two.
+fn still(count: usize, random: &mut Random) -> Scene {
+    let materials: Vec<_> = (0..count + 2).map(|_| material(random)).collect();
+    let mut objects = vec![Object {
+        shape: cuboid([-9.0, -2.0, -9.0], [18.0, 0.5, 18.0]),
+        material: 0,
+    }];
+    for number in 1..count as u32 {
+        let (centre, size) = (random.point(1.5), 0.2 + 0.5 * random.next());
+        let tags = [number, number + 1];
+        let shape = match one_of(&[0, 0, 1, 2, 3], random) {
+            0 => sphere(centre.to_array(), size),
+            1 => cuboid(centre.to_array(), [size; 3]),
+            2 => bitten(centre, size, tags),
+            _ => leaf(centre, size, tags),
+        };
+        objects.push(Object {
+            shape,
+            material: number,
+        });
+    }
+    let light = |random: &mut Random| {
+        let from = DVec3::new(0.0, 4.0, 3.0) + random.point(3.0);
+        let falloff = Falloff {
+            radial: [1.0, 0.0, 0.01],
+            spot: Some((-from.normalize(), 40.0)),
+        };
+        let lamp = Light::point(from, colour(random));
+        match one_of(&[0, 1, 2, 3, 4], random) {
+            0 => Light {
+                source: Source::Distant(from.normalize()),
+                ..lamp
+            },
+            1 => Light {
+                source: Source::Point {
+                    position: from,
+                    falloff,
+                },
+                ..lamp
+            },
+            2 => Light {
+                shadows: Shadows::Off,
+                ..lamp
+            },
+            3 => Light {
+                radius: 0.5,
+                ..lamp
+            },
+            _ => lamp,
+        }
+    };
+    let lights: Vec<_> = (0..3).map(|_| light(random)).collect();
+    Scene {
+        materials,
+        objects,
+        textures: vec![Texture {
+            repeat: DVec2::splat(8.0),
+            pattern: Pattern::Checker([Rgb::ZERO, Rgb::ONE]),
+        }],
+        ambient: Rgb::splat(0.5),
+        ..scene(&[], &lights)
+    }
+}
+
+/// The scene with another material or two, or light of another colour.
+fn edited(scene: &Scene, random: &mut Random) -> Scene {
+    let mut scene = scene.clone();
+    if random.next() < 0.15 {
+        let light = (random.next() * scene.lights.len() as f64) as usize;
+        scene.lights[light].colour = one_of(&[Rgb::ZERO, colour(random)], random);
+        return scene;
+    }
+    for _ in 0..one_of(&[1, 1, 1, 2], random) {
+        let number = (random.next() * scene.materials.len() as f64) as usize;
+        scene.materials[number] = material(random);
+    }
+    scene
+}
+
+#[test]
+fn a_thousand_edits_make_the_pictures_that_tracing_all_would() {
+    let mut random = Random(51);
+    let (mut edits, mut traced, mut all) = (0, 0, 0);
+    while edits < 1000 {
+        let count = one_of(&[4, 8, 8, 12, 90], &mut random);
+        let mut scene = Arc::new(still(count, &mut random));
+        let settings = Settings {
+            depth: 4,
+            integrator: one_of(
+                &[Integrator::Whitted, Integrator::Whitted, Integrator::Path],
+                &mut random,
+            ),
+            ..settings(19, 17, one_of(&[1, 2, 3, 5], &mut random))
+        };
+        let mut easel = Easel::new(job(&scene, settings));
+        easel.trace(u64::MAX);
+        for _ in 0..20 {
+            let before = Arc::clone(&scene);
+            scene = Arc::new(edited(&scene, &mut random));
+            let is_light = scene.lights != before.lights;
+            if is_light && settings.integrator == Integrator::Path {
+                scene = before;
+                continue;
+            }
+            easel.turn_to(job(&scene, settings));
+            edits += 1;
+            let patience = (200.0 * random.next()) as u64;
+            if random.next() < 0.4 && !easel.trace(patience) {
+                // The next edit comes before its picture.
+                continue;
+            }
+            easel.trace(u64::MAX);
+            let mut anew = Easel::new(job(&scene, settings));
+            anew.trace(u64::MAX);
+            assert_eq!(easel.shows(), anew.shows(), "edit {edits}");
+            traced += easel.counts.rays;
+            all += anew.counts.rays;
+        }
+    }
+    assert!(2 * traced < all, "{traced} rays of {all}");
+}
+
+/// Nested glass that mirrors, where rays double until there are too many, beside a matte ball.
+#[test]
+fn samples_over_their_budget_are_counted_once() {
+    let splitting = Phong {
+        reflection: 1.0,
+        transmission: 1.0,
+        index: 1.0,
+        ..BLACK
+    };
+    let nested = (1..=6).map(|k| (sphere([-0.8, 0.0, 0.0], 0.1 * f64::from(k)), splitting));
+    let mut balls: Vec<_> = nested.collect();
+    balls.push((sphere([0.8, 0.0, 0.0], 0.7), grey(0.5)));
+    let settings = Settings {
+        depth: 30,
+        ..settings(5, 4, 2)
+    };
+    let job_with = |levels: [f64; 2]| {
+        let mut scene = scene(&balls, &[]);
+        scene.materials[0] = Material::Phong(Phong {
+            ambient: Rgb::splat(levels[0]),
+            ..splitting
+        });
+        scene.materials[6] = Material::Phong(grey(levels[1]));
+        job(&Arc::new(scene), settings)
+    };
+    let mut easel = Easel::new(job_with([0.0, 0.5]));
+    easel.trace(u64::MAX);
+    for levels in [[0.0, 0.9], [0.1, 0.9], [0.2, 0.4]] {
+        easel.turn_to(job_with(levels));
+        easel.trace(u64::MAX);
+        let mut anew = Easel::new(job_with(levels));
+        anew.trace(u64::MAX);
+        assert!(0 < anew.film.over_budget());
+        assert_eq!(easel.shows(), anew.shows(), "{levels:?}");
+    }
+}
+
+#[test]
+fn a_renderer_keeps_what_an_edit_does_not_touch() {
+    let mut random = Random(52);
+    let (renderer, woken) = renderer(2);
+    let settings = settings(61, 37, 5);
+    let mut scene = Arc::new(still(8, &mut random));
+    let first = restart(&renderer, job(&scene, settings));
+    finish(&renderer, &woken, first);
+    let (mut traced, mut all) = (0, 0);
+    for _ in 0..12 {
+        // One is cancelled by the next as soon as it shows something.
+        scene = Arc::new(edited(&scene, &mut random));
+        restart(&renderer, job(&scene, settings));
+        woken.recv().expect("a first frame");
+        renderer.latest();
+        scene = Arc::new(edited(&scene, &mut random));
+        let generation = restart(&renderer, job(&scene, settings));
+        let kept = finish(&renderer, &woken, generation);
+        let (other, other_woken) = super::renderer(2);
+        let generation = restart(&other, job(&scene, settings));
+        let anew = finish(&other, &other_woken, generation);
+        assert!(kept.pixels == anew.pixels && kept.objects == anew.objects);
+        let told = |frame: &Frame| Progress {
+            elapsed: Duration::ZERO,
+            rays: 0,
+            ..frame.progress
+        };
+        assert_eq!(told(&kept), told(&anew));
+        traced += kept.progress.rays;
+        all += anew.progress.rays;
+    }
+    assert!(traced < all, "{traced} rays of {all}");
+}
+
+#[test]
+fn other_edits_begin_anew() {
+    let mut random = Random(53);
+    let scene = still(8, &mut random);
+    let before = Easel::new(job(&Arc::new(scene.clone()), settings(8, 6, 1)));
+    let changed = |job: Job| {
+        let known = Some(&before.world);
+        let world = World::build(Arc::clone(&job.scene), &job.images, known, || false);
+        let world = world.expect("nothing cancels");
+        Touched::between((&before.job, &before.world), (&job, &world))
+    };
+    let of_scene = |change: &dyn Fn(&mut Scene)| {
+        let mut scene = scene.clone();
+        change(&mut scene);
+        changed(Job {
+            camera: before.job.camera,
+            ..job(&Arc::new(scene), before.job.settings)
+        })
+    };
+    let of_job = |change: &dyn Fn(&mut Job)| {
+        let mut job = before.job.clone();
+        change(&mut job);
+        changed(job)
+    };
+    assert_eq!(of_job(&|_| {}), Some(Touched::default()));
+    assert_eq!(of_job(&|job| job.camera.eye.x += 1.0), None);
+    assert_eq!(of_job(&|job| job.settings.spp += 1), None);
+    assert_eq!(of_job(&|job| job.settings.size.width += 1), None);
+    assert_eq!(of_job(&|job| job.settings.aov = Some(Aov::Albedo)), None);
+    assert_eq!(of_job(&|job| job.frames = Frames::Last), None);
+    let red = Image::new(
+        Size {
+            width: 1,
+            height: 1,
+        },
+        vec![[255, 0, 0]],
+    );
+    let red = Arc::new(red.expect("a pixel"));
+    let images =
+        |job: &mut Job| job.images = [("red".to_owned(), Arc::clone(&red))].into_iter().collect();
+    assert_eq!(of_job(&images), None);
+    assert_eq!(of_scene(&|scene| scene.ambient.x += 0.1), None);
+    assert_eq!(of_scene(&|scene| scene.lights[0].radius += 1.0), None);
+    assert_eq!(of_scene(&|scene| scene.lights.truncate(1)), None);
+    assert_eq!(of_scene(&|scene| scene.textures[0].repeat.x = 3.0), None);
+    assert_eq!(of_scene(&|scene| scene.objects.truncate(3)), None);
+    let sky = |scene: &mut Scene| scene.setting.background.colour.x = 1.0;
+    assert_eq!(of_scene(&sky), None);
+    let moved = |scene: &mut Scene| scene.objects[1].shape = sphere([0.0; 3], 0.1);
+    assert_eq!(of_scene(&moved), None);
+    let dimmed = |scene: &mut Scene| scene.lights[1].colour *= 0.5;
+    assert_eq!(of_scene(&dimmed), Some(Touched::light(1)));
+    // The floor's material under another number is the same.
+    let renumbered = |scene: &mut Scene| {
+        scene.objects[0].material = scene.materials.len() as u32;
+        scene.materials.push(scene.materials[0].clone());
+    };
+    assert_eq!(of_scene(&renumbered), Some(Touched::default()));
+    let other = |scene: &mut Scene| scene.materials[0] = Material::Flat(Rgb::new(0.1, 0.2, 0.3));
+    assert_eq!(of_scene(&other), Some(Touched::object(0)));
+}
