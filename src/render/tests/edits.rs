@@ -373,6 +373,7 @@ fn a_renderer_keeps_what_an_edit_does_not_touch() {
         let told = |frame: &Frame| Progress {
             elapsed: Duration::ZERO,
             rays: 0,
+            shadow_rays: 0,
             ..frame.progress
         };
         assert_eq!(told(&kept), told(&anew));
