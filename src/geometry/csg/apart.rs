@@ -5,7 +5,7 @@
     reason = "a caller compiled for wider vectors must take these with it"
 )]
 
-use arrayvec::ArrayVec;
+use smallvec::SmallVec;
 
 use super::evaluate::{Lists, Slopes};
 use super::merge::APART;
@@ -35,7 +35,7 @@ struct Apart<'a, N: Lanes> {
     slopes: Slopes<N>,
     /// The largest coordinate that matters on each line, but for those of the boundaries.
     scale: N,
-    boundaries: ArrayVec<Boundary<N>, MOST>,
+    boundaries: SmallVec<[Boundary<N>; MOST]>,
     close: N::Mask,
 }
 
@@ -64,7 +64,7 @@ impl Csg {
             rays,
             slopes: Slopes::new(rays, [zero, limits]),
             scale: rays.origin.abs().largest().larger(magnitude),
-            boundaries: ArrayVec::new(),
+            boundaries: SmallVec::new(),
             close: none,
         };
         self.evaluate(&mut lists, lines);
@@ -128,7 +128,7 @@ impl<N: Lanes> Lists for Apart<'_, N> {
     fn merge(&mut self, operation: Operation, start: usize, middle: usize) {
         let (first, second) = self.boundaries.split_at_mut(middle);
         let none = self.close & !self.close;
-        let mut in_first: ArrayVec<_, MOST> = second.iter().map(|_| none).collect();
+        let mut in_first: SmallVec<[_; MOST]> = second.iter().map(|_| none).collect();
         for a in &mut first[start..] {
             let farthest = a.end.t.all(APART) * self.scale.larger(a.end.t.abs());
             let mut in_second = none;
