@@ -83,7 +83,7 @@ pub(crate) struct Sample {
 pub(crate) struct Seen {
     /// Radiance.
     pub(crate) radiance: Rgb,
-    /// The first object met, or [`NO_OBJECT`](super::NO_OBJECT).
+    /// The first object met, or [`NO_OBJECT`].
     pub(crate) object: u32,
     /// What that depends on.
     pub(crate) touched: Touched,
