@@ -106,8 +106,6 @@ pub(super) struct Node {
     first: [u32; WIDTH],
     /// The number of indices of a leaf, [`INNER`] for a node.
     count: [u8; WIDTH],
-    /// A bit for each lane that something is in.
-    filled: u8,
 }
 
 /// The count that marks an inner child.
@@ -119,7 +117,6 @@ impl Node {
         planes: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3],
         first: [0; WIDTH],
         count: [0; WIDTH],
-        filled: 0,
     };
 
     /// Fills one lane.
@@ -132,7 +129,6 @@ impl Node {
             Child::Inner(node) => (node, INNER),
             Child::Leaf { first, count } => (first, count),
         };
-        self.filled |= u8::from(self.count[lane] != 0) << lane;
     }
 
     /// Adds `offset` to the numbers of the nodes below.
@@ -171,7 +167,11 @@ impl Node {
     /// A bit for each lane that something is in.
     #[inline]
     pub(super) fn filled(&self) -> u32 {
-        self.filled.into()
+        let mut filled = 0;
+        for (lane, &count) in self.count.iter().enumerate() {
+            filled |= u32::from(count != 0) << lane;
+        }
+        filled
     }
 
     /// The planes of all children across an axis, those on a side first.
@@ -248,10 +248,7 @@ fn widened<S: Simd>(simd: S, planes: &[f32; WIDTH]) -> Eight<S> {
 )]
 #[inline(always)]
 pub(super) fn cut<N: Lanes>([entry, exit]: [N; 2], near: N, far: N) -> [N; 2] {
-    [
-        N::select(entry.below(near), near, entry),
-        N::select(far.below(exit), far, exit),
-    ]
+    [entry.larger(near), exit.smaller(far)]
 }
 
 /// A ray as nodes test it.

@@ -204,9 +204,7 @@ fn candidates<S: Simd>(node: &Node, slopes: &[Slopes<S>; 3], limits: Eight<S>) -
         let far = far - bounds.far_origin;
         let (near, other_near) = (near * slow, near * fast);
         let (far, other_far) = (far * slow, far * fast);
-        let near = Lanes::select(other_near.below(near), other_near, near);
-        let far = Lanes::select(far.below(other_far), other_far, far);
-        interval = cut(interval, near, far);
+        interval = cut(interval, near.smaller(other_near), far.larger(other_far));
     }
     let [entry, exit] = interval;
     bits::<S>(entry.up_to(exit * limits.all(WIDEN))) & node.filled()

@@ -100,7 +100,7 @@ fn inside_side<N: Lanes>(origin: Vector<N>, direction: Vector<N>) -> Option<Ends
     let (before, after) = (a.all(f64::NEG_INFINITY), a.all(f64::INFINITY));
     let zero = a.all(0.0);
     // A line steeper than the side always crosses it: a negative discriminant is rounding.
-    let root = N::select(zero.below(discriminant), discriminant, zero).sqrt();
+    let root = zero.larger(discriminant).sqrt();
     let [first, second] = roots(a, b, c, root);
     let (flatter, rises) = (zero.below(a), zero.below(direction.z));
     let enter = N::select(flatter, first, N::select(rises, before, second));

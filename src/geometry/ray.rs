@@ -167,16 +167,6 @@ impl Packets {
     }
 }
 
-impl FromIterator<(Ray, f64)> for Packets {
-    fn from_iter<I: IntoIterator<Item = (Ray, f64)>>(rays: I) -> Self {
-        let mut packets = Self::default();
-        for (ray, end) in rays {
-            packets.push(&ray, end);
-        }
-        packets
-    }
-}
-
 impl Deref for Packets {
     type Target = [Packet];
 

@@ -10,10 +10,10 @@
 //! the pool to free.
 //!
 //! The way of a picture: [`renderer`] hands a job to [`worker`], which builds a [`world`] with the
-//! [`structures`] of its meshes and fills the [`tile`]s of a [`film`] in [`steps`]; each sample takes its numbers from
-//! [`sampler`], its place around the pixel from [`filter`], its ray from [`camera`] and its radiance
-//! from a [`tracer`], or something else from [`first_hit`]; [`tone`] makes the film a frame, and
-//! [`noise`] says how far that is from the last one.
+//! [`structures`] of its meshes and fills the [`tile`]s of a [`film`] in [`steps`]; each sample takes
+//! its numbers from [`sampler`], its place around the pixel from [`filter`], its ray from [`camera`]
+//! and its radiance from a [`tracer`], or something else from [`first_hit`]; [`tone`] makes the film a
+//! frame, and [`noise`] says how far that is from the last one.
 //!
 //! Pixels of live pictures remember what they depend on ([`touched`]): an edit of a material or of a
 //! light's colour takes over the film as far as it is, and only what depends on it is traced anew.

@@ -205,8 +205,11 @@ impl Tile {
             over_budget: 0,
             memory: (remembers == Remembers::Causes).then(memory),
         };
-        for pixel in tile.pixels(size, 1) {
-            tile.levels[tile.index(pixel)] = 0;
+        let [left, top] = tile.corner;
+        let across = (size.width - left).min(shape.width) as usize;
+        let down = (size.height - top).min(shape.height) as usize;
+        for row in tile.levels.chunks_mut(shape.width as usize).take(down) {
+            row[..across].fill(0);
         }
         tile
     }

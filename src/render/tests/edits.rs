@@ -11,8 +11,9 @@ use super::super::probe::Counts;
 use super::super::steps::steps;
 use super::super::tile::Shot;
 use super::super::{Aov, Progress};
+use super::meshes::{mesh, square};
 use super::*;
-use crate::geometry::{Csg, Instance, Mesh, MeshParts, Node, Operation, SlotRun};
+use crate::geometry::{Csg, Instance, Node, Operation};
 use crate::scene::{
     Falloff, Finish, Gloss, Image, Pattern, Shadows, Source, Texture, Textured, Tinted, Utah,
 };
@@ -152,21 +153,10 @@ fn material(random: &mut Random) -> Material {
 
 /// A leaning square of two triangles, called by two tags.
 fn leaf(centre: DVec3, size: f64, tags: [u32; 2]) -> Shape {
-    let corner = |x: f64, y: f64| DVec3::new(x, y, x);
-    let mesh = Mesh::new(MeshParts {
-        positions: vec![
-            corner(-1.0, -1.0),
-            corner(1.0, -1.0),
-            corner(1.0, 1.0),
-            corner(-1.0, 1.0),
-        ],
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
-        slots: vec![SlotRun { first: 1, slot: 1 }],
-        ..MeshParts::default()
-    });
-    let frame = Affine::of_matrix(DVec3::AXES.map(|axis| size * axis), centre);
+    let columns = [DVec3::new(1.0, 0.0, 1.0), DVec3::Y, DVec3::Z];
+    let frame = Affine::of_matrix(columns.map(|column| size * column), centre);
     Shape::Mesh(Box::new(Instance::new(
-        Arc::new(mesh.expect("the mesh is sound")),
+        mesh(square()),
         &frame.expect("it has a volume"),
         tags.to_vec(),
     )))

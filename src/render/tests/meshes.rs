@@ -44,7 +44,7 @@ fn ball(rings: u32) -> MeshParts {
     }
 }
 
-fn mesh(parts: MeshParts) -> Arc<Mesh> {
+pub(super) fn mesh(parts: MeshParts) -> Arc<Mesh> {
     Arc::new(Mesh::new(parts).expect("the mesh is sound"))
 }
 
@@ -58,7 +58,7 @@ fn as_shape(instance: &Instance) -> Shape {
 }
 
 /// One upright square of two triangles around the origin, of edge 2, with slots 0 and 1.
-fn square() -> MeshParts {
+pub(super) fn square() -> MeshParts {
     let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     MeshParts {
         positions: vec![
