@@ -2,26 +2,28 @@
 //! box holds is the caller's closure.
 //!
 //! `build` sorts boxes into a tree of [`node::WIDTH`]-wide nodes by the surface area heuristic,
-//! `node` holds such a node and tests a ray against all its children at once, `refit` follows boxes
-//! that move, and `traverse` walks the tree, near children first.
+//! `node` holds such a node, `slab` is a ray as its children's boxes are tested against it, all at
+//! once, `refit` follows boxes that move, and `traverse` and `packet` walk the tree, near children
+//! first.
 //!
 //! # How nothing is missed
 //!
 //! - Nodes store `f32` planes relative to a reference point, rounded outward. The reference is the
 //!   median of the boxes' centres, so a scene far from the origin keeps its resolution, and so do
 //!   small things beside a few huge ones.
-//! - A ray's origin relative to the reference is an interval of one unit in the last place, and
-//!   each plane takes the end of it that makes the box larger.
-//! - Planes are widened to `f64`, which is exact, and distances grow by the bound on their rounding
-//!   error after Ize, "Robust BVH Ray Traversal" (JCGT 2013).
+//! - Rays are taken to the same numbers, an origin between two of them, and each plane takes the end
+//!   that makes the box larger.
+//! - Distances grow by the bound on their rounding error after Ize, "Robust BVH Ray Traversal" (JCGT
+//!   2013); see `slab`.
 //!
-//! All of it is relative: there is no absolute tolerance, and a scene scaled by a power of two gives
-//! the same tree and the same visits.
+//! All of it is relative but for what underflows: a scene scaled by a power of two gives the same
+//! tree and the same visits.
 
 mod build;
 mod node;
 mod packet;
 mod refit;
+mod slab;
 mod split;
 mod traverse;
 
@@ -59,8 +61,8 @@ impl Bvh {
     /// Builds the tree, in parallel on the current rayon pool; the same boxes give the same tree.
     /// `None` if `cancelled` said so, which is asked at least every few milliseconds.
     ///
-    /// An empty box is never visited. A box that is infinite, not a number, or farther than `f32`
-    /// reaches from most others is visited by every ray. Boxes beyond the first 2³² − 1 are
+    /// An empty box is never visited. A box that is infinite, not a number, or farther than 2⁶⁶ from
+    /// most others is visited by every ray. Boxes beyond the first 2³² − 1 are
     /// ignored.
     pub fn build(boxes: &[Aabb], cancelled: impl Fn() -> bool + Sync) -> Option<Self> {
         Self::over(boxes.len(), |index| boxes[index as usize], cancelled)

@@ -4,19 +4,12 @@ use std::array;
 
 use glam::DVec3;
 
-use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, bits};
-use crate::geometry::{Aabb, Ray};
+use super::slab::{FAR, SlabRay, cut, opens};
+use crate::geometry::Aabb;
+use crate::geometry::lanes::{Simd, SimdBase, Singles, bits};
 
 /// Children of a node.
 pub(super) const WIDTH: usize = 8;
-
-/// How much farther than computed a ray may leave a box, or a limit may lie.
-///
-/// With u = 2⁻⁵³, a distance (plane − origin) · (1 / direction) carries three roundings, so it is
-/// off by a factor of 1 ± γ₃, γ₃ = 3u / (1 − 3u). Entry ≤ exit therefore holds for every box that is
-/// met once the exit is scaled by 1 + 2γ₃ (Ize, "Robust BVH Ray Traversal", JCGT 2013); 8u leaves
-/// room for the rounding of that product.
-pub(super) const WIDEN: f64 = 1.0 + 4.0 * f64::EPSILON;
 
 /// A closed box in `f32`, relative to the reference point of its tree. The fourth lane is zero and
 /// makes unions whole vectors.
@@ -45,9 +38,10 @@ impl Bounds {
         }
     }
 
-    /// Whether all planes are finite.
-    pub(super) fn is_finite(&self) -> bool {
-        self.low.iter().chain(&self.high).all(|x| x.is_finite())
+    /// Whether distances to all planes are finite numbers.
+    pub(super) fn is_bounded(&self) -> bool {
+        let mut planes = self.low.iter().chain(&self.high);
+        planes.all(|&plane| f64::from(plane).abs() <= FAR)
     }
 
     /// The smallest box around both.
@@ -180,170 +174,37 @@ impl Node {
         reason = "a caller compiled for wider vectors must take this with it"
     )]
     #[inline(always)]
-    pub(super) fn planes<S: Simd>(&self, simd: S, axis: usize, side: usize) -> [Eight<S>; 2] {
-        sorted(simd, &self.planes[axis], side)
+    pub(super) fn planes<S: Simd>(&self, simd: S, axis: usize, side: usize) -> [Singles<S>; 2] {
+        let sides = &self.planes[axis];
+        [side & 1, side & 1 ^ 1].map(
+            #[inline(always)]
+            |side| Singles::load_array(simd, sides[side]),
+        )
     }
 
     /// The low and the high plane across an axis of the box in a lane.
     #[inline]
-    pub(super) fn box_planes(&self, lane: usize, axis: usize) -> [f64; 2] {
+    pub(super) fn box_planes(&self, lane: usize, axis: usize) -> [f32; 2] {
         let [low, high] = &self.planes[axis];
-        [f64::from(low[lane]), f64::from(high[lane])]
+        [low[lane], high[lane]]
     }
 
     /// The distances at which the ray enters the children's boxes, 0 inside of one, and a bit for
-    /// each child that it enters at a distance up to `limit`, both with the margin of [`WIDEN`].
+    /// each child that it may enter at a distance up to `limit`.
     #[expect(
         clippy::inline_always,
         reason = "a caller compiled for wider vectors must take this with it"
     )]
     #[inline(always)]
-    pub(super) fn entries<S: Simd>(&self, ray: &SlabRay<S>, limit: f64) -> ([f64; WIDTH], u32) {
+    pub(super) fn entries<S: Simd>(&self, ray: &SlabRay<S>, limit: f32) -> ([f32; WIDTH], u32) {
         let simd = ray.slopes[0].inverse.simd;
-        let mut entry = Eight::splat(simd, 0.0);
-        let mut exit = Eight::splat(simd, limit);
-        for (sides, slope) in self.planes.iter().zip(&ray.slopes) {
-            let [near, far] = sorted(simd, sides, slope.near_side);
+        let mut interval = [Singles::splat(simd, 0.0), Singles::splat(simd, limit)];
+        for (axis, slope) in ray.slopes.iter().enumerate() {
+            let [near, far] = self.planes(simd, axis, slope.near_side);
             let near = (near - slope.near_origin) * slope.inverse;
             let far = (far - slope.far_origin) * slope.inverse;
-            [entry, exit] = cut([entry, exit], near, far);
+            interval = cut(interval, near, far);
         }
-        let met = entry.up_to(exit * WIDEN);
-        (*entry, bits::<S>(met))
-    }
-}
-
-/// Planes of both sides in `f64`, those of a side first.
-#[expect(
-    clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take this with it"
-)]
-#[inline(always)]
-fn sorted<S: Simd>(simd: S, sides: &[[f32; WIDTH]; 2], side: usize) -> [Eight<S>; 2] {
-    [
-        widened(simd, &sides[side & 1]),
-        widened(simd, &sides[side & 1 ^ 1]),
-    ]
-}
-
-/// Planes in `f64`.
-#[expect(
-    clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take this with it"
-)]
-#[inline(always)]
-fn widened<S: Simd>(simd: S, planes: &[f32; WIDTH]) -> Eight<S> {
-    let mut widened = [0.0; WIDTH];
-    for lane in 0..WIDTH {
-        widened[lane] = f64::from(planes[lane]);
-    }
-    Eight::load_array(simd, widened)
-}
-
-/// The part of an interval that is beyond the `near` and before the `far`. A NaN, 0 · ∞ of a ray that
-/// runs in a face, fails the comparison and cuts nothing.
-#[expect(
-    clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take this with it"
-)]
-#[inline(always)]
-pub(super) fn cut<N: Lanes>([entry, exit]: [N; 2], near: N, far: N) -> [N; 2] {
-    [entry.larger(near), exit.smaller(far)]
-}
-
-/// A ray as nodes test it.
-pub(super) struct SlabRay<S: Simd> {
-    slopes: [Slope<S>; 3],
-}
-
-/// A ray along one axis, in each lane the same.
-struct Slope<S: Simd> {
-    /// 1 over the direction; infinite for 0, with its sign.
-    inverse: Eight<S>,
-    /// The origin against planes where the ray comes in, such that they are not too far.
-    near_origin: Eight<S>,
-    /// The origin against planes where the ray goes out, such that they are not too near.
-    far_origin: Eight<S>,
-    /// Where the ray comes in: 0 for low planes, 1 for high ones.
-    near_side: usize,
-}
-
-impl<S: Simd> SlabRay<S> {
-    /// A ray by 1 over its direction and its origin against low and high planes, along each axis.
-    #[expect(
-        clippy::inline_always,
-        reason = "a caller compiled for wider vectors must take this with it"
-    )]
-    #[inline(always)]
-    pub(super) fn of(simd: S, [x, y, z]: [[f64; 3]; 3]) -> Self {
-        Self {
-            slopes: [
-                Slope::of(simd, x[0], x[1], x[2]),
-                Slope::of(simd, y[0], y[1], y[2]),
-                Slope::of(simd, z[0], z[1], z[2]),
-            ],
-        }
-    }
-
-    /// The ray relative to the reference point of a tree.
-    #[expect(
-        clippy::inline_always,
-        reason = "a caller compiled for wider vectors must take this with it"
-    )]
-    #[inline(always)]
-    pub(super) fn new(simd: S, ray: &Ray, reference: DVec3) -> Self {
-        let Ray { origin, direction } = ray;
-        Self {
-            slopes: [
-                Slope::new(simd, origin.x, direction.x, reference.x),
-                Slope::new(simd, origin.y, direction.y, reference.y),
-                Slope::new(simd, origin.z, direction.z, reference.z),
-            ],
-        }
-    }
-}
-
-impl<S: Simd> Slope<S> {
-    /// A ray by 1 over its direction and its origin against low and high planes.
-    #[expect(
-        clippy::inline_always,
-        reason = "a caller compiled for wider vectors must take this with it"
-    )]
-    #[inline(always)]
-    fn of(simd: S, inverse: f64, low: f64, high: f64) -> Self {
-        let rises = inverse.is_sign_positive();
-        let (near, far) = if rises { (low, high) } else { (high, low) };
-        Self {
-            inverse: Eight::splat(simd, inverse),
-            near_origin: Eight::splat(simd, near),
-            far_origin: Eight::splat(simd, far),
-            near_side: usize::from(!rises),
-        }
-    }
-
-    #[expect(
-        clippy::inline_always,
-        reason = "a caller compiled for wider vectors must take this with it"
-    )]
-    #[inline(always)]
-    fn new(simd: S, origin: f64, direction: f64, reference: f64) -> Self {
-        let [below, above] = difference(origin, reference);
-        Self::of(simd, direction.recip(), above, below)
-    }
-}
-
-/// The nearest `f64`s not above and not below the exact a − b. The sign of the rounding error is
-/// that of Knuth's two-sum, which is exact.
-#[inline]
-pub(super) fn difference(a: f64, b: f64) -> [f64; 2] {
-    let sum = a - b;
-    let part = sum - a;
-    let error = (a - (sum - part)) - (b + part);
-    if error < 0.0 {
-        [sum.next_down(), sum]
-    } else if 0.0 < error {
-        [sum, sum.next_up()]
-    } else {
-        [sum, sum]
+        (*interval[0], bits::<S>(opens(interval)))
     }
 }

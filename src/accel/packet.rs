@@ -21,10 +21,11 @@ use std::ops::Range;
 use arrayvec::ArrayVec;
 
 use crate::geometry::Rays;
-use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, bits};
+use crate::geometry::lanes::{Eight, Select, Simd, SimdBase, Singles, bits, singles};
 
 use super::Bvh;
-use super::node::{Child, Node, SlabRay, WIDEN, WIDTH, cut, difference};
+use super::node::{Child, Node, WIDTH};
+use super::slab::{SlabRay, against, cut, opens, raised};
 use super::traverse::{STACK, Waiting, insert};
 
 /// As many rays are tested against all children of a node, one after the other; of more all against
@@ -34,24 +35,24 @@ const FEW: u32 = 2;
 /// Rays along one axis.
 struct Slopes<S: Simd> {
     /// 1 over the direction; infinite for 0, with its sign.
-    inverse: Eight<S>,
+    inverse: Singles<S>,
     /// The origin against low planes. Rays that rise come in there, and the planes must not be too
     /// far; others go out there, and they must not be too near: it is the larger end both times.
-    against_low: Eight<S>,
+    against_low: Singles<S>,
     /// The origin against high planes, the smaller end.
-    against_high: Eight<S>,
-    rises: <Eight<S> as Lanes>::Mask,
+    against_high: Singles<S>,
+    rises: <Singles<S> as SimdBase<S>>::Mask,
     bounds: SlopeBounds<S>,
 }
 
 /// What lies between all rays of a packet along one axis, in each lane the same.
 struct SlopeBounds<S: Simd> {
     /// The least and the greatest inverse.
-    inverse: [Eight<S>; 2],
+    inverse: [Singles<S>; 2],
     /// The origins against planes where rays come in, such that none is too far.
-    near_origin: Eight<S>,
+    near_origin: Singles<S>,
     /// The origins against planes where rays go out, such that none is too near.
-    far_origin: Eight<S>,
+    far_origin: Singles<S>,
     /// Where rays come in: 0 for low planes, 1 for high ones.
     near_side: usize,
     /// Whether this says anything: not if some rise and others do not, or a direction is 0.
@@ -80,6 +81,7 @@ pub(super) fn traverse<S: Simd>(
         slopes(origin.y, direction.y, reference.y),
         slopes(origin.z, direction.z, reference.z),
     ];
+    let mut reach = singles(raised(limits));
     let mut stack = ArrayVec::<_, STACK>::new();
     stack.push(Waiting {
         entry: 0.0,
@@ -92,7 +94,7 @@ pub(super) fn traverse<S: Simd>(
         lanes,
     }) = stack.pop()
     {
-        let reached = limits.all(entry).up_to(limits * limits.all(WIDEN));
+        let reached = opens([Singles::splat(reach.simd, entry), reach]);
         let lanes = bits::<S>(reached) & lanes;
         if lanes == 0 {
             continue;
@@ -102,7 +104,7 @@ pub(super) fn traverse<S: Simd>(
                 let node = &bvh.nodes[number as usize];
                 let base = stack.len();
                 if lanes.count_ones() <= FEW {
-                    let mut met = meet_few(node, &slopes, limits, lanes);
+                    let mut met = meet_few(node, &slopes, reach, lanes);
                     while met.children != 0 {
                         let lane = met.children.trailing_zeros() as usize % WIDTH;
                         met.children &= met.children - 1;
@@ -115,11 +117,11 @@ pub(super) fn traverse<S: Simd>(
                     }
                     continue;
                 }
-                let mut candidates = candidates(node, &slopes, limits);
+                let mut candidates = candidates(node, &slopes, reach);
                 while candidates != 0 {
                     let lane = candidates.trailing_zeros() as usize % WIDTH;
                     candidates &= candidates - 1;
-                    let (entry, lanes) = meet(node, lane, &slopes, limits, lanes);
+                    let (entry, lanes) = meet(node, lane, &slopes, reach, lanes);
                     if lanes != 0 {
                         let child = node.child(lane);
                         let waiting = Waiting {
@@ -134,6 +136,7 @@ pub(super) fn traverse<S: Simd>(
             Child::Leaf { first, count } => {
                 let first = first as usize;
                 limits = visit(first..first + usize::from(count), lanes, limits);
+                reach = singles(raised(limits));
             }
         }
     }
@@ -142,7 +145,7 @@ pub(super) fn traverse<S: Simd>(
 impl<S: Simd> Slopes<S> {
     /// The ray in a lane, as [`SlabRay::of`] takes it.
     #[inline(always)]
-    fn of_lane(&self, lane: usize) -> [f64; 3] {
+    fn of_lane(&self, lane: usize) -> [f32; 3] {
         [
             self.inverse[lane],
             self.against_low[lane],
@@ -153,16 +156,13 @@ impl<S: Simd> Slopes<S> {
 
 #[inline(always)]
 fn slopes<S: Simd>(origin: Eight<S>, direction: Eight<S>, reference: f64) -> Slopes<S> {
-    let simd = origin.simd;
-    let (mut above, mut below) = ([0.0; WIDTH], [0.0; WIDTH]);
-    for lane in 0..WIDTH {
-        [below[lane], above[lane]] = difference(origin[lane], reference);
-    }
-    let against_low = Eight::load_array(simd, above);
-    let against_high = Eight::load_array(simd, below);
-    let inverse = direction.all(1.0) / direction;
+    let [inverse, against_low, against_high] = against(origin, direction, reference).map(
+        #[inline(always)]
+        |numbers| singles(numbers),
+    );
+    let simd = inverse.simd;
     // The inverse of a direction of −0 is −∞.
-    let rises = inverse.all(0.0).below(inverse);
+    let rises = inverse.simd_gt(Singles::splat(simd, 0.0));
     let all_rise = bits::<S>(rises) == 0xFF;
     let ends = [
         against_low.reduce_max_precise(),
@@ -177,9 +177,9 @@ fn slopes<S: Simd>(origin: Eight<S>, direction: Eight<S>, reference: f64) -> Slo
         against_high,
         rises,
         bounds: SlopeBounds {
-            inverse: [inverse.all(slow), inverse.all(fast)],
-            near_origin: inverse.all(near_origin),
-            far_origin: inverse.all(far_origin),
+            inverse: [Singles::splat(simd, slow), Singles::splat(simd, fast)],
+            near_origin: Singles::splat(simd, near_origin),
+            far_origin: Singles::splat(simd, far_origin),
             near_side: usize::from(!all_rise),
             tells: alike && slow.is_finite() && fast.is_finite(),
         },
@@ -191,23 +191,26 @@ fn slopes<S: Simd>(origin: Eight<S>, direction: Eight<S>, reference: f64) -> Slo
 /// Where all rays go the same way along an axis, a distance of any of them is between the products
 /// of the bounds: rounding keeps order.
 #[inline(always)]
-fn candidates<S: Simd>(node: &Node, slopes: &[Slopes<S>; 3], limits: Eight<S>) -> u32 {
-    let mut interval = [limits.all(0.0), limits.all(limits.reduce_max_precise())];
+fn candidates<S: Simd>(node: &Node, slopes: &[Slopes<S>; 3], reach: Singles<S>) -> u32 {
+    let simd = reach.simd;
+    let mut interval = [
+        Singles::splat(simd, 0.0),
+        Singles::splat(simd, reach.reduce_max_precise()),
+    ];
     for (axis, slopes) in slopes.iter().enumerate() {
         let bounds = &slopes.bounds;
         if !bounds.tells {
             continue;
         }
-        let [near, far] = node.planes(limits.simd, axis, bounds.near_side);
+        let [near, far] = node.planes(reach.simd, axis, bounds.near_side);
         let [slow, fast] = bounds.inverse;
         let near = near - bounds.near_origin;
         let far = far - bounds.far_origin;
-        let (near, other_near) = (near * slow, near * fast);
-        let (far, other_far) = (far * slow, far * fast);
-        interval = cut(interval, near.smaller(other_near), far.larger(other_far));
+        let near = (near * slow).min(near * fast);
+        let far = (far * slow).max(far * fast);
+        interval = cut(interval, near, far);
     }
-    let [entry, exit] = interval;
-    bits::<S>(entry.up_to(exit * limits.all(WIDEN))) & node.filled()
+    bits::<S>(opens(interval)) & node.filled()
 }
 
 /// Which of the rays meet a child, and where the first of them enters its box.
@@ -216,21 +219,21 @@ fn meet<S: Simd>(
     node: &Node,
     lane: usize,
     slopes: &[Slopes<S>; 3],
-    limits: Eight<S>,
+    reach: Singles<S>,
     lanes: u32,
-) -> (f64, u32) {
-    let mut interval = [limits.all(0.0), limits];
+) -> (f32, u32) {
+    let simd = reach.simd;
+    let mut interval = [Singles::splat(simd, 0.0), reach];
     for (axis, slopes) in slopes.iter().enumerate() {
         let [low, high] = node.box_planes(lane, axis);
-        let low = (limits.all(low) - slopes.against_low) * slopes.inverse;
-        let high = (limits.all(high) - slopes.against_high) * slopes.inverse;
-        let near = Lanes::select(slopes.rises, low, high);
-        let far = Lanes::select(slopes.rises, high, low);
+        let low = (Singles::splat(simd, low) - slopes.against_low) * slopes.inverse;
+        let high = (Singles::splat(simd, high) - slopes.against_high) * slopes.inverse;
+        let near = slopes.rises.select(low, high);
+        let far = slopes.rises.select(high, low);
         interval = cut(interval, near, far);
     }
-    let [entry, exit] = interval;
-    let met = entry.up_to(exit * limits.all(WIDEN));
-    let entry = Lanes::select(met, entry, entry.all(f64::INFINITY));
+    let met = opens(interval);
+    let entry = met.select(interval[0], Singles::splat(simd, f32::INFINITY));
     // No entry is NaN.
     (entry.reduce_min(), bits::<S>(met) & lanes)
 }
@@ -240,7 +243,7 @@ struct Met {
     /// A bit for each.
     children: u32,
     /// Where the first ray enters its box.
-    entries: [f64; WIDTH],
+    entries: [f32; WIDTH],
     /// Which of the rays meet it.
     lanes: [u32; WIDTH],
 }
@@ -250,22 +253,22 @@ struct Met {
 fn meet_few<S: Simd>(
     node: &Node,
     [x, y, z]: &[Slopes<S>; 3],
-    limits: Eight<S>,
+    reach: Singles<S>,
     mut lanes: u32,
 ) -> Met {
     let mut few = Met {
         children: 0,
-        entries: [f64::INFINITY; WIDTH],
+        entries: [f32::INFINITY; WIDTH],
         lanes: [0; WIDTH],
     };
     while lanes != 0 {
         let lane = lanes.trailing_zeros() as usize % WIDTH;
         lanes &= lanes - 1;
         let ray = SlabRay::of(
-            limits.simd,
+            reach.simd,
             [x.of_lane(lane), y.of_lane(lane), z.of_lane(lane)],
         );
-        let (entries, mut met) = node.entries(&ray, limits[lane]);
+        let (entries, mut met) = node.entries(&ray, reach[lane]);
         few.children |= met;
         while met != 0 {
             let child = met.trailing_zeros() as usize % WIDTH;

@@ -18,7 +18,7 @@ pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> O
         return None;
     }
     let bounds = |index: u32| Bounds::around(aabb(index), bvh.reference);
-    let fits = |&index: &u32| !aabb(index).is_empty() && bounds(index).is_finite();
+    let fits = |&index: &u32| !aabb(index).is_empty() && bounds(index).is_bounded();
     if !changed.iter().all(fits) {
         return None;
     }

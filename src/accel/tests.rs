@@ -211,6 +211,50 @@ fn every_box_that_is_met_is_visited() {
     }
 }
 
+/// Where single precision ends: directions that are almost along an axis, or as long as those in a
+/// mesh of any size, from near and far, at boxes of any size.
+#[test]
+fn no_size_hides_a_box() {
+    let mut random = Random(23);
+    let power = |random: &mut Random, most: i32| {
+        let exponent = random.bits() as i32 % (most + 1);
+        2f64.powi(exponent)
+    };
+    let (mut met, mut boxes) = (0, Vec::new());
+    for round in 0..4000 {
+        if round % 20 == 0 {
+            let scale = power(&mut random, 150);
+            boxes = random_boxes(&mut random, 20, scale, DVec3::ZERO);
+        }
+        let bvh = build(&boxes);
+        let target = random.pick(&boxes);
+        let mut direction = random.point();
+        for axis in 0..3 {
+            if random.bits() % 2 == 0 {
+                direction[axis] *= power(&mut random, 140);
+            }
+        }
+        let back = power(&mut random, 140);
+        let rays = [1.0, -1.0].map(|side| Ray {
+            origin: target.centre() - side * back * direction,
+            direction: side * direction,
+        });
+        let together = visits_together(&bvh, &rays, f64::INFINITY);
+        for (ray, together) in rays.iter().zip(together) {
+            let alone = visits(&bvh, ray, f64::INFINITY);
+            for (index, aabb) in (0..).zip(&boxes) {
+                let [enter, exit] = span(aabb, ray);
+                if enter <= exit {
+                    met += 1;
+                    assert!(alone.contains(&index), "{ray:?} misses {aabb:?}");
+                    assert!(together.contains(&index), "{ray:?} misses {aabb:?}");
+                }
+            }
+        }
+    }
+    assert!(4000 < met, "rays meet something: {met}");
+}
+
 /// Rays side by side, as different as they may be, visit no less than each alone must.
 #[test]
 fn every_box_that_is_met_is_visited_side_by_side() {

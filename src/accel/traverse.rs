@@ -8,7 +8,8 @@ use crate::geometry::Ray;
 use crate::geometry::lanes::Simd;
 
 use super::build::LEVELS;
-use super::node::{Child, SlabRay, WIDEN, WIDTH};
+use super::node::{Child, WIDTH};
+use super::slab::{SlabRay, is_open, raised};
 use super::{Bvh, RUN};
 
 /// The most children that can wait: a node takes one off and leaves at most [`WIDTH`], once a level.
@@ -18,7 +19,7 @@ pub(super) const STACK: usize = 1 + LEVELS * (WIDTH - 1);
 #[derive(Clone, Copy)]
 pub(super) struct Waiting<L> {
     /// Where the first of its rays enters its box.
-    pub(super) entry: f64,
+    pub(super) entry: f32,
     pub(super) child: Child,
     /// The rays that meet it; nothing where there is but one.
     pub(super) lanes: L,
@@ -66,14 +67,14 @@ pub(super) fn traverse<S: Simd>(
     let mut stack = ArrayVec::<_, STACK>::new();
     stack.push(root);
     while let Some(Waiting { entry, child, .. }) = stack.pop() {
-        // The entry carries rounding errors; a box entered right at the limit still counts.
-        if limit * WIDEN < entry {
+        let reach = raised(limit) as f32;
+        if !is_open(entry, reach) {
             continue;
         }
         match child {
             Child::Inner(number) => {
                 let node = &bvh.nodes[number as usize];
-                let (entries, mut met) = node.entries(&ray, limit);
+                let (entries, mut met) = node.entries(&ray, reach);
                 let base = stack.len();
                 while met != 0 {
                     let lane = met.trailing_zeros() as usize % WIDTH;

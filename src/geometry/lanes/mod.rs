@@ -13,10 +13,10 @@ mod vector;
 
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
-use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+use fearless_simd::{f32x8, f64x8};
 
-pub use fearless_simd::prelude::SimdBase;
+pub use fearless_simd::prelude::{Select, SimdBase};
 pub use fearless_simd::{Level, Simd, dispatch};
 pub use vector::Vector;
 
@@ -25,6 +25,9 @@ pub const WIDTH: usize = 8;
 
 /// Eight numbers side by side.
 pub type Eight<S> = f64x8<S>;
+
+/// Eight numbers of single precision side by side.
+pub type Singles<S> = f32x8<S>;
 
 /// One number, or several side by side.
 pub trait Lanes:
@@ -212,8 +215,18 @@ pub fn mask<S: Simd>(simd: S, bits: u32) -> <Eight<S> as Lanes>::Mask {
 
 /// A bit for each lane of a mask, the lowest for the first.
 #[inline(always)]
-pub fn bits<S: Simd>(mask: <Eight<S> as Lanes>::Mask) -> u32 {
+pub fn bits<S: Simd>(mask: impl SimdMask<S>) -> u32 {
     mask.to_bitmask() as u32
+}
+
+/// Those numbers, rounded to single precision.
+#[inline(always)]
+pub fn singles<S: Simd>(eight: Eight<S>) -> Singles<S> {
+    let mut singles = [0.0; WIDTH];
+    for lane in 0..WIDTH {
+        singles[lane] = eight[lane] as f32;
+    }
+    Singles::load_array(eight.simd, singles)
 }
 
 /// Eight numbers as they lie in memory.
