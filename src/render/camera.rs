@@ -1,9 +1,15 @@
 //! Rays from the eye through the picture.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take these with it"
+)]
+
 use glam::DVec3;
 
 use super::warp;
-use crate::geometry::{Ray, normalise};
+use crate::geometry::lanes::{Lanes, Vector};
+use crate::geometry::{Ray, Rays, normalise};
 use crate::scene::{Camera, Focus, Lens, Size};
 
 /// A camera made ready to give rays for a raster of pixels.
@@ -13,7 +19,7 @@ pub(crate) struct Projection {
     forward: DVec3,
     right: DVec3,
     up: DVec3,
-    rays: Rays,
+    bundle: Bundle,
     /// Half extents of the picture: on the plane one unit before the eye, or where rays go side by
     /// side in world units.
     half_width: f64,
@@ -26,7 +32,7 @@ pub(crate) struct Projection {
 
 /// How rays go.
 #[derive(Clone, Copy, Debug)]
-enum Rays {
+enum Bundle {
     FromTheEye,
     SideBySide,
 }
@@ -37,12 +43,12 @@ impl Projection {
     pub(crate) fn new(camera: &Camera, raster: Size) -> Self {
         let forward = direction(way(camera.eye, camera.target));
         let right = direction(forward.cross(upright(forward, direction(camera.up))));
-        let (rays, half_height) = match camera.lens {
+        let (bundle, half_height) = match camera.lens {
             Lens::Perspective(angle) => {
                 let half_angle = angle * (std::f64::consts::PI / 360.0);
-                (Rays::FromTheEye, libm::tan(half_angle))
+                (Bundle::FromTheEye, libm::tan(half_angle))
             }
-            Lens::Orthographic(height) => (Rays::SideBySide, 0.5 * height),
+            Lens::Orthographic(height) => (Bundle::SideBySide, 0.5 * height),
         };
         let aspect = f64::from(camera.size.width) / f64::from(camera.size.height);
         Self {
@@ -50,7 +56,7 @@ impl Projection {
             forward,
             right,
             up: right.cross(forward),
-            rays,
+            bundle,
             half_width: half_height * aspect * camera.pixel_aspect,
             half_height,
             depths: camera.depths,
@@ -69,30 +75,64 @@ impl Projection {
         y: f64,
         lens: impl FnOnce() -> Option<[f64; 2]>,
     ) -> (Ray, f64) {
-        let across = self.half_width * (2.0 * x / f64::from(self.raster.width) - 1.0);
-        let upward = self.half_height * (1.0 - 2.0 * y / f64::from(self.raster.height));
-        let aside = across * self.right + upward * self.up;
-        let mut ray = match self.rays {
-            Rays::FromTheEye => Ray {
-                origin: self.eye,
-                direction: (self.forward + aside).normalize(),
-            },
-            Rays::SideBySide => Ray {
-                origin: self.eye + aside,
-                direction: self.forward,
-            },
+        let (rays, slant) = self.middles(x, y);
+        let mut ray = Ray {
+            origin: rays.origin.into(),
+            direction: rays.direction.into(),
         };
-        let [near, far] = self.depths;
-        let slant = ray.direction.dot(self.forward);
-        if 0.0 < near {
-            ray.origin = ray.at(near / slant);
-        }
-        if self.focus.lens_radius != 0.0
+        if self.has_lens()
             && let Some(place) = lens()
         {
             ray = self.through_lens(&ray, slant, place);
         }
-        (ray, (far - near) / slant)
+        (ray, self.reach(slant))
+    }
+
+    /// The same where there is no lens, in each lane.
+    #[inline(always)]
+    pub(crate) fn rays<N: Lanes>(&self, x: N, y: N) -> (Rays<N>, N) {
+        let (rays, slant) = self.middles(x, y);
+        (rays, self.reach(slant))
+    }
+
+    /// Whether it matters through which place of the lens a ray goes.
+    pub(crate) fn has_lens(&self) -> bool {
+        self.focus.lens_radius != 0.0
+    }
+
+    /// The rays through the middle of the lens, and the cosines of their angles to the view.
+    #[inline(always)]
+    fn middles<N: Lanes>(&self, x: N, y: N) -> (Rays<N>, N) {
+        let all = |value: f64| x.all(value);
+        let (one, two) = (all(1.0), all(2.0));
+        let across = all(self.half_width) * (two * x / all(self.raster.width.into()) - one);
+        let upward = all(self.half_height) * (one - two * y / all(self.raster.height.into()));
+        let [eye, forward, right, up] =
+            [self.eye, self.forward, self.right, self.up].map(|vector| Vector::all(x, vector));
+        let aside = right.scaled(across) + up.scaled(upward);
+        let mut rays = match self.bundle {
+            Bundle::FromTheEye => Rays {
+                origin: eye,
+                direction: (forward + aside).unit(),
+            },
+            Bundle::SideBySide => Rays {
+                origin: eye + aside,
+                direction: forward,
+            },
+        };
+        let near = self.depths[0];
+        let slant = rays.direction.dot(forward);
+        if 0.0 < near {
+            rays.origin = rays.at(all(near) / slant);
+        }
+        (rays, slant)
+    }
+
+    /// How far along rays things are seen that stand at angles of such cosines to the view.
+    #[inline(always)]
+    fn reach<N: Lanes>(&self, slant: N) -> N {
+        let [near, far] = self.depths;
+        slant.all(far - near) / slant
     }
 
     /// The ray through a place of the lens to where the one through its middle meets the plane of

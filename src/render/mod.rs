@@ -48,6 +48,7 @@ mod probe;
 mod renderer;
 mod sampler;
 mod shared;
+mod shot;
 mod spheres;
 mod steps;
 mod structures;

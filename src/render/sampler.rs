@@ -1,6 +1,6 @@
 //! The numbers that samples are made of, even: before filters spread them.
 
-use sobol_burley::{sample, sample_4d};
+use sobol_burley::sample_4d;
 
 /// The numbers of one sample, each a function of (pixel, index, seed) and what it is for: points of
 /// Sobol' sequences, each Owen-scrambled by a seed of its own (Burley, "Practical Hash-based Owen
@@ -47,8 +47,8 @@ impl Sampler {
         if self.index == 0 {
             return [0.5, 0.5];
         }
-        let seed = self.pixel_seed();
-        [0, 1].map(|dimension| f64::from(sample(self.index, dimension, seed)))
+        let [x, y, ..] = sample_4d(self.index, 0, self.pixel_seed());
+        [x.into(), y.into()]
     }
 
     /// The node of a ray's `number`th child: rays with other nodes have other numbers.

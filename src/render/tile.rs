@@ -1,19 +1,14 @@
 //! A part of the picture under way: what its pixels have gathered.
 
-use glam::{DVec2, DVec3};
-
-use super::camera::Projection;
-use super::filter::Spread;
 use super::first_hit::first_hit;
-use super::frame::{NO_OBJECT, Settings};
+use super::frame::NO_OBJECT;
 use super::noise::Doubling;
 use super::probe::{Sample, Seen};
-use super::sampler::{Sampler, Use};
+use super::shot::Shot;
 use super::steps::{COARSEST, Step, samples_at};
 use super::touched::Touched;
 use super::tracer::Tracer;
-use super::world::World;
-use crate::scene::{Integrator, Rgb, Size};
+use crate::scene::{Rgb, Size};
 
 /// Pixels of a tile.
 pub(crate) const AREA: u32 = 256;
@@ -26,52 +21,6 @@ const NO_GRID: u32 = 2 * COARSEST;
 
 /// The level of pixels beyond the picture's edge, where no step is lacking.
 const BEYOND: u8 = u8::MAX;
-
-/// Everything a tile needs to be traced.
-#[derive(Debug)]
-pub(crate) struct Shot<'w> {
-    /// What is seen.
-    pub(crate) world: &'w World,
-    /// From where.
-    pub(crate) projection: Projection,
-    /// Where the camera stands.
-    pub(crate) eye: DVec3,
-    /// How.
-    pub(crate) settings: Settings,
-    /// Where around its pixel each sample lies.
-    pub(crate) spread: Spread,
-}
-
-impl Shot<'_> {
-    /// A sample of a pixel.
-    fn sample(&self, [x, y]: [u32; 2], index: u32) -> Sample {
-        let Settings {
-            size,
-            seed,
-            integrator,
-            aov,
-            ..
-        } = self.settings;
-        let sampler = Sampler::new(x, y, index, seed);
-        let [across, down] = self.spread.place(sampler.place_in_pixel());
-        let [x, y] = [x, y].map(f64::from);
-        let lens = || match (integrator, aov) {
-            // An unbiased sample has no middle.
-            (Integrator::Path, None) => {
-                let [u, v, ..] = sampler.four(Sampler::ROOT, Use::Lens);
-                Some([u, v])
-            }
-            _ => sampler.pair(Sampler::ROOT, Use::Lens),
-        };
-        let (ray, reach) = self.projection.ray(x + across, y + down, lens);
-        Sample {
-            ray,
-            reach,
-            screen: (DVec2::new(x, y) + 0.5) / DVec2::new(size.width.into(), size.height.into()),
-            sampler,
-        }
-    }
-}
 
 /// What a thread traces tiles with: room that it keeps from one to the next.
 pub(crate) struct Work<'w, C> {
@@ -236,13 +185,13 @@ impl Tile {
         let counts = work.tracer.counts();
         let level = step.level();
         work.pixels.clear();
-        for pixel in self.pixels(size, step.spacing()) {
-            let at = self.index(pixel);
-            if self.levels[at] < level {
-                self.levels[at] = 0;
+        self.each_pixel(size, step.spacing(), |tile, pixel| {
+            let at = tile.index(pixel);
+            if tile.levels[at] < level {
+                tile.levels[at] = 0;
                 work.pixels.push(pixel);
             }
-        }
+        });
         let doubling = Doubling::of(step, &shot.settings).map(|doubling| (doubling, self.sums));
         for index in step.indices() {
             self.sample(index, shot, work);
@@ -271,8 +220,7 @@ impl Tile {
             samples,
             seen,
         } = work;
-        samples.clear();
-        samples.extend(pixels.iter().map(|&pixel| shot.sample(pixel, index)));
+        shot.samples(pixels, index, samples);
         match shot.settings.aov {
             None => tracer.trace(samples, seen),
             Some(aov) => {
@@ -357,21 +305,22 @@ impl Tile {
         self.sums
     }
 
-    /// Its pixels within the picture on a grid of some spacing, in blocks of four by two: those that
-    /// stand side by side are traced side by side.
-    fn pixels(&self, size: Size, spacing: u32) -> impl Iterator<Item = [u32; 2]> + use<> {
+    /// Visits its pixels within the picture on a grid of some spacing, in blocks of four by two: those
+    /// that stand side by side are traced side by side.
+    fn each_pixel(&mut self, size: Size, spacing: u32, mut visit: impl FnMut(&mut Self, [u32; 2])) {
         let [left, top] = self.corner;
         let right = left + (size.width - left).min(self.shape.width);
         let bottom = top + (size.height - top).min(self.shape.height);
         let step = spacing as usize;
-        let part = move |from: u32, to: u32, count: u32| {
-            (from..to.min(from + count * spacing)).step_by(step)
-        };
-        (top..bottom).step_by(2 * step).flat_map(move |y0| {
-            (left..right).step_by(4 * step).flat_map(move |x0| {
-                part(y0, bottom, 2).flat_map(move |y| part(x0, right, 4).map(move |x| [x, y]))
-            })
-        })
+        for y0 in (top..bottom).step_by(2 * step) {
+            for x0 in (left..right).step_by(4 * step) {
+                for y in (y0..bottom.min(y0 + 2 * spacing)).step_by(step) {
+                    for x in (x0..right.min(x0 + 4 * spacing)).step_by(step) {
+                        visit(self, [x, y]);
+                    }
+                }
+            }
+        }
     }
 
     /// Where the pixel that stands for (x, y) is: while that is not traced, the nearest one of the grid

@@ -13,7 +13,7 @@ use super::frame::{Frame, Frames, Job, Progress};
 use super::probe::Counts;
 use super::shared::Shared;
 use super::steps::{Step, steps};
-use super::tile::Shot;
+use super::shot::Shot;
 use super::touched::Touched;
 use super::world::World;
 use crate::scene::Size;

@@ -6,8 +6,8 @@ use super::super::Refusal;
 use super::super::camera::Projection;
 use super::super::film::Film;
 use super::super::filter::Spread;
+use super::super::shot::Shot;
 use super::super::steps::{Step, steps};
-use super::super::tile::Shot;
 use super::super::tone::Tone;
 use super::*;
 

@@ -1,0 +1,99 @@
+//! What a picture is traced from, and its camera samples.
+
+#![expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take these with it"
+)]
+
+use glam::{DVec2, DVec3};
+
+use super::camera::Projection;
+use super::filter::Spread;
+use super::frame::Settings;
+use super::probe::Sample;
+use super::sampler::{Sampler, Use};
+use super::world::World;
+use crate::geometry::lanes::{Eight, Lanes, Row, Simd, SimdBase, WIDTH, dispatch};
+use crate::scene::Integrator;
+
+/// Everything a tile needs to be traced.
+#[derive(Debug)]
+pub(crate) struct Shot<'w> {
+    /// What is seen.
+    pub(crate) world: &'w World,
+    /// From where.
+    pub(crate) projection: Projection,
+    /// Where the camera stands.
+    pub(crate) eye: DVec3,
+    /// How.
+    pub(crate) settings: Settings,
+    /// Where around its pixel each sample lies.
+    pub(crate) spread: Spread,
+}
+
+impl Shot<'_> {
+    /// A sample of each pixel, in place of what `samples` holds.
+    pub(crate) fn samples(&self, pixels: &[[u32; 2]], index: u32, samples: &mut Vec<Sample>) {
+        samples.clear();
+        dispatch!(self.world.level, simd => {
+            for pixels in pixels.chunks(WIDTH) {
+                self.sample_together(simd, pixels, index, samples);
+            }
+        });
+    }
+
+    /// A sample of each of up to eight pixels.
+    #[inline(always)]
+    fn sample_together<S: Simd>(
+        &self,
+        simd: S,
+        pixels: &[[u32; 2]],
+        index: u32,
+        samples: &mut Vec<Sample>,
+    ) {
+        let Settings { size, seed, .. } = self.settings;
+        let (mut corners, mut places) = ([Row::all(0.0); 2], [Row::all(0.0); 2]);
+        for (lane, &[x, y]) in pixels.iter().enumerate() {
+            let sampler = Sampler::new(x, y, index, seed);
+            let place = self.spread.place(sampler.place_in_pixel());
+            for (axis, pixel) in [x, y].into_iter().enumerate() {
+                corners[axis].0[lane] = pixel.into();
+                places[axis].0[lane] = f64::from(pixel) + place[axis];
+            }
+        }
+        let [x, y] = [places[0].load(simd), places[1].load(simd)];
+        let (rays, reach) = self.projection.rays(x, y);
+        let half = Eight::splat(simd, 0.5);
+        let screen = [
+            (corners[0].load(simd) + half) / half.all(size.width.into()),
+            (corners[1].load(simd) + half) / half.all(size.height.into()),
+        ];
+        for (lane, &pixel) in pixels.iter().enumerate() {
+            let sampler = Sampler::new(pixel[0], pixel[1], index, seed);
+            let (ray, reach) = if self.projection.has_lens() {
+                let lens = || self.lens(sampler);
+                self.projection.ray(x[lane], y[lane], lens)
+            } else {
+                (rays.ray(lane), reach[lane])
+            };
+            samples.push(Sample {
+                ray,
+                reach,
+                screen: DVec2::new(screen[0][lane], screen[1][lane]),
+                sampler,
+            });
+        }
+    }
+
+    /// The place of a sample on the lens; none where it is the middle.
+    fn lens(&self, sampler: Sampler) -> Option<[f64; 2]> {
+        match (self.settings.integrator, self.settings.aov) {
+            // An unbiased sample has no middle.
+            (Integrator::Path, None) => {
+                let [u, v, ..] = sampler.four(Sampler::ROOT, Use::Lens);
+                Some([u, v])
+            }
+            _ => sampler.pair(Sampler::ROOT, Use::Lens),
+        }
+    }
+}
