@@ -12,8 +12,8 @@ use super::filter::Spread;
 use super::frame::{Frame, Frames, Job, Progress};
 use super::probe::Counts;
 use super::shared::Shared;
-use super::steps::{Step, steps};
 use super::shot::Shot;
+use super::steps::{Step, steps};
 use super::touched::Touched;
 use super::world::World;
 use crate::scene::Size;
@@ -28,6 +28,9 @@ const GRACE: Duration = Duration::from_millis(50);
 
 /// The work handed to the pool at once takes about this long; progress is published in between.
 const BATCH: Duration = Duration::from_millis(8);
+
+/// As long as that where only progress is told: whenever a batch ends, some threads wait for others.
+const LONG_BATCH: Duration = Duration::from_millis(50);
 
 /// A job and what it needs.
 pub(crate) struct Order {
@@ -213,7 +216,11 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
             if cancelled() {
                 return false;
             }
-            self.batch = next_batch(self.batch, begun.elapsed());
+            let wanted = match self.frames {
+                Frames::Live => BATCH,
+                Frames::Last | Frames::LastWithValues => LONG_BATCH,
+            };
+            self.batch = next_batch(self.batch, begun.elapsed(), wanted);
             next = until;
             self.taken = before + step.share() * (next as f64 / tiles as f64);
             if next < tiles && self.is_due() {
@@ -301,9 +308,9 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
     }
 }
 
-/// How many tiles to hand out next, when this many took that long.
-fn next_batch(batch: usize, took: Duration) -> usize {
-    let ratio = BATCH.as_secs_f64() / took.as_secs_f64().max(1e-6);
+/// How many tiles to hand out next, to take as long as wanted, when this many took that long.
+fn next_batch(batch: usize, took: Duration, wanted: Duration) -> usize {
+    let ratio = wanted.as_secs_f64() / took.as_secs_f64().max(1e-6);
     let least = 2 * rayon::current_num_threads();
     ((batch as f64 * ratio.min(4.0)) as usize).max(least)
 }
