@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::lines::{Findings, Statement, Word, statements};
-use super::plain::{self, Part, Plain, lines};
+use super::plain::{self, Part, Plain};
 use super::{Finding, MOST_FINDINGS, MOST_LIBRARIES, Model, mtl};
 use crate::geometry::{ABSENT, Mesh, MeshError, MeshParts, SlotRun};
 use crate::text::{counted, visible};
@@ -65,10 +65,7 @@ pub(super) fn read_parts<B: AsRef<[u8]>>(
         match part.plain {
             Some(plain) if reading.has_room(&plain) => {
                 reading.append(plain, line);
-                let text = bytes[part.range].trim_ascii_end();
-                if !text.is_empty() {
-                    last = line + lines(text);
-                }
+                last = part.last.map_or(last, |last| line + last);
             }
             _ => {
                 for statement in statements(&bytes[part.range], line) {

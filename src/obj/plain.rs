@@ -32,6 +32,8 @@ pub(super) struct Part {
     pub(super) range: Range<usize>,
     /// How many lines it has.
     pub(super) lines: usize,
+    /// How many end before the last that is not blank, if there is one.
+    pub(super) last: Option<usize>,
     /// What it says, if all of it is plain.
     pub(super) plain: Option<Plain>,
 }
@@ -40,9 +42,12 @@ pub(super) struct Part {
 pub(super) fn parts(bytes: &[u8], size: usize) -> Vec<Part> {
     let part = |range: Range<usize>| {
         let bytes = &bytes[range.clone()];
+        let text = bytes.trim_ascii_end();
+        let last = lines(text);
         Part {
             range,
-            lines: lines(bytes),
+            lines: last + lines(&bytes[text.len()..]),
+            last: (!text.is_empty()).then_some(last),
             plain: std::str::from_utf8(bytes).ok().and_then(read),
         }
     };
@@ -52,10 +57,14 @@ pub(super) fn parts(bytes: &[u8], size: usize) -> Vec<Part> {
     }
 }
 
-/// How many lines end in a text.
-pub(super) fn lines(bytes: &[u8]) -> usize {
-    let ends = bytes.iter().map(|&byte| usize::from(byte == b'\n'));
-    ends.sum()
+/// How many lines end in a text. Sums of bytes are counted sixteen and more at once, those of larger
+/// numbers take a fifth of the time that reading takes.
+fn lines(bytes: &[u8]) -> usize {
+    let of_few = |few: &[u8]| {
+        let ends = few.iter().map(|&byte| u8::from(byte == b'\n'));
+        usize::from(ends.sum::<u8>())
+    };
+    bytes.chunks(u8::MAX.into()).map(of_few).sum()
 }
 
 /// Cuts a text behind lines that do not go on in the next one.
@@ -89,10 +98,10 @@ fn read(text: &str) -> Option<Plain> {
             return None;
         }
         let mut words = Words { line, at: 0 };
-        match words.next() {
+        match words.next().map(str::as_bytes) {
             // Groups and smoothing say nothing about triangles.
-            None | Some("g" | "o" | "s") => {}
-            Some("v") => {
+            None | Some(b"g" | b"o" | b"s") => {}
+            Some(b"v") => {
                 let place = words.numbers()?;
                 plain.positions.push(DVec3::from_array(place));
                 // A weight or a colour may follow.
@@ -100,7 +109,7 @@ fn read(text: &str) -> Option<Plain> {
                     return None;
                 }
             }
-            Some("vt") => {
+            Some(b"vt") => {
                 let [u] = words.numbers()?;
                 let v = words.next().map_or(Some(0.0), |v| parse_number(v).ok())?;
                 plain.uvs.push(DVec2::new(u, v));
@@ -108,14 +117,14 @@ fn read(text: &str) -> Option<Plain> {
                     return None;
                 }
             }
-            Some("vn") => {
+            Some(b"vn") => {
                 let normal = words.numbers()?;
                 plain.normals.push(DVec3::from_array(normal));
                 if words.next().is_some() {
                     return None;
                 }
             }
-            Some("f") => {
+            Some(b"f") => {
                 corners.clear();
                 while let Some(word) = words.next() {
                     let corner = corner(word)?;

@@ -9,6 +9,7 @@ mod instance;
 mod lines;
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use super::Aabb;
 
@@ -150,23 +151,23 @@ impl Mesh {
         if u32::MAX as usize <= triangles.len().max(count) {
             return Err(MeshError::TooMany);
         }
-        if indices.iter().any(|&index| count <= index as usize) {
+        if indices.par_iter().any(|&index| count <= index as usize) {
             return Err(MeshError::Index);
         }
         if !slots.is_sorted_by_key(|run| run.first) {
             return Err(MeshError::Order);
         }
-        let finite = positions.iter().all(|position| position.is_finite())
+        let finite = positions.par_iter().all(|position| position.is_finite())
             && normals.values.iter().all(|normal| normal.is_finite())
             && uvs.values.iter().all(|uv| uv.is_finite());
         if !finite {
             return Err(MeshError::Range);
         }
         // Positions that no triangle has do not count.
-        let used = indices.iter().map(|&index| positions[index as usize]);
-        let (min, max) = used.fold(
-            (DVec3::INFINITY, DVec3::NEG_INFINITY),
-            |(min, max), position| (min.min(position), max.max(position)),
+        let used = indices.par_iter().map(|&index| positions[index as usize]);
+        let (min, max) = used.map(|position| (position, position)).reduce(
+            || (DVec3::INFINITY, DVec3::NEG_INFINITY),
+            |a, b| (a.0.min(b.0), a.1.max(b.1)),
         );
         let centre = 0.5 * min + 0.5 * max;
         let reach = (max - centre).max(centre - min).max_element();
@@ -174,9 +175,9 @@ impl Mesh {
         if !size.is_finite() {
             return Err(MeshError::Range);
         }
-        for position in &mut positions {
-            *position = (*position - centre) / size;
-        }
+        positions
+            .par_iter_mut()
+            .for_each(|position| *position = (*position - centre) / size);
         positions.shrink_to_fit();
         let mut mesh = Self {
             centre,
