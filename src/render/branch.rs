@@ -186,12 +186,15 @@ fn branch_by_fresnel(
         by_mirror += by_glass;
         by_glass = Rgb::ZERO;
     }
-    let mirrored = mirror(direction.into(), point.normal.into()).into();
     // The one pushed last is traced first.
     for (number, tangent, weight) in [
         (1, shading.refraction_spread, by_glass),
         (2, shading.reflection_spread, by_mirror),
     ] {
+        if weight == Rgb::ZERO {
+            continue;
+        }
+        let mirrored = mirror(direction.into(), point.normal.into()).into();
         let numbers = || numbers(Use::Reflection);
         let spread = spread(mirrored, tangent, point.normal, numbers);
         push(Branch {
