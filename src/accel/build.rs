@@ -62,6 +62,7 @@ pub(super) fn build(
     order.extend(unbounded);
     Ok(Bvh {
         reference,
+        farthest: nodes.first().map_or(0.0, Node::farthest),
         nodes,
         order,
         bounded: references.len(),
@@ -105,7 +106,7 @@ fn sort_out(
             };
             Reference { bounds, index }
         }));
-        let is_plain = |reference: &Reference| reference.bounds.is_bounded();
+        let is_plain = |reference: &Reference| reference.bounds.is_finite();
         if references[sorted..].par_iter().all(is_plain) {
             continue;
         }

@@ -16,8 +16,8 @@
 //! - Distances grow by the bound on their rounding error after Ize, "Robust BVH Ray Traversal" (JCGT
 //!   2013); see `slab`.
 //!
-//! All of it is relative but for what underflows: a scene scaled by a power of two gives the same
-//! tree and the same visits.
+//! All of it is relative: a scene scaled by a power of two gives the same tree and the same visits,
+//! unless it comes near the least or the greatest numbers of `f32`.
 
 mod build;
 mod node;
@@ -43,6 +43,8 @@ use node::Node;
 pub struct Bvh {
     /// The point the planes of the nodes are relative to.
     reference: DVec3,
+    /// The farthest plane's distance from that.
+    farthest: f64,
     /// The root first; none if no box is in the tree.
     nodes: Vec<Node>,
     /// Indices of boxes; a leaf is a run of them. Last stand those without finite planes, which every
@@ -61,8 +63,8 @@ impl Bvh {
     /// Builds the tree, in parallel on the current rayon pool; the same boxes give the same tree.
     /// `None` if `cancelled` said so, which is asked at least every few milliseconds.
     ///
-    /// An empty box is never visited. A box that is infinite, not a number, or farther than 2⁶⁶ from
-    /// most others is visited by every ray. Boxes beyond the first 2³² − 1 are
+    /// An empty box is never visited. A box that is infinite, not a number, or farther than `f32`
+    /// reaches from most others is visited by every ray. Boxes beyond the first 2³² − 1 are
     /// ignored.
     pub fn build(boxes: &[Aabb], cancelled: impl Fn() -> bool + Sync) -> Option<Self> {
         Self::over(boxes.len(), |index| boxes[index as usize], cancelled)

@@ -4,7 +4,7 @@ use std::array;
 
 use glam::DVec3;
 
-use super::slab::{FAR, SlabRay, cut, opens};
+use super::slab::{SlabRay, cut, opens};
 use crate::geometry::Aabb;
 use crate::geometry::lanes::{Simd, SimdBase, Singles, bits};
 
@@ -38,10 +38,9 @@ impl Bounds {
         }
     }
 
-    /// Whether distances to all planes are finite numbers.
-    pub(super) fn is_bounded(&self) -> bool {
-        let mut planes = self.low.iter().chain(&self.high);
-        planes.all(|&plane| f64::from(plane).abs() <= FAR)
+    /// Whether all planes are finite.
+    pub(super) fn is_finite(&self) -> bool {
+        self.low.iter().chain(&self.high).all(|x| x.is_finite())
     }
 
     /// The smallest box around both.
@@ -166,6 +165,13 @@ impl Node {
             filled |= u32::from(count != 0) << lane;
         }
         filled
+    }
+
+    /// How far from the reference point its farthest plane is.
+    pub(super) fn farthest(&self) -> f64 {
+        let planes = self.planes.iter().flatten().flatten();
+        let finite = planes.copied().filter(|plane| plane.is_finite());
+        finite.fold(0.0, |farthest, plane| farthest.max(f64::from(plane.abs())))
     }
 
     /// The planes of all children across an axis, those on a side first.

@@ -74,12 +74,12 @@ pub(super) fn traverse<S: Simd>(
     if bvh.nodes.is_empty() {
         return;
     }
-    let reference = bvh.reference;
+    let (reference, farthest) = (bvh.reference, bvh.farthest);
     let (origin, direction) = (rays.origin, rays.direction);
     let slopes = [
-        slopes(origin.x, direction.x, reference.x),
-        slopes(origin.y, direction.y, reference.y),
-        slopes(origin.z, direction.z, reference.z),
+        slopes(origin.x, direction.x, reference.x, farthest),
+        slopes(origin.y, direction.y, reference.y, farthest),
+        slopes(origin.z, direction.z, reference.z, farthest),
     ];
     let mut reach = singles(raised(limits));
     let mut stack = ArrayVec::<_, STACK>::new();
@@ -155,8 +155,14 @@ impl<S: Simd> Slopes<S> {
 }
 
 #[inline(always)]
-fn slopes<S: Simd>(origin: Eight<S>, direction: Eight<S>, reference: f64) -> Slopes<S> {
-    let [inverse, against_low, against_high] = against(origin, direction, reference).map(
+fn slopes<S: Simd>(
+    origin: Eight<S>,
+    direction: Eight<S>,
+    reference: f64,
+    farthest: f64,
+) -> Slopes<S> {
+    let numbers = against(origin, direction, reference, farthest);
+    let [inverse, against_low, against_high] = numbers.map(
         #[inline(always)]
         |numbers| singles(numbers),
     );

@@ -18,7 +18,7 @@ pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> O
         return None;
     }
     let bounds = |index: u32| Bounds::around(aabb(index), bvh.reference);
-    let fits = |&index: &u32| !aabb(index).is_empty() && bounds(index).is_bounded();
+    let fits = |&index: &u32| !aabb(index).is_empty() && bounds(index).is_finite();
     if !changed.iter().all(fits) {
         return None;
     }
@@ -60,6 +60,7 @@ pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> O
     }
     Some(Bvh {
         reference: bvh.reference,
+        farthest: nodes.first().map_or(0.0, Node::farthest),
         nodes,
         order: bvh.order.clone(),
         bounded: bvh.bounded,

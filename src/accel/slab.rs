@@ -5,13 +5,13 @@
 //!
 //! A ray's origin is taken between two numbers, and each plane is tested against the one that makes
 //! its box larger. With u = 2⁻²⁴, a distance (plane − origin) · (1 / direction) then carries three
-//! roundings, so it is off by a factor of 1 ± γ₃, γ₃ = 3u / (1 − 3u), and by less than the least
-//! normal number where it underflows. Entry ≤ exit therefore holds for every box that is met once
+//! roundings (and one of double precision, far less), so it is off by a factor of 1 ± γ₃,
+//! γ₃ = 3u / (1 − 3u), and by less than the least normal number where it underflows. Entry ≤ exit therefore holds for every box that is met once
 //! the exit is scaled by 1 + 2γ₃ (Ize, "Robust BVH Ray Traversal", JCGT 2013) and raised by that
 //! number; [`WIDEN`] leaves room for the rounding of that.
 //!
-//! Where an origin or a direction is so far from 1 that a distance might overflow, the axis cuts
-//! nothing. A direction of 0 is well: its inverse is infinite.
+//! Along an axis where a distance might overflow, or the inverse is no normal number, a ray is taken
+//! to meet everything. A direction of 0 is well: its inverse is infinite.
 
 #![expect(
     clippy::inline_always,
@@ -26,36 +26,41 @@ use crate::geometry::lanes::{Lanes, Simd, SimdBase, Singles};
 /// How much farther than computed a ray may leave a box: 1 + 8u.
 const WIDEN: f32 = 1.0 + 4.0 * f32::EPSILON;
 
-/// How far from the reference point of a tree origins and planes are that distances are computed
-/// to.
-pub(super) const FAR: f64 = (1_u128 << 66) as f64;
-
-/// The greatest finite inverse of a direction that distances are computed with, and 1 over the
-/// least: times twice [`FAR`] it is finite.
-const STEEP: f64 = (1_u64 << 60) as f64;
+/// The largest numbers that are computed with: room for all roundings below those of `f32`.
+const MOST: f64 = (1_u128 << 126) as f64;
 
 /// Twice the error of rounding to single precision, which makes up for those before it too.
 const SLACK: f64 = f32::EPSILON as f64;
 
-/// A ray along one axis as planes are tested against it: 1 over its direction, and numbers not
-/// below and not above its origin relative to that of the planes. Each is off by no more than a
-/// rounding to single precision, once that is done.
+/// A ray along one axis as planes are tested against it that are up to `farthest` from a reference
+/// point: 1 over its direction, and numbers not below and not above its origin relative to that
+/// point, and still so once they are rounded to single precision.
 #[inline(always)]
-pub(super) fn against<N: Lanes>(origin: N, direction: N, reference: f64) -> [N; 3] {
+pub(super) fn against<N: Lanes>(origin: N, direction: N, reference: f64, farthest: f64) -> [N; 3] {
     /// The gap between the least numbers.
     const LEAST: f64 = f32::from_bits(1) as f64;
     let all = |value| origin.all(value);
     let inverse = all(1.0) / direction;
     let from = origin - all(reference);
     let slack = from.abs() * all(SLACK) + all(LEAST);
-    let size = inverse.abs();
-    let steepness = all(1.0 / STEEP).up_to(size) & size.up_to(all(STEEP));
-    let tells = (steepness | direction.equals(all(0.0))) & from.abs().up_to(all(FAR));
+    // An infinite inverse makes no distance larger that is not infinite or 0 anyway.
+    let zero = direction.equals(all(0.0));
+    let size = N::select(zero, all(1.0), inverse.abs());
+    let most = from.abs() + all(farthest);
+    let largest = most.larger(all(1.0)) * size.larger(all(1.0));
+    let tells = all(1.0 / MOST).up_to(size) & largest.up_to(all(MOST));
     [
         N::select(tells, inverse, all(1.0)),
         N::select(tells, from + slack, all(f64::INFINITY)),
         N::select(tells, from - slack, all(f64::NEG_INFINITY)),
     ]
+}
+
+/// The same for one ray, rounded.
+#[inline(always)]
+fn against_one(origin: f64, direction: f64, reference: f64, farthest: f64) -> [f32; 3] {
+    let [inverse, above, below] = against(origin, direction, reference, farthest);
+    [inverse as f32, above as f32, below as f32]
 }
 
 /// A ray as the boxes of a node are tested against it, in each lane the same.
@@ -78,13 +83,22 @@ pub(super) struct Slope<S: Simd> {
 impl<S: Simd> SlabRay<S> {
     /// The ray relative to the reference point of a tree.
     #[inline(always)]
-    pub(super) fn new(simd: S, ray: &Ray, reference: DVec3) -> Self {
+    pub(super) fn new(simd: S, ray: &Ray, reference: DVec3, farthest: f64) -> Self {
         let Ray { origin, direction } = ray;
         Self {
             slopes: [
-                Slope::new(simd, origin.x, direction.x, reference.x),
-                Slope::new(simd, origin.y, direction.y, reference.y),
-                Slope::new(simd, origin.z, direction.z, reference.z),
+                Slope::of(
+                    simd,
+                    against_one(origin.x, direction.x, reference.x, farthest),
+                ),
+                Slope::of(
+                    simd,
+                    against_one(origin.y, direction.y, reference.y, farthest),
+                ),
+                Slope::of(
+                    simd,
+                    against_one(origin.z, direction.z, reference.z, farthest),
+                ),
             ],
         }
     }
@@ -99,12 +113,6 @@ impl<S: Simd> SlabRay<S> {
 }
 
 impl<S: Simd> Slope<S> {
-    #[inline(always)]
-    fn new(simd: S, origin: f64, direction: f64, reference: f64) -> Self {
-        let [inverse, above, below] = against(origin, direction, reference);
-        Self::of(simd, [inverse as f32, above as f32, below as f32])
-    }
-
     /// A ray by what [`against`] says.
     #[inline(always)]
     fn of(simd: S, [inverse, above, below]: [f32; 3]) -> Self {

@@ -57,7 +57,7 @@ pub(super) fn traverse<S: Simd>(
     if bvh.nodes.is_empty() {
         return;
     }
-    let ray = SlabRay::new(simd, ray, bvh.reference);
+    let ray = SlabRay::new(simd, ray, bvh.reference, bvh.farthest);
     let root = Waiting {
         entry: 0.0,
         child: Child::Inner(0),

@@ -25,7 +25,7 @@ impl World {
     }
 
     /// [`World::transmittance`] for each of several rays up to its end. `blocker` is an object that
-    /// may block them, tried first; the last that did comes back.
+    /// may block them, tried first; the last simple one that did comes back.
     pub(crate) fn transmittance_each(
         &self,
         packets: &[Packet],
@@ -84,7 +84,7 @@ impl World {
                             crossed.touch(object, left);
                             let material = self.scene.objects[object as usize].material_at(hit);
                             if self.transmission(material) == 0.0 {
-                                *blocker = self.is_simple(object).then_some(object);
+                                self.remember(blocker, object);
                                 open &= !left;
                             } else {
                                 crossed.passed.push((lane, object, material));
@@ -102,7 +102,7 @@ impl World {
                     let blocked = self.blocked(object, &hits);
                     crossed.touch(object, hits.lanes);
                     if blocked != 0 {
-                        *blocker = self.is_simple(object).then_some(object);
+                        self.remember(blocker, object);
                         open &= !blocked;
                         close(&mut limits, blocked);
                     }
@@ -161,10 +161,12 @@ impl World {
         for (lane, closest) in closest.iter_mut().enumerate() {
             *closest = Closest::before(packet.ends.0[lane], reach[lane]);
         }
+        let closed = Eight::splat(simd, -1.0);
+        let limits = Lanes::select(mask(simd, packet.lanes), packet.ends.load(simd), closed);
         self.visit_together(
             &rays,
             packet.lanes,
-            packet.ends.load(simd),
+            limits,
             #[inline(always)]
             |places, lanes, mut limits| {
                 if lanes.is_power_of_two() {
@@ -270,10 +272,13 @@ impl World {
         )
     }
 
-    /// Whether an object is met as soon as the boxes around it.
-    fn is_simple(&self, object: u32) -> bool {
+    /// Notes an object that blocks light, to be tried first, if that takes no longer than the boxes
+    /// around it.
+    fn remember(&self, blocker: &mut Option<u32>, object: u32) {
         let shape = &self.scene.objects[object as usize].shape;
-        !matches!(shape, Shape::Mesh(_) | Shape::Csg(_))
+        if !matches!(shape, Shape::Mesh(_) | Shape::Csg(_)) {
+            *blocker = Some(object);
+        }
     }
 
     /// Visits runs of places in [`World::order`], at least those of all objects that some ray may meet.

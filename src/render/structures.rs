@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::accel::Bvh;
-use crate::geometry::lanes::{Eight, Simd, WIDTH};
+use crate::geometry::lanes::{Eight, Lanes, Simd, WIDTH, mask};
 use crate::geometry::{Hit, Hits, Instance, Mesh, Ray, Rays, Shape};
 use crate::scene::Object;
 
@@ -110,7 +110,8 @@ impl Structures {
     ) -> Option<Hits> {
         let (_, tree) = &self.trees[self.numbers[object as usize] as usize];
         let lines = instance.lines(rays, lanes)?;
-        let limits_on_lines = lines.limits(limits);
+        let chosen = mask(limits.simd, lines.lanes);
+        let limits_on_lines = Lanes::select(chosen, lines.limits(limits), limits.all(-1.0));
         let mut nearest = [None; WIDTH];
         tree.traverse_packet(
             lines.rays(),

@@ -60,7 +60,7 @@ pub(crate) struct Wave<'w> {
     /// For each of these the ray that came, and what is sent back if nothing is in the way.
     pub(super) asking: Vec<(usize, Rgb)>,
     pub(super) transmittances: Vec<f64>,
-    /// By light: the last object that kept it from a surface.
+    /// By light: the last simple object that kept it from a surface.
     pub(super) blockers: Vec<Option<u32>>,
 }
 

@@ -1,0 +1,167 @@
+//! What trees are like.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::super::build::LEVELS;
+use super::super::node::{Bounds, Child, WIDTH};
+use super::super::split::{Extent, Patience, Reference, by_count};
+use super::*;
+
+/// Checks a node and all below it: children's boxes lie in `outer` and around what they hold.
+/// Returns the number of levels.
+fn check_node(bvh: &Bvh, boxes: &[Aabb], number: u32, outer: &Bounds, held: &mut [u32]) -> usize {
+    let node = &bvh.nodes[number as usize];
+    let mut levels = 0;
+    for lane in 0..WIDTH {
+        let (child, bounds) = (node.child(lane), node.bounds(lane));
+        if let Child::Leaf { count: 0, .. } = child {
+            continue;
+        }
+        assert_eq!(outer.union(&bounds), *outer, "a child leaves its parent");
+        match child {
+            Child::Inner(child) => {
+                levels = levels.max(check_node(bvh, boxes, child, &bounds, held));
+            }
+            Child::Leaf { first, count } => {
+                for &index in &bvh.order[first as usize..][..usize::from(count)] {
+                    held[index as usize] += 1;
+                    let own = boxes[index as usize];
+                    for axis in 0..3 {
+                        let low = f64::from(bounds.low[axis]);
+                        let high = f64::from(bounds.high[axis]);
+                        assert!(low < own.min[axis] - bvh.reference[axis]);
+                        assert!(own.max[axis] - bvh.reference[axis] < high);
+                    }
+                }
+            }
+        }
+    }
+    levels + 1
+}
+
+/// Checks the whole tree and returns its number of levels.
+fn check_tree(bvh: &Bvh, boxes: &[Aabb]) -> usize {
+    let mut held = vec![0; boxes.len()];
+    let everything = Bounds {
+        low: [f32::NEG_INFINITY; 4],
+        high: [f32::INFINITY; 4],
+    };
+    let levels = check_node(bvh, boxes, 0, &everything, &mut held);
+    assert!(held.iter().all(|&count| count == 1), "each box once");
+    assert!(levels <= LEVELS);
+    levels
+}
+
+#[test]
+fn trees_are_sound() {
+    let mut random = Random(3);
+    for count in [1, 2, 4, 5, 8, 9, 64, 65, 1000, 20_000] {
+        let boxes = random_boxes(&mut random, count, 1.0, DVec3::ZERO);
+        let bvh = build(&boxes);
+        assert!(check_tree(&bvh, &boxes) <= 10, "{count} boxes");
+        let bytes = memory(&bvh);
+        assert!(bytes <= 512 + 24 * count, "{count} boxes: {bytes} bytes");
+    }
+}
+
+/// Each box a tenth of the one before, all sharing a corner: the heuristic peels off a few at a time.
+#[test]
+fn a_tree_of_nested_boxes_stays_within_its_depth() {
+    let boxes: Vec<_> = (0..30_000)
+        .map(|i| cube(DVec3::ZERO, DVec3::splat(10f64.powi(-(i % 30)))))
+        .chain((0..3000).map(|i| {
+            let size = 0.97f64.powi(i);
+            cube(DVec3::splat(size), DVec3::splat(0.1 * size))
+        }))
+        .collect();
+    let bvh = build(&boxes);
+    check_tree(&bvh, &boxes);
+}
+
+#[test]
+fn division_by_count_halves_along_the_widest_axis() {
+    let mut random = Random(7);
+    let stretch = DVec3::new(1.0, 2.0, 9.0);
+    let mut references: Vec<_> = (0..1001)
+        .map(|index| Reference {
+            bounds: Bounds::around(cube(stretch * random.point(), DVec3::ONE), DVec3::ZERO),
+            index,
+        })
+        .collect();
+    let extent = Extent::of(&references, &Patience(&|| false)).expect("nobody cancels");
+    assert_eq!(by_count(&mut references, &extent), 500);
+    let heights = references
+        .iter()
+        .map(|reference| reference.bounds.centre()[2]);
+    let (low, high): (Vec<_>, Vec<_>) = (
+        heights.clone().take(500).collect(),
+        heights.skip(500).collect(),
+    );
+    assert!(low.iter().all(|a| high.iter().all(|b| a <= b)));
+}
+
+#[test]
+fn coincident_boxes_make_a_shallow_tree() {
+    let boxes = vec![cube(DVec3::ONE, DVec3::ONE); 1_000_000];
+    let bvh = build(&boxes);
+    // Eight to the seventh is two million.
+    assert!(check_tree(&bvh, &boxes) <= 7);
+}
+
+#[test]
+fn thread_count_does_not_change_the_tree() {
+    let boxes = random_boxes(&mut Random(4), 150_000, 1.0, DVec3::ZERO);
+    let [one, two] = [1, 2].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("threads start").install(|| build(&boxes))
+    });
+    check_tree(&one, &boxes);
+    assert_eq!(one.nodes, two.nodes);
+    assert_eq!(one.order, two.order);
+}
+
+#[test]
+fn a_tree_follows_boxes_that_move() {
+    let mut random = Random(8);
+    let mut boxes = random_boxes(&mut random, 20_000, 1.0, DVec3::ZERO);
+    let mut bvh = build(&boxes);
+    for turn in 0..19 {
+        let moved = random.bits() as u32 % 20_000;
+        boxes[moved as usize] = cube(3.0 * random.point(), random.point().abs());
+        let refitted = bvh.refitted(&[moved], |index| boxes[index as usize]);
+        bvh = refitted.unwrap_or_else(|| panic!("box {turn} is among many"));
+        check_tree(&bvh, &boxes);
+    }
+    assert!(bvh.refitted(&[1], |index| boxes[index as usize]).is_none());
+    let bvh = build(&boxes);
+    assert!(bvh.refitted(&[1], |_| Aabb::EMPTY).is_none());
+    let endless = cube(DVec3::ZERO, DVec3::INFINITY);
+    assert!(bvh.refitted(&[1], |_| endless).is_none());
+    assert!(
+        bvh.refitted(&[0; 17], |index| boxes[index as usize])
+            .is_none()
+    );
+}
+
+#[test]
+fn a_build_asks_often_and_stops_when_told() {
+    let boxes = random_boxes(&mut Random(6), 100_000, 1.0, DVec3::ZERO);
+    let asked = AtomicUsize::new(0);
+    assert!(Bvh::build(&boxes, || true).is_none());
+    let whole = Bvh::build(&boxes, || {
+        asked.fetch_add(1, Ordering::Relaxed);
+        false
+    });
+    assert!(whole.is_some());
+    // Each of five binary levels at the least touches every chunk of 8192 boxes.
+    let asked = asked.into_inner();
+    assert!(5 * 12 < asked, "asked {asked} times");
+    for patience in [1, 10, asked / 2, asked - 1] {
+        let left = AtomicUsize::new(patience);
+        let cancelled = || {
+            left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |n| n.checked_sub(1))
+                .is_err()
+        };
+        assert!(Bvh::build(&boxes, cancelled).is_none(), "after {patience}");
+    }
+}
