@@ -38,14 +38,20 @@ impl<'w, C: Fn() -> bool> Tracer<'w, C> {
         let probe = &mut self.probe;
         match self.integrator {
             Integrator::Whitted => probe.by_whitted(&mut self.wave, samples, seen),
-            Integrator::Path => seen.extend(samples.iter().map(|sample| {
-                probe.touched = Touched::default();
-                let seen = probe.by_path(sample);
-                Seen {
-                    touched: probe.touched,
-                    ..seen
+            Integrator::Path => {
+                for sample in samples {
+                    if (probe.cancelled)() {
+                        break;
+                    }
+                    probe.touched = Touched::default();
+                    let brought = probe.by_path(sample);
+                    seen.push(Seen {
+                        touched: probe.touched,
+                        ..brought
+                    });
                 }
-            })),
+                seen.resize(samples.len(), Seen::NOTHING);
+            }
         }
     }
 

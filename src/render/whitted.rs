@@ -55,7 +55,8 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
         let lights = &world.scene.lights;
         wave.blockers.resize(lights.len(), None);
         for (number, light) in lights.iter().enumerate() {
-            if self.is_cancelled_at(number) {
+            // A light may take as many rays as there are samples.
+            if 0 < number && (self.cancelled)() {
                 break;
             }
             wave.asking.clear();

@@ -336,6 +336,25 @@ fn a_film_takes_memory_as_it_is_traced_and_stops_developing_when_told_to() {
     assert_eq!(raster.pixels.len(), size.pixels());
 }
 
+/// Of many samples that are traced at once none begins once tracing is to stop, whichever way light
+/// is gathered.
+#[test]
+fn samples_are_left_when_told_to() {
+    let shiny = Phong {
+        reflection: 1.0,
+        ..BLACK
+    };
+    let inside = world(scene(&[(sphere([0.0; 3], 1.0), shiny)], &[]));
+    let sample = centred(ray([0.0; 3], [0.0, 0.3, 1.0]), f64::INFINITY);
+    for integrator in [Integrator::Whitted, Integrator::Path] {
+        let asked = Cell::new(false);
+        let mut tracer = Tracer::new(&inside, integrator, 8, || asked.replace(true));
+        tracer.trace(&[sample; 100], &mut Vec::new());
+        let rays = tracer.counts().rays;
+        assert!((1..=200).contains(&rays), "{integrator:?}: {rays}");
+    }
+}
+
 /// A sample that asks ten thousand lights does not go on to the last one.
 #[test]
 fn light_is_left_when_told_to() {
