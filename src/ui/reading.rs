@@ -80,8 +80,14 @@ impl Understanding {
     pub(super) fn start(send: impl Fn(Msg) + Send + 'static) -> io::Result<Self> {
         let (orders, inbox) = mpsc::channel();
         let work = move || {
+            // An edit of a large scene copies it on the threads that all share, and would wait there.
+            let pool = rayon::ThreadPoolBuilder::new().build();
             while let Some((path, read, known)) = last(&inbox) {
-                let reading = read.map(|text| Reading::new(text, known));
+                let understand = |text| match &pool {
+                    Ok(pool) => pool.install(|| Reading::new(text, known)),
+                    Err(_) => Reading::new(text, known),
+                };
+                let reading = read.map(understand);
                 send(Msg::Read(path, reading));
             }
         };
