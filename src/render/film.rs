@@ -75,7 +75,7 @@ impl Raster {
 }
 
 impl Film {
-    /// An empty film, with room for all that it and the finished picture take.
+    /// An empty film, with room for its tiles and the finished picture.
     pub(crate) fn new(settings: &Settings, frames: Frames) -> Result<Self, NoMemory> {
         let Settings {
             size,
@@ -114,8 +114,12 @@ impl Film {
         };
         film().map_err(|_: TryReserveError| {
             let bytes = |count: usize, each: usize| (count as u64).saturating_mul(each as u64);
-            let developed = size_of::<[u8; 3]>() + size_of::<u32>();
-            let tiles = bytes(count, size_of::<Tile>());
+            let values = match frames {
+                Frames::LastWithValues => size_of::<[f32; 3]>(),
+                Frames::Live | Frames::Last => 0,
+            };
+            let developed = size_of::<[u8; 3]>() + size_of::<u32>() + values;
+            let tiles = bytes(count, Tile::bytes(remembers));
             NoMemory {
                 bytes: tiles.saturating_add(bytes(size.pixels(), developed)),
             }

@@ -130,6 +130,15 @@ pub(crate) enum Remembers {
 }
 
 impl Tile {
+    /// How much memory one takes.
+    pub(crate) fn bytes(remembers: Remembers) -> usize {
+        let memory = match remembers {
+            Remembers::Pixels => 0,
+            Remembers::Causes => size_of::<Memory>(),
+        };
+        size_of::<Self>() + memory
+    }
+
     /// An empty tile, by its place in the film.
     pub(crate) fn new(number: usize, size: Size, shape: TileShape, remembers: Remembers) -> Self {
         let across = shape.across(size);
