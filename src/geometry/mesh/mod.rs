@@ -165,10 +165,12 @@ impl Mesh {
         }
         // Positions that no triangle has do not count.
         let used = indices.par_iter().map(|&index| positions[index as usize]);
-        let (min, max) = used.map(|position| (position, position)).reduce(
+        let ends = used.map(|position| (position, position)).reduce(
             || (DVec3::INFINITY, DVec3::NEG_INFINITY),
             |a, b| (a.0.min(b.0), a.1.max(b.1)),
         );
+        // Of zeros with either sign any may be the least: none keeps its sign.
+        let (min, max) = (ends.0 + 0.0, ends.1 + 0.0);
         let centre = 0.5 * min + 0.5 * max;
         let reach = (max - centre).max(centre - min).max_element();
         let size = next_power_of_two(reach);
