@@ -40,7 +40,7 @@ pub(super) fn build(
     let patience = Patience(cancelled);
     patience.check()?;
     let count = u32::try_from(count).unwrap_or(u32::MAX);
-    let reference = median_centre(count, aabb);
+    let (reference, spread) = median_centre(count, aabb);
     let (mut references, unbounded) = sort_out(count, aabb, reference, &patience)?;
     let mut nodes = Vec::new();
     if !references.is_empty() {
@@ -62,6 +62,7 @@ pub(super) fn build(
     order.extend(unbounded);
     Ok(Bvh {
         reference,
+        spread,
         farthest: nodes.first().map_or(0.0, Node::farthest),
         nodes,
         order,
@@ -70,18 +71,20 @@ pub(super) fn build(
     })
 }
 
-/// The median of the boxes' centres along each axis, or of a thousand of them: near most boxes,
-/// wherever a few far ones are.
-fn median_centre(count: u32, aabb: impl Fn(u32) -> Aabb) -> DVec3 {
+/// The median of the boxes' centres along each axis, or of a thousand of them, which is near most boxes
+/// wherever a few far ones are; and the median of the largest coordinates of their ways from there.
+fn median_centre(count: u32, aabb: impl Fn(u32) -> Aabb) -> (DVec3, f64) {
     let step = count as usize / 1000 + 1;
     let centres = (0..count).step_by(step).map(|index| aabb(index).centre());
     let centres: Vec<DVec3> = centres.filter(|centre| centre.is_finite()).collect();
-    let median = |axis: usize| {
-        let mut values: Vec<f64> = centres.iter().map(|centre| centre[axis]).collect();
+    let median = |of: &dyn Fn(&DVec3) -> f64| {
+        let mut values: Vec<f64> = centres.iter().map(of).collect();
         values.sort_unstable_by(f64::total_cmp);
         values.get(values.len() / 2).copied().unwrap_or(0.0)
     };
-    DVec3::new(median(0), median(1), median(2))
+    let middle = DVec3::new(median(&|c| c.x), median(&|c| c.y), median(&|c| c.z));
+    let spread = median(&|centre| (centre - middle).abs().max_element());
+    (middle, spread)
 }
 
 /// The boxes to build from, and the indices of those without finite planes.

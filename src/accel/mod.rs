@@ -43,7 +43,9 @@ use node::Node;
 pub struct Bvh {
     /// The point the planes of the nodes are relative to.
     reference: DVec3,
-    /// The farthest plane's distance from that.
+    /// How far from that half of the boxes' centres are along the axis where they are farthest.
+    spread: f64,
+    /// The farthest plane's distance from it.
     farthest: f64,
     /// The root first; none if no box is in the tree.
     nodes: Vec<Node>,

@@ -195,7 +195,7 @@ impl Node {
         [low[lane], high[lane]]
     }
 
-    /// The distances at which the ray enters the children's boxes, 0 inside of one, and a bit for
+    /// The distances at which the ray enters the children's boxes, or starts inside, and a bit for
     /// each child that it may enter at a distance up to `limit`.
     #[expect(
         clippy::inline_always,
@@ -204,7 +204,10 @@ impl Node {
     #[inline(always)]
     pub(super) fn entries<S: Simd>(&self, ray: &SlabRay<S>, limit: f32) -> ([f32; WIDTH], u32) {
         let simd = ray.slopes[0].inverse.simd;
-        let mut interval = [Singles::splat(simd, 0.0), Singles::splat(simd, limit)];
+        let mut interval = [ray.start, limit].map(
+            #[inline(always)]
+            |end| Singles::splat(simd, end),
+        );
         for (axis, slope) in ray.slopes.iter().enumerate() {
             let [near, far] = self.planes(simd, axis, slope.near_side);
             let near = (near - slope.near_origin) * slope.inverse;

@@ -25,7 +25,7 @@ use crate::geometry::lanes::{Eight, Select, Simd, SimdBase, Singles, bits, singl
 
 use super::Bvh;
 use super::node::{Child, Node, WIDTH};
-use super::slab::{SlabRay, against, cut, opens, raised};
+use super::slab::{Approach, SlabRay, cut, opens};
 use super::traverse::{STACK, Waiting, insert};
 
 /// As many rays are tested against all children of a node, one after the other; of more all against
@@ -74,17 +74,14 @@ pub(super) fn traverse<S: Simd>(
     if bvh.nodes.is_empty() {
         return;
     }
-    let (reference, farthest) = (bvh.reference, bvh.farthest);
-    let (origin, direction) = (rays.origin, rays.direction);
-    let slopes = [
-        slopes(origin.x, direction.x, reference.x, farthest),
-        slopes(origin.y, direction.y, reference.y, farthest),
-        slopes(origin.z, direction.z, reference.z, farthest),
-    ];
-    let mut reach = singles(raised(limits));
+    let approach = Approach::new(rays, bvh);
+    let [x, y, z] = approach.slopes(rays.direction, bvh.farthest);
+    let slopes = [slopes(x), slopes(y), slopes(z)];
+    let start = singles(approach.start());
+    let mut reach = singles(approach.limits(limits));
     let mut stack = ArrayVec::<_, STACK>::new();
     stack.push(Waiting {
-        entry: 0.0,
+        entry: f32::NEG_INFINITY,
         child: Child::Inner(0),
         lanes,
     });
@@ -104,7 +101,7 @@ pub(super) fn traverse<S: Simd>(
                 let node = &bvh.nodes[number as usize];
                 let base = stack.len();
                 if lanes.count_ones() <= FEW {
-                    let mut met = meet_few(node, &slopes, reach, lanes);
+                    let mut met = meet_few(node, &slopes, [start, reach], lanes);
                     while met.children != 0 {
                         let lane = met.children.trailing_zeros() as usize % WIDTH;
                         met.children &= met.children - 1;
@@ -117,11 +114,11 @@ pub(super) fn traverse<S: Simd>(
                     }
                     continue;
                 }
-                let mut candidates = candidates(node, &slopes, reach);
+                let mut candidates = candidates(node, &slopes, [start, reach]);
                 while candidates != 0 {
                     let lane = candidates.trailing_zeros() as usize % WIDTH;
                     candidates &= candidates - 1;
-                    let (entry, lanes) = meet(node, lane, &slopes, reach, lanes);
+                    let (entry, lanes) = meet(node, lane, &slopes, [start, reach], lanes);
                     if lanes != 0 {
                         let child = node.child(lane);
                         let waiting = Waiting {
@@ -136,7 +133,7 @@ pub(super) fn traverse<S: Simd>(
             Child::Leaf { first, count } => {
                 let first = first as usize;
                 limits = visit(first..first + usize::from(count), lanes, limits);
-                reach = singles(raised(limits));
+                reach = singles(approach.limits(limits));
             }
         }
     }
@@ -154,14 +151,9 @@ impl<S: Simd> Slopes<S> {
     }
 }
 
+/// Rays along an axis by what [`Approach::slopes`] says.
 #[inline(always)]
-fn slopes<S: Simd>(
-    origin: Eight<S>,
-    direction: Eight<S>,
-    reference: f64,
-    farthest: f64,
-) -> Slopes<S> {
-    let numbers = against(origin, direction, reference, farthest);
+fn slopes<S: Simd>(numbers: [Eight<S>; 3]) -> Slopes<S> {
     let [inverse, against_low, against_high] = numbers.map(
         #[inline(always)]
         |numbers| singles(numbers),
@@ -197,10 +189,14 @@ fn slopes<S: Simd>(
 /// Where all rays go the same way along an axis, a distance of any of them is between the products
 /// of the bounds: rounding keeps order.
 #[inline(always)]
-fn candidates<S: Simd>(node: &Node, slopes: &[Slopes<S>; 3], reach: Singles<S>) -> u32 {
+fn candidates<S: Simd>(
+    node: &Node,
+    slopes: &[Slopes<S>; 3],
+    [start, reach]: [Singles<S>; 2],
+) -> u32 {
     let simd = reach.simd;
     let mut interval = [
-        Singles::splat(simd, 0.0),
+        Singles::splat(simd, start.reduce_min()),
         Singles::splat(simd, reach.reduce_max_precise()),
     ];
     for (axis, slopes) in slopes.iter().enumerate() {
@@ -225,11 +221,11 @@ fn meet<S: Simd>(
     node: &Node,
     lane: usize,
     slopes: &[Slopes<S>; 3],
-    reach: Singles<S>,
+    [start, reach]: [Singles<S>; 2],
     lanes: u32,
 ) -> (f32, u32) {
     let simd = reach.simd;
-    let mut interval = [Singles::splat(simd, 0.0), reach];
+    let mut interval = [start, reach];
     for (axis, slopes) in slopes.iter().enumerate() {
         let [low, high] = node.box_planes(lane, axis);
         let low = (Singles::splat(simd, low) - slopes.against_low) * slopes.inverse;
@@ -259,7 +255,7 @@ struct Met {
 fn meet_few<S: Simd>(
     node: &Node,
     [x, y, z]: &[Slopes<S>; 3],
-    reach: Singles<S>,
+    [start, reach]: [Singles<S>; 2],
     mut lanes: u32,
 ) -> Met {
     let mut few = Met {
@@ -272,6 +268,7 @@ fn meet_few<S: Simd>(
         lanes &= lanes - 1;
         let ray = SlabRay::of(
             reach.simd,
+            start[lane],
             [x.of_lane(lane), y.of_lane(lane), z.of_lane(lane)],
         );
         let (entries, mut met) = node.entries(&ray, reach[lane]);

@@ -60,6 +60,7 @@ pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> O
     }
     Some(Bvh {
         reference: bvh.reference,
+        spread: bvh.spread,
         farthest: nodes.first().map_or(0.0, Node::farthest),
         nodes,
         order: bvh.order.clone(),

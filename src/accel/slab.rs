@@ -6,9 +6,10 @@
 //! A ray's origin is taken between two numbers, and each plane is tested against the one that makes
 //! its box larger. With u = 2⁻²⁴, a distance (plane − origin) · (1 / direction) then carries three
 //! roundings (and one of double precision, far less), so it is off by a factor of 1 ± γ₃,
-//! γ₃ = 3u / (1 − 3u), and by less than the least normal number where it underflows. Entry ≤ exit therefore holds for every box that is met once
-//! the exit is scaled by 1 + 2γ₃ (Ize, "Robust BVH Ray Traversal", JCGT 2013) and raised by that
-//! number; [`WIDEN`] leaves room for the rounding of that.
+//! γ₃ = 3u / (1 − 3u), and by less than the least normal number where it underflows. Entry ≤ exit
+//! therefore holds for every box that is met once the exit is raised by 2γ₃ of its magnitude (Ize,
+//! "Robust BVH Ray Traversal", JCGT 2013) and by that number; [`MARGIN`] leaves room for the rounding
+//! of that. Distances may be negative: see [`REMOTE`].
 //!
 //! Along an axis where a distance might overflow, or the inverse is no normal number, a ray is taken
 //! to meet everything. A direction of 0 is well: its inverse is infinite.
@@ -18,13 +19,12 @@
     reason = "a caller compiled for wider vectors must take these with it"
 )]
 
-use glam::DVec3;
+use super::Bvh;
+use crate::geometry::Rays;
+use crate::geometry::lanes::{Lanes, Simd, SimdBase, Singles, Vector};
 
-use crate::geometry::Ray;
-use crate::geometry::lanes::{Lanes, Simd, SimdBase, Singles};
-
-/// How much farther than computed a ray may leave a box: 1 + 8u.
-const WIDEN: f32 = 1.0 + 4.0 * f32::EPSILON;
+/// How much farther than computed a ray may leave a box, of the distance: 8u.
+const MARGIN: f32 = 4.0 * f32::EPSILON;
 
 /// The largest numbers that are computed with: room for all roundings below those of `f32`.
 const MOST: f64 = (1_u128 << 126) as f64;
@@ -32,39 +32,106 @@ const MOST: f64 = (1_u128 << 126) as f64;
 /// Twice the error of rounding to single precision, which makes up for those before it too.
 const SLACK: f64 = f32::EPSILON as f64;
 
-/// A ray along one axis as planes are tested against it that are up to `farthest` from a reference
-/// point: 1 over its direction, and numbers not below and not above its origin relative to that
-/// point, and still so once they are rounded to single precision.
-#[inline(always)]
-pub(super) fn against<N: Lanes>(origin: N, direction: N, reference: f64, farthest: f64) -> [N; 3] {
-    /// The gap between the least numbers.
-    const LEAST: f64 = f32::from_bits(1) as f64;
-    let all = |value| origin.all(value);
-    let inverse = all(1.0) / direction;
-    let from = origin - all(reference);
-    let slack = from.abs() * all(SLACK) + all(LEAST);
-    // An infinite inverse makes no distance larger that is not infinite or 0 anyway.
-    let zero = direction.equals(all(0.0));
-    let size = N::select(zero, all(1.0), inverse.abs());
-    let most = from.abs() + all(farthest);
-    let largest = most.larger(all(1.0)) * size.larger(all(1.0));
-    let tells = all(1.0 / MOST).up_to(size) & largest.up_to(all(MOST));
-    [
-        N::select(tells, inverse, all(1.0)),
-        N::select(tells, from + slack, all(f64::INFINITY)),
-        N::select(tells, from - slack, all(f64::NEG_INFINITY)),
-    ]
+/// As many times as far from a tree's reference point as half of its boxes are, rays are followed to
+/// where they pass it before their distances are counted: else all of those would be within the
+/// rounding of the origin, as for rays that come from a sky around them.
+const REMOTE: f64 = 64.0;
+
+/// More than the error of all operations in double precision that lead to a place.
+const DRIFT: f64 = 16.0 * f64::EPSILON;
+
+/// Rays as a tree sees them, in each lane.
+pub(super) struct Approach<N> {
+    /// Where they are when distances begin to count, relative to the reference point.
+    from: Vector<N>,
+    /// More than the error of each coordinate, beside that of its last place.
+    error: N,
+    /// How far along the rays that is.
+    ahead: N,
 }
 
-/// The same for one ray, rounded.
-#[inline(always)]
-fn against_one(origin: f64, direction: f64, reference: f64, farthest: f64) -> [f32; 3] {
-    let [inverse, above, below] = against(origin, direction, reference, farthest);
-    [inverse as f32, above as f32, below as f32]
+impl<N: Lanes> Approach<N> {
+    #[inline(always)]
+    pub(super) fn new(rays: &Rays<N>, bvh: &Bvh) -> Self {
+        let all = |value| rays.origin.x.all(value);
+        let zero = all(0.0);
+        let from = rays.origin - Vector::all(zero, bvh.reference);
+        let size = from.abs().largest();
+        let remote = all(REMOTE * bvh.spread).below(size);
+        if !N::any(remote) {
+            return Self {
+                from,
+                error: zero,
+                ahead: zero,
+            };
+        }
+        let direction = rays.direction;
+        let way = -from.dot(direction) / direction.length_squared();
+        // Not those that go away, nor where this is beyond all numbers.
+        let moves = remote & zero.below(way) & (way * zero).equals(zero);
+        let place = from + direction.scaled(way);
+        let error = (size + way * direction.abs().largest()) * all(DRIFT);
+        Self {
+            from: Vector::select(moves, place, from),
+            error: N::select(moves, error, zero),
+            ahead: N::select(moves, way, zero),
+        }
+    }
+
+    /// What is not above the distance at which the rays start, once it is rounded to single precision.
+    #[inline(always)]
+    pub(super) fn start(&self) -> N {
+        let ahead = self.ahead;
+        -(ahead + ahead * ahead.all(SLACK))
+    }
+
+    /// What is not below limits along the rays once it is rounded to single precision, or by less than
+    /// underflow.
+    #[inline(always)]
+    pub(super) fn limits(&self, limits: N) -> N {
+        let rest = limits - self.ahead + self.ahead * limits.all(DRIFT);
+        rest + rest.abs() * rest.all(SLACK)
+    }
+
+    /// The rays along an axis as planes are tested against them that are up to `farthest` from the
+    /// reference point: 1 over their directions, and numbers not below and not above where they are,
+    /// and still so once they are rounded to single precision.
+    #[inline(always)]
+    pub(super) fn against(&self, from: N, direction: N, farthest: f64) -> [N; 3] {
+        /// The gap between the least numbers.
+        const LEAST: f64 = f32::from_bits(1) as f64;
+        let all = |value| from.all(value);
+        let inverse = all(1.0) / direction;
+        let slack = from.abs() * all(SLACK) + all(LEAST) + self.error;
+        // An infinite inverse makes no distance larger that is not infinite or 0 anyway.
+        let zero = direction.equals(all(0.0));
+        let size = N::select(zero, all(1.0), inverse.abs());
+        let most = from.abs() + all(farthest);
+        let largest = most.larger(all(1.0)) * size.larger(all(1.0));
+        let tells = all(1.0 / MOST).up_to(size) & largest.up_to(all(MOST));
+        [
+            N::select(tells, inverse, all(1.0)),
+            N::select(tells, from + slack, all(f64::INFINITY)),
+            N::select(tells, from - slack, all(f64::NEG_INFINITY)),
+        ]
+    }
+
+    /// The same along each axis.
+    #[inline(always)]
+    pub(super) fn slopes(&self, direction: Vector<N>, farthest: f64) -> [[N; 3]; 3] {
+        let Vector { x, y, z } = self.from;
+        [
+            self.against(x, direction.x, farthest),
+            self.against(y, direction.y, farthest),
+            self.against(z, direction.z, farthest),
+        ]
+    }
 }
 
 /// A ray as the boxes of a node are tested against it, in each lane the same.
 pub(super) struct SlabRay<S: Simd> {
+    /// Where it starts.
+    pub(super) start: f32,
     pub(super) slopes: [Slope<S>; 3],
 }
 
@@ -81,39 +148,18 @@ pub(super) struct Slope<S: Simd> {
 }
 
 impl<S: Simd> SlabRay<S> {
-    /// The ray relative to the reference point of a tree.
+    /// A ray by what [`Approach::slopes`] says, rounded.
     #[inline(always)]
-    pub(super) fn new(simd: S, ray: &Ray, reference: DVec3, farthest: f64) -> Self {
-        let Ray { origin, direction } = ray;
+    pub(super) fn of(simd: S, start: f32, [x, y, z]: [[f32; 3]; 3]) -> Self {
         Self {
-            slopes: [
-                Slope::of(
-                    simd,
-                    against_one(origin.x, direction.x, reference.x, farthest),
-                ),
-                Slope::of(
-                    simd,
-                    against_one(origin.y, direction.y, reference.y, farthest),
-                ),
-                Slope::of(
-                    simd,
-                    against_one(origin.z, direction.z, reference.z, farthest),
-                ),
-            ],
-        }
-    }
-
-    /// A ray by what [`against`] says of each axis.
-    #[inline(always)]
-    pub(super) fn of(simd: S, [x, y, z]: [[f32; 3]; 3]) -> Self {
-        Self {
+            start,
             slopes: [Slope::of(simd, x), Slope::of(simd, y), Slope::of(simd, z)],
         }
     }
 }
 
 impl<S: Simd> Slope<S> {
-    /// A ray by what [`against`] says.
+    /// A ray by what [`Approach::against`] says, rounded.
     #[inline(always)]
     fn of(simd: S, [inverse, above, below]: [f32; 3]) -> Self {
         let rises = inverse.is_sign_positive();
@@ -131,12 +177,6 @@ impl<S: Simd> Slope<S> {
     }
 }
 
-/// What is not below a limit once it is rounded to single precision, or by less than underflow.
-#[inline(always)]
-pub(super) fn raised<N: Lanes>(limit: N) -> N {
-    limit + limit.abs() * limit.all(SLACK)
-}
-
 /// The part of an interval that is beyond the `near` and before the `far`. A NaN, 0 · ∞ of a ray that
 /// runs in a face, cuts nothing.
 #[inline(always)]
@@ -151,12 +191,13 @@ pub(super) fn cut<S: Simd>(
 /// Whether a box entered there by computation may be met up to a limit.
 #[inline(always)]
 pub(super) fn is_open(entry: f32, limit: f32) -> bool {
-    entry <= limit * WIDEN + f32::MIN_POSITIVE
+    entry <= limit + limit.abs() * MARGIN + f32::MIN_POSITIVE
 }
 
 /// The lanes whose interval may hold something.
 #[inline(always)]
 pub(super) fn opens<S: Simd>([entry, exit]: [Singles<S>; 2]) -> <Singles<S> as SimdBase<S>>::Mask {
     let simd = exit.simd;
-    entry.simd_le(exit * Singles::splat(simd, WIDEN) + Singles::splat(simd, f32::MIN_POSITIVE))
+    let margin = exit.abs() * Singles::splat(simd, MARGIN);
+    entry.simd_le(exit + margin + Singles::splat(simd, f32::MIN_POSITIVE))
 }

@@ -4,12 +4,12 @@ use std::ops::Range;
 
 use arrayvec::ArrayVec;
 
-use crate::geometry::Ray;
 use crate::geometry::lanes::Simd;
+use crate::geometry::{Ray, Rays};
 
 use super::build::LEVELS;
 use super::node::{Child, WIDTH};
-use super::slab::{SlabRay, is_open, raised};
+use super::slab::{Approach, SlabRay, is_open};
 use super::{Bvh, RUN};
 
 /// The most children that can wait: a node takes one off and leaves at most [`WIDTH`], once a level.
@@ -57,9 +57,16 @@ pub(super) fn traverse<S: Simd>(
     if bvh.nodes.is_empty() {
         return;
     }
-    let ray = SlabRay::new(simd, ray, bvh.reference, bvh.farthest);
+    let rays = Rays::from(ray);
+    let approach = Approach::new(&rays, bvh);
+    let slopes = approach.slopes(rays.direction, bvh.farthest);
+    let slopes = slopes.map(
+        #[inline(always)]
+        |[inverse, above, below]| [inverse as f32, above as f32, below as f32],
+    );
+    let ray = SlabRay::of(simd, approach.start() as f32, slopes);
     let root = Waiting {
-        entry: 0.0,
+        entry: ray.start,
         child: Child::Inner(0),
         lanes: (),
     };
@@ -67,7 +74,7 @@ pub(super) fn traverse<S: Simd>(
     let mut stack = ArrayVec::<_, STACK>::new();
     stack.push(root);
     while let Some(Waiting { entry, child, .. }) = stack.pop() {
-        let reach = raised(limit) as f32;
+        let reach = approach.limits(limit) as f32;
         if !is_open(entry, reach) {
             continue;
         }

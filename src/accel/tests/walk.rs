@@ -110,7 +110,7 @@ fn every_box_that_is_met_is_visited() {
 }
 
 /// A tree of one box, which is but a point: rounding outward does not help.
-fn of_point(point: DVec3) -> Bvh {
+fn of_point(point: DVec3, spread: f64) -> Bvh {
     let [x, y, z] = point.as_vec3().to_array();
     let planes = [x, y, z, 0.0];
     let bounds = Bounds {
@@ -121,6 +121,7 @@ fn of_point(point: DVec3) -> Bvh {
     node.put(0, &bounds, Child::Leaf { first: 0, count: 1 });
     Bvh {
         reference: DVec3::ZERO,
+        spread,
         farthest: node.farthest(),
         nodes: vec![node],
         order: vec![0],
@@ -152,13 +153,39 @@ fn rounding_hides_nothing_from_a_ray() {
                 }
             })
             .collect();
-        let bvh = of_point(scale * point);
+        // Rays are followed to the reference point, or not.
+        let spread = random.pick(&[0.0, f64::INFINITY]);
+        let bvh = of_point(scale * point, spread);
         let limit = scale * limit;
         for (ray, together) in rays.iter().zip(visits_together(&bvh, &rays, limit)) {
             if ray.direction != DVec3::ZERO {
                 assert_eq!(visits(&bvh, ray, limit), [0], "{ray:?} to {point}");
                 assert_eq!(together, [0], "{ray:?} to {point}");
             }
+        }
+    }
+}
+
+/// Rays from a sky to what is small beneath it meet no more boxes than rays from nearby.
+#[test]
+fn a_sky_far_away_takes_no_precision() {
+    let mut random = Random(25);
+    let mut boxes: Vec<_> = (0..2000)
+        .map(|_| cube(4.0 * random.point(), DVec3::splat(0.05)))
+        .collect();
+    boxes.push(cube(DVec3::ZERO, DVec3::splat(1e9)));
+    let bvh = build(&boxes);
+    for _ in 0..300 {
+        let target = random.pick(&boxes[..2000]).centre();
+        let direction = random.point().normalize();
+        let [near, far] = [10.0, 1e9].map(|back| Ray {
+            origin: target - back * direction,
+            direction,
+        });
+        let [near, alone] = [&near, &far].map(|ray| visits(&bvh, ray, f64::INFINITY).len());
+        let together = visits_together(&bvh, &[far; 8], f64::INFINITY);
+        for count in [alone, together[0].len()] {
+            assert!(count <= near + 16, "{count} boxes, not {near}");
         }
     }
 }
