@@ -18,8 +18,8 @@ const AREA_LEVELS: usize = 12;
 /// fewer than 2³² boxes, and 8¹¹ = 2³³.
 pub(super) const LEVELS: usize = AREA_LEVELS + 11;
 
-/// The most boxes in a leaf, and no more than rays meet at once. Leaves of four take as long to walk
-/// and a fifth longer to build, and 65 bytes more a box.
+/// The most boxes in a leaf: as many as are visited at once. Leaves of four take as long to walk, but
+/// longer to build, and 65 bytes more a box.
 const LEAF: usize = RUN;
 
 /// References from which the children of a node are built as tasks.

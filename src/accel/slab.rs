@@ -51,6 +51,7 @@ pub(super) struct Approach<N> {
 }
 
 impl<N: Lanes> Approach<N> {
+    /// Rays as this tree sees them.
     #[inline(always)]
     pub(super) fn new(rays: &Rays<N>, bvh: &Bvh) -> Self {
         let all = |value| rays.origin.x.all(value);
@@ -97,7 +98,7 @@ impl<N: Lanes> Approach<N> {
     /// reference point: 1 over their directions, and numbers not below and not above where they are,
     /// and still so once they are rounded to single precision.
     #[inline(always)]
-    pub(super) fn against(&self, from: N, direction: N, farthest: f64) -> [N; 3] {
+    fn against(&self, from: N, direction: N, farthest: f64) -> [N; 3] {
         /// The gap between the least numbers.
         const LEAST: f64 = f32::from_bits(1) as f64;
         let all = |value| from.all(value);
@@ -159,7 +160,7 @@ impl<S: Simd> SlabRay<S> {
 }
 
 impl<S: Simd> Slope<S> {
-    /// A ray by what [`Approach::against`] says, rounded.
+    /// A ray along one axis by what [`Approach::slopes`] says of it, rounded.
     #[inline(always)]
     fn of(simd: S, [inverse, above, below]: [f32; 3]) -> Self {
         let rises = inverse.is_sign_positive();

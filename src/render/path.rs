@@ -130,6 +130,12 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         }
     }
 
+    /// Whether to stop before the light of this number, which is asked for some of them: a scene may
+    /// have a hundred thousand.
+    fn is_cancelled_at(&self, light: usize) -> bool {
+        light % 16 == 15 && (self.cancelled)()
+    }
+
     /// What a surface of `.ray` or `.dat` sends back of the light of all lights, in file order.
     fn light_on_phong(&mut self, point: &Point, material: &Phong) -> Rgb {
         let world = self.world;

@@ -133,12 +133,6 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
             counts: Counts::default(),
         }
     }
-
-    /// Whether to stop before the light of this number, which is asked for some of them: a scene may
-    /// have a hundred thousand.
-    pub(crate) fn is_cancelled_at(&self, light: usize) -> bool {
-        light % 16 == 15 && (self.cancelled)()
-    }
 }
 
 impl Point {
