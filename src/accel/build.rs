@@ -23,7 +23,7 @@ pub(super) const LEVELS: usize = AREA_LEVELS + 11;
 const LEAF: usize = RUN;
 
 /// References from which the children of a node are built as tasks.
-const PARALLEL: usize = 32_768;
+const PARALLEL: usize = 2048;
 
 /// Boxes that are looked at between two checks: about a millisecond.
 const SORTED: usize = 65_536;

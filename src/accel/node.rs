@@ -55,7 +55,13 @@ impl Bounds {
     /// The centre.
     #[inline]
     pub(super) fn centre(&self) -> [f32; 4] {
-        array::from_fn(|i| 0.5 * self.low[i] + 0.5 * self.high[i])
+        array::from_fn(|i| self.middle(i))
+    }
+
+    /// The centre along one axis.
+    #[inline]
+    pub(super) fn middle(&self, axis: usize) -> f32 {
+        0.5 * self.low[axis] + 0.5 * self.high[axis]
     }
 
     /// Half the surface, in `f64` because squares of `f32` overflow; 0 for an empty box.
