@@ -180,12 +180,37 @@ fn read_open(file: &File, limit: u64) -> io::Result<Vec<u8>> {
     }
     let mut bytes = Vec::new();
     bytes.try_reserve_exact(length as usize)?;
+    #[cfg(unix)]
+    read_by_parts(file, length as usize, &mut bytes)?;
     // The file may grow while it is read.
-    file.take(limit + 1).read_to_end(&mut bytes)?;
+    let rest = limit + 1 - bytes.len() as u64;
+    file.take(rest).read_to_end(&mut bytes)?;
     if limit < bytes.len() as u64 {
         return Err(io::ErrorKind::FileTooLarge.into());
     }
     Ok(bytes)
+}
+
+/// Reads the first `length` bytes of a large file, side by side: where the system has them in memory,
+/// taking new memory for them is most of the work. What has become shorter is left to be read.
+#[cfg(unix)]
+fn read_by_parts(mut file: &File, length: usize, bytes: &mut Vec<u8>) -> io::Result<()> {
+    use rayon::prelude::*;
+    use std::io::{Seek, SeekFrom};
+    use std::os::unix::fs::FileExt;
+    const PART: usize = 1 << 20;
+    if length <= PART {
+        return Ok(());
+    }
+    bytes.par_extend(rayon::iter::repeat_n(0, length));
+    let parts = bytes.par_chunks_mut(PART).enumerate();
+    let read = parts.map(|(number, part)| file.read_exact_at(part, (number * PART) as u64));
+    if read.collect::<io::Result<()>>().is_ok() {
+        file.seek(SeekFrom::Start(length as u64))?;
+    } else {
+        bytes.clear();
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -42,6 +42,31 @@ fn refusal(bytes: &[u8]) -> String {
 }
 
 #[test]
+fn long_files_are_read_byte_for_byte() {
+    let directory = directory();
+    let path = directory.path().join("long");
+    // Read by parts of a power of two, of which none is like another.
+    for length in [
+        (1 << 20) - 1,
+        1 << 20,
+        (1 << 20) + 1,
+        3 << 20,
+        (3 << 20) + 77,
+    ] {
+        let bytes: Vec<u8> = (0..length)
+            .map(|at: u32| (at ^ at >> 8 ^ at >> 16) as u8)
+            .collect();
+        fs::write(&path, &bytes).expect("written");
+        let read = read_bytes(&path, MAX_BYTES).expect("read");
+        assert!(read == bytes, "{length}");
+        assert!(
+            read_bytes(&path, u64::from(length) - 1).is_err(),
+            "{length}"
+        );
+    }
+}
+
+#[test]
 fn text_is_read_byte_for_byte() {
     let directory = directory();
     let path = directory.path().join("s");
