@@ -290,7 +290,8 @@ mod tests {
             prop_assert_eq!(tree.comments, comments);
             prop_assert_eq!(tree.tokens.len(), tokens.len());
             let letters = |&(_, token): &(usize, Span)| text.as_bytes()[token.start()].is_ascii_alphabetic();
-            prop_assert!(tree.tokens.words().eq((0..).zip(tokens.iter().copied()).filter(letters)));
+            let words: Vec<_> = tree.tokens.words().collect();
+            prop_assert!(words.into_iter().eq((0..).zip(tokens.iter().copied()).filter(letters)));
             for at in 0..=tokens.len() {
                 prop_assert_eq!(tree.tokens.get(at), tokens.get(at).copied());
                 let to = tokens.len().min(at + 3);

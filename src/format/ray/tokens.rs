@@ -5,6 +5,8 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
+
 use crate::text::Span;
 
 /// Tokens between two whose place a piece knows by heart.
@@ -194,8 +196,8 @@ impl Tokens {
     }
 
     /// Those that begin with an ASCII letter, in order, with their numbers.
-    pub fn words(&self) -> impl Iterator<Item = (usize, Span)> + '_ {
-        self.pieces.iter().flat_map(|piece| {
+    pub fn words(&self) -> impl ParallelIterator<Item = (usize, Span)> + '_ {
+        self.pieces.par_iter().flat_map_iter(|piece| {
             piece.words.iter().map(|&(number, start)| {
                 let (number, start) = (number as usize, start as usize);
                 let before = start - usize::from(piece.steps[number].gap);

@@ -43,40 +43,43 @@ pub(super) fn read<'a>(
             block(text, spans, first)
         })
         .collect();
-    let Some(blocks) = blocks else {
+    let Some(mut blocks) = blocks else {
         return Err(report);
     };
     let found = std::mem::replace(&mut reader.report, report);
     reader.report.append(found);
-    reader.objects.reserve_exact(places.len());
-    for block in blocks {
-        let base = reader.materials.len() as u32;
-        reader.materials.extend(block.materials);
-        reader
-            .objects
-            .extend(block.objects.into_iter().map(|object| Object {
-                material: base + object.material,
-                ..object
-            }));
-        reader.report.append(block.report);
+    let mut bases = Vec::with_capacity(blocks.len());
+    for block in &mut blocks {
+        bases.push(reader.materials.len() as u32);
+        reader.materials.append(&mut block.materials);
+        reader.report.append(std::mem::take(&mut block.report));
     }
+    reader.objects.reserve_exact(places.len());
+    // Each block but the last is full.
+    let objects = (0..places.len()).into_par_iter().map(|number| {
+        let object = &blocks[number / BLOCK].objects[number % BLOCK];
+        Object {
+            material: bases[number / BLOCK] + object.material,
+            ..object.clone()
+        }
+    });
+    reader.objects.par_extend(objects);
+    blocks.into_par_iter().for_each(drop);
     reader.places = places;
     Ok((reader, count))
 }
 
 /// Where each keyword stands, with the numbers that a whole object has.
 fn places(text: &str, tokens: &Tokens) -> Vec<ObjectPlace> {
-    let words = tokens.words();
-    words
-        .filter_map(|(token, word)| {
-            let kind = ShapeKind::of_word(word.of(text))?;
-            Some(ObjectPlace {
-                token: token as u32,
-                kind,
-                numbers: kind.numbers() as u8,
-            })
+    let places = tokens.words().filter_map(|(token, word)| {
+        let kind = ShapeKind::of_word(word.of(text))?;
+        Some(ObjectPlace {
+            token: token as u32,
+            kind,
+            numbers: kind.numbers() as u8,
         })
-        .collect()
+    });
+    places.collect()
 }
 
 /// Reads what stands before the first object, if that and the number of objects is as it should be.
