@@ -181,9 +181,10 @@ impl Film {
         let lacking = self.tiles[tiles.clone()]
             .iter_mut()
             .filter(|tile| tile.lacks(step));
+        // Each thread takes the next tile when it is done with one: some take a hundred times as long
+        // as others, and halves of their list would not end together.
         let counts = lacking
-            .collect::<Vec<_>>()
-            .into_par_iter()
+            .par_bridge()
             .map_init(
                 || {
                     let Settings {
@@ -313,12 +314,11 @@ impl Film {
 
     /// The tile of a pixel, and the pixel in it that stands for it.
     fn find(&self, at: usize) -> (&Tile, usize) {
-        // A picture has no more pixels each way than 32 bits count.
-        let width = self.size.width as usize;
-        let (x, y) = ((at % width) as u32, (at / width) as u32);
-        let TileShape { width, height } = self.shape;
-        let row = (y / height) as usize * self.shape.across(self.size);
-        let tile = &self.tiles[row + (x / width) as usize];
+        // A picture has no more pixels than 32 bits count, and divisions by powers of two are shifts.
+        let (at, width) = (at as u32, self.size.width);
+        let (x, y) = (at % width, at / width);
+        let [column, row] = self.shape.place([x, y]);
+        let tile = &self.tiles[row * self.shape.across(self.size) + column];
         (tile, tile.known([x, y]))
     }
 }

@@ -44,7 +44,7 @@ impl<'w, C: Fn() -> bool> Work<'w, C> {
     }
 }
 
-/// The pixels along a tile's edges.
+/// The pixels along a tile's edges, powers of two.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TileShape {
     pub(crate) width: u32,
@@ -74,6 +74,14 @@ impl TileShape {
     /// Where a pixel is in a tile with this corner.
     fn index(self, [left, top]: [u32; 2], [x, y]: [u32; 2]) -> usize {
         ((y - top) * self.width + (x - left)) as usize
+    }
+
+    /// The column and the row of the tile that a pixel is in.
+    pub(crate) fn place(self, [x, y]: [u32; 2]) -> [usize; 2] {
+        [
+            (x >> self.width.trailing_zeros()) as usize,
+            (y >> self.height.trailing_zeros()) as usize,
+        ]
     }
 
     /// Tiles along each row of a picture.

@@ -26,11 +26,30 @@ const FIRST_PICTURE: Duration = Duration::from_millis(20);
 /// key shows no picture at all; with this, one for every edit.
 const GRACE: Duration = Duration::from_millis(50);
 
-/// The work handed to the pool at once takes about this long; progress is published in between.
-const BATCH: Duration = Duration::from_millis(8);
+/// How the tiles of a step go to the pool: progress is published between two batches, and some threads
+/// wait for others.
+struct Batches {
+    /// How many tiles a thread the first holds.
+    first: usize,
+    /// How long later ones take, about.
+    time: Duration,
+}
 
-/// As long as that where only progress is told: whenever a batch ends, some threads wait for others.
-const LONG_BATCH: Duration = Duration::from_millis(50);
+impl Batches {
+    fn of(frames: Frames) -> Self {
+        match frames {
+            Frames::Live => Self {
+                first: 2,
+                time: Duration::from_millis(8),
+            },
+            // Only progress is told.
+            Frames::Last | Frames::LastWithValues => Self {
+                first: 32,
+                time: Duration::from_millis(50),
+            },
+        }
+    }
+}
 
 /// A job and what it needs.
 pub(crate) struct Order {
@@ -189,7 +208,7 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
             taken: 0.0,
             pass: 1,
             whole_samples: 0,
-            batch: 2 * rayon::current_num_threads(),
+            batch: Batches::of(job.frames).first * rayon::current_num_threads(),
             published: None,
             developing: Duration::ZERO,
         }
@@ -216,10 +235,7 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
             if cancelled() {
                 return false;
             }
-            let wanted = match self.frames {
-                Frames::Live => BATCH,
-                Frames::Last | Frames::LastWithValues => LONG_BATCH,
-            };
+            let wanted = Batches::of(self.frames).time;
             self.batch = next_batch(self.batch, begun.elapsed(), wanted);
             next = until;
             self.taken = before + step.share() * (next as f64 / tiles as f64);
