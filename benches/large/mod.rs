@@ -10,11 +10,8 @@ use crate::{SECOND, each, first, scenes, times_row};
 struct Case {
     name: &'static str,
     text: String,
-    /// The first object below the lights.
+    /// The first sphere in the list.
     row: usize,
-    /// Its colour and a number of its shape, below its first field.
-    colour: usize,
-    shape: usize,
     target: &'static str,
     from_disk: &'static str,
 }
@@ -28,9 +25,7 @@ pub(crate) fn measure() {
         Case {
             name: "66,431",
             text: scenes::sphereflake(5),
-            row: 5,
-            colour: 8,
-            shape: 4,
+            row: 6,
             target: "p95 <= 50",
             from_disk: "-",
         },
@@ -38,8 +33,6 @@ pub(crate) fn measure() {
             name: "1,000,000",
             text: format!("{head}sphere\n0 0 0 .7\n{rest}"),
             row: 3,
-            colour: 3,
-            shape: 1,
             target: "p95 <= 250",
             from_disk: "p95 <= 1000",
         },
@@ -63,9 +56,9 @@ fn edit(case: &Case) {
     down(&mut desk, &["gg"]);
     down(&mut desk, &vec!["j"; case.row]);
     down(&mut desk, &["e"]);
-    let (shape, colour) = (case.shape, case.colour - case.shape);
-    for (what, field) in [("shape", shape), ("colour", colour)] {
-        down(&mut desk, &vec!["j"; field]);
+    // From its centre down to its radius, and from there to its second colour.
+    for (what, keys) in [("shape", vec!["j"; 1]), ("colour", vec!["j"; 2])] {
+        down(&mut desk, &keys);
         let (mut answered, mut pictured) = (Vec::new(), Vec::new());
         for key in ["L", "H"].repeat(7) {
             let pressed = desk.press(key);
