@@ -110,6 +110,19 @@ fn wrong_arguments_end_with_2() {
 }
 
 #[test]
+fn a_small_scene_is_checked_where_no_thread_can_start() {
+    let place = Place::new();
+    let mut command = place.command("check ball.ray");
+    // No machine has such a stack for a thread.
+    let output = command
+        .env("RUST_MIN_STACK", (1_u64 << 60).to_string())
+        .output();
+    let output = output.expect("it starts");
+    let told = String::from_utf8(output.stderr).expect("UTF-8");
+    assert_eq!(output.status.code(), Some(0), "{told}");
+}
+
+#[test]
 fn the_interface_needs_a_terminal() {
     let place = Place::new();
     let told = place.told("ball.ray", 2);

@@ -199,7 +199,8 @@ fn read_by_parts(mut file: &File, length: usize, bytes: &mut Vec<u8>) -> io::Res
     use std::io::{Seek, SeekFrom};
     use std::os::unix::fs::FileExt;
     const PART: usize = 1 << 20;
-    if length <= PART {
+    const LARGE: usize = 16 * PART;
+    if length < LARGE {
         return Ok(());
     }
     bytes.par_extend(rayon::iter::repeat_n(0, length));

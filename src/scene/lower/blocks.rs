@@ -25,6 +25,10 @@ pub(super) fn read<'a>(
     tokens: &Tokens,
     report: Findings,
 ) -> Result<(Reader<'a>, Span), Findings> {
+    // Small scenes do without threads.
+    if tokens.len() <= BLOCK * (1 + LEAST_NUMBERS) {
+        return Err(report);
+    }
     let places = places(text, tokens);
     if places.len() <= BLOCK {
         return Err(report);
