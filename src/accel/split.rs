@@ -361,3 +361,35 @@ fn partition_alone(
     references[front..].copy_from_slice(&spare[..back]);
     front
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_before_a_bin_is_in_an_earlier_one() {
+        let ranges = [
+            (0.0, 1.0),
+            (-7.0, 0.1),
+            (1.0, 1.0),
+            (0.0, 3e-45),
+            (-3e38, 3e38),
+        ];
+        for (low, high) in ranges {
+            let centres = Bounds {
+                low: [low; 4],
+                high: [high; 4],
+            };
+            let grid = Grid::new(&centres, 0, BINS);
+            for step in 0..=1000 {
+                let part = step as f32 / 1000.0;
+                let coordinate = ((1.0 - part) * low + part * high).clamp(low, high);
+                for bin in 1..BINS {
+                    let is_earlier = grid.bin(coordinate) < bin;
+                    let message = format!("{coordinate} in {low} to {high}, bin {bin}");
+                    assert_eq!(grid.is_before(coordinate, bin), is_earlier, "{message}");
+                }
+            }
+        }
+    }
+}
