@@ -53,6 +53,7 @@ fn edit(case: &Case) {
         .collect();
     times_row(&format!("{name}: start to picture"), &opened, "-");
     save(&mut desk, case, &text);
+    merge(&mut desk, case, &text);
     down(&mut desk, &["gg"]);
     down(&mut desk, &vec!["j"; case.row]);
     down(&mut desk, &["e"]);
@@ -106,6 +107,37 @@ fn save(desk: &mut Desk, case: &Case, text: &str) {
         &answered,
         "p95 <= 16, max 33",
     );
+}
+
+/// Another program changes the last sphere while there are unsaved edits of the first one, with keys
+/// pressed meanwhile. All of it is undone at the end.
+fn merge(desk: &mut Desk, case: &Case, text: &str) {
+    let path = desk.folder.path().join("scene.ray");
+    let (head, last) = text.rsplit_once("sphere\n").expect("there are spheres");
+    let changed = format!("{head}{}", with_larger_sphere(&format!("sphere\n{last}")));
+    down(desk, &["gg"]);
+    down(desk, &vec!["j"; case.row]);
+    down(desk, &["e", "j", "L", "\x1b"]);
+    let (mut merged, mut answered) = (Vec::new(), Vec::new());
+    for text in [&changed, text].repeat(3) {
+        let at = put(&path, text);
+        let pressed = desk.press_all(["j", "k"].repeat(18), Duration::from_millis(41));
+        desk.record(at + 3 * SECOND);
+        desk.rest();
+        let drawn = desk.look();
+        merged.extend(first(&drawn, at, |drawn| drawn.text.contains("merged")));
+        answered.extend(each(&drawn, &pressed, |drawn| drawn.list));
+    }
+    let name = case.name;
+    times_row(&format!("{name}: save, merged"), &merged, case.from_disk);
+    times_row(
+        &format!("{name}: key to list, merging"),
+        &answered,
+        "p95 <= 16, max 33",
+    );
+    for _ in 0..7 {
+        down(desk, &["u"]);
+    }
 }
 
 /// Puts a text in the place of a file, as a whole; the moment that it is there.

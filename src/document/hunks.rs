@@ -4,10 +4,10 @@
 //! equal leaves in a row it cannot tell which one is new. Every doubt is settled towards larger
 //! hunks, for a needless question is better than a silently wrong merge.
 
-use std::ops::Range;
+use std::ops::{Index, Range};
 use std::time::{Duration, Instant};
 
-use similar::{Algorithm, DiffOp, capture_diff_slices_deadline};
+use similar::{Algorithm, DiffOp, capture_diff_deadline};
 
 use crate::format::{self, Format};
 use crate::text::Span;
@@ -22,7 +22,6 @@ const COINCIDENCE: usize = 4;
 /// may be empty: leaves have odd indices. All chunks together are the text.
 pub(super) struct Chunks<'t> {
     text: &'t str,
-    slices: Vec<&'t str>,
     /// Where each chunk begins, and the text's length.
     bounds: Vec<usize>,
 }
@@ -35,17 +34,22 @@ impl<'t> Chunks<'t> {
         bounds.push(0);
         bounds.extend(leaves.iter().flat_map(|leaf| [leaf.start(), leaf.end()]));
         bounds.push(text.len());
-        let slices = bounds.windows(2).map(|ends| &text[ends[0]..ends[1]]);
-        Self {
-            text,
-            slices: slices.collect(),
-            bounds,
-        }
+        Self { text, bounds }
     }
 
-    /// The chunks, in order.
-    pub(super) fn as_slice(&self) -> &[&'t str] {
-        &self.slices
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        self.bounds.len() - 1
+    }
+
+    /// All of them.
+    pub(super) fn text(&self) -> &'t str {
+        self.text
+    }
+
+    /// Each of them, in order.
+    pub(super) fn iter(&self) -> impl Iterator<Item = &str> {
+        (0..self.len()).map(|chunk| &self[chunk])
     }
 
     /// The bytes that some chunks cover.
@@ -56,6 +60,14 @@ impl<'t> Chunks<'t> {
     /// The text of some chunks.
     pub(super) fn slice(&self, chunks: &Range<usize>) -> &'t str {
         self.span(chunks).of(self.text)
+    }
+}
+
+impl Index<usize> for Chunks<'_> {
+    type Output = str;
+
+    fn index(&self, chunk: usize) -> &str {
+        &self.text[self.bounds[chunk]..self.bounds[chunk + 1]]
     }
 }
 
@@ -84,20 +96,20 @@ impl Hunk {
 /// one, each is a hunk of its own; an insertion or deletion that might as well have happened a few
 /// chunks further on covers all those places.
 pub(super) fn hunks(base: &Chunks, other: &Chunks) -> Vec<Hunk> {
-    let raw = fuse(differences(base.as_slice(), other.as_slice()));
+    let raw = fuse(differences(base, other));
     let mut hunks: Vec<Hunk> = Vec::with_capacity(raw.len());
     for (index, hunk) in raw.iter().enumerate() {
         if hunk.is_structural() {
             let from = hunks.last().map_or(0, |last| last.base.end);
             let to = raw
                 .get(index + 1)
-                .map_or(base.slices.len(), |next| next.base.start);
-            hunks.push(widen(hunk, base.as_slice(), other.as_slice(), from..to));
+                .map_or(base.len(), |next| next.base.start);
+            hunks.push(widen(hunk, base, other, from..to));
         } else {
             let pairs = hunk.base.clone().zip(hunk.other.clone());
             hunks.extend(
                 pairs
-                    .filter(|&(b, o)| base.slices[b] != other.slices[o])
+                    .filter(|&(b, o)| base[b] != other[o])
                     .map(|(b, o)| Hunk {
                         base: b..b + 1,
                         other: o..o + 1,
@@ -109,9 +121,10 @@ pub(super) fn hunks(base: &Chunks, other: &Chunks) -> Vec<Hunk> {
 }
 
 /// The differences as the diff finds them, apart from each other by equal chunks.
-fn differences(base: &[&str], other: &[&str]) -> Vec<Hunk> {
+fn differences(base: &Chunks, other: &Chunks) -> Vec<Hunk> {
     let deadline = Instant::now().checked_add(PATIENCE);
-    let ops = capture_diff_slices_deadline(Algorithm::Myers, base, other, deadline);
+    let (old, new) = (0..base.len(), 0..other.len());
+    let ops = capture_diff_deadline(Algorithm::Myers, base, old, other, new, deadline);
     let mut hunks: Vec<Hunk> = Vec::new();
     for op in ops {
         if matches!(op, DiffOp::Equal { .. }) {
@@ -154,7 +167,7 @@ fn fuse(hunks: Vec<Hunk>) -> Vec<Hunk> {
 /// Widens an insertion or deletion to every place where it would give the same text, within the
 /// base chunks `room`. One that can be read as appending to the text, or as cutting off its end, is
 /// read so; likewise at the beginning.
-fn widen(hunk: &Hunk, base: &[&str], other: &[&str], room: Range<usize>) -> Hunk {
+fn widen(hunk: &Hunk, base: &Chunks, other: &Chunks, room: Range<usize>) -> Hunk {
     let (chunks, block) = match (hunk.base.is_empty(), hunk.other.is_empty()) {
         (true, false) => (other, &hunk.other),
         (false, true) => (base, &hunk.base),

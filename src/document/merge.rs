@@ -5,8 +5,10 @@
 //! region, and a region that both changed differently is a conflict.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::hunks::{Chunks, Hunk, hunks};
+use super::windows::{Change, Window, widening, windows};
 use crate::format::Format;
 use crate::text::{self, Edit, Span};
 
@@ -43,9 +45,9 @@ pub struct Merge {
     pub conflicts: Vec<Conflict>,
     /// What to change in `mine`, in text order.
     pieces: Vec<Piece>,
-    pub(super) base: String,
-    pub(super) mine: String,
-    pub(super) theirs: String,
+    pub(super) base: Arc<String>,
+    pub(super) mine: Arc<String>,
+    pub(super) theirs: Arc<String>,
 }
 
 /// A place where the outcome may differ from the text under edit.
@@ -59,41 +61,50 @@ enum Piece {
 
 impl Merge {
     /// Merges the changes of two texts against their common ancestor.
-    pub(super) fn new(format: Format, base: &str, mine: &str, theirs: String) -> Self {
-        let chunks = Sides {
-            base: Chunks::of(format, base),
-            mine: Chunks::of(format, mine),
-            theirs: Chunks::of(format, &theirs),
-        };
-        let mut regions = regions(
-            &hunks(&chunks.base, &chunks.mine),
-            &hunks(&chunks.base, &chunks.theirs),
-        );
-        let (mut pieces, mut conflicts) = chunks.settle(&regions);
-        // Changes side by side can run together, as when one text opens a comment where the other
-        // takes away the line's end behind it. Then the merged text no longer has their leaves.
-        let holds = [Side::Mine, Side::Theirs].into_iter().all(|side| {
-            let mut text = mine.to_owned();
-            text::apply(&mut text, &edits(&pieces, &conflicts, |_| side));
-            Chunks::of(format, &text).as_slice() == chunks.outcome(&regions, side)
+    pub(super) fn new(
+        format: Format,
+        base: &Arc<String>,
+        mine: &Arc<String>,
+        theirs: &Arc<String>,
+    ) -> Self {
+        let changes = [mine, theirs].map(|other| Change::between(base, other));
+        let (pieces, conflicts) = widening(format, |margin| {
+            let (mut pieces, mut conflicts) = (Vec::new(), Vec::new());
+            for window in windows(base, changes[0], changes[1], margin) {
+                let sides = Sides {
+                    base: Chunks::of(format, window.base.of(base)),
+                    mine: Chunks::of(format, window.mine.of(mine)),
+                    theirs: Chunks::of(format, window.theirs.of(theirs)),
+                };
+                let (settled, open) = sides.merge(format, window)?;
+                let later = |piece| match piece {
+                    Piece::Theirs(edit) => Piece::Theirs(Edit {
+                        span: edit.span.later(window.mine.start()),
+                        ..edit
+                    }),
+                    Piece::Conflict(index) => Piece::Conflict(index + conflicts.len()),
+                };
+                pieces.extend(settled.into_iter().map(later));
+                conflicts.extend(open.into_iter().map(|conflict| Conflict {
+                    span: conflict.span.later(window.mine.start()),
+                    ancestor: conflict.ancestor.later(window.base.start()),
+                    ..conflict
+                }));
+            }
+            Some((pieces, conflicts))
         });
-        if !holds {
-            let whole = regions.into_iter().reduce(|first, later| first.to(&later));
-            regions = whole.into_iter().collect();
-            (pieces, conflicts) = chunks.settle(&regions);
-        }
         Self {
             conflicts,
             pieces,
-            base: base.to_owned(),
-            mine: mine.to_owned(),
-            theirs,
+            base: Arc::clone(base),
+            mine: Arc::clone(mine),
+            theirs: Arc::clone(theirs),
         }
     }
 
     /// The merged text under the decisions made so far.
     pub fn text(&self) -> String {
-        let mut text = self.mine.clone();
+        let mut text = String::clone(&self.mine);
         text::apply(&mut text, &self.edits());
         text
     }
@@ -107,8 +118,8 @@ impl Merge {
 
     /// The same merge for a text under edit that has gone on; conflicts that are still the same
     /// keep their decisions.
-    pub(super) fn onto(self, format: Format, mine: &str) -> Self {
-        let mut merge = Self::new(format, &self.base, mine, self.theirs);
+    pub(super) fn onto(self, format: Format, mine: &Arc<String>) -> Self {
+        let mut merge = Self::new(format, &self.base, mine, &self.theirs);
         let mut earlier = self.conflicts.into_iter().peekable();
         for conflict in &mut merge.conflicts {
             while earlier
@@ -146,14 +157,43 @@ fn edits(
         .collect()
 }
 
-/// The three texts.
+/// The three texts, or parts of them that correspond.
 struct Sides<'t> {
     base: Chunks<'t>,
     mine: Chunks<'t>,
     theirs: Chunks<'t>,
 }
 
-impl<'t> Sides<'t> {
+impl Sides<'_> {
+    /// What to change in mine and what is to be decided; `None` if they are too narrow a window to
+    /// tell.
+    fn merge(&self, format: Format, window: Window) -> Option<(Vec<Piece>, Vec<Conflict>)> {
+        let mine = hunks(&self.base, &self.mine);
+        let theirs = hunks(&self.base, &self.theirs);
+        if [&mine, &theirs]
+            .into_iter()
+            .any(|hunks| window.is_narrow(&self.base, hunks))
+        {
+            return None;
+        }
+        let regions = regions(&mine, &theirs);
+        let (pieces, conflicts) = self.settle(&regions);
+        // Changes side by side can run together, as when one text opens a comment where the other
+        // takes away the line's end behind it. Then the merged text no longer has their leaves.
+        let holds = [Side::Mine, Side::Theirs].into_iter().all(|side| {
+            let mut text = self.mine.text().to_owned();
+            text::apply(&mut text, &edits(&pieces, &conflicts, |_| side));
+            Chunks::of(format, &text)
+                .iter()
+                .eq(self.outcome(&regions, side))
+        });
+        if holds {
+            return Some((pieces, conflicts));
+        }
+        let whole = regions.into_iter().reduce(|first, later| first.to(&later));
+        Some(self.settle(whole.as_slice()))
+    }
+
     /// What becomes of each region: a region of one side's making is that side's, one that both
     /// changed alike changes once.
     fn settle(&self, regions: &[Region]) -> (Vec<Piece>, Vec<Conflict>) {
@@ -187,24 +227,25 @@ impl<'t> Sides<'t> {
     }
 
     /// The chunks of the merged text with all conflicts decided for one side.
-    fn outcome(&self, regions: &[Region], side: Side) -> Vec<&'t str> {
-        let (mine, theirs) = (self.mine.as_slice(), self.theirs.as_slice());
-        let mut outcome = Vec::with_capacity(mine.len());
+    fn outcome(&self, regions: &[Region], side: Side) -> impl Iterator<Item = &str> {
+        let mut parts = Vec::with_capacity(2 * regions.len() + 1);
         let mut at = 0;
         for region in regions {
-            outcome.extend_from_slice(&mine[at..region.mine.start]);
+            parts.push((&self.mine, at..region.mine.start));
             let base = self.base.slice(&region.base);
             let takes_theirs = self.theirs.slice(&region.theirs) != base
                 && (side == Side::Theirs || self.mine.slice(&region.mine) == base);
-            outcome.extend_from_slice(if takes_theirs {
-                &theirs[region.theirs.clone()]
+            parts.push(if takes_theirs {
+                (&self.theirs, region.theirs.clone())
             } else {
-                &mine[region.mine.clone()]
+                (&self.mine, region.mine.clone())
             });
             at = region.mine.end;
         }
-        outcome.extend_from_slice(&mine[at..]);
-        outcome
+        parts.push((&self.mine, at..self.mine.len()));
+        parts
+            .into_iter()
+            .flat_map(|(chunks, range)| range.map(|at| &chunks[at]))
     }
 }
 

@@ -5,10 +5,13 @@
 mod history;
 mod hunks;
 mod merge;
+mod snapshot;
 #[cfg(test)]
 mod tests;
+mod windows;
 
 pub use merge::{Conflict, Merge, Side};
+pub use snapshot::{Merged, Snapshot};
 
 use std::sync::Arc;
 
@@ -20,7 +23,8 @@ use history::History;
 #[derive(Clone, Debug)]
 pub struct Document {
     format: Format,
-    text: String,
+    /// Where others hold it, it is copied before it changes.
+    text: Arc<String>,
     tree: Tree,
     saved: Arc<String>,
     /// Whether the two differ: asked with every key, and in a text of 85 MB an answer of 10 ms.
@@ -30,19 +34,15 @@ pub struct Document {
     history: History,
 }
 
-/// What became of a text from outside.
+/// What became of a merge whose conflicts were decided.
 #[derive(Debug)]
-pub enum Replaced {
-    /// It brings nothing: it says what was last saved or loaded, or what the text says already, or
-    /// a newer text from outside was taken since.
-    Unchanged,
-    /// There were no unsaved edits: it is the text now, and there is nothing to undo or redo.
-    Loaded,
-    /// Its changes and the unsaved ones touch different places: both are in the text now, as one
-    /// undoable step.
-    Merged,
-    /// Both changed the same places; nothing was touched. [`Document::adopt`] takes the outcome.
+pub enum Adopted {
+    /// Its outcome is in the text now, as one undoable step.
+    Taken,
+    /// The text was edited since, and conflicts are open again; nothing was touched.
     Conflict(Merge),
+    /// The text saved is another one since; nothing was touched.
+    OutOfDate,
 }
 
 impl Document {
@@ -52,7 +52,7 @@ impl Document {
         Self {
             format,
             saved: Arc::new(text.clone()),
-            text,
+            text: Arc::new(text),
             tree,
             is_dirty: false,
             revision: 0,
@@ -70,9 +70,9 @@ impl Document {
         &self.text
     }
 
-    /// The text alone.
-    pub fn into_text(self) -> String {
-        self.text
+    /// The text, for others to hold while this one is edited on.
+    pub fn shared_text(&self) -> Arc<String> {
+        Arc::clone(&self.text)
     }
 
     /// The tree of the text.
@@ -163,90 +163,84 @@ impl Document {
 
     /// How many places of another text differ from this one: numbers and words, or runs of them.
     pub fn differences(&self, other: &str) -> usize {
-        let chunks = |text| hunks::Chunks::of(self.format, text);
-        hunks::hunks(&chunks(&self.text), &chunks(other)).len()
+        windows::differences(self.format, &self.text, other)
     }
 
     /// Notes that `text` was written to the file; it need not be the present text, which may have
     /// been edited while it was written.
-    pub fn mark_saved(&mut self, text: String) {
+    pub fn mark_saved(&mut self, text: Arc<String>) {
         self.history.close();
         self.set_saved(text);
     }
 
-    /// Takes a text that the file holds now. What it brings is a step where it is merged with
-    /// unsaved edits. Without those it is no edit of this document's, and the history starts anew:
-    /// undo must not lead back to what another program has replaced.
-    ///
-    /// Whatever comes back, a merge still being decided is out of date: drop it.
-    pub fn replace(&mut self, theirs: String) -> Replaced {
-        if theirs == *self.saved {
-            return Replaced::Unchanged;
-        }
-        if theirs == self.text {
-            self.set_saved(theirs);
-            return Replaced::Unchanged;
-        }
-        if !self.is_dirty() {
-            drop(self.load(Self::new(self.format, theirs)));
-            return Replaced::Loaded;
-        }
-        let merge = Merge::new(self.format, &self.saved, &self.text, theirs);
-        if merge.conflicts.is_empty() {
-            self.take(&merge.edits(), merge.theirs);
-            Replaced::Merged
-        } else {
-            // The saved text stays: it is still the ancestor of both when the next text comes.
-            Replaced::Conflict(merge)
+    /// What a text from outside is merged with, elsewhere; copies nothing.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            format: self.format,
+            saved: Arc::clone(&self.saved),
+            text: Arc::clone(&self.text),
+            is_dirty: self.is_dirty,
         }
     }
 
-    /// As [`Document::replace`] where there are no unsaved edits, for a text that was read elsewhere;
-    /// what this one was before.
+    /// Becomes a text from outside where there are no unsaved edits; what it was before. That is no
+    /// edit of this document's, and the history starts anew: undo must not lead back to what another
+    /// program has replaced.
     #[must_use = "to free it may take long"]
     pub fn load(&mut self, mut document: Self) -> Self {
         document.revision = self.revision + 1;
         std::mem::replace(self, document)
     }
 
+    /// Becomes what a merge with a text from outside has led to, as one undoable step if that
+    /// changes the text; what it was before. The merge is one of this document as it is now.
+    #[must_use = "to free it may take long"]
+    pub fn take(&mut self, merged: Merged) -> Self {
+        let Merged {
+            mut document, back, ..
+        } = merged;
+        document.history = std::mem::take(&mut self.history);
+        if !back.is_empty() {
+            document.history.record(back);
+        }
+        document.history.settle();
+        self.load(document)
+    }
+
     /// Takes the outcome of a merge whose conflicts were decided, as one undoable step.
     ///
-    /// If the text was edited since, it is merged anew under the decisions that still apply, and
-    /// [`Replaced::Conflict`] hands back what they leave open. If the saved text is another one
-    /// since, the merge is out of date and nothing is touched.
-    pub fn adopt(&mut self, mut merge: Merge) -> Replaced {
-        if merge.base != *self.saved {
-            return Replaced::Unchanged;
+    /// If the text was edited since, it is merged anew under the decisions that still apply.
+    pub fn adopt(&mut self, mut merge: Merge) -> Adopted {
+        if merge.base != self.saved {
+            return Adopted::OutOfDate;
         }
         if merge.mine != self.text {
             merge = merge.onto(self.format, &self.text);
             if merge.conflicts.iter().any(|c| c.decision.is_none()) {
-                return Replaced::Conflict(merge);
+                return Adopted::Conflict(merge);
             }
         }
-        self.take(&merge.edits(), merge.theirs);
-        Replaced::Merged
-    }
-
-    /// Applies what a text from outside brought; `theirs` is what the file holds.
-    fn take(&mut self, edits: &[Edit], theirs: String) {
-        self.edit(edits);
+        let edits = merge.edits();
+        let theirs = Arc::clone(&merge.theirs);
+        drop(merge);
+        self.edit(&edits);
         self.history.settle();
         self.set_saved(theirs);
+        Adopted::Taken
     }
 
-    fn set_saved(&mut self, text: String) {
+    fn set_saved(&mut self, text: Arc<String>) {
         self.is_dirty = self.text != text;
-        self.saved = Arc::new(text);
+        self.saved = text;
     }
 
     /// Changes text and tree; the edits that lead back.
     fn change(&mut self, edits: &[Edit]) -> Vec<Edit> {
-        let inverse = text::apply(&mut self.text, edits);
+        let inverse = text::apply(Arc::make_mut(&mut self.text), edits);
         let old = cover(edits).unwrap_or_default();
         let changed = cover(&inverse).unwrap_or_default();
         self.tree.follow(&self.text, old, changed);
-        self.is_dirty = self.text != *self.saved;
+        self.is_dirty = self.text != self.saved;
         self.revision += 1;
         inverse
     }

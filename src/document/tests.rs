@@ -19,6 +19,25 @@ fn check_tree(document: &Document) {
     assert_eq!(document.tree().leaves(), fresh.leaves());
 }
 
+/// Takes a text from outside; or the merge whose conflicts are to be decided.
+fn replace(document: &mut Document, theirs: &str) -> Result<(), Merge> {
+    let theirs = self::document(theirs);
+    let snapshot = document.snapshot();
+    assert!(snapshot.is_of(document));
+    drop(if snapshot.is_dirty {
+        document.take(snapshot.merge(theirs)?)
+    } else {
+        document.load(theirs)
+    });
+    assert!(!snapshot.is_of(document));
+    check_tree(document);
+    Ok(())
+}
+
+fn save(document: &mut Document, text: &str) {
+    document.mark_saved(Arc::new(text.to_owned()));
+}
+
 /// The texts that undoing everything passes through, the present one first.
 fn history(document: &Document) -> Vec<String> {
     let mut document = document.clone();
@@ -138,20 +157,19 @@ fn texts_from_outside_begin_a_new_history_where_nothing_is_unsaved() {
     let mut doc = document("1 2");
     set(&mut doc, 0, "3");
     assert!(doc.is_dirty());
-    doc.mark_saved("3 2".to_owned());
+    save(&mut doc, "3 2");
     assert!(!doc.is_dirty());
-    assert!(matches!(doc.replace("3 2".into()), Replaced::Unchanged));
-    assert!(matches!(doc.replace("0 3 2".into()), Replaced::Loaded));
+    replace(&mut doc, "0 3 2").expect("nothing is unsaved");
     assert!(!doc.is_dirty());
     assert_eq!(history(&doc), ["0 3 2"]);
     set(&mut doc, 0, "7");
     doc.undo();
-    assert!(matches!(doc.replace("8 2".into()), Replaced::Loaded));
+    replace(&mut doc, "8 2").expect("nothing is unsaved");
     assert_eq!(
         (history(&doc), future(&doc)),
         (vec!["8 2".into()], vec!["8 2".into()])
     );
-    assert!(matches!(doc.replace("0 3 2".into()), Replaced::Loaded));
+    replace(&mut doc, "0 3 2").expect("nothing is unsaved");
     doc.reject();
     assert_eq!(
         doc.text(),
@@ -164,12 +182,11 @@ fn texts_from_outside_begin_a_new_history_where_nothing_is_unsaved() {
 fn unsaved_edits_merge_with_texts_from_outside() {
     let mut doc = document("1 2 3");
     set(&mut doc, 0, "9");
-    assert!(matches!(doc.replace("1 2 8".into()), Replaced::Merged));
+    replace(&mut doc, "1 2 8").expect("they changed different leaves");
     assert_eq!((doc.text(), doc.saved().as_str()), ("9 2 8", "1 2 8"));
     assert_eq!(history(&doc), ["9 2 8", "9 2 3", "1 2 3"]);
-    assert!(matches!(doc.replace("1 2 8".into()), Replaced::Unchanged));
-    assert_eq!(doc.text(), "9 2 8");
-    assert!(matches!(doc.replace("9 2 8".into()), Replaced::Unchanged));
+    assert!(doc.is_dirty());
+    replace(&mut doc, "9 2 8").expect("it says what the text says");
     assert!(!doc.is_dirty());
     assert_eq!(history(&doc), ["9 2 8", "9 2 3", "1 2 3"]);
 }
@@ -179,9 +196,7 @@ fn unsaved_edits_merge_with_texts_from_outside() {
 fn conflict(theirs: &str) -> (Document, Merge) {
     let mut doc = document("1 2");
     set(&mut doc, 0, "3");
-    let Replaced::Conflict(merge) = doc.replace(theirs.to_owned()) else {
-        panic!("both changed the first leaf");
-    };
+    let merge = replace(&mut doc, theirs).expect_err("both changed the first leaf");
     assert_eq!((doc.text(), doc.saved().as_str()), ("3 2", "1 2"));
     (doc, merge)
 }
@@ -191,10 +206,9 @@ fn decided_conflicts_are_adopted_as_a_step() {
     for (decision, text) in [(Side::Mine, "3 5"), (Side::Theirs, "4 5")] {
         let (mut doc, mut merge) = conflict("4 5");
         merge.conflicts[0].decision = Some(decision);
-        assert!(matches!(doc.adopt(merge), Replaced::Merged));
+        assert!(matches!(doc.adopt(merge), Adopted::Taken));
         assert_eq!((doc.text(), doc.saved().as_str()), (text, "4 5"));
         assert_eq!(history(&doc), [text, "3 2", "1 2"]);
-        assert!(matches!(doc.replace("4 5".into()), Replaced::Unchanged));
     }
 }
 
@@ -204,27 +218,27 @@ fn merges_out_of_date_do_no_harm() {
     let (mut doc, mut merge) = conflict("4 2");
     merge.conflicts[0].decision = Some(Side::Theirs);
     set(&mut doc, 1, "7");
-    assert!(matches!(doc.adopt(merge), Replaced::Merged));
+    assert!(matches!(doc.adopt(merge), Adopted::Taken));
     assert_eq!((doc.text(), doc.saved().as_str()), ("4 7", "4 2"));
 
     // Edited at the conflict since: it is asked again.
     let (mut doc, mut merge) = conflict("4 2");
     merge.conflicts[0].decision = Some(Side::Theirs);
     set(&mut doc, 0, "7");
-    let Replaced::Conflict(again) = doc.adopt(merge) else {
+    let Adopted::Conflict(again) = doc.adopt(merge) else {
         panic!("the decision was about another value");
     };
     assert_eq!((doc.text(), again.conflicts[0].mine.as_str()), ("7 2", "7"));
 
     // Saved over since.
     let (mut doc, merge) = conflict("4 2");
-    doc.mark_saved("3 2".to_owned());
-    assert!(matches!(doc.adopt(merge), Replaced::Unchanged));
+    save(&mut doc, "3 2");
+    assert!(matches!(doc.adopt(merge), Adopted::OutOfDate));
     assert_eq!((doc.text(), doc.saved().as_str()), ("3 2", "3 2"));
 
     // Another text came while the conflict was undecided: the ancestor is still the same.
     let (mut doc, _) = conflict("4 2");
-    assert!(matches!(doc.replace("1 6".into()), Replaced::Merged));
+    replace(&mut doc, "1 6").expect("they changed different leaves");
     assert_eq!((doc.text(), doc.saved().as_str()), ("3 6", "1 6"));
 }
 

@@ -38,6 +38,14 @@ impl Format {
         }
     }
 
+    /// Whether no leaf crosses the end of a line, and each line is read alike wherever it stands.
+    pub const fn leaves_keep_to_lines(self) -> bool {
+        match self {
+            Self::Ray | Self::Dat => true,
+            Self::Xml => false,
+        }
+    }
+
     /// The format a file name's extension says, in any case.
     pub fn of_path(path: &Path) -> Result<Self, UnknownLanguage> {
         let extension = path.extension().unwrap_or_default();

@@ -14,6 +14,14 @@ pub struct Edit {
     pub text: String,
 }
 
+impl Edit {
+    /// Where the text it brings stands afterwards.
+    pub fn placed(&self) -> Span {
+        let start = self.span.start();
+        Span::new(start, start + self.text.len())
+    }
+}
+
 /// Applies edits, sorted and disjoint, all given in positions of the text before; returns the
 /// edits that undo them, in positions of the text after.
 pub fn apply(text: &mut String, edits: &[Edit]) -> Vec<Edit> {

@@ -95,7 +95,8 @@ impl Position {
             .rposition(|&b| b == b'\n')
             .map_or(0, |newline| newline + 1);
         let line_start = line_start.max(mark_len(text).min(before.len()));
-        let line = before.split(|&b| b == b'\n').count();
+        let ends: usize = before.iter().map(|&b| usize::from(b == b'\n')).sum();
+        let line = ends + 1;
         // A UTF-8 continuation byte begins no character.
         let column = before[line_start..]
             .iter()

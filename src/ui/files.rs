@@ -26,13 +26,13 @@ pub(super) enum Task {
     Free(Arc<dyn Any + Send + Sync>),
     Save {
         path: PathBuf,
-        text: String,
+        text: Arc<String>,
         guard: Guard,
     },
     /// Keep the unsaved edits of this scene, which is the one without a file if it has no path.
     Keep {
         scene: Option<PathBuf>,
-        text: String,
+        text: Arc<String>,
     },
     /// Make what an earlier run kept this one's.
     Adopt {
@@ -147,7 +147,7 @@ fn perform(
 }
 
 /// Writes a scene, unless that would lose what somebody else wrote.
-fn save(path: PathBuf, text: String, guard: &Guard) -> SaveOutcome {
+fn save(path: PathBuf, text: Arc<String>, guard: &Guard) -> SaveOutcome {
     let folder = path
         .parent()
         .filter(|folder| !folder.as_os_str().is_empty());
@@ -204,13 +204,13 @@ fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), Refusal> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::document::Document;
     use crate::format::Format;
     use crate::scene::Meshes;
 
     fn known() -> Known {
         Known {
-            format: Format::Ray,
-            saved: Arc::default(),
+            scene: Document::new(Format::Ray, String::new()).snapshot(),
             meshes: Meshes::default(),
         }
     }
@@ -249,7 +249,7 @@ mod tests {
     fn a_scene_is_not_saved_in_a_folder_that_is_not_there() {
         let place = tempfile::tempdir().expect("a folder");
         let path = place.path().join("none").join("x.ray");
-        let outcome = save(path, String::new(), &Guard::Absent);
+        let outcome = save(path, Arc::default(), &Guard::Absent);
         assert!(
             matches!(outcome, SaveOutcome::Failed(said) if said.ends_with("none: no such folder"))
         );

@@ -110,7 +110,7 @@ pub enum SaveOutcome {
         /// Where.
         path: PathBuf,
         /// What.
-        text: String,
+        text: Arc<String>,
     },
     /// The file holds something that neither we wrote nor read: nothing was written.
     ChangedOnDisk,
@@ -138,7 +138,7 @@ pub enum Effect {
         /// Where.
         path: PathBuf,
         /// What.
-        text: String,
+        text: Arc<String>,
         /// What may be overwritten.
         guard: Guard,
     },
@@ -154,7 +154,7 @@ pub enum Effect {
         /// The scene; `None` is the one without a file.
         scene: Option<PathBuf>,
         /// The text.
-        text: String,
+        text: Arc<String>,
     },
     /// Forget what this run has kept for the next one.
     DropRecovery,

@@ -8,19 +8,16 @@ use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 
 use super::msg::Msg;
-use crate::document::Document;
+use crate::document::{Document, Merge, Merged, Snapshot};
 use crate::file::ReadError;
-use crate::format::Format;
-use crate::scene::{self, Lowered, Meshes};
-use crate::text::{Edit, smallest_edit};
+use crate::scene::{self, Before, Lowered, Meshes};
+use crate::text::{Edit, Findings, smallest_edit};
 
 /// What a text is compared with and understood by.
 #[derive(Clone, Debug)]
 pub struct Known {
-    /// Its language.
-    pub format: Format,
-    /// The text last saved or loaded.
-    pub saved: Arc<String>,
+    /// The text under edit, and the one last saved or loaded.
+    pub scene: Snapshot,
     /// The meshes that are read so far.
     pub meshes: Meshes,
 }
@@ -36,33 +33,74 @@ pub struct Reading {
 
 /// A text that is not the one last saved.
 #[derive(Debug)]
-pub struct News {
-    /// The text and its tree.
-    pub document: Document,
-    /// What it means.
+pub enum News {
+    /// There are no unsaved edits.
+    Text(Document, Meaning),
+    /// It is merged with unsaved edits.
+    Merged(Merged, Meaning),
+    /// Unsaved edits changed the same places.
+    Conflict(Merge),
+    /// It has errors, and there are unsaved edits.
+    Broken(Arc<String>, Findings),
+}
+
+/// What a text means.
+#[derive(Debug)]
+pub struct Meaning {
+    /// All of it.
     pub lowered: Lowered,
-    /// What leads to it from the text last saved.
+    /// What leads to the text from the one under edit.
     pub edit: Option<Edit>,
 }
 
 impl Reading {
     /// Understands a text.
     pub fn new(text: String, known: Known) -> Self {
-        let news = (text != *known.saved).then(|| {
-            let document = Document::new(known.format, text);
-            Box::new(News {
-                lowered: scene::lower(document.text(), document.tree(), &known.meshes),
-                edit: smallest_edit(&known.saved, document.text()),
-                document,
-            })
-        });
+        let news = (text != *known.scene.saved).then(|| Box::new(News::new(text, &known)));
         Self { known, news }
     }
+}
 
-    /// Whether it is the same with what is known by now.
-    pub fn holds(&self, now: &Known) -> bool {
-        Arc::ptr_eq(&self.known.saved, &now.saved)
-            && (self.news.is_none() || self.known.meshes == now.meshes)
+impl News {
+    fn new(text: String, known: &Known) -> Self {
+        let before = &known.scene;
+        let document = Document::new(before.format, text);
+        let lowered = scene::lower(document.text(), document.tree(), &known.meshes);
+        let edit = |text: &str| smallest_edit(&before.text, text);
+        if !before.is_dirty {
+            let edit = edit(document.text());
+            return Self::Text(document, Meaning { lowered, edit });
+        }
+        let Some(scene) = &lowered.scene else {
+            return Self::Broken(document.shared_text(), lowered.diagnostics);
+        };
+        let merged = match before.merge(document) {
+            Ok(merged) => merged,
+            Err(merge) => return Self::Conflict(merge),
+        };
+        let (text, tree) = (merged.document.text(), merged.document.tree());
+        let edit = edit(text);
+        let lowered = match merged.mine {
+            Some(spans) => {
+                let theirs = Before {
+                    scene,
+                    origins: &lowered.origins,
+                    diagnostics: &lowered.diagnostics,
+                };
+                scene::lower_again(text, tree, &known.meshes, theirs, spans)
+            }
+            None => lowered,
+        };
+        Self::Merged(merged, Meaning { lowered, edit })
+    }
+
+    /// Whether the text read has errors.
+    pub fn is_broken(&self) -> bool {
+        match self {
+            Self::Text(_, meaning) => meaning.lowered.scene.is_none(),
+            Self::Broken(..) => true,
+            Self::Merged(..) | Self::Conflict(_) => false,
+        }
     }
 }
 

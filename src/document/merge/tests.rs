@@ -3,7 +3,8 @@ use proptest::prelude::*;
 use super::*;
 
 fn merge(base: &str, mine: &str, theirs: &str) -> Merge {
-    Merge::new(Format::Ray, base, mine, theirs.to_owned())
+    let [base, mine, theirs] = [base, mine, theirs].map(|text| Arc::new(text.to_owned()));
+    Merge::new(Format::Ray, &base, &mine, &theirs)
 }
 
 /// The merged text with each conflict written out as `{base|mine|theirs}`.
@@ -148,7 +149,7 @@ fn decisions_survive_further_edits() {
     for conflict in &mut first.conflicts {
         conflict.decision = Some(Side::Theirs);
     }
-    let second = first.onto(Format::Ray, "4 0 6");
+    let second = first.onto(Format::Ray, &Arc::new("4 0 6".to_owned()));
     let decisions: Vec<_> = second.conflicts.iter().map(|c| c.decision).collect();
     assert_eq!(decisions, [Some(Side::Theirs), None, Some(Side::Theirs)]);
 }
@@ -164,6 +165,49 @@ fn long_texts_with_no_leaf_in_common_merge() {
         .map(|c| (&*c.base, &*c.mine, &*c.theirs))
         .collect();
     assert_eq!(values, [("500", "x", "1000500")]);
+}
+
+/// Only the lines around what changed are chopped, and more of them where that is too little.
+#[test]
+fn changes_far_apart_merge_as_in_a_short_text() {
+    let rows = |first: &str, row: &str, last: &str| {
+        let rows = (0..2000).map(|at| format!("{at} {row}"));
+        lines(
+            [first.to_owned()]
+                .into_iter()
+                .chain(rows)
+                .chain([last.to_owned()]),
+        )
+    };
+    let base = rows("1 2", "0", "3 4");
+    let merge_of = |mine: &str, theirs: &str| marked(&merge(&base, mine, theirs));
+    // Each at an end, both at both, both at one.
+    assert_eq!(
+        merge_of(&rows("1 9", "0", "3 4"), &rows("1 2", "0", "8 4")),
+        rows("1 9", "0", "8 4")
+    );
+    assert_eq!(
+        merge_of(&rows("1 2", "0", "8 4"), &rows("1 9", "0", "3 4")),
+        rows("1 9", "0", "8 4")
+    );
+    assert_eq!(
+        merge_of(&rows("1 9", "0", "8 4"), &rows("5 2", "0", "3 6")),
+        rows("5 9", "0", "8 6")
+    );
+    assert_eq!(
+        merge_of(&rows("1 2", "0", "3 8"), &rows("1 9", "0", "3 7")),
+        rows("1 9", "0", "3 {4|8|7}")
+    );
+    // Which of many equal lines is new? The question covers all of them.
+    let equal = |count: usize, last: &str| format!("7\n{}{last}\n", "0\n".repeat(count));
+    let merge = merge(&equal(5000, "8"), &equal(5001, "8"), &equal(4999, "8"));
+    let [conflict] = &merge.conflicts[..] else {
+        panic!("{} conflicts", merge.conflicts.len());
+    };
+    let whole = |count: usize| format!("\n{}", "0\n".repeat(count));
+    assert_eq!(conflict.base, whole(5000));
+    assert_eq!(conflict.mine, whole(5001));
+    assert_eq!(conflict.theirs, whole(4999));
 }
 
 /// A line for each word.

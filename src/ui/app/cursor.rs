@@ -22,12 +22,10 @@ impl App {
             let span = placed.spans.get(self.component).copied();
             (placed.field.key, span)
         });
-        let text = if self.document.is_dirty() {
-            Arc::new(self.document.text().to_owned())
-        } else {
-            Arc::clone(self.document.saved())
-        };
-        Held { text, field }
+        Held {
+            text: self.document.shared_text(),
+            field,
+        }
     }
 
     /// Puts the cursor back on the number that it was on before an edit, and keeps what is typed

@@ -7,7 +7,7 @@ use std::time::Duration;
 use super::cursor::Held;
 use super::model::{Reader, Settle};
 use super::{App, Broken, Dialog, Disk, PromptKind};
-use crate::document::{Replaced, Side};
+use crate::document::{Adopted, Side};
 use crate::file::ReadError;
 use crate::scene::Lowered;
 use crate::text::{Edit, Findings, Position, Span, smallest_edit};
@@ -46,10 +46,16 @@ impl App {
     /// What the scene's file is read with.
     pub(super) fn known(&self) -> Known {
         Known {
-            format: self.document.format(),
-            saved: Arc::clone(self.document.saved()),
+            scene: self.document.snapshot(),
             meshes: self.meshes.clone(),
         }
+    }
+
+    /// Whether nothing has come in between that what was read is compared with: an edit, a save, a
+    /// mesh.
+    fn is_known(&self, reading: &Reading) -> bool {
+        let known = &reading.known;
+        known.scene.is_of(&self.document) && (reading.news.is_none() || known.meshes == self.meshes)
     }
 
     pub(super) fn settled(&mut self) -> Vec<Effect> {
@@ -61,9 +67,8 @@ impl App {
     }
 
     pub(super) fn was_read(&mut self, read: Result<Reading, ReadError>) -> Vec<Effect> {
-        // A save or a mesh has come in between: what was read is no longer what is new.
         if let Ok(reading) = &read
-            && !reading.holds(&self.known())
+            && !self.is_known(reading)
         {
             let mut effects = self.read_effect();
             effects.push(Effect::Free(Arc::new(read)));
@@ -112,52 +117,41 @@ impl App {
             }
             return Vec::new();
         };
-        let dirty = self.document.is_dirty();
-        let is_broken = news.lowered.scene.is_none();
-        if is_broken && !is_final {
+        if news.is_broken() && !is_final {
             let mut effects = self.wait(QUIET);
             effects.push(Effect::Free(Arc::new(news)));
             return effects;
         }
-        let News {
-            document,
-            lowered,
-            edit,
-        } = *news;
-        if is_broken && dirty {
-            self.keep_apart(document.into_text(), lowered.diagnostics);
-            return Vec::new();
-        }
         let held = self.hold();
         self.disk = Disk::Known;
         self.broken = None;
-        if !dirty {
-            let former = self.document.load(document);
-            let former = (
-                former,
-                std::mem::take(&mut self.origins),
-                self.scene.clone(),
-            );
-            self.show_reload(&held, edit.as_ref(), lowered, "read again");
-            return vec![Effect::Free(Arc::new(former))];
-        }
-        // Merging stays with the interface: edits that go on in between would have to be merged again.
-        match self.document.replace(document.into_text()) {
-            Replaced::Unchanged | Replaced::Loaded => {}
-            Replaced::Merged => {
-                let words = "the file's changes are merged; u undoes";
-                self.show_merged(&held, words);
+        let (document, meaning, words) = match *news {
+            News::Text(document, meaning) => (self.document.load(document), meaning, "read again"),
+            News::Merged(merged, meaning) => {
+                let words = match meaning.edit {
+                    Some(_) => "the file's changes are merged; u undoes",
+                    None => "the file says the same now",
+                };
+                (self.document.take(merged), meaning, words)
             }
-            Replaced::Conflict(merge) => {
+            News::Conflict(merge) => {
                 self.disk = Disk::Changed;
                 self.dialog = Some(Dialog::Conflict { merge, at: 0 });
+                return Vec::new();
             }
-        }
-        Vec::new()
+            News::Broken(text, diagnostics) => {
+                self.keep_apart(text, diagnostics);
+                return Vec::new();
+            }
+        };
+        let origins = std::mem::take(&mut self.origins);
+        let former = (document, origins, self.scene.clone());
+        self.show_reload(&held, meaning.edit.as_ref(), meaning.lowered, words);
+        vec![Effect::Free(Arc::new(former))]
     }
 
     /// Keeps a text with errors apart from unsaved edits.
-    fn keep_apart(&mut self, text: String, diagnostics: Findings) {
+    fn keep_apart(&mut self, text: Arc<String>, diagnostics: Findings) {
         let first = diagnostics.first_error();
         let line = first.map_or(1, |d| Position::of(&text, d.span.start()).line);
         self.pending.quit = false;
@@ -166,11 +160,6 @@ impl App {
         self.fail(format!(
             "line {line} of the file on disk has an error: E opens it, :w! overwrites it"
         ));
-    }
-
-    fn show_merged(&mut self, held: &Held, words: &str) {
-        let edit = smallest_edit(&held.text, self.document.text());
-        self.show_reload(held, edit.as_ref(), self.lowered(), words);
     }
 
     /// Takes what the text means now, keeps the cursor where it was and says what changed; `edit`
@@ -251,7 +240,7 @@ impl App {
         self.document.end_step();
         vec![Effect::Save {
             path,
-            text: self.document.text().to_owned(),
+            text: self.document.shared_text(),
             guard,
         }]
     }
@@ -323,11 +312,17 @@ impl App {
         };
         let held = self.hold();
         match self.document.adopt(merge) {
-            Replaced::Conflict(merge) => self.dialog = Some(Dialog::Conflict { merge, at: 0 }),
-            Replaced::Unchanged | Replaced::Loaded | Replaced::Merged => {
+            Adopted::Conflict(merge) => self.dialog = Some(Dialog::Conflict { merge, at: 0 }),
+            Adopted::Taken => {
                 self.disk = Disk::Known;
-                self.show_merged(&held, "merged; u undoes");
+                let edit = smallest_edit(&held.text, self.document.text());
+                let lowered = edit.as_ref().map_or_else(
+                    || self.lowered(),
+                    |edit| self.lowered_again(edit.span, edit.placed()),
+                );
+                self.show_reload(&held, edit.as_ref(), lowered, "merged; u undoes");
             }
+            Adopted::OutOfDate => self.warn("the file was saved since: nothing is merged"),
         }
     }
 

@@ -36,7 +36,7 @@ impl App {
             self.pending.keeping.revision = None;
             return vec![Effect::DropRecovery];
         }
-        let text = self.document.text().to_owned();
+        let text = self.document.shared_text();
         self.pending.keeping.revision = Some(self.document.revision());
         let scene = self.path.clone();
         vec![Effect::WriteRecovery { scene, text }]

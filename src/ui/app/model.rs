@@ -241,7 +241,7 @@ pub enum Disk {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Broken {
     /// What it holds.
-    pub text: String,
+    pub text: Arc<String>,
     /// What is wrong with it.
     pub diagnostics: Findings,
 }

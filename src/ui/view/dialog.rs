@@ -170,10 +170,9 @@ fn one_line(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::document::Replaced;
     use crate::document::Side;
     use crate::ui::app::Dialog;
-    use crate::ui::view::tests::{SCENE, app, drawn, retype};
+    use crate::ui::view::tests::{SCENE, app, conflict, drawn, retype};
 
     #[test]
     fn quitting_says_what_would_be_lost_and_how_to_answer() {
@@ -191,9 +190,7 @@ mod tests {
         let mut app = app();
         retype(&mut app, " 0.25 //", " 0.5 //");
         let theirs = SCENE.replace(" 0.25 //", " 0.75 //");
-        let Replaced::Conflict(mut merge) = app.document.replace(theirs) else {
-            panic!("the same number was changed twice");
-        };
+        let mut merge = conflict(&app, &theirs);
         merge.conflicts[0].decision = Some(Side::Theirs);
         app.dialog = Some(Dialog::Conflict { merge, at: 0 });
         let lines = drawn(&app, super::render, 80, 24);
@@ -214,9 +211,7 @@ mod tests {
         retype(&mut app, "box 0 0 0", "box 0 0 7");
         let from = SCENE.find("box").expect("a box");
         let theirs = SCENE[..from].replacen("\n2\n", "\n1\n", 1);
-        let Replaced::Conflict(merge) = app.document.replace(theirs) else {
-            panic!("what was changed here was deleted there");
-        };
+        let merge = conflict(&app, &theirs);
         app.dialog = Some(Dialog::Conflict { merge, at: 0 });
         let lines = drawn(&app, super::render, 100, 24);
         let line = lines.iter().find(|line| line.contains('▸'));

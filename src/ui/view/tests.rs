@@ -11,7 +11,7 @@ use tui_input::Input;
 
 use super::layout::Zoom;
 use super::{Glyphs, draw};
-use crate::document::{Replaced, Side};
+use crate::document::{Document, Merge, Side};
 use crate::format::Format;
 use crate::render::{Filter, Frame, NO_OBJECT, Progress};
 use crate::scene::{Node, Size, lower};
@@ -70,6 +70,13 @@ pub(super) fn retype(app: &mut App, old: &str, new: &str) {
     app.nodes = lowered.origins.nodes();
     app.origins = lowered.origins;
     app.diagnostics = lowered.diagnostics;
+}
+
+/// What is to be decided between the text and another one from outside.
+pub(super) fn conflict(app: &App, theirs: &str) -> Merge {
+    let theirs = Document::new(app.document.format(), theirs.to_owned());
+    let merged = app.document.snapshot().merge(theirs);
+    merged.expect_err("both changed the same place")
 }
 
 /// A panel's lines without blanks at their ends.
@@ -183,11 +190,9 @@ const STATES: &[(&str, Change)] = &[
     }),
     ("conflict", |app| {
         retype(app, " 0.25 ", " 0.5 ");
-        let theirs = SCENE.replace(" 0.25 ", " 0.75 ");
-        if let Replaced::Conflict(mut merge) = app.document.replace(theirs) {
-            merge.conflicts[0].decision = Some(Side::Mine);
-            app.dialog = Some(Dialog::Conflict { merge, at: 0 });
-        }
+        let mut merge = conflict(app, &SCENE.replace(" 0.25 ", " 0.75 "));
+        merge.conflicts[0].decision = Some(Side::Mine);
+        app.dialog = Some(Dialog::Conflict { merge, at: 0 });
     }),
     ("typing", |app| {
         app.selected = Node::Object(0);

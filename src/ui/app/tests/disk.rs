@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::*;
 use crate::document::Side;
 use crate::file::ReadError;
+use crate::scene;
 use crate::ui::msg::{Guard, Kept, SaveOutcome, Timer};
 
 #[test]
@@ -15,7 +16,7 @@ fn a_save_may_only_replace_what_was_last_seen() {
         panic!("{effects:?}");
     };
     assert_eq!(path, &PathBuf::from("scene.ray"));
-    assert_eq!(text, app.document.text());
+    assert_eq!(**text, app.document.text());
     assert_eq!(guard, &Guard::Holding(Arc::new(SCENE.to_owned())));
     let outcome = SaveOutcome::Saved {
         path: path.clone(),
@@ -109,16 +110,23 @@ fn what_was_read_is_read_anew_if_what_it_was_compared_with_is_another() {
     press(&mut app, "jjjelw");
     app.update(Msg::Saved(SaveOutcome::Saved {
         path: PathBuf::from("scene.ray"),
-        text: app.document.text().to_owned(),
+        text: app.document.shared_text(),
     }));
     let effects = app.update(before);
     assert!(matches!(effects[..], [Effect::Read(..), Effect::Free(_)]));
     assert_eq!(changed_lines(&app), ["0.1 0 0"]);
 
-    // Edits alone are merged with what it says.
+    // An edit would have to be merged with what it says.
     let before = late(&app);
     press(&mut app, "l");
-    app.update(before);
+    let effects = app.update(before);
+    assert!(matches!(
+        effects[..],
+        [Effect::Read(..), Effect::Free(_), ..]
+    ));
+    assert_eq!(changed_lines(&app), ["0.2 0 0"]);
+    let merged = late(&app);
+    app.update(merged);
     assert_eq!(changed_lines(&app), ["0.2 0 0", "1.7 // the radius"]);
 }
 
@@ -148,8 +156,29 @@ fn changes_of_different_places_are_merged_as_one_step() {
     outside(&mut app, &SCENE.replace("1.5", "1.7"));
     assert_eq!(changed_lines(&app), ["0.1 0 0", "1.7 // the radius"]);
     assert!(app.dialog.is_none() && app.document.is_dirty());
+    let (text, tree) = (app.document.text(), app.document.tree());
+    assert_eq!(
+        app.scene.as_deref(),
+        scene::lower(text, tree, &app.meshes).scene.as_ref()
+    );
     press(&mut app, "u");
     assert_eq!(changed_lines(&app), ["0.1 0 0"]);
+}
+
+#[test]
+fn a_file_that_says_what_the_edits_say_is_saved() {
+    let mut app = open(SCENE);
+    press(&mut app, "jjjel");
+    let mine = app.document.text().to_owned();
+    outside(&mut app, &mine);
+    assert!(!app.document.is_dirty());
+    assert!(
+        words(&app).starts_with("the file says the same now"),
+        "{}",
+        words(&app)
+    );
+    press(&mut app, "u");
+    assert_eq!(app.document.text(), SCENE, "the edit is a step still");
 }
 
 #[test]
@@ -269,7 +298,7 @@ fn a_second_interrupt_quits_and_keeps_the_edits() {
     assert!(matches!(
         &effects[..],
         [Effect::WriteRecovery { scene: Some(_), text }, Effect::Quit]
-            if text == app.document.text()
+            if **text == app.document.text()
     ));
     let mut app = open(SCENE);
     press(&mut app, "jjjel<Ctrl-c><Esc>");
@@ -300,7 +329,7 @@ fn unsaved_edits_are_written_down_once_and_forgotten_when_there_are_none() {
     assert!(matches!(
         &effects[..],
         [Effect::WriteRecovery { scene: of, text }]
-            if *of == scene && text == app.document.text()
+            if *of == scene && **text == app.document.text()
     ));
     assert!(app.update(Msg::Elapsed(Timer::Keep)).is_empty());
     assert!(waits(&press(&mut app, "u")));
@@ -315,7 +344,7 @@ fn kept_edits_put_off_are_left_alone() {
     let saved = |app: &App| {
         Msg::Saved(SaveOutcome::Saved {
             path: PathBuf::from("scene.ray"),
-            text: app.document.text().to_owned(),
+            text: app.document.shared_text(),
         })
     };
     let mut effects = press(&mut app, "<Esc>jjjelw");

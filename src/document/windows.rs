@@ -1,0 +1,207 @@
+//! The lines around the differences of texts: only they are chopped into leaves, for a scene of a
+//! million objects has tens of millions of those.
+
+use super::hunks::{Chunks, Hunk, hunks};
+use crate::format::Format;
+use crate::text::{Span, smallest_edit};
+
+/// At first, a window has this many bytes on either side of a difference.
+const MARGIN: usize = 1024;
+
+/// How many times as wide the next margin is, where one was too narrow.
+const WIDER: usize = 16;
+
+/// Parts of three texts that correspond: whole lines, or all of the text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Window {
+    /// In the common ancestor.
+    pub(super) base: Span,
+    /// In the text under edit.
+    pub(super) mine: Span,
+    /// In the text from outside.
+    pub(super) theirs: Span,
+    /// Whether it begins where the texts do, and ends where they do.
+    pub(super) at_ends: [bool; 2],
+}
+
+impl Window {
+    /// Whether hunks of this window might be others in a wider one: they reach its edge, where the
+    /// text goes on.
+    pub(super) fn is_narrow(&self, base: &Chunks, hunks: &[Hunk]) -> bool {
+        let [is_start, is_end] = self.at_ends;
+        // The first and the last chunk are white space that goes on outside.
+        let starts = |hunk: &Hunk| hunk.base.start <= 1;
+        let ends = |hunk: &Hunk| base.len() <= hunk.base.end + 1;
+        (!is_start && hunks.first().is_some_and(starts))
+            || (!is_end && hunks.last().is_some_and(ends))
+    }
+}
+
+/// From the first to the last place where a text differs from another.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Change {
+    /// What is replaced.
+    base: Span,
+    /// By how many bytes.
+    len: usize,
+}
+
+impl Change {
+    /// The change that leads from one text to another, if there is any.
+    pub(super) fn between(base: &str, other: &str) -> Option<Self> {
+        let edit = smallest_edit(base, other)?;
+        Some(Self {
+            base: edit.span,
+            len: edit.text.len(),
+        })
+    }
+
+    /// Where a span of the base that holds all of the change or nothing of it stands afterwards.
+    fn moved(&self, span: Span) -> Span {
+        let behind = |at: usize| at - self.base.len() + self.len;
+        let start = if span.start() <= self.base.start() {
+            span.start()
+        } else {
+            behind(span.start())
+        };
+        let end = if self.base.end() <= span.end() {
+            behind(span.end())
+        } else {
+            span.end()
+        };
+        Span::new(start, end)
+    }
+}
+
+/// What `work` finds in the narrowest windows wide enough, which it is handed the margins of.
+pub(super) fn widening<T>(format: Format, work: impl Fn(usize) -> Option<T>) -> T {
+    let mut margin = if format.leaves_keep_to_lines() {
+        MARGIN
+    } else {
+        usize::MAX
+    };
+    loop {
+        if let Some(found) = work(margin) {
+            return found;
+        }
+        margin = margin.saturating_mul(WIDER);
+    }
+}
+
+/// The lines around the changes of two texts, in order: one window where they are near each other.
+pub(super) fn windows(
+    base: &str,
+    mine: Option<Change>,
+    theirs: Option<Change>,
+    margin: usize,
+) -> Vec<Window> {
+    let spans = [mine, theirs].into_iter().flatten();
+    let mut spans: Vec<_> = spans.map(|c| lines_around(base, c.base, margin)).collect();
+    spans.sort_unstable();
+    if let [first, second] = spans[..]
+        && second.start() <= first.end()
+    {
+        spans = vec![first.to(second)];
+    }
+    let moved = |change: Option<Change>, span| change.map_or(span, |change| change.moved(span));
+    let window = |span: Span| Window {
+        base: span,
+        mine: moved(mine, span),
+        theirs: moved(theirs, span),
+        at_ends: [span.start() == 0, span.end() == base.len()],
+    };
+    spans.into_iter().map(window).collect()
+}
+
+/// The lines that hold a span and as much around it.
+fn lines_around(text: &str, span: Span, margin: usize) -> Span {
+    let bytes = text.as_bytes();
+    let from = span.start().saturating_sub(margin);
+    let to = span.end().saturating_add(margin).min(bytes.len());
+    let is_end = |&byte: &u8| byte == b'\n';
+    let start = bytes[..from]
+        .iter()
+        .rposition(is_end)
+        .map_or(0, |at| at + 1);
+    let end = bytes[to..].iter().position(is_end);
+    Span::new(start, end.map_or(bytes.len(), |at| to + at + 1))
+}
+
+/// How many places of another text differ from one: leaves, or runs of them.
+pub(super) fn differences(format: Format, text: &str, other: &str) -> usize {
+    let change = Change::between(text, other);
+    widening(format, |margin| {
+        let mut count = 0;
+        for window in windows(text, None, change, margin) {
+            let base = Chunks::of(format, window.base.of(text));
+            let hunks = hunks(&base, &Chunks::of(format, window.theirs.of(other)));
+            if window.is_narrow(&base, &hunks) {
+                return None;
+            }
+            count += hunks.len();
+        }
+        Some(count)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn windows_are_lines_around_changes() {
+        let base = "aa\nbb\ncc\ndd\nee\n";
+        let windows = |mine: &str, theirs: &str, margin| {
+            let changes = [mine, theirs].map(|other| Change::between(base, other));
+            let found = windows(base, changes[0], changes[1], margin);
+            let show = |w: &Window| {
+                let texts = [(w.base, base), (w.mine, mine), (w.theirs, theirs)];
+                texts.map(|(span, text)| span.of(text).to_owned()).join("|")
+            };
+            found.iter().map(show).collect::<Vec<_>>()
+        };
+        let far = windows("aa\nxbb\ncc\ndd\nee\n", "aa\nbb\ncc\nd\nee\n", 0);
+        assert_eq!(far, ["bb\n|xbb\n|bb\n", "dd\n|dd\n|d\n"]);
+        let near = windows("aa\nxbb\ncc\ndd\nee\n", "aa\nbb\ncc\nd\nee\n", 3);
+        assert_eq!(
+            near,
+            ["aa\nbb\ncc\ndd\nee\n|aa\nxbb\ncc\ndd\nee\n|aa\nbb\ncc\nd\nee\n"]
+        );
+        let one = windows(base, "aa\nbb\ncc\ndd\nee\nff", 0);
+        assert_eq!(one, ["||ff"]);
+        assert!(windows(base, base, 0).is_empty());
+    }
+
+    /// Rows of few different words, so that what is new among them is often in doubt.
+    fn rows() -> impl Strategy<Value = Vec<&'static str>> {
+        prop::collection::vec(prop::sample::select(vec!["0 0", "0", "1 0", "ab"]), 0..40)
+    }
+
+    proptest! {
+        #[test]
+        fn hunks_of_a_window_are_those_of_the_whole(
+            head in rows(), old in rows(), new in rows(), tail in rows(), margin in 0_usize..20,
+        ) {
+            let text = |middle: &[&str]| [&head[..], middle, &tail[..]].concat().join("\n");
+            let (base, other) = (text(&old), text(&new));
+            let found = |margin| {
+                let change = Change::between(&base, &other);
+                let windows = windows(&base, None, change, margin);
+                let [window] = windows[..] else { return Some(Vec::new()) };
+                let chunks = Chunks::of(Format::Ray, window.base.of(&base));
+                let others = Chunks::of(Format::Ray, window.theirs.of(&other));
+                let hunks = hunks(&chunks, &others);
+                let bytes = |hunk: &Hunk| [
+                    chunks.span(&hunk.base).later(window.base.start()),
+                    others.span(&hunk.other).later(window.theirs.start()),
+                ];
+                (!window.is_narrow(&chunks, &hunks)).then(|| hunks.iter().map(bytes).collect())
+            };
+            let whole = found(usize::MAX);
+            prop_assert!(whole.is_some());
+            let part = found(margin);
+            prop_assert!(part.is_none() || part == whole, "{part:?}, not {whole:?}");
+        }
+    }
+}
