@@ -2,7 +2,8 @@
 
 use std::io;
 use std::path::PathBuf;
-use std::sync::{Arc, mpsc};
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver};
 
 use super::progress::ProgressLine;
 use super::{Error, load, print_findings, stdout, tell, tell_error};
@@ -78,7 +79,16 @@ fn make(work: &Render) -> Result<(), Error> {
         print_findings(&work.scene, &loaded.text, &[wrong]);
         return Err(Error::Invalid { errors: 1 });
     }
-    let frame = trace(work, scene, loaded.images, size, loaded.text)?;
+    let (wake, woken) = mpsc::channel();
+    // It gives its memory back beside the writing.
+    let renderer = Renderer::new(Threads::Exactly(work.threads), move || {
+        // The receiver is gone only while the renderer is being dropped.
+        let _ = wake.send(());
+    });
+    renderer.restart(job(work, scene, loaded.images, size))?;
+    // Giving back a text of 85 MB takes 10 ms, in which the worker has begun.
+    drop(loaded.text);
+    let frame = last(&renderer, &woken)?;
     if 0 < frame.progress.over_budget {
         let samples = counted(frame.progress.over_budget as usize, "sample");
         tell(
@@ -107,16 +117,11 @@ fn check_output(work: &Render) -> Result<(), Error> {
     }
 }
 
-fn trace(
-    work: &Render,
-    scene: Scene,
-    images: Images,
-    size: Size,
-    text: String,
-) -> Result<Arc<Frame>, Error> {
+/// The picture that is asked for.
+fn job(work: &Render, scene: Scene, images: Images, size: Size) -> Job {
     let transfer = work.transfer.unwrap_or(scene.setting.transfer);
     let integrator = work.integrator.unwrap_or(scene.setting.integrator);
-    let job = Job {
+    Job {
         images,
         // The picture's ratio is the one asked for.
         camera: Camera {
@@ -135,15 +140,11 @@ fn trace(
             transfer,
         },
         frames: work.format.frames(),
-    };
-    let (wake, woken) = mpsc::channel();
-    let renderer = Renderer::new(Threads::Exactly(work.threads), move || {
-        // The receiver is gone only while the renderer is being dropped.
-        let _ = wake.send(());
-    });
-    renderer.restart(job)?;
-    // Giving back a text of 85 MB takes 10 ms, in which the worker has begun.
-    drop(text);
+    }
+}
+
+/// Waits for the finished picture, and shows how far it is.
+fn last(renderer: &Renderer, woken: &Receiver<()>) -> Result<Arc<Frame>, Error> {
     let mut line = ProgressLine::new();
     while woken.recv().is_ok() {
         let Some(frame) = renderer.latest() else {

@@ -10,18 +10,18 @@ use super::noise::Doubling;
 use super::probe::Counts;
 use super::shot::Shot;
 use super::steps::Step;
-use super::tile::{Remembers, Tile, TileShape, Work};
+use super::tile::{AREA, Remembers, Tile, TileShape, Work};
 use super::tone::Tone;
 use super::touched::Touched;
 use super::tracer::Tracer;
-use crate::scene::{Rgb, Size, Transfer};
+use crate::scene::{Size, Transfer};
 
 /// The most pixels of a picture of which is remembered what they depend on: of larger ones that
 /// would take more memory than the time is worth.
 const MOST_REMEMBERED: usize = 1 << 22;
 
-/// Pixels developed without asking whether to stop: less than two milliseconds.
-const QUIET: usize = 65_536;
+/// Pixels developed without asking whether to stop, or else a row of tiles: a few milliseconds.
+const QUIET: usize = 262_144;
 
 /// Tiles freed at once: about four megabytes, less than a millisecond.
 const FREED: usize = 512;
@@ -65,11 +65,15 @@ pub(crate) struct Raster {
 }
 
 impl Raster {
-    /// Room for so many pixels.
-    fn with_room(count: usize) -> Result<Self, TryReserveError> {
+    /// Room for so many pixels, and what is told of them in frames of some kind.
+    fn with_room(count: usize, frames: Frames) -> Result<Self, TryReserveError> {
         let mut room = Self::default();
         room.pixels.try_reserve_exact(count)?;
-        room.objects.try_reserve_exact(count)?;
+        match frames {
+            Frames::Live => room.objects.try_reserve_exact(count)?,
+            Frames::Last => {}
+            Frames::LastWithValues => room.values.try_reserve_exact(count)?,
+        }
         Ok(room)
     }
 }
@@ -94,10 +98,6 @@ impl Film {
         let film = || {
             let mut tiles = Vec::new();
             tiles.try_reserve_exact(count)?;
-            let mut room = Raster::with_room(size.pixels())?;
-            if frames == Frames::LastWithValues {
-                room.values.try_reserve_exact(size.pixels())?;
-            }
             Ok(Self {
                 size,
                 spp,
@@ -109,16 +109,17 @@ impl Film {
                 squared_errors: 0.0,
                 noise: None,
                 over_budget: 0,
-                room,
+                room: Raster::with_room(size.pixels(), frames)?,
             })
         };
         film().map_err(|_: TryReserveError| {
             let bytes = |count: usize, each: usize| (count as u64).saturating_mul(each as u64);
-            let values = match frames {
+            let told = match frames {
+                Frames::Live => size_of::<u32>(),
+                Frames::Last => 0,
                 Frames::LastWithValues => size_of::<[f32; 3]>(),
-                Frames::Live | Frames::Last => 0,
             };
-            let developed = size_of::<[u8; 3]>() + size_of::<u32>() + values;
+            let developed = size_of::<[u8; 3]>() + told;
             let tiles = bytes(count, Tile::bytes(remembers));
             NoMemory {
                 bytes: tiles.saturating_add(bytes(size.pixels(), developed)),
@@ -129,6 +130,11 @@ impl Film {
     /// How many tiles there are.
     pub(crate) fn tiles(&self) -> usize {
         self.shape.count(self.size)
+    }
+
+    /// How many rows of tiles there are.
+    pub(crate) fn rows(&self) -> usize {
+        self.tiles() / self.shape.across(self.size)
     }
 
     /// How many tiles a step has come to.
@@ -239,7 +245,8 @@ impl Film {
     /// grid is traced, its nearest point up and to the left stands for them. Every tile has been
     /// come to. `None` once `cancelled` says so, or where there is no memory for them.
     pub(crate) fn develop(&self, cancelled: impl Fn() -> bool) -> Option<Raster> {
-        self.develop_in(Raster::with_room(self.size.pixels()).ok()?, cancelled)
+        let room = Raster::with_room(self.size.pixels(), Frames::Live);
+        self.develop_in(room.ok()?, cancelled)
     }
 
     /// As [`Film::develop`], but only once, and there is memory for it.
@@ -249,26 +256,60 @@ impl Film {
     }
 
     fn develop_in(&self, mut raster: Raster, cancelled: impl Fn() -> bool) -> Option<Raster> {
-        let count = self.size.pixels();
         let tone = self.tone();
+        let value = |tile: &Tile, at| tile.value(at, self.spp);
+        let tells_objects = 0 < raster.objects.capacity();
         let tells_values = 0 < raster.values.capacity();
-        for start in (0..count).step_by(QUIET) {
+        let down = self.rows();
+        let quiet = QUIET.div_ceil(self.shape.across(self.size) * AREA as usize);
+        for start in (0..down).step_by(quiet) {
             if cancelled() {
                 return None;
             }
-            let part = start..count.min(start + QUIET);
-            let each = || part.clone().into_par_iter().with_min_len(1024);
-            let value = |at| self.value(at);
-            raster
-                .pixels
-                .par_extend(each().map(value).map(|value| tone.bytes(value)));
-            raster.objects.par_extend(each().map(|at| self.object(at)));
+            let rows = start..down.min(start + quiet);
+            self.develop_rows(rows.clone(), &mut raster.pixels, |tile, at| {
+                tone.bytes(value(tile, at))
+            });
+            if tells_objects {
+                self.develop_rows(rows.clone(), &mut raster.objects, Tile::object);
+            }
             if tells_values {
-                let values = each().map(value).map(|value| value.as_vec3().to_array());
-                raster.values.par_extend(values);
+                self.develop_rows(rows, &mut raster.values, |tile, at| {
+                    value(tile, at).as_vec3().to_array()
+                });
             }
         }
         Some(raster)
+    }
+
+    /// Adds the pixels of some rows of tiles to those before: of each what `told` says of the one that
+    /// stands for it.
+    pub(crate) fn develop_rows<T: Clone + Default + Send>(
+        &self,
+        rows: Range<usize>,
+        developed: &mut Vec<T>,
+        told: impl Fn(&Tile, usize) -> T + Sync,
+    ) {
+        let Size { width, height } = self.size;
+        let (across, shape) = (self.shape.across(self.size), self.shape);
+        let from = developed.len();
+        let below = height.min(rows.end as u32 * shape.height);
+        developed.resize(width as usize * below as usize, T::default());
+        let new = developed[from..].par_chunks_mut(width as usize * shape.height as usize);
+        new.zip(rows).for_each(|(pixels, row)| {
+            let tiles = &self.tiles[row * across..][..across];
+            // Tile by tile: along lines that cross many of them, memory is waited for.
+            for (left, tile) in (0..).step_by(shape.width as usize).zip(tiles) {
+                let right = width.min(left + shape.width);
+                let lines = pixels.chunks_exact_mut(width as usize);
+                for (y, line) in (row as u32 * shape.height..).zip(lines) {
+                    let line = &mut line[left as usize..right as usize];
+                    for (x, pixel) in (left..).zip(line) {
+                        *pixel = told(tile, tile.known([x, y]));
+                    }
+                }
+            }
+        });
     }
 
     /// Leaves the memory to the current pool to free, bit by bit: a large picture takes a tenth of a
@@ -299,26 +340,5 @@ impl Film {
                 Tone::Depth { nearest, farthest }
             }
         }
-    }
-
-    /// What a pixel holds.
-    pub(crate) fn value(&self, at: usize) -> Rgb {
-        let (tile, pixel) = self.find(at);
-        tile.value(pixel, self.spp)
-    }
-
-    pub(crate) fn object(&self, at: usize) -> u32 {
-        let (tile, pixel) = self.find(at);
-        tile.object(pixel)
-    }
-
-    /// The tile of a pixel, and the pixel in it that stands for it.
-    fn find(&self, at: usize) -> (&Tile, usize) {
-        // A picture has no more pixels than 32 bits count, and divisions by powers of two are shifts.
-        let (at, width) = (at as u32, self.size.width);
-        let (x, y) = (at % width, at / width);
-        let [column, row] = self.shape.place([x, y]);
-        let tile = &self.tiles[row * self.shape.across(self.size) + column];
-        (tile, tile.known([x, y]))
     }
 }

@@ -76,14 +76,6 @@ impl TileShape {
         ((y - top) * self.width + (x - left)) as usize
     }
 
-    /// The column and the row of the tile that a pixel is in.
-    pub(crate) fn place(self, [x, y]: [u32; 2]) -> [usize; 2] {
-        [
-            (x >> self.width.trailing_zeros()) as usize,
-            (y >> self.height.trailing_zeros()) as usize,
-        ]
-    }
-
     /// Tiles along each row of a picture.
     pub(crate) fn across(self, size: Size) -> usize {
         size.width.div_ceil(self.width) as usize

@@ -17,6 +17,7 @@ pub(crate) enum Tone {
 
 impl Tone {
     /// The 8-bit value of each channel.
+    #[inline]
     pub(crate) fn bytes(self, value: Rgb) -> [u8; 3] {
         match self {
             Self::Colour(transfer) => to_bytes(curved(value, transfer)),

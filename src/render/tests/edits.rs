@@ -76,12 +76,15 @@ impl Easel {
 
     /// All that is shown of it.
     fn shows(&self) -> impl PartialEq + std::fmt::Debug + use<> {
-        let pixels = 0..self.job.settings.size.pixels();
-        let bits = |at| self.film.value(at).to_array().map(f64::to_bits);
-        let values: Vec<_> = pixels.clone().map(bits).collect();
-        let objects: Vec<_> = pixels.map(|at| self.film.object(at)).collect();
+        let spp = self.job.settings.spp;
+        let mut pixels = Vec::new();
+        self.film
+            .develop_rows(0..self.film.rows(), &mut pixels, |tile, at| {
+                let bits = tile.value(at, spp).to_array().map(f64::to_bits);
+                (bits, tile.object(at))
+            });
         let noise = self.film.noise().map(f64::to_bits);
-        (values, objects, noise, self.film.over_budget())
+        (pixels, noise, self.film.over_budget())
     }
 }
 
