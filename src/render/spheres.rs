@@ -22,17 +22,19 @@ pub(crate) struct Spheres {
 impl Spheres {
     /// Those among the objects with these numbers, in their order.
     pub(crate) fn new(objects: &[Object], order: &[u32]) -> Self {
-        let none = |value| vec![value; order.len() + RUN];
+        let none = || vec![0.0; order.len() + RUN];
         let mut spheres = Self {
-            x: none(0.0),
-            y: none(0.0),
-            z: none(0.0),
-            radius: none(f64::NAN),
+            x: none(),
+            y: none(),
+            z: none(),
+            radius: none(),
         };
+        spheres.radius[order.len()..].fill(f64::NAN);
         let x = spheres.x.par_iter_mut();
         let rest = spheres.y.par_iter_mut().zip(&mut spheres.z);
         let places = x.zip(rest).zip(&mut spheres.radius).zip(order);
         places.for_each(|(((x, (y, z)), radius), &object)| {
+            *radius = f64::NAN;
             if let Shape::Sphere(sphere) = &objects[object as usize].shape {
                 [*x, *y, *z] = sphere.centre.to_array();
                 *radius = sphere.radius;

@@ -2,10 +2,15 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use crate::accel::Bvh;
 use crate::geometry::lanes::{Eight, Lanes, Simd, WIDTH, mask};
 use crate::geometry::{Hit, Hits, Instance, Mesh, Ray, Rays, Shape};
 use crate::scene::Object;
+
+/// Objects that are looked through as one task.
+const SCANNED: usize = 8192;
 
 /// Which hit of a mesh is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -153,11 +158,12 @@ impl Structures {
     }
 }
 
-/// The meshes among objects, and the objects' numbers.
-fn instances(objects: &[Object]) -> impl Iterator<Item = (usize, &Instance)> {
-    let objects = objects.iter().enumerate();
-    objects.filter_map(|(object, Object { shape, .. })| match shape {
-        Shape::Mesh(instance) => Some((object, &**instance)),
+/// The meshes among objects, and the objects' numbers, in order.
+pub(super) fn instances(objects: &[Object]) -> Vec<(usize, &Instance)> {
+    let numbered = objects.par_iter().with_min_len(SCANNED).enumerate();
+    let meshes = numbered.filter_map(|(number, object)| match &object.shape {
+        Shape::Mesh(instance) => Some((number, &**instance)),
         _ => None,
-    })
+    });
+    meshes.collect()
 }

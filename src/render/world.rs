@@ -10,11 +10,11 @@ use glam::DVec2;
 use super::lights::SphereLights;
 use super::mapped::{MappedTextures, environment_place};
 use super::spheres::Spheres;
-use super::structures::Structures;
+use super::structures::{Structures, instances};
 use super::texture::Textures;
 use crate::accel::Bvh;
+use crate::geometry::Ray;
 use crate::geometry::lanes::Level;
-use crate::geometry::{Ray, Shape};
 use crate::scene::{Images, Material, Rgb, Scene};
 
 /// Up to this many objects every ray tries every one. Measured with rays that go alone: with two
@@ -153,11 +153,9 @@ fn transmission(scene: &Scene, material: u32) -> f64 {
 /// See [`World::opaque`].
 fn opaque_meshes(scene: &Scene) -> Vec<bool> {
     let mut opaque = Vec::new();
-    for (number, object) in scene.objects.iter().enumerate() {
-        let Shape::Mesh(instance) = &object.shape else {
-            continue;
-        };
-        let of_tag = |tag: Option<u32>| transmission(scene, tag.unwrap_or(object.material));
+    for (number, instance) in instances(&scene.objects) {
+        let material = scene.objects[number].material;
+        let of_tag = |tag: Option<u32>| transmission(scene, tag.unwrap_or(material));
         if instance.tags().all(|tag| of_tag(tag) == 0.0) {
             opaque.resize(scene.objects.len(), false);
             opaque[number] = true;

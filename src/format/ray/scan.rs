@@ -106,7 +106,7 @@ impl<'t> Reader<'t> {
         let mut reader = Self {
             text,
             start: range.start,
-            piece: Piece::new(range.start),
+            piece: Piece::new(&range),
             comments: Vec::new(),
             end: 0,
         };
@@ -117,6 +117,7 @@ impl<'t> Reader<'t> {
             reader.any(at..at + line);
             at += line;
         }
+        reader.piece.shrink();
         reader
     }
 
@@ -243,7 +244,7 @@ mod tests {
         let mut reader = Reader {
             text,
             start: 0,
-            piece: Piece::new(0),
+            piece: Piece::new(&(0..text.len())),
             comments: Vec::new(),
             end: 0,
         };

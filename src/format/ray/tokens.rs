@@ -12,6 +12,9 @@ use crate::text::Span;
 /// Tokens between two whose place a piece knows by heart.
 const STRIDE: usize = 64;
 
+/// Bytes of a token and of the space before it, or more.
+const BYTES: usize = 4;
+
 /// Stands for a distance or a length of this and more.
 const LONG: usize = u8::MAX as usize;
 
@@ -45,12 +48,18 @@ struct Step {
 }
 
 impl Piece {
-    /// A piece without tokens as yet.
-    pub(super) fn new(start: usize) -> Self {
+    /// The piece at a place, without tokens as yet, of so many bytes.
+    pub(super) fn new(place: &Range<usize>) -> Self {
         Self {
-            start,
+            start: place.start,
+            steps: Vec::with_capacity(place.len() / BYTES),
             ..Self::default()
         }
+    }
+
+    /// Gives back room that it does not need.
+    pub(super) fn shrink(&mut self) {
+        self.steps.shrink_to_fit();
     }
 
     /// Adds a token behind the last one, which ends at `end`; all of it as places in the piece.

@@ -1,15 +1,26 @@
 //! The objects of long `.ray` texts, read by blocks side by side. Only what is regular is read so:
 //! after the lights nothing but objects, as many as the text says, none with an error.
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::objects::BLOCK;
 use super::ray::{LEAST_NUMBERS, Reader};
 use crate::format::ray::Tokens;
+use crate::geometry::{Shape, Sphere};
 use crate::scene::fields::ray::ShapeKind;
 use crate::scene::origins::ray::ObjectPlace;
 use crate::scene::{Material, Object};
 use crate::text::{Findings, Span};
+
+/// What stands where an object will.
+const NONE_YET: Object = Object {
+    shape: Shape::Sphere(Sphere {
+        centre: DVec3::ZERO,
+        radius: 0.0,
+    }),
+    material: 0,
+};
 
 /// A block of objects as it was read; its materials count from 0.
 pub(super) struct Block {
@@ -36,39 +47,41 @@ pub(super) fn read<'a>(
     let Some((mut reader, count)) = header(text, tokens, &places) else {
         return Err(report);
     };
-    let blocks: Option<Vec<Block>> = (0..places.len().div_ceil(BLOCK))
-        .into_par_iter()
-        .map_init(Vec::new, |spans, number| {
-            let first = number * BLOCK;
-            let end = places.get(first + BLOCK);
-            let end = end.map_or(tokens.len(), |next| next.token as usize);
-            spans.clear();
-            tokens.append_to(spans, places[first].token as usize..end);
-            block(text, spans, first)
-        })
-        .collect();
-    let Some(mut blocks) = blocks else {
+    // The memory is first touched side by side, and blocks are read into it.
+    let objects = rayon::iter::repeat_n(NONE_YET, places.len());
+    reader.objects.par_extend(objects);
+    let blocks = reader.objects.par_chunks_mut(BLOCK).enumerate();
+    // A thread that is done early finds some left to take over.
+    let blocks = blocks.with_max_len(4).map_init(Vec::new, |spans, it| {
+        let (number, objects) = it;
+        let first = number * BLOCK;
+        let end = places.get(first + BLOCK);
+        let end = end.map_or(tokens.len(), |next| next.token as usize);
+        spans.clear();
+        tokens.append_to(spans, places[first].token as usize..end);
+        let read = block(text, spans, first)?;
+        for (object, read) in objects.iter_mut().zip(read.objects) {
+            *object = read;
+        }
+        Some((read.materials, read.report))
+    });
+    let Some(blocks) = blocks.collect::<Option<Vec<_>>>() else {
         return Err(report);
     };
     let found = std::mem::replace(&mut reader.report, report);
     reader.report.append(found);
     let mut bases = Vec::with_capacity(blocks.len());
-    for block in &mut blocks {
+    for (mut materials, report) in blocks {
         bases.push(reader.materials.len() as u32);
-        reader.materials.append(&mut block.materials);
-        reader.report.append(std::mem::take(&mut block.report));
+        reader.materials.append(&mut materials);
+        reader.report.append(report);
     }
-    reader.objects.reserve_exact(places.len());
-    // Each block but the last is full.
-    let objects = (0..places.len()).into_par_iter().map(|number| {
-        let object = &blocks[number / BLOCK].objects[number % BLOCK];
-        Object {
-            material: bases[number / BLOCK] + object.material,
-            ..object.clone()
+    let objects = reader.objects.par_chunks_mut(BLOCK).zip(bases);
+    objects.for_each(|(objects, base)| {
+        for object in objects {
+            object.material += base;
         }
     });
-    reader.objects.par_extend(objects);
-    blocks.into_par_iter().for_each(drop);
     reader.places = places;
     Ok((reader, count))
 }
