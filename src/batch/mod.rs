@@ -112,8 +112,8 @@ struct Loaded {
     /// The pictures of its textures.
     images: Images,
     text: String,
-    /// Syntax and origins: nobody asks them any more, but a large scene's take long to free.
-    rest: (Tree, Origins),
+    /// Nobody asks them any more, but a large scene's take long to free.
+    syntax: (Tree, Origins),
     /// Where the text says the picture's size, if it does.
     size: Option<Span>,
     errors: usize,
@@ -146,7 +146,7 @@ fn load(path: &Path, folders: &[PathBuf]) -> Result<Loaded, Error> {
         text,
         errors,
         warnings,
-        rest: (tree, lowered.origins),
+        syntax: (tree, lowered.origins),
     })
 }
 

@@ -80,15 +80,15 @@ fn make(work: &Render) -> Result<(), Error> {
         return Err(Error::Invalid { errors: 1 });
     }
     let (wake, woken) = mpsc::channel();
-    // It gives its memory back while the picture is written. Started before the scene is read it has
-    // been no quicker.
+    // Kept to the end: its threads give memory back while the picture is written. Started before the
+    // scene is read they have been no quicker.
     let renderer = Renderer::new(Threads::Exactly(work.threads), move || {
         // The receiver is gone only while the renderer is being dropped.
         let _ = wake.send(());
     });
     renderer.restart(job(work, scene, loaded.images, size))?;
     // Giving back a text of 85 MB takes 10 ms, its syntax nearly as much; the worker has begun.
-    drop((loaded.text, loaded.rest));
+    drop((loaded.text, loaded.syntax));
     let frame = last(&renderer, &woken)?;
     if 0 < frame.progress.over_budget {
         let samples = counted(frame.progress.over_budget as usize, "sample");

@@ -22,8 +22,8 @@ const COINCIDENCE: usize = 4;
 /// may be empty: leaves have odd indices. All chunks together are the text.
 pub(super) struct Chunks<'t> {
     text: &'t str,
-    /// Where each chunk begins, and the text's length.
-    bounds: Vec<usize>,
+    /// Where each chunk begins, and the text's length. A text is read only up to 4 GiB, as spans are.
+    bounds: Vec<u32>,
 }
 
 impl<'t> Chunks<'t> {
@@ -32,9 +32,14 @@ impl<'t> Chunks<'t> {
         let leaves = format::parse(format, text).leaves();
         let mut bounds = Vec::with_capacity(2 * leaves.len() + 2);
         bounds.push(0);
-        bounds.extend(leaves.iter().flat_map(|leaf| [leaf.start(), leaf.end()]));
-        bounds.push(text.len());
+        let ends = leaves.iter().flat_map(|leaf| [leaf.start(), leaf.end()]);
+        bounds.extend(ends.map(|end| end as u32));
+        bounds.push(text.len() as u32);
         Self { text, bounds }
+    }
+
+    fn bound(&self, chunk: usize) -> usize {
+        self.bounds[chunk] as usize
     }
 
     /// How many there are.
@@ -42,7 +47,7 @@ impl<'t> Chunks<'t> {
         self.bounds.len() - 1
     }
 
-    /// All of them.
+    /// The text.
     pub(super) fn text(&self) -> &'t str {
         self.text
     }
@@ -54,7 +59,7 @@ impl<'t> Chunks<'t> {
 
     /// The bytes that some chunks cover.
     pub(super) fn span(&self, chunks: &Range<usize>) -> Span {
-        Span::new(self.bounds[chunks.start], self.bounds[chunks.end])
+        Span::new(self.bound(chunks.start), self.bound(chunks.end))
     }
 
     /// The text of some chunks.
@@ -67,7 +72,7 @@ impl Index<usize> for Chunks<'_> {
     type Output = str;
 
     fn index(&self, chunk: usize) -> &str {
-        &self.text[self.bounds[chunk]..self.bounds[chunk + 1]]
+        &self.text[self.bound(chunk)..self.bound(chunk + 1)]
     }
 }
 

@@ -51,7 +51,7 @@ pub struct Merge {
 }
 
 /// A place where the outcome may differ from the text under edit.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 enum Piece {
     /// Only the other text changed it.
     Theirs(Edit),
@@ -69,29 +69,7 @@ impl Merge {
     ) -> Self {
         let changes = [mine, theirs].map(|other| Change::between(base, other));
         let (pieces, conflicts) = widening(format, |margin| {
-            let (mut pieces, mut conflicts) = (Vec::new(), Vec::new());
-            for window in windows(base, changes[0], changes[1], margin) {
-                let sides = Sides {
-                    base: Chunks::of(format, window.base.of(base)),
-                    mine: Chunks::of(format, window.mine.of(mine)),
-                    theirs: Chunks::of(format, window.theirs.of(theirs)),
-                };
-                let (settled, open) = sides.merge(format, window)?;
-                let later = |piece| match piece {
-                    Piece::Theirs(edit) => Piece::Theirs(Edit {
-                        span: edit.span.later(window.mine.start()),
-                        ..edit
-                    }),
-                    Piece::Conflict(index) => Piece::Conflict(index + conflicts.len()),
-                };
-                pieces.extend(settled.into_iter().map(later));
-                conflicts.extend(open.into_iter().map(|conflict| Conflict {
-                    span: conflict.span.later(window.mine.start()),
-                    ancestor: conflict.ancestor.later(window.base.start()),
-                    ..conflict
-                }));
-            }
-            Some((pieces, conflicts))
+            settle(format, [base, mine, theirs], changes, margin)
         });
         Self {
             conflicts,
@@ -134,6 +112,39 @@ impl Merge {
         }
         merge
     }
+}
+
+/// What to change in mine and what is to be decided, by the lines around the changes of both texts:
+/// the ancestor's, mine and theirs. `None` where a margin of so many bytes is too narrow to tell.
+fn settle(
+    format: Format,
+    [base, mine, theirs]: [&str; 3],
+    changes: [Option<Change>; 2],
+    margin: usize,
+) -> Option<(Vec<Piece>, Vec<Conflict>)> {
+    let (mut pieces, mut conflicts) = (Vec::new(), Vec::new());
+    for window in windows(base, changes[0], changes[1], margin) {
+        let sides = Sides {
+            base: Chunks::of(format, window.base.of(base)),
+            mine: Chunks::of(format, window.mine.of(mine)),
+            theirs: Chunks::of(format, window.theirs.of(theirs)),
+        };
+        let (settled, open) = sides.merge(format, window)?;
+        let later = |piece| match piece {
+            Piece::Theirs(edit) => Piece::Theirs(Edit {
+                span: edit.span.later(window.mine.start()),
+                ..edit
+            }),
+            Piece::Conflict(index) => Piece::Conflict(index + conflicts.len()),
+        };
+        pieces.extend(settled.into_iter().map(later));
+        conflicts.extend(open.into_iter().map(|conflict| Conflict {
+            span: conflict.span.later(window.mine.start()),
+            ancestor: conflict.ancestor.later(window.base.start()),
+            ..conflict
+        }));
+    }
+    Some((pieces, conflicts))
 }
 
 /// The edits that the pieces ask for under some decisions.

@@ -178,8 +178,7 @@ impl Document {
         Snapshot {
             format: self.format,
             saved: Arc::clone(&self.saved),
-            text: Arc::clone(&self.text),
-            is_dirty: self.is_dirty,
+            edited: self.is_dirty.then(|| Arc::clone(&self.text)),
         }
     }
 
@@ -196,9 +195,7 @@ impl Document {
     /// changes the text; what it was before. The merge is one of this document as it is now.
     #[must_use = "to free it may take long"]
     pub fn take(&mut self, merged: Merged) -> Self {
-        let Merged {
-            mut document, back, ..
-        } = merged;
+        let Merged { mut document, back } = merged;
         document.history = std::mem::take(&mut self.history);
         if !back.is_empty() {
             document.history.record(back);
@@ -220,12 +217,9 @@ impl Document {
                 return Adopted::Conflict(merge);
             }
         }
-        let edits = merge.edits();
-        let theirs = Arc::clone(&merge.theirs);
-        drop(merge);
-        self.edit(&edits);
+        self.edit(&merge.edits());
         self.history.settle();
-        self.set_saved(theirs);
+        self.set_saved(merge.theirs);
         Adopted::Taken
     }
 

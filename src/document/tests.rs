@@ -24,7 +24,7 @@ fn replace(document: &mut Document, theirs: &str) -> Result<(), Merge> {
     let theirs = self::document(theirs);
     let snapshot = document.snapshot();
     assert!(snapshot.is_of(document));
-    drop(if snapshot.is_dirty {
+    drop(if snapshot.edited.is_some() {
         document.take(snapshot.merge(theirs)?)
     } else {
         document.load(theirs)

@@ -3,7 +3,7 @@
 
 use super::hunks::{Chunks, Hunk, hunks};
 use crate::format::Format;
-use crate::text::{Span, smallest_edit};
+use crate::text::{self, Span};
 
 /// At first, a window has this many bytes on either side of a difference.
 const MARGIN: usize = 1024;
@@ -42,23 +42,20 @@ impl Window {
 pub(super) struct Change {
     /// What is replaced.
     base: Span,
-    /// By how many bytes.
-    len: usize,
+    /// What stands there afterwards.
+    other: Span,
 }
 
 impl Change {
     /// The change that leads from one text to another, if there is any.
     pub(super) fn between(base: &str, other: &str) -> Option<Self> {
-        let edit = smallest_edit(base, other)?;
-        Some(Self {
-            base: edit.span,
-            len: edit.text.len(),
-        })
+        let [base, other] = text::difference(base, other)?;
+        Some(Self { base, other })
     }
 
     /// Where a span of the base that holds all of the change or nothing of it stands afterwards.
     fn moved(&self, span: Span) -> Span {
-        let behind = |at: usize| at - self.base.len() + self.len;
+        let behind = |at: usize| at - self.base.end() + self.other.end();
         let start = if span.start() <= self.base.start() {
             span.start()
         } else {

@@ -20,7 +20,8 @@ use crate::scene::{Size, Transfer};
 /// would take more memory than the time is worth.
 const MOST_REMEMBERED: usize = 1 << 22;
 
-/// Pixels developed without asking whether to stop, or else a row of tiles: a few milliseconds.
+/// Pixels developed without asking whether to stop, or else two rows of tiles a thread: a few
+/// milliseconds.
 const QUIET: usize = 262_144;
 
 /// Tiles freed at once: about four megabytes, less than a millisecond.
@@ -262,6 +263,7 @@ impl Film {
         let tells_values = 0 < raster.values.capacity();
         let down = self.rows();
         let quiet = QUIET.div_ceil(self.shape.across(self.size) * AREA as usize);
+        let quiet = quiet.max(2 * rayon::current_num_threads());
         for start in (0..down).step_by(quiet) {
             if cancelled() {
                 return None;

@@ -123,8 +123,7 @@ pub struct Frame {
     /// Red, green, blue of each pixel, row by row from the top left, as an export writes them; none
     /// in a frame that shows no pixels, see [`Frames`].
     pub pixels: Vec<[u8; 3]>,
-    /// Index of the object under each pixel's centre, or [`NO_OBJECT`]. Only in pictures that are
-    /// watched, see [`Frames`].
+    /// Index of the object under each pixel's centre, or [`NO_OBJECT`]. Only in [`Frames::Live`].
     pub objects: Vec<u32>,
     /// What the pixels were made of: linear light, or the output variable. Only where it was asked
     /// for, see [`Frames`].

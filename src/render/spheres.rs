@@ -22,12 +22,13 @@ pub(crate) struct Spheres {
 impl Spheres {
     /// Those among the objects with these numbers, in their order.
     pub(crate) fn new(objects: &[Object], order: &[u32]) -> Self {
-        let none = || vec![0.0; order.len() + RUN];
+        // Zeros are memory that nobody has touched yet; the threads below do.
+        let untouched = || vec![0.0; order.len() + RUN];
         let mut spheres = Self {
-            x: none(),
-            y: none(),
-            z: none(),
-            radius: none(),
+            x: untouched(),
+            y: untouched(),
+            z: untouched(),
+            radius: untouched(),
         };
         spheres.radius[order.len()..].fill(f64::NAN);
         let x = spheres.x.par_iter_mut();

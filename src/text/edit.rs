@@ -51,6 +51,16 @@ pub fn apply(text: &mut String, edits: &[Edit]) -> Vec<Edit> {
 /// The smallest single edit that turns `old` into `new` (common ends left alone, cut at character
 /// boundaries), or `None` if they are equal.
 pub fn smallest_edit(old: &str, new: &str) -> Option<Edit> {
+    let [span, changed] = difference(old, new)?;
+    Some(Edit {
+        span,
+        text: changed.of(new).to_owned(),
+    })
+}
+
+/// What differs of two texts, in either: all but their common ends, cut at character boundaries;
+/// `None` if they are equal.
+pub fn difference(old: &str, new: &str) -> Option<[Span; 2]> {
     if old == new {
         return None;
     }
@@ -65,10 +75,7 @@ pub fn smallest_edit(old: &str, new: &str) -> Option<Edit> {
     {
         tail -= 1;
     }
-    Some(Edit {
-        span: Span::new(head, old.len() - tail),
-        text: new[head..new.len() - tail].to_owned(),
-    })
+    Some([old.len(), new.len()].map(|len| Span::new(head, len - tail)))
 }
 
 /// How many bytes two texts begin with alike.

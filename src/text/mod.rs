@@ -12,7 +12,7 @@ mod visible;
 
 pub use counted::counted;
 pub use diagnostic::{Diagnostic, Severity};
-pub use edit::{Edit, apply, smallest_edit};
+pub use edit::{Edit, apply, difference, smallest_edit};
 pub use findings::Findings;
 pub use number::{NumberError, concise, decimals, is_integer, parse_number, spell_like};
 pub use percentage::percentage;

@@ -10,7 +10,7 @@ use std::thread;
 use super::msg::Msg;
 use crate::document::{Document, Merge, Merged, Snapshot};
 use crate::file::ReadError;
-use crate::scene::{self, Before, Lowered, Meshes};
+use crate::scene::{self, Lowered, Meshes};
 use crate::text::{Edit, Findings, smallest_edit};
 
 /// What a text is compared with and understood by.
@@ -66,31 +66,21 @@ impl News {
         let before = &known.scene;
         let document = Document::new(before.format, text);
         let lowered = scene::lower(document.text(), document.tree(), &known.meshes);
-        let edit = |text: &str| smallest_edit(&before.text, text);
-        if !before.is_dirty {
+        let edit = |text: &str| smallest_edit(before.text(), text);
+        if before.edited.is_none() {
             let edit = edit(document.text());
             return Self::Text(document, Meaning { lowered, edit });
         }
-        let Some(scene) = &lowered.scene else {
+        if lowered.scene.is_none() {
             return Self::Broken(document.shared_text(), lowered.diagnostics);
-        };
+        }
         let merged = match before.merge(document) {
             Ok(merged) => merged,
             Err(merge) => return Self::Conflict(merge),
         };
         let (text, tree) = (merged.document.text(), merged.document.tree());
+        let lowered = scene::lower(text, tree, &known.meshes);
         let edit = edit(text);
-        let lowered = match merged.mine {
-            Some(spans) => {
-                let theirs = Before {
-                    scene,
-                    origins: &lowered.origins,
-                    diagnostics: &lowered.diagnostics,
-                };
-                scene::lower_again(text, tree, &known.meshes, theirs, spans)
-            }
-            None => lowered,
-        };
         Self::Merged(merged, Meaning { lowered, edit })
     }
 

@@ -221,7 +221,40 @@ fn scene() -> impl Strategy<Value = String> {
         .expect("the pattern is regular")
 }
 
+/// Rows of few different words, so that what is new among them is often in doubt.
+fn rows(most: usize) -> impl Strategy<Value = Vec<&'static str>> {
+    prop::collection::vec(
+        prop::sample::select(vec!["0 0", "0", "1 0", "ab", ""]),
+        0..most,
+    )
+}
+
 proptest! {
+    // What changed is merged by the lines around it, if they are enough to tell, as by all lines.
+    #[test]
+    fn windows_merge_as_the_whole(
+        format in prop::sample::select(vec![Format::Ray, Format::Dat]),
+        end in prop::sample::select(vec!["\n", "\r\n"]),
+        mark in prop::sample::select(vec!["", "\u{FEFF}"]),
+        [head, middle, tail] in [rows(9), rows(30), rows(9)],
+        (first, second) in ([rows(3), rows(3), rows(3)], [rows(3), rows(3), rows(3)]),
+        margin in 0_usize..16,
+    ) {
+        let text = |first: &[&str], second: &[&str]| {
+            format!("{mark}{}", [&head[..], first, &middle, second, &tail].concat().join(end))
+        };
+        // Mine and theirs change the first place and the second, one of them or none.
+        let base = text(&first[0], &second[0]);
+        let mine = text(&first[1], &second[0]);
+        let theirs = text(&first[first.len() - 1], &second[2]);
+        let texts = [&base[..], &mine, &theirs];
+        let changes = [&mine, &theirs].map(|other| Change::between(&base, other));
+        let whole = settle(format, texts, changes, usize::MAX);
+        prop_assert!(whole.is_some());
+        let part = settle(format, texts, changes, margin);
+        prop_assert!(part.is_none() || part == whole, "{part:?}, not {whole:?}, of {texts:?}");
+    }
+
     #[test]
     fn one_sided_changes_are_taken(base in scene(), changed in scene()) {
         prop_assert_eq!(marked(&merge(&base, &base, &changed)), changed.clone());

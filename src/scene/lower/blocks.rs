@@ -60,6 +60,11 @@ pub(super) fn read<'a>(
         spans.clear();
         tokens.append_to(spans, places[first].token as usize..end);
         let read = block(text, spans, first)?;
+        debug_assert_eq!(
+            objects.len(),
+            read.objects.len(),
+            "each keyword is an object"
+        );
         for (object, read) in objects.iter_mut().zip(read.objects) {
             *object = read;
         }

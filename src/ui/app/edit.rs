@@ -13,7 +13,7 @@ impl App {
 
     /// What the text means after an edit, of which `changed` is what it put in the place of the bytes
     /// `old`. What is known of the text is what it meant before.
-    pub(super) fn lowered_again(&self, old: Span, changed: Span) -> Lowered {
+    fn lowered_again(&self, old: Span, changed: Span) -> Lowered {
         let Some(scene) = self.scene.as_ref().filter(|_| self.error_count() == 0) else {
             return self.lowered();
         };

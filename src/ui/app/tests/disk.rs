@@ -179,6 +179,33 @@ fn a_file_that_says_what_the_edits_say_is_saved() {
     );
     press(&mut app, "u");
     assert_eq!(app.document.text(), SCENE, "the edit is a step still");
+
+    // Not if it says only one of them.
+    let mut app = open(SCENE);
+    press(&mut app, "jjjel");
+    let one = app.document.text().to_owned();
+    press(&mut app, "jl");
+    outside(&mut app, &one);
+    assert!(app.document.is_dirty());
+    assert!(
+        words(&app).starts_with("the file's changes are merged"),
+        "{}",
+        words(&app)
+    );
+}
+
+/// A file is read after each save; the news that it holds nothing new may come late.
+#[test]
+fn nothing_new_is_not_read_again_for_an_edit_in_between() {
+    let mut app = open(SCENE);
+    let reading = Reading::new(SCENE.to_owned(), app.known());
+    press(&mut app, "jjjel");
+    let effects = app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(reading)));
+    assert!(
+        !wants(&effects, |effect| matches!(effect, Effect::Read(..))),
+        "{effects:?}"
+    );
+    assert_eq!(changed_lines(&app), ["0.1 0 0"]);
 }
 
 #[test]
