@@ -56,7 +56,7 @@ impl ImageFormat {
         let colour = ExtendedColorType::Rgb8;
         match self {
             Self::Bmp => {
-                // The encoder writes pixel by pixel: into memory in a third of the time.
+                // The encoder writes pixel by pixel: by way of memory in half the time.
                 let mut bytes = room(pixels.len() + 4 * height as usize + BMP_HEADER)?;
                 BmpEncoder::new(&mut bytes).write_image(pixels, width, height, colour)?;
                 out.write_all(&bytes).map_err(ImageError::IoError)

@@ -170,34 +170,23 @@ fn long_texts_with_no_leaf_in_common_merge() {
 /// Only the lines around what changed are chopped, and more of them where that is too little.
 #[test]
 fn changes_far_apart_merge_as_in_a_short_text() {
-    let rows = |first: &str, row: &str, last: &str| {
-        let rows = (0..2000).map(|at| format!("{at} {row}"));
-        lines(
-            [first.to_owned()]
-                .into_iter()
-                .chain(rows)
-                .chain([last.to_owned()]),
-        )
+    let rows = |first: &str, last: &str| {
+        let between = (0..2000).map(|at| format!("{at} 0"));
+        let first = std::iter::once(first.to_owned());
+        lines(first.chain(between).chain([last.to_owned()]))
     };
-    let base = rows("1 2", "0", "3 4");
-    let merge_of = |mine: &str, theirs: &str| marked(&merge(&base, mine, theirs));
-    // Each at an end, both at both, both at one.
-    assert_eq!(
-        merge_of(&rows("1 9", "0", "3 4"), &rows("1 2", "0", "8 4")),
-        rows("1 9", "0", "8 4")
-    );
-    assert_eq!(
-        merge_of(&rows("1 2", "0", "8 4"), &rows("1 9", "0", "3 4")),
-        rows("1 9", "0", "8 4")
-    );
-    assert_eq!(
-        merge_of(&rows("1 9", "0", "8 4"), &rows("5 2", "0", "3 6")),
-        rows("5 9", "0", "8 6")
-    );
-    assert_eq!(
-        merge_of(&rows("1 2", "0", "3 8"), &rows("1 9", "0", "3 7")),
-        rows("1 9", "0", "3 {4|8|7}")
-    );
+    let base = rows("1 2", "3 4");
+    for (mine, theirs, merged) in [
+        // Each at an end.
+        (["1 9", "3 4"], ["1 2", "8 4"], ["1 9", "8 4"]),
+        (["1 2", "8 4"], ["1 9", "3 4"], ["1 9", "8 4"]),
+        // Both at both.
+        (["1 9", "8 4"], ["5 2", "3 6"], ["5 9", "8 6"]),
+        (["1 2", "3 8"], ["1 9", "3 7"], ["1 9", "3 {4|8|7}"]),
+    ] {
+        let [mine, theirs, merged] = [mine, theirs, merged].map(|[first, last]| rows(first, last));
+        assert_eq!(marked(&merge(&base, &mine, &theirs)), merged);
+    }
     // Which of many equal lines is new? The question covers all of them.
     let equal = |count: usize, last: &str| format!("7\n{}{last}\n", "0\n".repeat(count));
     let merge = merge(&equal(5000, "8"), &equal(5001, "8"), &equal(4999, "8"));
@@ -237,16 +226,16 @@ proptest! {
         end in prop::sample::select(vec!["\n", "\r\n"]),
         mark in prop::sample::select(vec!["", "\u{FEFF}"]),
         [head, middle, tail] in [rows(9), rows(30), rows(9)],
-        (first, second) in ([rows(3), rows(3), rows(3)], [rows(3), rows(3), rows(3)]),
+        (first, second) in ([rows(3), rows(3), rows(3)], [rows(3), rows(3)]),
         margin in 0_usize..16,
     ) {
         let text = |first: &[&str], second: &[&str]| {
             format!("{mark}{}", [&head[..], first, &middle, second, &tail].concat().join(end))
         };
-        // Mine and theirs change the first place and the second, one of them or none.
+        // Mine changes the first place, theirs both.
         let base = text(&first[0], &second[0]);
         let mine = text(&first[1], &second[0]);
-        let theirs = text(&first[first.len() - 1], &second[2]);
+        let theirs = text(&first[2], &second[1]);
         let texts = [&base[..], &mine, &theirs];
         let changes = [&mine, &theirs].map(|other| Change::between(&base, other));
         let whole = settle(format, texts, changes, usize::MAX);
