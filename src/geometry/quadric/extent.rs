@@ -50,6 +50,7 @@ struct Region<'a> {
 
 /// The box of the region, or [`Aabb::EMPTY`].
 pub(super) fn bounds(form: &Form, half_spaces: &[HalfSpace]) -> Aabb {
+    let form = &without_rounding(form);
     let mut planes: Vec<_> = half_spaces.iter().map(|half| plane(form, half)).collect();
     let farthest = |far: f64, plane: &Plane| far.max(plane.distance.abs());
     let own = if form.constant == 0.0 && form.linear == DVec3::ZERO {
@@ -83,6 +84,18 @@ pub(super) fn bounds(form: &Form, half_spaces: &[HalfSpace]) -> Aabb {
     };
     region.try_all();
     region.into_box(half_spaces.is_empty())
+}
+
+/// The function without what may be rounding of its coefficients: it would show at the far planes, and
+/// nowhere where there are ends.
+fn without_rounding(form: &Form) -> Form {
+    let least = DVec3::splat(8.0 * f64::EPSILON);
+    let meant = |v: DVec3| DVec3::select(v.abs().cmplt(least), DVec3::ZERO, v);
+    Form {
+        squares: meant(form.squares),
+        linear: meant(form.linear),
+        ..*form
+    }
 }
 
 fn plane(form: &Form, half: &HalfSpace) -> Plane {
@@ -168,13 +181,24 @@ impl Region<'_> {
             / square;
         let a = along.dot(self.form.squares * along);
         let b = along.dot(self.form.gradient(foot));
-        let c = self.form.value(foot);
-        let discriminant = b * b - a * c;
         if a == 0.0 {
+            let c = self.form.value(foot);
             self.try_place(foot - (0.5 * c / b) * along);
-        } else if -TOLERANCE * (b * b + (a * c).abs()) <= discriminant {
+            return;
+        }
+        self.try_crossings(foot, along, a);
+        // Seen from where the function is flat, far places leave something of the discriminant.
+        self.try_crossings(foot - (b / a) * along, along, a);
+    }
+
+    /// Where a line meets the quadric, whose function is quadratic by `a` along it.
+    fn try_crossings(&mut self, from: DVec3, along: DVec3, a: f64) {
+        let b = along.dot(self.form.gradient(from));
+        let c = self.form.value(from);
+        let discriminant = b * b - a * c;
+        if -TOLERANCE * (b * b + (a * c).abs()) <= discriminant {
             for t in roots(a, b, c, discriminant.max(0.0).sqrt()) {
-                let p = foot + t * along;
+                let p = from + t * along;
                 self.try_place(p);
                 // Far away little is left of the discriminant of a parabola.
                 let p = self.nearer(self.nearer(p, along), along);

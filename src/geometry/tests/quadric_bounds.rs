@@ -4,10 +4,10 @@ use glam::{DMat3, DVec3};
 
 use super::quadrics::{
     BALL, BOWL, CONE, CUBE, CYLINDER, HALF, IMAGINARY, INFINITY, NOTHING, OUTSIDE_OF_BALL, Planes,
-    QUARTERS, SLAB, SPACE, TWO_SHEETS, UNIT_HEIGHT, WAIST, around, cut, quadric, spans,
+    QUARTERS, SLAB, SPACE, TWO_SHEETS, UNIT_HEIGHT, WAIST, around, cut, quadric, squares,
 };
 use super::random::Random;
-use super::{Shape, ray};
+use super::ray;
 use crate::geometry::{Aabb, Quadric};
 
 /// Coefficients, planes, and the least and the greatest coordinates.
@@ -96,38 +96,62 @@ fn bounds_on_paper() {
     }
 }
 
-/// What rays find inside is in the box, and, where there are ends, some of it is near each side.
+/// Whether a place is in a region by more than rounding.
+fn is_inside(coefficients: [f64; 10], planes: &[(DVec3, f64)], p: DVec3) -> bool {
+    let [xx, xy, xz, x, yy, yz, y, zz, z, constant] = coefficients;
+    let terms = [
+        xx * p.x * p.x,
+        2.0 * xy * p.x * p.y,
+        2.0 * xz * p.x * p.z,
+        2.0 * x * p.x,
+        yy * p.y * p.y,
+        2.0 * yz * p.y * p.z,
+        2.0 * y * p.y,
+        zz * p.z * p.z,
+        2.0 * z * p.z,
+        constant,
+    ];
+    let rounding = 1e-9 * terms.iter().map(|term| term.abs()).sum::<f64>();
+    terms.iter().sum::<f64>() < -rounding
+        && planes.iter().all(|&(normal, distance)| {
+            let rounding = 1e-9 * (normal.length() * p.length() + distance.abs());
+            normal.dot(p) < distance - rounding
+        })
+}
+
+/// What is in the region is in the box, near by and far away.
 #[test]
 fn bounds_hold_the_region() {
     let mut random = Random(23);
-    let mut bounded = 0;
-    for index in 0..1_500 {
-        let (coefficients, planes) = cut(&mut random);
-        let quadric = Quadric::new(coefficients, &planes);
-        let bounds = quadric.bounds();
+    let (mut bounded, mut inside) = (0, 0);
+    for index in 0..3_000 {
+        let (mut coefficients, planes) = cut(&mut random);
+        if index % 2 == 0 {
+            // A slab, which only planes can close.
+            let axes = [DVec3::AXES, random.rotation()][index / 2 % 2];
+            let matrix = squares(axes, [0.0, 0.1, 0.0]);
+            coefficients = around(3.0 * random.in_cube(), matrix, DVec3::ZERO, -1.0);
+        }
+        let bounds = Quadric::new(coefficients, &planes).bounds();
         bounded += u32::from(bounds.is_bounded());
-        let shape = Shape::Quadric(Box::new(quadric));
         for _ in 0..100 {
             let ray = ray(5.0 * random.in_cube(), 5.0 * random.in_cube());
-            for span in spans(&shape, &ray) {
-                for t in [span.enter.t, span.exit.t] {
-                    let (low, high) = if t.is_finite() {
-                        (ray.at(t), ray.at(t))
-                    } else {
-                        let toward = 1e12 * ray.direction * t.signum();
-                        (toward, toward)
-                    };
-                    let slack = 1e-8 * (1.0 + low.length());
+            for step in -20..=20 {
+                let place = ray.at(0.05 * f64::from(step * step * step));
+                if is_inside(coefficients, &planes, place) {
+                    inside += 1;
+                    let slack = 1e-8 * (1.0 + place.length());
                     assert!(
-                        (bounds.min - slack).cmple(low).all()
-                            && high.cmple(bounds.max + slack).all(),
-                        "{index}: {low} is outside {bounds:?}: {coefficients:?} {planes:?}"
+                        (bounds.min - slack).cmple(place).all()
+                            && place.cmple(bounds.max + slack).all(),
+                        "{index}: {place} is outside {bounds:?}: {coefficients:?} {planes:?}"
                     );
                 }
             }
         }
     }
     assert!(200 < bounded, "{bounded} bounded");
+    assert!(100_000 < inside, "{inside} places");
 }
 
 #[test]
