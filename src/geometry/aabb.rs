@@ -69,6 +69,13 @@ impl Aabb {
         0.5 * scale * (size / scale).length()
     }
 
+    /// The largest magnitude of a finite coordinate; 0 if there is none.
+    pub fn magnitude(self) -> f64 {
+        let sizes = [self.min, self.max].map(|corner| corner.abs().to_array());
+        let finite = sizes.into_iter().flatten().filter(|size| size.is_finite());
+        finite.fold(0.0, f64::max)
+    }
+
     /// Whether it holds no point.
     pub fn is_empty(self) -> bool {
         !self.min.cmple(self.max).all()

@@ -39,9 +39,10 @@ impl Cone {
     pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
         let line = self.0.line(rays);
         let from_apex = line.origin - Vector::all(line.start, DVec3::Z);
-        slab(line.origin.z, line.direction.z, [BASE, SIDE])?
+        let found = slab(line.origin.z, line.direction.z, [BASE, SIDE])?
             .overlap(inside_side(from_apex, line.direction)?)?
-            .after(line.start)
+            .after(line.start)?;
+        self.0.clipped(found, rays, || self.bounds())
     }
 
     /// The surfaces at hits, in each lane. At the apex any normal would do; it is that of one generatrix.

@@ -33,10 +33,11 @@ impl Cuboid {
     #[inline(always)]
     pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
         let line = self.0.line(rays);
-        slab(line.origin.x, line.direction.x, [0, 1])?
+        let found = slab(line.origin.x, line.direction.x, [0, 1])?
             .overlap(slab(line.origin.y, line.direction.y, [2, 3])?)?
             .overlap(slab(line.origin.z, line.direction.z, [4, 5])?)?
-            .after(line.start)
+            .after(line.start)?;
+        self.0.clipped(found, rays, || self.bounds())
     }
 
     /// The surfaces at hits, in each lane.

@@ -38,9 +38,10 @@ impl Cylinder {
     #[inline(always)]
     pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
         let line = self.0.line(rays);
-        slab(line.origin.z, line.direction.z, [BASE, TOP])?
+        let found = slab(line.origin.z, line.direction.z, [BASE, TOP])?
             .overlap(inside_side(line.origin.flat(), line.direction.flat())?)?
-            .after(line.start)
+            .after(line.start)?;
+        self.0.clipped(found, rays, || self.bounds())
     }
 
     /// The surfaces at hits, in each lane.

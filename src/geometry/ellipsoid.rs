@@ -31,7 +31,8 @@ impl Ellipsoid {
     #[inline(always)]
     pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
         let line = self.0.line(rays);
-        ball(line.origin, line.direction, line.start.all(1.0))?.after(line.start)
+        let found = ball(line.origin, line.direction, line.start.all(1.0))?.after(line.start)?;
+        self.0.clipped(found, rays, || self.bounds())
     }
 
     /// The surfaces at hits, in each lane.

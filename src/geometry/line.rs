@@ -12,6 +12,7 @@
 )]
 
 use super::lanes::{Lanes, Vector};
+use super::{Aabb, Rays};
 
 /// How many times its size a solid may be away before the line is followed toward it first. The
 /// products of nearer lines lose at most these six bits, and need no fused operations.
@@ -113,6 +114,24 @@ impl<N: Lanes> Ends<N> {
         let ordered = self.enter.t.up_to(self.exit.t);
         self.met = self.met & ordered & is_finite(self.enter.t) & is_finite(self.exit.t);
         self.if_any()
+    }
+
+    /// The part in a box that is widened by the rounding of places, if any. An end that is cut off
+    /// keeps its surface.
+    #[inline(always)]
+    pub(super) fn clipped(self, bounds: &Aabb, rays: &Rays<N>) -> Option<Self> {
+        // More than the error of a crossing, of the largest coordinate there is.
+        const ROUNDING: f64 = 32.0 * f64::EPSILON;
+        let Rays { origin, direction } = *rays;
+        let size = origin.x.all(bounds.magnitude());
+        let margin = origin.abs().largest().larger(size) * origin.x.all(ROUNDING);
+        let (min, max) = (
+            Vector::all(size, bounds.min) - origin,
+            Vector::all(size, bounds.max) - origin,
+        );
+        self.overlap(range([min.x - margin, max.x + margin], direction.x))?
+            .overlap(range([min.y - margin, max.y + margin], direction.y))?
+            .overlap(range([min.z - margin, max.z + margin], direction.z))
     }
 
     /// The nearer crossing at 0 < t < `limit`, and whether there is one.
@@ -255,4 +274,16 @@ pub(super) fn slab<N: Lanes>(origin: N, speed: N, parts: [u32; 2]) -> Option<End
     }
     let inside = zero.up_to(origin) & origin.up_to(one);
     Ends::select(stays, Ends::everywhere(origin, inside), crossed).if_any()
+}
+
+/// Where one coordinate of lines, 0 where they start, is in a range that may have no end.
+#[inline(always)]
+fn range<N: Lanes>([low, high]: [N; 2], speed: N) -> Ends<N> {
+    let zero = speed.all(0.0);
+    let rises = zero.below(speed);
+    let stays = speed.equals(zero);
+    let (near, far) = (N::select(rises, low, high), N::select(rises, high, low));
+    let crossed = Ends::between(near / speed, far / speed, 0, !stays);
+    let inside = low.up_to(zero) & zero.up_to(high);
+    Ends::select(stays, Ends::everywhere(zero, inside), crossed)
 }

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::line::Ends;
 use super::{Aabb, Affine, Chart, Hit, Ray, Surface};
 
 /// An affine image of the square −1 ≤ x, y ≤ 1 at z = 0. Its normal is that of +z.
@@ -25,9 +26,11 @@ impl Plane {
         let line = self.0.line(&ray.into());
         let t = -line.origin.z / line.direction.z;
         let place = DVec3::from(line.origin) + t * DVec3::from(line.direction);
-        let t = line.start + t;
         let inside = place.x.abs() <= 1.0 && place.y.abs() <= 1.0;
-        (inside && 0.0 < t && t < limit).then_some(Hit { t, part: 0 })
+        let found = Ends::between(t, t, 0, inside).after(line.start)?;
+        let found = self.0.clipped(found, &ray.into(), || self.bounds())?;
+        let (end, met) = found.nearest(limit);
+        met.then_some(end.into())
     }
 
     /// The surface at a hit.

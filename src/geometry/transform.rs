@@ -8,15 +8,19 @@
 use glam::DVec3;
 
 use super::lanes::{Lanes, Vector};
-use super::line::{Line, approach};
+use super::line::{Ends, Line, approach};
 use super::surface::CLEARANCE;
-use super::{Chart, Hit, Ray, Rays, Surfaces};
+use super::{Aabb, Chart, Hit, Ray, Rays, Surfaces};
 
 /// The least |determinant| of a frame's unit directions: flatter ones span no volume.
 pub const FLATTEST: f64 = 1e-6;
 
 /// The same for the columns of a matrix, which need not look like a solid's axes.
 const FLATTEST_COLUMNS: f64 = 1e-12;
+
+/// The condition number above which a frame is ill-conditioned: below it rounding is nothing beside
+/// a shape.
+const ILL_CONDITIONED: f64 = 1e4;
 
 /// An affine frame: an origin, three directions of unit length (not necessarily orthogonal) and a
 /// length along each. A unit solid's point q is at `origin + Σ qᵢ lengthᵢ directionᵢ`.
@@ -32,6 +36,8 @@ pub struct Affine {
     /// How far a step of length 1 in the world goes at most along each axis of the unit solid: the
     /// lengths of the duals.
     steps: DVec3,
+    /// Whether steps of the rounding of places may be large ones in the unit space.
+    is_ill_conditioned: bool,
 }
 
 impl Affine {
@@ -77,25 +83,28 @@ impl Affine {
             dual(v, w, u, lengths.y),
             dual(w, u, v, lengths.z),
         ];
-        Some(Self {
-            origin,
-            axes: [lengths.x * u, lengths.y * v, lengths.z * w],
-            duals,
-            reach: lengths.element_sum(),
-            steps: steps(duals),
-        })
+        let axes = [lengths.x * u, lengths.y * v, lengths.z * w];
+        Some(Self::by(origin, axes, duals, lengths.element_sum()))
     }
 
     /// The frame of the cube of half edge `size`, a power of two, around a place of this one.
     pub(super) fn around(&self, place: DVec3, size: f64) -> Self {
         let [x, y, z] = self.axes;
+        let origin = self.origin + (place.x * x + place.y * y + place.z * z);
+        let axes = self.axes.map(|axis| size * axis);
         let duals = self.duals.map(|dual| dual / size);
+        Self::by(origin, axes, duals, size * self.reach)
+    }
+
+    fn by(origin: DVec3, axes: [DVec3; 3], duals: [DVec3; 3], reach: f64) -> Self {
+        let condition = reach * DVec3::from_array(duals.map(length)).max_element();
         Self {
-            origin: self.origin + (place.x * x + place.y * y + place.z * z),
-            axes: self.axes.map(|axis| size * axis),
+            origin,
+            axes,
             duals,
-            reach: size * self.reach,
-            steps: steps(duals),
+            reach,
+            steps: DVec3::from_array(duals.map(DVec3::length)),
+            is_ill_conditioned: ILL_CONDITIONED < condition,
         }
     }
 
@@ -133,6 +142,24 @@ impl Affine {
             origin: products(duals, offset),
             direction: products(duals, rays.direction),
             start,
+        }
+    }
+
+    /// Crossings of the shape, which has these bounds, but for those that are nowhere near it.
+    ///
+    /// In an ill-conditioned frame rounding may take a crossing to where the shape is not. What of it
+    /// is outside the box does not count: a tree looks for the shape in its box alone.
+    #[inline(always)]
+    pub(super) fn clipped<N: Lanes>(
+        &self,
+        found: Ends<N>,
+        rays: &Rays<N>,
+        bounds: impl FnOnce() -> Aabb,
+    ) -> Option<Ends<N>> {
+        if self.is_ill_conditioned {
+            found.clipped(&bounds(), rays)
+        } else {
+            Some(found)
         }
     }
 
@@ -193,10 +220,6 @@ impl Affine {
         let [x, y, z] = self.duals;
         DVec3::new(x.dot(v), y.dot(v), z.dot(v))
     }
-}
-
-fn steps(duals: [DVec3; 3]) -> DVec3 {
-    DVec3::from_array(duals.map(DVec3::length))
 }
 
 /// Three vectors, in each lane the same.

@@ -17,8 +17,6 @@ mod evaluate;
 mod exact;
 mod merge;
 
-use glam::DVec3;
-
 use super::lanes::{Eight, Simd, bits, mask};
 use super::{Aabb, Chart, Crossings, Hit, Hits, Ray, Rays, Shape, Spans, Surface, ulp};
 
@@ -124,7 +122,7 @@ impl Csg {
                     let bounds = shape.bounds();
                     let leaf = Leaf {
                         first_part: parts,
-                        magnitude: magnitude(bounds),
+                        magnitude: bounds.magnitude(),
                         shape,
                         tag,
                     };
@@ -299,17 +297,8 @@ fn is_turned(hit: Hit) -> bool {
     hit.part % 2 == 1
 }
 
-/// The largest finite coordinate.
-fn magnitude(bounds: Aabb) -> f64 {
-    [bounds.min, bounds.max]
-        .iter()
-        .flat_map(DVec3::to_array)
-        .filter(|coordinate| coordinate.is_finite())
-        .fold(0.0, |largest, coordinate| largest.max(coordinate.abs()))
-}
-
 fn widened(bounds: Aabb) -> Aabb {
-    let margin = 64.0 * ulp(magnitude(bounds));
+    let margin = 64.0 * ulp(bounds.magnitude());
     Aabb {
         min: bounds.min - margin,
         max: bounds.max + margin,

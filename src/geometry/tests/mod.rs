@@ -21,7 +21,9 @@ mod silhouettes;
 use glam::DVec3;
 
 use super::transform::normalise;
-use super::{Affine, Cone, Crossings, Cuboid, Cylinder, Ellipsoid, Ray, Shape, Spans, Sphere};
+use super::{
+    Aabb, Affine, Cone, Crossings, Cuboid, Cylinder, Ellipsoid, Ray, Shape, Spans, Sphere,
+};
 
 /// The solids there are.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::exact::Exact;
 use super::random::{Random, excess, extremes, place};
-use super::{Frame, KINDS, Kind, Ray, only_span, ray};
+use super::{Aabb, Frame, KINDS, Kind, Ray, only_span, ray};
 
 /// A ray toward a random solid, that may start inside it or miss it.
 fn encounter(random: &mut Random, kind: Kind) -> (Frame, Ray) {
@@ -130,4 +130,80 @@ fn bounds_are_tight() {
             assert!(slack.max_element() < 1e-3, "{kind:?}: {slack}");
         }
     }
+}
+
+/// However thin a solid is, it is met where its box is, but for rounding.
+#[test]
+fn what_is_met_is_in_the_box() {
+    let mut random = Random(12);
+    let mut met = 0;
+    for index in 0..4_000 {
+        let kind = KINDS[index % KINDS.len()];
+        let mut frame = random.frame();
+        let thin = 1 + random.bits() as usize % 6;
+        for axis in (0..3).filter(|axis| thin >> axis & 1 == 1) {
+            frame.lengths[axis] *= random.magnitude(-20.0, 0.0);
+        }
+        let frame = frame.of(kind);
+        let shape = frame.shape(kind);
+        let Aabb { min, max } = shape.bounds();
+        for _ in 0..20 {
+            let origin = random.magnitude(0.0, 3.0) * random.direction();
+            let ray = ray(origin, frame.world(1.5 * random.inside(kind)));
+            if let Some(hit) = shape.hit(&ray, f64::INFINITY) {
+                met += 1;
+                let outside = (min - ray.at(hit.t)).max(ray.at(hit.t) - max);
+                let rounding = 1e-13 * (origin.length() + hit.t);
+                assert!(
+                    outside.max_element() <= rounding,
+                    "{kind:?} {index}: {} of {} outside",
+                    outside.max_element(),
+                    frame.lengths
+                );
+            }
+        }
+    }
+    assert!(20_000 < met, "{met} met");
+}
+
+/// However long a solid is, and however far off its frame begins: what is near by is met.
+#[test]
+fn long_solids_are_met_at_their_ends() {
+    let mut random = Random(13);
+    let mut met = 0;
+    for index in 0..20_000 {
+        let kind = KINDS[1 + index % (KINDS.len() - 1)];
+        let mut frame = random.frame();
+        if index % 3 == 0 {
+            frame.directions = DVec3::AXES;
+        }
+        frame.lengths[index % 3] = random.magnitude(2.0, 6.0);
+        // A place of the surface comes to stand near the origin of the world.
+        let middle = random.inside(kind);
+        let outward = random.direction();
+        let (mut inside, mut outside) = (0.0, 4.0);
+        for _ in 0..60 {
+            let reach = 0.5 * (inside + outside);
+            if excess(kind, middle + reach * outward) < 0.0 {
+                inside = reach;
+            } else {
+                outside = reach;
+            }
+        }
+        let place = middle + inside * outward;
+        frame.origin += random.in_cube() - frame.world(place);
+        let target = frame.world(place);
+        let ray = ray(
+            target + random.magnitude(-1.0, 1.0) * random.direction(),
+            target,
+        );
+        if let Some([enter, exit]) = Exact::new(kind, &frame).span(&ray)
+            && 1e-6 < exit - enter
+        {
+            met += 1;
+            let found = only_span(&frame.shape(kind), &ray);
+            assert!(found.is_some(), "{kind:?} {index}: {enter} to {exit}");
+        }
+    }
+    assert!(5_000 < met, "{met} met");
 }

@@ -29,7 +29,7 @@ use super::tracer::Tracer;
 use super::world::World;
 use super::{Filter, Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
 use crate::format::{self, Format};
-use crate::geometry::{Affine, Cuboid, Ray, Shape, Sphere};
+use crate::geometry::{Affine, Cone, Cuboid, Ellipsoid, Ray, Shape, Sphere};
 use crate::scene::{
     Camera, Focus, Images, Integrator, Lens, Light, Material, Meshes, Object, Phong, Rgb, Scene,
     Setting, Size, Transfer, lower,

@@ -85,27 +85,33 @@ fn of_many_copies_the_first_is_seen() {
     }
 }
 
-/// The tree finds what trying every object finds.
+/// The tree finds what trying every object finds, be it thinner than all rounding.
 #[test]
 fn the_tree_finds_what_every_object_tried_finds() {
     let mut random = Random(1);
     let objects: Vec<_> = (0..300)
         .map(|k| {
-            let (at, size) = (random.point(10.0).to_array(), 0.1 + random.next());
-            let shape = if k % 2 == 0 {
-                sphere(at, size)
-            } else {
-                cuboid(at, [size, 2.0 * size, 0.5 * size])
+            let (at, size) = (random.point(10.0), 0.1 + random.next());
+            let axes = [0, 1, 2].map(|_| random.point(1.0));
+            let sheet = DVec3::new(size, size, 10_f64.powf(-20.0 * random.next()));
+            let frame = Affine::new(at, axes, sheet).expect("a volume");
+            let shape = match k % 4 {
+                0 => sphere(at.to_array(), size),
+                1 => cuboid(at.to_array(), [size, 2.0 * size, 0.5 * size]),
+                2 => Shape::Ellipsoid(Box::new(Ellipsoid(frame))),
+                _ => Shape::Cone(Box::new(Cone(frame))),
             };
             (shape, grey(0.5))
         })
         .collect();
     let world = world(scene(&objects, &[]));
-    for _ in 0..5000 {
-        let origin = random.point(12.0);
+    for number in 0..9000 {
+        let far = [1.0, 30.0, 3e3][number % 3];
+        let origin = far * random.point(12.0);
+        let toward = random.point(10.0) - if far == 1.0 { DVec3::ZERO } else { origin };
         let ray = Ray {
             origin,
-            direction: random.point(1.0).normalize(),
+            direction: toward.normalize(),
         };
         let tried = objects
             .iter()
