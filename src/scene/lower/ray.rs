@@ -107,6 +107,8 @@ pub(super) struct Reader<'a> {
     pub(super) materials: Vec<Material>,
     /// The first material of the present block of objects.
     pub(super) of_block: usize,
+    /// How the last few materials are spelled that have nothing wrong.
+    pub(super) spellings: Vec<(&'a str, u32)>,
     /// Complete up to the first error.
     pub(super) objects: Vec<Object>,
 }
@@ -126,6 +128,7 @@ impl<'a> Reader<'a> {
             lights: Vec::new(),
             materials: Vec::new(),
             of_block: 0,
+            spellings: Vec::new(),
             objects: Vec::new(),
         }
     }

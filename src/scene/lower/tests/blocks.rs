@@ -20,7 +20,7 @@ fn text(objects: usize, declared: usize, warned: usize) -> String {
             _ if number % warned == 3 => format!("Cone {frame}"),
             _ => format!("sphere {number} 2 3 0.5"),
         };
-        let red = f64::from(number as u32 * 7 % 40) / 39.0;
+        let red = f64::from(number as u32 / 3 * 7 % 40) / 39.0;
         let object = format!("{shape}  {red} 0 0  0 1 0  0 0 1  20 0 0 1 // {number}\n");
         text.push_str(&object);
     }

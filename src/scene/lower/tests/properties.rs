@@ -490,3 +490,59 @@ proptest! {
         check_any(&text);
     }
 }
+
+/// Objects of which a material comes back in the same spelling, some of them with something wrong.
+fn objects_alike(shapes: &[(usize, usize)], tokens: usize, each_apart: bool) -> String {
+    let shapes_and_slips = [
+        "sphere 1 2 3 4",
+        "Sphere 1 2 3 4",
+        "sphere 1 2 3 x",
+        "sphere 1 2 3 -4",
+        "sphere 1 2 3",
+        "box 1 2 3  1 0 0  0 1 0  0 0 1  4 5 6",
+        "cone 1 2 3  2 0 0  0 1 0  0 .6 .8  4 5 6",
+        "cone 1 2 3  1 0 0  1 0 0  0 0 1  4 5 6",
+    ];
+    let materials = [
+        "1 0 0 0 1 0 0 0 1 20 0 0 1",
+        "1 0 0 0 1 0 0 0 1 20 0 0 1.5",
+        "1 0 0 0 2 0 0 0 1 20 0 0 1",
+        "1 0 0 0 1 z 0 0 1 20 0 0 1",
+        "1 0 0 // red\n0 1 0 0 0 1 20 0 0 1",
+        "1 0 0 0 1 0 0 0 1 20 0 0",
+        "1 0 0 0 1 0 0 0 1 sphere 0 0 1",
+    ];
+    let mut text = format!("1 1 1 1 0 5 5 1 1 1 {}", shapes.len());
+    for (number, &(shape, material)) in shapes.iter().enumerate() {
+        let (shape, material) = (shapes_and_slips[shape], materials[material]);
+        let apart = "\t".repeat(number * usize::from(each_apart)) + " ";
+        text = format!("{text} {shape} {}", material.replacen(' ', &apart, 1));
+    }
+    let kept: Vec<_> = text.split_inclusive(' ').collect();
+    kept[..tokens.min(kept.len())].concat()
+}
+
+proptest! {
+    /// Whether a material is spelled as one before or not, it means the same, and the same is told.
+    #[test]
+    fn materials_spelled_alike_mean_the_same(
+        shapes in prop::collection::vec(
+            (
+                prop_oneof![3 => 0..1_usize, 1 => 0..8_usize],
+                prop_oneof![3 => 0..2_usize, 1 => 0..7_usize],
+            ),
+            1..20,
+        ),
+        cut in prop_oneof![1 => Just(usize::MAX), 1 => 0..500_usize],
+    ) {
+        let meaning = |each_apart| {
+            let (_, lowered) = read(&objects_alike(&shapes, cut, each_apart));
+            let mut told: Vec<_> = lowered.diagnostics.iter().cloned().collect();
+            for found in &mut told {
+                found.span = Span::at(0);
+            }
+            (lowered.scene, format!("{told:?} {:?}", lowered.origins))
+        };
+        prop_assert_eq!(meaning(false), meaning(true));
+    }
+}
