@@ -7,49 +7,35 @@ use rayon::prelude::*;
 
 use crate::accel::RUN;
 use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, Vector, bits};
-use crate::geometry::{Hits, Rays, Shape, sphere_hits};
+use crate::geometry::{Hits, Rays, Shape, Sphere, sphere_hits};
 use crate::scene::Object;
 
 /// Centres and radii by place; the radius is NaN where an object is no sphere, and after the last.
 #[derive(Clone, Debug)]
-pub(crate) struct Spheres {
-    x: Vec<f64>,
-    y: Vec<f64>,
-    z: Vec<f64>,
-    radius: Vec<f64>,
-}
+pub(crate) struct Spheres(Vec<[f64; 4]>);
 
 impl Spheres {
     /// Those among the objects with these numbers, in their order.
     pub(crate) fn new(objects: &[Object], order: &[u32]) -> Self {
         // Zeros are memory that nobody has touched yet; the threads below do.
-        let untouched = || vec![0.0; order.len() + RUN];
-        let mut spheres = Self {
-            x: untouched(),
-            y: untouched(),
-            z: untouched(),
-            radius: untouched(),
-        };
-        spheres.radius[order.len()..].fill(f64::NAN);
-        let x = spheres.x.par_iter_mut();
-        let rest = spheres.y.par_iter_mut().zip(&mut spheres.z);
-        let places = x.zip(rest).zip(&mut spheres.radius).zip(order);
-        places.for_each(|(((x, (y, z)), radius), &object)| {
-            *radius = f64::NAN;
-            if let Shape::Sphere(sphere) = &objects[object as usize].shape {
-                [*x, *y, *z] = sphere.centre.to_array();
-                *radius = sphere.radius;
-            }
+        let mut spheres = vec![[0.0; 4]; order.len() + RUN];
+        let (inside, after) = spheres.split_at_mut(order.len());
+        after.fill([0.0, 0.0, 0.0, f64::NAN]);
+        let places = inside.par_iter_mut().zip(order);
+        places.for_each(|(place, &object)| {
+            *place = match &objects[object as usize].shape {
+                Shape::Sphere(Sphere { centre, radius }) => [centre.x, centre.y, centre.z, *radius],
+                _ => [0.0, 0.0, 0.0, f64::NAN],
+            };
         });
-        spheres
+        Self(spheres)
     }
 
     /// Centre and radius of the sphere at a place; `None` if the object there is none.
     #[inline]
     pub(crate) fn at(&self, place: usize) -> Option<(DVec3, f64)> {
-        let radius = self.radius[place];
-        let centre = DVec3::new(self.x[place], self.y[place], self.z[place]);
-        (!radius.is_nan()).then_some((centre, radius))
+        let [x, y, z, radius] = self.0[place];
+        (!radius.is_nan()).then_some((DVec3::new(x, y, z), radius))
     }
 
     /// Where a ray, the same in each lane, meets spheres of a run before a limit, and a bit for each
@@ -66,20 +52,37 @@ impl Spheres {
         places: &Range<usize>,
     ) -> (Option<Hits>, u32) {
         let simd = ray.origin.x.simd;
-        let run = places.start..places.start + RUN;
+        // As many places as a run has follow the last.
+        let run: &[[f64; 4]; RUN] = self.0[places.start..]
+            .first_chunk()
+            .expect("so many places");
+        let radius = row(simd, run, 3);
         let all = (1 << places.len()) - 1;
-        let radius = Eight::from_slice(simd, &self.radius[run.clone()]);
         let spheres = bits::<S>(radius.equals(radius)) & all;
         if spheres == 0 {
             return (None, all);
         }
         let centre = Vector {
-            x: Eight::from_slice(simd, &self.x[run.clone()]),
-            y: Eight::from_slice(simd, &self.y[run.clone()]),
-            z: Eight::from_slice(simd, &self.z[run]),
+            x: row(simd, run, 0),
+            y: row(simd, run, 1),
+            z: row(simd, run, 2),
         };
         let limits = Eight::splat(simd, limit);
         let hits = sphere_hits(centre, radius, ray, limits, spheres);
         (hits, all & !spheres)
     }
+}
+
+/// One of the numbers of each sphere.
+#[expect(
+    clippy::inline_always,
+    reason = "a caller compiled for wider vectors must take this with it"
+)]
+#[inline(always)]
+fn row<S: Simd>(simd: S, spheres: &[[f64; 4]; RUN], number: usize) -> Eight<S> {
+    let mut row = [0.0; RUN];
+    for (own, sphere) in row.iter_mut().zip(spheres) {
+        *own = sphere[number];
+    }
+    Eight::load_array(simd, row)
 }
