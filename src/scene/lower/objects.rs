@@ -171,7 +171,7 @@ impl<'a> Reader<'a> {
         self.spellings.push((spelling, material));
     }
 
-    /// Adds an object without errors to the scene; its material, if that is known.
+    /// Adds an object without errors to the scene. Its material is read unless it is `known`.
     fn keep(&mut self, record: Record, kind: ShapeKind, known: Option<u32>) {
         let (geometry, material) = record.split_at(fields::numbers(kind.geometry()));
         let Some(shape) = geometry.gather(kind.geometry().iter()).shape(kind) else {
