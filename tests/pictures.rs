@@ -120,7 +120,7 @@ impl Own {
         let integrator = lowered.scene.map(|scene| scene.setting.integrator);
         let shines = integrator == Some(Integrator::Path);
         let mut edits = Vec::new();
-        for node in origins.nodes() {
+        for node in origins.nodes().iter() {
             if is_xml && matches!(node, Node::Object(_)) {
                 continue;
             }

@@ -123,7 +123,7 @@ fn the_course_s_own_files_are_read_listed_and_edited() {
         assert_eq!(listed, objects, "{name}");
         let groups = text.matches("<object name").count();
         assert_eq!(scene.objects.len(), objects - groups, "{name}");
-        for node in nodes {
+        for node in nodes.iter() {
             // Another type has other fields.
             let is_free = |placed: &Placed| !matches!(placed.field.kind, Kind::Choice(_));
             for placed in lowered

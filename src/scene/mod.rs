@@ -20,7 +20,7 @@ use crate::geometry::{Aabb, Hit, Shape};
 
 pub use lower::{Before, Lowered, lower, lower_again};
 pub use mesh::{Meshes, NoMesh, beside};
-pub use origins::{FileKind, NamedFile, Node, Origins};
+pub use origins::{FileKind, NamedFile, Node, Nodes, Origins};
 pub use placed::{Placed, Unsaid};
 pub use surface::{
     Finish, Gloss, Integrator, MappedPattern, MappedTexture, Material, Phong, Setting, Textured,

@@ -1,7 +1,7 @@
 //! Where the things of a `.dat` text stand: each in a record of its own, and what textures do to a
 //! material in further ones.
 
-use super::{FileKind, NamedFile, Node, Placed};
+use super::{FileKind, NamedFile, Node, Nodes, Placed};
 use crate::format::dat::Tree;
 use crate::scene::fields::dat::{HALF_SPACE, ObjectKind, Part, RecordKind};
 use crate::scene::fields::{Category, Kind, numbers};
@@ -72,13 +72,15 @@ pub(in crate::scene) const VIEW: [RecordKind; 3] = [
 ];
 
 impl Origins {
-    pub(super) fn nodes(&self) -> Vec<Node> {
-        std::iter::once(Node::View)
-            .chain((0..self.lights.len()).map(Node::Light))
-            .chain((0..self.materials.len()).map(Node::Material))
-            .chain((0..self.textures.len()).map(Node::Texture))
-            .chain((0..self.objects.len()).map(Node::Object))
-            .collect()
+    pub(super) fn nodes(&self) -> Nodes {
+        Nodes {
+            view: true,
+            lights: self.lights.len(),
+            materials: self.materials.len(),
+            textures: self.textures.len(),
+            objects: self.objects.len(),
+            ..Nodes::default()
+        }
     }
 
     pub(super) fn name(&self, node: Node) -> String {

@@ -1,8 +1,11 @@
 //! Where in the text each field of a scene stands, for each language.
 
 pub(super) mod dat;
+mod node;
 pub(super) mod ray;
 pub(super) mod xml;
+
+pub use node::{Node, Nodes};
 
 use std::fmt;
 
@@ -11,27 +14,6 @@ use super::fields::{Category, Field};
 use super::placed::Placed;
 use crate::format::Tree;
 use crate::text::Span;
-
-/// A thing that has fields, in the order in which the interface lists them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Node {
-    /// The camera.
-    View,
-    /// Ambient light.
-    Ambient,
-    /// What the camera sees behind everything.
-    Background,
-    /// What other rays meet there.
-    Environment,
-    /// A light, by index.
-    Light(usize),
-    /// A material, by index.
-    Material(usize),
-    /// A texture, by index.
-    Texture(usize),
-    /// An object, by index.
-    Object(usize),
-}
 
 /// What is in a file that a text names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,20 +57,12 @@ impl Default for Origins {
 
 impl Origins {
     /// The view, ambient light or background and environment, lights, materials, textures, objects: as
-    /// far as the text has them and could be understood. Ascending.
-    pub fn nodes(&self) -> Vec<Node> {
+    /// far as the text has them and could be understood.
+    pub fn nodes(&self) -> Nodes {
         match self {
             Self::Ray(origins) => origins.nodes(),
             Self::Dat(origins) => origins.nodes(),
             Self::Xml(origins) => origins.nodes(),
-        }
-    }
-
-    /// Whether the nodes are those of others, as far as that is known without a look at each.
-    pub fn lists_as(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Ray(one), Self::Ray(other)) => one.lists_as(other),
-            _ => false,
         }
     }
 
@@ -154,11 +128,10 @@ impl Origins {
         }
     }
 
-    /// The nodes whose text `span` covers in part, in text order: none if it is empty. `nodes` are
-    /// those of [`Origins::nodes`].
-    pub fn nodes_in(&self, tree: &Tree, nodes: &[Node], span: Span) -> Vec<Node> {
+    /// The nodes whose text `span` covers in part, in text order: none if it is empty.
+    pub fn nodes_in(&self, tree: &Tree, span: Span) -> Vec<Node> {
         match (self, tree) {
-            (Self::Ray(origins), Tree::Ray(tree)) => origins.nodes_in(tree, nodes, span),
+            (Self::Ray(origins), Tree::Ray(tree)) => origins.nodes_in(tree, span),
             (Self::Dat(origins), Tree::Dat(tree)) => origins.nodes_in(tree, span),
             (Self::Xml(origins), Tree::Xml(tree)) => origins.nodes_in(tree, span),
             _ => Vec::new(),

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::{Name, Node, Placed, hand_out};
+use super::{Name, Node, Nodes, Placed, hand_out};
 use crate::format::ray::Tree;
 use crate::scene::fields;
 use crate::scene::fields::ray::{AMBIENT, LIGHT, ShapeKind, VIEW};
@@ -47,19 +47,14 @@ pub(in crate::scene) struct ObjectPlace {
 }
 
 impl Origins {
-    /// Whether the same things are listed, as far as that is known without a look at each.
-    pub(super) fn lists_as(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.objects, &other.objects)
-            && (self.ambient, self.lights.1) == (other.ambient, other.lights.1)
-    }
-
-    pub(super) fn nodes(&self) -> Vec<Node> {
-        let ambient = (self.ambient == fields::numbers(AMBIENT)).then_some(Node::Ambient);
-        std::iter::once(Node::View)
-            .chain(ambient)
-            .chain((0..self.light_count()).map(Node::Light))
-            .chain((0..self.objects.len()).map(Node::Object))
-            .collect()
+    pub(super) fn nodes(&self) -> Nodes {
+        Nodes {
+            view: true,
+            ambient: self.ambient == fields::numbers(AMBIENT),
+            lights: self.light_count(),
+            objects: self.objects.len(),
+            ..Nodes::default()
+        }
     }
 
     pub(super) fn name(&self, node: Node) -> String {
@@ -163,13 +158,14 @@ impl Origins {
             })
     }
 
-    pub(super) fn nodes_in(&self, tree: &Tree, nodes: &[Node], span: Span) -> Vec<Node> {
+    pub(super) fn nodes_in(&self, tree: &Tree, span: Span) -> Vec<Node> {
+        let nodes = self.nodes();
         // The view's comment may stand anywhere.
-        let in_order = nodes.strip_prefix(&[Node::View]).unwrap_or(nodes);
-        let from = in_order.partition_point(|&node| self.span(tree, node).end() <= span.start());
-        let rest = &in_order[from..];
-        let count = rest.partition_point(|&node| self.span(tree, node).start() < span.end());
-        rest[..count].to_vec()
+        let is_view = |node| node == Node::View;
+        let ends_before = |node| is_view(node) || self.span(tree, node).end() <= span.start();
+        let begins_before = |node| is_view(node) || self.span(tree, node).start() < span.end();
+        let rows = nodes.partition_point(ends_before)..nodes.partition_point(begins_before);
+        rows.filter_map(|row| nodes.get(row)).collect()
     }
 
     /// How many lights have at least their position.

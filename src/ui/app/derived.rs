@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use super::picture::Picture;
 use super::{App, Disk, FieldRow, Mode, Outline, Source, Stride};
 use crate::scene::fields::Field;
-use crate::scene::{self, Camera, Node, Placed, Size};
+use crate::scene::{self, Camera, Node, Nodes, Placed, Size};
 use crate::text::Findings;
 use crate::ui::view::layout::{Areas, Zoom, arrange, raster};
 
@@ -132,10 +132,15 @@ impl App {
         )
     }
 
+    /// The things of the text as it stands: the list's rows.
+    pub fn nodes(&self) -> Nodes {
+        self.origins.nodes()
+    }
+
     /// The list's row of a node; the nearest one if the text no longer has it.
     pub fn row_of(&self, node: Node) -> usize {
-        let row = self.nodes.partition_point(|&listed| listed < node);
-        row.min(self.nodes.len().saturating_sub(1))
+        let nodes = self.nodes();
+        nodes.before(node).min(nodes.len().saturating_sub(1))
     }
 
     /// The fields of the selected thing as they are shown.

@@ -32,9 +32,6 @@ impl App {
     }
 
     pub(super) fn install(&mut self, lowered: Lowered) {
-        if !lowered.origins.lists_as(&self.origins) {
-            self.nodes = lowered.origins.nodes();
-        }
         self.origins = lowered.origins;
         self.diagnostics = self.with_files(lowered.diagnostics);
         // A scene that lacks a mesh may yet have an error.
@@ -59,7 +56,7 @@ impl App {
 
     /// Keeps the selection on a thing that is there, and the cursor on a component of it.
     pub(super) fn keep_selection(&mut self) {
-        if let Some(&node) = self.nodes.get(self.row_of(self.selected)) {
+        if let Some(node) = self.nodes().get(self.row_of(self.selected)) {
             self.selected = node;
         }
         self.keep_cursor();

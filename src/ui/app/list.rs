@@ -21,8 +21,8 @@ impl App {
     pub(super) fn move_cursor(&mut self, context: Context, rows: isize) {
         match context {
             Context::In(Mode::Select) => {
-                let row = moved(self.row_of(self.selected), rows, self.nodes.len());
-                if let Some(&node) = self.nodes.get(row) {
+                let row = moved(self.row_of(self.selected), rows, self.nodes().len());
+                if let Some(node) = self.nodes().get(row) {
                     self.select(node);
                 }
             }
@@ -81,19 +81,15 @@ impl App {
         self.field_top = layout::first_shown(self.field_top, self.field, count, fields);
         let rows = usize::from(layout::contents(areas.list).height);
         let row = self.row_of(self.selected);
-        self.list_top = layout::first_shown(self.list_top, row, self.nodes.len(), rows);
+        self.list_top = layout::first_shown(self.list_top, row, self.nodes().len(), rows);
     }
 
     /// Selects the next light or object, or the one before, and around.
     pub(super) fn cycle(&mut self, step: isize) {
-        let first = self.row_of(Node::Light(0));
-        let count = self.nodes.len() - first.min(self.nodes.len());
-        // Of a scene without any, the row before is the nearest.
-        if self
-            .nodes
-            .get(first)
-            .is_none_or(|&node| node < Node::Light(0))
-        {
+        let nodes = self.nodes();
+        let first = nodes.before(Node::Light(0));
+        let count = nodes.len() - first;
+        if count == 0 {
             return;
         }
         let row = match self.row_of(self.selected).checked_sub(first) {
@@ -101,24 +97,26 @@ impl App {
             None if step < 0 => count - 1,
             None => 0,
         };
-        self.select(self.nodes[first + row]);
+        if let Some(node) = nodes.get(first + row) {
+            self.select(node);
+        }
     }
 
     /// Selects the next thing whose name or comment holds what was searched for, or the one before.
     pub(super) fn search(&mut self, step: isize) {
         let wanted = self.searched.to_lowercase();
-        let count = self.nodes.len() as isize;
+        let nodes = self.nodes();
+        let count = nodes.len() as isize;
         if wanted.is_empty() || count == 0 {
             return;
         }
         let from = self.row_of(self.selected) as isize;
-        let found: Vec<_> = (0..self.nodes.len())
-            .filter(|&row| self.is_called(self.nodes[row], &wanted))
-            .collect();
-        let nearest = |&at: &usize| (step * (found[at] as isize - from) - 1).rem_euclid(count);
+        let called = |&(_, node): &(usize, Node)| self.is_called(node, &wanted);
+        let found: Vec<_> = nodes.iter().enumerate().filter(called).collect();
+        let nearest = |&at: &usize| (step * (found[at].0 as isize - from) - 1).rem_euclid(count);
         match (0..found.len()).min_by_key(nearest) {
             Some(at) => {
-                self.select(self.nodes[found[at]]);
+                self.select(found[at].1);
                 self.say(format!("{} of {}", at + 1, found.len()));
             }
             None => self.fail(format!("nothing is called {}", self.searched)),

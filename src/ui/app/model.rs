@@ -43,8 +43,6 @@ pub struct App {
     pub origins: Origins,
     /// What is wrong with the text as it stands.
     pub diagnostics: Findings,
-    /// The things of the text as it stands: the list's rows.
-    pub nodes: Vec<Node>,
     /// The scene of the last text that had no errors: what the pictures show.
     pub scene: Option<Arc<Scene>>,
     /// The pictures that its textures show, as far as they are read.

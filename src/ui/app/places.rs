@@ -12,7 +12,7 @@ impl App {
     /// What a place of the text is called: `object 4 (sphere) centre x`, or the things that it
     /// covers; `None` where none is.
     pub fn place_name(&self, span: Span) -> Option<String> {
-        name_of(&self.origins, self.document.tree(), &self.nodes, span)
+        name_of(&self.origins, self.document.tree(), span)
     }
 
     /// Says how many errors a text has and where the first one is.
@@ -26,19 +26,14 @@ impl App {
     }
 }
 
-/// What a place of any text is called; `nodes` are those of `origins`.
-pub(super) fn name_of(
-    origins: &Origins,
-    tree: &Tree,
-    nodes: &[Node],
-    span: Span,
-) -> Option<String> {
+/// What a place of any text is called.
+pub(super) fn name_of(origins: &Origins, tree: &Tree, span: Span) -> Option<String> {
     // Its comment may stand inside another node's text.
     let view = origins.span(tree, Node::View);
     if view.start() <= span.start() && span.end() <= view.end() && !view.is_empty() {
         return Some(name_in(origins, tree, Node::View, span));
     }
-    let touched = origins.nodes_in(tree, nodes, span);
+    let touched = origins.nodes_in(tree, span);
     match touched.as_slice() {
         [] => {
             let node = origins.node_at(tree, span)?;
@@ -102,7 +97,6 @@ sphere 2 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1
 ";
         let tree = parse(Format::Ray, text);
         let lowered = crate::scene::lower(text, &tree, &crate::scene::Meshes::default());
-        let nodes = lowered.origins.nodes();
         let at = |part: &str| text.find(part).expect("a part of the text");
         for (from, until, name) in [
             (0, 2, "ambient colour red"),
@@ -118,7 +112,7 @@ sphere 2 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1
             (0, text.len(), "5 things, ambient to object 3 (sphere)"),
         ] {
             let span = Span::new(from, until);
-            let found = name_of(&lowered.origins, &tree, &nodes, span);
+            let found = name_of(&lowered.origins, &tree, span);
             assert_eq!(found.as_deref(), Some(name), "{from}..{until}");
         }
     }

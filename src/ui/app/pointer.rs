@@ -58,7 +58,7 @@ impl App {
         self.typing = None;
         let areas = self.areas();
         if let Some(row) = list_row_at(areas.list, self.list_top, at.0, at.1) {
-            if let Some(&node) = self.nodes.get(row) {
+            if let Some(node) = self.nodes().get(row) {
                 self.select(node);
                 self.errors = None;
                 self.mode = Mode::Select;

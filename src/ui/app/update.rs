@@ -45,7 +45,6 @@ impl App {
             document: Document::new(opening.format, opening.text),
             origins: Origins::default(),
             diagnostics: Findings::default(),
-            nodes: Vec::new(),
             scene: None,
             images: Images::default(),
             meshes: Meshes::default(),

@@ -16,7 +16,8 @@ const COMMENT: usize = 6;
 /// Draws the list.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let selected = app.row_of(app.selected);
-    let count = app.nodes.len();
+    let nodes = app.nodes();
+    let count = nodes.len();
     let focused = matches!(app.mode, Mode::Select | Mode::Pick);
     let place = format!("{}/{count}", (selected + 1).min(count));
     title(
@@ -32,8 +33,9 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let top = app.list_top.min(count.saturating_sub(rows));
     let marked = marked(app);
     let tree = app.document.tree();
-    let shown = app.nodes.iter().enumerate().skip(top).take(rows);
-    for (line, (index, &node)) in shown.enumerate() {
+    let shown = (top..count).take(rows);
+    let shown = shown.filter_map(|row| Some((row, nodes.get(row)?)));
+    for (line, (index, node)) in shown.enumerate() {
         let is_selected = index == selected;
         let is_drawn = match node {
             // A group is as much there as what is in it.

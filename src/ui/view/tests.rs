@@ -67,7 +67,6 @@ pub(super) fn retype(app: &mut App, old: &str, new: &str) {
         text: new.to_owned(),
     }]);
     let lowered = lower(app.document.text(), app.document.tree(), &app.meshes);
-    app.nodes = lowered.origins.nodes();
     app.origins = lowered.origins;
     app.diagnostics = lowered.diagnostics;
 }

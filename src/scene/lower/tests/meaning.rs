@@ -115,7 +115,7 @@ fn nodes_and_their_names() {
     let names: Vec<_> = origins
         .nodes()
         .iter()
-        .map(|&node| origins.name(node))
+        .map(|node| origins.name(node))
         .collect();
     assert_eq!(
         names,
@@ -137,7 +137,7 @@ fn nodes_are_known_as_far_as_the_text_is_understood() {
     let fields: Vec<_> = origins
         .nodes()
         .iter()
-        .map(|&node| {
+        .map(|node| {
             let fields = origins.fields(&tree, node);
             let keys: Vec<_> = fields.iter().map(|placed| placed.field.key).collect();
             format!("{}: {}", origins.name(node), keys.join(" "))
@@ -164,7 +164,7 @@ fn every_field_stands_where_its_numbers_are() {
     let said: Vec<_> = origins
         .nodes()
         .iter()
-        .flat_map(|&node| origins.fields(&tree, node))
+        .flat_map(|node| origins.fields(&tree, node))
         .map(|placed| {
             let words: Vec<_> = placed.spans.iter().map(|span| span.of(text)).collect();
             format!("{} {}", placed.field.key, words.join(" "))

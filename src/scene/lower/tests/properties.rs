@@ -286,7 +286,7 @@ fn an_edit_of_a_placed_span_changes_that_field_alone() {
             };
             model.check_camera(&before.camera);
             assert_eq!(before, model.scene(before.camera), "{text}");
-            let nodes = lowered.origins.nodes();
+            let nodes: Vec<_> = lowered.origins.nodes().iter().collect();
             let node = nodes[random.below(nodes.len())];
             let placed = lowered.origins.fields(&tree, node);
             let placed = &placed[random.below(placed.len())];
@@ -445,7 +445,7 @@ fn check_any(text: &str) {
         .iter()
         .any(crate::text::Diagnostic::is_error);
     assert_eq!(lowered.scene.is_none(), errors, "{text:?}");
-    for node in lowered.origins.nodes() {
+    for node in lowered.origins.nodes().iter() {
         assert!(!lowered.origins.name(node).is_empty());
         let whole = lowered.origins.span(&tree, node);
         assert!(within(whole));
@@ -459,7 +459,13 @@ fn check_any(text: &str) {
         }
     }
     if let Some(scene) = lowered.scene {
-        let Node::Object(last) = lowered.origins.nodes().pop().expect("there are nodes") else {
+        let Node::Object(last) = lowered
+            .origins
+            .nodes()
+            .iter()
+            .last()
+            .expect("there are nodes")
+        else {
             panic!("a scene has objects: {text:?}");
         };
         assert_eq!(last + 1, scene.objects.len());

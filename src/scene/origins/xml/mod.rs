@@ -6,7 +6,7 @@ mod insert;
 
 use std::collections::HashSet;
 
-use super::{FileKind, NamedFile, Node};
+use super::{FileKind, NamedFile, Node, Nodes};
 use crate::format::xml::{Attribute, Tree};
 use crate::scene::fields::xml::{LightKind, MaterialKind, ObjectKind, Parameter};
 use crate::scene::placed::Placed;
@@ -115,16 +115,15 @@ pub(in crate::scene) const WORDS: [&str; 15] = [
 pub(in crate::scene) const NO_WORD: u8 = u8::MAX;
 
 impl Origins {
-    pub(super) fn nodes(&self) -> Vec<Node> {
-        let surroundings = self.scene.map(|_| [Node::Background, Node::Environment]);
-        self.root
-            .map(|_| Node::View)
-            .into_iter()
-            .chain(surroundings.into_iter().flatten())
-            .chain((0..self.lights.len()).map(Node::Light))
-            .chain((0..self.materials.len()).map(Node::Material))
-            .chain((0..self.objects.len()).map(Node::Object))
-            .collect()
+    pub(super) fn nodes(&self) -> Nodes {
+        Nodes {
+            view: self.root.is_some(),
+            surroundings: self.scene.is_some(),
+            lights: self.lights.len(),
+            materials: self.materials.len(),
+            objects: self.objects.len(),
+            ..Nodes::default()
+        }
     }
 
     pub(in crate::scene) fn name(&self, node: Node) -> String {

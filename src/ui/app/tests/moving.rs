@@ -194,7 +194,7 @@ fn a_pick_is_answered_for_the_scene_on_screen_only() {
     let until = SCENE.rfind("sphere").expect("another one");
     let fewer = SCENE.replacen("\n2\n", "\n1\n", 1);
     outside(&mut app, &[&fewer[..from], &fewer[until..]].concat());
-    assert_eq!(app.nodes.len(), 4);
+    assert_eq!(app.nodes().len(), 4);
     app.update(Msg::Started(Target::Preview, 2));
     let selected = app.selected;
     click(&mut app, cells.x, cells.y);

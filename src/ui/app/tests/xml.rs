@@ -121,7 +121,7 @@ fn what_is_pasted_on_a_missing_colour_is_written_at_once() {
 fn a_text_that_is_no_xml_is_stood() {
     for text in ["", "<xml>", "<xml><scene></xml>", "<scene/>"] {
         let mut app = opened_as("scene.xml", text).0;
-        assert!(app.nodes.is_empty() && 0 < app.error_count(), "{text}");
+        assert!(app.nodes().is_empty() && 0 < app.error_count(), "{text}");
         for keys in [
             "jkgG",
             "e",

@@ -311,7 +311,7 @@ render 1 ID 9",
     let origins = &lowered.origins;
     let names: Vec<_> = origins
         .nodes()
-        .into_iter()
+        .iter()
         .map(|node| origins.name(node))
         .collect();
     let expected = [

@@ -176,7 +176,7 @@ fn said(text: &str) -> Vec<(Node, &'static str, Vec<String>)> {
             (node, placed.field.key, words.collect())
         })
     };
-    nodes.into_iter().flat_map(of).collect()
+    nodes.iter().flat_map(of).collect()
 }
 
 /// Edits of fields change the bytes of their tokens alone, and undoing them brings every byte back.
@@ -190,7 +190,7 @@ fn an_edit_of_a_placed_span_changes_that_field_alone() {
         let mut undo = Vec::new();
         for _ in 0..25 {
             let (tree, lowered) = read(&text);
-            let nodes = lowered.origins.nodes();
+            let nodes: Vec<_> = lowered.origins.nodes().iter().collect();
             let node = nodes[random.below(nodes.len())];
             let placed = lowered.origins.fields(&tree, node);
             let at = random.below(placed.len());
@@ -266,8 +266,7 @@ fn check_any(text: &str) {
     );
     let errors = 0 < lowered.diagnostics.errors();
     assert_eq!(lowered.scene.is_none(), errors, "{text:?}");
-    let nodes = lowered.origins.nodes();
-    for &node in &nodes {
+    for node in lowered.origins.nodes().iter() {
         assert!(!lowered.origins.name(node).is_empty());
         assert!(within(lowered.origins.span(&tree, node)));
         let _ = lowered.origins.comment(text, &tree, node);
@@ -285,7 +284,14 @@ fn check_any(text: &str) {
     };
     for (index, object) in scene.objects.iter().enumerate() {
         let own = lowered.origins.object(index as u32);
-        assert!(nodes.contains(&Node::Object(own)), "{text:?}");
+        assert!(
+            lowered
+                .origins
+                .nodes()
+                .iter()
+                .any(|node| node == Node::Object(own)),
+            "{text:?}"
+        );
         assert_eq!(lowered.origins.drawn(own), Some(index as u32));
         assert!((object.material as usize) < scene.materials.len());
     }

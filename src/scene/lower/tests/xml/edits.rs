@@ -34,7 +34,7 @@ fn values(text: &str) -> Vec<(Node, &'static str, Vec<String>)> {
         };
         placed.into_iter().map(row).collect::<Vec<_>>()
     };
-    lowered.origins.nodes().into_iter().flat_map(of).collect()
+    lowered.origins.nodes().iter().flat_map(of).collect()
 }
 
 #[test]
@@ -131,7 +131,7 @@ fn ten_thousand_edits_change_one_component_each() {
         let mut undo = Vec::new();
         for _ in 0..25 {
             let (tree, lowered) = read(&text);
-            let nodes = lowered.origins.nodes();
+            let nodes: Vec<_> = lowered.origins.nodes().iter().collect();
             let node = nodes[random.below(nodes.len())];
             let fields = lowered.origins.fields(&tree, node);
             let at = random.below(fields.len());

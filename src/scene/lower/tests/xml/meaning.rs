@@ -64,7 +64,7 @@ fn the_example_is_three_white_spheres() {
     let nodes = lowered.origins.nodes();
     let listed: Vec<_> = nodes
         .iter()
-        .map(|&node| (lowered.origins.depth(node), lowered.origins.name(node)))
+        .map(|node| (lowered.origins.depth(node), lowered.origins.name(node)))
         .collect();
     let expected = [
         (0, "view"),
@@ -377,7 +377,7 @@ fn things_are_found_by_place_and_called_by_comments() {
         let at = text.find(part).expect("a part of the text");
         let span = crate::text::Span::new(at, at + part.len());
         assert_eq!(origins.node_at(&tree, span), Some(node), "{part}");
-        assert_eq!(origins.nodes_in(&tree, &[], span), [node], "{part}");
+        assert_eq!(origins.nodes_in(&tree, span), [node], "{part}");
     }
     assert_eq!(origins.comment(&text, &tree, Node::Object(0)), Some("one"));
     assert_eq!(origins.comment(&text, &tree, Node::Object(1)), Some("two"));
@@ -407,7 +407,7 @@ fn a_hundred_thousand_levels_are_lowered() {
     let (tree, lowered) = read(&nested("<nonsense>", "</nonsense>"));
     let whole = crate::text::Span::new(0, 10_000_000);
     assert_eq!(lowered.diagnostics.warnings(), 1);
-    assert_eq!(lowered.origins.nodes_in(&tree, &[], whole), [Node::View]);
+    assert_eq!(lowered.origins.nodes_in(&tree, whole), [Node::View]);
 }
 
 #[test]

@@ -233,7 +233,7 @@ fn instances_share_the_mesh_and_its_materials() {
     assert_eq!(tags(&scene.objects[0]), tags(&scene.objects[1]));
     assert_eq!(scene.objects[1].shape.bounds().min, 2.0 * DVec3::X);
     // Only the text's own are listed.
-    let materials = lowered.origins.nodes().into_iter();
+    let materials = lowered.origins.nodes().iter();
     let materials = materials.filter(|node| matches!(node, Node::Material(_)));
     assert_eq!(materials.collect::<Vec<_>>(), [Node::Material(0)]);
     assert_eq!(lowered.origins.material(0), None);

@@ -42,8 +42,8 @@ fn check(text: &str) {
     assert_eq!(lowered.scene.is_none(), has_errors, "{text:?}");
     let origins = lowered.origins;
     let nodes = origins.nodes();
-    assert!(nodes.is_sorted());
-    for &node in &nodes {
+    assert!(nodes.iter().is_sorted());
+    for node in nodes.iter() {
         assert!(!origins.name(node).is_empty());
         assert!(within(origins.span(&tree, node)), "{text:?}");
         let _ = origins.comment(text, &tree, node);
