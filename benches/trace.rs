@@ -236,7 +236,7 @@ fn portrait(shape: Shape, lights: &[Light]) -> Scene {
         lights: lights.to_vec(),
         materials: vec![Material::Phong(material)],
         textures: Vec::new(),
-        objects: vec![Object { shape, material: 0 }],
+        objects: [Object { shape, material: 0 }].into_iter().collect(),
         setting: Setting::default(),
     }
 }

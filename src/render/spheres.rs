@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::accel::RUN;
 use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, Vector, bits};
 use crate::geometry::{Hits, Rays, Shape, Sphere, sphere_hits};
-use crate::scene::Object;
+use crate::scene::Objects;
 
 /// Centres and radii by place; the radius is NaN where an object is no sphere, and after the last.
 #[derive(Clone, Debug)]
@@ -16,7 +16,7 @@ pub(crate) struct Spheres(Vec<[f64; 4]>);
 
 impl Spheres {
     /// Those among the objects with these numbers, in their order.
-    pub(crate) fn new(objects: &[Object], order: &[u32]) -> Self {
+    pub(crate) fn new(objects: &Objects, order: &[u32]) -> Self {
         // Zeros are memory that nobody has touched yet; the threads below do.
         let mut spheres = vec![[0.0; 4]; order.len() + RUN];
         let (inside, after) = spheres.split_at_mut(order.len());

@@ -7,10 +7,7 @@ use rayon::prelude::*;
 use crate::accel::Bvh;
 use crate::geometry::lanes::{Eight, Lanes, Simd, WIDTH, mask};
 use crate::geometry::{Hit, Hits, Instance, Mesh, Ray, Rays, Shape};
-use crate::scene::Object;
-
-/// Objects that are looked through as one task.
-const SCANNED: usize = 8192;
+use crate::scene::Objects;
 
 /// Which hit of a mesh is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +31,7 @@ impl Structures {
     /// Builds a tree for each mesh, or takes that of the same mesh, as one value in memory, from
     /// `known`. `None` if `cancelled` said so.
     pub(crate) fn build(
-        objects: &[Object],
+        objects: &Objects,
         known: Option<&Self>,
         cancelled: &(impl Fn() -> bool + Sync),
     ) -> Option<Self> {
@@ -159,11 +156,12 @@ impl Structures {
 }
 
 /// The meshes among objects, and the objects' numbers, in order.
-pub(super) fn instances(objects: &[Object]) -> Vec<(usize, &Instance)> {
-    let numbered = objects.par_iter().with_min_len(SCANNED).enumerate();
-    let meshes = numbered.filter_map(|(number, object)| match &object.shape {
-        Shape::Mesh(instance) => Some((number, &**instance)),
-        _ => None,
-    });
+pub(super) fn instances(objects: &Objects) -> Vec<(usize, &Instance)> {
+    let meshes = objects
+        .par_numbered()
+        .filter_map(|(number, object)| match &object.shape {
+            Shape::Mesh(instance) => Some((number, &**instance)),
+            _ => None,
+        });
     meshes.collect()
 }

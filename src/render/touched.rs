@@ -7,7 +7,7 @@ use std::ops::{BitOr, BitOrAssign};
 use super::frame::Job;
 use super::world::World;
 use crate::geometry::Shape;
-use crate::scene::{Integrator, Light, Scene};
+use crate::scene::{Integrator, Light, Object, Scene};
 
 /// A set of objects and lights, perhaps with some more than were put in: several share a bit.
 ///
@@ -67,9 +67,10 @@ impl Touched {
             }
             touched |= Self::light(number);
         }
-        for number in 0..scene.objects.len() {
-            if looks_other(number, scene, new_scene) {
-                touched |= Self::object(number as u32);
+        let objects = scene.objects.iter().zip(new_scene.objects.iter());
+        for (number, (object, new)) in (0..).zip(objects) {
+            if looks_other((object, scene), (new, new_scene)) {
+                touched |= Self::object(number);
             }
         }
         Some(touched)
@@ -94,8 +95,7 @@ impl BitOrAssign for Touched {
 
 /// Whether an object, whose shape is the same in two scenes, is made of something else. Scenes may
 /// number equal materials otherwise.
-fn looks_other(number: usize, scene: &Scene, new_scene: &Scene) -> bool {
-    let (object, new) = (&scene.objects[number], &new_scene.objects[number]);
+fn looks_other((object, scene): (&Object, &Scene), (new, new_scene): (&Object, &Scene)) -> bool {
     let differ = |material: u32, new_material: u32| {
         scene.materials[material as usize] != new_scene.materials[new_material as usize]
     };

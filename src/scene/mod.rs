@@ -7,6 +7,7 @@
 pub mod fields;
 mod lower;
 mod mesh;
+mod objects;
 mod origins;
 mod placed;
 mod surface;
@@ -20,6 +21,7 @@ use crate::geometry::{Aabb, Hit, Shape};
 
 pub use lower::{Before, Lowered, lower, lower_again};
 pub use mesh::{Meshes, NoMesh, beside};
+pub use objects::Objects;
 pub use origins::{FileKind, NamedFile, Node, Nodes, Origins};
 pub use placed::{Placed, Unsaid};
 pub use surface::{
@@ -47,7 +49,7 @@ pub struct Scene {
     /// Textures; materials name them by index.
     pub textures: Vec<Texture>,
     /// Objects, in file order.
-    pub objects: Vec<Object>,
+    pub objects: Objects,
     /// What stands around them, and how the picture is meant to be made.
     pub setting: Setting,
 }
@@ -55,14 +57,13 @@ pub struct Scene {
 impl Scene {
     /// The tight box around all objects, but for those without bounds.
     pub fn bounds(&self) -> Aabb {
-        bounds(&self.objects)
+        bounds(self.objects.iter())
     }
 }
 
 /// The tight box around objects, but for those without bounds.
-fn bounds(objects: &[Object]) -> Aabb {
+fn bounds<'o>(objects: impl Iterator<Item = &'o Object>) -> Aabb {
     objects
-        .iter()
         .map(|object| object.shape.bounds())
         .filter(|bounds| bounds.is_bounded())
         .fold(Aabb::EMPTY, Aabb::union)

@@ -6,6 +6,7 @@ use super::*;
 use crate::geometry::lanes::{Level, dispatch};
 use crate::geometry::{Attribute, Instance, Mesh, MeshParts, Plane, SlotRun};
 use crate::render::structures::{Search, Structures};
+use crate::scene::Objects;
 
 /// A closed, bumpy ball of `rings` rings with a place of its own for each corner, its poles fans of
 /// many needles.
@@ -114,10 +115,11 @@ fn a_closed_mesh_has_no_gaps() {
     let mesh = mesh(parts.clone());
     for (columns, translation) in images() {
         let instance = placed(&mesh, columns, translation);
-        let objects = [Object {
+        let object = Object {
             shape: as_shape(&instance),
             material: 0,
-        }];
+        };
+        let objects = Objects::from_iter([object]);
         let structures = Structures::build(&objects, None, &|| false).expect("nobody cancels");
         let [x, y, z] = columns;
         let at = |place: DVec3| translation + (place.x * x + place.y * y + place.z * z);
@@ -148,9 +150,9 @@ fn instances_share_a_structure_and_edits_keep_it() {
     let at = |mesh, x| as_shape(&placed(mesh, DVec3::AXES, x * DVec3::X));
     let objects = |shapes: Vec<Shape>| {
         let object = |shape| Object { shape, material: 0 };
-        shapes.into_iter().map(object).collect::<Vec<_>>()
+        shapes.into_iter().map(object).collect::<Objects>()
     };
-    let build = |objects: &[Object], known: Option<&Structures>| {
+    let build = |objects: &Objects, known: Option<&Structures>| {
         Structures::build(objects, known, &|| false).expect("nobody cancels")
     };
     let none = build(&objects(vec![sphere([0.0; 3], 1.0)]), None);

@@ -64,7 +64,8 @@ fn behind_glass(glass: Option<Shape>) -> Scene {
     let mut scene = scene(&objects, &[white_light([0.2, 0.1, 9.0])]);
     // The leaves of a combined solid name material 0.
     scene.materials.rotate_left(index);
-    for object in &mut scene.objects {
+    for number in 0..scene.objects.len() {
+        let object = &mut scene.objects[number];
         object.material = (object.material + 1) % scene.materials.len() as u32;
     }
     scene

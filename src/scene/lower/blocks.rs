@@ -1,26 +1,17 @@
 //! The objects of long `.ray` texts, read by blocks side by side. Only what is regular is read so:
 //! after the lights nothing but objects, as many as the text says, none with an error.
 
-use glam::DVec3;
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
-use super::objects::BLOCK;
 use super::ray::{LEAST_NUMBERS, Reader};
 use crate::format::ray::Tokens;
-use crate::geometry::{Shape, Sphere};
 use crate::scene::fields::ray::ShapeKind;
+use crate::scene::objects::BLOCK;
 use crate::scene::origins::ray::ObjectPlace;
-use crate::scene::{Material, Object};
+use crate::scene::{Material, Object, Objects};
 use crate::text::{Findings, Span};
-
-/// What stands where an object will.
-const NONE_YET: Object = Object {
-    shape: Shape::Sphere(Sphere {
-        centre: DVec3::ZERO,
-        radius: 0.0,
-    }),
-    material: 0,
-};
 
 /// A block of objects as it was read; its materials count from 0.
 pub(super) struct Block {
@@ -29,13 +20,13 @@ pub(super) struct Block {
     pub(super) report: Findings,
 }
 
-/// Reads a text of several blocks; what was read, and where the number of objects stands. Gives the
-/// findings so far back if it must be read in order.
+/// Reads a text of several blocks; what was read, the objects, and where their number stands. Gives
+/// the findings so far back if it must be read in order.
 pub(super) fn read<'a>(
     text: &'a str,
     tokens: &Tokens,
     report: Findings,
-) -> Result<(Reader<'a>, Span), Findings> {
+) -> Result<(Reader<'a>, Objects, Span), Findings> {
     // Small scenes do without threads.
     if tokens.len() <= BLOCK * (1 + LEAST_NUMBERS) {
         return Err(report);
@@ -47,48 +38,38 @@ pub(super) fn read<'a>(
     let Some((mut reader, count)) = header(text, tokens, &places) else {
         return Err(report);
     };
-    // The memory is first touched side by side, and blocks are read into it.
-    let objects = rayon::iter::repeat_n(NONE_YET, places.len());
-    reader.objects.par_extend(objects);
-    let blocks = reader.objects.par_chunks_mut(BLOCK).enumerate();
+    let numbers = (0..places.len().div_ceil(BLOCK)).into_par_iter();
     // A thread that is done early finds some left to take over.
-    let blocks = blocks.with_max_len(4).map_init(Vec::new, |spans, it| {
-        let (number, objects) = it;
+    let blocks = numbers.with_max_len(4).map_init(Vec::new, |spans, number| {
         let first = number * BLOCK;
         let end = places.get(first + BLOCK);
         let end = end.map_or(tokens.len(), |next| next.token as usize);
         spans.clear();
         tokens.append_to(spans, places[first].token as usize..end);
         let read = block(text, spans, first)?;
-        debug_assert_eq!(
-            objects.len(),
-            read.objects.len(),
-            "each keyword is an object"
-        );
-        for (object, read) in objects.iter_mut().zip(read.objects) {
-            *object = read;
-        }
-        Some((read.materials, read.report))
+        Some((read.materials, Arc::from(read.objects), read.report))
     });
-    let Some(blocks) = blocks.collect::<Option<Vec<_>>>() else {
+    let Some(blocks) = blocks.collect::<Option<Vec<(_, Arc<[Object]>, _)>>>() else {
         return Err(report);
     };
     let found = std::mem::replace(&mut reader.report, report);
     reader.report.append(found);
     let mut bases = Vec::with_capacity(blocks.len());
-    for (mut materials, report) in blocks {
+    let mut objects = Vec::with_capacity(blocks.len());
+    for (mut materials, block, report) in blocks {
         bases.push(reader.materials.len() as u32);
         reader.materials.append(&mut materials);
+        objects.push(block);
         reader.report.append(report);
     }
-    let objects = reader.objects.par_chunks_mut(BLOCK).zip(bases);
-    objects.for_each(|(objects, base)| {
-        for object in objects {
+    let based = objects.par_iter_mut().zip(bases);
+    based.for_each(|(block, base)| {
+        for object in Arc::make_mut(block) {
             object.material += base;
         }
     });
     reader.places = places;
-    Ok((reader, count))
+    Ok((reader, Objects::of_blocks(objects), count))
 }
 
 /// Where each keyword stands, with the numbers that a whole object has.

@@ -5,14 +5,11 @@ use super::record::{LONGEST, Record, takes};
 use super::report::{nearest_kind, quoted};
 use crate::scene::fields;
 use crate::scene::fields::ray::{MATERIAL, ShapeKind};
+use crate::scene::objects::BLOCK;
 use crate::scene::origins::Name;
 use crate::scene::origins::ray::ObjectPlace;
 use crate::scene::{Material, Object};
 use crate::text::{Diagnostic, Span, counted};
-
-/// Objects that are read without knowing of those before them. Equal materials of different blocks
-/// are not one.
-pub(super) const BLOCK: usize = 1024;
 
 /// The most materials that one is compared with. Colours come from short lists, or are all different.
 const MOST_COMPARED: usize = 32;

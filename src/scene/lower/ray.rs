@@ -14,7 +14,7 @@ use crate::scene::fields::ray::{AMBIENT, LIGHT, ShapeKind};
 use crate::scene::fields::{self, Field, Range};
 use crate::scene::origins::Name;
 use crate::scene::origins::ray::{ObjectPlace, Origins};
-use crate::scene::{Light, Material, Object, Rgb, Scene, Setting, bounds};
+use crate::scene::{Light, Material, Object, Objects, Rgb, Scene, Setting, bounds};
 use crate::text::{Diagnostic, Findings, Severity, Span, counted, is_integer, parse_number};
 
 /// Numbers of the smallest object: where fewer follow a word, it does not begin an object.
@@ -36,18 +36,19 @@ pub(super) fn lower_in_order(text: &str, tree: &ray::Tree) -> Lowered {
 fn lower_by<'a>(
     text: &'a str,
     tree: &ray::Tree,
-    blocks: impl FnOnce(Findings) -> Result<(Reader<'a>, Span), Findings>,
+    blocks: impl FnOnce(Findings) -> Result<(Reader<'a>, Objects, Span), Findings>,
 ) -> Lowered {
     let mut report = Findings::default();
     let view = view::find(text, &tree.comments, &mut report);
     let tokens: Vec<Span>;
-    let (mut reader, objects) = match blocks(report) {
+    let (mut reader, objects, count) = match blocks(report) {
         Ok(read) => read,
         Err(report) => {
             tokens = tree.tokens.all();
             let mut reader = Reader::new(text, &tokens, report);
-            let objects = reader.read();
-            (reader, objects)
+            let count = reader.read();
+            let objects = std::mem::take(&mut reader.objects);
+            (reader, objects.into_iter().collect(), count)
         }
     };
     reader.origins.view = view.as_ref().map(view::View::place);
@@ -57,8 +58,8 @@ fn lower_by<'a>(
     // A view that says both eye and target can be judged though the objects are not all known.
     let judged = reader.report.errors() == 0 || view.as_ref().is_some_and(view::View::is_placed);
     let camera = judged.then(|| {
-        let bounds = || bounds(&reader.objects);
-        view::camera(view.as_ref(), bounds, objects, &mut reader.report)
+        let bounds = || bounds(objects.iter());
+        view::camera(view.as_ref(), bounds, count, &mut reader.report)
     });
     let camera = camera.filter(|_| reader.report.errors() == 0);
     Lowered {
@@ -68,7 +69,7 @@ fn lower_by<'a>(
             lights: reader.lights,
             materials: reader.materials,
             textures: Vec::new(),
-            objects: reader.objects,
+            objects,
             setting: Setting::default(),
         }),
         origins: crate::scene::Origins::Ray(reader.origins),

@@ -104,7 +104,7 @@ impl<'a> Reader<'a> {
         let size = viewport.unwrap_or(DEFAULT_SIZE);
         let rows = f64::from(size.height);
         let half_angle = (0.5 * DEFAULT_ANGLE).to_radians();
-        let box_around = || bounds(objects);
+        let box_around = || bounds(objects.iter());
         let Some((said, places)) = camera else {
             let (eye, target) =
                 view::default_eye_and_target(box_around(), DEFAULT_ANGLE, DEFAULT_SIDE);

@@ -52,7 +52,7 @@ pub(super) fn lower(text: &str, tree: &Tree) -> Lowered {
         lights: reader.lights,
         materials: reader.materials.into_iter().map(Material::Phong).collect(),
         textures: reader.textures,
-        objects,
+        objects: objects.into_iter().collect(),
         setting: Setting::default(),
     });
     Lowered {

@@ -1,12 +1,14 @@
 //! Long texts mean the same however they are read.
 
+use std::sync::Arc;
+
 use proptest::prelude::*;
 
 use super::read;
 use crate::format::Tree;
-use crate::scene::lower::objects::BLOCK;
 use crate::scene::lower::ray::lower_in_order;
 use crate::scene::lower::{Before, Lowered, again, lower, lower_again};
+use crate::scene::objects::BLOCK;
 use crate::scene::{Meshes, Scene};
 use crate::text::Span;
 
@@ -88,6 +90,24 @@ fn a_number_of_an_object_is_read_with_its_block_alone() {
         assert_eq!(parts(&again), parts(&expected));
         edited.lowered = again;
     }
+}
+
+#[test]
+fn an_edit_of_a_shape_copies_its_block_alone() {
+    let text = text(3 * BLOCK, 3 * BLOCK, 400);
+    let mut edited = Edited::new(format!("// view: eye 0 0 9 target 0 0 0\n{text}"));
+    let before = edited.lowered.scene.clone().expect("no errors").objects;
+    let sphere = format!("sphere {} 2 3 0.5", BLOCK + 6);
+    let at = edited.text.find(&sphere).expect("it is there") + sphere.len();
+    let spans = edited.put(Span::new(at - 3, at), "0.75");
+    let known = edited.before().expect("a scene without errors");
+    let again = lower_again(&edited.text, &edited.tree, &Meshes::default(), known, spans);
+    let after = again.scene.expect("no errors").objects;
+    let blocks = before.blocks().iter().zip(after.blocks());
+    let shared: Vec<_> = blocks.map(|(one, other)| Arc::ptr_eq(one, other)).collect();
+    assert_eq!(shared, [true, false, true]);
+    let other = before.differences(&after, |one, other| one != other);
+    assert_eq!(other.collect::<Vec<_>>(), [BLOCK + 6]);
 }
 
 proptest! {

@@ -8,7 +8,7 @@ use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
 use crate::scene::fields::ray::ShapeKind;
 use crate::scene::fields::{self, Field, Kind, Range};
 use crate::scene::{
-    Camera, Lens, Light, Material, Node, Object, Phong, Scene, Setting, Size, view_edits,
+    Camera, Lens, Light, Material, Node, Object, Objects, Phong, Scene, Setting, Size, view_edits,
 };
 use crate::text::{Edit, Span, apply};
 
@@ -157,9 +157,10 @@ impl Model {
             lights: vec![],
             materials: vec![],
             textures: vec![],
-            objects: vec![],
+            objects: Objects::default(),
             setting: Setting::default(),
         };
+        let mut objects = vec![];
         for (node, kind, said) in &self.nodes {
             match node {
                 Node::View
@@ -179,13 +180,14 @@ impl Model {
                     if known.is_none() {
                         scene.materials.push(material);
                     }
-                    scene.objects.push(Object {
+                    objects.push(Object {
                         shape: shape(said, kind.expect("objects have a kind")),
                         material: index as u32,
                     });
                 }
             }
         }
+        scene.objects = objects.into_iter().collect();
         scene
     }
 

@@ -92,7 +92,7 @@ impl Reader<'_> {
             lights: std::mem::take(&mut self.lights),
             materials: std::mem::take(&mut self.materials),
             textures: Vec::new(),
-            objects: std::mem::take(&mut self.objects),
+            objects: std::mem::take(&mut self.objects).into_iter().collect(),
             setting: std::mem::take(&mut self.setting),
         })
     }

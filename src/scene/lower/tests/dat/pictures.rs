@@ -11,8 +11,8 @@ const SIDE: u32 = 32;
 /// The shape of the object with ID 9.
 fn drawn(objects: &str) -> Shape {
     let text = spelled(&format!("VIEW\nmat ID 0 MAT\n{objects}\nrender 1 ID 9"));
-    let mut objects = scene(&text).objects;
-    objects.pop().expect("one object is drawn").shape
+    let objects = scene(&text).objects;
+    objects.get(0).expect("one object is drawn").shape.clone()
 }
 
 /// How far outside a point is, by any measure that is 0 on the surface: below 0 inside.

@@ -13,10 +13,9 @@ const Z: [f64; 3] = [0., 0., 1.];
 /// The one object that is drawn of a text with materials 0 and 1.
 fn solid(records: &str) -> Object {
     let text = spelled(&format!("VIEW\nmat ID 0 MAT\nmat ID 1 MAT\n{records}"));
-    let mut objects = scene(&text).objects;
-    let object = objects.pop().expect("there is an object");
-    assert_eq!(objects, [], "{records}");
-    object
+    let objects = scene(&text).objects;
+    assert_eq!(objects.len(), 1, "{records}");
+    objects[0].clone()
 }
 
 /// Where a line crosses an object, and the material at each place.

@@ -224,7 +224,7 @@ fn instances_share_the_mesh_and_its_materials() {
         .expect("it is read");
     let (_, lowered) = read_with(&text, &meshes);
     let scene = lowered.scene.expect("there are no errors");
-    for object in &scene.objects[..3] {
+    for object in scene.objects.iter().take(3) {
         assert!(Arc::ptr_eq(instance(object).mesh(), &model.mesh));
     }
     // The text's own, white, the library's.
