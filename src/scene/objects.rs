@@ -1,7 +1,7 @@
-//! The objects of a scene, in blocks that scenes share: an edit of one among a million copies
+//! The objects of a scene, in blocks that scenes share: another shape of one among a million copies
 //! its block and no other.
 
-use std::ops::{Index, IndexMut};
+use std::ops::Index;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -37,7 +37,7 @@ impl Objects {
     }
 
     /// The blocks.
-    pub(crate) fn blocks(&self) -> &[Arc<[Object]>] {
+    pub(in crate::scene) fn blocks(&self) -> &[Arc<[Object]>] {
         &self.blocks
     }
 
@@ -60,15 +60,15 @@ impl Objects {
     }
 
     /// All of them, in order.
-    pub fn iter(&self) -> impl DoubleEndedIterator<Item = &Object> + Clone {
+    pub fn iter(&self) -> impl Iterator<Item = &Object> {
         self.blocks.iter().flat_map(|block| block.iter())
     }
 
     /// All of them with their numbers, in order, side by side.
     pub(crate) fn par_numbered(&self) -> impl ParallelIterator<Item = (usize, &Object)> {
-        /// Blocks that are worth a task.
-        const LOOK: usize = 8;
-        let blocks = self.blocks.par_iter().with_min_len(LOOK).enumerate();
+        /// Blocks that are a task together, if that is to look at each object.
+        const TASK: usize = 8;
+        let blocks = self.blocks.par_iter().with_min_len(TASK).enumerate();
         blocks.flat_map_iter(|(number, block)| (number * BLOCK..).zip(block.iter()))
     }
 
@@ -97,7 +97,8 @@ impl Index<usize> for Objects {
     }
 }
 
-impl IndexMut<usize> for Objects {
+#[cfg(test)]
+impl std::ops::IndexMut<usize> for Objects {
     fn index_mut(&mut self, number: usize) -> &mut Object {
         &mut Arc::make_mut(&mut self.blocks[number / BLOCK])[number % BLOCK]
     }
@@ -111,7 +112,7 @@ impl PartialEq for Objects {
 
 impl FromIterator<Object> for Objects {
     fn from_iter<I: IntoIterator<Item = Object>>(objects: I) -> Self {
-        let mut objects = objects.into_iter();
+        let mut objects = objects.into_iter().fuse();
         let blocks = std::iter::from_fn(|| {
             let block: Arc<[Object]> = objects.by_ref().take(BLOCK).collect();
             (!block.is_empty()).then_some(block)
@@ -142,7 +143,7 @@ mod tests {
             let plain = objects(count);
             let list: Objects = plain.iter().cloned().collect();
             assert_eq!((list.len(), list.is_empty()), (count, count == 0));
-            assert!(list.iter().eq(&plain) && list.iter().rev().eq(plain.iter().rev()));
+            assert!(list.iter().eq(&plain));
             assert!((0..=count).all(|number| list.get(number) == plain.get(number)));
             assert!((0..count).all(|number| list[number] == plain[number]));
             let numbered: Vec<_> = list.par_numbered().collect();

@@ -108,7 +108,7 @@ impl Understanding {
     pub(super) fn start(send: impl Fn(Msg) + Send + 'static) -> io::Result<Self> {
         let (orders, inbox) = mpsc::channel();
         let work = move || {
-            // An edit of a large scene copies it on the threads that all share, and would wait there.
+            // An edit may lower a large scene on the threads that all share, and would wait there.
             let pool = rayon::ThreadPoolBuilder::new().build();
             while let Some((path, read, known)) = last(&inbox) {
                 let understand = |text| match &pool {

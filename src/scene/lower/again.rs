@@ -136,9 +136,10 @@ fn scene(
         ..object
     });
     blocks[first / BLOCK] = based.collect();
-    if more != 0 {
-        let after = blocks[first / BLOCK + 1..].par_iter_mut();
-        after.for_each(|block| {
+    let after = &mut blocks[first / BLOCK + 1..];
+    // Small scenes do without threads.
+    if more != 0 && !after.is_empty() {
+        after.par_iter_mut().for_each(|block| {
             for object in Arc::make_mut(block) {
                 object.material = object.material.wrapping_add_signed(more);
             }

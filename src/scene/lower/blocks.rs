@@ -68,8 +68,10 @@ pub(super) fn read<'a>(
             object.material += base;
         }
     });
+    let objects = Objects::of_blocks(objects);
+    debug_assert_eq!(objects.len(), places.len(), "each keyword is an object");
     reader.places = places;
-    Ok((reader, Objects::of_blocks(objects), count))
+    Ok((reader, objects, count))
 }
 
 /// Where each keyword stands, with the numbers that a whole object has.

@@ -128,7 +128,7 @@ impl Origins {
         }
     }
 
-    /// The nodes whose text `span` covers in part, in text order: none if it is empty.
+    /// The nodes whose text `span` covers in part or lies within, in text order.
     pub fn nodes_in(&self, tree: &Tree, span: Span) -> Vec<Node> {
         match (self, tree) {
             (Self::Ray(origins), Tree::Ray(tree)) => origins.nodes_in(tree, span),

@@ -22,7 +22,7 @@ pub enum Node {
 }
 
 /// The nodes of a scene, ascending. Of each kind the first so many are there, so that a list of
-/// millions takes no room and no time.
+/// millions is no longer than one of a few.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Nodes {
     /// Whether there is a view.
@@ -87,7 +87,7 @@ impl Nodes {
     }
 
     /// All of them.
-    pub fn iter(self) -> impl DoubleEndedIterator<Item = Node> {
+    pub fn iter(self) -> impl Iterator<Item = Node> {
         (0..self.len()).filter_map(move |row| self.get(row))
     }
 

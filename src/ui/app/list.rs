@@ -111,12 +111,17 @@ impl App {
             return;
         }
         let from = self.row_of(self.selected) as isize;
-        let called = |&(_, node): &(usize, Node)| self.is_called(node, &wanted);
-        let found: Vec<_> = nodes.iter().enumerate().filter(called).collect();
-        let nearest = |&at: &usize| (step * (found[at].0 as isize - from) - 1).rem_euclid(count);
+        let called = |&row: &usize| {
+            let node = nodes.get(row);
+            node.is_some_and(|node| self.is_called(node, &wanted))
+        };
+        let found: Vec<_> = (0..nodes.len()).filter(called).collect();
+        let nearest = |&at: &usize| (step * (found[at] as isize - from) - 1).rem_euclid(count);
         match (0..found.len()).min_by_key(nearest) {
             Some(at) => {
-                self.select(found[at].1);
+                if let Some(node) = nodes.get(found[at]) {
+                    self.select(node);
+                }
                 self.say(format!("{} of {}", at + 1, found.len()));
             }
             None => self.fail(format!("nothing is called {}", self.searched)),
