@@ -202,6 +202,16 @@ pub struct Field {
     pub doc: &'static str,
 }
 
+/// Other spellings of words that are chosen from, each with the word that it stands for.
+const OTHER_SPELLINGS: &[(&str, &str)] = &[("intersect", "intersection")];
+
+/// The place among `words` of the one that is said, in any of its spellings.
+pub fn place_of(words: &[&str], said: &str) -> Option<usize> {
+    let other = OTHER_SPELLINGS.iter().find(|(other, _)| *other == said);
+    let word = other.map_or(said, |(_, word)| word);
+    words.iter().position(|&known| known == word)
+}
+
 impl Field {
     /// What each of its components is, as a noun: `a number greater than 0`.
     pub fn expected(&self) -> String {

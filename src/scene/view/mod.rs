@@ -5,7 +5,7 @@ mod dat;
 mod ray;
 mod xml;
 
-use super::fields::{Field, Kind};
+use super::fields::{Field, Kind, place_of};
 use super::{Camera, Node, Origins};
 use crate::format::Tree;
 use crate::text::{Edit, parse_number};
@@ -46,7 +46,7 @@ pub fn view_saying(
     };
     *number = match field.kind {
         Kind::Choice(words) => {
-            let place = words.iter().position(|&word| word == said);
+            let place = place_of(words, said);
             place.ok_or_else(|| words.join(" or "))? as f64
         }
         _ => parse_number(said)

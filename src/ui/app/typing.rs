@@ -4,7 +4,7 @@ use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
 use super::{App, Mode, Stride, Typing, line, literals};
-use crate::scene::fields::{Field, Kind};
+use crate::scene::fields::{Field, Kind, place_of};
 use crate::text::{Diagnostic, Span};
 
 impl App {
@@ -30,7 +30,10 @@ impl App {
             Stride::Coarse => field.step * 10.0,
         };
         let nudged = match field.kind {
-            Kind::Choice(words) => literals::next(words, &literal, steps),
+            Kind::Choice(words) => {
+                let word = place_of(words, &literal).map_or(&literal[..], |at| words[at]);
+                literals::next(words, word, steps)
+            }
             Kind::Reference(category) => {
                 let known = self.origins.identities(self.selected, category);
                 let known: Vec<_> = known.iter().map(i64::to_string).collect();
@@ -179,6 +182,7 @@ impl App {
             return Some(all.into_iter().enumerate().collect());
         }
         if let Kind::Choice(words) = kind
+            && place_of(words, said).is_none()
             && let Some(word) = literals::word_meant(words, said)
         {
             return Some(vec![(self.component, word.to_owned())]);

@@ -2,7 +2,7 @@
 
 use super::Reader;
 use crate::scene::fields::dat::{Part, RecordKind};
-use crate::scene::fields::{Field, Kind, Range};
+use crate::scene::fields::{Field, Kind, Range, place_of};
 use crate::scene::lower::record::{Gathered, LONGEST, Record, what};
 use crate::scene::lower::report::{nearest_word, no_number, quoted};
 use crate::scene::origins::Name;
@@ -144,7 +144,7 @@ impl<'a> Reader<'a> {
             let word = token.of(self.text);
             let value = match field.kind {
                 Kind::Choice(words) => {
-                    if let Some(place) = words.iter().position(|&known| known == word) {
+                    if let Some(place) = place_of(words, word) {
                         place as f64
                     } else {
                         let name = line.name;

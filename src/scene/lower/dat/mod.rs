@@ -35,7 +35,7 @@ pub(super) fn lower(text: &str, tree: &Tree) -> Lowered {
         solids: Vec::new(),
         ids: HashMap::new(),
         used: HashMap::new(),
-        listed: None,
+        drawn: Drawn::Results,
     };
     for record in 0..tree.records.len() {
         reader.record(record);
@@ -88,8 +88,18 @@ struct Reader<'a> {
     ids: HashMap<(Category, i64), usize>,
     /// What was done to each material, by its index: the place in the origins.
     used: HashMap<(usize, UseKind), usize>,
-    /// The numbers of the objects that the last `render` lists, if it lists any.
-    listed: Option<Vec<(i64, Span)>>,
+    /// What the last `render` draws.
+    drawn: Drawn,
+}
+
+/// Which objects are drawn.
+enum Drawn {
+    /// Those that are no operands, for want of a record.
+    Results,
+    /// All of them; where the text says so.
+    All(Span),
+    /// Those with these numbers.
+    Listed(Vec<(i64, Span)>),
 }
 
 impl Reader<'_> {

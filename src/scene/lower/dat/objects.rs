@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Reader, Solid, shapes};
+use super::{Drawn, Reader, Solid, shapes};
 use crate::geometry::Node as CsgNode;
 use crate::geometry::{Csg, Operation, Quadric, Shape};
 use crate::scene::Object;
@@ -22,6 +22,12 @@ use super::line::Line;
 /// All combined objects that are drawn have at most this many parts together, so that a chain of
 /// them, each drawn as well, can't take all memory.
 const MOST_PARTS: usize = 1 << 20;
+
+/// Operands that a message names at most.
+const NAMED: usize = 8;
+
+/// Objects that a message lists at most.
+const LISTED: usize = 64;
 
 /// The operations in the order of the words for them.
 const OPERATIONS: [Operation; 3] = [
@@ -194,7 +200,7 @@ impl<'a> Reader<'a> {
 
     /// Reads which objects are drawn: `render N ID i …`.
     pub(super) fn render_list(&mut self, tokens: &'a [Span]) {
-        self.listed = None;
+        self.drawn = Drawn::Results;
         let name = Name::Record("render");
         let Some((&token, mut rest)) = tokens[1..].split_first() else {
             self.report.error(|| {
@@ -244,23 +250,29 @@ impl<'a> Reader<'a> {
             return;
         }
         self.left_over(name, rest);
-        self.listed = (0 < count).then_some(ids);
+        self.drawn = if count == 0 {
+            Drawn::All(token)
+        } else {
+            Drawn::Listed(ids)
+        };
     }
 
     /// The objects that are drawn, in file order.
     pub(super) fn drawn(&mut self) -> Vec<Object> {
-        let mut drawn: Vec<usize> = if let Some(listed) = self.listed.take() {
-            listed
+        let mut drawn: Vec<usize> = match std::mem::replace(&mut self.drawn, Drawn::Results) {
+            Drawn::Listed(listed) => listed
                 .into_iter()
                 .filter_map(|id| self.known(Category::Object, Some(id)))
-                .collect()
-        } else {
-            let operands = self.origins.objects.iter();
-            let operands = operands.filter_map(|object| object.operands);
-            let operands: HashSet<_> = operands.flatten().collect();
-            (0..self.solids.len())
-                .filter(|object| !operands.contains(object))
-                .collect()
+                .collect(),
+            Drawn::All(token) => {
+                let [operands, results] = self.operands_and_results();
+                self.warn_of_operands(token, &operands, &results);
+                (0..self.solids.len()).collect()
+            }
+            Drawn::Results => {
+                let [_, results] = self.operands_and_results();
+                results
+            }
         };
         drawn.sort_unstable();
         drawn.dedup();
@@ -278,6 +290,44 @@ impl<'a> Reader<'a> {
         }
         self.origins.drawn = drawn;
         objects
+    }
+
+    /// The objects that CSG combines, and all others.
+    fn operands_and_results(&self) -> [Vec<usize>; 2] {
+        let combined = self.origins.objects.iter();
+        let combined: HashSet<_> = combined.filter_map(|at| at.operands).flatten().collect();
+        let (operands, results) =
+            (0..self.solids.len()).partition(|object| combined.contains(object));
+        [operands, results]
+    }
+
+    /// Warns of operands that are drawn beside what is made of them.
+    fn warn_of_operands(&mut self, token: Span, operands: &[usize], results: &[usize]) {
+        if operands.is_empty() {
+            return;
+        }
+        let ids = |objects: &[usize], most: usize| {
+            let ids = objects.iter().take(most);
+            let ids: Vec<_> = ids
+                .map(|&object| format!("ID {}", self.origins.objects[object].id))
+                .collect();
+            ids.join(" ")
+        };
+        self.report.warning(|| {
+            let more = match operands.len().saturating_sub(NAMED) {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            let named = ids(operands, NAMED);
+            let message = format!("render: 0 also draws the operands of CSG: {named}{more}");
+            let hint = if results.len() <= LISTED {
+                let listed = ids(results, LISTED);
+                format!("only the results: render {} {listed}", results.len())
+            } else {
+                "without a `render` record only the results are drawn".to_owned()
+            };
+            Diagnostic::warning(token, message, "a list of objects").with_hint(hint)
+        });
     }
 
     /// An object made ready to be drawn. `left` is how many parts combined objects may still have.

@@ -69,6 +69,31 @@ fn a_choice_is_nudged_and_typed() {
 }
 
 #[test]
+fn the_course_s_word_for_an_intersection_is_known_and_kept() {
+    let combined = |word: &str| format!("obj CSG ID 3 {word} ID 1 ID 2");
+    let scene = SCENE.replace(&combined("difference"), &combined("intersect"));
+    for (said, word) in [
+        ("", "intersect"),
+        ("el", "difference"),
+        ("eh", "union"),
+        ("elh", "intersection"),
+        ("elu", "intersect"),
+        ("eiu<Enter>", "intersect"),
+        (
+            "elii<Back><Back><Back><Back><Back><Back><Back><Back><Back><Back><Back>intersect<Enter>",
+            "intersect",
+        ),
+    ] {
+        let (mut app, _) = opened_as("scene.dat", &scene);
+        assert!(app.diagnostics.is_empty(), "{:?}", app.diagnostics);
+        app.select(Node::Object(2));
+        press(&mut app, said);
+        let text = app.document.text();
+        assert!(text.contains(&combined(word)), "{said}: {text}");
+    }
+}
+
+#[test]
 fn a_reference_goes_through_what_there_is() {
     let ball = |material: u8| [format!("obj sphere ID 1 mat ID {material}  0 0 0  1")];
     assert_eq!(changed(Node::Object(0), "el"), ball(7));

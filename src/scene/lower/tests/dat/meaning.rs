@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{phong, read, scene, spelled};
+use super::{phong, read, scene, shown, spelled};
 use crate::geometry::Shape;
 use crate::scene::{
     Camera, Falloff, Focus, Lens, Light, Material, Node, Pattern, Phong, Rgb, Scene, Shadows, Size,
@@ -226,7 +226,6 @@ fn render_lists_what_is_drawn() {
     for (render, radii, others) in [
         // All but operands.
         ("", &[2.0][..], 1),
-        ("render 0\n", &[2.0], 1),
         ("render 1 ID 5\n", &[5.0], 0),
         // In the order of the file, each once.
         ("render 4 ID 1 ID 5 ID -2 ID 5\n", &[5.0, 2.0, 1.0], 0),
@@ -240,6 +239,60 @@ fn render_lists_what_is_drawn() {
             assert_eq!(drawn(&scene), (radii.to_vec(), others), "{text}");
         }
     }
+}
+
+#[test]
+fn render_0_draws_operands_too_and_says_so() {
+    let objects = "mat ID 0 MAT
+        obj sphere ID 5 BALL 5
+        obj sphere ID -2 BALL 2
+        obj sphere ID 1 BALL 1\n";
+    let text = spelled(&format!("VIEW\n{objects}render 0\n"));
+    assert_eq!(drawn(&scene(&text)), (vec![5.0, 2.0, 1.0], 0));
+    let text = spelled(&format!(
+        "VIEW\nrender 0\n{objects}obj CSG ID 8 union ID 5 ID 1\nobj CSG ID 9 union ID 5 ID 8\n"
+    ));
+    let (_, lowered) = read(&text);
+    let scene = lowered.scene.as_ref().expect("no errors");
+    assert_eq!(drawn(scene), (vec![5.0, 2.0, 1.0], 2));
+    let said = shown(&text, &lowered);
+    let message = "render: 0 also draws the operands of CSG: ID 5 ID 1 ID 8";
+    assert_eq!(said, [format!("4:8 warning: {message}")]);
+    let hint = lowered.diagnostics[0].hint.as_deref();
+    assert_eq!(hint, Some("only the results: render 2 ID -2 ID 9"));
+}
+
+#[test]
+fn long_lists_of_operands_are_cut_short() {
+    let pairs = 70;
+    let balls = (0..2 * pairs).map(|id| format!("obj sphere ID {id} BALL 1\n"));
+    let both = (0..pairs).map(|at| {
+        let [first, second] = [2 * at, 2 * at + 1];
+        format!("obj CSG ID {} union ID {first} ID {second}\n", 1000 + at)
+    });
+    let objects: String = balls.chain(both).collect();
+    let text = spelled(&format!("VIEW\nmat ID 0 MAT\n{objects}render 0\n"));
+    let (_, lowered) = read(&text);
+    let [warning] = &lowered.diagnostics[..] else {
+        panic!("one warning: {:?}", lowered.diagnostics);
+    };
+    assert!(
+        warning.message.ends_with("ID 6 ID 7 and 132 more"),
+        "{warning:?}"
+    );
+    let hint = "without a `render` record only the results are drawn";
+    assert_eq!(warning.hint.as_deref(), Some(hint));
+}
+
+#[test]
+fn the_course_s_word_for_an_intersection_is_read_without_a_warning() {
+    let with = |word: &str| {
+        let objects = "mat ID 0 MAT\nobj sphere ID 1 BALL 1\nobj sphere ID 2 BALL 2\n";
+        scene(&spelled(&format!(
+            "VIEW\n{objects}obj CSG ID 3 {word} ID 1 ID 2\n"
+        )))
+    };
+    assert_eq!(with("intersect"), with("intersection"));
 }
 
 /// One number may name one thing of each kind.
