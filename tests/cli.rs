@@ -175,6 +175,42 @@ fn what_is_no_scene_ends_with_65() {
 }
 
 #[test]
+fn strict_takes_warnings_for_errors_and_notes_for_notes() {
+    let place = Place::new();
+    let odd = BALL.replace("sphere", "Sphere");
+    place.write("odd.ray", &odd);
+    for (line, code, said) in [
+        ("check odd.ray", 0, "0 errors, 1 warning"),
+        ("check --strict odd.ray", 65, "1 error, 0 warnings"),
+        ("check --strict ball.ray", 0, "0 errors, 0 warnings"),
+        (
+            "render odd.ray -o odd.ppm --size 4x3",
+            0,
+            "warning: odd.ray:",
+        ),
+        (
+            "render --strict odd.ray -o strict.ppm",
+            65,
+            "no picture was made: the scene has 1 error",
+        ),
+    ] {
+        let told = place.told(line, code);
+        assert!(told.contains(said), "{line}: {told}");
+        assert_eq!(code == 65, told.contains("error: odd.ray:"), "{told}");
+    }
+    assert_eq!(place.names(), ["ball.ray", "odd.ppm", "odd.ray"]);
+    // A ray tree that outgrows its budget is a note on the picture.
+    let cell = "sphere 0 0 0 9  0 0 0 0 0 0 0 0 0 1 1 1 1.5";
+    let view = "// view: eye 0 0 5 target 0 0 0 size 4 3";
+    place.write(
+        "deep.ray",
+        format!("1 1 1 1 0 5 5 1 1 1 1 {cell}\n{view}\n"),
+    );
+    let told = place.told("render --strict deep.ray -o deep.ppm --depth 50", 0);
+    assert!(told.starts_with("note: "), "{told}");
+}
+
+#[test]
 fn a_picture_that_has_no_place_ends_with_73_untraced() {
     let place = Place::new();
     fs::create_dir(place.at("dir.bmp")).expect("created");

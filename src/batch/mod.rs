@@ -60,11 +60,23 @@ pub enum Error {
     Stopped,
 }
 
+/// What warnings of a scene are taken for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Warnings {
+    /// Told, and no more.
+    #[default]
+    Allowed,
+    /// Errors.
+    Refused,
+}
+
 /// Scenes to look at.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Check {
     /// The scene files.
     pub scenes: Vec<PathBuf>,
+    /// What their warnings are taken for.
+    pub warnings: Warnings,
     /// Folders that the files they name may be read from besides their surroundings.
     pub assets: Vec<PathBuf>,
 }
@@ -77,7 +89,7 @@ pub fn check(work: &Check) -> Result<(), Error> {
     let mut errors = 0;
     let mut warnings = 0;
     for path in &work.scenes {
-        match load(path, &work.assets) {
+        match load(path, &work.assets, work.warnings) {
             Ok(loaded) => {
                 errors += loaded.errors;
                 warnings += loaded.warnings;
@@ -121,7 +133,7 @@ struct Loaded {
 }
 
 /// Reads a scene with the files it names, from `folders` too, and prints what is wrong with it.
-fn load(path: &Path, folders: &[PathBuf]) -> Result<Loaded, Error> {
+fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, Error> {
     let format = Format::of_path(path).map_err(|unknown| {
         // What can't be opened is no scene under any name.
         file::open(path).map_or_else(Error::from, |_| unknown.into())
@@ -129,7 +141,10 @@ fn load(path: &Path, folders: &[PathBuf]) -> Result<Loaded, Error> {
     let text = file::read_text(path)?;
     let tree = format::parse(format, &text);
     let (lowered, images) = mean(path, &text, &tree, folders);
-    let findings = lowered.diagnostics;
+    let findings = match warnings {
+        Warnings::Allowed => lowered.diagnostics,
+        Warnings::Refused => lowered.diagnostics.strict(),
+    };
     print_findings(path, &text, &findings);
     let (errors, warnings) = (findings.errors(), findings.warnings());
     let more = errors + warnings - findings.len();
@@ -141,7 +156,7 @@ fn load(path: &Path, folders: &[PathBuf]) -> Result<Loaded, Error> {
     }
     Ok(Loaded {
         size: size_place(&lowered.origins, &tree),
-        scene: lowered.scene,
+        scene: lowered.scene.filter(|_| errors == 0),
         images,
         text,
         errors,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver};
 
 use super::progress::ProgressLine;
-use super::{Error, load, print_findings, stdout, tell, tell_error};
+use super::{Error, Warnings, load, print_findings, stdout, tell, tell_error};
 use crate::file;
 use crate::image_file::ImageFormat;
 use crate::render::{Aov, Filter, Frame, Job, Renderer, Settings, Threads, default_depth};
@@ -18,6 +18,8 @@ use crate::text::{Diagnostic, counted};
 pub struct Render {
     /// The scene file.
     pub scene: PathBuf,
+    /// What its warnings are taken for.
+    pub warnings: Warnings,
     /// Where the picture goes.
     pub output: Output,
     /// How it is encoded.
@@ -64,7 +66,7 @@ pub fn render(work: &Render) -> Result<(), Error> {
 
 fn make(work: &Render) -> Result<(), Error> {
     check_output(work)?;
-    let loaded = load(&work.scene, &work.assets)?;
+    let loaded = load(&work.scene, &work.assets, work.warnings)?;
     let scene = loaded.scene.ok_or(Error::Invalid {
         errors: loaded.errors,
     })?;

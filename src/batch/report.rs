@@ -5,7 +5,7 @@ use std::io::{self, IsTerminal};
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
-use crate::text::{Diagnostic, Position, Severity, Span, mark_len, visible};
+use crate::text::{Diagnostic, Position, Severity, Span, line_end, line_start, mark_len, visible};
 
 /// Characters of a line shown before the place in question, and after its beginning.
 const MARGIN: usize = 60;
@@ -81,9 +81,8 @@ impl Excerpt {
     /// that line.
     fn of(text: &str, span: Span) -> Self {
         let start = span.start().clamp(mark_len(text), text.len());
-        let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
-        let line_start = line_start.max(mark_len(text));
-        let line_end = text[start..].find('\n').map_or(text.len(), |n| start + n);
+        let line_start = line_start(text, start).max(mark_len(text));
+        let line_end = line_end(text, start);
         let end = span.end().clamp(start, line_end);
         let before = last_chars(&text[line_start..start]);
         let marked = first_chars(&text[start..end]);
@@ -177,6 +176,7 @@ error: a.ray:2:14: object 1 (sphere) radius: must be greater than 0
         let cases = [
             ("[ab] c", "ab c", "ab"),
             ("x\ny [ab]\r\r\nc", "y ab", "ab"),
+            ("x\ry [ab]\rc", "y ab", "ab"),
             ("\t[1]\t2", "    1    2", "1"),
             ("\u{1b}[\u{9b}m]", "\\u{1b}\\u{9b}m", "\\u{9b}m"),
             ("é\u{202e}[é]\u{7}", "é\\u{202e}é\\u{7}", "é"),

@@ -15,7 +15,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand, value_parser};
 
 use choices::{AovChoice, ColourChoice, FilterChoice, IntegratorChoice, TransferChoice};
 
-use crate::batch::{self, Check, Output, Render};
+use crate::batch::{self, Check, Output, Render, Warnings};
 use crate::file::ReadError;
 use crate::image_file::{FORMATS, ImageFormat, known_extensions};
 use crate::render::{DEFAULT_SPP, MAX_SPP};
@@ -72,8 +72,13 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, S
             .meaning()
             .map(Command::Render)
             .map_err(|reason| refusal(Some("render"), reason)),
-        Some(Subcommands::Check { scenes, assets }) => Ok(Command::Check(Check {
+        Some(Subcommands::Check {
             scenes,
+            strictness,
+            assets,
+        }) => Ok(Command::Check(Check {
+            scenes,
+            warnings: strictness.meaning(),
             assets: assets.folders,
         })),
         None => said
@@ -191,8 +196,27 @@ enum Subcommands {
         #[arg(required = true, value_name = "SCENE")]
         scenes: Vec<PathBuf>,
         #[command(flatten)]
+        strictness: StrictnessArguments,
+        #[command(flatten)]
         assets: AssetArguments,
     },
+}
+
+#[derive(Args, Debug)]
+struct StrictnessArguments {
+    /// Take the scene's warnings for errors; notes and what is told of the picture are not meant
+    #[arg(long)]
+    strict: bool,
+}
+
+impl StrictnessArguments {
+    fn meaning(&self) -> Warnings {
+        if self.strict {
+            Warnings::Refused
+        } else {
+            Warnings::Allowed
+        }
+    }
 }
 
 #[derive(Args, Debug)]
@@ -340,6 +364,8 @@ struct RenderArguments {
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
     #[command(flatten)]
+    strictness: StrictnessArguments,
+    #[command(flatten)]
     assets: AssetArguments,
     /// Write the picture even to a terminal
     #[arg(long)]
@@ -363,6 +389,7 @@ impl RenderArguments {
         let all_cores = || thread::available_parallelism().map_or(1, NonZero::get);
         Ok(Render {
             scene: self.scene,
+            warnings: self.strictness.meaning(),
             output: match (to_stdout, self.force) {
                 (false, _) => Output::File(self.output),
                 (true, false) => Output::Stdout,

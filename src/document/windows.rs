@@ -112,16 +112,9 @@ pub(super) fn windows(
 
 /// The lines that hold a span and as much around it.
 fn lines_around(text: &str, span: Span, margin: usize) -> Span {
-    let bytes = text.as_bytes();
     let from = span.start().saturating_sub(margin);
-    let to = span.end().saturating_add(margin).min(bytes.len());
-    let is_end = |&byte: &u8| byte == b'\n';
-    let start = bytes[..from]
-        .iter()
-        .rposition(is_end)
-        .map_or(0, |at| at + 1);
-    let end = bytes[to..].iter().position(is_end);
-    Span::new(start, end.map_or(bytes.len(), |at| to + at + 1))
+    let to = span.end().saturating_add(margin).min(text.len());
+    Span::new(text::line_start(text, from), text::next_line(text, to))
 }
 
 /// How many places of another text differ from one: leaves, or runs of them.
@@ -168,6 +161,17 @@ mod tests {
         let one = windows(base, "aa\nbb\ncc\ndd\nee\nff", 0);
         assert_eq!(one, ["||ff"]);
         assert!(windows(base, base, 0).is_empty());
+    }
+
+    #[test]
+    fn windows_follow_the_text_s_own_line_ends() {
+        for end in ["\r", "\r\n", "\r\r\n"] {
+            let text = |middle: &str| ["aa", middle, "cc", ""].join(end);
+            let (base, other) = (text("bb"), text("b"));
+            let found = windows(&base, Change::between(&base, &other), None, 0);
+            let found: Vec<_> = found.iter().map(|window| window.base.of(&base)).collect();
+            assert_eq!(found, [format!("bb{end}")]);
+        }
     }
 
     /// Rows of few different words, so that what is new among them is often in doubt.

@@ -52,12 +52,12 @@ impl Tree {
     }
 }
 
-/// Reads records and comments. A line ends at a line feed; a carriage return is white space, and so
-/// are the no-break space and the byte order mark.
+/// Reads records and comments. A line ends at a line feed or a carriage return: of several in a row
+/// all but one end lines without a token. The no-break space and the byte order mark are white space.
 pub fn parse(text: &str) -> Tree {
     let mut tree = Tree::default();
     let mut start = 0;
-    for line in text.split_inclusive('\n') {
+    for line in text.split_inclusive(['\n', '\r']) {
         read_line(text, Span::new(start, start + line.len()), &mut tree);
         start += line.len();
     }
@@ -116,7 +116,7 @@ mod tests {
             ("a\r\r\nb 1\r\r\n", &[&["a"], &["b", "1"]]),
             ("\u{FEFF}a\u{A0}b", &[&["a", "b"]]),
             ("# a\n  // b\na # b\n", &[&["a", "#", "b"]]),
-            ("a\rb", &[&["a", "b"]]),
+            ("a\rb 1\r\rc", &[&["a"], &["b", "1"], &["c"]]),
             (" \n\t\n", &[]),
         ];
         for (text, expected) in cases {
@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn comments_end_before_white_space() {
-        let text = " # one \r\r\na\n//two";
+        let text = " # one \r\r\na\r//two\rb";
         let tree = parse(text);
         let said: Vec<_> = tree.comments.iter().map(|span| span.of(text)).collect();
         assert_eq!(said, ["# one", "//two"]);

@@ -54,7 +54,7 @@ pub fn visibility_edits(
     let Some([_, count, entries @ ..]) = tokens else {
         let ending = line_ending(text);
         let record = format!("render {}", listed());
-        let line = if text.is_empty() || text.ends_with('\n') {
+        let line = if text.is_empty() || text.ends_with(['\n', '\r']) {
             format!("{record}{ending}")
         } else {
             format!("{ending}{record}")

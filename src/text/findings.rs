@@ -49,6 +49,16 @@ impl Findings {
         self.warnings += kept(more.1);
     }
 
+    /// The same with every warning as an error.
+    #[must_use]
+    pub fn strict(mut self) -> Self {
+        for diagnostic in &mut self.kept {
+            diagnostic.severity = Severity::Error;
+        }
+        self.errors += std::mem::take(&mut self.warnings);
+        self
+    }
+
     /// How many errors there are, kept or not.
     pub fn errors(&self) -> usize {
         self.errors
@@ -96,5 +106,8 @@ mod tests {
         assert_eq!((found.errors(), found.warnings()), (1000, 1000));
         assert_eq!(found.len(), 200);
         assert_eq!(found[0].span, Span::at(900));
+        let found = found.strict();
+        assert_eq!((found.errors(), found.warnings()), (2000, 0));
+        assert!(found.len() == 200 && found.iter().all(Diagnostic::is_error));
     }
 }

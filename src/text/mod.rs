@@ -4,6 +4,7 @@ mod counted;
 mod diagnostic;
 mod edit;
 mod findings;
+mod lines;
 mod number;
 mod percentage;
 mod slips;
@@ -14,7 +15,10 @@ pub use counted::counted;
 pub use diagnostic::{Diagnostic, Severity};
 pub use edit::{Edit, apply, difference, smallest_edit};
 pub use findings::Findings;
-pub use number::{NumberError, concise, decimals, is_integer, parse_number, spell_like};
+pub use lines::{is_line_end, is_one_line_end, line_end, line_start, next_line};
+pub use number::{
+    NumberError, concise, decimals, is_integer, parse_number, spell_like, without_suffix,
+};
 pub use percentage::percentage;
 pub use slips::slips;
 pub use span::{Position, Span, mark_len};

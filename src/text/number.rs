@@ -18,6 +18,13 @@ pub fn parse_number(token: &str) -> Result<f64, NumberError> {
     }
 }
 
+/// The number before the one `f` or `F` at the end of a token, as C writes numbers of single
+/// precision: `0.01f`. `None` of all else.
+pub fn without_suffix(token: &str) -> Option<&str> {
+    let number = token.strip_suffix(['f', 'F'])?;
+    (parse_number(number) != Err(NumberError::NotANumber)).then_some(number)
+}
+
 /// The value of a number without exponent in fifteen digits or fewer, which most are; `None` of all
 /// else. Both its digits as an integer and the power of ten below them are exact, so that their
 /// quotient is the one rounding (W. Clinger, "How to read floating point numbers accurately", 1990).
@@ -86,9 +93,10 @@ pub fn decimals(literal: &str) -> usize {
 }
 
 /// Spells `value` in the style of the literal it replaces: a leading `+`, a bare `.5`, the
-/// exponent letter and its number of decimals are kept where they can be; the result always reads
-/// back as exactly `value`.
+/// exponent letter and its number of decimals are kept where they can be, an `f` at its end is not;
+/// the result always reads back as exactly `value`.
 pub fn spell_like(old: &str, value: f64) -> String {
+    let old = without_suffix(old).unwrap_or(old);
     let plus = if old.starts_with('+') && value.is_sign_positive() {
         "+"
     } else {
@@ -164,6 +172,24 @@ mod tests {
     }
 
     #[test]
+    fn one_f_may_follow_a_number() {
+        for (token, number) in [
+            ("0.01f", Some("0.01")),
+            ("-1F", Some("-1")),
+            ("1.e3f", Some("1.e3")),
+            ("1e999f", Some("1e999")),
+            ("1", None),
+            ("1ff", None),
+            ("f", None),
+            ("-f", None),
+            ("0x1f", None),
+            ("inff", None),
+        ] {
+            assert_eq!(without_suffix(token), number, "{token}");
+        }
+    }
+
+    #[test]
     fn numbers_are_spelled_like_the_literal_they_replace() {
         for (old, value, spelled) in [
             ("0.45", 0.5, "0.50"),
@@ -177,6 +203,8 @@ mod tests {
             ("1e3", 2500.0, "2.5e3"),
             ("1.00E3", 2000.0, "2.00E3"),
             ("0.1", 0.0, "0.0"),
+            ("0.01f", 0.5, "0.50"),
+            ("1E3F", 2000.0, "2E3"),
         ] {
             assert_eq!(spell_like(old, value), spelled, "{old} → {value}");
         }

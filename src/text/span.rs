@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use super::lines::{ends_before, line_start};
+
 /// A half-open range of bytes of one text. Scene files are under 4 GiB, so that a span of a
 /// million-object scene costs eight bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -79,7 +81,7 @@ impl Span {
 /// A place as people count it: line and column from 1, the column in characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Position {
-    /// Line, from 1. Lines end at `\n`.
+    /// Line, from 1. Lines end at `\n`, with all `\r` directly before it, or at any other `\r`.
     pub line: usize,
     /// Column, from 1, in characters (`char`s) of the line; a byte order mark is none of them.
     pub column: usize,
@@ -90,13 +92,9 @@ impl Position {
     /// to the offset.
     pub fn of(text: &str, offset: usize) -> Self {
         let before = &text.as_bytes()[..offset.min(text.len())];
-        let line_start = before
-            .iter()
-            .rposition(|&b| b == b'\n')
-            .map_or(0, |newline| newline + 1);
+        let line_start = line_start(text, before.len());
         let line_start = line_start.max(mark_len(text).min(before.len()));
-        let ends: usize = before.iter().map(|&b| usize::from(b == b'\n')).sum();
-        let line = ends + 1;
+        let line = ends_before(text.as_bytes(), before.len()) + 1;
         // A UTF-8 continuation byte begins no character.
         let column = before[line_start..]
             .iter()
@@ -131,6 +129,7 @@ mod tests {
             .collect();
         assert_eq!(positions, [(1, 1), (1, 3), (2, 1), (2, 2), (3, 1), (3, 1)]);
     }
+
     #[test]
     fn a_byte_order_mark_is_no_character_of_its_line() {
         let text = "\u{FEFF}ab\n\u{FEFF}c";

@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn tokens_are_separated_by_white_space_and_comments() {
-        let cases: [(&str, &[&str], &[&str]); 7] = [
+        let cases: [(&str, &[&str], &[&str]); 8] = [
             ("1 2\n3", &["1", "2", "3"], &[]),
             (
                 "\u{FEFF}1\u{A0}\u{A0}2\r\r\n3\t4",
@@ -101,6 +101,11 @@ mod tests {
             ),
             ("1// one\n2", &["1", "2"], &["// one"]),
             ("1 \\\\ one \r\n2", &["1", "2"], &["\\\\ one"]),
+            (
+                "1// one \r2\\\\two\r\r\n3",
+                &["1", "2", "3"],
+                &["// one", "\\\\two"],
+            ),
             ("a/b \\x", &["a/b", "\\x"], &[]),
             ("// é // é", &[], &["// é // é"]),
             ("", &[], &[]),

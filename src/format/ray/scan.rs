@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::tokens::{Piece, Tokens};
 use super::{Comment, Marker, Tree};
 use crate::format::{trim_end, white_space};
-use crate::text::Span;
+use crate::text::{Span, is_line_end};
 
 /// Bytes of text that are read at once: enough to be worth a task, few enough to be read again
 /// with every edit in them.
@@ -30,7 +30,7 @@ pub(super) fn follow(tree: &mut Tree, text: &str, old: Span, changed: Span, piec
     let len = text.len().wrapping_add_signed(-grown);
     let is_line = |start: usize| {
         let before = start.wrapping_add_signed(grown).checked_sub(1);
-        before.is_none_or(|before| text.as_bytes()[before] == b'\n')
+        before.is_none_or(|before| is_line_end(&text.as_bytes()[before]))
     };
     let (touched, lines) = tree.tokens.touched(old, len, is_line);
     let now = lines.start..lines.end.wrapping_add_signed(grown);
@@ -84,9 +84,9 @@ fn cut(text: &str, lines: Range<usize>, piece: usize) -> Vec<Range<usize>> {
     }
 }
 
-/// The length of the line that bytes begin with, and of its end.
+/// The length of the line that bytes begin with, and of its end or a part of that.
 fn line_len(bytes: &[u8]) -> usize {
-    let end = bytes.iter().position(|&byte| byte == b'\n');
+    let end = bytes.iter().position(is_line_end);
     end.map_or(bytes.len(), |end| end + 1)
 }
 
@@ -167,7 +167,7 @@ impl<'t> Reader<'t> {
             if let Some(width) = white_space(&bytes[at..]) {
                 at += width;
             } else if let Some(marker) = comment_marker(&bytes[at..]) {
-                let end = bytes[at..].iter().position(|&byte| byte == b'\n');
+                let end = bytes[at..].iter().position(is_line_end);
                 let end = end.map_or(range.end, |len| at + len);
                 self.comments.push(Comment {
                     span: trim_end(self.text, Span::new(at, end)),
@@ -255,9 +255,9 @@ mod tests {
     proptest! {
         #[test]
         fn a_tree_follows_its_text(
-            text in "([-0-9.]{0,3}[ \n\t]{0,2}|//|/|\\\\\\\\|é|\u{A0}){0,30}",
+            text in "([-0-9.]{0,3}[ \n\r\t]{0,2}|//|/|\\\\\\\\|é|\u{A0}){0,30}",
             edits in prop::collection::vec(
-                (any::<prop::sample::Index>(), any::<prop::sample::Index>(), "[/\n 1a]{0,4}"),
+                (any::<prop::sample::Index>(), any::<prop::sample::Index>(), "[/\n\r 1a]{0,4}"),
                 1..6,
             ),
             piece in 1usize..20,

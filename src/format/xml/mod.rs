@@ -316,10 +316,11 @@ impl Tree {
 /// The line end before a place and what indents it, if nothing else stands between.
 fn lead(text: &str, at: usize) -> Span {
     let before = text[..at].trim_end_matches([' ', '\t']);
-    match before.strip_suffix('\n') {
-        Some(line) => Span::new(line.trim_end_matches('\r').len(), at),
-        None => Span::at(at),
-    }
+    let line = match before.strip_suffix('\n') {
+        Some(line) => Some(line.trim_end_matches('\r')),
+        None => before.strip_suffix('\r'),
+    };
+    line.map_or(Span::at(at), |line| Span::new(line.len(), at))
 }
 
 /// The runs of white space in a text.

@@ -39,11 +39,10 @@ pub(super) fn lower(
     let Some(Node::Object(object)) = origins.node_of_token(token) else {
         return None;
     };
-    // Other views follow from all objects. A text of one line may have more to be told of.
+    // Other views follow from all objects.
     if !origins
         .view
         .is_some_and(|view| view::says_place(&view.parts))
-        || !text.contains('\n')
     {
         return None;
     }

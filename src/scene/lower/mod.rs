@@ -15,7 +15,7 @@ mod xml;
 
 use super::{Meshes, Origins, Scene};
 use crate::format::Tree;
-use crate::text::{Diagnostic, Findings, Span};
+use crate::text::{Findings, Span};
 
 /// What a tree means.
 #[derive(Debug)]
@@ -31,23 +31,11 @@ pub struct Lowered {
 /// Reads the meaning of a tree, with the meshes that are read so far. All errors that can be told
 /// apart are reported at once.
 pub fn lower(text: &str, tree: &Tree, meshes: &Meshes) -> Lowered {
-    let mut lowered = match tree {
+    match tree {
         Tree::Ray(tree) => ray::lower(text, tree),
         Tree::Dat(tree) => dat::lower(text, tree),
         Tree::Xml(tree) => xml::lower(text, tree, meshes),
-    };
-    // In .xml all white space is alike, and comments have an end.
-    let has_lines = !matches!(tree, Tree::Xml(_));
-    if let Some(end) = old_line_end(text).filter(|_| has_lines) {
-        let mut found = std::mem::take(&mut lowered.diagnostics);
-        found.warning(|| {
-            let message = "the lines end in CR alone: they count as one line, and a comment takes all that follows";
-            Diagnostic::warning(end, message, "a line feed (LF)")
-                .with_hint("convert the file, for example with: tr '\\r' '\\n'")
-        });
-        lowered.diagnostics = found.sorted();
     }
-    lowered
 }
 
 /// What a text without errors meant before an edit.
@@ -75,14 +63,4 @@ pub fn lower_again(
         Tree::Dat(_) | Tree::Xml(_) => None,
     };
     again.unwrap_or_else(|| lower(text, tree, meshes))
-}
-
-/// The first line end of a text whose lines all end as on an old Macintosh.
-fn old_line_end(text: &str) -> Option<Span> {
-    if text.contains('\n') {
-        return None;
-    }
-    let at = text.find('\r')?;
-    let goes_on = !text[at..].trim_ascii().is_empty();
-    goes_on.then(|| Span::new(at, at + 1))
 }

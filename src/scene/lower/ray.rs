@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::blocks;
 use super::record::{LONGEST, Record, what};
-use super::report::{nearest_kind, no_number, quoted};
+use super::report::{nearest_kind, no_number, number, quoted};
 use super::{Lowered, view};
 use crate::format::ray;
 use crate::scene::fields::ray::{AMBIENT, LIGHT, ShapeKind};
@@ -316,14 +316,14 @@ impl<'a> Reader<'a> {
                     break 'fields;
                 };
                 let word = token.of(self.text);
-                values[self.at - start] = match parse_number(word) {
+                let what = || what(name, field, component);
+                values[self.at - start] = match number(token, word, &mut self.report, what) {
                     Ok(value) => value,
                     Err(_) if self.begins_object(self.at) => break 'fields,
                     Err(error) => {
                         self.report.error(|| {
-                            let what = what(name, field, component);
                             let expected = field.allowed.words();
-                            no_number(Severity::Error, token, word, &what, &expected, error)
+                            no_number(Severity::Error, token, word, &what(), &expected, error)
                         });
                         f64::NAN
                     }

@@ -1,7 +1,9 @@
 //! The words that the diagnostics of lowering share.
 
 use crate::scene::fields::ray::ShapeKind;
-use crate::text::{Diagnostic, NumberError, Severity, Span, parse_number, slips};
+use crate::text::{
+    Diagnostic, Findings, NumberError, Severity, Span, parse_number, slips, without_suffix,
+};
 
 /// A token as messages show it: in backticks, cut short, unprintable characters escaped.
 pub(super) fn quoted(token: &str) -> String {
@@ -15,6 +17,29 @@ pub(super) fn quoted(token: &str) -> String {
         shown.push('…');
     }
     format!("`{shown}`")
+}
+
+/// Reads a number that may have a fraction. An `f` at its end is ignored, with a warning; `what`
+/// names the field.
+pub(super) fn number(
+    span: Span,
+    token: &str,
+    report: &mut Findings,
+    what: impl FnOnce() -> String,
+) -> Result<f64, NumberError> {
+    let read = parse_number(token);
+    let Some(plain) = read.err().and_then(|_| without_suffix(token)) else {
+        return read;
+    };
+    let value = parse_number(plain)?;
+    report.warning(|| {
+        let said = quoted(token);
+        let message = format!("{}: the `f` at the end of {said} is ignored", what());
+        let expected = format!("a number without it: {}", quoted(plain).trim_matches('`'));
+        Diagnostic::warning(span, message, expected)
+            .with_hint("other readers of the format may refuse it")
+    });
+    Ok(value)
 }
 
 /// The diagnostic for a token that stands where a number is due. `what` names the field.
@@ -46,6 +71,9 @@ fn number_hint(token: &str, error: NumberError) -> Option<String> {
     }
     if error == NumberError::Overflow {
         return Some("numbers go up to about 1.8e308".to_owned());
+    }
+    if let Some(plain) = without_suffix(token) {
+        return Some(format!("write {plain}"));
     }
     let reads = |text: &str| parse_number(text).is_ok();
     let unsigned = token.trim_start_matches(['+', '-']);
@@ -137,6 +165,7 @@ mod tests {
             ("1,", Some("without commas")),
             ("-0x10", Some("write -16")),
             ("−3", Some("write -3")),
+            ("3f", Some("write 3")),
             ("NaN", Some("finite")),
             ("1e999", Some("1.8e308")),
             ("abc", None),

@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::record::what;
-use super::report::{no_number, quoted};
+use super::report::{no_number, number, quoted};
 use crate::format::ray::{self, Comment, Marker};
 use crate::geometry::{Aabb, normalise};
 use crate::scene::fields::ray::VIEW;
@@ -77,12 +77,16 @@ pub(super) fn find(text: &str, comments: &[Comment], report: &mut Findings) -> O
         let Some(body) = body(text, comment) else {
             continue;
         };
-        match read(text, comment.span, body) {
+        let mut read_over = Findings::default();
+        match read(text, comment.span, body, &mut read_over) {
             Err(malformed) => report.warning(|| Diagnostic {
                 message: format!("{}; the whole comment is ignored", malformed.message),
                 ..malformed
             }),
-            Ok(view) if found.is_none() => found = Some(view),
+            Ok(view) if found.is_none() => {
+                report.append(read_over);
+                found = Some(view);
+            }
             Ok(_) => report.warning(|| {
                 let message = "view: said before, this comment is ignored";
                 Diagnostic::warning(comment.span, message, "one view comment")
@@ -106,8 +110,8 @@ fn body(text: &str, comment: &Comment) -> Option<Span> {
     ))
 }
 
-/// Reads the parts of a view comment; the error is a warning.
-fn read(text: &str, comment: Span, body: Span) -> Result<View, Diagnostic> {
+/// Reads the parts of a view comment; the error is a warning. What is read over is reported.
+fn read(text: &str, comment: Span, body: Span, report: &mut Findings) -> Result<View, Diagnostic> {
     let mut parts = [None; VIEW.len()];
     let words = ray::words(text, body);
     let mut rest = words.iter().copied();
@@ -121,7 +125,7 @@ fn read(text: &str, comment: Span, body: Span) -> Result<View, Diagnostic> {
             let message = format!("view {word}: said twice");
             return Err(Diagnostic::warning(key, message, "each part once"));
         }
-        parts[index] = Some(read_part(text, field, &mut rest, comment.end())?);
+        parts[index] = Some(read_part(text, field, &mut rest, comment.end(), report)?);
     }
     Ok(View { comment, parts })
 }
@@ -144,6 +148,7 @@ fn read_part(
     field: &Field,
     words: &mut impl Iterator<Item = Span>,
     end: usize,
+    report: &mut Findings,
 ) -> Result<Part, Diagnostic> {
     let mut part = Part::default();
     for (at, component) in field.kind.component_names().iter().enumerate() {
@@ -152,7 +157,12 @@ fn read_part(
             |span| Diagnostic::warning(span, format!("{what}: missing"), field.allowed.words());
         let span = words.next().ok_or_else(|| missing(Span::at(end)))?;
         let word = span.of(text);
-        let value = match parse_number(word) {
+        let read = if field.kind.is_size() {
+            parse_number(word)
+        } else {
+            number(span, word, report, || what.clone())
+        };
+        let value = match read {
             Ok(value) => value,
             Err(_) if VIEW.iter().any(|field| field.key == word) => return Err(missing(span)),
             Err(error) => {

@@ -5,7 +5,7 @@ use super::{FileKind, NamedFile, Node, Nodes, Placed};
 use crate::format::dat::Tree;
 use crate::scene::fields::dat::{HALF_SPACE, ObjectKind, Part, RecordKind};
 use crate::scene::fields::{Category, Kind, numbers};
-use crate::text::Span;
+use crate::text::{Span, is_one_line_end};
 
 /// Where everything that was lowered stands. It holds indices of records: ask it only with the tree
 /// it was made from.
@@ -129,9 +129,9 @@ impl Origins {
         let own = self.span(tree, node);
         let next = tree.comments.partition_point(|c| c.start() < own.start());
         let comment = tree.comments.get(next.checked_sub(1)?)?;
-        let between = text[comment.end()..own.start()].trim_matches([' ', '\t', '\r']);
+        let between = text[comment.end()..own.start()].trim_matches([' ', '\t']);
         let said = comment.of(text).trim_start_matches(['#', '/']).trim();
-        (between == "\n" && !said.is_empty() && node != Node::View).then_some(said)
+        (is_one_line_end(between) && !said.is_empty() && node != Node::View).then_some(said)
     }
 
     pub(super) fn node_at(&self, tree: &Tree, span: Span) -> Option<Node> {

@@ -125,7 +125,7 @@ impl Origins {
                 .partition_point(|token| token.end() <= comment.start());
             let token = tree.tokens.get(before.checked_sub(1)?)?;
             let follows = own.start() <= token.start() && token.end() <= own.end();
-            let in_line = follows && !text[from..comment.start()].contains('\n');
+            let in_line = follows && !text[from..comment.start()].contains(['\n', '\r']);
             let is_view = self.view.is_some_and(|view| view.comment == comment);
             in_line
                 .then(|| comment.of(text)[2..].trim())

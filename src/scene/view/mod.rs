@@ -8,7 +8,7 @@ mod xml;
 use super::fields::{Field, Kind, place_of};
 use super::{Camera, Node, Origins};
 use crate::format::Tree;
-use crate::text::{Edit, parse_number};
+use crate::text::{Edit, line_end, next_line, parse_number};
 
 /// The numbers of each of the view's fields; for a choice, the place of the word.
 type Numbers = Vec<Vec<f64>>;
@@ -110,14 +110,12 @@ fn differ(old: f64, new: f64) -> bool {
 
 /// How the text's first line ends; all others are taken to end so, too.
 pub(super) fn line_ending(text: &str) -> &'static str {
-    let before = text.find('\n').map_or("", |at| &text[..at]);
-    if before.ends_with("\r\r") {
-        "\r\r\n"
-    } else if before.ends_with('\r') {
-        "\r\n"
-    } else {
-        "\n"
-    }
+    let from = line_end(text, 0);
+    let end = &text[from..next_line(text, from)];
+    ["\n", "\r", "\r\n"]
+        .into_iter()
+        .find(|&known| known == end)
+        .unwrap_or(if end.is_empty() { "\n" } else { "\r\r\n" })
 }
 
 /// Where the text begins, after a byte order mark.

@@ -1,13 +1,13 @@
 //! Numbers and words as people type, paste and nudge them.
 
 use crate::scene::fields::Kind;
-use crate::text::{decimals, parse_number, spell_like};
+use crate::text::{decimals, parse_number, spell_like, without_suffix};
 
 /// The literal after adding `change`, a multiple of `step`, spelled like the old one. It has the
 /// decimals of the old number or of the step, whichever has more, so that no trace of binary
 /// fractions appears. `None` if it is no number.
 pub(super) fn nudged(literal: &str, change: f64, step: f64) -> Option<String> {
-    let old = parse_number(literal).ok()?;
+    let old = parse_number(plain(literal)).ok()?;
     let places = decimals(&old.to_string()).max(decimals(&step.to_string()));
     let sum: f64 = format!("{:.places$}", old + change).parse().ok()?;
     // The sum with 0 is the same number, and 0 for −0.
@@ -41,6 +41,11 @@ pub(super) fn word_meant<'w>(words: &[&'w str], said: &str) -> Option<&'w str> {
     meant.next().is_none().then_some(*first)
 }
 
+/// A number without the `f` that may end it; all else as it is.
+pub(super) fn plain(literal: &str) -> &str {
+    without_suffix(literal).unwrap_or(literal)
+}
+
 /// Whether a text can stand for one number or word: whether it is one is for the parser to say.
 pub(super) fn is_one(said: &str) -> bool {
     !said.is_empty()
@@ -67,7 +72,7 @@ pub(super) fn all_of(kind: Kind, said: &str) -> Option<Vec<String>> {
     let words: Vec<_> = bare
         .split(split)
         .filter(|word| !word.is_empty())
-        .map(str::to_owned)
+        .map(|word| if kind.is_size() { word } else { plain(word) }.to_owned())
         .collect();
     let numbers = words.iter().all(|word| parse_number(word).is_ok());
     // What multiplies a vector may stay, and so may the angle about an axis.
@@ -110,6 +115,7 @@ mod tests {
             ("1e3", 100.0, 100.0, "1.1e3"),
             ("1e30", 0.1, 0.1, "1e30"),
             ("5", 1.0, 1.0, "6"),
+            ("0.01f", 0.1, 0.1, "0.11"),
         ] {
             let nudged = nudged(literal, change, step);
             assert_eq!(nudged.as_deref(), Some(nudged_to), "{literal} + {change}");
@@ -153,6 +159,7 @@ mod tests {
             (Kind::Point, "0.1 0.2 0.3", Some("0.1 0.2 0.3")),
             (Kind::Point, "(1, -2e3, .5)", Some("1 -2e3 .5")),
             (Kind::Colour, "1;1;1", Some("1 1 1")),
+            (Kind::Colour, "0.1f, 1.f, 0F", Some("0.1 1. 0")),
             (Kind::Colour, "#ff8000", Some("1 0.502 0")),
             (Kind::Colour, "#FFFFFF", Some("1 1 1")),
             (Kind::Point, "#ff8000", None),

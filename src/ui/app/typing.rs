@@ -187,6 +187,15 @@ impl App {
         {
             return Some(vec![(self.component, word.to_owned())]);
         }
+        let is_number = !matches!(
+            kind,
+            Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) | Kind::Word
+        );
+        let said = if is_number && !kind.is_size() {
+            literals::plain(said)
+        } else {
+            said
+        };
         literals::is_one(said).then(|| vec![(self.component, said.to_owned())])
     }
 

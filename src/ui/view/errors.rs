@@ -11,7 +11,7 @@ use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 use super::row::{Row, shorten, title, visible, wrap};
 use super::theme;
-use crate::text::{Diagnostic, Position, Span, counted};
+use crate::text::{Diagnostic, Position, Span, counted, line_end, line_start};
 use crate::ui::app::App;
 
 /// How much of a line is read on either side of a span, in bytes: more than any screen shows.
@@ -174,10 +174,8 @@ fn excerpt(text: &str, span: Span, width: usize) -> Excerpt {
     let start = boundary(text, span.start());
     let from = boundary(text, start.saturating_sub(REACH));
     let until = boundary(text, start.saturating_add(REACH));
-    let from = text[from..start]
-        .rfind('\n')
-        .map_or(from, |at| from + at + 1);
-    let until = text[start..until].find('\n').map_or(until, |at| start + at);
+    let from = from + line_start(&text[from..until], start - from);
+    let until = line_end(&text[..until], start);
     let end = boundary(text, span.end()).clamp(start, until);
 
     let mut shown = String::new();
@@ -190,11 +188,7 @@ fn excerpt(text: &str, span: Span, width: usize) -> Excerpt {
     let first = columns;
     push_shown(&text[start..end], &mut shown, &mut columns);
     let last = columns.max(first + 1);
-    push_shown(
-        text[end..until].trim_end_matches('\r'),
-        &mut shown,
-        &mut columns,
-    );
+    push_shown(&text[end..until], &mut shown, &mut columns);
     cut(&shown, first..last, width)
 }
 

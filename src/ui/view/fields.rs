@@ -11,7 +11,7 @@ use super::theme;
 use crate::scene::fields::Kind;
 use crate::scene::fields::dat::OPERATIONS;
 use crate::scene::{Node, Rgb};
-use crate::text::{counted, parse_number};
+use crate::text::{counted, parse_number, without_suffix};
 use crate::ui::app::{App, FieldRow, Mode, Source, Stride, Typing};
 
 /// Draws the fields.
@@ -173,7 +173,10 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
 
 /// The colour that a field's literals say.
 fn swatch(field: &FieldRow) -> Option<Rgb> {
-    let channel = |at: usize| parse_number(field.literals.get(at)?).ok();
+    let channel = |at: usize| {
+        let literal = field.literals.get(at)?;
+        parse_number(without_suffix(literal).unwrap_or(literal)).ok()
+    };
     match field.field.kind {
         Kind::Colour => Some(Rgb::new(channel(0)?, channel(1)?, channel(2)?)),
         Kind::ScaledColour => Some(channel(3)? * Rgb::new(channel(0)?, channel(1)?, channel(2)?)),

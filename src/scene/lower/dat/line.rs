@@ -4,7 +4,7 @@ use super::Reader;
 use crate::scene::fields::dat::{Part, RecordKind};
 use crate::scene::fields::{Field, Kind, Range, place_of};
 use crate::scene::lower::record::{Gathered, LONGEST, Record, what};
-use crate::scene::lower::report::{nearest_word, no_number, quoted};
+use crate::scene::lower::report::{nearest_word, no_number, number, quoted};
 use crate::scene::origins::Name;
 use crate::text::{Diagnostic, Severity, Span, counted, parse_number};
 
@@ -163,13 +163,21 @@ impl<'a> Reader<'a> {
                     line.word = Some(token);
                     0.0
                 }
-                _ => parse_number(word).unwrap_or_else(|error| {
-                    let what = what(line.name, field, component);
-                    let expected = field.allowed.words();
-                    self.report
-                        .error(|| no_number(Severity::Error, token, word, &what, &expected, error));
-                    f64::NAN
-                }),
+                _ => {
+                    let what = || what(line.name, field, component);
+                    let read = if field.kind.is_size() {
+                        parse_number(word)
+                    } else {
+                        number(token, word, &mut self.report, what)
+                    };
+                    read.unwrap_or_else(|error| {
+                        let expected = field.allowed.words();
+                        self.report.error(|| {
+                            no_number(Severity::Error, token, word, &what(), &expected, error)
+                        });
+                        f64::NAN
+                    })
+                }
             };
             line.values.push(value);
             line.spans.push(token);

@@ -12,10 +12,10 @@ use crate::scene::Object;
 use crate::scene::fields::dat::{HALF_SPACE, ObjectKind, RecordKind};
 use crate::scene::fields::{Category, Range, numbers};
 use crate::scene::lower::record::{Gathered, what};
-use crate::scene::lower::report::{no_number, quoted};
+use crate::scene::lower::report::{no_number, number, quoted};
 use crate::scene::origins::Name;
 use crate::scene::origins::dat::ObjectPlace;
-use crate::text::{Diagnostic, Severity, Span, counted, parse_number};
+use crate::text::{Diagnostic, Severity, Span, counted};
 
 use super::line::Line;
 
@@ -177,12 +177,12 @@ impl<'a> Reader<'a> {
         let components = HALF_SPACE.kind.component_names();
         for ((value, token), component) in values.iter_mut().zip(tokens).zip(components) {
             let word = token.of(self.text);
-            match parse_number(word) {
+            let what = || what(name, HALF_SPACE, component);
+            match number(*token, word, &mut self.report, what) {
                 Ok(number) => *value = number,
                 Err(error) => self.report.error(|| {
-                    let what = what(name, HALF_SPACE, component);
                     let expected = Range::Any.words();
-                    no_number(Severity::Error, *token, word, &what, &expected, error)
+                    no_number(Severity::Error, *token, word, &what(), &expected, error)
                 }),
             }
         }

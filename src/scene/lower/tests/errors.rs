@@ -44,6 +44,9 @@ fn numbers_are_decimal_and_finite() {
         "1 1 1 1 0\n5,0 //~ 1 error: light 1 position y: `5,0` is no number\n5 1 1 1 1 sphere 0 0 0 1 MAT",
         "1 1 1 1 0 5 5 1\nx //~ 1 error: light 1 colour green: `x` is no number\n1 1 sphere 0 0 0 1 MAT",
         "HEAD 1 sphere 0 0 0 +.5e-3 MAT",
+        "HEAD 1 sphere 0 0 0\n0.01f //~ 1 warning: object 1 (sphere) radius: the `f` at the end of `0.01f` is\nMAT",
+        "HEAD 1 sphere 0 0 0\n-1F //~ 1 warning: object 1 (sphere) radius: the `f` at //~ 1 error: object 1 (sphere) radius: must\nMAT",
+        "HEAD\n1f //~ 1 error: nObjects: `1f` is no number\nsphere 0 0 0 1 MAT",
     ] {
         check(case);
     }
@@ -292,22 +295,6 @@ fn messages_hold_short_numbers() {
         let said = shown(&text, &lowered).join("\n");
         assert!(said.contains(part), "{part}: {said}");
     }
-}
-
-#[test]
-fn lines_of_an_old_macintosh_are_told_of() {
-    let told = |text: &str| {
-        let (_, lowered) = read(text);
-        let said = shown(text, &lowered).join("\n");
-        said.contains("the lines end in CR alone")
-    };
-    let scene = spelled("// a ball\nHEAD 1\nsphere 0 0 0 1 MAT\n");
-    assert!(!told(&scene) && !told(&scene.replace('\n', "\r\n")));
-    assert!(told(&scene.replace('\n', "\r")));
-    assert!(!told(&format!(
-        "{}\r \r",
-        scene.trim_end().replace('\n', " ")
-    )));
 }
 
 #[test]

@@ -3,6 +3,7 @@
 mod blocks;
 mod dat;
 mod errors;
+mod line_ends;
 mod meaning;
 mod properties;
 mod views;

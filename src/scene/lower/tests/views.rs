@@ -42,6 +42,25 @@ fn the_default_view_frames_the_scene() {
 }
 
 #[test]
+fn an_f_behind_a_number_is_read_over_in_a_comment_that_counts() {
+    let (camera, said) = seen("// view: fov 40f");
+    assert_eq!(
+        camera.map(|camera| camera.lens),
+        Some(Lens::Perspective(40.0))
+    );
+    let ignored = "1:14 warning: view fov: the `f` at the end of `40f` is ignored";
+    assert_eq!(said, [ignored]);
+    let (_, said) = seen("// view: fov 40f up 0 1");
+    assert_eq!(
+        said,
+        ["1:24 warning: view up z: missing; the whole comment is ignored"]
+    );
+    let (_, said) = seen("// view: size 8f 6");
+    let ignored = "1:15 warning: view size width: `8f` is no number; the whole comment is ignored";
+    assert_eq!(said, [ignored]);
+}
+
+#[test]
 fn scenes_of_any_size_have_a_default_view() {
     for radius in [5e-300, 1e-170, 1e160, 1e300] {
         let camera = scene(&spelled(&format!("HEAD 1 sphere 0 0 0 {radius:e} MAT"))).camera;

@@ -7,7 +7,7 @@ use crate::scene::fields::xml::{
 use crate::scene::lower::report::quoted;
 use crate::scene::lower::view::{self, Places};
 use crate::scene::{Camera, Focus, Integrator, Lens, Size, Transfer};
-use crate::text::{Diagnostic, Span, parse_number};
+use crate::text::{Diagnostic, Span, parse_number, without_suffix};
 
 impl Reader<'_> {
     /// The camera: what its element says, and defaults for what is missing.
@@ -35,7 +35,8 @@ impl Reader<'_> {
             let element = self.element_of(camera, &CAMERA[at])?;
             let said = self.origins.value(self.tree, element, "value")?;
             // What is no number is told where it is read.
-            Some(parse_number(said.said(self.text).trim()).unwrap_or(1.0))
+            let word = said.said(self.text).trim();
+            Some(parse_number(without_suffix(word).unwrap_or(word)).unwrap_or(1.0))
         });
         let [eye, target, up] = vectors.map(|at| self.vector(camera, &CAMERA[at]));
         let numbers = [FOV, FOCAL_DISTANCE, LENS, WIDTH, HEIGHT];

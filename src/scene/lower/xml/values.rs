@@ -5,8 +5,8 @@ use glam::DVec3;
 use super::Reader;
 use crate::scene::fields::xml::{Parameter, Reading};
 use crate::scene::fields::{Field, Kind};
-use crate::scene::lower::report::no_number;
-use crate::text::{Diagnostic, Severity, Span, concise, is_integer, parse_number};
+use crate::scene::lower::report::{no_number, number};
+use crate::text::{Diagnostic, Findings, Severity, Span, concise, is_integer, parse_number};
 
 impl<'a> Reader<'a> {
     /// What an element is called in messages: its node, and its own name if it is not that.
@@ -29,16 +29,30 @@ impl<'a> Reader<'a> {
         (!said.is_empty()).then_some(said)
     }
 
+    /// What the number of an attribute is called in messages.
+    fn what(&self, element: usize, attribute: usize) -> String {
+        let called = self.called(element);
+        match self.tree.attributes[attribute].name.of(self.text) {
+            "value" => called,
+            name => format!("{called} {name}"),
+        }
+    }
+
     /// The number that an attribute says, checked; NaN, with an error, where it is none.
     fn number_at(&mut self, element: usize, attribute: usize, field: &Field) -> f64 {
         let span = self.tree.attributes[attribute].value;
         let word = self.tree.attributes[attribute].said(self.text).trim();
-        let name = self.tree.attributes[attribute].name.of(self.text);
-        let what = || match name {
-            "value" => self.called(element),
-            _ => format!("{} {name}", self.called(element)),
+        let read = if field.kind.is_size() {
+            parse_number(word)
+        } else {
+            let mut read_over = Findings::default();
+            let what = || self.what(element, attribute);
+            let read = number(span, word, &mut read_over, what);
+            self.report.append(read_over);
+            read
         };
-        let value = match parse_number(word) {
+        let what = || self.what(element, attribute);
+        let value = match read {
             Ok(value) => value,
             Err(error) => {
                 let (what, expected) = (what(), field.allowed.words());

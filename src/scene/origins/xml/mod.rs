@@ -10,7 +10,7 @@ use super::{FileKind, NamedFile, Node, Nodes};
 use crate::format::xml::{Attribute, Tree};
 use crate::scene::fields::xml::{LightKind, MaterialKind, ObjectKind, Parameter};
 use crate::scene::placed::Placed;
-use crate::text::{Span, visible};
+use crate::text::{Span, is_one_line_end, visible};
 
 /// Where everything that was lowered stands. It holds indices of elements and attributes: ask it
 /// only with the tree it was made from.
@@ -184,7 +184,7 @@ impl Origins {
         let before = next.checked_sub(1).and_then(|at| tree.comments.get(at));
         let before = before.filter(|comment| {
             comment.end() <= own.start()
-                && text[comment.end()..own.start()].trim_matches([' ', '\t', '\r']) == "\n"
+                && is_one_line_end(text[comment.end()..own.start()].trim_matches([' ', '\t']))
         });
         behind.or(before).and_then(said)
     }

@@ -94,6 +94,25 @@ fn the_course_s_word_for_an_intersection_is_known_and_kept() {
 }
 
 #[test]
+fn an_f_behind_a_number_goes_with_its_next_edit() {
+    let scene = SCENE.replace("3 0 0  1\n", "3 0 0  0.50f\n");
+    for (said, radius) in [
+        ("e", "0.50f"),
+        ("ejjl", "0.60"),
+        ("ejji<Enter>", "0.50"),
+        ("ejj2F<Enter>", "2"),
+        ("ejjlu", "0.50f"),
+    ] {
+        let (mut app, _) = opened_as("scene.dat", &scene);
+        app.select(Node::Object(3));
+        press(&mut app, said);
+        let text = app.document.text();
+        let said_so = format!("3 0 0  {radius}\n");
+        assert!(text.ends_with(&said_so), "{said}: {text}");
+    }
+}
+
+#[test]
 fn a_reference_goes_through_what_there_is() {
     let ball = |material: u8| [format!("obj sphere ID 1 mat ID {material}  0 0 0  1")];
     assert_eq!(changed(Node::Object(0), "el"), ball(7));

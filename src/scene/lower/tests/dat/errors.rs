@@ -53,6 +53,13 @@ fn numbers_are_decimal_and_finite() {
         "light ID 1 inf 0 0 0 0 0 -1 1 b 1 1 0 0 0 shadow_on\n#~ 31 error: light 1 colour green: `b` is no number",
         "texture ID 1 checker 1 a 1 1 1 0 0 0\n#~ 24 error: texture 1 repeat up: `a` is no number",
         "obj sphere ID 1 mat ID 0  +.5 -5. 1e-3  2.5E+1",
+        "obj sphere ID 1 mat ID 0  0 0 0  0.01f\n#~ 34 warning: object 1 (sphere) radius: the `f` at the end of `0.01f` is ignored",
+        "obj sphere ID 1 mat ID 0  0 0 0  1ff\n#~ 34 error: object 1 (sphere) radius: `1ff` is no number",
+        "obj quadric ID 1 mat ID 0  1 0 0 0 1 0 0 1 0 -1F  1 0 0 1f 2\n#~ 46 warning: object 1 (quadric) J: the `f` at the end of `-1F` is\n#~ 57 warning: object 1 (quadric) cut z: the `f` at the end of `1f` is ignored",
+        "obj quadric ID 1 mat ID 0  1 0 0 0 1 0 0 1 0 -1  0f\n#~ 50 error: object 1 (quadric) number of cuts: must be a whole number, not `0f`",
+        "obj sphere ID 1f mat ID 0  0 0 0  1\n#~ 15 error: obj ID: must be a whole number, not `1f`",
+        "render 0f\n#~ 8 error: render: the number of objects: must be a whole number, not `0f`",
+        "viewport 8f 6\n#~ 1 warning: viewport: said in line 3 already\n#~ 10 error: viewport width: `8f` is no number",
     ]);
 }
 

@@ -333,9 +333,10 @@ fn layout_has_no_meaning() {
     for text in [
         LAID_OUT.replace('\n', "\r\n"),
         LAID_OUT.replace('\n', "\r\r\n"),
+        LAID_OUT.replace('\n', "\r"),
         LAID_OUT.replace(' ', "\t"),
         LAID_OUT.replace(' ', "\u{A0}"),
-        LAID_OUT.replace("  ", " \r\u{B}\u{C}"),
+        LAID_OUT.replace("  ", " \u{B}\u{C}"),
         LAID_OUT.replace('\n', " \t\n\n"),
         LAID_OUT.trim_end().to_owned(),
         format!("\u{FEFF}{LAID_OUT}"),

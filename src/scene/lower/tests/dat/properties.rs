@@ -113,9 +113,11 @@ fn literals(
 
 /// The records with random space between the tokens, and comments between the lines.
 fn laid_out(records: &[Vec<String>], random: &mut Random) -> String {
-    const GAPS: [&str; 6] = [" ", "  ", "\t", "\u{A0}", " \r ", "\u{B}"];
-    const ENDS: [&str; 7] = [
+    const GAPS: [&str; 5] = [" ", "  ", "\t", "\u{A0}", "\u{B}"];
+    const ENDS: [&str; 9] = [
         "\n",
+        "\r",
+        " \r# é\r",
         "\r\n",
         "\r\r\n",
         " \t\n",

@@ -23,6 +23,10 @@ fn wrong(scene: &str) -> Vec<String> {
 fn each_mistake_is_told_in_words() {
     for (scene, expected) in [
         (
+            "<object type='sphere'><scale x='0.5f'/></object>",
+            "warning: object 1 (sphere) scale x: the `f` at the end of `0.5f` is ignored",
+        ),
+        (
             "<object type='sphere'><scale x='wide'/></object>",
             "error: object 1 (sphere) scale x: `wide` is no number",
         ),
