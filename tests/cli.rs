@@ -199,14 +199,15 @@ fn strict_takes_warnings_for_errors_and_notes_for_notes() {
         assert_eq!(code == 65, told.contains("error: odd.ray:"), "{told}");
     }
     assert_eq!(place.names(), ["ball.ray", "odd.ppm", "odd.ray"]);
-    // A ray tree that outgrows its budget is a note on the picture.
-    let cell = "sphere 0 0 0 9  0 0 0 0 0 0 0 0 0 1 1 1 1.5";
-    let view = "// view: eye 0 0 5 target 0 0 0 size 4 3";
+    // Rays that outgrow their budget are noted of the picture.
+    let shells = (1..9).map(|radius| format!("sphere 0 0 0 {radius} 0 0 0 0 0 0 0 0 0 1 1 1 1\n"));
+    let shells: String = shells.collect();
+    let view = "// view: eye 0 0 20 target 0 0 0 size 4 3";
     place.write(
         "deep.ray",
-        format!("1 1 1 1 0 5 5 1 1 1 1 {cell}\n{view}\n"),
+        format!("1 1 1 1 0 50 5 1 1 1 8\n{shells}{view}\n"),
     );
-    let told = place.told("render --strict deep.ray -o deep.ppm --depth 50", 0);
+    let told = place.told("render --strict deep.ray -o deep.ppm --depth 40", 0);
     assert!(told.starts_with("note: "), "{told}");
 }
 

@@ -24,7 +24,7 @@ const PASTE_END: &[u8] = b"\x1b[201~";
 
 /// Turns bytes into events.
 #[derive(Debug, Default)]
-pub(super) struct Decoder {
+pub struct Decoder {
     pending: Vec<u8>,
     mode: Mode,
     /// When the last bytes came.
@@ -37,6 +37,8 @@ enum Mode {
     Keys,
     /// Between the brackets of a paste.
     Paste,
+    /// Behind more parameters than any sequence has: further ones are noise, too.
+    Noise,
 }
 
 /// What the pending bytes begin with.
@@ -54,30 +56,29 @@ enum Token {
 
 impl Decoder {
     /// Takes bytes and tells the events they complete.
-    pub(super) fn feed(&mut self, bytes: &[u8], now: Instant, mut tell: impl FnMut(Event)) {
+    pub fn feed(&mut self, bytes: &[u8], now: Instant, mut tell: impl FnMut(Event)) {
         self.pending.extend_from_slice(bytes);
         self.fed = Some(now);
         self.advance(&mut tell);
     }
 
     /// Returns when [`Decoder::expire`] is due, `None` if nothing is held back.
-    pub(super) fn deadline(&self) -> Option<Instant> {
+    pub fn deadline(&self) -> Option<Instant> {
         let patience = match self.mode {
             Mode::Paste => PASTE_PATIENCE,
             Mode::Keys if self.pending.is_empty() => return None,
-            Mode::Keys => PATIENCE,
+            Mode::Keys | Mode::Noise => PATIENCE,
         };
         self.fed.map(|fed| fed + patience)
     }
 
     /// Tells what is held back if its time is over: the Esc key, Alt with a key, or a paste whose
     /// end got lost.
-    pub(super) fn expire(&mut self, now: Instant, mut tell: impl FnMut(Event)) {
+    pub fn expire(&mut self, now: Instant, mut tell: impl FnMut(Event)) {
         if self.deadline().is_none_or(|deadline| now < deadline) {
             return;
         }
         if self.mode == Mode::Paste {
-            self.mode = Mode::Keys;
             tell(Event::Paste(pasted(&self.pending)));
         } else {
             match self.pending[..] {
@@ -88,6 +89,7 @@ impl Decoder {
                 _ => {}
             }
         }
+        self.mode = Mode::Keys;
         self.pending.clear();
     }
 
@@ -104,9 +106,21 @@ impl Decoder {
                 start += end + PASTE_END.len();
                 continue;
             }
+            if self.mode == Mode::Noise {
+                let noise = rest.iter().take_while(|byte| is_parameter(byte)).count();
+                start += noise;
+                if noise == rest.len() {
+                    break;
+                }
+                self.mode = Mode::Keys;
+                continue;
+            }
             match token(rest) {
                 Token::Unfinished if rest.len() < LONGEST => break,
-                Token::Unfinished => start += rest.len(),
+                Token::Unfinished => {
+                    start += rest.len();
+                    self.mode = Mode::Noise;
+                }
                 Token::Noise(length) => start += length,
                 Token::PasteBegin(length) => {
                     self.mode = Mode::Paste;
@@ -189,10 +203,14 @@ fn control_sequence(bytes: &[u8]) -> Token {
         };
     }
     let body = &bytes[2..];
-    let Some(end) = body.iter().position(|byte| !(0x20..0x40).contains(byte)) else {
+    let Some(end) = body.iter().position(|byte| !is_parameter(byte)) else {
         return Token::Unfinished;
     };
     let length = end + 3;
+    if LONGEST < length {
+        // What follows so much noise is read on its own, whether it came with it or later.
+        return Token::Noise(length - 1);
+    }
     let parameters = &body[..end];
     match body[end] {
         b'M' if parameters.is_empty() => {
@@ -211,6 +229,11 @@ fn control_sequence(bytes: &[u8]) -> Token {
         // Something else broke in; it is read on its own.
         _ => Token::Noise(length - 1),
     }
+}
+
+/// Whether a byte stands between the introducer of a control sequence and the byte that ends it.
+fn is_parameter(byte: &u8) -> bool {
+    (0x20..0x40).contains(byte)
 }
 
 fn event_or_noise(event: Option<Event>, length: usize) -> Token {

@@ -21,6 +21,8 @@ mod tty;
 
 pub use backend::AnsiBackend;
 pub use colour::{Choice, ColourDepth};
+#[cfg(unix)]
+pub use decode::Decoder;
 pub use guard::{Mouse, Terminal};
 pub use input::Input;
 pub use link::{Link, default_bandwidth};

@@ -131,4 +131,13 @@ fn a_paste_without_an_end_is_told_after_a_while() {
 fn endless_sequences_are_dropped() {
     let noise = [&b"\x1b["[..], &[b'1'; 80]].concat();
     assert_eq!(decode(&[(0, &noise), (1, b"x")]), ["Char('x')"]);
+    let noise = [&noise[..], b"x"].concat();
+    for each in 1..noise.len() {
+        let pieces: Vec<_> = noise.chunks(each).map(|piece| (0, piece)).collect();
+        assert_eq!(decode(&pieces), ["Char('x')"], "by {each}");
+    }
+    assert_eq!(
+        decode(&[(0, &noise[..80]), (1, b"22"), (30, b"2")]),
+        ["Char('2')"]
+    );
 }

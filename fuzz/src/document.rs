@@ -1,0 +1,175 @@
+//! Texts under edit: fields set, undone and redone, and changes from two sides merged.
+
+use halflight::document::{Document, Merge, Side};
+use halflight::format::{Format, parse};
+use halflight::scene::{
+    Before, Lowered, Meshes, Node, Visibility, lower_again, view_edits, visibility_edits,
+};
+use halflight::text::{Edit, smallest_edit};
+
+use super::scene::{check, read};
+
+/// What fields are set to, beside bytes of the input.
+const LITERALS: [&str; 14] = [
+    "0",
+    "1",
+    "-2.5",
+    "1e3",
+    "0.01f",
+    "1e999",
+    "x",
+    "",
+    "1 2",
+    "//",
+    "<&'\">",
+    "\u{e9}",
+    "\r",
+    "intersect",
+];
+
+/// Edits a text. The first byte says its language, then come the text and, behind a byte of 0, what
+/// is done to it, three bytes a time.
+pub fn edits(input: &[u8]) {
+    let [text, steps] = super::parts(input);
+    let Some((&first, text)) = text.split_first() else {
+        return;
+    };
+    let format = Format::ALL[usize::from(first) % 3];
+    let original = String::from_utf8_lossy(text).into_owned();
+    let (_, mut lowered) = read(format, &original);
+    let mut document = Document::new(format, original.clone());
+    for step in steps.chunks_exact(3).take(64) {
+        let before = document.text().to_owned();
+        perform(&mut document, &lowered, [step[0], step[1], step[2]]);
+        lowered = followed(&document, &before, lowered);
+    }
+    while document.redo().is_some() {}
+    let edited = document.text().to_owned();
+    while document.undo().is_some() {}
+    assert_eq!(document.text(), original, "all is undone");
+    while document.redo().is_some() {}
+    assert_eq!(document.text(), edited, "all is redone");
+}
+
+/// One step: what is done, to which of the things or fields, and with which value.
+fn perform(document: &mut Document, lowered: &Lowered, [what, which, value]: [u8; 3]) {
+    let (text, tree) = (document.text(), document.tree());
+    let origins = &lowered.origins;
+    let nodes = origins.nodes();
+    let node = nodes.get(usize::from(which) % nodes.len().max(1));
+    match (what % 8, node, &lowered.scene) {
+        (0, ..) => drop(document.undo()),
+        (1, ..) => drop(document.redo()),
+        (2, ..) => document.reject(),
+        (3, ..) => document.end_step(),
+        (4, Some(Node::Object(object)), _) => {
+            let wanted = [Visibility::Shown, Visibility::Hidden][usize::from(value % 2)];
+            if let Ok(edits) = visibility_edits(text, tree, origins, object, wanted) {
+                document.edit(&edits);
+            }
+        }
+        (5, _, Some(scene)) => {
+            let mut camera = scene.camera;
+            camera.eye.x += f64::from(value) - 100.0;
+            camera.size.width = camera.size.width.saturating_add(u32::from(which));
+            document.edit(&view_edits(text, tree, origins, &scene.camera, &camera));
+        }
+        (_, Some(node), _) => {
+            let placed = origins.fields(tree, node);
+            let fields = placed.iter().flat_map(|placed| {
+                let components = 0..placed.spans.len();
+                components.map(move |component| (placed, component))
+            });
+            let fields: Vec<_> = fields.collect();
+            let Some((placed, component)) = fields.get(usize::from(value) % fields.len().max(1))
+            else {
+                return;
+            };
+            let literal = LITERALS[usize::from(what / 8) % LITERALS.len()];
+            let edits = placed.edits(text, tree, &[(*component, literal.to_owned())]);
+            if let (6, [Edit { span, text }]) = (what % 8, &edits[..]) {
+                document.set(*span, text);
+            } else {
+                document.edit(&edits);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// What a document means after a step, found in both ways: anew, and from what it meant before.
+fn followed(document: &Document, before: &str, was: Lowered) -> Lowered {
+    let (text, tree) = (document.text(), document.tree());
+    let leaves = parse(document.format(), text).leaves();
+    assert!(tree.leaves() == leaves, "the tree follows the text");
+    let (_, lowered) = read(document.format(), text);
+    if let (Some(scene), Some(Edit { span, text: put })) = (&was.scene, smallest_edit(before, text))
+    {
+        let known = Before {
+            scene,
+            origins: &was.origins,
+            diagnostics: &was.diagnostics,
+        };
+        let changed = Edit { span, text: put }.placed();
+        let again = lower_again(text, tree, &Meshes::default(), known, [span, changed]);
+        check(text, tree, &again);
+        assert!(again.scene == lowered.scene && again.diagnostics == lowered.diagnostics);
+    }
+    lowered
+}
+
+/// Merges two texts with their ancestor: the first byte says the language, bytes of 0 stand between
+/// ancestor, own text and that from outside.
+pub fn merge(input: &[u8]) {
+    let Some((&first, rest)) = input.split_first() else {
+        return;
+    };
+    let format = Format::ALL[usize::from(first) % 3];
+    let [base, mine, theirs] = super::parts(rest).map(|part| String::from_utf8_lossy(part));
+    let one_sided = match () {
+        () if base == mine || mine == theirs => Some(&theirs),
+        () if base == theirs => Some(&mine),
+        () => None,
+    };
+    let mut document = Document::new(format, base.clone().into_owned());
+    document.edit(&Vec::from_iter(smallest_edit(&base, &mine)));
+    document.end_step();
+    assert_eq!(document.text(), mine);
+    match document
+        .snapshot()
+        .merge(Document::new(format, theirs.clone().into_owned()))
+    {
+        Ok(merged) => {
+            drop(document.take(merged));
+            assert!(one_sided.is_none_or(|text| document.text() == text));
+            let leaves = parse(format, document.text()).leaves();
+            assert!(
+                document.tree().leaves() == leaves,
+                "the tree is that of the text"
+            );
+            if base == mine || document.text() == mine {
+                return;
+            }
+            document.undo();
+            assert_eq!(document.text(), mine, "a merge is undone");
+        }
+        Err(merge) => {
+            assert!(
+                one_sided.is_none(),
+                "one side's changes conflict with nothing"
+            );
+            decide(merge, &mine);
+        }
+    }
+}
+
+/// Decides all conflicts for either side.
+fn decide(mut merge: Merge, mine: &str) {
+    for side in [Side::Mine, Side::Theirs] {
+        for conflict in &mut merge.conflicts {
+            assert!(mine.get(conflict.span.range()) == Some(&conflict.mine[..]));
+            conflict.decision = Some(side);
+        }
+        drop(merge.text());
+    }
+}

@@ -1,0 +1,46 @@
+//! Files that scenes name: meshes, their materials, pictures.
+
+use halflight::image_file;
+use halflight::obj;
+
+/// The most pixels of a picture here: a hostile one must not take long.
+const ROOM: u64 = 1 << 18;
+
+/// A mesh that uses a material of its library.
+const MESH: &[u8] = b"mtllib a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
+
+/// Reads a mesh, and the library behind a byte of 0.
+pub fn obj(input: &[u8]) {
+    let [mesh, library] = super::parts(input);
+    read(mesh, library);
+}
+
+/// Reads a library of materials.
+pub fn mtl(input: &[u8]) {
+    read(MESH, input);
+}
+
+fn read(mesh: &[u8], library: &[u8]) {
+    let lines = |bytes: &[u8]| 1 + bytes.iter().filter(|&&byte| byte == b'\n').count();
+    let most = lines(mesh).max(lines(library));
+    let findings = match obj::read(mesh, |_| Ok(library)) {
+        Ok(model) => [model.warnings, model.library_warnings].concat(),
+        Err(errors) => {
+            assert!(!errors.is_empty());
+            errors
+        }
+    };
+    for finding in findings {
+        assert!((1..=most).contains(&finding.line), "{finding:?}");
+        assert!(0 < finding.column && !finding.to_string().is_empty());
+    }
+}
+
+/// Decodes a picture of any format.
+pub fn picture(input: &[u8]) {
+    if let Ok(image) = image_file::decode(input, ROOM) {
+        let size = image.size();
+        let pixels = u64::from(size.width) * u64::from(size.height);
+        assert!((1..=ROOM).contains(&pixels));
+    }
+}

@@ -1,0 +1,40 @@
+//! Bytes from a terminal.
+
+use std::time::{Duration, Instant};
+
+#[cfg(unix)]
+use halflight::ui::terminal::Decoder;
+use halflight::ui::terminal::Event;
+
+/// Reads the bytes behind the first one whole and in pieces, whose lengths that one says: the events
+/// are the same. With pauses between the pieces there may be others.
+#[cfg(unix)]
+pub fn keys(input: &[u8]) {
+    let Some((&seed, bytes)) = input.split_first() else {
+        return;
+    };
+    let whole = decode([bytes], Duration::ZERO);
+    let each = 1 + usize::from(seed % 16);
+    assert_eq!(decode(bytes.chunks(each), Duration::ZERO), whole);
+    decode(bytes.chunks(each), Duration::from_millis(u64::from(seed)));
+}
+
+/// There is no decoder of bytes elsewhere.
+#[cfg(not(unix))]
+pub fn keys(_: &[u8]) {}
+
+/// The events of pieces that come so long after each other.
+#[cfg(unix)]
+fn decode<'b>(pieces: impl IntoIterator<Item = &'b [u8]>, pause: Duration) -> Vec<Event> {
+    let mut decoder = Decoder::default();
+    let mut events = Vec::new();
+    let mut now = Instant::now();
+    for piece in pieces {
+        decoder.expire(now, |event| events.push(event));
+        decoder.feed(piece, now, |event| events.push(event));
+        now += pause;
+    }
+    decoder.expire(now + Duration::from_secs(60), |event| events.push(event));
+    assert_eq!(decoder.deadline(), None, "everything is told in the end");
+    events
+}
