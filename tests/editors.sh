@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Saves a scene with real editors while Halflight has it open, and looks whether the picture on
-# screen changes. Needs tmux; editors that are not installed are skipped and named.
+# screen changes; then has Halflight open them on scenes whose names they could take for something
+# else. Needs tmux; editors that are not installed are skipped and named.
 #
 #     tests/editors.sh target/release/halflight
 #
@@ -101,5 +102,82 @@ try 'mv' mv 'cp next.ray new.ray; mv new.ray s.ray'
 try 'cp' cp 'cp next.ray s.ray'
 try 'slow writer' sh '(head -1 next.ray; sleep 0.3; tail -n +2 next.ray) > s.ray'
 try 'rm, then cp' rm 'rm s.ray; sleep 1; cp next.ray s.ray'
+
+"${tmux[@]}" kill-session -t halflight
+
+# Names that editors run, or take for options, places, hosts, patterns and lines.
+names=(
+    '+sil !touch canary.ray' '+12.ray' '-c !touch canary.ray' '--cmd=!touch canary.ray'
+    ':!touch canary.ray' '!touch canary.ray' '@a.ray' '|touch canary.ray' '~.ray' '~root.ray'
+    '#1.ray' '%.ray' 'two words.ray' "it's \"quoted\".ray" ';touch canary;.ray'
+    '$(touch canary).ray' '`touch canary`.ray' '$HOME.ray' '*.ray' '{a,b}.ray' 'a:12.ray'
+    'a:12:3:b.ray' 'ssh:localhost:a.ray' $'line\nbreak.ray' 'back\slash.ray'
+)
+
+# Waits until the interface has the screen.
+shown() {
+    for _ in {1..100}; do
+        [[ $(screen) == *SELECT* ]] && return 0
+        sleep 0.1
+    done
+    return 1
+}
+
+# Waits until another program has the screen.
+gone() {
+    for _ in {1..100}; do
+        [[ $(screen) != *SELECT* ]] && return 0
+        sleep 0.1
+    done
+    return 1
+}
+
+# Has an editor opened on each name: a name, the program it needs, the value of $EDITOR, and the
+# keys that write a line `// seen` above the cursor and leave.
+open_names() {
+    local name=$1 program=$2 editor=$3 file key passed=0
+    if ! command -v "$program" >/dev/null; then
+        echo "skipped  $name: not installed"
+        return
+    fi
+    for file in "${names[@]}"; do
+        rm -rf "$place/names"
+        mkdir "$place/names"
+        scene_with 1 >"$place/names/$file"
+        "${tmux[@]}" new-session -d -s halflight -x 120 -y 40 -c "$place/names" \
+            "$(printf 'HOME=%q EDITOR=%q VISUAL= exec %q -- %q' \
+                "$place" "$editor" "$halflight" "$file")"
+        shown || true
+        "${tmux[@]}" send-keys -t halflight E
+        gone || true
+        sleep 0.5
+        for key in "${@:4}"; do
+            "${tmux[@]}" send-keys -t halflight "$key"
+            sleep 0.2
+        done
+        shown || true
+        if [[ -n $(find "$place" -name 'canary*') ]]; then
+            printf 'RAN      %s: %q\n' "$name" "$file"
+            failures=$((failures + 1))
+        elif ! grep -q '^// seen' "$place/names/$file"; then
+            printf 'MISSED   %s: %q was not edited\n' "$name" "$file"
+            failures=$((failures + 1))
+        else
+            passed=$((passed + 1))
+        fi
+        "${tmux[@]}" kill-session -t halflight 2>/dev/null || true
+    done
+    echo "opened   $name: $passed of ${#names[@]} names"
+}
+
+vi_keys=('O// seen' Escape ':wq!' Enter)
+open_names 'vi' vi 'vi -u NONE -N -n' "${vi_keys[@]}"
+open_names 'vim' vim 'vim -u NONE -N -n' "${vi_keys[@]}"
+open_names 'view' view 'view -u NONE -N -n' "${vi_keys[@]}"
+open_names 'neovim' nvim 'nvim -u NONE -n' "${vi_keys[@]}"
+open_names 'kakoune' kak 'kak -n' 'O// seen' Escape ':wq' Enter
+open_names 'nano' nano 'nano -I' '// seen' Enter C-o Enter C-x
+open_names 'micro' micro 'micro' '// seen' Enter C-s C-q
+open_names 'emacs' emacs 'emacs -nw -Q' '// seen' Enter C-x C-s C-x C-c
 
 exit $((failures > 0))

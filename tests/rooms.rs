@@ -74,6 +74,7 @@ const DEPENDENCIES: &[(&str, &str)] = &[
     ("rayon", "*"),
     ("roxmltree", "format"),
     ("rustix", "*"),
+    ("shlex", "ui"),
     ("signal_hook", "ui"),
     ("similar", "document"),
     ("smallvec", "geometry"),

@@ -4,7 +4,6 @@ use std::io;
 use std::mem;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::thread;
@@ -12,6 +11,7 @@ use std::time::Instant;
 
 use super::Options;
 use super::assets::AssetReader;
+use super::editor;
 use super::files::{Files, Task};
 use super::msg::{Destination, Effect, Existing, ExportId, Msg, Target, Timer};
 use super::terminal::{self, Input, Terminal};
@@ -282,21 +282,12 @@ impl World {
         self.input.park();
         #[cfg(unix)]
         self.signals.lend();
-        let ran = self.terminal.leave().and_then(|()| {
-            let mut editor = editor(path, line);
-            let name = editor.get_program().to_string_lossy().into_owned();
-            let told = |error: io::Error| io::Error::new(error.kind(), format!("{name}: {error}"));
-            let status = editor.status().map_err(told)?;
-            if status.success() {
-                Ok(())
-            } else {
-                Err(io::Error::other(format!("{name} ended with {status}")))
-            }
-        });
+        let left = terminal_outcome(self.terminal.leave());
+        let ran = left.and_then(|()| editor::run(path, line));
         #[cfg(unix)]
         self.signals.take_back();
         self.take_terminal()?;
-        ran.map_err(|error| format!("the editor can't be used: {error} (see $VISUAL, $EDITOR)"))
+        ran
     }
 
     fn take_terminal(&mut self) -> Result<(), String> {
@@ -337,34 +328,6 @@ fn check_target(to: &Destination) -> Result<(), String> {
         return Err(format!("{shown} exists: :export! {shown} overwrites it"));
     }
     file::check_target(path).map_err(|error| format!("{shown}: {error}"))
-}
-
-/// The user's editor, told to go to a line in the way it understands.
-fn editor(path: &Path, line: usize) -> Command {
-    let set = |name| {
-        std::env::var(name)
-            .ok()
-            .filter(|said| !said.trim().is_empty())
-    };
-    let said = set("VISUAL").or_else(|| set("EDITOR"));
-    let said = said.unwrap_or_else(|| "vi".to_owned());
-    let mut words = said.split_whitespace();
-    let program = words.next().unwrap_or("vi");
-    let mut command = Command::new(program);
-    command.args(words);
-    let name = Path::new(program).file_stem().unwrap_or_default();
-    // A name that begins with a dash is no option.
-    let is_option = path.as_os_str().as_encoded_bytes().starts_with(b"-");
-    let folder = if is_option { "." } else { "" };
-    let path = Path::new(folder).join(path);
-    let mut place = path.as_os_str().to_owned();
-    place.push(format!(":{line}"));
-    match name.to_str().unwrap_or_default() {
-        "hx" | "helix" | "subl" | "zed" => command.arg(place),
-        "code" | "codium" => command.arg("--goto").arg(place),
-        _ => command.arg(format!("+{line}")).arg(path),
-    };
-    command
 }
 
 /// A renderer, and which of all it is.

@@ -12,6 +12,7 @@
 
 pub mod app;
 mod assets;
+mod editor;
 mod effects;
 mod files;
 pub mod keymap;

@@ -214,3 +214,37 @@ fn signals_of_the_keyboard_are_the_editor_s_while_it_runs() {
     assert!(session.end().success());
     session.assert_restored();
 }
+
+/// Names that vi would run, that have options, quotes, places and lines in them.
+#[test]
+fn the_editor_gets_a_name_as_a_file() {
+    let names = [
+        "+sil !touch canary.ray",
+        "-c !touch canary.ray",
+        "--cmd=!touch canary.ray",
+        "!touch canary.ray",
+        "~;$(touch canary)`touch canary`'\".ray",
+        "a:12\n3.ray",
+    ];
+    for name in names {
+        let place = Place::new();
+        place.write(name, BALLS);
+        place.write("vim", "#!/bin/sh\nprintf '%s\\0' \"$@\" > given\n");
+        let mode = fs::Permissions::from_mode(0o700);
+        fs::set_permissions(place.at("vim"), mode).expect("its owner");
+        let environment = [("EDITOR", "./vim '-u' my\\ vimrc")];
+        let arguments = ["--color", "24", "--", name];
+        let mut session =
+            Session::start(place.directory.path(), &arguments, (80, 24), &environment);
+        session.wait("the picture", |screen| !picture(screen).is_empty());
+        session.send("GE");
+        session.wait("it is back", |screen| {
+            place.at("given").exists() && !picture(screen).is_empty()
+        });
+        let folder = fs::canonicalize(place.directory.path()).expect("a place");
+        let file = folder.join(name).display().to_string();
+        let expected = ["-u", "my vimrc", "+5", "--", &file, ""];
+        assert_eq!(place.read("given"), expected.join("\0"));
+        quit(session);
+    }
+}
