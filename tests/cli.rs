@@ -109,17 +109,46 @@ fn wrong_arguments_end_with_2() {
     assert_eq!(place.names(), ["ball.ray"]);
 }
 
-#[test]
-fn a_small_scene_is_checked_where_no_thread_can_start() {
-    let place = Place::new();
-    let mut command = place.command("check ball.ray");
-    // No machine has such a stack for a thread.
+/// Runs the program where no thread can start: no machine has such a stack for one.
+fn without_threads(place: &Place, line: &str) -> (Option<i32>, String) {
+    let mut command = place.command(line);
     let output = command
         .env("RUST_MIN_STACK", (1_u64 << 60).to_string())
         .output();
     let output = output.expect("it starts");
     let told = String::from_utf8(output.stderr).expect("UTF-8");
-    assert_eq!(output.status.code(), Some(0), "{told}");
+    (output.status.code(), told)
+}
+
+#[test]
+fn scenes_are_checked_where_no_thread_can_start() {
+    let place = Place::new();
+    let (head, ball) = BALL.split_once("1 sphere").expect("a ball");
+    let (ball, _) = ball.split_once('\n').expect("a line");
+    let balls = format!("sphere{ball}\n").repeat(50_000);
+    place.write("balls.ray", format!("{head}50000\n{balls}"));
+    place.write("a.dat", TEXTURED);
+    let pixels = vec![b'x'; 3 * 1024 * 1024];
+    place.write("skin.ppm", [b"P6\n1024 1024\n255\n", &pixels[..]].concat());
+    for scene in ["ball.ray", "balls.ray", "a.dat"] {
+        let (code, told) = without_threads(&place, &format!("check {scene}"));
+        assert_eq!(code, Some(0), "{scene}: {told}");
+    }
+}
+
+#[test]
+fn threads_that_cannot_start_are_an_error() {
+    let place = Place::new();
+    let (code, told) = without_threads(&place, "render ball.ray -o a.ppm --threads 3");
+    assert_eq!(code, Some(1), "{told}");
+    let first = "error: can't start the threads to trace with (3): ";
+    assert!(told.starts_with(first), "{told}");
+    assert!(told.ends_with("; --threads N sets how many\n"), "{told}");
+    assert_eq!(place.names(), ["ball.ray"]);
+    for many in ["0", "1025", "1000000"] {
+        let told = place.told(&format!("render ball.ray -o a.ppm --threads {many}"), 2);
+        assert!(told.contains("1..=1024"), "{told}");
+    }
 }
 
 #[test]

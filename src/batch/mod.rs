@@ -5,6 +5,7 @@ mod progress;
 mod render;
 mod report;
 mod stdout;
+mod threads;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -69,6 +70,9 @@ pub enum Warnings {
     /// Errors.
     Refused,
 }
+
+/// Bytes of a scene that may be read with several threads. Starting them costs a small one too much.
+const LARGE: u64 = 1 << 16;
 
 /// Scenes to look at.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -138,6 +142,9 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
         // What can't be opened is no scene under any name.
         file::open(path).map_or_else(Error::from, |_| unknown.into())
     })?;
+    if LARGE < path.metadata().map_or(0, |metadata| metadata.len()) {
+        threads::settle();
+    }
     let text = file::read_text(path)?;
     let tree = format::parse(format, &text);
     let (lowered, images) = mean(path, &text, &tree, folders);
@@ -172,6 +179,9 @@ fn mean(path: &Path, text: &str, tree: &Tree, folders: &[PathBuf]) -> (Lowered, 
     let mut lowered = scene::lower(text, tree, &Meshes::default());
     let mut files = lowered.origins.files(text, tree);
     let mut wanted = Wanted::new(path, &files);
+    if !files.is_empty() {
+        threads::settle();
+    }
     let mut loaded = assets.read(&wanted);
     if !wanted.meshes.is_empty() {
         lowered = scene::lower(text, tree, &loaded.meshes);

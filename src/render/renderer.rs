@@ -1,5 +1,6 @@
 //! The handle on a worker that traces pictures in the background.
 
+use std::mem;
 use std::sync::Arc;
 use std::sync::mpsc::{self, Sender};
 use std::thread::JoinHandle;
@@ -24,12 +25,19 @@ pub enum Threads {
 }
 
 /// Why a job is not traced.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Refusal {
-    /// The worker has ended, by a panic or because the system gave it no threads; what its `wake`
-    /// owned is dropped.
-    #[error("the system gives no threads to trace with")]
+    /// The worker has ended by a panic; what its `wake` owned is dropped.
+    #[error("the renderer has stopped")]
     Ended,
+    /// The system does not give the worker its threads; what its `wake` owned is dropped.
+    #[error("can't start the threads to trace with ({count}): {reason}; --threads N sets how many")]
+    Threads {
+        /// How many trace.
+        count: usize,
+        /// What the system said.
+        reason: String,
+    },
     /// The picture takes more memory than there is.
     #[error(
         "{}x{}: tracing it takes {:.1} GB of memory, more than the system gives; a smaller size \
@@ -48,27 +56,28 @@ pub enum Refusal {
 #[derive(Debug)]
 pub struct Renderer {
     shared: Arc<Shared>,
-    /// `None` only while it is dropped.
-    orders: Option<Sender<Order>>,
-    worker: Option<JoinHandle<()>>,
+    /// Why there is none, where threads can't be started; else [`Refusal::Ended`] only while it is
+    /// dropped.
+    worker: Result<Worker, Refusal>,
+}
+
+#[derive(Debug)]
+struct Worker {
+    orders: Sender<Order>,
+    thread: JoinHandle<()>,
 }
 
 impl Renderer {
     /// Starts the worker. `wake` is called from it whenever a newer frame is to be had, at most
-    /// once until [`Renderer::latest`] is next called.
+    /// once until [`Renderer::latest`] is next called. Where threads can't be started every job is
+    /// refused.
     pub fn new(threads: Threads, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let shared = Arc::new(Shared::default());
-        let (orders, inbox) = mpsc::channel();
-        let for_worker = Arc::clone(&shared);
-        let worker = std::thread::spawn(move || {
-            if let Ok(pool) = pool(threads) {
-                worker::run(&inbox, &for_worker, &wake, &pool);
-            }
-        });
+        let count = threads.count();
+        let worker = Worker::start(threads, Arc::clone(&shared), wake);
         Self {
             shared,
-            orders: Some(orders),
-            worker: Some(worker),
+            worker: worker.map_err(|reason| Refusal::Threads { count, reason }),
         }
     }
 
@@ -76,6 +85,7 @@ impl Renderer {
     /// under way is cancelled, but for a first coarse picture younger than 50 ms; a refused job
     /// cancels nothing.
     pub fn restart(&self, job: Job) -> Result<u64, Refusal> {
+        let worker = self.worker.as_ref().map_err(Refusal::clone)?;
         let size = job.settings.size;
         let film = Film::new(&job.settings, job.frames);
         let film = film.map_err(|NoMemory { bytes }| Refusal::Memory { size, bytes })?;
@@ -85,8 +95,7 @@ impl Renderer {
             job,
             film,
         };
-        let orders = self.orders.as_ref().ok_or(Refusal::Ended)?;
-        orders.send(order).map_err(|_| Refusal::Ended)?;
+        worker.orders.send(order).map_err(|_| Refusal::Ended)?;
         Ok(generation)
     }
 
@@ -99,21 +108,42 @@ impl Renderer {
 impl Drop for Renderer {
     fn drop(&mut self) {
         self.shared.quit();
-        drop(self.orders.take());
-        if let Some(worker) = self.worker.take() {
+        if let Ok(Worker { orders, thread }) = mem::replace(&mut self.worker, Err(Refusal::Ended)) {
+            drop(orders);
             // The panic hook has told of a panic already.
-            let _ = worker.join();
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Worker {
+    fn start(
+        threads: Threads,
+        shared: Arc<Shared>,
+        wake: impl Fn() + Send + Sync + 'static,
+    ) -> Result<Self, String> {
+        let pool = pool(threads).map_err(|error| error.to_string())?;
+        let (orders, inbox) = mpsc::channel();
+        let thread = std::thread::Builder::new()
+            .name("renderer".to_owned())
+            .spawn(move || worker::run(&inbox, &shared, &wake, &pool))
+            .map_err(|error| error.to_string())?;
+        Ok(Self { orders, thread })
+    }
+}
+
+impl Threads {
+    fn count(self) -> usize {
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        match self {
+            Self::Preview => cores().saturating_sub(1).max(1),
+            Self::Background(count) | Self::Exactly(count) => count.max(1),
         }
     }
 }
 
 fn pool(threads: Threads) -> Result<ThreadPool, rayon::ThreadPoolBuildError> {
-    let cores = || std::thread::available_parallelism().map_or(1, usize::from);
-    let count = match threads {
-        Threads::Preview => cores().saturating_sub(1).max(1),
-        Threads::Background(count) | Threads::Exactly(count) => count.max(1),
-    };
-    let builder = ThreadPoolBuilder::new().num_threads(count);
+    let builder = ThreadPoolBuilder::new().num_threads(threads.count());
     match threads {
         Threads::Background(_) => builder.start_handler(|_| lower_priority()).build(),
         Threads::Preview | Threads::Exactly(_) => builder.build(),

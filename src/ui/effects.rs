@@ -230,6 +230,10 @@ impl World {
             Err(Refusal::Ended) => slot.insert(start()).renderer.restart(job),
             started => started,
         };
+        if let Err(Refusal::Threads { .. }) = started {
+            // The next job tries again.
+            *slot = None;
+        }
         match started {
             Ok(generation) => Msg::Started(target, generation),
             Err(refusal) => Msg::Refused(target, refusal.to_string()),
