@@ -55,8 +55,7 @@ impl Watcher {
         method: Method,
         changed: impl Fn() + Send + 'static,
     ) -> Result<Self, notify::Error> {
-        let paths = paths.iter().map(std::path::absolute);
-        let paths: Vec<_> = paths.collect::<io::Result<_>>()?;
+        let paths = paths.to_vec();
         let (inbox, notices) = mpsc::channel();
         let builder = thread::Builder::new().name("watch".to_owned());
         let thread = match method {
@@ -104,7 +103,10 @@ enum Meaning {
 
 /// The names that lead to the files, and the system's watches on the directories that hold them.
 struct Places {
+    /// As they were given. A relative one leads elsewhere once the current directory is moved.
     paths: Vec<PathBuf>,
+    /// Where they were last.
+    absolute: Vec<PathBuf>,
     system: RecommendedWatcher,
     names: Names,
     watched: BTreeSet<PathBuf>,
@@ -116,8 +118,11 @@ impl Places {
             // The receiver is gone only while the watcher is being dropped.
             let _ = inbox.send(Notice::System(event));
         })?;
+        let absolute = paths.iter().map(std::path::absolute);
+        let absolute: Vec<_> = absolute.collect::<io::Result<_>>()?;
         let mut places = Self {
-            names: Names::of(&paths),
+            names: Names::of(&absolute),
+            absolute,
             paths,
             system,
             watched: BTreeSet::new(),
@@ -148,14 +153,25 @@ impl Places {
                     let _ = self.system.unwatch(&directory);
                 }
             }
-            self.names = Names::of(&self.paths);
+            self.names = self.look();
             let outcome = self.watch();
             // What came before its directory was watched was not told.
-            if Names::of(&self.paths) == self.names {
+            if self.look() == self.names {
                 return outcome;
             }
             meaning = Meaning::Directory;
         }
+    }
+
+    /// Finds the names on the ways to the files as they are now.
+    fn look(&mut self) -> Names {
+        for (path, absolute) in self.paths.iter().zip(&mut self.absolute) {
+            // A current directory that was removed has no path; where it was another one may come.
+            if let Ok(now) = std::path::absolute(path) {
+                *absolute = now;
+            }
+        }
+        Names::of(&self.absolute)
     }
 
     /// Watches the directories that hold names, each after the one above it, which tells when it is

@@ -235,3 +235,37 @@ fn the_picture_follows_meshes_their_libraries_and_pictures() {
         quit(session);
     }
 }
+
+/// A relative name goes with the current folder; an absolute one waits for its folder to come back.
+#[test]
+fn a_scene_is_followed_when_its_folder_is_moved() {
+    let green = BALLS.replacen("1 0 0  0 0 0", "0 0 1  0 0 0", 1);
+    for poll in [&[][..], &["--poll=20"]] {
+        let place = Place::new();
+        let (here, there) = (place.at("here"), place.at("there"));
+        fs::create_dir(&here).expect("a folder");
+        place.write("here/balls.ray", BALLS);
+
+        let arguments = [&["--color", "24", "balls.ray"], poll].concat();
+        let mut relative = Session::start(&here, &arguments, WIDE, &[]);
+        let path = here.join("balls.ray").display().to_string();
+        let arguments = [&["--color", "24", &path], poll].concat();
+        let mut absolute = Session::start(place.directory.path(), &arguments, WIDE, &[]);
+        wait_for_colour(&mut relative, RED);
+        wait_for_colour(&mut absolute, RED);
+
+        fs::rename(&here, &there).expect("renamed");
+        absolute.wait_for("[file missing]");
+        place.write("there/balls.ray", &green);
+        wait_for_colour(&mut relative, BLUE);
+        assert!(!relative.text().contains("missing"));
+
+        fs::rename(&there, &here).expect("renamed");
+        wait_for_colour(&mut absolute, BLUE);
+        place.write("here/balls.ray", BALLS);
+        for mut session in [relative, absolute] {
+            wait_for_colour(&mut session, RED);
+            quit(session);
+        }
+    }
+}
