@@ -622,7 +622,9 @@ fn textures_from_elsewhere_need_leave() {
     let folder = elsewhere.directory.path().display();
     assert!(told.contains(&format!("--assets {folder} ")), "{told}");
     let allowed = format!("render a.dat -o a.ppm --spp 1 --assets /nowhere --assets {folder}");
-    assert_eq!(place.told(&allowed, 0), "");
+    let path = path.display();
+    let note = format!("note: {path} is read from {path}\n");
+    assert_eq!(place.told(&allowed, 0), note);
     assert_eq!(middle(&place.read("a.ppm")), [1, 2, 3]);
     let told = place.told(&format!("check a.dat --assets {folder}"), 0);
     assert!(told.contains("0 warnings"), "{told}");

@@ -1,21 +1,32 @@
-//! Which files may be read, and their bytes.
+//! Which files may be read, where they are looked for, and their bytes.
+//!
+//! A name leads into the scene's folder, the one above, or a folder that the user has named, or it is
+//! not opened. The folder above does not count where it holds more than scenes: the root, the user's
+//! home, and folders that everybody may write.
 
+use std::env;
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::{Component, Path, PathBuf};
 
 use rayon::prelude::*;
 
+use super::folder::Folder;
 use super::trouble::Failure;
 use crate::file::{self, directory_of};
 
 /// Whether and from where a scene's files are read.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Gate<'a> {
-    /// Folders that may be read besides the scene's surroundings.
-    pub(super) folders: &'a [PathBuf],
-    /// The scene file; names are relative to its folder.
-    pub(super) scene: &'a Path,
+#[derive(Debug)]
+pub(super) struct Gate {
+    /// The scene's folder, as it was named; names are relative to it.
+    folder: PathBuf,
+    /// It, and the one above if that may be read.
+    near: Vec<Folder>,
+    /// Those that the user has named, as they were named.
+    named: Vec<(PathBuf, Folder)>,
+    /// Whether files may be read relative to the current folder.
+    is_current_within: bool,
 }
 
 /// The bytes of a file.
@@ -24,69 +35,199 @@ pub(super) struct Content {
     pub(super) bytes: Vec<u8>,
     /// What stands for them.
     pub(super) print: u64,
+    /// Where they were, if not where they were looked for first.
+    pub(super) elsewhere: Option<PathBuf>,
 }
 
-impl Gate<'_> {
-    /// Where a file of this name stands.
+impl Gate {
+    /// The gate to the files of a scene. Folders that aren't there are left out.
+    pub(super) fn new(scene: &Path, folders: &[PathBuf], home: Option<&Path>) -> Self {
+        let folder = directory_of(scene).to_owned();
+        let near: Vec<_> = Folder::open(&folder).into_iter().collect();
+        let above = near.first().and_then(|own| own.real().parent());
+        let above = above.and_then(|above| Folder::open(above).ok());
+        let above = above.filter(|above| holds_scenes(above.real(), above.is_public(), home));
+        let named = folders
+            .iter()
+            .filter_map(|folder| Some((folder.clone(), Folder::open(folder).ok()?)));
+        let mut gate = Self {
+            folder,
+            near: near.into_iter().chain(above).collect(),
+            named: named.collect(),
+            is_current_within: false,
+        };
+        let current = env::current_dir().and_then(fs::canonicalize);
+        gate.is_current_within = current.is_ok_and(|current| gate.folder_of(&current).is_some());
+        gate
+    }
+
+    /// Where a file of this name is looked for first.
     pub(super) fn place(&self, name: &str) -> PathBuf {
-        directory_of(self.scene).join(name)
+        self.folder.join(portable(name))
     }
 
     /// Reads a file, and takes its length from the `room` there is.
     pub(super) fn read(&self, name: &str, room: &mut u64) -> Result<Content, Failure> {
-        let place = self.place(name);
-        let real = fs::canonicalize(&place);
-        if Path::new(name).is_absolute() && !self.may_come(&place) {
-            return Err(Failure::Absolute(real.unwrap_or(place)));
-        }
-        let real = real?;
-        if !self.may_read(name, &real) {
-            return Err(Failure::Outside(real));
-        }
-        let bytes = file::read_bytes(&real, *room)?;
+        let (real, elsewhere) = self.find(name)?;
+        let folder = self.folder_of(&real).ok_or(Failure::Missing(Vec::new()))?;
+        let opened = file::regular(folder.file(&real)?, &real)?;
+        let bytes = file::read_opened(&opened, &real, *room)?;
         *room -= bytes.len() as u64;
         Ok(Content {
             print: print(&bytes),
             bytes,
+            elsewhere,
         })
     }
 
-    /// Where a file stands whose changes matter: one that may be read, there or not.
-    pub(super) fn watched(&self, name: &str) -> Option<PathBuf> {
-        let place = self.place(name);
-        let may = match fs::canonicalize(&place) {
-            // A link that leads elsewhere may give way to a file.
-            Ok(real) => {
-                let own = fs::canonicalize(directory_of(&place));
-                self.may_read(name, &real) || own.is_ok_and(|own| self.may_read(name, &own))
+    /// A file's path without links, and by which path it was found, if not by the first.
+    fn find(&self, name: &str) -> Result<(PathBuf, Option<PathBuf>), Failure> {
+        let first = self.place(name);
+        let refusal = match self.resolve(&first) {
+            Ok(real) | Err(Failure::Outside { real, .. }) if is_absolute(name) => {
+                Failure::Absolute(real)
             }
-            Err(_) => !Path::new(name).is_absolute() || self.may_come(&place),
+            Err(_) if is_absolute(name) => Failure::Absolute(first.clone()),
+            Ok(real) => return Ok((real, None)),
+            Err(refusal @ (Failure::Missing(_) | Failure::Outside { .. })) => refusal,
+            Err(other) => return Err(other),
         };
-        may.then_some(place)
+        let is_missing = matches!(refusal, Failure::Missing(_));
+        let places = self.elsewhere(name, is_missing);
+        for place in &places {
+            if let Ok(real) = self.resolve(place) {
+                return Ok((real, Some(place.clone())));
+            }
+        }
+        Err(match refusal {
+            Failure::Missing(_) => Failure::Missing([first].into_iter().chain(places).collect()),
+            refusal => refusal,
+        })
     }
 
-    /// Whether a file without links on its way may be read for a name.
-    fn may_read(&self, name: &str, real: &Path) -> bool {
-        let surroundings = || {
-            let folder = fs::canonicalize(directory_of(self.scene)).ok()?;
-            Some(folder.parent().unwrap_or(&folder).to_owned())
-        };
-        let is_near = || surroundings().is_some_and(|folder| real.starts_with(folder));
-        self.is_allowed(real) || !Path::new(name).is_absolute() && is_near()
+    /// Where a file is looked for that is not where it was looked for first: by its whole name
+    /// only if nothing was there.
+    fn elsewhere(&self, name: &str, is_missing: bool) -> Vec<PathBuf> {
+        let name = portable(name);
+        let mut places = Vec::new();
+        let folders = || self.named.iter().map(|(folder, _)| folder);
+        if is_missing {
+            places.extend(self.is_current_within.then(|| PathBuf::from(&name)));
+            places.extend(folders().map(|folder| folder.join(&name)));
+        }
+        if let Some(last) = Path::new(&name).file_name() {
+            places.extend(folders().map(|folder| folder.join(last)));
+        }
+        let absolute = |place: &Path| std::path::absolute(place).ok();
+        let first = is_missing.then(|| absolute(&self.folder.join(&name)));
+        let mut known: Vec<_> = first.into_iter().collect();
+        places.retain(|place: &PathBuf| {
+            let place = absolute(place);
+            let is_new = !known.contains(&place);
+            known.push(place);
+            is_new
+        });
+        places
     }
 
-    /// Whether the user has named a folder above a file that is there or may come.
+    /// The path without links of something that may be read.
+    fn resolve(&self, place: &Path) -> Result<PathBuf, Failure> {
+        let real = fs::canonicalize(place).map_err(|error| match error.kind() {
+            io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => Failure::Missing(Vec::new()),
+            _ => Failure::Io(error),
+        })?;
+        if self.folder_of(&real).is_some() {
+            return Ok(real);
+        }
+        Err(Failure::Outside {
+            real,
+            allowed: self.allowed(),
+        })
+    }
+
+    /// Where files stand whose changes matter: those up to the first that may be read.
+    pub(super) fn watched(&self, name: &str) -> Vec<PathBuf> {
+        let first = self.place(name);
+        let found = self.resolve(&first);
+        let mut places = Vec::new();
+        let mut is_missing = false;
+        match found {
+            _ if is_absolute(name) => {}
+            Ok(_) => return vec![first],
+            Err(Failure::Missing(_)) => {
+                is_missing = true;
+                // The scene's folder may be gone for a while.
+                let name = portable(name);
+                let climbs = Path::new(&name)
+                    .components()
+                    .any(|step| step == Component::ParentDir);
+                if !climbs || self.may_come(&first) {
+                    places.push(first);
+                }
+            }
+            Err(_) => {
+                // A link that leads elsewhere may give way to a file.
+                let own = fs::canonicalize(directory_of(&first));
+                if own.is_ok_and(|own| self.folder_of(&own).is_some()) {
+                    places.push(first);
+                }
+            }
+        }
+        for place in self.elsewhere(name, is_missing) {
+            let is_there = self.resolve(&place).is_ok();
+            if is_there || self.may_come(&place) {
+                places.push(place);
+            }
+            if is_there {
+                break;
+            }
+        }
+        places
+    }
+
+    /// Whether what isn't there could be read if it were.
     fn may_come(&self, place: &Path) -> bool {
         let mut there = place.ancestors().filter_map(|at| fs::canonicalize(at).ok());
-        there.next().is_some_and(|real| self.is_allowed(&real))
+        there
+            .next()
+            .is_some_and(|real| self.folder_of(&real).is_some())
     }
 
-    /// Whether the user has named a folder above it.
-    fn is_allowed(&self, real: &Path) -> bool {
-        let folders = self.folders.iter();
-        let mut real_folders = folders.filter_map(|folder| fs::canonicalize(folder).ok());
-        real_folders.any(|folder| real.starts_with(folder))
+    /// The folder that a path without links may be read in.
+    fn folder_of(&self, real: &Path) -> Option<&Folder> {
+        let named = self.named.iter().map(|(_, folder)| folder);
+        let mut folders = self.near.iter().chain(named);
+        folders.find(|folder| folder.holds(real))
     }
+
+    /// The folders that may be read, in words.
+    fn allowed(&self) -> String {
+        let named = self.named.iter().map(|(_, folder)| folder);
+        let folders = self.near.last().into_iter().chain(named);
+        let folders: Vec<_> = folders
+            .map(|folder| folder.real().display().to_string())
+            .collect();
+        folders.join(" and ")
+    }
+}
+
+/// The user's home, without links.
+pub(super) fn home() -> Option<PathBuf> {
+    fs::canonicalize(env::var_os("HOME")?).ok()
+}
+
+/// Whether the folder above a scene's is likely to be of scenes.
+fn holds_scenes(folder: &Path, is_public: bool, home: Option<&Path>) -> bool {
+    folder.parent().is_some() && Some(folder) != home && !is_public
+}
+
+/// A name as this system writes it.
+fn portable(name: &str) -> String {
+    name.replace('\\', "/")
+}
+
+fn is_absolute(name: &str) -> bool {
+    Path::new(&portable(name)).is_absolute()
 }
 
 /// What stands for bytes. Those of large files are taken in by parts, side by side.
@@ -103,3 +244,6 @@ fn print(bytes: &[u8]) -> u64 {
     let parts: Vec<u64> = bytes.par_chunks(PART).map(of).collect();
     of(parts)
 }
+
+#[cfg(all(test, unix))]
+mod tests;

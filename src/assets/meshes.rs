@@ -35,13 +35,11 @@ impl Reading<'_> {
     }
 
     fn mesh(&mut self, name: &str, libraries: &mut Libraries) -> Result<Arc<Model>, NoMesh> {
-        let gate = self.gate;
         let failed = |failure: Failure| NoMesh {
             reasons: vec![failure.to_string()],
-            hint: failure.hint(&gate.place(name)),
+            hint: failure.hint(),
         };
-        let content = gate.read(name, &mut self.room.bytes);
-        let content = content.map_err(failed)?;
+        let content = self.content(name).map_err(failed)?;
         let known = match self.known(name, content.print, libraries) {
             Some(known) => known,
             None => self
@@ -120,8 +118,7 @@ impl Reading<'_> {
         if let Some(known) = libraries.get(&name) {
             return known.clone();
         }
-        let content = self.gate.read(&name, &mut self.room.bytes);
-        let read = match content {
+        let read = match self.content(&name) {
             Ok(content) => Ok((content.bytes.into(), content.print)),
             Err(failure) => Err(match failure.remedy() {
                 Some(remedy) => format!("{failure} ({remedy})"),

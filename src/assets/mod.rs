@@ -1,21 +1,23 @@
 //! The files that scenes name, pictures and meshes, read into shared values. What may be read is a
-//! scene's own: regular files below the folder above the scene's, or below folders that the user
-//! names. Knows nothing of what they are for.
+//! scene's own: regular files in its folder and the one above, and in folders that the user names.
+//! Knows nothing of what they are for.
 
+mod folder;
 mod gate;
 mod meshes;
 mod pictures;
 mod trouble;
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::obj;
 use crate::scene::{FileKind, Image, Images, Meshes, NamedFile};
 
-use gate::Gate;
+use gate::{Content, Gate};
 use meshes::KnownMesh;
+use trouble::Failure;
 
 pub use trouble::{Trouble, Troubles, report};
 
@@ -32,6 +34,8 @@ const LIMITS: Room = Room {
 pub struct Assets {
     /// Folders that may be read besides the scene's surroundings.
     folders: Vec<PathBuf>,
+    /// The user's home, without links.
+    home: Option<PathBuf>,
     /// How much is read for one scene.
     limits: Room,
     known: Known,
@@ -77,6 +81,8 @@ pub struct Loaded {
     pub meshes: Meshes,
     /// Why there is no picture, or none of now, by name.
     pub troubles: Troubles,
+    /// Where files were found that were looked for elsewhere first, by name.
+    pub elsewhere: BTreeMap<String, PathBuf>,
 }
 
 impl Wanted {
@@ -106,6 +112,7 @@ impl Assets {
     pub fn new(folders: &[PathBuf]) -> Self {
         Self {
             folders: folders.to_vec(),
+            home: gate::home(),
             limits: LIMITS,
             known: Known::default(),
         }
@@ -115,46 +122,60 @@ impl Assets {
     /// that can't be read now but could in the last reading, such as one whose file is being
     /// written, stays as it was then.
     pub fn read(&mut self, wanted: &Wanted) -> Loaded {
-        let gate = Gate {
-            folders: &self.folders,
-            scene: &wanted.scene,
-        };
+        let gate = self.gate(wanted);
         let mut reading = Reading {
-            gate,
+            gate: &gate,
+            elsewhere: BTreeMap::new(),
             before: std::mem::take(&mut self.known),
             now: Known::default(),
             room: self.limits,
         };
         let meshes = reading.meshes(&wanted.meshes);
         let (images, troubles) = reading.pictures(&wanted.pictures);
+        let elsewhere = reading.elsewhere;
         self.known = reading.now;
         Loaded {
             images,
             meshes,
             troubles,
+            elsewhere,
         }
+    }
+
+    fn gate(&self, wanted: &Wanted) -> Gate {
+        Gate::new(&wanted.scene, &self.folders, self.home.as_deref())
     }
 
     /// The files whose changes matter to a scene: those that may be read, there or not. Which
     /// libraries of materials are among them is known from the last reading.
     pub fn places(&self, wanted: &Wanted) -> Vec<PathBuf> {
-        let gate = Gate {
-            folders: &self.folders,
-            scene: &wanted.scene,
-        };
+        let gate = self.gate(wanted);
         let libraries = self.known.libraries.iter();
         let names = wanted.pictures.iter().chain(&wanted.meshes);
-        let places = names.chain(libraries).filter_map(|name| gate.watched(name));
+        let places = names.chain(libraries).flat_map(|name| gate.watched(name));
         places.collect::<BTreeSet<_>>().into_iter().collect()
     }
 }
 
 /// A reading under way.
 struct Reading<'a> {
-    gate: Gate<'a>,
+    gate: &'a Gate,
+    /// Where files were found that were looked for elsewhere first, by name.
+    elsewhere: BTreeMap<String, PathBuf>,
     before: Known,
     now: Known,
     room: Room,
+}
+
+impl Reading<'_> {
+    /// Reads one file.
+    fn content(&mut self, name: &str) -> Result<Content, Failure> {
+        let mut content = self.gate.read(name, &mut self.room.bytes)?;
+        if let Some(place) = content.elsewhere.take() {
+            self.elsewhere.insert(name.to_owned(), place);
+        }
+        Ok(content)
+    }
 }
 
 #[cfg(all(test, unix))]

@@ -24,7 +24,7 @@ impl Reading<'_> {
                         Some(_) => Shown::Last,
                         None => Shown::Magenta,
                     };
-                    troubles.insert(name.clone(), failure.trouble(&place, shown));
+                    troubles.insert(name.clone(), failure.trouble(shown));
                     last
                 }
             };
@@ -42,7 +42,7 @@ impl Reading<'_> {
 
     /// Reads one picture: what stands for its bytes, and itself.
     fn picture(&mut self, name: &str) -> Result<(u64, Arc<Image>), Failure> {
-        let content = self.gate.read(name, &mut self.room.bytes)?;
+        let content = self.content(name)?;
         let print = content.print;
         let known = self.now.images.get(&print);
         let image = match known.or_else(|| self.before.images.get(&print)) {

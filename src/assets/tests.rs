@@ -25,6 +25,11 @@ impl Place {
         self.directory.path().join("scenes").join(name)
     }
 
+    /// The folder above the scene's.
+    fn root(&self) -> PathBuf {
+        fs::canonicalize(self.directory.path()).expect("a place")
+    }
+
     fn write(&self, name: &str, content: impl AsRef<[u8]>) {
         fs::write(self.at(name), content).expect("written");
     }
@@ -96,6 +101,7 @@ fn other_places_are_refused_unless_their_folder_is_named() {
     let absolute = outside.to_str().expect("a plain path");
     let own = place.at("b.ppm");
     let climbing = format!("../../../../../../../../../..{absolute}");
+    let outside_of = format!("is outside {}; magenta", place.root().display());
     for (name, reason) in [
         (
             absolute,
@@ -104,8 +110,8 @@ fn other_places_are_refused_unless_their_folder_is_named() {
         ("/dev/zero", "an absolute path"),
         ("/none/at/all", "an absolute path"),
         (own.to_str().expect("a plain path"), "an absolute path"),
-        ("link", "is outside of the folder above the scene's"),
-        (climbing.as_str(), "is outside of the folder above"),
+        ("link", outside_of.as_str()),
+        (climbing.as_str(), outside_of.as_str()),
     ] {
         let told = place.refusal(name, &[]).expect(name);
         assert!(told.starts_with("texture 1 file: "), "{told}");
@@ -235,7 +241,7 @@ fn what_takes_a_picture_s_place_does_not_take_the_picture() {
     keeps("is a folder, not a file; its last picture is kept");
     fs::remove_dir(place.at("a.ppm")).expect("it is there");
     symlink("/dev/null", place.at("a.ppm")).expect("a link");
-    keeps("is outside of the folder above the scene's; its last picture is kept");
+    keeps("; its last picture is kept (--assets /dev lets it be read)");
     fs::remove_file(place.at("a.ppm")).expect("it is there");
     place.write("a.ppm", b"P6\n8193 8192\n255\n");
     keeps("is 8193x8192");
@@ -298,14 +304,29 @@ fn places_to_watch_are_those_that_may_be_read() {
 fn a_missing_file_below_a_named_folder_is_waited_for() {
     let place = Place::new();
     let elsewhere = tempfile::tempdir().expect("a directory");
-    let missing = elsewhere.path().join("m/deep/a.ppm");
-    let name = &missing.display().to_string();
+    let name = "m/deep/a.ppm";
     let folders = [elsewhere.path().to_owned()];
+    let looked_for = [
+        place.at(name),
+        elsewhere.path().join(name),
+        elsewhere.path().join("a.ppm"),
+    ];
     let told = place.refusal(name, &folders).expect(name);
-    assert!(told.contains("no such file; magenta"), "{told}");
+    let places = looked_for
+        .each_ref()
+        .map(|place| place.display().to_string());
+    let expected = format!("(it is looked for as {})", places.join(", "));
+    assert!(told.ends_with(&expected), "{told}");
     let wanted = place.wanted(&[name]);
-    assert!(Assets::new(&[]).places(&wanted).is_empty());
-    assert_eq!(Assets::new(&folders).places(&wanted), [missing]);
+    let mut places = Assets::new(&folders).places(&wanted);
+    places.sort();
+    let mut expected = looked_for.to_vec();
+    expected.sort();
+    assert_eq!(places, expected);
+    // What was found first is enough.
+    place.write("a.ppm", ppm(RED));
+    let wanted = place.wanted(&["a.ppm"]);
+    assert_eq!(Assets::new(&folders).places(&wanted), [place.at("a.ppm")]);
 }
 
 #[test]

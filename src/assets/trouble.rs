@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::LIMITS;
 use crate::file::{ReadError, directory_of};
@@ -74,10 +74,11 @@ pub fn report(troubles: &Troubles, files: &[NamedFile], mut findings: Findings) 
 pub(super) enum Failure {
     #[error("an absolute path is not read")]
     Absolute(PathBuf),
-    #[error("is outside of the folder above the scene's")]
-    Outside(PathBuf),
+    #[error("is outside {allowed}")]
+    Outside { real: PathBuf, allowed: String },
+    /// With the places where it was looked for.
     #[error("no such file")]
-    Missing,
+    Missing(Vec<PathBuf>),
     #[error("{0}")]
     Io(io::Error),
     #[error("is {0}, not a file")]
@@ -92,18 +93,22 @@ pub(super) enum Failure {
 
 impl Failure {
     /// What it means for whoever looks at a picture.
-    pub(super) fn trouble(&self, place: &Path, shown: Shown) -> Trouble {
+    pub(super) fn trouble(&self, shown: Shown) -> Trouble {
         Trouble {
             reason: self.to_string(),
-            hint: self.hint(place),
+            hint: self.hint(),
             shown,
         }
     }
 
-    /// What helps, with a file at that place.
-    pub(super) fn hint(&self, place: &Path) -> Option<String> {
+    /// What helps.
+    pub(super) fn hint(&self) -> Option<String> {
         match self {
-            Self::Missing => Some(format!("it is looked for as {}", place.display())),
+            Self::Missing(places) if !places.is_empty() => {
+                let places = places.iter().map(|place| place.display().to_string());
+                let places: Vec<_> = places.collect();
+                Some(format!("it is looked for as {}", places.join(", ")))
+            }
             _ => self.remedy(),
         }
     }
@@ -111,7 +116,7 @@ impl Failure {
     /// How the file is read all the same.
     pub(super) fn remedy(&self) -> Option<String> {
         match self {
-            Self::Absolute(real) | Self::Outside(real) => {
+            Self::Absolute(real) | Self::Outside { real, .. } => {
                 let folder = directory_of(real).display();
                 Some(format!("--assets {folder} lets it be read"))
             }
@@ -123,7 +128,7 @@ impl Failure {
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
         match error.kind() {
-            io::ErrorKind::NotFound => Self::Missing,
+            io::ErrorKind::NotFound => Self::Missing(Vec::new()),
             _ => Self::Io(error),
         }
     }
@@ -135,7 +140,7 @@ impl From<ReadError> for Failure {
             ReadError::NotRegular { kind, .. } => Self::NotRegular(kind),
             ReadError::TooLong { .. } => Self::TooLong,
             ReadError::Io { source, .. } => Self::Io(source),
-            ReadError::NotFound { .. } | ReadError::NotUtf8 { .. } => Self::Missing,
+            ReadError::NotFound { .. } | ReadError::NotUtf8 { .. } => Self::Missing(Vec::new()),
         }
     }
 }

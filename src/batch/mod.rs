@@ -173,7 +173,7 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
 }
 
 /// What a text means with the files it names, and the pictures among these. All that is wrong with
-/// any of them is among its diagnostics.
+/// any of them is among its diagnostics; prints which were found elsewhere than by their names.
 fn mean(path: &Path, text: &str, tree: &Tree, folders: &[PathBuf]) -> (Lowered, Images) {
     let mut assets = Assets::new(folders);
     let mut lowered = scene::lower(text, tree, &Meshes::default());
@@ -194,6 +194,9 @@ fn mean(path: &Path, text: &str, tree: &Tree, folders: &[PathBuf]) -> (Lowered, 
         }
     }
     lowered.diagnostics = assets::report(&loaded.troubles, &files, lowered.diagnostics);
+    for (name, place) in &loaded.elsewhere {
+        tell("note", &format!("{name} is read from {}", place.display()));
+    }
     (lowered, loaded.images)
 }
 

@@ -222,7 +222,7 @@ impl StrictnessArguments {
 #[derive(Args, Debug)]
 struct AssetArguments {
     /// Let the scene read pictures and meshes from this folder too; may be given several times.
-    /// Without it they are read from below the folder above the scene's only
+    /// Without it they are read from the scene's folder and the one above it only
     #[arg(long = "assets", value_name = "DIR")]
     folders: Vec<PathBuf>,
 }

@@ -92,7 +92,12 @@ pub fn read_text(path: &Path) -> Result<String, ReadError> {
 
 /// Reads a regular file of at most `limit` bytes.
 pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
-    read_open(&open(path)?, limit).map_err(|source| match source.kind() {
+    read_opened(&open(path)?, path, limit)
+}
+
+/// Reads a regular file that is open, of at most `limit` bytes.
+pub(crate) fn read_opened(file: &File, path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+    read_open(file, limit).map_err(|source| match source.kind() {
         io::ErrorKind::FileTooLarge => ReadError::TooLong {
             path: path.to_owned(),
         },
@@ -132,8 +137,16 @@ pub(crate) fn open(path: &Path) -> Result<File, ReadError> {
             source,
         },
     };
-    let file = without_waiting().open(path).map_err(told)?;
-    // Asked of the open file, not of the name, which may mean another file by now.
+    regular(without_waiting().open(path).map_err(told)?, path)
+}
+
+/// The same file, if it is a regular one. Asked of the open file, not of the name, which may mean
+/// another file by now.
+pub(crate) fn regular(file: File, path: &Path) -> Result<File, ReadError> {
+    let told = |source| ReadError::Io {
+        path: path.to_owned(),
+        source,
+    };
     let file_type = file.metadata().map_err(told)?.file_type();
     if file_type.is_file() {
         Ok(file)

@@ -59,9 +59,10 @@ impl FromIterator<(String, Result<Arc<Model>, NoMesh>)> for Meshes {
 }
 
 /// The path of a file whose name is relative to the folder of another one: of what a mesh or a
-/// library of materials names, as if the scene's text did.
+/// library of materials names, as if the scene's text did. `\` separates as `/` does.
 pub fn beside(file: &str, name: &str) -> String {
-    let path = Path::new(file).with_file_name(name);
+    let [file, name] = [file, name].map(|path| path.replace('\\', "/"));
+    let path = Path::new(&file).with_file_name(name);
     path.to_string_lossy().into_owned()
 }
 
@@ -77,6 +78,7 @@ mod tests {
             ("meshes/a.obj", "../skins/b.mtl", "meshes/../skins/b.mtl"),
             ("meshes/a.obj", "/b.mtl", "/b.mtl"),
             ("../a.obj", "b c.mtl", "../b c.mtl"),
+            ("meshes\\a.obj", "skins\\b.mtl", "meshes/skins/b.mtl"),
             ("", "b.mtl", "b.mtl"),
         ] {
             assert_eq!(beside(file, name), path, "{file} {name}");

@@ -70,6 +70,7 @@ fn a_mesh_that_cannot_be_read_is_told_with_its_reason() {
     let looked_for = format!("it is looked for as {}", place.at("none.obj").display());
     let leave = format!("--assets {} lets it be read", folder.display());
     let absolute = outside.to_str().expect("a plain path");
+    let outside = format!("is outside {}", place.root().display());
     let refused = |name: &str| match Assets::new(&[])
         .read(&place.wanted_meshes(&[name]))
         .meshes
@@ -86,11 +87,7 @@ fn a_mesh_that_cannot_be_read_is_told_with_its_reason() {
             &["an absolute path is not read"],
             Some(leave.clone()),
         ),
-        (
-            "link.obj",
-            &["is outside of the folder above the scene's"],
-            Some(leave),
-        ),
+        ("link.obj", &[outside.as_str()], Some(leave)),
         (
             "bad.obj",
             &[
@@ -203,4 +200,34 @@ fn meshes_that_are_too_much_together_are_refused() {
     // The fourth is the first's twin.
     assert_eq!(loaded.meshes.unreadable(), 1);
     assert!(matches!(loaded.meshes.get("c.obj"), Some(Err(_))));
+}
+
+/// A mesh that was found elsewhere finds its library there too.
+#[test]
+fn a_mesh_from_a_named_folder_brings_its_library() {
+    let place = Place::new();
+    let elsewhere = tempfile::tempdir().expect("a directory");
+    fs::create_dir(elsewhere.path().join("meshes")).expect("a folder");
+    for folder in ["", "meshes/"] {
+        let at = |name: &str| elsewhere.path().join(format!("{folder}{name}"));
+        fs::write(at("a.obj"), TRIANGLE).expect("written");
+        fs::write(at("a.mtl"), "newmtl a\nKd 0 1 0\n").expect("written");
+    }
+    for (name, mesh, library) in [
+        ("meshes\\a.obj", "meshes/a.obj", "meshes/a.mtl"),
+        ("C:\\course\\a.obj", "a.obj", "a.mtl"),
+    ] {
+        let mut assets = Assets::new(&[elsewhere.path().to_owned()]);
+        let loaded = assets.read(&place.wanted_meshes(&[name]));
+        assert_eq!(doubts(&loaded, name), [""; 0]);
+        let found: Vec<_> = loaded.elsewhere.values().cloned().collect();
+        let mut expected = [mesh, library]
+            .map(|name| elsewhere.path().join(name))
+            .to_vec();
+        expected.sort();
+        assert_eq!(
+            found.iter().collect::<BTreeSet<_>>(),
+            expected.iter().collect()
+        );
+    }
 }

@@ -1,5 +1,8 @@
 //! The files that the scene names, pictures and meshes: which are wanted, and which have come.
 
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
 use super::App;
 use crate::assets::{self, Loaded, Troubles, Wanted};
 use crate::scene::{Images, Meshes};
@@ -20,6 +23,8 @@ pub(super) struct Assets {
     awaited: bool,
     /// What is wrong with pictures; what is with meshes, the meshes say.
     troubles: Troubles,
+    /// Where files were found that were looked for elsewhere first, by name: each was said.
+    elsewhere: BTreeMap<String, PathBuf>,
 }
 
 impl App {
@@ -100,11 +105,30 @@ impl App {
             // Meshes may name pictures, which are wanted then.
             self.relower();
         }
+        let found = self.found_elsewhere(loaded.elsewhere);
         if are_faults_new {
             self.tell_of_files();
+        } else if let Some(words) = found {
+            self.say(words);
         } else if !is_first && (are_meshes_new || are_images_new) {
             self.say("files read again");
         }
+    }
+
+    /// What is to be said of files found elsewhere than first looked for.
+    fn found_elsewhere(&mut self, found: BTreeMap<String, PathBuf>) -> Option<String> {
+        let said = &self.assets.elsewhere;
+        let mut new = found
+            .iter()
+            .filter(|(name, place)| said.get(*name) != Some(place));
+        let (name, place) = new.next()?;
+        let more = match new.count() {
+            0 => String::new(),
+            count => format!(" (and {} from elsewhere)", counted(count, "more file")),
+        };
+        let words = format!("{name} is read from {}{more}", place.display());
+        self.assets.elsewhere.extend(found);
+        Some(words)
     }
 
     fn tell_of_files(&mut self) {

@@ -317,3 +317,20 @@ fn pictures_that_a_mesh_names_are_asked_for_once_it_is_there() {
     let message = "a.obj (obj) map_Kd skin.ppm: no such file; magenta stands for it";
     assert_eq!(found.map(|found| found.message.as_str()), Some(message));
 }
+
+#[test]
+fn where_a_file_was_found_is_said_once() {
+    let (mut app, _) = open_textured(TEXTURED);
+    let found = |colour, place: &str| Loaded {
+        elsewhere: [("skin.ppm".to_owned(), PathBuf::from(place))].into(),
+        ..loaded("skin.ppm", [colour; 3])
+    };
+    for (colour, place, said) in [
+        (1, "/a/skin.ppm", "skin.ppm is read from /a/skin.ppm"),
+        (2, "/a/skin.ppm", "files read again"),
+        (3, "/b/skin.ppm", "skin.ppm is read from /b/skin.ppm"),
+    ] {
+        app.update(Msg::AssetsRead(wanted(&["skin.ppm"]), found(colour, place)));
+        assert_eq!(app.message.as_ref().map(|m| m.text.as_str()), Some(said));
+    }
+}
