@@ -31,6 +31,8 @@ pub(crate) enum Event {
     Ready(Target),
     /// The renderer of this number traces no more.
     Ended(Target, u64),
+    /// The terminal has taken all that was drawn.
+    Cleared,
 }
 
 /// What outlives a step: the terminal, the renderers, the timers, the file under watch.
@@ -59,7 +61,13 @@ pub(crate) struct World {
 impl World {
     /// Takes the terminal over and starts everything that sends messages.
     pub(crate) fn new(options: &Options, sender: Sender<Event>) -> io::Result<Self> {
-        let terminal = Terminal::enter(options.colours(), options.mouse)?;
+        let terminal = {
+            let sender = sender.clone();
+            let cleared = move || {
+                let _ = sender.send(Event::Cleared);
+            };
+            Terminal::enter(options.colours(), options.mouse, cleared)?
+        };
         let tell = |sender: &Sender<Event>| {
             let sender = sender.clone();
             move |event| {
@@ -117,12 +125,14 @@ impl World {
                 let ended = self.numbered(target)?.number == number;
                 ended.then_some(Msg::Ended(target))
             }
+            Event::Cleared => None,
         }
     }
 
-    /// Gives the terminal back and waits for the files; whether unsaved edits are kept.
-    pub(crate) fn close(self) -> bool {
-        drop(self.terminal);
+    /// Gives the terminal back, until `deadline` at most, and waits for the files; whether unsaved
+    /// edits are kept.
+    pub(crate) fn close(self, deadline: Instant) -> bool {
+        self.terminal.close(deadline);
         self.files.finish()
     }
 

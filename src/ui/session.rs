@@ -1,14 +1,14 @@
 //! The loop: waits for events, takes steps, draws.
 
 use std::collections::VecDeque;
-use std::io::{self, Write};
+use std::io;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use super::app::App;
 use super::effects::{Event, World};
 use super::msg::{Effect, Kept, Msg, Target};
-use super::terminal::{Link, default_bandwidth};
+use super::terminal::{self, Link, default_bandwidth};
 use super::view::{self, Glyphs};
 use super::{Ending, Options};
 use crate::text;
@@ -80,6 +80,8 @@ impl Session {
                 Urgency::Soon => Some(self.refined.map_or(now, |refined| refined + FRAME_TIME)),
                 Urgency::Never => self.rest_at(now),
             };
+            // Frames follow one another: while one is on its way, the next one waits.
+            let draw_at = draw_at.filter(|_| self.world.terminal().is_clear());
             if draw_at.is_some_and(|at| at <= now) {
                 if urgency == Urgency::Soon {
                     self.refined = Some(now);
@@ -101,12 +103,10 @@ impl Session {
         let path = self.app.path.map_or_else(String::new, |path| {
             format!(" {}", text::visible(&path.to_string_lossy()))
         });
-        if self.world.close() {
-            // A terminal that is gone needs no words.
-            let _ = writeln!(
-                io::stderr(),
+        if self.world.close(Instant::now() + patience(self.ending)) {
+            terminal::complain(format!(
                 "unsaved edits are kept; halflight{path} offers them"
-            );
+            ));
         }
         self.ending
     }
@@ -199,6 +199,16 @@ impl Session {
         }
         Ok(())
     }
+}
+
+/// How long the terminal may take to be given back. Somebody who quits may sit at the end of a line
+/// that stalls; who ends the program from outside waits less, and a terminal that hung up not at all.
+fn patience(ending: Ending) -> Duration {
+    Duration::from_millis(match ending {
+        Ending::Quit | Ending::Interrupted => 2000,
+        Ending::Terminated => 400,
+        Ending::HungUp => 100,
+    })
 }
 
 /// How the program ends if this message ends it.

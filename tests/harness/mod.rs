@@ -9,6 +9,8 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use portable_pty::{Child, CommandBuilder, ExitStatus, MasterPty, PtySize, native_pty_system};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::fs::{Mode, OFlags};
 
 /// Nothing takes this long; a test that waits for more has failed.
 const WATCHDOG: Duration = Duration::from_secs(30);
@@ -21,7 +23,7 @@ const BEGIN_FRAME: &[u8] = b"\x1b[?2026h";
 const END_FRAME: &[u8] = b"\x1b[?2026l";
 
 /// Has the whole screen drawn anew.
-const CTRL_L: &str = "\x0c";
+pub(crate) const CTRL_L: &str = "\x0c";
 
 /// A program on a terminal of its own.
 pub(crate) struct Session {
@@ -189,15 +191,58 @@ impl Session {
 
     /// Takes the terminal away, as a lost connection does.
     pub(crate) fn hang_up(&mut self) {
-        // The end that is read from is let go of too, after one more piece of output.
+        // The end that is read from is let go of too.
+        self.stop_reading();
+        self.hang_up_at_once();
+    }
+
+    /// Takes a terminal away that is not read any more.
+    pub(crate) fn hang_up_at_once(&mut self) {
+        self.keys = None;
+        self.master = None;
+    }
+
+    /// Whether there is a terminal still.
+    #[allow(dead_code, reason = "most leave it there")]
+    pub(crate) fn has_terminal(&self) -> bool {
+        self.master.is_some()
+    }
+
+    /// Reads on after [`Session::hang`].
+    #[allow(dead_code, reason = "not everybody's terminal hangs")]
+    pub(crate) fn read_again(&mut self) {
+        let reader = self.terminal().try_clone_reader();
+        self.deaf = Arc::default();
+        self.output = listen(reader.expect("it can be read"), Arc::clone(&self.deaf));
+    }
+
+    /// Reads no more, as a terminal that hangs, until the program's output finds no room.
+    #[allow(dead_code, reason = "not everybody's terminal hangs")]
+    pub(crate) fn hang(&mut self) {
+        self.stop_reading();
+        let name = self.terminal().tty_name().expect("it has a name");
+        let open = OFlags::WRONLY | OFlags::NOCTTY | OFlags::CLOEXEC;
+        let line = rustix::fs::open(name, open, Mode::empty()).expect("it can be opened");
+        let deadline = Instant::now() + WATCHDOG;
+        let room = || {
+            let at_once = Some(&Timespec::default());
+            poll(&mut [PollFd::new(&line, PollFlags::OUT)], at_once) != Ok(0)
+        };
+        while room() {
+            assert!(Instant::now() < deadline, "there is always room");
+            self.send(CTRL_L);
+            std::thread::sleep(POLL);
+        }
+    }
+
+    /// Reads one more piece of output and no other.
+    fn stop_reading(&mut self) {
         self.deaf.store(true, Ordering::SeqCst);
         self.send(CTRL_L);
         let deadline = Instant::now() + WATCHDOG;
         while self.take(WATCHDOG) != Err(RecvTimeoutError::Disconnected) {
             assert!(Instant::now() < deadline, "nothing was written");
         }
-        self.keys = None;
-        self.master = None;
     }
 
     /// Waits for the program's end, and takes all that it wrote.

@@ -103,6 +103,54 @@ fn a_terminal_that_is_gone_ends_it() {
 }
 
 #[test]
+fn a_terminal_that_nobody_reads_holds_up_no_ending() {
+    let signal = |signal| move |session: &mut Session| kill(session.process_id(), signal);
+    let endings: [(&str, u32, &dyn Fn(&mut Session)); 4] = [
+        ("SIGTERM", 143, &signal(Signal::TERM)),
+        ("SIGHUP", 129, &signal(Signal::HUP)),
+        ("Ctrl-C twice", 0, &|session| {
+            session.send([CTRL_C; 2].concat())
+        }),
+        ("no terminal", 129, &|session| session.hang_up_at_once()),
+    ];
+    for (ending, code, end) in endings {
+        let place = Place::new();
+        let mut session = place.open_edited();
+        session.hang();
+        end(&mut session);
+        assert_eq!(session.end().exit_code(), code, "after {ending}");
+        assert_eq!(place.recovery_files().len(), 1, "after {ending}");
+        assert!(!session.has_terminal() || session.has_settings_from_before());
+    }
+}
+
+#[test]
+fn it_quits_a_terminal_that_nobody_reads() {
+    let place = Place::new();
+    let mut session = place.open();
+    session.hang();
+    session.send("q");
+    assert_eq!(session.end().exit_code(), 0);
+    assert!(session.has_settings_from_before());
+}
+
+#[test]
+fn a_terminal_that_is_read_again_shows_everything() {
+    let place = Place::new();
+    let mut session = place.open();
+    session.hang();
+    session.send(RADIUS_TO_2);
+    session.read_again();
+    session.send(CTRL_L);
+    session.wait("the edit and its picture", |screen| {
+        is_at_rest(screen) && screen.contents().contains("balls.ray [+]")
+    });
+    session.send("w");
+    session.wait_for("wrote balls.ray");
+    quit(session);
+}
+
+#[test]
 fn it_stops_and_goes_on_as_a_job_of_a_shell() {
     let place = Place::new();
     let mut command = CommandBuilder::new("/bin/sh");

@@ -18,7 +18,7 @@ use rustix::process::{Pid, Signal, kill_process};
 use tempfile::TempDir;
 use vt100::{Color, MouseProtocolMode, Screen};
 
-use harness::{Pixels, Session, last, picture};
+use harness::{CTRL_L, Pixels, Session, last, picture};
 
 /// Two balls that shine by ambient light alone, so that their pixels are of their own colours.
 const BALLS: &str = "\

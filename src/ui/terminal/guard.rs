@@ -5,14 +5,16 @@
 
 use std::io;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
 
 use super::backend::AnsiBackend;
 use super::colour::ColourDepth;
-use super::panics::{self, Shared, Tenure};
-use super::tty;
+use super::output::Output;
+use super::panics::{Shared, Tenure};
+use super::tty::{self, Line};
 
 /// Alternate screen, no cursor, pastes in brackets, no wrapping at the last column.
 const ENTER: &str = "\x1b[?1049h\x1b[?25l\x1b[?2004h\x1b[?7l";
@@ -25,6 +27,9 @@ const LEAVE: &str =
 /// flood over a slow line.
 const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1002h\x1b[?1006h";
 const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1002l\x1b[?1000l";
+
+/// How long a terminal may take to be given back. One that is read takes a moment.
+const PATIENCE: Duration = Duration::from_millis(500);
 
 /// Whether the mouse is ours or the terminal's own, as for selecting text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,30 +52,43 @@ pub struct Terminal {
 }
 
 impl Terminal {
-    /// Takes the terminal over.
-    pub fn enter(colours: ColourDepth, mouse: Mouse) -> io::Result<Self> {
+    /// Takes the terminal over. `cleared` is called on another thread whenever the terminal has
+    /// taken what it did not take at once.
+    pub fn enter(
+        colours: ColourDepth,
+        mouse: Mouse,
+        cleared: impl Fn() + Send + 'static,
+    ) -> io::Result<Self> {
+        let output = Output::start(Line::open()?, cleared)?;
         let backend = AnsiBackend::new(colours, tty::size());
         let Ok(screen) = ratatui::Terminal::new(backend);
         let mut terminal = Self {
             screen,
-            shared: Shared::install(restore),
+            shared: Shared::install(output, restore),
             mouse,
         };
         terminal.reenter()?;
         Ok(terminal)
     }
 
-    /// Draws a frame and writes what differs from the last one, in one piece.
+    /// Whether the terminal has taken all that was drawn. A frame that is drawn before is the
+    /// later, as none may be left out.
+    pub fn is_clear(&self) -> bool {
+        self.shared.output().is_clear()
+    }
+
+    /// Draws a frame and sends what differs from the last one, without waiting for the terminal.
     ///
-    /// Returns the number of bytes written: none at all when nothing differs or while the
-    /// terminal is lent.
+    /// Returns the number of bytes sent: none at all when nothing differs or while the terminal
+    /// is lent.
     pub fn draw(&mut self, paint: impl FnOnce(&mut Frame)) -> io::Result<usize> {
         if *self.shared.tenure() != Tenure::Ours {
             return Ok(0);
         }
         self.screen.backend_mut().fit(tty::size());
         let Ok(_) = self.screen.draw(paint);
-        self.screen.backend_mut().finish(tty::write_whole)
+        let output = self.shared.output();
+        self.screen.backend_mut().finish(|frame| output.send(frame))
     }
 
     /// Makes the next frame a whole one, whatever the screen shows now.
@@ -82,9 +100,16 @@ impl Terminal {
         let Ok(()) = self.screen.resize(Rect::from((Position::ORIGIN, size)));
     }
 
-    /// Lends the terminal to another program; does nothing if it is not ours.
+    /// Lends the terminal to another program; does nothing if it is not ours. Fails where the
+    /// terminal takes no output.
     pub fn leave(&mut self) -> io::Result<()> {
-        give_back(&self.shared, Tenure::Lent)
+        give_back(&self.shared, Tenure::Lent, Instant::now() + PATIENCE)
+    }
+
+    /// Gives the terminal back for good, until `deadline` at most.
+    pub fn close(self, deadline: Instant) {
+        // A terminal that takes nothing is gone, or shows nothing to anybody.
+        let _ = give_back(&self.shared, Tenure::GivenBack, deadline);
     }
 
     /// Takes the terminal back, from another program or from a shell that changed its modes while
@@ -104,8 +129,9 @@ impl Terminal {
             #[cfg(windows)]
             let _ = crossterm::ansi_support::supports_ansi();
             *tenure = Tenure::Ours;
-            tty::write_whole(ENTER.as_bytes())?;
-            tty::write_whole(mouse_sequence(self.mouse).as_bytes())?;
+            let output = self.shared.output();
+            output.send(ENTER.as_bytes())?;
+            output.send(mouse_sequence(self.mouse).as_bytes())?;
         }
         self.repaint();
         Ok(())
@@ -117,7 +143,7 @@ impl Terminal {
         if *self.shared.tenure() != Tenure::Ours {
             return Ok(());
         }
-        tty::write_whole(mouse_sequence(mouse).as_bytes())
+        self.shared.output().send(mouse_sequence(mouse).as_bytes())
     }
 
     /// Returns the panics of other threads since the last call, fit to be shown.
@@ -130,7 +156,7 @@ impl Drop for Terminal {
     fn drop(&mut self) {
         restore(&self.shared);
         for panic in self.take_panics() {
-            panics::tell(&panic);
+            tty::complain(panic);
         }
     }
 }
@@ -138,16 +164,18 @@ impl Drop for Terminal {
 /// Gives the terminal back for good. A terminal that cannot be written to is gone, and nothing is
 /// left to restore.
 fn restore(shared: &Shared) {
-    let _ = give_back(shared, Tenure::GivenBack);
+    let _ = give_back(shared, Tenure::GivenBack, Instant::now() + PATIENCE);
 }
 
-fn give_back(shared: &Shared, to: Tenure) -> io::Result<()> {
+/// What was drawn last is cut off if it still waits: the sequence that restores the screen ends
+/// whatever it cuts.
+fn give_back(shared: &Shared, to: Tenure, deadline: Instant) -> io::Result<()> {
     let mut tenure = shared.tenure();
     let before = std::mem::replace(&mut *tenure, to);
     if before != Tenure::Ours {
         return Ok(());
     }
-    let written = tty::write_whole(LEAVE.as_bytes());
+    let written = shared.output().send_last(LEAVE.as_bytes(), deadline);
     crossterm::terminal::disable_raw_mode()?;
     written
 }

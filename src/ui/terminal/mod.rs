@@ -13,6 +13,7 @@ mod decode;
 mod guard;
 mod input;
 mod link;
+mod output;
 mod panics;
 mod pen;
 #[cfg(unix)]
@@ -28,7 +29,7 @@ pub use input::Input;
 pub use link::{Link, default_bandwidth};
 #[cfg(unix)]
 pub use signals::{Signals, suspend_process};
-pub(crate) use tty::size;
+pub(crate) use tty::{complain, size};
 
 use crossterm::event::{KeyEvent, MouseEvent};
 

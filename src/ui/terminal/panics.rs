@@ -4,10 +4,12 @@
 //! thread is kept, because the interface is still drawing.
 
 use std::backtrace::{Backtrace, BacktraceStatus};
-use std::io::{self, Write};
 use std::panic::{self, PanicHookInfo};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::thread::{self, ThreadId};
+
+use super::output::Output;
+use super::tty;
 
 /// Who has the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,15 +26,17 @@ pub(super) enum Tenure {
 #[derive(Debug)]
 pub(super) struct Shared {
     interface: ThreadId,
+    output: Output,
     tenure: Mutex<Tenure>,
     panics: Mutex<Vec<String>>,
 }
 
 impl Shared {
     /// Makes the calling thread the interface's, and catches panics while the result lives.
-    pub(super) fn install(restore: fn(&Self)) -> Arc<Self> {
+    pub(super) fn install(output: Output, restore: fn(&Self)) -> Arc<Self> {
         let shared = Arc::new(Self {
             interface: thread::current().id(),
+            output,
             tenure: Mutex::new(Tenure::GivenBack),
             panics: Mutex::new(Vec::new()),
         });
@@ -43,6 +47,11 @@ impl Shared {
             None => previous(panic),
         }));
         shared
+    }
+
+    /// Where bytes for the terminal go.
+    pub(super) fn output(&self) -> &Output {
+        &self.output
     }
 
     /// Locks who has the terminal; held while it changes hands.
@@ -65,7 +74,7 @@ impl Shared {
             *self.tenure() == Tenure::GivenBack
         };
         if told_at_once {
-            tell(&text);
+            tty::complain(text);
         } else {
             self.panics
                 .lock()
@@ -73,11 +82,6 @@ impl Shared {
                 .push(text);
         }
     }
-}
-
-/// Prints a panic; there is nowhere to report it if that fails.
-pub(super) fn tell(text: &str) {
-    let _ = writeln!(io::stderr(), "{text}");
 }
 
 fn description(panic: &PanicHookInfo) -> String {

@@ -1,10 +1,13 @@
-//! The terminal as a file: its size and whole writes.
+//! The terminal as a file: its size, its modes, and writes that know how to wait.
 
 #[cfg(unix)]
 use std::fs::File;
-use std::io;
+use std::io::{self, Write};
 #[cfg(unix)]
 use std::os::fd::{AsFd, OwnedFd};
+use std::sync::mpsc;
+use std::thread;
+use std::time::Duration;
 
 use ratatui::layout::Size;
 
@@ -21,6 +24,9 @@ const MAX_COLUMNS: u16 = 2000;
 /// gigabytes and minutes.
 const MAX_CELLS: u32 = 500_000;
 
+/// How long a line on standard error may take.
+const LAST_WORDS: Duration = Duration::from_millis(200);
+
 /// Returns the size of the window in cells, never zero; of a window beyond any screen, the size of
 /// the part at its top left that is drawn on.
 ///
@@ -31,41 +37,146 @@ pub(crate) fn size() -> Size {
     drawn_part(known_size(Size { width, height }, variable))
 }
 
-/// Writes all of the bytes, in one call to the system if it takes them.
-///
-/// Waits where another program has left the shared terminal in non-blocking mode, because half a
-/// frame is worse than a late one.
-#[cfg(unix)]
-pub(super) fn write_whole(mut bytes: &[u8]) -> io::Result<()> {
-    use rustix::event::{PollFd, PollFlags};
-    use rustix::io::Errno;
-
-    let output = io::stdout();
-    while !bytes.is_empty() {
-        match rustix::io::write(&output, bytes) {
-            Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
-            Ok(written) => bytes = &bytes[written..],
-            Err(Errno::INTR) => {}
-            Err(Errno::AGAIN) => {
-                match rustix::event::poll(&mut [PollFd::new(&output, PollFlags::OUT)], None) {
-                    Ok(_) | Err(Errno::INTR) => {}
-                    Err(error) => return Err(error.into()),
-                }
-            }
-            Err(error) => return Err(error.into()),
-        }
-    }
-    Ok(())
+/// What a write that does not wait came to.
+#[derive(Debug)]
+pub(super) enum Taken {
+    /// The terminal took so many bytes, at least one.
+    Bytes(usize),
+    /// It takes nothing now.
+    Nothing,
 }
 
-/// Writes all of the bytes.
-#[cfg(not(unix))]
-pub(super) fn write_whole(bytes: &[u8]) -> io::Result<()> {
-    use std::io::Write;
+/// The terminal's side that is written to.
+#[cfg(unix)]
+#[derive(Debug)]
+pub(super) struct Line {
+    file: OwnedFd,
+    mode: LineMode,
+}
 
-    let mut output = io::stdout().lock();
-    output.write_all(bytes)?;
-    output.flush()
+#[cfg(unix)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum LineMode {
+    /// Writes return at once.
+    NonBlocking,
+    /// Writes may block: the open file is shared with other programs, whose mode it keeps.
+    Shared,
+}
+
+#[cfg(unix)]
+impl Line {
+    /// The most that is written to a shared file at once, as such a write blocks until the
+    /// terminal has taken all of it.
+    const SHARED_PIECE: usize = 1 << 12;
+
+    /// Opens the terminal that standard output is once more by its name, to have a mode of its
+    /// own; shares standard output where that fails, as for another user's terminal.
+    pub(super) fn open() -> io::Result<Self> {
+        let output = io::stdout();
+        match open_anew(&output) {
+            Ok(file) => Ok(Self::own(file)),
+            Err(_) => Ok(Self {
+                file: output.as_fd().try_clone_to_owned()?,
+                mode: LineMode::Shared,
+            }),
+        }
+    }
+
+    /// Takes an open file in non-blocking mode.
+    pub(super) fn own(file: OwnedFd) -> Self {
+        Self {
+            file,
+            mode: LineMode::NonBlocking,
+        }
+    }
+
+    /// Writes what can be written without waiting.
+    pub(super) fn write_at_once(&self, bytes: &[u8]) -> io::Result<Taken> {
+        use rustix::io::Errno;
+
+        if self.mode == LineMode::Shared {
+            return Ok(Taken::Nothing);
+        }
+        loop {
+            match rustix::io::write(&self.file, bytes) {
+                Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
+                Ok(count) => return Ok(Taken::Bytes(count)),
+                Err(Errno::AGAIN) => return Ok(Taken::Nothing),
+                Err(Errno::INTR) => {}
+                Err(error) => return Err(error.into()),
+            }
+        }
+    }
+
+    /// Waits until some of the bytes can be written, and writes those; returns their number.
+    pub(super) fn write(&self, bytes: &[u8]) -> io::Result<usize> {
+        use rustix::event::{PollFd, PollFlags, poll};
+        use rustix::io::Errno;
+
+        let bytes = match self.mode {
+            LineMode::NonBlocking => bytes,
+            LineMode::Shared => &bytes[..bytes.len().min(Self::SHARED_PIECE)],
+        };
+        loop {
+            match poll(&mut [PollFd::new(&self.file, PollFlags::OUT)], None) {
+                Ok(_) | Err(Errno::INTR) => {}
+                Err(error) => return Err(error.into()),
+            }
+            match rustix::io::write(&self.file, bytes) {
+                Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
+                Ok(count) => return Ok(count),
+                Err(Errno::AGAIN | Errno::INTR) => {}
+                Err(error) => return Err(error.into()),
+            }
+        }
+    }
+}
+
+#[cfg(unix)]
+fn open_anew(terminal: &io::Stdout) -> rustix::io::Result<OwnedFd> {
+    use rustix::fs::{Mode, OFlags, open};
+
+    let name = rustix::termios::ttyname(terminal, Vec::new())?;
+    let flags = OFlags::WRONLY | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::CLOEXEC;
+    open(name, flags, Mode::empty())
+}
+
+/// The console, which is written to by the thread that may wait for it.
+#[cfg(not(unix))]
+#[derive(Debug)]
+pub(super) struct Line;
+
+#[cfg(not(unix))]
+impl Line {
+    pub(super) fn open() -> io::Result<Self> {
+        Ok(Self)
+    }
+
+    pub(super) fn write_at_once(&self, _bytes: &[u8]) -> io::Result<Taken> {
+        Ok(Taken::Nothing)
+    }
+
+    pub(super) fn write(&self, bytes: &[u8]) -> io::Result<usize> {
+        let mut output = io::stdout().lock();
+        output.write_all(bytes)?;
+        output.flush()?;
+        Ok(bytes.len())
+    }
+}
+
+/// Prints a line to standard error, which may be the terminal: one that is not taken in time is
+/// left to itself.
+pub(crate) fn complain(line: String) {
+    let (done, printed) = mpsc::channel();
+    let print = move || {
+        // There is nowhere to report it if that fails.
+        let _ = writeln!(io::stderr(), "{line}");
+        let _ = done.send(());
+    };
+    let thread = thread::Builder::new().name("last words".to_owned());
+    if thread.spawn(print).is_ok() {
+        let _ = printed.recv_timeout(LAST_WORDS);
+    }
 }
 
 /// Opens the terminal's side that keys come from: standard input, or the controlling terminal

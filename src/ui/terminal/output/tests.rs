@@ -1,0 +1,88 @@
+//! The output on a socket that is read, that is not, and that is gone.
+
+use std::io::{ErrorKind, Read};
+use std::os::unix::net::UnixStream;
+use std::sync::mpsc::{self, Receiver};
+use std::time::Duration;
+
+use super::*;
+
+/// More than any socket takes.
+const MUCH: usize = 4 << 20;
+
+const WATCHDOG: Duration = Duration::from_secs(30);
+
+/// An output, the end that may be read, and news of when it is clear.
+fn output() -> (Output, UnixStream, Receiver<()>) {
+    let (ours, theirs) = UnixStream::pair().expect("sockets");
+    ours.set_nonblocking(true).expect("it can be");
+    let (cleared, news) = mpsc::channel();
+    let output = Output::start(Line::own(ours.into()), move || {
+        let _ = cleared.send(());
+    });
+    (output.expect("a thread"), theirs, news)
+}
+
+fn frame(byte: u8, length: usize) -> Vec<u8> {
+    vec![byte; length]
+}
+
+#[test]
+fn what_is_taken_at_once_needs_no_thread() {
+    let (output, mut reader, news) = output();
+    output.send(b"abc").expect("it takes bytes");
+    assert!(output.is_clear());
+    let mut read = [0; 3];
+    reader.read_exact(&mut read).expect("they came");
+    assert_eq!(&read, b"abc");
+    assert!(news.try_recv().is_err());
+}
+
+#[test]
+fn what_is_not_taken_follows_in_order() {
+    let (output, mut reader, news) = output();
+    output.send(&frame(b'a', MUCH)).expect("it waits");
+    assert!(!output.is_clear());
+    output.send(&frame(b'b', MUCH)).expect("it waits as well");
+    let mut read = vec![0; 2 * MUCH];
+    reader.read_exact(&mut read).expect("they came");
+    assert_eq!(read, [frame(b'a', MUCH), frame(b'b', MUCH)].concat());
+    news.recv_timeout(WATCHDOG).expect("all is taken");
+    assert!(output.is_clear());
+}
+
+#[test]
+fn the_last_bytes_take_the_place_of_those_that_wait() {
+    let (output, mut reader, _) = output();
+    output.send(&frame(b'a', MUCH)).expect("it waits");
+    let read = thread::spawn(move || {
+        let mut read = Vec::new();
+        reader.read_to_end(&mut read).map(|_| read)
+    });
+    output
+        .send_last(b"end", Instant::now() + WATCHDOG)
+        .expect("somebody reads");
+    drop(output);
+    let read = read.join().expect("no panic").expect("it is readable");
+    assert!(read.ends_with(b"aend"));
+    assert!(read.len() <= MUCH + 3);
+}
+
+#[test]
+fn the_last_bytes_wait_no_longer_than_they_may() {
+    let (output, _reader, _) = output();
+    output.send(&frame(b'a', MUCH)).expect("it waits");
+    let late = output.send_last(b"end", Instant::now());
+    assert_eq!(late.map_err(|e| e.kind()), Err(ErrorKind::TimedOut));
+}
+
+#[test]
+fn an_end_that_is_gone_is_an_error() {
+    let (output, reader, news) = output();
+    output.send(&frame(b'a', MUCH)).expect("it waits");
+    drop(reader);
+    news.recv_timeout(WATCHDOG).expect("it fails");
+    assert!(output.is_clear());
+    assert!(output.send(b"b").is_err());
+    assert!(output.send_last(b"c", Instant::now() + WATCHDOG).is_err());
+}
