@@ -12,7 +12,7 @@ use halflight::render::{Filter, Frame, Job, Renderer, Threads};
 use halflight::ui::app::{App, Opening, Quality};
 use halflight::ui::msg::{Effect, Msg, Target};
 use halflight::ui::terminal::{AnsiBackend, ColourDepth, Mouse};
-use halflight::ui::view::{self, Glyphs};
+use halflight::ui::view::{self, Inks};
 use ratatui::layout::Size;
 
 /// What drawing pictures took.
@@ -94,6 +94,7 @@ fn show(app: &mut App, frames: &[Arc<Frame>], turns: usize) -> Encoded {
     let depth = ColourDepth::TrueColour;
     let backend = AnsiBackend::new(depth, Size::new(columns, rows));
     let Ok(mut terminal) = ratatui::Terminal::new(backend);
+    let mut inks = Inks::for_depth(depth);
     let mut sent = Vec::new();
     let mut times = Vec::new();
     for turn in 0..turns {
@@ -103,8 +104,7 @@ fn show(app: &mut App, frames: &[Arc<Frame>], turns: usize) -> Encoded {
         app.update(Msg::Frame(Target::Preview, frame));
         let (_, size) = app.raster().expect("there is room");
         app.picture_mut().advance(size, usize::MAX);
-        let glyphs = Glyphs::for_depth(depth);
-        let Ok(_) = terminal.draw(|frame| view::draw(app, glyphs, frame));
+        let Ok(_) = terminal.draw(|frame| view::draw(app, &mut inks, frame));
         let taken = terminal.backend_mut().finish(|bytes| {
             sent.extend_from_slice(bytes);
             Ok::<_, Infallible>(())

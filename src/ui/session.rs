@@ -9,7 +9,7 @@ use super::app::App;
 use super::effects::{Event, World};
 use super::msg::{Effect, Kept, Msg, Target};
 use super::terminal::{self, Link, default_bandwidth};
-use super::view::{self, Glyphs};
+use super::view::{self, Inks};
 use super::{Ending, Options};
 use crate::text;
 
@@ -34,7 +34,7 @@ pub(crate) fn run(
         app,
         world: World::new(options, sender)?,
         link: Link::new(bandwidth),
-        glyphs: Glyphs::for_depth(options.colours()),
+        inks: Inks::for_depth(options.colours()),
         inbox,
         refined: None,
         ending: Ending::Quit,
@@ -51,7 +51,7 @@ struct Session {
     app: App,
     world: World,
     link: Link,
-    glyphs: Glyphs,
+    inks: Inks,
     inbox: Receiver<Event>,
     /// When a finer frame was last waited for and drawn.
     refined: Option<Instant>,
@@ -186,11 +186,11 @@ impl Session {
             let limited = allowance != usize::MAX;
             self.app.net = (limited && !rests).then(|| self.link.rate(now));
         }
-        let (app, glyphs) = (&self.app, self.glyphs);
+        let (app, inks) = (&self.app, &mut self.inks);
         let mut area = app.terminal;
         let bytes = self.world.terminal().draw(|frame| {
             area = (frame.area().width, frame.area().height);
-            view::draw(app, glyphs, frame);
+            view::draw(app, inks, frame);
         })?;
         self.link.spent(bytes, now);
         if area != self.app.terminal {

@@ -6,9 +6,6 @@
 
 use ratatui::style::Color;
 
-/// The levels of each channel in the 6×6×6 cube of 256 colours.
-const CUBE: [u8; 6] = [0, 95, 135, 175, 215, 255];
-
 /// The greys of the sixteen colours, dark to bright, and their indices.
 const GREYS_OF_16: ([u8; 4], [u8; 4]) = ([0, 128, 192, 255], [0, 8, 7, 15]);
 
@@ -25,26 +22,6 @@ pub(super) fn threshold(x: u32, y: u32) -> u32 {
         let (x, y) = (x >> bit & 1, y >> bit & 1);
         4 * sum + 2 * (x ^ y) + y
     })
-}
-
-/// One of the 240 fixed colours of 256, for a pixel at a place.
-pub(super) fn of_256(colour: [u8; 3], x: u32, y: u32) -> Color {
-    let threshold = threshold(x, y);
-    if let Some(grey) = grey(colour) {
-        // The ramp has 24 steps of ten from 8 to 238; black and white are corners of the cube.
-        let ramp: [u8; 26] = std::array::from_fn(|at| match at {
-            0 => 0,
-            25 => 255,
-            _ => 10 * at as u8 - 2,
-        });
-        return Color::Indexed(match level(grey, &ramp, threshold) {
-            0 => 16,
-            25 => 231,
-            step => 231 + step,
-        });
-    }
-    let [red, green, blue] = colour.map(|channel| level(channel, &CUBE, threshold));
-    Color::Indexed(16 + 36 * red + 6 * green + blue)
 }
 
 /// One of the terminal's sixteen colours, for a pixel at a place.
@@ -103,14 +80,9 @@ mod tests {
         match index {
             7 => [192; 3],
             8 => [128; 3],
-            0..16 => {
+            _ => {
                 let full = if index < 8 { 128 } else { 255 };
                 [0, 1, 2].map(|bit| if index >> bit & 1 == 1 { full } else { 0 })
-            }
-            232.. => [8 + 10 * (index - 232); 3],
-            _ => {
-                let index = index - 16;
-                [index / 36, index / 6 % 6, index % 6].map(|at| CUBE[usize::from(at)])
             }
         }
     }
@@ -149,29 +121,13 @@ mod tests {
     #[test]
     fn a_patch_has_its_colour_on_average() {
         for colour in COLOURS {
-            for seen in [
-                seen(|x, y| of_256(colour, x, y)),
-                seen(|x, y| of_16(colour, x, y)),
-            ] {
-                for (channel, seen) in colour.into_iter().zip(seen) {
-                    let channel = f64::from(channel);
-                    // Half a step of 64 in the light of the widest gap, or the width of a grey.
-                    let error = (seen * seen - channel * channel).abs();
-                    let bound = 255.0 * 255.0 / 128.0 + 2.0 * channel * f64::from(GREY);
-                    assert!(error <= bound, "{colour:?}: {seen} for {channel}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn colours_of_the_palette_are_left_alone() {
-        // Greys are mixed from the ramp, which has not those inside the cube.
-        let inner_greys = [59, 102, 145, 188];
-        for index in (16..=255).filter(|index| !inner_greys.contains(index)) {
-            let colour = Color::Indexed(index);
-            for (x, y) in [(0, 0), (3, 5), (7, 7)] {
-                assert_eq!(chart(of_256(chart(colour), x, y)), chart(colour));
+            let seen = seen(|x, y| of_16(colour, x, y));
+            for (channel, seen) in colour.into_iter().zip(seen) {
+                let channel = f64::from(channel);
+                // Half a step of 64 in the light of the widest gap, or the width of a grey.
+                let error = (seen * seen - channel * channel).abs();
+                let bound = 255.0 * 255.0 / 128.0 + 2.0 * channel * f64::from(GREY);
+                assert!(error <= bound, "{colour:?}: {seen} for {channel}");
             }
         }
     }

@@ -11,6 +11,7 @@ mod fields;
 mod help;
 pub mod layout;
 mod list;
+mod palette;
 mod picture;
 mod row;
 mod status;
@@ -22,15 +23,16 @@ mod tests;
 use ratatui::Frame;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::Style;
+use ratatui::style::{Color, Style};
 
 use crate::ui::app::App;
 use crate::ui::terminal::ColourDepth;
 use layout::LEAST;
+use palette::Palette;
 
 /// What pixels are made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Glyphs {
+enum Glyphs {
     /// Two pixels a cell in their own colours.
     HalfBlocks,
     /// Two pixels a cell, in a pattern of the 256 colours.
@@ -42,8 +44,7 @@ pub enum Glyphs {
 }
 
 impl Glyphs {
-    /// What suits a terminal of so many colours.
-    pub fn for_depth(depth: ColourDepth) -> Self {
+    fn for_depth(depth: ColourDepth) -> Self {
         match depth {
             ColourDepth::Mono => Self::Characters,
             ColourDepth::Palette16 => Self::HalfBlocksOf16,
@@ -53,27 +54,57 @@ impl Glyphs {
     }
 }
 
-/// Draws the whole screen.
-pub fn draw(app: &App, glyphs: Glyphs, frame: &mut Frame) {
-    let area = frame.area();
-    render(app, glyphs, area, frame.buffer_mut());
+/// What pictures are drawn with: the glyphs, and what was worked out about the colours they have.
+#[derive(Debug)]
+pub struct Inks {
+    glyphs: Glyphs,
+    palette: Option<Palette>,
 }
 
-fn render(app: &App, glyphs: Glyphs, area: Rect, buffer: &mut Buffer) {
+impl Inks {
+    /// What suits a terminal of so many colours.
+    pub fn for_depth(depth: ColourDepth) -> Self {
+        Self::new(Glyphs::for_depth(depth))
+    }
+
+    fn new(glyphs: Glyphs) -> Self {
+        let palette = (glyphs == Glyphs::HalfBlocksOf256).then(Palette::new);
+        Self { glyphs, palette }
+    }
+
+    /// The colour of a pixel at a place.
+    fn colour(&mut self, colour: [u8; 3], x: u32, y: u32) -> Color {
+        if let Some(palette) = &mut self.palette {
+            return Color::Indexed(palette.at(colour, x, y));
+        }
+        match self.glyphs {
+            Glyphs::HalfBlocksOf16 => dither::of_16(colour, x, y),
+            _ => Color::Rgb(colour[0], colour[1], colour[2]),
+        }
+    }
+}
+
+/// Draws the whole screen.
+pub fn draw(app: &App, inks: &mut Inks, frame: &mut Frame) {
+    let area = frame.area();
+    render(app, inks, area, frame.buffer_mut());
+}
+
+fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let area = area.intersection(buffer.area);
     let areas = app.areas_in(area, app.zoom_now());
     if areas.status.is_empty() {
         too_small(area, buffer);
         return;
     }
-    picture::render(app, glyphs, areas.picture, buffer);
+    picture::render(app, inks, areas.picture, buffer);
     rule(app, areas.rule, buffer);
     if !areas.list.is_empty() {
         list::render(app, areas.list, buffer);
         fields::render(app, areas.fields, buffer);
     }
     errors::render(app, areas.errors, buffer);
-    status::render(app, glyphs, areas.status, buffer);
+    status::render(app, inks.glyphs, areas.status, buffer);
     match &app.prompt {
         Some(prompt) if areas.hint.is_empty() => {
             status::render_prompt(prompt, areas.status, buffer);

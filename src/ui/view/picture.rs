@@ -6,11 +6,11 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
 
-use super::Glyphs;
 use super::dither;
 use super::layout::{self, raster};
 use super::row::Row;
 use super::theme;
+use super::{Glyphs, Inks};
 use crate::scene::Size;
 use crate::ui::app::{App, Mode, Shown};
 
@@ -18,7 +18,7 @@ use crate::ui::app::{App, Mode, Shown};
 const RAMP: [&str; 10] = [" ", ".", ":", "-", "=", "+", "*", "#", "%", "@"];
 
 /// Draws the picture on screen, letterboxed, with what is marked in it.
-pub(crate) fn render(app: &App, glyphs: Glyphs, area: Rect, buffer: &mut Buffer) {
+pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let Some((cells, size)) = raster(area, app.output()) else {
         return;
     };
@@ -32,7 +32,7 @@ pub(crate) fn render(app: &App, glyphs: Glyphs, area: Rect, buffer: &mut Buffer)
     } else {
         Cow::Owned(shown.resampled(size))
     };
-    paint(&shown, app.marked_object(), glyphs, cells, buffer);
+    paint(&shown, app.marked_object(), inks, cells, buffer);
     if app.mode == Mode::Pick {
         cross(app, cells, buffer);
     }
@@ -75,7 +75,7 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
 }
 
 /// Draws pixels over the cells of their raster, with the outline of one object.
-fn paint(shown: &Shown, outlined: Option<u32>, glyphs: Glyphs, area: Rect, buffer: &mut Buffer) {
+fn paint(shown: &Shown, outlined: Option<u32>, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let width = shown.size.width;
     let pixel = |x: u32, y: u32| -> Option<Pixel> {
         let at = y as usize * width as usize + x as usize;
@@ -91,9 +91,9 @@ fn paint(shown: &Shown, outlined: Option<u32>, glyphs: Glyphs, area: Rect, buffe
             let (x, y) = (u32::from(column), 2 * u32::from(row));
             let cell = buffer.cell_mut((area.x + column, area.y + row));
             if let (Some(cell), Some(upper)) = (cell, pixel(x, y)) {
-                let (symbol, style) = match glyphs {
+                let (symbol, style) = match inks.glyphs {
                     Glyphs::Characters => character(upper, pixel(x, y + 1)),
-                    _ => half_block(upper, pixel(x, y + 1), glyphs),
+                    _ => half_block(upper, pixel(x, y + 1), inks),
                 };
                 cell.set_symbol(symbol).set_style(style);
             }
@@ -111,15 +111,13 @@ struct Pixel {
     at: (u32, u32),
 }
 
-fn half_block(upper: Pixel, lower: Option<Pixel>, glyphs: Glyphs) -> (&'static str, Style) {
-    let colour = |pixel: Pixel| {
-        let (x, y) = pixel.at;
-        match glyphs {
-            _ if pixel.outlined => rgb(theme::OUTLINE),
-            Glyphs::HalfBlocksOf256 => dither::of_256(pixel.colour, x, y),
-            Glyphs::HalfBlocksOf16 => dither::of_16(pixel.colour, x, y),
-            Glyphs::HalfBlocks | Glyphs::Characters => rgb(pixel.colour),
+fn half_block(upper: Pixel, lower: Option<Pixel>, inks: &mut Inks) -> (&'static str, Style) {
+    let mut colour = |pixel: Pixel| {
+        if pixel.outlined {
+            return rgb(theme::OUTLINE);
         }
+        let (x, y) = pixel.at;
+        inks.colour(pixel.colour, x, y)
     };
     let style = Style::reset().fg(colour(upper));
     ("▀", style.bg(lower.map_or(Color::Reset, colour)))
@@ -187,7 +185,7 @@ mod tests {
             shown.size.height.div_ceil(2) as u16,
         );
         let mut buffer = Buffer::empty(area);
-        paint(shown, outlined, glyphs, area, &mut buffer);
+        paint(shown, outlined, &mut Inks::new(glyphs), area, &mut buffer);
         buffer
     }
 

@@ -10,7 +10,7 @@ use ratatui::layout::Rect;
 use tui_input::Input;
 
 use super::layout::Zoom;
-use super::{Glyphs, draw};
+use super::{Glyphs, Inks, draw};
 use crate::document::{Document, Merge, Side};
 use crate::format::Format;
 use crate::render::{Filter, Frame, NO_OBJECT, Progress};
@@ -104,7 +104,7 @@ fn screen(app: &mut App, width: u16, height: u16) -> Vec<String> {
     app.terminal = (width, height);
     let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
     terminal
-        .draw(|frame| draw(app, Glyphs::HalfBlocks, frame))
+        .draw(|frame| draw(app, &mut Inks::new(Glyphs::HalfBlocks), frame))
         .expect("cannot fail");
     lines(terminal.backend().buffer())
 }
