@@ -14,7 +14,8 @@ use super::assets::AssetReader;
 use super::editor;
 use super::files::{Files, Task};
 use super::msg::{Destination, Effect, Existing, ExportId, Msg, Target, Timer};
-use super::terminal::{self, Input, Terminal};
+use super::terminal::tmux;
+use super::terminal::{self, Input, Reply, Terminal};
 #[cfg(unix)]
 use super::terminal::{Signals, suspend_process};
 use crate::file;
@@ -27,6 +28,8 @@ use crate::watch::{Method, Watcher};
 pub(crate) enum Event {
     /// A message.
     Msg(Msg),
+    /// The terminal answered.
+    Reply(Reply),
     /// A renderer has a newer frame.
     Ready(Target),
     /// The renderer of this number traces no more.
@@ -72,7 +75,7 @@ impl World {
             let sender = sender.clone();
             move |event| {
                 // An inbox that is gone belongs to a program that ends.
-                let _ = sender.send(Event::Msg(message(event)));
+                let _ = sender.send(Event::from(event));
             }
         };
         let method = options.poll.map_or(Method::Native, Method::Poll);
@@ -107,6 +110,22 @@ impl World {
         &mut self.terminal
     }
 
+    /// Asks the terminal for its colours, and tmux for those of the terminal behind it: answers
+    /// come as [`Event::Reply`], if they come.
+    pub(crate) fn ask_for_colours(&self) -> io::Result<()> {
+        self.terminal.ask_for_colours()?;
+        let sender = self.sender.clone();
+        // Without a thread there is no answer.
+        let _ = thread::Builder::new()
+            .name("colours".to_owned())
+            .spawn(move || {
+                if tmux::shows_true_colour() == Some(true) {
+                    let _ = sender.send(Event::Reply(Reply::TrueColour));
+                }
+            });
+        Ok(())
+    }
+
     /// Whether the program is to end.
     pub(crate) fn is_over(&self) -> bool {
         self.ended
@@ -116,6 +135,7 @@ impl World {
     pub(crate) fn message(&self, event: Event) -> Option<Msg> {
         match event {
             Event::Msg(msg) => Some(msg),
+            Event::Reply(_) => None,
             Event::Ready(target) => {
                 let frame = self.numbered(target)?.renderer.latest()?;
                 Some(Msg::Frame(target, frame))
@@ -405,18 +425,21 @@ fn terminal_outcome(outcome: io::Result<()>) -> Result<(), String> {
     outcome.map_err(|error| format!("terminal: {error}"))
 }
 
-fn message(event: terminal::Event) -> Msg {
-    use terminal::Event as E;
-    match event {
-        E::Key(key) => Msg::Key(key),
-        E::Paste(text) => Msg::Paste(text),
-        E::Mouse(event) => Msg::Mouse(event),
-        E::Resize { columns, rows } => Msg::Resize(columns, rows),
-        E::Suspend => Msg::Suspend,
-        E::Continue => Msg::Continued,
-        E::HangUp => Msg::HangUp,
-        E::Terminate => Msg::Terminate,
-        E::Interrupt => Msg::Interrupt,
+impl From<terminal::Event> for Event {
+    fn from(event: terminal::Event) -> Self {
+        use terminal::Event as E;
+        Self::Msg(match event {
+            E::Reply(reply) => return Self::Reply(reply),
+            E::Key(key) => Msg::Key(key),
+            E::Paste(text) => Msg::Paste(text),
+            E::Mouse(event) => Msg::Mouse(event),
+            E::Resize { columns, rows } => Msg::Resize(columns, rows),
+            E::Suspend => Msg::Suspend,
+            E::Continue => Msg::Continued,
+            E::HangUp => Msg::HangUp,
+            E::Terminate => Msg::Terminate,
+            E::Interrupt => Msg::Interrupt,
+        })
     }
 }
 

@@ -11,7 +11,7 @@ use crate::assets::{Loaded, Wanted};
 use crate::file::ReadError;
 use crate::render::{Frame, Job};
 use crate::ui::reading::{Known, Reading};
-use crate::ui::terminal::Mouse;
+use crate::ui::terminal::{ColourDepth, Mouse};
 
 /// Which picture a frame belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,6 +76,8 @@ pub enum Msg {
     Terminate,
     /// The terminal is gone.
     HangUp,
+    /// The terminal shows fewer colours than pictures have, for all that is known; which.
+    FewColours(ColourDepth),
     /// A worker panicked, or the world around failed otherwise; the message.
     Failed(String),
 }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use super::app::App;
 use super::effects::{Event, World};
 use super::msg::{Effect, Kept, Msg, Target};
-use super::terminal::{self, Link, default_bandwidth};
+use super::terminal::{self, Choice, ColourDepth, Link, Reply, default_bandwidth, query};
 use super::view::{self, Inks};
 use super::{Ending, Options};
 use crate::text;
@@ -35,10 +35,12 @@ pub(crate) fn run(
         world: World::new(options, sender)?,
         link: Link::new(bandwidth),
         inks: Inks::for_depth(options.colours()),
+        asked: None,
         inbox,
         refined: None,
         ending: Ending::Quit,
     };
+    session.ask_for_colours(options)?;
     session.perform(effects);
     if let Some(kept) = recovered {
         session.step(Msg::Recovered(kept));
@@ -52,6 +54,8 @@ struct Session {
     world: World,
     link: Link,
     inks: Inks,
+    /// The colours drawn with, and until when an answer of the terminal counts that there are more.
+    asked: Option<(ColourDepth, Instant)>,
     inbox: Receiver<Event>,
     /// When a finer frame was last waited for and drawn.
     refined: Option<Instant>,
@@ -71,6 +75,43 @@ enum Urgency {
 }
 
 impl Session {
+    /// Asks for colours where neither the user nor the environment has decided.
+    fn ask_for_colours(&mut self, options: &Options) -> io::Result<()> {
+        let variable = |name: &str| std::env::var(name).ok();
+        let depth = options.colours();
+        let is_open = options.colour == Choice::Auto
+            && depth < ColourDepth::TrueColour
+            && variable("NO_COLOR").is_none_or(|value| value.is_empty());
+        if is_open && query::may_ask(variable) {
+            self.world.ask_for_colours()?;
+            self.asked = Some((depth, Instant::now() + query::PATIENCE));
+        }
+        Ok(())
+    }
+
+    /// Takes an answer of the terminal, unless it comes too late.
+    fn answered(&mut self, reply: Reply) -> Urgency {
+        let is_in_time = |&(_, until): &(ColourDepth, Instant)| Instant::now() < until;
+        if reply != Reply::TrueColour || self.asked.take_if(|asked| is_in_time(asked)).is_none() {
+            return Urgency::Never;
+        }
+        self.inks = Inks::for_depth(ColourDepth::TrueColour);
+        self.world.terminal().recolour(ColourDepth::TrueColour);
+        Urgency::Now
+    }
+
+    /// Names the cure once it is known that no answer comes.
+    fn give_up_on_colours(&mut self) -> Urgency {
+        let now = Instant::now();
+        match self.asked.take_if(|&mut (_, until)| until <= now) {
+            Some((depth, _)) => {
+                self.step(Msg::FewColours(depth));
+                Urgency::Now
+            }
+            None => Urgency::Never,
+        }
+    }
+
     fn run(&mut self) {
         let mut urgency = Urgency::Now;
         while !self.world.is_over() {
@@ -121,7 +162,9 @@ impl Session {
 
     /// Takes everything that came in, after waiting for it until `deadline` at most.
     fn wait(&mut self, deadline: Option<Instant>) -> Urgency {
-        let deadline = deadline.into_iter().chain(self.world.next_timer()).min();
+        let answer_by = self.asked.map(|(_, until)| until);
+        let deadline = deadline.into_iter().chain(self.world.next_timer());
+        let deadline = deadline.chain(answer_by).min();
         let first = match deadline {
             None => self
                 .inbox
@@ -135,7 +178,9 @@ impl Session {
         let mut urgency = Urgency::Never;
         let events: Vec<_> = first.into_iter().chain(self.inbox.try_iter()).collect();
         for event in events {
-            if let Some(msg) = self.world.message(event) {
+            if let Event::Reply(reply) = event {
+                urgency = urgency.max(self.answered(reply));
+            } else if let Some(msg) = self.world.message(event) {
                 urgency = urgency.max(self.urgency_of(&msg));
                 self.step(msg);
             }
@@ -144,6 +189,7 @@ impl Session {
             urgency = Urgency::Now;
             self.step(msg);
         }
+        urgency = urgency.max(self.give_up_on_colours());
         for panic in self.world.terminal().take_panics() {
             urgency = Urgency::Now;
             self.step(Msg::Failed(panic));

@@ -77,14 +77,6 @@ fn what_cannot_be_opened_leaves_the_terminal_alone() {
 
 #[test]
 fn colours_are_those_the_terminal_has() {
-    let colours = |session: &Session| -> Vec<Color> {
-        let (rows, columns) = session.screen().size();
-        let cells = (0..rows.get()).flat_map(|y| (0..columns.get()).map(move |x| (y, x)));
-        let cells = cells.filter_map(|(y, x)| session.screen().cell(y, x));
-        cells
-            .flat_map(|cell| [cell.fgcolor(), cell.bgcolor()])
-            .collect()
-    };
     let place = Place::new();
     let start = |arguments: &[&str], environment| {
         Session::start(place.directory.path(), arguments, (80, 24), environment)
@@ -92,10 +84,10 @@ fn colours_are_those_the_terminal_has() {
 
     let mut session = start(&["balls.ray", "--color", "256"], &[]);
     wait_for_rest(&mut session);
+    assert!(!colours(session.screen()).iter().any(is_rgb));
     assert!(
-        !colours(&session)
-            .iter()
-            .any(|c| matches!(c, Color::Rgb(..)))
+        last(QUESTION, &session.written).is_none(),
+        "the user decided"
     );
     quit(session);
 
@@ -104,7 +96,90 @@ fn colours_are_those_the_terminal_has() {
         let text = screen.contents();
         text.contains("64 spp") && ["*", "#"].iter().all(|ink| text.contains(ink))
     });
-    assert!(colours(&session).iter().all(|&c| c == Color::Default));
+    assert!(
+        colours(session.screen())
+            .iter()
+            .all(|&c| c == Color::Default)
+    );
+    quit(session);
+}
+
+/// Asks which colour the pen has.
+const QUESTION: &[u8] = b"\x1bP$qm\x1b\\";
+
+/// Says that it is the one that was set.
+const ANSWER: &str = "\x1bP1$r0;38:2::49:73:87m\x1b\\";
+
+/// What is said where nothing answers.
+const CURE: &str = "256 colours; if the terminal has 24-bit colour: --color 24";
+
+/// A session as a login over SSH has it: the environment says 256 colours.
+fn start_far(place: &Place) -> Session {
+    let environment = [("COLORTERM", "")];
+    Session::start(place.directory.path(), &["balls.ray"], WIDE, &environment)
+}
+
+fn colours(screen: &Screen) -> Vec<Color> {
+    let (rows, columns) = screen.size();
+    let cells = (0..rows.get()).flat_map(|y| (0..columns.get()).map(move |x| (y, x)));
+    let cells = cells.filter_map(|(y, x)| screen.cell(y, x));
+    cells
+        .flat_map(|cell| [cell.fgcolor(), cell.bgcolor()])
+        .collect()
+}
+
+fn is_rgb(colour: &Color) -> bool {
+    matches!(colour, Color::Rgb(..))
+}
+
+#[test]
+fn a_terminal_that_answers_gets_all_colours() {
+    let place = Place::new();
+    let mut session = start_far(&place);
+    while last(QUESTION, &session.written).is_none() {
+        session.drain(Duration::from_millis(1));
+    }
+    session.send([ANSWER, "j"].concat());
+    session.wait("all colours", |screen| {
+        is_at_rest(screen) && colours(screen).contains(&RED)
+    });
+    assert!(session.text().contains("24-bit") && !session.text().contains("--color"));
+    quit(session);
+}
+
+#[test]
+fn a_terminal_that_stays_silent_is_told_the_cure_once() {
+    let place = Place::new();
+    let mut session = start_far(&place);
+    session.wait_for(CURE);
+    wait_for_rest(&mut session);
+    assert!(!colours(session.screen()).iter().any(is_rgb));
+    session.send("j");
+    wait_until_gone(&mut session, CURE);
+    session.send("?");
+    session.wait_for(" Keys ");
+    session.send("/--color");
+    session.wait_for("24-bit colour, where");
+    session.send([ESC, ESC].concat());
+    wait_until_gone(&mut session, " Keys ");
+    quit(session);
+}
+
+#[test]
+fn a_late_answer_is_neither_believed_nor_typed() {
+    let place = Place::new();
+    let mut session = start_far(&place);
+    session.wait_for(CURE);
+    wait_for_rest(&mut session);
+    for part in ANSWER.split_inclusive('r') {
+        session.send(part);
+        session.drain(Duration::from_millis(60));
+    }
+    session.send("\x1bP1+r5463\x1b\\\x1bP0$r\x1b\\?");
+    session.wait_for(" Keys ");
+    session.send(ESC);
+    wait_until_gone(&mut session, " Keys ");
+    assert!(!colours(session.screen()).iter().any(is_rgb));
     quit(session);
 }
 

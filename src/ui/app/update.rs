@@ -129,6 +129,8 @@ impl App {
             Msg::Continued => return vec![Effect::TakeTerminal],
             Msg::Interrupt => return self.interrupt(),
             Msg::Terminate | Msg::HangUp => return self.quit_keeping_edits(),
+            Msg::FewColours(depth) if self.message.is_none() => self.say(depth.cure()),
+            Msg::FewColours(_) => {}
             Msg::Failed(reason) => self.fail(reason),
         }
         Vec::new()

@@ -55,6 +55,15 @@ const COMMANDS: [(&str, &str); 13] = [
     (":help", "this page"),
 ];
 
+/// What the program is started with.
+const START: [(&str, &str); 2] = [
+    (
+        "--color 24",
+        "24-bit colour, where the terminal does not say it has it",
+    ),
+    ("halflight doctor", "what was detected, and why"),
+];
+
 const MOUSE: [(&str, &str); 6] = [
     ("click the list", "select"),
     ("click a field", "put the cursor there"),
@@ -96,6 +105,7 @@ pub fn help(search: &str, mode: Mode) -> Vec<HelpLine> {
     let owned = |(keys, words): &(&str, &'static str)| ((*keys).to_owned(), *words);
     add("commands", COMMANDS.iter().map(owned).collect());
     add("mouse", MOUSE.iter().map(owned).collect());
+    add("starting it", START.iter().map(owned).collect());
     lines
 }
 

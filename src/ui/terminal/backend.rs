@@ -74,6 +74,11 @@ impl AnsiBackend {
         self.size = size;
     }
 
+    /// Takes over how many colours there are; what is drawn from here on has them.
+    pub fn recolour(&mut self, depth: ColourDepth) {
+        self.depth = depth;
+    }
+
     /// Forgets what the terminal was told, as after somebody else has used it.
     pub fn forget(&mut self) {
         self.pen = Pen::UNKNOWN;

@@ -1,6 +1,7 @@
 //! How many colours the terminal shows, and the nearest one it has.
 //!
-//! Decided from the environment alone; the terminal itself is never asked.
+//! Decided from the environment at first; a terminal that is asked may answer that it shows more
+//! (see [`query`](super::query)).
 
 use std::env;
 
@@ -67,6 +68,24 @@ impl ColourDepth {
             TermProfile::Ansi256 => Self::Palette256,
             TermProfile::TrueColor => Self::TrueColour,
         }
+    }
+
+    /// Names the depth.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Mono => "no colours",
+            Self::Palette16 => "16 colours",
+            Self::Palette256 => "256 colours",
+            Self::TrueColour => "24-bit",
+        }
+    }
+
+    /// Says what to do where the terminal shows more than this.
+    pub fn cure(self) -> String {
+        format!(
+            "{}; if the terminal has 24-bit colour: --color 24 or COLORTERM=truecolor",
+            self.name()
+        )
     }
 
     /// Returns the nearest colour this depth has.

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
-use super::Event;
+use super::{Event, Reply, query};
 
 /// How long the rest of an escape sequence may take: longer than a network splits one for, and
 /// shorter than anybody notices on the Esc key.
@@ -19,6 +19,14 @@ const PASTE_PATIENCE: Duration = Duration::from_secs(1);
 
 /// The longest sequence that is waited for; anything longer is noise.
 const LONGEST: usize = 64;
+
+/// How long the rest of a device control string may take, and how long one may be: it is an answer
+/// of the terminal, and its rest would be taken for typed text.
+const STRING_PATIENCE: Duration = Duration::from_secs(1);
+const LONGEST_STRING: usize = 4096;
+
+/// Begins a device control string.
+const STRING: &[u8] = b"\x1bP";
 
 const PASTE_END: &[u8] = b"\x1b[201~";
 
@@ -39,6 +47,8 @@ enum Mode {
     Paste,
     /// Behind more parameters than any sequence has: further ones are noise, too.
     Noise,
+    /// In a device control string longer than any answer: noise up to its end.
+    NoiseString,
 }
 
 /// What the pending bytes begin with.
@@ -67,6 +77,8 @@ impl Decoder {
         let patience = match self.mode {
             Mode::Paste => PASTE_PATIENCE,
             Mode::Keys if self.pending.is_empty() => return None,
+            Mode::NoiseString => STRING_PATIENCE,
+            Mode::Keys if self.pending.starts_with(STRING) => STRING_PATIENCE,
             Mode::Keys | Mode::Noise => PATIENCE,
         };
         self.fed.map(|fed| fed + patience)
@@ -115,11 +127,28 @@ impl Decoder {
                 self.mode = Mode::Keys;
                 continue;
             }
+            if self.mode == Mode::NoiseString {
+                let body = rest.iter().take_while(|byte| !byte.is_ascii_control());
+                let body = body.count();
+                start += body;
+                match &rest[body..] {
+                    [] | [0x1b] => break,
+                    [0x1b, b'\\', ..] => start += 2,
+                    _ => {}
+                }
+                self.mode = Mode::Keys;
+                continue;
+            }
             match token(rest) {
-                Token::Unfinished if rest.len() < LONGEST => break,
+                Token::Unfinished if rest.len() < longest(rest) => break,
                 Token::Unfinished => {
-                    start += rest.len();
-                    self.mode = Mode::Noise;
+                    self.mode = if rest.starts_with(STRING) {
+                        Mode::NoiseString
+                    } else {
+                        Mode::Noise
+                    };
+                    // An escape at the end may belong to the terminator.
+                    start += rest.len() - usize::from(rest.ends_with(b"\x1b"));
                 }
                 Token::Noise(length) => start += length,
                 Token::PasteBegin(length) => {
@@ -136,8 +165,19 @@ impl Decoder {
     }
 }
 
+fn longest(bytes: &[u8]) -> usize {
+    if bytes.starts_with(STRING) {
+        LONGEST_STRING
+    } else {
+        LONGEST
+    }
+}
+
 fn token(bytes: &[u8]) -> Token {
     match bytes {
+        // Alt with P begins the same; what follows an answer's introducer is a parameter.
+        [0x1b, b'P'] => Token::Unfinished,
+        [0x1b, b'P', 0x30..=0x3f, ..] => control_string(bytes),
         [0x1b, b'[', ..] => control_sequence(bytes),
         [0x1b, b'O', rest @ ..] => match rest.first() {
             None => Token::Unfinished,
@@ -225,6 +265,10 @@ fn control_sequence(bytes: &[u8]) -> Token {
         last @ (b'M' | b'm') if parameters.first() == Some(&b'<') => {
             event_or_noise(mouse(&parameters[1..], last), length)
         }
+        b'y' if parameters.starts_with(b"?") => event_or_noise(mode_report(parameters), length),
+        b'c' if parameters.starts_with(b"?") => {
+            Token::Event(length, Event::Reply(Reply::Attributes))
+        }
         last @ 0x40..=0x7e => event_or_noise(sequence_key(parameters, last), length),
         // Something else broke in; it is read on its own.
         _ => Token::Noise(length - 1),
@@ -236,8 +280,34 @@ fn is_parameter(byte: &u8) -> bool {
     (0x20..0x40).contains(byte)
 }
 
+/// Reads `ESC P`, anything printable, and the `ESC \\` that ends it (ECMA-48, 5.6).
+fn control_string(bytes: &[u8]) -> Token {
+    let body = &bytes[STRING.len()..];
+    let Some(end) = body.iter().position(u8::is_ascii_control) else {
+        return Token::Unfinished;
+    };
+    match body[end..] {
+        [0x1b] => Token::Unfinished,
+        [0x1b, b'\\', ..] => {
+            let reply = query::answer(&body[..end]).map(Event::Reply);
+            event_or_noise(reply, STRING.len() + end + 2)
+        }
+        // Something else broke in; it is read on its own.
+        _ => Token::Noise(STRING.len() + end),
+    }
+}
+
 fn event_or_noise(event: Option<Event>, length: usize) -> Token {
     event.map_or(Token::Noise(length), |event| Token::Event(length, event))
+}
+
+/// Reads `? number ; state $`.
+fn mode_report(parameters: &[u8]) -> Option<Event> {
+    let inner = parameters.strip_prefix(b"?")?.strip_suffix(b"$")?;
+    let &[number, state] = numbers(inner)?.as_slice() else {
+        return None;
+    };
+    Some(Event::Reply(Reply::Mode { number, state }))
 }
 
 fn sequence_key(parameters: &[u8], last: u8) -> Option<Event> {

@@ -14,6 +14,7 @@ use super::backend::AnsiBackend;
 use super::colour::ColourDepth;
 use super::output::Output;
 use super::panics::{Shared, Tenure};
+use super::query;
 use super::tty::{self, Line};
 
 /// Alternate screen, no cursor, pastes in brackets, no wrapping at the last column.
@@ -89,6 +90,18 @@ impl Terminal {
         let Ok(_) = self.screen.draw(paint);
         let output = self.shared.output();
         self.screen.backend_mut().finish(|frame| output.send(frame))
+    }
+
+    /// Asks for the colours that the terminal has. Meant for before the first frame, which covers
+    /// what a terminal that does not understand makes of the question.
+    pub fn ask_for_colours(&self) -> io::Result<()> {
+        self.shared.output().send(query::COLOURS)
+    }
+
+    /// Draws with so many colours from here on; the next frame is a whole one.
+    pub fn recolour(&mut self, colours: ColourDepth) {
+        self.screen.backend_mut().recolour(colours);
+        self.repaint();
     }
 
     /// Makes the next frame a whole one, whatever the screen shows now.

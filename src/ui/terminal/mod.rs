@@ -2,9 +2,8 @@
 //! screen and gives it back, the encoder of cells, the reader of keys, the signals, and the
 //! measure of the link.
 //!
-//! It must not know what is drawn or what a key means. It never asks the terminal anything: a
-//! reply would mix with what the user types, and a terminal that stays silent would hold up the
-//! first frame.
+//! It must not know what is drawn or what a key means. It asks the terminal about its colours and
+//! never waits for the answer: a terminal that stays silent would hold up the first frame.
 
 mod backend;
 mod colour;
@@ -16,8 +15,11 @@ mod link;
 mod output;
 mod panics;
 mod pen;
+pub(crate) mod query;
+mod reply;
 #[cfg(unix)]
 mod signals;
+pub(crate) mod tmux;
 mod tty;
 
 pub use backend::AnsiBackend;
@@ -27,6 +29,7 @@ pub use decode::Decoder;
 pub use guard::{Mouse, Terminal};
 pub use input::Input;
 pub use link::{Link, default_bandwidth};
+pub use reply::Reply;
 #[cfg(unix)]
 pub use signals::{Signals, suspend_process};
 pub(crate) use tty::{complain, size};
@@ -42,6 +45,8 @@ pub enum Event {
     Paste(String),
     /// A button, a drag or the wheel; bare motion is never told.
     Mouse(MouseEvent),
+    /// The terminal answered.
+    Reply(Reply),
     /// The window has a new size, in cells.
     Resize {
         /// Cells in a row.

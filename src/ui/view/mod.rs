@@ -44,6 +44,17 @@ enum Glyphs {
 }
 
 impl Glyphs {
+    /// What colours the picture is made of.
+    fn name(self) -> &'static str {
+        let depth = match self {
+            Self::HalfBlocks => ColourDepth::TrueColour,
+            Self::HalfBlocksOf256 => ColourDepth::Palette256,
+            Self::HalfBlocksOf16 => ColourDepth::Palette16,
+            Self::Characters => ColourDepth::Mono,
+        };
+        depth.name()
+    }
+
     fn for_depth(depth: ColourDepth) -> Self {
         match depth {
             ColourDepth::Mono => Self::Characters,

@@ -10,9 +10,6 @@ pub(super) const CUBE: [u8; 6] = [0, 95, 135, 175, 215, 255];
 /// The index of the first fixed colour.
 const FIRST: u8 = 16;
 
-/// How many fixed colours there are.
-const COUNT: usize = 240;
-
 /// Into how many equal parts a mix is divided.
 const PARTS: u32 = 16;
 

@@ -132,7 +132,7 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
     if let Some(frame) = &app.picture().latest {
         let size = format!("{}×{}", frame.size.width, frame.size.height);
         say(30, size, theme::DIM);
-        say(31, colours(glyphs).to_owned(), theme::DIM);
+        say(31, glyphs.name().to_owned(), theme::DIM);
     }
     if let Some(bytes) = app.net {
         say(8, format!("net {} KB/s", bytes.div_ceil(1000)), theme::DIM);
@@ -142,16 +142,6 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
         say(MESSAGE, message.text.clone(), style);
     }
     all
-}
-
-/// What colours the picture is made of.
-fn colours(glyphs: Glyphs) -> &'static str {
-    match glyphs {
-        Glyphs::HalfBlocks => "24-bit",
-        Glyphs::HalfBlocksOf256 => "256 colours",
-        Glyphs::HalfBlocksOf16 => "16 colours",
-        Glyphs::Characters => "no colours",
-    }
 }
 
 /// Says the mode, and how the text stands.

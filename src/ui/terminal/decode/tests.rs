@@ -141,3 +141,42 @@ fn endless_sequences_are_dropped() {
         ["Char('2')"]
     );
 }
+
+#[test]
+fn answers_are_no_keys() {
+    let colour = "Reply(TrueColour)";
+    for (pieces, events) in [
+        (
+            &[(0, &b"a\x1bP1$r0;38:2::49:73:87m\x1b\\b"[..])][..],
+            &["Char('a')", colour, "Char('b')"][..],
+        ),
+        (&[(0, b"\x1bP1+r524742=38\x1b\\")], &[colour]),
+        (&[(0, b"\x1bP0+r5463\x1b\\x")], &["Char('x')"]),
+        (&[(0, b"\x1bP0$r\x1b\\")], &[]),
+        // Slow ones, in any pieces.
+        (&[(0, b"\x1bP"), (500, b"1+r5463\x1b\\")], &[colour]),
+        (
+            &[(0, b"\x1bP1+r54"), (500, b"63\x1b"), (900, b"\\")],
+            &[colour],
+        ),
+        // Malformed ones, and one that never ends.
+        (&[(0, b"\x1bP1$r\x1b[A")], &["Up"]),
+        (&[(0, b"\x1bP1$rquit:q!\rj")], &["Enter", "Char('j')"]),
+        (&[(0, b"\x1bP1$rquit"), (2000, b"k")], &["Char('k')"]),
+        // The key that begins like one.
+        (&[(0, b"\x1bPj")], &["SHIFT | ALT+Char('P')", "Char('j')"]),
+        (
+            &[(0, b"\x1b[?2026;2$y\x1b[?62;4c")],
+            &[
+                "Reply(Mode { number: 2026, state: 2 })",
+                "Reply(Attributes)",
+            ],
+        ),
+        (
+            &[(0, b"\x1b[?2026$y\x1b[?1;$y")],
+            &["Reply(Mode { number: 1, state: 1 })"],
+        ),
+    ] {
+        assert_eq!(decode(pieces), events, "{pieces:?}");
+    }
+}
