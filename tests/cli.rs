@@ -274,6 +274,52 @@ fn a_picture_never_replaces_its_scene() {
 }
 
 #[test]
+fn a_picture_never_replaces_a_file_that_its_scene_uses() {
+    let place = Place::new();
+    place.write("a.dat", TEXTURED);
+    place.write("skin.ppm", SKIN);
+    fs::hard_link(place.at("skin.ppm"), place.at("hard.bmp")).expect("linked");
+    for output in ["skin.ppm", "./skin.ppm", "hard.bmp"] {
+        let told = place.told(&format!("render a.dat --spp 1 -o {output}"), 2);
+        let reason = "is a file that the scene uses; name another file for the picture";
+        assert_eq!(told, format!("error: {output}: {reason}\n"));
+        assert_eq!(place.read("skin.ppm"), SKIN.as_bytes());
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn a_picture_goes_into_a_pipe_that_somebody_reads() {
+    use rustix::fs::{CWD, FileType, Mode, mknodat};
+    let place = Place::new();
+    mknodat(CWD, place.at("pipe"), FileType::Fifo, Mode::RWXU, 0).expect("a pipe");
+    let told = place.told("render ball.ray -o pipe --format ppm", 1);
+    assert_eq!(told, "error: pipe: nobody reads this pipe\n");
+    let pipe = place.at("pipe");
+    let reader = std::thread::spawn(move || fs::read(pipe));
+    assert_eq!(place.told("render ball.ray -o pipe --format ppm", 0), "");
+    let read = reader.join().expect("no panic").expect("read");
+    assert!(read.starts_with(b"P6\n8 6\n255\n"));
+    place.told("render ball.ray -o /dev/null --format ppm", 0);
+    assert_eq!(place.names(), ["ball.ray", "pipe"]);
+}
+
+#[test]
+fn what_is_left_of_a_save_that_was_cut_off_is_named() {
+    let place = Place::new();
+    place.write(".halflight-backup-0-00c0ffee-ball.ray", "old");
+    for line in ["check ball.ray", "render ball.ray -o a.bmp"] {
+        let told = place.told(line, 0);
+        let words = "note: a save of ball.ray was cut off: ";
+        assert!(told.starts_with(words), "{told}");
+        assert!(
+            told.contains(".halflight-backup-0-00c0ffee-ball.ray has what"),
+            "{told}"
+        );
+    }
+}
+
+#[test]
 #[cfg(unix)]
 fn names_cannot_drive_the_terminal() {
     let place = Place::new();

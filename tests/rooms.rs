@@ -79,7 +79,6 @@ const DEPENDENCIES: &[(&str, &str)] = &[
     ("similar", "document"),
     ("smallvec", "geometry"),
     ("sobol_burley", "render"),
-    ("tempfile", "file"),
     ("termprofile", "ui"),
     ("thiserror", "*"),
     ("tui_input", "ui"),

@@ -83,6 +83,8 @@ pub struct Loaded {
     pub troubles: Troubles,
     /// Where files were found that were looked for elsewhere first, by name.
     pub elsewhere: BTreeMap<String, PathBuf>,
+    /// The files that matter to the scene: see [`Assets::places`].
+    pub files: Vec<PathBuf>,
 }
 
 impl Wanted {
@@ -139,6 +141,7 @@ impl Assets {
             meshes,
             troubles,
             elsewhere,
+            files: self.places(wanted),
         }
     }
 

@@ -127,6 +127,8 @@ struct Loaded {
     scene: Option<Scene>,
     /// The pictures of its textures.
     images: Images,
+    /// Where the files stand that it names.
+    files: Vec<PathBuf>,
     text: String,
     /// Nobody asks them any more, but a large scene's take long to free.
     syntax: (Tree, Origins),
@@ -146,8 +148,13 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
         threads::settle();
     }
     let text = file::read_text(path)?;
+    for copy in file::backups(path) {
+        let (scene, copy) = (path.display(), copy.display());
+        let note = format!("a save of {scene} was cut off: {copy} has what it held before");
+        tell("note", &note);
+    }
     let tree = format::parse(format, &text);
-    let (lowered, images) = mean(path, &text, &tree, folders);
+    let (lowered, images, files) = mean(path, &text, &tree, folders);
     let findings = match warnings {
         Warnings::Allowed => lowered.diagnostics,
         Warnings::Refused => lowered.diagnostics.strict(),
@@ -165,6 +172,7 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
         size: size_place(&lowered.origins, &tree),
         scene: lowered.scene.filter(|_| errors == 0),
         images,
+        files,
         text,
         errors,
         warnings,
@@ -172,9 +180,15 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
     })
 }
 
-/// What a text means with the files it names, and the pictures among these. All that is wrong with
-/// any of them is among its diagnostics; prints which were found elsewhere than by their names.
-fn mean(path: &Path, text: &str, tree: &Tree, folders: &[PathBuf]) -> (Lowered, Images) {
+/// What a text means with the files it names, the pictures among these, and where all of them
+/// stand. All that is wrong with any of them is among its diagnostics; prints which were found
+/// elsewhere than by their names.
+fn mean(
+    path: &Path,
+    text: &str,
+    tree: &Tree,
+    folders: &[PathBuf],
+) -> (Lowered, Images, Vec<PathBuf>) {
     let mut assets = Assets::new(folders);
     let mut lowered = scene::lower(text, tree, &Meshes::default());
     let mut files = lowered.origins.files(text, tree);
@@ -197,7 +211,7 @@ fn mean(path: &Path, text: &str, tree: &Tree, folders: &[PathBuf]) -> (Lowered, 
     for (name, place) in &loaded.elsewhere {
         tell("note", &format!("{name} is read from {}", place.display()));
     }
-    (lowered, loaded.images)
+    (lowered, loaded.images, loaded.files)
 }
 
 /// Where a text says the picture's size, if it does.

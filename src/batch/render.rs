@@ -59,7 +59,7 @@ pub enum Output {
 
 /// Traces a scene and writes the picture. Warnings, notes and progress go to the error stream. A
 /// reader that closes the pipe early has what it wanted: no error. Interrupted at any moment, it
-/// leaves the old file or the new one, see [`file::replace`].
+/// leaves the old file or the new one, see [`file::deliver`].
 pub fn render(work: &Render) -> Result<(), Error> {
     make(work).inspect_err(tell_error)
 }
@@ -70,6 +70,7 @@ fn make(work: &Render) -> Result<(), Error> {
     let scene = loaded.scene.ok_or(Error::Invalid {
         errors: loaded.errors,
     })?;
+    check_named(work, &loaded.files)?;
     let size = work.size.unwrap_or(scene.camera.size);
     if let Some(reason) = work.format.refuses(size) {
         let Some(place) = loaded.size.filter(|_| work.size.is_none()) else {
@@ -120,6 +121,19 @@ fn check_output(work: &Render) -> Result<(), Error> {
     }
 }
 
+/// Refuses to replace a file that the scene itself is made of.
+fn check_named(work: &Render, files: &[PathBuf]) -> Result<(), Error> {
+    match &work.output {
+        Output::File(path) if files.iter().any(|named| file::is_same(path, named)) => {
+            Err(Error::Refused(format!(
+                "{}: is a file that the scene uses; name another file for the picture",
+                path.display()
+            )))
+        }
+        Output::File(_) | Output::Stdout | Output::StdoutTerminal => Ok(()),
+    }
+}
+
 /// The picture that is asked for.
 fn job(work: &Render, scene: Scene, images: Images, size: Size) -> Job {
     let transfer = work.transfer.unwrap_or(scene.setting.transfer);
@@ -163,7 +177,7 @@ fn last(renderer: &Renderer, woken: &Receiver<()>) -> Result<Arc<Frame>, Error> 
 
 fn write(work: &Render, frame: &Frame) -> Result<(), Error> {
     let written = match &work.output {
-        Output::File(path) => file::replace(path, |out| work.format.write(frame, out)),
+        Output::File(path) => file::deliver(path, |out| work.format.write(frame, out), || Ok(())),
         Output::Stdout | Output::StdoutTerminal => stdout::write(work.format, frame),
     };
     written.or_else(|source| match (source.kind(), &work.output) {

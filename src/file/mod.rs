@@ -1,7 +1,16 @@
 //! Files whole or not at all: reading a scene's text, and replacing a file. Knows nothing of what
 //! the bytes mean.
 
+mod alike;
+mod backup;
+mod calls;
+#[cfg(test)]
+pub(crate) mod faults;
+mod owner;
 mod replace;
+mod stream;
+mod target;
+mod temporary;
 
 use std::fs::{self, File, FileType, OpenOptions};
 use std::io::{self, Read};
@@ -9,7 +18,9 @@ use std::path::{Path, PathBuf};
 
 use crate::text::{Position, Span};
 
-pub use replace::{check_target, directory_of, replace, replace_if};
+pub use backup::backups;
+pub use replace::{deliver, replace};
+pub use target::{check_target, directory_of};
 
 /// The longest file that is read, in bytes: positions in a text are 32-bit numbers.
 pub const MAX_BYTES: u64 = u32::MAX as u64;
@@ -137,7 +148,10 @@ pub(crate) fn open(path: &Path) -> Result<File, ReadError> {
             source,
         },
     };
-    regular(without_waiting().open(path).map_err(told)?, path)
+    let file = without_waiting(OpenOptions::new().read(true))
+        .open(path)
+        .map_err(told)?;
+    regular(file, path)
 }
 
 /// The same file, if it is a regular one. Asked of the open file, not of the name, which may mean
@@ -158,9 +172,7 @@ pub(crate) fn regular(file: File, path: &Path) -> Result<File, ReadError> {
     }
 }
 
-fn without_waiting() -> OpenOptions {
-    let mut options = OpenOptions::new();
-    options.read(true);
+fn without_waiting(options: &mut OpenOptions) -> &mut OpenOptions {
     #[cfg(unix)]
     {
         use rustix::fs::OFlags;
@@ -181,6 +193,9 @@ fn kind(file_type: FileType) -> &'static str {
         use std::os::unix::fs::FileTypeExt;
         if file_type.is_fifo() {
             return "a pipe";
+        }
+        if file_type.is_socket() {
+            return "a socket";
         }
     }
     "a device"

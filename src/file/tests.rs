@@ -1,4 +1,7 @@
+mod faults;
+
 use std::fs;
+use std::io::Write;
 
 use tempfile::TempDir;
 
@@ -25,7 +28,11 @@ fn names(directory: &Path) -> Vec<String> {
 }
 
 fn replace_with(path: &Path, content: &str) -> io::Result<()> {
-    replace(path, |out| out.write_all(content.as_bytes()))
+    replace_as(path, |out| out.write_all(content.as_bytes()))
+}
+
+fn replace_as(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    replace(path, write, || Ok(()))
 }
 
 fn content(path: &Path) -> String {
@@ -112,7 +119,7 @@ fn a_failed_write_leaves_the_old_content() {
     let directory = directory();
     let path = directory.path().join("s");
     let fail_midway = || {
-        replace(&path, |out| {
+        replace_as(&path, |out| {
             out.write_all(&vec![b'x'; 100_000])?;
             Err(io::ErrorKind::StorageFull.into())
         })
@@ -130,7 +137,7 @@ fn whether_to_replace_is_asked_when_only_the_name_is_left_to_take() {
     let directory = directory();
     let path = directory.path().join("s");
     fs::write(&path, "old").expect("written");
-    let refused = replace_if(
+    let refused = replace(
         &path,
         |out| {
             out.write_all(b"ours")?;
@@ -271,7 +278,7 @@ mod unix {
             assert_eq!(fs::metadata(&two).expect("there").ino(), inode);
             assert_eq!(names(directory.path()), ["one", "two"]);
         }
-        let failed = replace(&one, |out| {
+        let failed = replace_as(&one, |out| {
             out.write_all(b"half")?;
             Err(io::ErrorKind::StorageFull.into())
         });
@@ -282,18 +289,85 @@ mod unix {
         );
     }
 
-    #[test]
-    fn a_pipe_is_written_to_and_stays() {
-        let directory = directory();
+    fn pipe_in(directory: &TempDir) -> PathBuf {
         let pipe = directory.path().join("pipe");
         mknodat(CWD, &pipe, NodeType::Fifo, Mode::RWXU, 0).expect("a pipe");
+        pipe
+    }
+
+    fn deliver_to(path: &Path, content: &str) -> io::Result<()> {
+        deliver(path, |out| out.write_all(content.as_bytes()), || Ok(()))
+    }
+
+    #[test]
+    fn a_pipe_is_delivered_to_and_stays() {
+        let directory = directory();
+        let pipe = pipe_in(&directory);
         let reader = std::thread::spawn({
             let pipe = pipe.clone();
             move || fs::read_to_string(pipe)
         });
-        replace_with(&pipe, "through").expect("written");
+        // More than a pipe holds: its reader is waited for.
+        let content = "through".repeat(100_000);
+        deliver_to(&pipe, &content).expect("written");
         let read = reader.join().expect("no panic").expect("read");
-        assert_eq!(read, "through");
+        assert!(read == content);
         assert_eq!(names(directory.path()), ["pipe"]);
+        deliver_to(Path::new("/dev/null"), &content).expect("written");
+    }
+
+    #[test]
+    fn a_pipe_that_nobody_reads_is_an_error() {
+        let directory = directory();
+        let error = deliver_to(&pipe_in(&directory), "x").expect_err("nobody reads it");
+        assert_eq!(error.to_string(), "nobody reads this pipe");
+    }
+
+    #[test]
+    fn only_files_are_replaced() {
+        let directory = directory();
+        let pipe = pipe_in(&directory);
+        let socket = directory.path().join("socket");
+        let _listener = std::os::unix::net::UnixListener::bind(&socket).expect("a socket");
+        for (path, kind) in [
+            (pipe.as_path(), "a pipe"),
+            (socket.as_path(), "a socket"),
+            (Path::new("/dev/null"), "a device"),
+        ] {
+            let error = replace_with(path, "x").expect_err("not a file");
+            assert_eq!(error.to_string(), format!("is {kind}, not a file"));
+        }
+        assert_eq!(names(directory.path()), ["pipe", "socket"]);
+    }
+
+    #[test]
+    fn a_new_file_never_takes_the_place_of_one_that_came_meanwhile() {
+        let directory = directory();
+        let path = directory.path().join("s");
+        let asked = std::cell::Cell::new(0);
+        let replace_after = |allowed: usize| {
+            replace(
+                &path,
+                |out| out.write_all(b"ours"),
+                || {
+                    // Somebody writes between the question and the name's being taken.
+                    fs::write(&path, "theirs")?;
+                    asked.set(asked.get() + 1);
+                    if asked.get() <= allowed {
+                        Ok(())
+                    } else {
+                        Err(io::Error::other("exists"))
+                    }
+                },
+            )
+        };
+        let refused = replace_after(1).expect_err("it exists by then");
+        assert_eq!(refused.to_string(), "exists");
+        assert_eq!(content(&path), "theirs");
+        fs::remove_file(&path).expect("removed");
+        asked.set(0);
+        replace_after(2).expect("allowed");
+        assert_eq!((asked.get(), content(&path).as_str()), (2, "ours"));
+        assert_eq!(names(directory.path()), ["s"]);
     }
 }

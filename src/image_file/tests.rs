@@ -333,11 +333,8 @@ fn the_extension_says_the_format_in_any_case() {
 fn an_unknown_extension_is_refused_with_the_known_ones() {
     let directory = tempfile::tempdir().expect("a directory for a test");
     let path = directory.path().join("a.webp");
-    let error = save(&frame(1, 1, &[RED]), &path).expect_err("unknown");
-    assert!(
-        error
-            .to_string()
-            .contains("a.webp: pictures end in .bmp, .ppm, .png, .tiff")
-    );
+    let saved: io::Result<()> = save(&frame(1, 1, &[RED]), &path, || Ok(()));
+    let error = saved.expect_err("unknown").to_string();
+    assert!(error.starts_with("pictures end in .bmp, .ppm, .png, .tiff"));
     assert!(!path.exists());
 }

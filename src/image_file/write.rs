@@ -145,13 +145,18 @@ fn write_exr(values: &[[f32; 3]], size: Size, out: &mut impl Write) -> Result<()
     out.write_all(bytes.get_ref()).map_err(ImageError::IoError)
 }
 
-/// Writes a frame to a file, whole or not at all, in the format its extension says.
-pub fn save(frame: &Frame, path: &Path) -> io::Result<()> {
+/// Writes a frame to a file, whole or not at all, in the format its extension says; or to a pipe or
+/// a device of such a name. `may` is asked when the picture only has to take its place.
+pub fn save<E: From<io::Error>>(
+    frame: &Frame,
+    path: &Path,
+    may: impl Fn() -> Result<(), E>,
+) -> Result<(), E> {
     let format = ImageFormat::of_path(path).ok_or_else(|| {
         io::Error::new(
             io::ErrorKind::InvalidInput,
-            format!("{}: pictures end in {}", path.display(), known_extensions()),
+            format!("pictures end in {}", known_extensions()),
         )
     })?;
-    file::replace(path, |out| format.write(frame, out))
+    file::deliver(path, |out| format.write(frame, out), may)
 }

@@ -1,10 +1,8 @@
 //! What touches the world: files, renderers, timers, the terminal.
 
 use std::io;
-use std::mem;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::thread;
 use std::time::Instant;
@@ -12,15 +10,14 @@ use std::time::Instant;
 use super::Options;
 use super::assets::AssetReader;
 use super::editor;
-use super::files::{Files, Task};
-use super::msg::{Destination, Effect, Existing, ExportId, Msg, Target, Timer};
+use super::files::{Files, PATIENCE, Task};
+use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
 use super::terminal::tmux;
 use super::terminal::{self, Input, Reply, Terminal};
 #[cfg(unix)]
 use super::terminal::{Signals, suspend_process};
-use crate::file;
-use crate::image_file;
-use crate::render::{Frame, Job, Refusal, Renderer, Threads};
+use super::writing::Writers;
+use crate::render::{Job, Refusal, Renderer, Threads};
 use crate::watch::{Method, Watcher};
 
 /// Something that came in.
@@ -48,6 +45,7 @@ pub(crate) struct World {
     signals: Signals,
     sender: Sender<Event>,
     files: Files,
+    writers: Writers,
     assets: AssetReader,
     threads: Option<usize>,
     preview: Option<Numbered>,
@@ -91,6 +89,7 @@ impl World {
             #[cfg(unix)]
             signals: Signals::start(tell(&sender))?,
             files: Files::start(send(&sender))?,
+            writers: Writers::new(sender.clone()),
             assets: AssetReader::start(&options.assets, method, send(&sender))?,
             threads: options.threads,
             preview: None,
@@ -149,10 +148,11 @@ impl World {
         }
     }
 
-    /// Gives the terminal back, until `deadline` at most, and waits for the files; whether unsaved
-    /// edits are kept.
+    /// Gives the terminal back, until `deadline` at most, and waits for files being written;
+    /// whether unsaved edits are kept.
     pub(crate) fn close(self, deadline: Instant) -> bool {
         self.terminal.close(deadline);
+        self.writers.finish(deadline.min(Instant::now() + PATIENCE));
         self.files.finish()
     }
 
@@ -178,17 +178,21 @@ impl World {
                 Ok(())
             }
             Effect::WriteImage(id, frame, to) => {
-                let refused = self.write_image(id, frame, to).err()?;
+                let refused = self.writers.export(id, frame, to).err()?;
                 return Some(Msg::Exported(id, Err(refused)));
             }
-            Effect::CheckTarget(id, to) => {
-                let refused = check_target(&to).err()?;
-                return Some(Msg::Exported(id, Err(refused)));
-            }
+            Effect::CheckTarget(id, to) => self.writers.check(id, to),
+            Effect::FindBackups(scene) => self.writers.find_backups(scene),
             Effect::Read(path, known) => self.files.order(Task::Read(path, known)),
             Effect::Free(unneeded) => self.files.order(Task::Free(unneeded)),
-            Effect::Save { path, text, guard } => {
-                self.files.order(Task::Save { path, text, guard })
+            Effect::Save {
+                id,
+                path,
+                text,
+                guard,
+            } => {
+                let refused = self.writers.save(id, path, text, guard).err()?;
+                return Some(Msg::Saved(id, SaveOutcome::Failed(refused)));
             }
             Effect::Watch(path) => self.watch(path),
             Effect::ReadAssets(wanted) => self.assets.order(wanted),
@@ -279,21 +283,6 @@ impl World {
         }
     }
 
-    fn write_image(&self, id: ExportId, frame: Arc<Frame>, to: Destination) -> Result<(), String> {
-        let writing = Writing::new(self.sender.clone(), id, &to.path);
-        let write = move || {
-            writing.end(check_target(&to).and_then(|()| {
-                let saved = image_file::save(&frame, &to.path);
-                saved.map_err(|error| format!("{}: {error}", to.path.display()))?;
-                Ok(to.path)
-            }));
-        };
-        let spawned = thread::Builder::new()
-            .name("export".to_owned())
-            .spawn(write);
-        spawned.map(drop).map_err(|error| error.to_string())
-    }
-
     fn watch(&mut self, path: PathBuf) -> Result<(), String> {
         let sender = self.sender.clone();
         let changed = move || {
@@ -351,19 +340,6 @@ impl World {
     }
 }
 
-/// Whether a picture may be written there; else why not.
-fn check_target(to: &Destination) -> Result<(), String> {
-    let (path, shown) = (&to.path, to.path.display());
-    let scene = to.scene.as_deref();
-    if scene.is_some_and(|scene| file::is_same(path, scene)) {
-        return Err(format!("{shown} is the scene itself: name another file"));
-    }
-    if to.existing == Existing::Kept && path.symlink_metadata().is_ok() {
-        return Err(format!("{shown} exists: :export! {shown} overwrites it"));
-    }
-    file::check_target(path).map_err(|error| format!("{shown}: {error}"))
-}
-
 /// A renderer, and which of all it is.
 struct Numbered {
     number: u64,
@@ -386,38 +362,6 @@ impl Waker {
 impl Drop for Waker {
     fn drop(&mut self) {
         let _ = self.sender.send(Event::Ended(self.target, self.number));
-    }
-}
-
-/// Tells when it is dropped what became of a picture file.
-struct Writing {
-    sender: Sender<Event>,
-    id: ExportId,
-    outcome: Result<PathBuf, String>,
-}
-
-impl Writing {
-    /// One whose outcome is that of a panic, until there is another.
-    fn new(sender: Sender<Event>, id: ExportId, path: &Path) -> Self {
-        let outcome = Err(format!("{}: the picture can't be written", path.display()));
-        Self {
-            sender,
-            id,
-            outcome,
-        }
-    }
-
-    fn end(mut self, outcome: Result<PathBuf, String>) {
-        self.outcome = outcome;
-    }
-}
-
-impl Drop for Writing {
-    fn drop(&mut self) {
-        let outcome = mem::replace(&mut self.outcome, Err(String::new()));
-        let _ = self
-            .sender
-            .send(Event::Msg(Msg::Exported(self.id, outcome)));
     }
 }
 
@@ -465,54 +409,5 @@ mod tests {
             events[..],
             [Event::Ready(_), Event::Ended(Target::Export, 7)]
         ));
-    }
-
-    #[test]
-    fn a_panic_while_a_picture_is_written_ends_its_export() {
-        let (sender, inbox) = std::sync::mpsc::channel();
-        let writing = Writing::new(sender, ExportId(3), Path::new("a.bmp"));
-        let thread = thread::spawn(move || {
-            let _writing = writing;
-            panic!("on purpose");
-        });
-        assert!(thread.join().is_err());
-        let events: Vec<_> = inbox.iter().collect();
-        let [Event::Msg(Msg::Exported(ExportId(3), Err(reason)))] = &events[..] else {
-            panic!("{events:?}");
-        };
-        assert_eq!(reason, "a.bmp: the picture can't be written");
-    }
-
-    #[test]
-    fn a_picture_that_others_wrote_is_kept() {
-        let place = tempfile::tempdir().expect("a folder");
-        let path = place.path().join("a.bmp");
-        let to = |existing| Destination {
-            path: path.clone(),
-            existing,
-            scene: None,
-        };
-        assert_eq!(check_target(&to(Existing::Kept)), Ok(()));
-        std::fs::write(&path, "").expect("the folder is new");
-        let refused = check_target(&to(Existing::Kept)).expect_err("it exists");
-        assert!(refused.contains(":export! "), "{refused}");
-        assert_eq!(check_target(&to(Existing::Overwritten)), Ok(()));
-    }
-
-    #[test]
-    fn a_picture_is_not_written_over_its_scene() {
-        let place = tempfile::tempdir().expect("a folder");
-        let (scene, linked) = (place.path().join("a.ray"), place.path().join("a.bmp"));
-        std::fs::write(&scene, "").expect("the folder is new");
-        std::fs::hard_link(&scene, &linked).expect("on one file system");
-        for existing in [Existing::Kept, Existing::Overwritten] {
-            let to = Destination {
-                path: linked.clone(),
-                existing,
-                scene: Some(scene.clone()),
-            };
-            let refused = check_target(&to).expect_err("one file");
-            assert!(refused.contains("is the scene itself"), "{refused}");
-        }
     }
 }

@@ -1,22 +1,22 @@
-//! The thread that touches scene files and the edits kept for the next run, one task after the
+//! The thread that reads scene files and writes the edits kept for the next run, one task after the
 //! other.
 
 use std::any::Any;
 use std::collections::VecDeque;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 use std::time::Duration;
 
-use super::msg::{Guard, Msg, SaveOutcome};
+use super::msg::Msg;
 use super::reading::{Known, Understanding};
 use super::recovery::{self, Journal};
 use crate::file::{self, ReadError};
 
 /// How long the end of the program waits for a disk that does not answer.
-const PATIENCE: Duration = Duration::from_secs(2);
+pub(super) const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Work for the thread.
 pub(super) enum Task {
@@ -24,11 +24,6 @@ pub(super) enum Task {
     /// Have what was read understood.
     Understand(PathBuf, Result<String, ReadError>, Known),
     Free(Arc<dyn Any + Send + Sync>),
-    Save {
-        path: PathBuf,
-        text: Arc<String>,
-        guard: Guard,
-    },
     /// Keep the unsaved edits of this scene, which is the one without a file if it has no path.
     Keep {
         scene: Option<PathBuf>,
@@ -131,7 +126,6 @@ fn perform(
                 .err()
                 .map(Msg::Failed);
         }
-        Task::Save { path, text, guard } => return Some(Msg::Saved(save(path, text, &guard))),
         Task::Keep { scene, text } => (
             journal.write(scene, &text),
             "the unsaved edits can't be kept",
@@ -146,63 +140,10 @@ fn perform(
         .map(|error| Msg::Failed(format!("{words}: {error}")))
 }
 
-/// Writes a scene, unless that would lose what somebody else wrote.
-fn save(path: PathBuf, text: Arc<String>, guard: &Guard) -> SaveOutcome {
-    let folder = path
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty());
-    if let Some(folder) = folder.filter(|folder| !folder.exists()) {
-        return SaveOutcome::Failed(format!("{}: no such folder", folder.display()));
-    }
-    let saved = file::replace_if(
-        &path,
-        |out| out.write_all(text.as_bytes()),
-        || may_replace(&path, &text, guard),
-    );
-    match saved {
-        Ok(()) => SaveOutcome::Saved { path, text },
-        Err(Refusal::Changed) => SaveOutcome::ChangedOnDisk,
-        Err(Refusal::Other(reason)) => SaveOutcome::Failed(reason),
-        Err(Refusal::Io(error)) => SaveOutcome::Failed(format!("{}: {error}", path.display())),
-    }
-}
-
-/// Why a scene was not written.
-enum Refusal {
-    /// The file holds something else than what we know.
-    Changed,
-    Other(String),
-    Io(io::Error),
-}
-
-impl From<io::Error> for Refusal {
-    fn from(error: io::Error) -> Self {
-        Self::Io(error)
-    }
-}
-
-/// Whether what the file holds may be lost.
-fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), Refusal> {
-    let held = match guard {
-        Guard::Anything => return Ok(()),
-        Guard::Holding(held) => Some(held),
-        Guard::Absent => None,
-    };
-    match (held, file::read_text(path)) {
-        (_, Err(ReadError::NotFound { .. })) => Ok(()),
-        (Some(held), Ok(found)) if found == **held || found == text => Ok(()),
-        (Some(_), Ok(_)) => Err(Refusal::Changed),
-        (Some(_), Err(error)) => Err(Refusal::Other(error.to_string())),
-        (None, _) => {
-            let path = path.display();
-            let reason = format!("{path} exists: :w! {path} overwrites it");
-            Err(Refusal::Other(reason))
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
     use crate::document::Document;
     use crate::format::Format;
@@ -243,15 +184,5 @@ mod tests {
         assert!(matches!(left.next(), Some(Task::Understand(path, ..)) if path == Path::new("b")));
         assert!(matches!(left.next(), Some(Task::Read(path, _)) if path == Path::new("a")));
         assert!(left.next().is_none());
-    }
-
-    #[test]
-    fn a_scene_is_not_saved_in_a_folder_that_is_not_there() {
-        let place = tempfile::tempdir().expect("a folder");
-        let path = place.path().join("none").join("x.ray");
-        let outcome = save(path, Arc::default(), &Guard::Absent);
-        assert!(
-            matches!(outcome, SaveOutcome::Failed(said) if said.ends_with("none: no such folder"))
-        );
     }
 }

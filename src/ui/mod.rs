@@ -22,6 +22,7 @@ mod recovery;
 mod session;
 pub mod terminal;
 pub mod view;
+mod writing;
 
 use std::io;
 use std::path::{Path, PathBuf};

@@ -29,6 +29,10 @@ pub enum Target {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ExportId(pub u32);
 
+/// Which of the session's saves, from 1; a later one is greater.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct SaveId(pub u32);
+
 /// One event.
 #[derive(Debug)]
 pub enum Msg {
@@ -59,7 +63,9 @@ pub enum Msg {
     /// The time that [`Effect::Later`] asked for has passed.
     Elapsed(Timer),
     /// The scene was written, or not.
-    Saved(SaveOutcome),
+    Saved(SaveId, SaveOutcome),
+    /// Copies of what the scene's file held before saves that were cut off.
+    BackupsFound(Vec<PathBuf>),
     /// An export ended.
     Exported(ExportId, Result<PathBuf, String>),
     /// The external editor has ended.
@@ -102,6 +108,8 @@ pub enum Timer {
     Click,
     /// More edits, which are kept together.
     Keep,
+    /// Files that are being written.
+    Writing,
 }
 
 /// What became of a save.
@@ -137,6 +145,8 @@ pub enum Effect {
     Free(Arc<dyn Any + Send + Sync>),
     /// Write the scene file: [`Msg::Saved`].
     Save {
+        /// Which.
+        id: SaveId,
         /// Where.
         path: PathBuf,
         /// What.
@@ -144,6 +154,8 @@ pub enum Effect {
         /// What may be overwritten.
         guard: Guard,
     },
+    /// Say whether copies are left of what the file held before a save: [`Msg::BackupsFound`].
+    FindBackups(PathBuf),
     /// Watch this file from here on: [`Msg::FileChanged`].
     Watch(PathBuf),
     /// Read the files that the scene names and watch them from here on: [`Msg::AssetsRead`],
@@ -208,6 +220,8 @@ pub struct Destination {
     pub existing: Existing,
     /// The scene's own file, which no picture may replace.
     pub scene: Option<PathBuf>,
+    /// The files that the scene names: no picture may replace them either.
+    pub named: Vec<PathBuf>,
 }
 
 /// What becomes of a file that stands where a picture is to be written.

@@ -296,3 +296,25 @@ fn the_editor_gets_a_name_as_a_file() {
         quit(session);
     }
 }
+
+#[test]
+fn a_pipe_is_refused_and_holds_up_no_save() {
+    use rustix::fs::{CWD, FileType, Mode, mknodat};
+    let place = Place::new();
+    let mut session = place.open_edited();
+    mknodat(CWD, place.at("pipe.ray"), FileType::Fifo, Mode::RWXU, 0).expect("a pipe");
+    session.send(":w! pipe.ray\r");
+    session.wait_for("pipe.ray: is a pipe, not a file");
+    session.send(":wq\r");
+    assert_end(session, 0);
+    assert_eq!(place.read("balls.ray"), edited());
+}
+
+#[test]
+fn a_save_that_was_cut_off_is_told_of() {
+    let place = Place::new();
+    place.write(".halflight-backup-0-00c0ffee-balls.ray", "old");
+    let mut session = place.start(&["balls.ray"], WIDE);
+    session.wait_for("a save of balls.ray was cut off");
+    quit(session);
+}

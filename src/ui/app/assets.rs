@@ -25,6 +25,8 @@ pub(super) struct Assets {
     troubles: Troubles,
     /// Where files were found that were looked for elsewhere first, by name: each was said.
     elsewhere: BTreeMap<String, PathBuf>,
+    /// Where those that were read stand.
+    files: Vec<PathBuf>,
 }
 
 impl App {
@@ -42,6 +44,11 @@ impl App {
             self.want(wanted.map(|path| Wanted::new(path, &files)));
         }
         assets::report(&self.assets.troubles, &files, found)
+    }
+
+    /// The files that the scene names, as far as they are read.
+    pub(super) fn named_files(&self) -> &[PathBuf] {
+        &self.assets.files
     }
 
     /// Whether nothing is known yet of a mesh that the scene names.
@@ -68,6 +75,7 @@ impl App {
             self.images = Images::default();
             self.meshes = Meshes::default();
             assets.troubles.clear();
+            assets.files.clear();
         }
         assets.asked = wanted;
     }
@@ -101,6 +109,7 @@ impl App {
         self.pending.scene |= are_images_new;
         self.meshes = loaded.meshes;
         self.assets.troubles = loaded.troubles;
+        self.assets.files = loaded.files;
         if are_meshes_new || are_faults_new {
             // Meshes may name pictures, which are wanted then.
             self.relower();

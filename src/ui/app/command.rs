@@ -182,7 +182,7 @@ impl App {
         match command {
             Command::Write(file, force) => return self.write(file, force),
             Command::Quit(Force::No) => return self.quit(),
-            Command::Quit(Force::Yes) => return self.leave(),
+            Command::Quit(Force::Yes) => return self.quit_anyway(),
             Command::WriteQuit => {
                 self.pending.quit = self.path.is_some();
                 if self.pending.quit && !self.document.is_dirty() && self.disk == Disk::Known {

@@ -94,8 +94,10 @@ impl App {
             let name = export.destination.path.display();
             format!("the export to {name} is not done")
         });
+        let save = self.file_being_saved();
+        let save = save.map(|path| format!("{} is still being written", path.display()));
         match (self.document.is_dirty(), export) {
-            (false, export) => export,
+            (false, export) => export.or(save),
             (true, None) => Some(edits),
             (true, Some(export)) => Some(format!("{edits}, and {export}")),
         }

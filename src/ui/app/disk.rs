@@ -12,7 +12,7 @@ use crate::file::ReadError;
 use crate::scene::Lowered;
 use crate::text::{Edit, Findings, Position, smallest_edit};
 use crate::ui::keymap::Action;
-use crate::ui::msg::{Effect, Guard, SaveOutcome, Timer};
+use crate::ui::msg::{Effect, Guard, Timer};
 use crate::ui::reading::{Known, News, Reading};
 
 /// Many programs empty a file before they write it: what is wrong with it must last so long.
@@ -38,7 +38,7 @@ impl App {
         effects
     }
 
-    fn read_effect(&self) -> Vec<Effect> {
+    pub(super) fn read_effect(&self) -> Vec<Effect> {
         let read = |path| Effect::Read(path, self.known());
         self.path.iter().cloned().map(read).collect()
     }
@@ -239,47 +239,6 @@ impl App {
         true
     }
 
-    pub(super) fn save_to(&mut self, path: PathBuf, guard: Guard) -> Vec<Effect> {
-        self.document.end_step();
-        vec![Effect::Save {
-            path,
-            text: self.document.shared_text(),
-            guard,
-        }]
-    }
-
-    pub(super) fn was_saved(&mut self, outcome: SaveOutcome) -> Vec<Effect> {
-        let quit = std::mem::take(&mut self.pending.quit);
-        match outcome {
-            SaveOutcome::Saved { path, text } => {
-                self.document.mark_saved(text);
-                self.disk = Disk::Known;
-                self.broken = None;
-                self.say(format!("wrote {}", path.display()));
-                let kept = self.pending.keeping.revision.take();
-                let mut effects: Vec<_> = kept.map(|_| Effect::DropRecovery).into_iter().collect();
-                if self.path.as_ref() != Some(&path) {
-                    self.path = Some(path);
-                    effects.extend(self.watch());
-                    // Files are looked for from another folder now.
-                    self.relower();
-                }
-                self.pending.quit = quit;
-                effects.extend(self.quit_when_done());
-                effects
-            }
-            SaveOutcome::ChangedOnDisk => {
-                self.warn("the file has changed: nothing was written yet");
-                self.pending.settle = Settle::Final;
-                self.read_effect()
-            }
-            SaveOutcome::Failed(reason) => {
-                self.fail(reason);
-                Vec::new()
-            }
-        }
-    }
-
     pub(super) fn decide(&mut self, action: Action) {
         let Some(Dialog::Conflict { merge, at }) = &mut self.dialog else {
             return;
@@ -358,7 +317,18 @@ impl App {
     /// Has the scene's file watched, and read once more: it may have changed before the watch began.
     pub(super) fn watch(&self) -> Vec<Effect> {
         let watch = self.path.iter().cloned().map(Effect::Watch);
-        watch.chain(self.read_effect()).collect()
+        let backups = self.path.iter().cloned().map(Effect::FindBackups);
+        watch.chain(self.read_effect()).chain(backups).collect()
+    }
+
+    /// Says where the content is of a scene that a save was cut off in.
+    pub(super) fn backups_found(&mut self, copies: &[PathBuf]) {
+        if let Some(copy) = copies.last() {
+            let (name, copy) = (self.file_name(), copy.display());
+            self.warn(format!(
+                "a save of {name} was cut off: {copy} has what it held before"
+            ));
+        }
     }
 
     /// Whether a path is that of the scene.

@@ -164,10 +164,12 @@ impl App {
             return Vec::new();
         }
         export.stage = Stage::Writing;
-        vec![
+        let mut effects = vec![
             Effect::WriteImage(export.id, frame, export.destination.clone()),
             Effect::Stop(Target::Export),
-        ]
+        ];
+        effects.extend(self.count_seconds());
+        effects
     }
 
     pub(super) fn exported(
@@ -264,6 +266,7 @@ impl App {
             path: path.to_owned(),
             existing,
             scene: self.path.clone(),
+            named: self.named_files().to_vec(),
         };
         let traced = self.traced(size, spp).filter(|_| frames == Frames::Last);
         self.pending.export.0 += 1;
@@ -279,6 +282,7 @@ impl App {
             spp,
             aov: self.aov,
             progress: traced.as_ref().map(|frame| frame.progress),
+            written_for: 0,
         });
         let what = self
             .aov
@@ -291,7 +295,9 @@ impl App {
             self.warn(format!("exporting {what}to {to}; {why}"));
         }
         if let Some(frame) = traced {
-            return vec![Effect::WriteImage(id, frame, destination)];
+            let mut effects = vec![Effect::WriteImage(id, frame, destination)];
+            effects.extend(self.count_seconds());
+            return effects;
         }
         // The framing is that of the size that is written.
         let camera = Camera { size, ..job.camera };

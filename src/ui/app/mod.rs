@@ -21,6 +21,7 @@ mod picture;
 mod places;
 mod pointer;
 mod quit;
+mod saving;
 #[cfg(test)]
 mod tests;
 mod typing;

@@ -7,6 +7,7 @@ use tui_input::Input;
 
 use super::assets::Assets;
 use super::picture::Picture;
+use super::saving::Saves;
 use crate::document::{Document, Merge};
 use crate::render::{Aov, Filter, Progress};
 use crate::scene::fields::Field;
@@ -108,6 +109,8 @@ pub struct App {
     pub terminal: (u16, u16),
     /// How the files that the scene names stand.
     pub(super) assets: Assets,
+    /// The saves under way.
+    pub(super) saves: Saves,
     /// What a sequence of messages has led to so far.
     pub(super) pending: Pending,
 }
@@ -261,6 +264,8 @@ pub struct Export {
     pub aov: Option<Aov>,
     /// How far.
     pub progress: Option<Progress>,
+    /// Seconds since its file began to be written.
+    pub written_for: u32,
 }
 
 /// What an export is at.

@@ -16,9 +16,9 @@ impl App {
         self.save()
     }
 
-    /// Whether unsaved edits or an export would be lost with the program.
+    /// Whether unsaved edits, an export or a save would be lost with the program.
     fn would_lose(&self) -> bool {
-        self.document.is_dirty() || self.export.is_some()
+        self.document.is_dirty() || self.export.is_some() || self.file_being_saved().is_some()
     }
 
     pub(super) fn quit(&mut self) -> Vec<Effect> {
@@ -27,6 +27,16 @@ impl App {
             return Vec::new();
         }
         self.leave()
+    }
+
+    /// Quits whatever is lost. Edits that are being saved are not given up: they are kept, for the
+    /// save may never end.
+    pub(super) fn quit_anyway(&mut self) -> Vec<Effect> {
+        if self.file_being_saved().is_some() {
+            self.quit_keeping_edits()
+        } else {
+            self.leave()
+        }
     }
 
     /// Quits, once nothing is lost, as was asked for before a save or an export was done.

@@ -7,6 +7,7 @@ use tui_input::Input;
 
 use super::assets::{Assets, STILL_READING};
 use super::model::Pending;
+use super::saving::Saves;
 use super::{
     App, Dialog, Disk, Help, HelpFocus, Message, Mode, Outline, Picture, Prompt, PromptKind,
     Quality, Stride, line,
@@ -77,6 +78,7 @@ impl App {
             mouse: opening.mouse,
             terminal: opening.terminal,
             assets: Assets::default(),
+            saves: Saves::default(),
             pending: Pending::default(),
         };
         app.relower();
@@ -118,7 +120,9 @@ impl App {
             Msg::Elapsed(Timer::Interrupt) => self.pending.interrupt = false,
             Msg::Elapsed(Timer::Click) => self.pending.click = None,
             Msg::Elapsed(Timer::Keep) => return self.keep_edits(),
-            Msg::Saved(outcome) => return self.was_saved(outcome),
+            Msg::Elapsed(Timer::Writing) => return self.tick(),
+            Msg::Saved(id, outcome) => return self.was_saved(id, outcome),
+            Msg::BackupsFound(copies) => self.backups_found(&copies),
             Msg::Exported(id, outcome) => return self.exported(id, outcome),
             Msg::EditorClosed(outcome) => return self.editor_closed(outcome),
             Msg::Recovered(kept) if kept.text != self.document.text() => {
@@ -131,7 +135,7 @@ impl App {
             Msg::Terminate | Msg::HangUp => return self.quit_keeping_edits(),
             Msg::FewColours(depth) if self.message.is_none() => self.say(depth.cure()),
             Msg::FewColours(_) => {}
-            Msg::Failed(reason) => self.fail(reason),
+            Msg::Failed(reason) => self.fail_too(&reason),
         }
         Vec::new()
     }
@@ -321,7 +325,7 @@ impl App {
         match context {
             Context::Errors => self.go_to_error(),
             Context::Conflict => self.adopt(),
-            Context::Quit => return self.leave(),
+            Context::Quit => return self.quit_anyway(),
             Context::Recover => return self.restore(),
             Context::In(Mode::Pick) => self.pick_cross(),
             Context::In(_) | Context::Help => {}
@@ -379,6 +383,18 @@ impl App {
             severity: Some(Severity::Warning),
             text: text.into(),
         });
+    }
+
+    /// Says that something failed beside what may have failed before: of two errors the first one is
+    /// usually the other's cause.
+    fn fail_too(&mut self, text: &str) {
+        let before = self.message.as_ref();
+        let before = before.filter(|before| before.severity == Some(Severity::Error));
+        let both = before.map(|before| match before.text.contains(text) {
+            true => before.text.clone(),
+            false => format!("{}; {text}", before.text),
+        });
+        self.fail(both.unwrap_or_else(|| text.to_owned()));
     }
 
     pub(super) fn fail(&mut self, text: impl Into<String>) {

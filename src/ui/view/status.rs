@@ -116,6 +116,12 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
     let mut all = Vec::new();
     let mut say = |rank, text: String, style| all.push(Segment { rank, text, style });
     text_segments(app, &mut say);
+    let still_writing = app.still_writing();
+    if let Some((path, seconds)) = still_writing {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let text = format!("still writing {name}, {seconds} s");
+        say(3, text, theme::WARNING);
+    }
     if let Some(export) = &app.export {
         let done = export.progress.map_or(0.0, |progress| progress.done);
         say(6, format!("export {}", percent(done)), theme::ACCENT);

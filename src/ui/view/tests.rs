@@ -221,6 +221,7 @@ const STATES: &[(&str, Change)] = &[
                 path: PathBuf::from("out.bmp"),
                 existing: Existing::Kept,
                 scene: None,
+                named: Vec::new(),
             },
             size: Size {
                 width: 4,
@@ -229,6 +230,7 @@ const STATES: &[(&str, Change)] = &[
             spp: 16,
             aov: None,
             progress: None,
+            written_for: 0,
         });
     }),
 ];

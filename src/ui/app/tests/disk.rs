@@ -6,13 +6,19 @@ use super::*;
 use crate::document::Side;
 use crate::file::ReadError;
 use crate::scene;
-use crate::ui::msg::{Guard, Kept, SaveOutcome, Timer};
+use crate::ui::msg::{Guard, Kept, SaveId, SaveOutcome, Timer};
 
 #[test]
 fn a_save_may_only_replace_what_was_last_seen() {
     let mut app = open(SCENE);
     let effects = press(&mut app, "jjjelw");
-    let [.., Effect::Save { path, text, guard }] = effects.as_slice() else {
+    let [
+        ..,
+        Effect::Save {
+            path, text, guard, ..
+        },
+    ] = effects.as_slice()
+    else {
         panic!("{effects:?}");
     };
     assert_eq!(path, &PathBuf::from("scene.ray"));
@@ -22,7 +28,7 @@ fn a_save_may_only_replace_what_was_last_seen() {
         path: path.clone(),
         text: text.clone(),
     };
-    app.update(Msg::Saved(outcome));
+    app.update(Msg::Saved(SaveId(1), outcome));
     assert!(!app.document.is_dirty());
 }
 
@@ -31,7 +37,7 @@ fn a_save_over_a_changed_file_asks() {
     let mut app = open(SCENE);
     press(&mut app, "jjjelw");
     let theirs = SCENE.replace("sphere\n0 0 0", "sphere\n9 0 0");
-    let effects = app.update(Msg::Saved(SaveOutcome::ChangedOnDisk));
+    let effects = app.update(Msg::Saved(SaveId(1), SaveOutcome::ChangedOnDisk));
     assert!(matches!(&effects[..], [Effect::Read(..)]), "{effects:?}");
     assert!(
         words(&app).contains("nothing was written"),
@@ -108,10 +114,13 @@ fn what_was_read_is_read_anew_if_what_it_was_compared_with_is_another() {
     };
     let before = late(&app);
     press(&mut app, "jjjelw");
-    app.update(Msg::Saved(SaveOutcome::Saved {
-        path: PathBuf::from("scene.ray"),
-        text: app.document.shared_text(),
-    }));
+    app.update(Msg::Saved(
+        SaveId(1),
+        SaveOutcome::Saved {
+            path: PathBuf::from("scene.ray"),
+            text: app.document.shared_text(),
+        },
+    ));
     let effects = app.update(before);
     assert!(matches!(effects[..], [Effect::Read(..), Effect::Free(_)]));
     assert_eq!(changed_lines(&app), ["0.1 0 0"]);
@@ -369,10 +378,13 @@ fn kept_edits_put_off_are_left_alone() {
     let mut app = open(SCENE);
     app.update(Msg::Recovered(kept_edits()));
     let saved = |app: &App| {
-        Msg::Saved(SaveOutcome::Saved {
-            path: PathBuf::from("scene.ray"),
-            text: app.document.shared_text(),
-        })
+        Msg::Saved(
+            SaveId(1),
+            SaveOutcome::Saved {
+                path: PathBuf::from("scene.ray"),
+                text: app.document.shared_text(),
+            },
+        )
     };
     let mut effects = press(&mut app, "<Esc>jjjelw");
     effects.extend(app.update(saved(&app)));
@@ -413,7 +425,7 @@ fn a_scene_without_a_file_asks_for_one() {
     let effects = press(&mut app, "new.ray<Enter>");
     assert!(matches!(
         &effects[..],
-        [Effect::Save { path, guard: Guard::Absent, .. }] if path == &PathBuf::from("new.ray")
+        [.., Effect::Save { path, guard: Guard::Absent, .. }] if path == &PathBuf::from("new.ray")
     ));
 }
 
@@ -538,6 +550,8 @@ fn nothing_is_written_where_nothing_is_to_be_saved() {
     assert!(!saves(&press(&mut app, "w")));
     assert_eq!(words(&app), "nothing to save");
     assert!(saves(&press(&mut app, ":w!<Enter>")));
+    let text = app.document.shared_text();
+    saved(&mut app, 1, "scene.ray", &text);
     app.disk = Disk::Missing;
     assert!(saves(&press(&mut app, "w")));
     let effects = press(&mut open(SCENE), ":wq<Enter>");
@@ -580,4 +594,147 @@ fn a_save_that_was_given_up_does_not_quit_later() {
     press(&mut app, "qw<Esc>");
     assert!(app.prompt.is_none());
     assert!(!app.pending.quit);
+}
+
+fn saved(app: &mut App, id: u32, path: &str, text: &Arc<String>) -> Vec<Effect> {
+    let outcome = SaveOutcome::Saved {
+        path: PathBuf::from(path),
+        text: Arc::clone(text),
+    };
+    app.update(Msg::Saved(SaveId(id), outcome))
+}
+
+/// The saves among effects: number, file, guard.
+fn saves(effects: &[Effect]) -> Vec<(u32, String, Guard)> {
+    let saves = effects.iter().filter_map(|effect| match effect {
+        Effect::Save {
+            id, path, guard, ..
+        } => Some((id.0, path.display().to_string(), guard.clone())),
+        _ => None,
+    });
+    saves.collect()
+}
+
+#[test]
+fn a_save_that_hangs_is_shown_and_holds_up_no_other_file() {
+    let mut app = open(SCENE);
+    let effects = press(&mut app, "jjjel:w! stuck.ray<Enter>");
+    assert_eq!(saves(&effects)[0].1, "stuck.ray");
+    let ticks = |effects: &[Effect]| {
+        wants(effects, |effect| {
+            matches!(effect, Effect::Later(_, Timer::Writing))
+        })
+    };
+    assert!(ticks(&effects));
+    assert_eq!(app.still_writing(), None);
+    for _ in 0..12 {
+        assert!(ticks(&app.update(Msg::Elapsed(Timer::Writing))));
+    }
+    assert_eq!(app.still_writing(), Some((Path::new("stuck.ray"), 12)));
+
+    let effects = press(&mut app, ":w free.ray<Enter>");
+    assert_eq!(saves(&effects), [(2, "free.ray".to_owned(), Guard::Absent)]);
+    let text = app.document.shared_text();
+    saved(&mut app, 2, "free.ray", &text);
+    assert_eq!(words(&app), "wrote free.ray");
+    assert_eq!(app.file_name(), "free.ray");
+    // The late one changes nothing any more.
+    saved(&mut app, 1, "stuck.ray", &Arc::new(SCENE.to_owned()));
+    assert_eq!(
+        (words(&app), app.file_name().as_str()),
+        ("wrote stuck.ray", "free.ray")
+    );
+    assert!(!app.document.is_dirty());
+    assert!(!ticks(&app.update(Msg::Elapsed(Timer::Writing))));
+    assert_eq!(app.still_writing(), None);
+}
+
+#[test]
+fn saves_of_one_file_wait_for_each_other() {
+    let mut app = open(SCENE);
+    press(&mut app, "jjjelw");
+    let first = app.document.shared_text();
+    assert!(saves(&press(&mut app, "lw")).is_empty());
+    assert!(saves(&press(&mut app, "l:wq<Enter>")).is_empty());
+    let last = app.document.shared_text();
+    let effects = saved(&mut app, 1, "scene.ray", &first);
+    let expected = Guard::Holding(first);
+    assert_eq!(saves(&effects), [(3, "scene.ray".to_owned(), expected)]);
+    assert!(app.document.is_dirty());
+    let effects = saved(&mut app, 3, "scene.ray", &last);
+    assert!(!app.document.is_dirty());
+    // The quit has waited for the last one.
+    assert!(wants(&effects, |effect| matches!(effect, Effect::Quit)));
+}
+
+#[test]
+fn a_quit_waits_for_a_save_that_hangs_until_it_is_forced() {
+    let quits = |effects: &[Effect]| wants(effects, |effect| matches!(effect, Effect::Quit));
+    let keeps = |effects: &[Effect]| {
+        wants(effects, |effect| {
+            matches!(effect, Effect::WriteRecovery { .. })
+        })
+    };
+    for (keys, forced) in [
+        (":q!<Enter>", true),
+        ("<Ctrl-c>y", true),
+        ("<Ctrl-c><Esc>", false),
+    ] {
+        let mut app = open(SCENE);
+        assert!(!quits(&press(&mut app, "jjjel:wq<Enter>")));
+        app.update(Msg::Elapsed(Timer::Writing));
+        app.update(Msg::Elapsed(Timer::Writing));
+        assert!(words(&app).starts_with("quits when it is written"));
+        let effects = press(&mut app, keys);
+        // What was to be saved is not lost.
+        assert_eq!(
+            (quits(&effects), keeps(&effects)),
+            (forced, forced),
+            "{keys}"
+        );
+    }
+    let mut app = open(SCENE);
+    press(&mut app, "jjjel:wq<Enter>");
+    let text = app.document.shared_text();
+    assert!(quits(&saved(&mut app, 1, "scene.ray", &text)));
+}
+
+#[test]
+fn a_save_of_unchanged_text_is_asked_about_until_it_is_done() {
+    let mut app = open(SCENE);
+    press(&mut app, ":w copy.ray<Enter>q");
+    assert!(matches!(app.dialog, Some(Dialog::Quit)));
+    assert_eq!(
+        app.losses().as_deref(),
+        Some("copy.ray is still being written")
+    );
+}
+
+#[test]
+fn what_fails_besides_a_save_does_not_hide_why_the_save_failed() {
+    let mut app = open(SCENE);
+    press(&mut app, "jjjelw");
+    let failed = SaveOutcome::Failed("scene.ray: no space left".to_owned());
+    app.update(Msg::Saved(SaveId(1), failed));
+    app.update(Msg::Failed("the unsaved edits can't be kept".to_owned()));
+    assert_eq!(
+        words(&app),
+        "scene.ray: no space left; the unsaved edits can't be kept"
+    );
+}
+
+#[test]
+fn what_a_save_that_was_cut_off_has_left_is_named() {
+    let (mut app, effects) = opened(SCENE);
+    assert!(wants(&effects, |effect| matches!(
+        effect,
+        Effect::FindBackups(_)
+    )));
+    app.update(Msg::BackupsFound(vec![PathBuf::from(
+        ".halflight-backup-1-2-scene.ray",
+    )]));
+    assert_eq!(
+        words(&app),
+        "a save of scene.ray was cut off: .halflight-backup-1-2-scene.ray has what it held before"
+    );
 }

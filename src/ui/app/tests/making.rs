@@ -181,7 +181,10 @@ fn a_finished_trace_is_exported_while_it_shows_what_is_asked_for() {
     let done = Arc::new(pictures::frame(size, vec![0; size.pixels()]));
     app.update(Msg::Frame(Target::Trace, done));
     let effects = press(&mut app, "b");
-    assert!(matches!(effects[..], [Effect::WriteImage(..)]));
+    assert!(matches!(
+        effects[..],
+        [Effect::WriteImage(..), Effect::Later(..)]
+    ));
     press(&mut app, "x");
     assert_eq!(traced(&mut app, "3").0, Target::Trace);
     app.update(Msg::Started(Target::Trace, 2));

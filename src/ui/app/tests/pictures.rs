@@ -94,7 +94,7 @@ fn an_export_is_traced_written_and_told() {
     let done = Arc::new(frame(size, vec![0; size.pixels()]));
     let effects = app.update(Msg::Frame(Target::Export, done));
     assert!(
-        matches!(&effects[..], [Effect::WriteImage(_, _, to), Effect::Stop(_)] if to == destination)
+        matches!(&effects[..], [Effect::WriteImage(_, _, to), Effect::Stop(_), Effect::Later(..)] if to == destination)
     );
     app.update(Msg::Exported(*id, Ok(path.clone())));
     assert!(app.export.is_none());

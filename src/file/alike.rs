@@ -1,0 +1,56 @@
+//! What a new file has in common with the one whose place it takes.
+
+use std::fs::{File, Metadata};
+use std::io;
+use std::path::Path;
+
+use super::calls::call;
+
+/// Gives a twin the owner, the attributes and the mode of the file at `path`.
+pub(super) fn take_after(path: &Path, metadata: &Metadata, twin: &File) -> io::Result<()> {
+    #[cfg(unix)]
+    {
+        use rustix::fs::{Gid, Uid, fchown};
+        use std::os::unix::fs::MetadataExt;
+        let own = twin.metadata()?;
+        if (own.uid(), own.gid()) != (metadata.uid(), metadata.gid()) {
+            let owner = Uid::from_raw(metadata.uid());
+            let group = Gid::from_raw(metadata.gid());
+            call("fchown", || Ok(fchown(twin, Some(owner), Some(group))?))?;
+        }
+    }
+    #[cfg(any(target_os = "linux", target_vendor = "apple"))]
+    copy_attributes(path, twin)?;
+    #[cfg(not(any(target_os = "linux", target_vendor = "apple")))]
+    let _ = path;
+    // After the owner: changing that one clears bits of the mode.
+    call("chmod", || twin.set_permissions(metadata.permissions()))
+}
+
+/// Copies extended attributes, which hold access lists too.
+#[cfg(any(target_os = "linux", target_vendor = "apple"))]
+fn copy_attributes(path: &Path, twin: &File) -> io::Result<()> {
+    use rustix::fs::{XattrFlags, fsetxattr, getxattr, getxattr_query, listxattr, listxattr_query};
+
+    // A file system that can't tell has none.
+    let mut names = vec![0; listxattr_query(path).unwrap_or(0)];
+    if names.is_empty() {
+        return Ok(());
+    }
+    let length = listxattr(path, &mut names[..])?;
+    for name in names[..length].split(|&byte| byte == 0) {
+        if !name.is_empty() {
+            let mut value = vec![0; getxattr_query(path, name)?];
+            let length = getxattr(path, name, &mut value[..])?;
+            call("setxattr", || {
+                Ok(fsetxattr(
+                    twin,
+                    name,
+                    &value[..length],
+                    XattrFlags::empty(),
+                )?)
+            })?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,250 @@
+//! Whose a temporary file is: its name says which process on which machine has made it, so that the
+//! files of processes that were killed are found and removed.
+
+use std::fs::{self, File};
+use std::hash::{BuildHasher, DefaultHasher, Hash, Hasher, RandomState};
+use std::path::Path;
+
+/// What the names of temporary files begin with.
+pub(super) const PREFIX: &str = ".halflight-";
+
+/// The most names that are looked at in one folder.
+const MOST: usize = 1 << 16;
+
+/// A process, as the name of a file tells it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Owner {
+    /// Stands for the machine.
+    host: u32,
+    /// Stands for its last start.
+    boot: u32,
+    process: u32,
+    /// When the process began, in the system's units: numbers of processes are used again.
+    began: u64,
+}
+
+impl Owner {
+    /// This process.
+    fn own() -> Self {
+        let process = std::process::id();
+        Self {
+            host: host(),
+            boot: boot(),
+            process,
+            began: began(process).unwrap_or(0),
+        }
+    }
+
+    /// Whose the file of this name is, if it is a temporary file.
+    fn of_name(name: &str) -> Option<Self> {
+        let mut parts = name.strip_prefix(PREFIX)?.split('-');
+        let owner = Self {
+            host: u32::from_str_radix(parts.next()?, 16).ok()?,
+            boot: u32::from_str_radix(parts.next()?, 16).ok()?,
+            process: parts.next()?.parse().ok()?,
+            began: parts.next()?.parse().ok()?,
+        };
+        u32::from_str_radix(parts.next()?, 16).ok()?;
+        parts.next().is_none().then_some(owner)
+    }
+
+    /// Whether this process of this machine may still run.
+    fn may_run(&self) -> bool {
+        self.boot == boot() && began(self.process).is_some_and(|began| began == self.began)
+    }
+}
+
+/// A name for a temporary file of this process, unlike any other.
+pub(super) fn temporary_name() -> String {
+    let Owner {
+        host,
+        boot,
+        process,
+        began,
+    } = Owner::own();
+    let random = random();
+    format!("{PREFIX}{host:08x}-{boot:08x}-{process}-{began}-{random:08x}")
+}
+
+/// A number unlike the last one.
+pub(super) fn random() -> u32 {
+    RandomState::new().hash_one(()) as u32
+}
+
+/// Removes the temporary files in a folder that processes of this machine have left there.
+pub(super) fn sweep(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else {
+        return;
+    };
+    let host = host();
+    for entry in entries.take(MOST).flatten() {
+        let name = entry.file_name();
+        let owner = name.to_str().and_then(Owner::of_name);
+        if let Some(owner) = owner.filter(|owner| owner.host == host) {
+            remove_if_left(&entry.path(), &owner);
+        }
+    }
+}
+
+/// Removes a temporary file unless somebody is still at it.
+fn remove_if_left(path: &Path, owner: &Owner) {
+    // The lock, if it is to be had, is kept until the file is gone.
+    let file = super::open(path).ok();
+    let is_left = match file.as_ref().map(lock) {
+        Some(Lock::Taken) => true,
+        Some(Lock::Busy) => false,
+        Some(Lock::Unknown) | None => !owner.may_run(),
+    };
+    if is_left {
+        let _ = fs::remove_file(path);
+    }
+}
+
+/// What came of an attempt to lock a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lock {
+    /// It is locked until it is closed.
+    Taken,
+    /// Another writer has it.
+    Busy,
+    /// Files can't be locked there.
+    Unknown,
+}
+
+/// Locks a file as that of a writer at work.
+pub(super) fn lock(file: &File) -> Lock {
+    #[cfg(unix)]
+    {
+        use rustix::fs::{FlockOperation, flock};
+        use rustix::io::Errno;
+        match flock(file, FlockOperation::NonBlockingLockExclusive) {
+            Ok(()) => Lock::Taken,
+            Err(Errno::WOULDBLOCK) => Lock::Busy,
+            Err(_) => Lock::Unknown,
+        }
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = file;
+        Lock::Unknown
+    }
+}
+
+fn hash(value: impl Hash) -> u32 {
+    let mut hasher = DefaultHasher::new();
+    value.hash(&mut hasher);
+    hasher.finish() as u32
+}
+
+/// Stands for this machine: its name, and its number where it has one.
+fn host() -> u32 {
+    let number = fs::read("/etc/machine-id").unwrap_or_default();
+    #[cfg(unix)]
+    let name = rustix::system::uname().nodename().to_owned();
+    #[cfg(not(unix))]
+    let name = std::env::var_os("COMPUTERNAME");
+    hash((name, number))
+}
+
+/// Stands for the time since the machine was started.
+fn boot() -> u32 {
+    hash(fs::read("/proc/sys/kernel/random/boot_id").unwrap_or_default())
+}
+
+/// When a process that runs began; 0 where systems don't say.
+#[cfg(target_os = "linux")]
+fn began(process: u32) -> Option<u64> {
+    let stat = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
+    // The second field, a name in parentheses, may hold anything; the 22nd is the time.
+    let (_, rest) = stat.rsplit_once(')')?;
+    rest.split_ascii_whitespace().nth(19)?.parse().ok()
+}
+
+#[cfg(all(unix, not(target_os = "linux")))]
+fn began(process: u32) -> Option<u64> {
+    use rustix::io::Errno;
+    use rustix::process::{Pid, test_kill_process};
+    let known = test_kill_process(Pid::from_raw(process.cast_signed())?);
+    (known != Err(Errno::SRCH)).then_some(0)
+}
+
+#[cfg(not(unix))]
+fn began(_process: u32) -> Option<u64> {
+    Some(0)
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    /// A name of a temporary file that another process might have given.
+    fn name_of(owner: &Owner) -> String {
+        let Owner {
+            host,
+            boot,
+            process,
+            began,
+        } = owner;
+        format!("{PREFIX}{host:08x}-{boot:08x}-{process}-{began}-00c0ffee")
+    }
+
+    #[test]
+    fn names_tell_their_process() {
+        assert_eq!(Owner::of_name(&temporary_name()), Some(Owner::own()));
+        assert!(Owner::own().may_run());
+        for name in [
+            ".halflight-backup-1f-00c0ffee-a.ray",
+            ".halflight-0-0-1-2",
+            ".halflight-0-0-1-2-3-4",
+            "halflight-0-0-1-2-3",
+        ] {
+            assert_eq!(Owner::of_name(name), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn only_what_is_left_behind_on_this_machine_is_swept() {
+        let own = Owner::own();
+        let (other_host, other_boot) = (own.host ^ 1, own.boot ^ 1);
+        let ended = Owner {
+            began: own.began + 1,
+            ..own.clone()
+        };
+        let from_before = Owner {
+            boot: other_boot,
+            ..own.clone()
+        };
+        let elsewhere = Owner {
+            host: other_host,
+            ..ended.clone()
+        };
+        assert!(!ended.may_run() && !from_before.may_run());
+        let folder = tempfile::tempdir().expect("a folder");
+        let place = |name: &str| folder.path().join(name);
+        let kept = [
+            name_of(&elsewhere),
+            ".halflight-Xs72ab".to_owned(),
+            "a.ray".to_owned(),
+        ];
+        for name in kept
+            .iter()
+            .chain(&[name_of(&ended), name_of(&from_before), name_of(&own)])
+        {
+            fs::write(place(name), "half").expect("written");
+        }
+        let busy = temporary_name();
+        let at_work = File::create(place(&busy)).expect("created");
+        assert_eq!(lock(&at_work), Lock::Taken);
+
+        sweep(folder.path());
+        let left = |name: &String| place(name).exists();
+        assert!(kept.iter().all(left) && left(&busy));
+        // Of a file that could be locked, it doesn't matter whether its process runs on.
+        for owner in [&ended, &from_before, &own] {
+            assert!(!left(&name_of(owner)), "{owner:?}");
+        }
+        drop(at_work);
+        sweep(folder.path());
+        assert!(!left(&busy));
+    }
+}

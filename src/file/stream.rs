@@ -1,0 +1,43 @@
+//! Pipes and devices, as somebody else's ends of what is written.
+
+use std::fs::{File, OpenOptions};
+use std::io;
+use std::path::Path;
+
+/// Opens a pipe or a device to be written to. A pipe that nobody reads is waited for for a moment
+/// only: a reader that is started in the same breath may be a little late.
+#[cfg(unix)]
+pub(super) fn open(path: &Path) -> io::Result<File> {
+    use std::thread;
+    use std::time::{Duration, Instant};
+
+    use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
+    use rustix::io::Errno;
+
+    const PATIENCE: Duration = Duration::from_secs(1);
+    const PAUSE: Duration = Duration::from_millis(10);
+    let deadline = Instant::now() + PATIENCE;
+    let stream = loop {
+        match super::without_waiting(OpenOptions::new().write(true)).open(path) {
+            Err(error) if Errno::from_io_error(&error) == Some(Errno::NXIO) => {
+                if deadline <= Instant::now() {
+                    return Err(io::Error::new(error.kind(), "nobody reads this pipe"));
+                }
+                thread::sleep(PAUSE);
+            }
+            opened => break opened?,
+        }
+    };
+    if stream.metadata()?.is_file() {
+        return Err(io::Error::other("was replaced by a file meanwhile"));
+    }
+    // From here on a slow reader is waited for.
+    let flags = fcntl_getfl(&stream)?;
+    fcntl_setfl(&stream, flags - OFlags::NONBLOCK)?;
+    Ok(stream)
+}
+
+#[cfg(not(unix))]
+pub(super) fn open(path: &Path) -> io::Result<File> {
+    OpenOptions::new().write(true).open(path)
+}

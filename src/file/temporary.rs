@@ -1,0 +1,262 @@
+//! New content before it has its name.
+
+use std::fs::{self, File, OpenOptions};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::calls::{Content, call};
+use super::owner::{Lock, lock, sweep, temporary_name};
+
+/// How often a name is looked for that nobody has.
+const ATTEMPTS: usize = 16;
+
+/// Who may read a new file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Access {
+    /// Whoever may read any new file of this process.
+    AsUsual,
+    /// Its owner.
+    Private,
+}
+
+/// A file that is gone when this is dropped, unless it was given a name to keep. It has no name at
+/// all where the file system has such files: of these, nothing is left even by a process that is
+/// killed.
+#[derive(Debug)]
+pub(super) struct Temporary {
+    file: File,
+    folder: PathBuf,
+    /// Its name for now.
+    name: Option<PathBuf>,
+}
+
+impl Temporary {
+    /// An empty one in a folder; what others have left behind there is removed.
+    pub(super) fn new(folder: &Path, access: Access) -> io::Result<Self> {
+        sweep(folder);
+        match unnamed(folder, access) {
+            Some(unnamed) => unnamed,
+            None => Self::named(folder, access),
+        }
+    }
+
+    fn named(folder: &Path, access: Access) -> io::Result<Self> {
+        for _ in 0..ATTEMPTS {
+            let name = folder.join(temporary_name());
+            let made = call("create", || options(access).create_new(true).open(&name));
+            let file = match made {
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
+                made => made?,
+            };
+            let named = Self {
+                file,
+                folder: folder.to_owned(),
+                name: Some(name),
+            };
+            // Another writer may have taken it for one left behind, before it was locked.
+            if lock(&named.file) != Lock::Busy && !is_gone(&named.file) {
+                return Ok(named);
+            }
+        }
+        Err(io::ErrorKind::AlreadyExists.into())
+    }
+
+    /// The open file.
+    pub(super) fn file(&self) -> &File {
+        &self.file
+    }
+
+    /// Its content, to be written.
+    pub(super) fn content(&self) -> Content<&File> {
+        Content(&self.file)
+    }
+
+    /// Has its content outlast a power cut.
+    pub(super) fn sync(&self) -> io::Result<()> {
+        call("fsync", || self.file.sync_all())
+    }
+
+    /// Takes a name that nothing has; fails with [`io::ErrorKind::AlreadyExists`] otherwise.
+    pub(super) fn take_new_name(&mut self, path: &Path) -> io::Result<()> {
+        if self.name.is_none() {
+            match self.link(path) {
+                Err(error) if is_unlinkable(&error) => self.take_temporary_name()?,
+                linked => return linked,
+            }
+        }
+        if let Some(name) = &self.name {
+            call("rename", || rename_to_new(name, path))?;
+            self.name = None;
+        }
+        Ok(())
+    }
+
+    /// Takes a name in place of the file that has it.
+    pub(super) fn take_name(&mut self, path: &Path) -> io::Result<()> {
+        if self.name.is_none() {
+            self.take_temporary_name()?;
+        }
+        if let Some(name) = &self.name {
+            call("rename", || fs::rename(name, path))?;
+            self.name = None;
+        }
+        Ok(())
+    }
+
+    fn take_temporary_name(&mut self) -> io::Result<()> {
+        let name = self.folder.join(temporary_name());
+        match self.link(&name) {
+            Ok(()) => self.name = Some(name),
+            Err(error) if is_unlinkable(&error) => {
+                let copy = Self::named(&self.folder, Access::Private)?;
+                copy_all(&self.file, &copy.file)?;
+                call("chmod", || {
+                    copy.file
+                        .set_permissions(self.file.metadata()?.permissions())
+                })?;
+                copy.sync()?;
+                *self = copy;
+            }
+            Err(error) => return Err(error),
+        }
+        Ok(())
+    }
+
+    /// Gives a file without a name one that nothing has.
+    #[cfg(target_os = "linux")]
+    fn link(&self, path: &Path) -> io::Result<()> {
+        use rustix::fs::{AtFlags, CWD, linkat};
+        let open = place_of(&self.file);
+        call("link", || {
+            Ok(linkat(CWD, &open, CWD, path, AtFlags::SYMLINK_FOLLOW)?)
+        })
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    fn link(&self, _path: &Path) -> io::Result<()> {
+        Err(io::ErrorKind::Unsupported.into())
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        if let Some(name) = &self.name {
+            // What can't be removed now is swept later.
+            let _ = call("unlink", || fs::remove_file(name));
+        }
+    }
+}
+
+/// Copies all of one file's content behind what another has.
+pub(super) fn copy_all(mut from: &File, to: &File) -> io::Result<()> {
+    use std::io::{Read, Seek, Write};
+    let mut bytes = Vec::new();
+    call("seek", || from.rewind())?;
+    call("read", || from.read_to_end(&mut bytes))?;
+    Content(to).write_all(&bytes)
+}
+
+fn options(access: Access) -> OpenOptions {
+    let mut options = OpenOptions::new();
+    options.read(true).write(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, mode(access));
+    #[cfg(not(unix))]
+    let _ = access;
+    options
+}
+
+/// The mode to ask for. The kernel takes the process's mask off; asking for the mask would mean
+/// changing it.
+#[cfg(unix)]
+fn mode(access: Access) -> u32 {
+    match access {
+        Access::AsUsual => 0o666,
+        Access::Private => 0o600,
+    }
+}
+
+/// A file without a name; `None` where there are none, or none that could get one later.
+#[cfg(target_os = "linux")]
+fn unnamed(folder: &Path, access: Access) -> Option<io::Result<Temporary>> {
+    use rustix::fs::{CWD, Mode, OFlags, openat};
+    use rustix::io::Errno;
+    let flags = OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC;
+    let mode = Mode::from_raw_mode(mode(access));
+    let opened = call("create", || Ok(openat(CWD, folder, flags, mode)?));
+    let file = match opened {
+        Ok(opened) => File::from(opened),
+        Err(error) => {
+            let errno = Errno::from_io_error(&error);
+            let is_unknown = matches!(errno, Some(Errno::OPNOTSUPP | Errno::ISDIR | Errno::INVAL));
+            return (!is_unknown).then_some(Err(error));
+        }
+    };
+    // Whoever has its lock is at work on it, from the moment it has a name.
+    lock(&file);
+    let temporary = Temporary {
+        file,
+        folder: folder.to_owned(),
+        name: None,
+    };
+    place_of(&temporary.file).exists().then_some(Ok(temporary))
+}
+
+#[cfg(not(target_os = "linux"))]
+fn unnamed(_folder: &Path, _access: Access) -> Option<io::Result<Temporary>> {
+    None
+}
+
+/// Where the kernel shows an open file.
+#[cfg(target_os = "linux")]
+fn place_of(file: &File) -> PathBuf {
+    use std::os::fd::AsRawFd;
+    PathBuf::from(format!("/proc/self/fd/{}", file.as_raw_fd()))
+}
+
+/// Whether a file can't be given a name later, on this file system or by this process.
+fn is_unlinkable(error: &io::Error) -> bool {
+    #[cfg(unix)]
+    {
+        use rustix::io::Errno;
+        let errno = Errno::from_io_error(error);
+        matches!(
+            errno,
+            Some(Errno::OPNOTSUPP | Errno::PERM | Errno::XDEV | Errno::NOSYS | Errno::MLINK)
+        ) || error.kind() == io::ErrorKind::Unsupported
+    }
+    #[cfg(not(unix))]
+    {
+        error.kind() == io::ErrorKind::Unsupported
+    }
+}
+
+/// Renames a file unless the new name is taken, as far as the file system can tell in one step.
+fn rename_to_new(from: &Path, to: &Path) -> io::Result<()> {
+    #[cfg(any(target_os = "linux", target_vendor = "apple"))]
+    {
+        use rustix::fs::{CWD, RenameFlags, renameat_with};
+        use rustix::io::Errno;
+        match renameat_with(CWD, from, CWD, to, RenameFlags::NOREPLACE) {
+            Err(Errno::INVAL | Errno::NOSYS | Errno::OPNOTSUPP) => {}
+            renamed => return Ok(renamed?),
+        }
+    }
+    if to.symlink_metadata().is_ok() {
+        return Err(io::ErrorKind::AlreadyExists.into());
+    }
+    fs::rename(from, to)
+}
+
+fn is_gone(file: &File) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        file.metadata().is_ok_and(|metadata| metadata.nlink() == 0)
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = file;
+        false
+    }
+}

@@ -1,0 +1,231 @@
+//! Every call of a write fails once, with every error: what is lost, and what is left behind?
+
+use rustix::io::Errno;
+
+use super::*;
+use crate::file::faults::{Calls, Fault, during};
+
+const OLD: &str = "the old content, which is longer than the new one";
+const NEW: &str = "the new content";
+
+/// No write takes as many calls.
+const MOST: usize = 100;
+
+const ERRORS: [Errno; 4] = [Errno::NOSPC, Errno::IO, Errno::DQUOT, Errno::INTR];
+
+/// A file to be written in a folder of its own.
+struct Case {
+    name: &'static str,
+    directory: TempDir,
+    path: PathBuf,
+    /// What is in the folder from the start.
+    names: Vec<String>,
+    old: Option<&'static str>,
+}
+
+impl Case {
+    fn new(name: &'static str, prepare: fn(&Path) -> Option<&'static str>) -> Self {
+        // In memory, where there is such a folder: syncing takes long on a disk.
+        let directory = tempfile::tempdir_in("/dev/shm").unwrap_or_else(|_| directory());
+        let old = prepare(directory.path());
+        Self {
+            name,
+            path: directory.path().join("s"),
+            names: names(directory.path()),
+            directory,
+            old,
+        }
+    }
+
+    /// Makes one of each kind.
+    fn all() -> Vec<Self> {
+        let mut all = vec![
+            Self::new("new", |_| None),
+            Self::new("replaced", |folder| {
+                fs::write(folder.join("s"), OLD).expect("written");
+                Some(OLD)
+            }),
+        ];
+        #[cfg(unix)]
+        all.extend([
+            Self::new("through a link", |folder| {
+                fs::write(folder.join("end"), OLD).expect("written");
+                std::os::unix::fs::symlink("end", folder.join("s")).expect("linked");
+                Some(OLD)
+            }),
+            Self::new("hard-linked", |folder| {
+                fs::write(folder.join("s"), OLD).expect("written");
+                fs::hard_link(folder.join("s"), folder.join("t")).expect("linked");
+                Some(OLD)
+            }),
+        ]);
+        all
+    }
+
+    /// Writes while faults occur, and looks at the outcome.
+    fn write(&self, fault: Fault, at: usize) -> Calls {
+        let (outcome, calls) = during(fault, at, || replace_with(&self.path, NEW));
+        let case = format!("{}, {fault:?} at {at}: {calls:?}: {outcome:?}", self.name);
+        let found = fs::read_to_string(&self.path).ok();
+        let copies = backups(&self.path);
+        match &outcome {
+            Ok(()) => assert_eq!(found.as_deref(), Some(NEW), "{case}"),
+            Err(error) => {
+                assert!(!fault.is_harmless(), "{case}");
+                // The first thing that went wrong is what is told.
+                let (Fault::Once(cause) | Fault::Ever(cause)) = fault else {
+                    panic!("{case}");
+                };
+                let cause = io::Error::from(cause).to_string();
+                assert!(error.to_string().ends_with(&cause), "{case}");
+                assert!(!error.to_string().contains(".halflight-0"), "{case}");
+                let is_told = error.to_string().contains("is damaged");
+                assert!(is_told || found.as_deref() == self.old, "{case}");
+                if is_told {
+                    let [copy] = copies.as_slice() else {
+                        panic!("{case}: {copies:?}");
+                    };
+                    let name = copy.file_name().expect("a name").to_string_lossy();
+                    assert!(error.to_string().contains(&*name), "{case}");
+                    assert_eq!(Some(content(copy).as_str()), self.old, "{case}");
+                }
+            }
+        }
+        // The next write in the folder leaves nothing but what is told of.
+        let other = self.directory.path().join("other");
+        replace_with(&other, "").expect("nothing is wrong by now");
+        fs::remove_file(&other).expect("removed");
+        replace_with(&self.path, NEW).expect("nothing is wrong by now");
+        let mut left = names(self.directory.path());
+        let told = backups(&self.path);
+        left.retain(|name| {
+            let is_own = self.names.contains(name) || name == "s";
+            !is_own && !told.iter().any(|copy| copy.ends_with(name))
+        });
+        assert_eq!(left, [""; 0], "{case}");
+        calls
+    }
+}
+
+/// Writes each kind of file anew with the k-th call failing, for every k; returns which calls were
+/// hit.
+fn fail_each(fault: Fault) -> Vec<&'static str> {
+    let mut hit = Vec::new();
+    for number in 0..Case::all().len() {
+        let last = (0..MOST).find(|&at| {
+            let case = Case::all().swap_remove(number);
+            let calls = case.write(fault, at);
+            hit.extend(calls.hit);
+            calls.hit.is_none()
+        });
+        assert!(last.is_some_and(|last| 0 < last), "each was hit");
+    }
+    hit.sort_unstable();
+    hit.dedup();
+    hit
+}
+
+#[test]
+fn a_call_that_fails_costs_nothing() {
+    for error in ERRORS {
+        let hit = fail_each(Fault::Once(error));
+        #[cfg(target_os = "linux")]
+        for name in [
+            "chmod",
+            "create",
+            "flock",
+            "fsync",
+            "ftruncate",
+            "link",
+            "open",
+            "read",
+            "rename",
+            "unlink",
+            "write",
+        ] {
+            assert!(hit.contains(&name), "{name}");
+        }
+    }
+}
+
+#[test]
+fn calls_that_go_on_failing_cost_nothing_that_is_not_told() {
+    for error in [Errno::NOSPC, Errno::IO, Errno::DQUOT] {
+        fail_each(Fault::Ever(error));
+    }
+}
+
+#[test]
+fn short_writes_are_continued() {
+    fail_each(Fault::Short);
+}
+
+/// Runs on a thread that may do what users may who are not the administrator.
+#[cfg(target_os = "linux")]
+fn without_privileges<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> T {
+    use rustix::process::{Uid, geteuid};
+    use rustix::thread::set_thread_uid;
+    let thread = std::thread::spawn(|| {
+        if geteuid().is_root() {
+            set_thread_uid(Uid::from_raw(65534)).expect("an administrator may");
+        }
+        work()
+    });
+    thread.join().expect("no panic")
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_file_in_a_folder_that_cannot_be_written_to_is_whole_too() {
+    use std::fs::Permissions;
+    use std::os::unix::fs::PermissionsExt;
+    let directory = directory();
+    let name = directory.path().file_name().expect("a name").to_owned();
+    let path = directory.path().join(name);
+    fs::write(&path, "").expect("written");
+    fs::set_permissions(&path, Permissions::from_mode(0o666)).expect("changed");
+    fs::set_permissions(directory.path(), Permissions::from_mode(0o555)).expect("changed");
+    let last = (0..MOST).find(|&at| {
+        fs::write(&path, OLD).expect("written");
+        let place = path.clone();
+        let fault = Fault::Once(Errno::NOSPC);
+        let (outcome, calls) =
+            without_privileges(move || during(fault, at, || replace_with(&place, NEW)));
+        let expected = if outcome.is_ok() { NEW } else { OLD };
+        assert_eq!(content(&path), expected, "{calls:?}: {outcome:?}");
+        if let Err(error) = outcome {
+            let message = error.to_string();
+            let cause = io::Error::from(Errno::NOSPC).to_string();
+            assert!(message.ends_with(&cause), "{message}");
+        }
+        assert_eq!(backups(&path), [] as [PathBuf; 0]);
+        calls.hit.is_none()
+    });
+    assert!(last.is_some_and(|last| 0 < last), "each was hit");
+    fs::set_permissions(directory.path(), Permissions::from_mode(0o755)).expect("changed");
+}
+
+#[test]
+fn a_copy_left_by_a_save_that_was_cut_off_is_found() {
+    let directory = directory();
+    let place = |name: &str| directory.path().join(name);
+    fs::write(place("s"), "half of the ne").expect("written");
+    fs::hard_link(place("s"), place("t")).expect("linked");
+    #[cfg(unix)]
+    let inode = std::os::unix::fs::MetadataExt::ino(&fs::metadata(place("s")).expect("there"));
+    #[cfg(not(unix))]
+    let inode = 0;
+    let copy = place(&format!(".halflight-backup-{inode:x}-00c0ffee-s"));
+    fs::write(&copy, OLD).expect("written");
+    assert_eq!(backups(&place("s")), [copy.as_path()]);
+    // By its other name, too.
+    #[cfg(unix)]
+    assert_eq!(backups(&place("t")), [copy.as_path()]);
+    // It is nobody else's to remove, unless it holds nothing new.
+    replace_with(&place("s"), NEW).expect("written");
+    assert_eq!(backups(&place("s")), [copy.as_path()]);
+    replace_with(&place("s"), OLD).expect("written");
+    assert_eq!(backups(&place("s")), [] as [PathBuf; 0]);
+    replace_with(&place("s"), NEW).expect("written");
+    assert!(!copy.exists());
+}

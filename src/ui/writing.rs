@@ -1,0 +1,294 @@
+//! Scenes and pictures being written. Each has a thread of its own: a disk that does not answer holds
+//! up nothing else.
+
+use std::convert::Infallible;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::thread;
+use std::time::Instant;
+
+use super::effects::Event;
+use super::msg::{Destination, Existing, ExportId, Guard, Msg, SaveId, SaveOutcome};
+use crate::file::{self, ReadError};
+use crate::image_file;
+use crate::render::Frame;
+
+/// The threads that write.
+pub(super) struct Writers {
+    sender: Sender<Event>,
+    /// Each thread has one until its end.
+    at_work: Sender<Infallible>,
+    all_ended: Receiver<Infallible>,
+}
+
+impl Writers {
+    /// None yet.
+    pub(super) fn new(sender: Sender<Event>) -> Self {
+        let (at_work, all_ended) = mpsc::channel();
+        Self {
+            sender,
+            at_work,
+            all_ended,
+        }
+    }
+
+    /// Writes a scene: [`Msg::Saved`].
+    pub(super) fn save(
+        &self,
+        id: SaveId,
+        path: PathBuf,
+        text: Arc<String>,
+        guard: Guard,
+    ) -> Result<(), String> {
+        let shown = path.display();
+        let panicked = SaveOutcome::Failed(format!("{shown}: the scene can't be written"));
+        self.start("save", Msg::Saved(id, panicked), move || {
+            Some(Msg::Saved(id, save(path, text, &guard)))
+        })
+    }
+
+    /// Writes a frame to a picture file: [`Msg::Exported`].
+    pub(super) fn export(
+        &self,
+        id: ExportId,
+        frame: Arc<Frame>,
+        to: Destination,
+    ) -> Result<(), String> {
+        let shown = to.path.display();
+        let panicked = Err(format!("{shown}: the picture can't be written"));
+        self.start("export", Msg::Exported(id, panicked), move || {
+            Some(Msg::Exported(id, export(&frame, to)))
+        })
+    }
+
+    /// Says why no picture can be written there, if so: [`Msg::Exported`].
+    pub(super) fn check(&self, id: ExportId, to: Destination) -> Result<(), String> {
+        let shown = to.path.display();
+        let panicked = Err(format!("{shown}: the picture can't be written"));
+        self.start("check", Msg::Exported(id, panicked), move || {
+            check_target(&to)
+                .err()
+                .map(|reason| Msg::Exported(id, Err(reason)))
+        })
+    }
+
+    /// Says where the content is of a scene that an earlier save has damaged, if so:
+    /// [`Msg::BackupsFound`].
+    pub(super) fn find_backups(&self, scene: PathBuf) -> Result<(), String> {
+        let found = Msg::BackupsFound(Vec::new());
+        self.start("backups", found, move || {
+            Some(Msg::BackupsFound(file::backups(&scene)))
+        })
+    }
+
+    fn start(
+        &self,
+        name: &str,
+        panicked: Msg,
+        work: impl FnOnce() -> Option<Msg> + Send + 'static,
+    ) -> Result<(), String> {
+        let mut report = Report {
+            sender: self.sender.clone(),
+            msg: Some(panicked),
+        };
+        let at_work = self.at_work.clone();
+        let thread = thread::Builder::new().name(name.to_owned());
+        let spawned = thread.spawn(move || {
+            report.msg = work();
+            drop(report);
+            drop(at_work);
+        });
+        spawned.map(drop).map_err(|error| error.to_string())
+    }
+
+    /// Waits until all is written, or the time has come.
+    pub(super) fn finish(self, deadline: Instant) {
+        drop(self.at_work);
+        let patience = deadline.saturating_duration_since(Instant::now());
+        // Nothing is ever sent: the last thread's end ends this.
+        let _ = self.all_ended.recv_timeout(patience);
+    }
+}
+
+/// Sends when it is dropped what became of a file: at first, that of a panic.
+struct Report {
+    sender: Sender<Event>,
+    msg: Option<Msg>,
+}
+
+impl Drop for Report {
+    fn drop(&mut self) {
+        if let Some(msg) = self.msg.take() {
+            // An inbox that is gone belongs to a program that ends.
+            let _ = self.sender.send(Event::Msg(msg));
+        }
+    }
+}
+
+/// Writes a scene, unless that would lose what somebody else wrote.
+fn save(path: PathBuf, text: Arc<String>, guard: &Guard) -> SaveOutcome {
+    let folder = file::directory_of(&path);
+    if let Ok(false) = folder.try_exists() {
+        return SaveOutcome::Failed(format!("{}: no such folder", folder.display()));
+    }
+    let saved = file::replace(
+        &path,
+        |out| out.write_all(text.as_bytes()),
+        || may_replace(&path, &text, guard),
+    );
+    match saved {
+        Ok(()) => SaveOutcome::Saved { path, text },
+        Err(Refusal::Changed) => SaveOutcome::ChangedOnDisk,
+        Err(Refusal::Other(reason)) => SaveOutcome::Failed(reason),
+        Err(Refusal::Io(error)) => SaveOutcome::Failed(format!("{}: {error}", path.display())),
+    }
+}
+
+/// Why a scene was not written.
+enum Refusal {
+    /// The file holds something else than what we know.
+    Changed,
+    Other(String),
+    Io(io::Error),
+}
+
+impl From<io::Error> for Refusal {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
+    }
+}
+
+/// Whether what the file holds may be lost.
+fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), Refusal> {
+    let held = match guard {
+        Guard::Anything => return Ok(()),
+        Guard::Holding(held) => Some(held),
+        Guard::Absent => None,
+    };
+    match (held, file::read_text(path)) {
+        (_, Err(ReadError::NotFound { .. })) => Ok(()),
+        (Some(held), Ok(found)) if found == **held || found == text => Ok(()),
+        (Some(_), Ok(_)) => Err(Refusal::Changed),
+        (Some(_), Err(error)) => Err(Refusal::Other(error.to_string())),
+        (None, _) => {
+            let path = path.display();
+            let reason = format!("{path} exists: :w! {path} overwrites it");
+            Err(Refusal::Other(reason))
+        }
+    }
+}
+
+/// Writes a picture, and says where.
+fn export(frame: &Frame, to: Destination) -> Result<PathBuf, String> {
+    check_target(&to)?;
+    let may = || check_target(&to).map_err(Refusal::Other);
+    match image_file::save(frame, &to.path, may) {
+        Ok(()) => Ok(to.path),
+        Err(Refusal::Io(error)) => Err(format!("{}: {error}", to.path.display())),
+        Err(Refusal::Other(reason)) => Err(reason),
+        Err(Refusal::Changed) => Err(format!("{}: it has changed", to.path.display())),
+    }
+}
+
+/// Whether a picture may be written there; else why not.
+fn check_target(to: &Destination) -> Result<(), String> {
+    let (path, shown) = (&to.path, to.path.display());
+    let scene = to.scene.as_deref();
+    if scene.is_some_and(|scene| file::is_same(path, scene)) {
+        return Err(format!("{shown} is the scene itself: name another file"));
+    }
+    if to.named.iter().any(|named| file::is_same(path, named)) {
+        return Err(format!(
+            "{shown} is a file that the scene uses: name another file"
+        ));
+    }
+    if to.existing == Existing::Kept && path.symlink_metadata().is_ok() {
+        return Err(format!("{shown} exists: :export! {shown} overwrites it"));
+    }
+    file::check_target(path).map_err(|error| format!("{shown}: {error}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_while_a_file_is_written_is_an_outcome() {
+        let (sender, inbox) = mpsc::channel();
+        let writers = Writers::new(sender);
+        let failed = Msg::Saved(SaveId(3), SaveOutcome::Failed("a.ray: broken".to_owned()));
+        let started = writers.start("test", failed, || panic!("on purpose"));
+        started.expect("a thread");
+        let far = Instant::now() + std::time::Duration::from_secs(30);
+        writers.finish(far);
+        let events: Vec<_> = inbox.iter().collect();
+        let [Event::Msg(Msg::Saved(SaveId(3), SaveOutcome::Failed(reason)))] = &events[..] else {
+            panic!("{events:?}");
+        };
+        assert_eq!(reason, "a.ray: broken");
+    }
+
+    #[test]
+    fn a_scene_is_not_saved_in_a_folder_that_is_not_there() {
+        let place = tempfile::tempdir().expect("a folder");
+        let path = place.path().join("none").join("x.ray");
+        let outcome = save(path, Arc::default(), &Guard::Absent);
+        assert!(
+            matches!(outcome, SaveOutcome::Failed(said) if said.ends_with("none: no such folder"))
+        );
+    }
+
+    #[test]
+    fn a_picture_is_not_written_over_a_file_of_its_scene() {
+        let place = tempfile::tempdir().expect("a folder");
+        let texture = place.path().join("bricks.png");
+        std::fs::write(&texture, "").expect("the folder is new");
+        for existing in [Existing::Kept, Existing::Overwritten] {
+            let to = Destination {
+                path: texture.clone(),
+                existing,
+                scene: Some(place.path().join("a.ray")),
+                named: vec![place.path().join("x/../bricks.png"), texture.clone()],
+            };
+            let refused = check_target(&to).expect_err("one file");
+            assert!(refused.contains("that the scene uses"), "{refused}");
+        }
+    }
+
+    #[test]
+    fn a_picture_that_others_wrote_is_kept() {
+        let place = tempfile::tempdir().expect("a folder");
+        let path = place.path().join("a.bmp");
+        let to = |existing| Destination {
+            path: path.clone(),
+            existing,
+            scene: None,
+            named: Vec::new(),
+        };
+        assert_eq!(check_target(&to(Existing::Kept)), Ok(()));
+        std::fs::write(&path, "").expect("the folder is new");
+        let refused = check_target(&to(Existing::Kept)).expect_err("it exists");
+        assert!(refused.contains(":export! "), "{refused}");
+        assert_eq!(check_target(&to(Existing::Overwritten)), Ok(()));
+    }
+
+    #[test]
+    fn a_picture_is_not_written_over_its_scene() {
+        let place = tempfile::tempdir().expect("a folder");
+        let (scene, linked) = (place.path().join("a.ray"), place.path().join("a.bmp"));
+        std::fs::write(&scene, "").expect("the folder is new");
+        std::fs::hard_link(&scene, &linked).expect("on one file system");
+        for existing in [Existing::Kept, Existing::Overwritten] {
+            let to = Destination {
+                path: linked.clone(),
+                existing,
+                scene: Some(scene.clone()),
+                named: Vec::new(),
+            };
+            let refused = check_target(&to).expect_err("one file");
+            assert!(refused.contains("is the scene itself"), "{refused}");
+        }
+    }
+}

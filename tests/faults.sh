@@ -1,0 +1,145 @@
+#!/bin/sh
+# Writes files while each system call of the writing in turn kills the process or fails.
+#
+#     tests/faults.sh BINARY [FOLDER]
+#
+# needs strace, tmux and a folder on the file system to be tested (by default one for temporary
+# files). Headless: a new picture, one over an existing picture, one over a hard link. Interface: a
+# save over an existing scene and one through a hard link. Of every case the k-th call of each kind is hit, for each k until nothing is hit any more.
+#
+# Then the target holds its old or its new bytes (else it is "torn", or "lost" where it is gone), but
+# for a save through a hard link, whose old bytes a copy named for the file may hold instead. After
+# one more write in the folder nothing else is left there (else it is "left behind"). KINDS names the
+# cases to run, LIMIT the greatest k.
+#
+# Prints a line a case and ends with 1 if anything was torn, lost or left behind.
+
+set -u
+binary=$(realpath "${1:?usage: tests/faults.sh BINARY [FOLDER]}")
+folder=$(mktemp -d "${2:-${TMPDIR:-/tmp}}/faults.XXXXXX")
+trap 'rm -rf "$folder"' EXIT
+export XDG_STATE_HOME="$folder/state" TMPDIR="$folder/temporary"
+mkdir "$TMPDIR"
+
+calls="write fsync rename,renameat,renameat2 link,linkat unlink,unlinkat fchmod,fchown ftruncate openat"
+outcomes="signal=KILL error=ENOSPC error=EIO error=EDQUOT error=EINTR"
+bad=0
+
+scene() {
+    printf '%s\n' '1 1 1' '1 0 9 0 0 0 0' "1 sphere 0 0 0 $1  1 1 1 0 0 0 0 0 0 1 0 0 1" \
+        '// view: eye 0 0 5 target 0 0 0 up 0 1 0 fov 40 size 64 48'
+}
+
+# Makes the folder of one run: scene, target, what the target holds before.
+prepare() {
+    rm -rf "$work"
+    mkdir "$work"
+    scene 1 >"$work/a.ray"
+    case $1 in
+    new) ;;
+    replaced) cp "$folder/old" "$work/t.png" ;;
+    linked) cp "$folder/old" "$work/t.png" && ln "$work/t.png" "$work/other.png" ;;
+    saved) ;;
+    saved-linked) ln "$work/a.ray" "$work/other.ray" ;;
+    esac
+}
+
+# Renders, or edits and saves, under strace with the options given.
+run() {
+    kind=$1
+    shift
+    case $kind in
+    saved*)
+        # Only the save is hit: the edit is kept in another folder.
+        tmux -L "faults$$" new-session -d -x 100 -y 30 \
+            "cd '$work' && strace -f -qq -o '$folder/trace' $* '$binary' --color 24 a.ray"
+        keys 'j' Enter
+        keys '2' Enter
+        keys 'w' ''
+        tmux -L "faults$$" send-keys -l ':q!' 2>/dev/null
+        tmux -L "faults$$" send-keys Enter 2>/dev/null
+        patience=50
+        while tmux -L "faults$$" has-session 2>/dev/null && [ $patience -gt 0 ]; do
+            sleep 0.1
+            patience=$((patience - 1))
+        done
+        tmux -L "faults$$" kill-server 2>/dev/null
+        ;;
+    *)
+        (cd "$work" && strace -f -qq -o "$folder/trace" "$@" \
+            "$binary" render a.ray -o t.png --spp 1 --threads 1; true) >"$folder/said" 2>&1
+        ;;
+    esac
+}
+
+keys() {
+    sleep 0.3
+    tmux -L "faults$$" send-keys -l "$1" 2>/dev/null
+    [ -n "$2" ] && tmux -L "faults$$" send-keys "$2" 2>/dev/null
+    sleep 0.2
+}
+
+# Judges what is there after a run.
+judge() {
+    kind=$1
+    case $kind in
+    saved*) target=$work/a.ray old=$folder/a.old new=$folder/a.new ;;
+    *) target=$work/t.png old=$folder/old new=$folder/new ;;
+    esac
+    if [ ! -e "$target" ]; then
+        [ "$kind" = new ] || lost=$((lost + 1))
+    elif ! cmp -s "$target" "$new" && ! cmp -s "$target" "$old"; then
+        is_kept=no
+        for copy in "$work"/.halflight-backup-* "$TMPDIR"/.halflight-backup-*; do
+            cmp -s "$copy" "$old" && is_kept=yes
+        done
+        if [ $is_kept = yes ]; then copied=$((copied + 1)); else torn=$((torn + 1)); fi
+    fi
+    # One more write in the folder.
+    (cd "$work" && "$binary" render a.ray -o last.png --spp 1 --threads 1) >/dev/null 2>&1
+    [ -e "$work/last.png" ] || (cd "$work" && cp a.ray b.ray && scene 1 >b.ray &&
+        "$binary" render b.ray -o last.png --spp 1 --threads 1 && rm b.ray) >/dev/null 2>&1
+    if find "$work" -name '.halflight-*' ! -name '.halflight-backup-*' | grep -q .; then
+        left=$((left + 1))
+    fi
+}
+
+# Hits every call of the kinds given.
+check() {
+    kind=$1
+    for outcome in $outcomes; do
+        runs=0 torn=0 lost=0 left=0 copied=0
+        # The interface writes to its terminal most of all, and opens what it shows.
+        case $kind in
+        saved*) some="fsync rename,renameat,renameat2 link,linkat unlink,unlinkat fchmod,fchown ftruncate" ;;
+        *) some=$calls ;;
+        esac
+        for call in $some; do
+            k=1
+            while [ $k -le "${LIMIT:-400}" ]; do
+                prepare "$kind"
+                : >"$folder/trace"
+                run "$kind" -e "trace=$call" -e "inject=$call:$outcome:when=$k"
+                runs=$((runs + 1))
+                judge "$kind"
+                grep -q 'INJECTED\|killed by SIGKILL' "$folder/trace" || break
+                k=$((k + 1))
+            done
+        done
+        printf '%-14s %-14s %6d runs  %3d torn  %3d lost  %3d left behind  %3d in a copy\n' \
+            "$kind" "$outcome" $runs $torn $lost $left $copied
+        bad=$((bad + torn + lost + left))
+    done
+}
+
+work=$folder/work
+mkdir "$work"
+scene 1 >"$work/a.ray"
+"$binary" render "$work/a.ray" -o "$folder/new.png" --spp 1 --threads 1 &&
+    mv "$folder/new.png" "$folder/new" && printf 'an old picture' >"$folder/old"
+for kind in ${KINDS:-new replaced linked saved saved-linked}; do
+    scene 1 >"$folder/a.old"
+    scene 2 >"$folder/a.new"
+    check "$kind"
+done
+[ $bad -eq 0 ]
