@@ -22,6 +22,7 @@
 //!
 //! | room | what it is for | what it must not know |
 //! |---|---|---|
+//! | [`memory`] | what the process may still use, and whether work fits | what it is for |
 //! | [`text`] | spans, edits, numbers and diagnostics: positions and changes in text | any language |
 //! | [`format`](mod@format) | text ⇄ tree, one language a file: tokens, records, elements | what a scene is |
 //! | [`document`] | sole owner of text, tree, undo and the saved text | scenes, files |
@@ -61,6 +62,7 @@ pub mod file;
 pub mod format;
 pub mod geometry;
 pub mod image_file;
+pub mod memory;
 pub mod obj;
 pub mod render;
 pub mod scene;

@@ -7,17 +7,21 @@ use std::path::{Path, PathBuf};
 
 /// Each room and the rooms it may name.
 const ARROWS: &[(&str, &[&str])] = &[
+    ("memory", &[]),
     ("text", &[]),
-    ("format", &["text"]),
+    ("format", &["memory", "text"]),
     ("document", &["format", "text"]),
     ("geometry", &[]),
     ("obj", &["geometry", "text"]),
-    ("scene", &["format", "geometry", "obj", "text"]),
+    ("scene", &["format", "geometry", "memory", "obj", "text"]),
     ("accel", &["geometry"]),
-    ("render", &["accel", "geometry", "scene"]),
-    ("file", &["text"]),
+    ("render", &["accel", "geometry", "memory", "scene"]),
+    ("file", &["memory", "text"]),
     ("image_file", &["file", "render", "scene"]),
-    ("assets", &["file", "image_file", "obj", "scene", "text"]),
+    (
+        "assets",
+        &["file", "image_file", "memory", "obj", "scene", "text"],
+    ),
     ("watch", &["file"]),
     (
         "batch",
@@ -26,6 +30,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "file",
             "format",
             "image_file",
+            "memory",
             "render",
             "scene",
             "text",
@@ -39,6 +44,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "file",
             "format",
             "image_file",
+            "memory",
             "render",
             "scene",
             "text",

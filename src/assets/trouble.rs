@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use super::LIMITS;
 use crate::file::{ReadError, directory_of};
 use crate::image_file::{Unreadable, known_extensions};
+use crate::memory::OutOfMemory;
 use crate::scene::{FileKind, NamedFile};
 use crate::text::{Diagnostic, Findings};
 
@@ -88,6 +89,8 @@ pub(super) enum Failure {
     #[error("the scene's meshes have more than {} triangles together", LIMITS.triangles)]
     TooManyTriangles,
     #[error("{0}")]
+    NoMemory(#[from] OutOfMemory),
+    #[error("{0}")]
     Unreadable(#[from] Unreadable),
 }
 
@@ -140,7 +143,11 @@ impl From<ReadError> for Failure {
             ReadError::NotRegular { kind, .. } => Self::NotRegular(kind),
             ReadError::TooLong { .. } => Self::TooLong,
             ReadError::Io { source, .. } => Self::Io(source),
-            ReadError::NotFound { .. } | ReadError::NotUtf8 { .. } => Self::Missing(Vec::new()),
+            ReadError::NoMemory { reason, .. } => Self::NoMemory(reason),
+            ReadError::NoThreads(reason) => Self::Io(io::Error::other(reason)),
+            ReadError::NotFound { .. } | ReadError::NotUtf8 { .. } | ReadError::Binary { .. } => {
+                Self::Missing(Vec::new())
+            }
         }
     }
 }

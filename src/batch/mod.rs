@@ -153,7 +153,13 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
         let note = format!("a save of {scene} was cut off: {copy} has what it held before");
         tell("note", &note);
     }
+    let no_memory = |reason| ReadError::NoMemory {
+        path: path.to_owned(),
+        reason,
+    };
+    format::fits(format, &text, 0).map_err(no_memory)?;
     let tree = format::parse(format, &text);
+    scene::fits(&text, &tree).map_err(no_memory)?;
     let (lowered, images, files) = mean(path, &text, &tree, folders);
     let findings = match warnings {
         Warnings::Allowed => lowered.diagnostics,

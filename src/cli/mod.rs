@@ -133,7 +133,8 @@ pub fn interface_exit_code(outcome: &Result<ui::Ending, ui::Error>) -> u8 {
 
 fn read_code(error: &ReadError) -> u8 {
     match error {
-        ReadError::NotUtf8 { .. } => INVALID,
+        ReadError::NotUtf8 { .. } | ReadError::Binary { .. } => INVALID,
+        ReadError::NoMemory { .. } | ReadError::NoThreads(_) => FAILED,
         ReadError::Io { source, .. } if source.kind() == std::io::ErrorKind::OutOfMemory => FAILED,
         ReadError::NotFound { .. }
         | ReadError::NotRegular { .. }

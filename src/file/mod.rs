@@ -16,6 +16,7 @@ use std::fs::{self, File, FileType, OpenOptions};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use crate::memory::{self, Need, NoThreads, OutOfMemory};
 use crate::text::{Position, Span};
 
 pub use backup::backups;
@@ -24,6 +25,9 @@ pub use target::{check_target, directory_of};
 
 /// The longest file that is read, in bytes: positions in a text are 32-bit numbers.
 pub const MAX_BYTES: u64 = u32::MAX as u64;
+
+/// Longer files may be worked on side by side.
+const WITHOUT_THREADS: u64 = 1 << 14;
 
 /// Why a scene's text could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -56,6 +60,25 @@ pub enum ReadError {
         /// The file.
         path: PathBuf,
     },
+    /// There is no memory for it, or for what is made of it.
+    #[error("{path}: {reason}", path = path.display())]
+    NoMemory {
+        /// The file.
+        path: PathBuf,
+        /// What does not fit.
+        reason: OutOfMemory,
+    },
+    /// It is too long to be read without threads.
+    #[error(transparent)]
+    NoThreads(#[from] NoThreads),
+    /// It holds bytes that no text has.
+    #[error("{path}: is a binary file, not text: it has a byte 0x00 in line {line}", path = path.display())]
+    Binary {
+        /// The file.
+        path: PathBuf,
+        /// The line of the first such byte, from 1.
+        line: usize,
+    },
     /// Its bytes are not UTF-8.
     #[error(
         "{path}:{line}:{column}: the byte 0x{byte:02X} is not UTF-8 text; convert the file, for \
@@ -78,9 +101,59 @@ pub enum ReadError {
     },
 }
 
-/// Reads a scene file: a regular file of at most [`MAX_BYTES`] bytes in UTF-8.
+/// Reads a scene file: a regular file of at most [`MAX_BYTES`] bytes in UTF-8, without zeros.
 pub fn read_text(path: &Path) -> Result<String, ReadError> {
-    let bytes = read_bytes(path, MAX_BYTES)?;
+    let file = open(path)?;
+    if let Some(line) = binary_start(&file) {
+        return Err(ReadError::Binary {
+            path: path.to_owned(),
+            line,
+        });
+    }
+    let text = decode(path, read_opened(&file, path, MAX_BYTES)?)?;
+    match text.bytes().position(|byte| byte == 0) {
+        None => Ok(text),
+        Some(at) => Err(ReadError::Binary {
+            path: path.to_owned(),
+            line: line_of(&text.as_bytes()[..at]),
+        }),
+    }
+}
+
+/// The line of the first zero among a file's first bytes, which are looked at before long ones are
+/// read. None where they begin as UTF-16 does.
+fn binary_start(file: &File) -> Option<usize> {
+    let mut start = [0; 4096];
+    let length = read_start(file, &mut start).unwrap_or(0);
+    let start = &start[..length];
+    if start.starts_with(&[0xFF, 0xFE]) || start.starts_with(&[0xFE, 0xFF]) {
+        return None;
+    }
+    let at = start.iter().position(|&byte| byte == 0)?;
+    Some(line_of(&start[..at]))
+}
+
+/// Reads bytes from a file's beginning without moving on.
+#[cfg(unix)]
+fn read_start(file: &File, start: &mut [u8]) -> io::Result<usize> {
+    std::os::unix::fs::FileExt::read_at(file, start, 0)
+}
+
+/// Reads bytes from a file's beginning without moving on.
+#[cfg(not(unix))]
+fn read_start(mut file: &File, start: &mut [u8]) -> io::Result<usize> {
+    use std::io::Seek;
+    let length = file.read(start)?;
+    file.rewind()?;
+    Ok(length)
+}
+
+/// The number of the line that begins before the end of some bytes, from 1.
+fn line_of(before: &[u8]) -> usize {
+    1 + before.iter().filter(|&&byte| byte == b'\n').count()
+}
+
+fn decode(path: &Path, bytes: Vec<u8>) -> Result<String, ReadError> {
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let bytes = error.as_bytes();
@@ -108,6 +181,18 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
 
 /// Reads a regular file that is open, of at most `limit` bytes.
 pub(crate) fn read_opened(file: &File, path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+    let length = file.metadata().map_or(0, |metadata| metadata.len());
+    memory::check(length.min(limit), || Need {
+        what: "its bytes".to_owned(),
+        bytes: length,
+    })
+    .map_err(|reason| ReadError::NoMemory {
+        path: path.to_owned(),
+        reason,
+    })?;
+    if WITHOUT_THREADS < length {
+        memory::start_threads()?;
+    }
     read_open(file, limit).map_err(|source| match source.kind() {
         io::ErrorKind::FileTooLarge => ReadError::TooLong {
             path: path.to_owned(),

@@ -2,12 +2,15 @@
 
 pub mod dat;
 pub mod ray;
+mod room;
 pub mod xml;
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use crate::text::Span;
+
+pub use room::fits;
 
 /// The languages Halflight reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

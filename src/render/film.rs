@@ -49,6 +49,15 @@ pub(crate) struct Film {
     room: Raster,
 }
 
+/// What a picture's tiles hold.
+fn remembers(size: Size, frames: Frames) -> Remembers {
+    if frames == Frames::Live && size.pixels() <= MOST_REMEMBERED {
+        Remembers::Causes
+    } else {
+        Remembers::Pixels
+    }
+}
+
 /// A picture takes more memory than the system gives.
 #[derive(Debug)]
 pub(crate) struct NoMemory {
@@ -80,6 +89,20 @@ impl Raster {
 }
 
 impl Film {
+    /// What a film takes with the finished picture.
+    pub(crate) fn bytes(settings: &Settings, frames: Frames) -> u64 {
+        let size = settings.size;
+        let bytes = |count: usize, each: usize| (count as u64).saturating_mul(each as u64);
+        let told = match frames {
+            Frames::Live => size_of::<u32>(),
+            Frames::Last => 0,
+            Frames::LastWithValues => size_of::<[f32; 3]>(),
+        };
+        let tile = Tile::bytes(remembers(size, frames));
+        let tiles = bytes(TileShape::of(size).count(size), tile);
+        tiles.saturating_add(bytes(size.pixels(), size_of::<[u8; 3]>() + told))
+    }
+
     /// An empty film, with room for its tiles and the finished picture.
     pub(crate) fn new(settings: &Settings, frames: Frames) -> Result<Self, NoMemory> {
         let Settings {
@@ -90,11 +113,7 @@ impl Film {
             ..
         } = *settings;
         let shape = TileShape::of(size);
-        let remembers = if frames == Frames::Live && size.pixels() <= MOST_REMEMBERED {
-            Remembers::Causes
-        } else {
-            Remembers::Pixels
-        };
+        let remembers = remembers(size, frames);
         let count = shape.count(size);
         let film = || {
             let mut tiles = Vec::new();
@@ -113,18 +132,8 @@ impl Film {
                 room: Raster::with_room(size.pixels(), frames)?,
             })
         };
-        film().map_err(|_: TryReserveError| {
-            let bytes = |count: usize, each: usize| (count as u64).saturating_mul(each as u64);
-            let told = match frames {
-                Frames::Live => size_of::<u32>(),
-                Frames::Last => 0,
-                Frames::LastWithValues => size_of::<[f32; 3]>(),
-            };
-            let developed = size_of::<[u8; 3]>() + told;
-            let tiles = bytes(count, Tile::bytes(remembers));
-            NoMemory {
-                bytes: tiles.saturating_add(bytes(size.pixels(), developed)),
-            }
+        film().map_err(|_: TryReserveError| NoMemory {
+            bytes: Self::bytes(settings, frames),
         })
     }
 

@@ -46,6 +46,7 @@ mod path;
 mod phong;
 mod probe;
 mod renderer;
+mod room;
 mod sampler;
 mod shared;
 mod shot;

@@ -1,17 +1,20 @@
 //! The handle on a worker that traces pictures in the background.
 
+use std::cell::RefCell;
 use std::mem;
-use std::sync::Arc;
 use std::sync::mpsc::{self, Sender};
+use std::sync::{Arc, Weak};
 use std::thread::JoinHandle;
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::film::{Film, NoMemory};
 use super::frame::{Frame, Job};
+use super::room;
 use super::shared::Shared;
 use super::worker::{self, Order};
-use crate::scene::Size;
+use crate::memory::{self, OutOfMemory};
+use crate::scene::{Scene, Size};
 
 /// How many threads trace, and how they stand beside other work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,6 +41,9 @@ pub enum Refusal {
         /// What the system said.
         reason: String,
     },
+    /// The objects or the picture do not fit into memory.
+    #[error(transparent)]
+    OutOfMemory(#[from] OutOfMemory),
     /// The picture takes more memory than there is.
     #[error(
         "{}x{}: tracing it takes {:.1} GB of memory, more than the system gives; a smaller size \
@@ -59,6 +65,8 @@ pub struct Renderer {
     /// Why there is none, where threads can't be started; else [`Refusal::Ended`] only while it is
     /// dropped.
     worker: Result<Worker, Refusal>,
+    /// The scene of the last job that was not refused.
+    accepted: RefCell<Weak<Scene>>,
 }
 
 #[derive(Debug)]
@@ -78,6 +86,7 @@ impl Renderer {
         Self {
             shared,
             worker: worker.map_err(|reason| Refusal::Threads { count, reason }),
+            accepted: RefCell::default(),
         }
     }
 
@@ -87,6 +96,8 @@ impl Renderer {
     pub fn restart(&self, job: Job) -> Result<u64, Refusal> {
         let worker = self.worker.as_ref().map_err(Refusal::clone)?;
         let size = job.settings.size;
+        room::fits(&job, self.accepted.borrow().upgrade().as_ref())?;
+        let scene = Arc::downgrade(&job.scene);
         let film = Film::new(&job.settings, job.frames);
         let film = film.map_err(|NoMemory { bytes }| Refusal::Memory { size, bytes })?;
         let generation = self.shared.begin();
@@ -96,6 +107,7 @@ impl Renderer {
             film,
         };
         worker.orders.send(order).map_err(|_| Refusal::Ended)?;
+        self.accepted.replace(scene);
         Ok(generation)
     }
 
@@ -143,7 +155,7 @@ impl Threads {
 }
 
 fn pool(threads: Threads) -> Result<ThreadPool, rayon::ThreadPoolBuildError> {
-    let builder = ThreadPoolBuilder::new().num_threads(threads.count());
+    let builder = ThreadPoolBuilder::new().num_threads(memory::threads(threads.count()));
     match threads {
         Threads::Background(_) => builder.start_handler(|_| lower_priority()).build(),
         Threads::Preview | Threads::Exactly(_) => builder.build(),

@@ -20,7 +20,7 @@ use crate::scene::{Images, Material, Object, Rgb, Scene};
 /// Up to this many objects every ray tries every one. Measured with rays that go alone: with two
 /// solids that is half as fast again as a tree, with six to eleven a tree is 1.2 to 1.7 times as
 /// fast; with eleven and eight rays side by side a tree is 1.1 times as fast.
-const FEW: usize = 4;
+pub(super) const FEW: usize = 4;
 
 /// The order of so few.
 const FILE_ORDER: [u32; FEW] = [0, 1, 2, 3];
@@ -162,6 +162,11 @@ fn opaque_meshes(scene: &Scene) -> Vec<bool> {
         }
     }
     opaque
+}
+
+/// Whether two scenes have the same shapes, so that one has the structures of the other.
+pub(super) fn has_shapes_of(a: &Arc<Scene>, b: &Arc<Scene>) -> bool {
+    changed_shapes(a, b).is_some_and(|changed| changed.is_empty())
 }
 
 /// The objects whose shapes are others; `None` where they are many, or not as many objects.

@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::file::{self, ReadError};
-use crate::format::{Format, UnknownLanguage};
+use crate::format::{self, Format, UnknownLanguage};
 use crate::render::{DEFAULT_SPP, Filter};
 use crate::scene::Integrator;
 use app::{App, Opening, Quality};
@@ -174,7 +174,13 @@ fn read_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Format, String),
         }
     })?;
     match file::read_text(path) {
-        Ok(text) => Ok((Some(path.to_owned()), format, text)),
+        Ok(text) => match format::fits(format, &text, text.len()) {
+            Ok(()) => Ok((Some(path.to_owned()), format, text)),
+            Err(reason) => {
+                let path = path.to_owned();
+                Err(ReadError::NoMemory { path, reason }.into())
+            }
+        },
         Err(ReadError::NotFound { .. }) if named.is_none() => {
             Ok((None, format, EMBEDDED_SCENE.to_owned()))
         }

@@ -10,6 +10,8 @@ use std::thread;
 use super::msg::Msg;
 use crate::document::{Document, Merge, Merged, Snapshot};
 use crate::file::ReadError;
+use crate::format;
+use crate::memory::{self, OutOfMemory};
 use crate::scene::{self, Lowered, Meshes};
 use crate::text::{Edit, Findings, smallest_edit};
 
@@ -54,34 +56,42 @@ pub struct Meaning {
 }
 
 impl Reading {
-    /// Understands a text.
-    pub fn new(text: String, known: Known) -> Self {
-        let news = (text != *known.scene.saved).then(|| Box::new(News::new(text, &known)));
-        Self { known, news }
+    /// Understands a text, unless that takes more memory than there is.
+    pub fn new(text: String, known: Known) -> Result<Self, OutOfMemory> {
+        let news = if text == *known.scene.saved {
+            None
+        } else {
+            Some(Box::new(News::new(text, &known)?))
+        };
+        Ok(Self { known, news })
     }
 }
 
 impl News {
-    fn new(text: String, known: &Known) -> Self {
+    fn new(text: String, known: &Known) -> Result<Self, OutOfMemory> {
         let before = &known.scene;
+        // A document keeps the text that was saved beside the one under edit.
+        format::fits(before.format, &text, text.len())?;
         let document = Document::new(before.format, text);
+        scene::fits(document.text(), document.tree())?;
         let lowered = scene::lower(document.text(), document.tree(), &known.meshes);
         let edit = |text: &str| smallest_edit(before.text(), text);
         if before.edited.is_none() {
             let edit = edit(document.text());
-            return Self::Text(document, Meaning { lowered, edit });
+            return Ok(Self::Text(document, Meaning { lowered, edit }));
         }
         if lowered.scene.is_none() {
-            return Self::Broken(document.shared_text(), lowered.diagnostics);
+            return Ok(Self::Broken(document.shared_text(), lowered.diagnostics));
         }
         let merged = match before.merge(document) {
             Ok(merged) => merged,
-            Err(merge) => return Self::Conflict(merge),
+            Err(merge) => return Ok(Self::Conflict(merge)),
         };
         let (text, tree) = (merged.document.text(), merged.document.tree());
+        scene::fits(text, tree)?;
         let lowered = scene::lower(text, tree, &known.meshes);
         let edit = edit(text);
-        Self::Merged(merged, Meaning { lowered, edit })
+        Ok(Self::Merged(merged, Meaning { lowered, edit }))
     }
 
     /// Whether the text read has errors.
@@ -109,13 +119,20 @@ impl Understanding {
         let (orders, inbox) = mpsc::channel();
         let work = move || {
             // An edit may lower a large scene on the threads that all share, and would wait there.
-            let pool = rayon::ThreadPoolBuilder::new().build();
+            let cores = thread::available_parallelism().map_or(1, usize::from);
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(memory::threads(cores));
+            let pool = pool.build();
             while let Some((path, read, known)) = last(&inbox) {
                 let understand = |text| match &pool {
                     Ok(pool) => pool.install(|| Reading::new(text, known)),
                     Err(_) => Reading::new(text, known),
                 };
-                let reading = read.map(understand);
+                let reading = read.and_then(|text| {
+                    understand(text).map_err(|reason| ReadError::NoMemory {
+                        path: path.clone(),
+                        reason,
+                    })
+                });
                 send(Msg::Read(path, reading));
             }
         };

@@ -33,6 +33,37 @@ fn signals_end_it_with_their_codes() {
 }
 
 #[test]
+fn an_abort_gives_the_terminal_back() {
+    let place = Place::new();
+    let session = place.open();
+    kill(session.process_id(), Signal::ABORT);
+    assert_aborted(session);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn memory_that_runs_out_gives_the_terminal_back() {
+    use rustix::process::{Resource, Rlimit, prlimit};
+    let place = Place::new();
+    let mut session = place.open();
+    let nothing = Rlimit {
+        current: Some(0),
+        maximum: None,
+    };
+    let process = Pid::from_raw(session.process_id().cast_signed());
+    prlimit(process, Resource::As, nothing).expect("a limit can be lowered");
+    // Its cells take more memory than is left over.
+    session.resize(2000, 250);
+    assert_aborted(session);
+}
+
+fn assert_aborted(mut session: Session) {
+    let status = session.end();
+    session.assert_restored();
+    assert!(status.signal().is_some(), "{status:?}");
+}
+
+#[test]
 fn unsaved_edits_outlive_the_process() {
     for signal in [Some(Signal::TERM), Some(Signal::HUP), None] {
         let place = Place::new();

@@ -8,10 +8,13 @@ mod objects;
 mod ray;
 mod record;
 mod report;
+mod room;
 #[cfg(test)]
 mod tests;
 mod view;
 mod xml;
+
+pub use room::fits;
 
 use super::{Meshes, Origins, Scene};
 use crate::format::Tree;

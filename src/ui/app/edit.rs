@@ -26,9 +26,13 @@ impl App {
         scene::lower_again(text, tree, &self.meshes, before, [old, changed])
     }
 
-    /// What the text means.
+    /// What the text means; nothing but an error where there is no memory for it.
     pub(super) fn lowered(&self) -> Lowered {
-        scene::lower(self.document.text(), self.document.tree(), &self.meshes)
+        let (text, tree) = (self.document.text(), self.document.tree());
+        match scene::fits(text, tree) {
+            Ok(()) => scene::lower(text, tree, &self.meshes),
+            Err(refused) => Lowered::refused(tree, &refused),
+        }
     }
 
     pub(super) fn install(&mut self, lowered: Lowered) {

@@ -10,6 +10,8 @@ use std::time::{Duration, Instant};
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
 
+#[cfg(unix)]
+use super::abort::Abort;
 use super::backend::AnsiBackend;
 use super::colour::ColourDepth;
 use super::output::Output;
@@ -50,6 +52,8 @@ pub struct Terminal {
     screen: ratatui::Terminal<AnsiBackend>,
     shared: Arc<Shared>,
     mouse: Mouse,
+    #[cfg(unix)]
+    _abort: Abort,
 }
 
 impl Terminal {
@@ -63,9 +67,12 @@ impl Terminal {
         let output = Output::start(Line::open()?, cleared)?;
         let backend = AnsiBackend::new(colours, tty::size());
         let Ok(screen) = ratatui::Terminal::new(backend);
+        let shared = Shared::install(output, restore);
         let mut terminal = Self {
             screen,
-            shared: Shared::install(output, restore),
+            #[cfg(unix)]
+            _abort: Abort::install(Arc::clone(&shared), LEAVE)?,
+            shared,
             mouse,
         };
         terminal.reenter()?;

@@ -5,6 +5,8 @@
 //! It must not know what is drawn or what a key means. It asks the terminal about its colours and
 //! never waits for the answer: a terminal that stays silent would hold up the first frame.
 
+#[cfg(unix)]
+mod abort;
 mod backend;
 mod colour;
 #[cfg(unix)]

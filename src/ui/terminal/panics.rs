@@ -5,6 +5,8 @@
 
 use std::backtrace::{Backtrace, BacktraceStatus};
 use std::panic::{self, PanicHookInfo};
+#[cfg(unix)]
+use std::sync::TryLockError;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::thread::{self, ThreadId};
 
@@ -58,6 +60,17 @@ impl Shared {
     pub(super) fn tenure(&self) -> MutexGuard<'_, Tenure> {
         // Whoever panicked with the lock has left a valid value.
         self.tenure.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Who has the terminal, for a signal handler, which must not wait; the interface while it changes
+    /// hands.
+    #[cfg(unix)]
+    pub(super) fn tenure_amid_signal(&self) -> Tenure {
+        match self.tenure.try_lock() {
+            Ok(tenure) => *tenure,
+            Err(TryLockError::Poisoned(tenure)) => *tenure.into_inner(),
+            Err(TryLockError::WouldBlock) => Tenure::Ours,
+        }
     }
 
     /// Returns the panics of other threads that nobody has taken yet.

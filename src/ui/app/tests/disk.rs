@@ -109,7 +109,7 @@ fn what_was_read_is_read_anew_if_what_it_was_compared_with_is_another() {
     let mut app = open(SCENE);
     let late = |app: &App| {
         let theirs = app.document.text().replace("1.5", "1.7");
-        let reading = Reading::new(theirs, app.known());
+        let reading = Reading::new(theirs, app.known()).expect("it fits into memory");
         Msg::Read(PathBuf::from("scene.ray"), Ok(reading))
     };
     let before = late(&app);
@@ -207,7 +207,7 @@ fn a_file_that_says_what_the_edits_say_is_saved() {
 #[test]
 fn nothing_new_is_not_read_again_for_an_edit_in_between() {
     let mut app = open(SCENE);
-    let reading = Reading::new(SCENE.to_owned(), app.known());
+    let reading = Reading::new(SCENE.to_owned(), app.known()).expect("it fits into memory");
     press(&mut app, "jjjel");
     let effects = app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(reading)));
     assert!(

@@ -142,7 +142,7 @@ fn outside(app: &mut App, text: &str) -> Vec<Effect> {
 
 /// What a reading of a file gives.
 fn read(app: &mut App, path: &str, text: &str) -> Vec<Effect> {
-    let reading = Reading::new(text.to_owned(), app.known());
+    let reading = Reading::new(text.to_owned(), app.known()).expect("it fits into memory");
     app.update(Msg::Read(PathBuf::from(path), Ok(reading)))
 }
 

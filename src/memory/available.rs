@@ -1,0 +1,63 @@
+//! The tightest of the limits that this system tells of.
+
+use super::{Available, Limit};
+
+/// Room that is left to what is not asked for beforehand: buffers, stacks, messages.
+const SPARE: u64 = 16 << 20;
+
+/// What the tightest limit leaves; `None` where no limit is known.
+pub fn available() -> Option<Available> {
+    let tightest = limits().into_iter().min_by_key(|limit| limit.bytes)?;
+    Some(Available {
+        bytes: tightest.bytes.saturating_sub(SPARE),
+        ..tightest
+    })
+}
+
+/// What each known limit leaves.
+#[cfg(target_os = "linux")]
+pub fn limits() -> Vec<Available> {
+    use super::{cgroup, proc};
+    use rustix::process::{Resource, getrlimit};
+
+    let mut limits = Vec::new();
+    let mut add = |limit, bytes| limits.push(Available { bytes, limit });
+    let status = proc::read("/proc/self/status");
+    let used = |key| proc::kilobytes(&status, key).unwrap_or(0);
+    if let Some(limit) = getrlimit(Resource::As).current {
+        let threads = super::threads::address_space();
+        let used = used("VmSize:").saturating_add(threads);
+        add(Limit::AddressSpace, limit.saturating_sub(used));
+    }
+    if let Some(limit) = getrlimit(Resource::Data).current {
+        add(Limit::Data, limit.saturating_sub(used("VmData:")));
+    }
+    for (limit, bytes) in cgroup::available() {
+        add(limit, bytes);
+    }
+    let machine = proc::read("/proc/meminfo");
+    if let Some(free) = proc::kilobytes(&machine, "MemAvailable:") {
+        let swap = proc::kilobytes(&machine, "SwapFree:").unwrap_or(0);
+        add(Limit::Machine, free.saturating_add(swap));
+    }
+    limits
+}
+
+/// What each known limit leaves. This system does not tell how much of them is used.
+#[cfg(not(target_os = "linux"))]
+pub fn limits() -> Vec<Available> {
+    #[cfg(unix)]
+    {
+        use rustix::process::{Resource, getrlimit};
+        let limit = getrlimit(Resource::As).current;
+        limit
+            .map(|bytes| Available {
+                bytes,
+                limit: Limit::AddressSpace,
+            })
+            .into_iter()
+            .collect()
+    }
+    #[cfg(not(unix))]
+    Vec::new()
+}

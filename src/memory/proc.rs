@@ -1,0 +1,39 @@
+//! Tables of the system: a key and a number in each line.
+
+use std::fs;
+
+/// The text of a table; empty where there is none.
+pub(super) fn read(path: impl AsRef<std::path::Path>) -> String {
+    fs::read_to_string(path).unwrap_or_default()
+}
+
+/// The number in the line that begins with `key`.
+pub(super) fn number(table: &str, key: &str) -> Option<u64> {
+    let of = |line: &str| {
+        let mut words = line.split_ascii_whitespace();
+        let value = (words.next() == Some(key)).then(|| words.next())?;
+        value?.parse().ok()
+    };
+    table.lines().find_map(of)
+}
+
+/// The bytes in the line that begins with `key` and is given in kilobytes.
+pub(super) fn kilobytes(table: &str, key: &str) -> Option<u64> {
+    Some(number(table, key)?.saturating_mul(1024))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_found_by_their_keys() {
+        let table = "Name:\tVmSize: 7\nVmSize:\t  8192 kB\nVmData: x\nfile 4096\n";
+        assert_eq!(kilobytes(table, "VmSize:"), Some(8 << 20));
+        assert_eq!(number(table, "file"), Some(4096));
+        for key in ["VmData:", "Vm", "VmPeak:"] {
+            assert_eq!(number(table, key), None, "{key}");
+        }
+        assert_eq!(kilobytes("a 18446744073709551615", "a"), Some(u64::MAX));
+    }
+}

@@ -1,0 +1,51 @@
+//! How much memory a job takes, before anything of it is made.
+
+use std::sync::Arc;
+
+use super::film::Film;
+use super::frame::Job;
+use super::structures::instances;
+use super::world::{FEW, has_shapes_of};
+use crate::memory::{self, Need, OutOfMemory};
+use crate::scene::Scene;
+
+/// What a box takes while its tree is built: references, nodes twice, places.
+const BOX: usize = 128;
+
+/// What a pixel takes while the picture is encoded.
+const ENCODED: usize = 4;
+
+/// Refuses a job whose world and film do not fit into memory. The world of a scene of the same shapes
+/// as that of the job `before` is there already, or is about to be.
+pub(super) fn fits(job: &Job, before: Option<&Arc<Scene>>) -> Result<(), OutOfMemory> {
+    let size = job.settings.size;
+    let pixels = (size.pixels() * ENCODED) as u64;
+    let film = Film::bytes(&job.settings, job.frames).saturating_add(pixels);
+    let objects = job.scene.objects.len();
+    let world = match before {
+        Some(before) if has_shapes_of(before, &job.scene) => 0,
+        _ => world(&job.scene),
+    };
+    memory::check(film.saturating_add(world), || Need {
+        what: if film < world {
+            format!("{objects} objects")
+        } else {
+            format!("{}x{} pixels", size.width, size.height)
+        },
+        bytes: film.saturating_add(world),
+    })
+}
+
+/// What the structures of a scene take.
+fn world(scene: &Scene) -> u64 {
+    let objects = scene.objects.len();
+    let own = if objects <= FEW { 0 } else { objects };
+    let mut meshes: Vec<_> = instances(&scene.objects)
+        .into_iter()
+        .map(|(_, instance)| instance.mesh())
+        .collect();
+    meshes.sort_unstable_by_key(|mesh| Arc::as_ptr(mesh));
+    meshes.dedup_by_key(|mesh| Arc::as_ptr(mesh));
+    let triangles: usize = meshes.iter().map(|mesh| mesh.len()).sum();
+    (own + triangles) as u64 * BOX as u64
+}
