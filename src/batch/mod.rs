@@ -61,13 +61,13 @@ pub enum Error {
     Stopped,
 }
 
-/// What warnings of a scene are taken for.
+/// How warnings of a scene are treated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Warnings {
-    /// Told, and no more.
+    /// They are reported only.
     #[default]
     Allowed,
-    /// Errors.
+    /// They are errors.
     Refused,
 }
 
@@ -79,7 +79,7 @@ const LARGE: u64 = 1 << 16;
 pub struct Check {
     /// The scene files.
     pub scenes: Vec<PathBuf>,
-    /// What their warnings are taken for.
+    /// How their warnings are treated.
     pub warnings: Warnings,
     /// Folders that the files they name may be read from besides their surroundings.
     pub assets: Vec<PathBuf>,

@@ -18,7 +18,7 @@ use crate::text::{Diagnostic, counted};
 pub struct Render {
     /// The scene file.
     pub scene: PathBuf,
-    /// What its warnings are taken for.
+    /// How its warnings are treated.
     pub warnings: Warnings,
     /// Where the picture goes.
     pub output: Output,

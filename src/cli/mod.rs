@@ -205,7 +205,7 @@ enum Subcommands {
 
 #[derive(Args, Debug)]
 struct StrictnessArguments {
-    /// Take the scene's warnings for errors; notes and what is told of the picture are not meant
+    /// Treat the scene's warnings as errors; notes and findings about the picture stay as they are
     #[arg(long)]
     strict: bool,
 }

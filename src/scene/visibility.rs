@@ -122,6 +122,7 @@ mod tests {
             ("", 4, Shown, "render 3 ID 4 ID 6 ID 9\n"),
             ("", 6, Shown, ""),
             ("# end", 6, Hidden, "# end\nrender 1 ID 9"),
+            ("# end\r", 6, Hidden, "# end\rrender 1 ID 9\n"),
             ("render 0 \t\n", 6, Hidden, "render 3 ID 4 ID 5 ID 9 \t\n"),
             ("render 0\n", 4, Shown, "render 0\n"),
             ("render 2  ID 9\tID 6\r\n", 9, Hidden, "render 1\tID 6\r\n"),

@@ -15,7 +15,9 @@ pub fn line_start(text: &str, at: usize) -> usize {
 
 /// Where the line that holds a place ends, before what ends it.
 pub fn line_end(text: &str, at: usize) -> usize {
-    let end = text.as_bytes()[at..].iter().position(is_line_end);
+    let end = text.as_bytes()[at..]
+        .iter()
+        .position(|&byte| is_line_end(byte));
     end.map_or(text.len(), |len| at + len)
 }
 
@@ -31,7 +33,7 @@ pub fn is_one_line_end(text: &str) -> bool {
 }
 
 /// Whether a byte ends a line, by itself or with others.
-pub fn is_line_end(byte: &u8) -> bool {
+pub fn is_line_end(byte: u8) -> bool {
     matches!(byte, b'\n' | b'\r')
 }
 

@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 use halflight_fuzz::{TARGETS, Target};
 
 /// An input that takes longer is a finding.
-const PATIENCE: Duration = Duration::from_secs(1);
+const PATIENCE: Duration = Duration::from_secs(5);
 
 /// The longest input.
 const LONGEST: usize = 8192;

@@ -30,7 +30,7 @@ pub(super) fn follow(tree: &mut Tree, text: &str, old: Span, changed: Span, piec
     let len = text.len().wrapping_add_signed(-grown);
     let is_line = |start: usize| {
         let before = start.wrapping_add_signed(grown).checked_sub(1);
-        before.is_none_or(|before| is_line_end(&text.as_bytes()[before]))
+        before.is_none_or(|before| is_line_end(text.as_bytes()[before]))
     };
     let (touched, lines) = tree.tokens.touched(old, len, is_line);
     let now = lines.start..lines.end.wrapping_add_signed(grown);
@@ -86,7 +86,7 @@ fn cut(text: &str, lines: Range<usize>, piece: usize) -> Vec<Range<usize>> {
 
 /// The length of the line that bytes begin with, and of its end or a part of that.
 fn line_len(bytes: &[u8]) -> usize {
-    let end = bytes.iter().position(is_line_end);
+    let end = bytes.iter().position(|&byte| is_line_end(byte));
     end.map_or(bytes.len(), |end| end + 1)
 }
 
@@ -167,7 +167,7 @@ impl<'t> Reader<'t> {
             if let Some(width) = white_space(&bytes[at..]) {
                 at += width;
             } else if let Some(marker) = comment_marker(&bytes[at..]) {
-                let end = bytes[at..].iter().position(is_line_end);
+                let end = bytes[at..].iter().position(|&byte| is_line_end(byte));
                 let end = end.map_or(range.end, |len| at + len);
                 self.comments.push(Comment {
                     span: trim_end(self.text, Span::new(at, end)),

@@ -320,7 +320,7 @@ fn lead(text: &str, at: usize) -> Span {
         Some(line) => Some(line.trim_end_matches('\r')),
         None => before.strip_suffix('\r'),
     };
-    line.map_or(Span::at(at), |line| Span::new(line.len(), at))
+    line.map_or_else(|| Span::at(at), |line| Span::new(line.len(), at))
 }
 
 /// The runs of white space in a text.

@@ -119,7 +119,7 @@ impl Decoder {
                 continue;
             }
             if self.mode == Mode::Noise {
-                let noise = rest.iter().take_while(|byte| is_parameter(byte)).count();
+                let noise = rest.iter().take_while(|&&byte| is_parameter(byte)).count();
                 start += noise;
                 if noise == rest.len() {
                     break;
@@ -243,7 +243,7 @@ fn control_sequence(bytes: &[u8]) -> Token {
         };
     }
     let body = &bytes[2..];
-    let Some(end) = body.iter().position(|byte| !is_parameter(byte)) else {
+    let Some(end) = body.iter().position(|&byte| !is_parameter(byte)) else {
         return Token::Unfinished;
     };
     let length = end + 3;
@@ -276,8 +276,8 @@ fn control_sequence(bytes: &[u8]) -> Token {
 }
 
 /// Whether a byte stands between the introducer of a control sequence and the byte that ends it.
-fn is_parameter(byte: &u8) -> bool {
-    (0x20..0x40).contains(byte)
+fn is_parameter(byte: u8) -> bool {
+    (0x20..0x40).contains(&byte)
 }
 
 /// Reads `ESC P`, anything printable, and the `ESC \\` that ends it (ECMA-48, 5.6).

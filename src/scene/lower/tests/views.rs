@@ -334,6 +334,7 @@ fn a_camera_is_written_where_the_view_is() {
         "// view: target 0.5 0 0\n// view: zoom\n",
     );
     check("\n", |c| c.eye = DVec3::Z * 4.0, "// view: eye 0 0 4\n\n");
+    check("\r", |c| c.eye = DVec3::Z * 4.0, "// view: eye 0 0 4\r\r");
     check(
         "\r\n",
         |c| c.eye = DVec3::Z * 4.0,
