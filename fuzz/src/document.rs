@@ -41,7 +41,7 @@ pub fn edits(input: &[u8]) {
     for step in steps.chunks_exact(3).take(64) {
         let before = document.text().to_owned();
         perform(&mut document, &lowered, [step[0], step[1], step[2]]);
-        lowered = followed(&document, &before, lowered);
+        lowered = followed(&document, &before, &lowered);
     }
     while document.redo().is_some() {}
     let edited = document.text().to_owned();
@@ -98,7 +98,7 @@ fn perform(document: &mut Document, lowered: &Lowered, [what, which, value]: [u8
 }
 
 /// What a document means after a step, found in both ways: anew, and from what it meant before.
-fn followed(document: &Document, before: &str, was: Lowered) -> Lowered {
+fn followed(document: &Document, before: &str, was: &Lowered) -> Lowered {
     let (text, tree) = (document.text(), document.tree());
     let leaves = parse(document.format(), text).leaves();
     assert!(tree.leaves() == leaves, "the tree follows the text");
@@ -126,13 +126,16 @@ pub fn merge(input: &[u8]) {
     };
     let format = Format::ALL[usize::from(first) % 3];
     let [base, mine, theirs] = super::parts(rest).map(|part| String::from_utf8_lossy(part));
-    let one_sided = match () {
-        () if base == mine || mine == theirs => Some(&theirs),
-        () if base == theirs => Some(&mine),
-        () => None,
+    let one_sided = if base == mine || mine == theirs {
+        Some(&theirs)
+    } else if base == theirs {
+        Some(&mine)
+    } else {
+        None
     };
     let mut document = Document::new(format, base.clone().into_owned());
-    document.edit(&Vec::from_iter(smallest_edit(&base, &mine)));
+    let edits: Vec<_> = smallest_edit(&base, &mine).into_iter().collect();
+    document.edit(&edits);
     document.end_step();
     assert_eq!(document.text(), mine);
     match document

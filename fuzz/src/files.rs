@@ -21,7 +21,7 @@ pub fn mtl(input: &[u8]) {
 }
 
 fn read(mesh: &[u8], library: &[u8]) {
-    let lines = |bytes: &[u8]| 1 + bytes.iter().filter(|&&byte| byte == b'\n').count();
+    let lines = |bytes: &[u8]| bytes.split(|&byte| byte == b'\n').count();
     let most = lines(mesh).max(lines(library));
     let findings = match obj::read(mesh, |_| Ok(library)) {
         Ok(model) => [model.warnings, model.library_warnings].concat(),

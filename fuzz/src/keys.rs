@@ -1,10 +1,10 @@
 //! Bytes from a terminal.
 
+#[cfg(unix)]
 use std::time::{Duration, Instant};
 
 #[cfg(unix)]
-use halflight::ui::terminal::Decoder;
-use halflight::ui::terminal::Event;
+use halflight::ui::terminal::{Decoder, Event};
 
 /// Reads the bytes behind the first one whole and in pieces, whose lengths that one says: the events
 /// are the same. With pauses between the pieces there may be others.
