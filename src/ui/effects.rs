@@ -3,9 +3,10 @@
 use std::io;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::thread;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::Options;
 use super::assets::AssetReader;
@@ -13,26 +14,30 @@ use super::editor;
 use super::files::{Files, PATIENCE, Task};
 use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
 use super::terminal::tmux;
-use super::terminal::{self, Input, Reply, Terminal};
+use super::terminal::{self, Input, Replies, Reply, Terminal};
 #[cfg(unix)]
 use super::terminal::{Signals, suspend_process};
 use super::writing::Writers;
 use crate::render::{Job, Refusal, Renderer, Threads};
 use crate::watch::{Method, Watcher};
 
+/// How long replies of the terminal are waited for before it is handed over: longer than most
+/// round trips.
+const REPLY_PATIENCE: Duration = Duration::from_millis(300);
+
 /// Something that came in.
 #[derive(Debug)]
 pub(crate) enum Event {
     /// A message.
     Msg(Msg),
-    /// The terminal answered.
-    Reply(Reply),
     /// A renderer has a newer frame.
     Ready(Target),
     /// The renderer of this number traces no more.
     Ended(Target, u64),
     /// The terminal has taken all that was drawn.
     Cleared,
+    /// The terminal replied, at this moment.
+    Replied(Reply, Instant),
 }
 
 /// What outlives a step: the terminal, the renderers, the timers, the file under watch.
@@ -40,6 +45,8 @@ pub(crate) struct World {
     // First, because fields are dropped in order: the terminal is given back before renderers and
     // the watcher end, which may take a moment.
     terminal: Terminal,
+    /// Those that the terminal still owes.
+    replies: Arc<Replies>,
     input: Input,
     #[cfg(unix)]
     signals: Signals,
@@ -69,9 +76,16 @@ impl World {
             };
             Terminal::enter(options.colours(), options.mouse, cleared)?
         };
+        let replies = Arc::new(Replies::default());
         let tell = |sender: &Sender<Event>| {
-            let sender = sender.clone();
+            let (sender, replies) = (sender.clone(), Arc::clone(&replies));
             move |event| {
+                if matches!(
+                    event,
+                    terminal::Event::Reply(Reply::Status | Reply::Attributes)
+                ) {
+                    replies.came();
+                }
                 // An inbox that is gone belongs to a program that ends.
                 let _ = sender.send(Event::from(event));
             }
@@ -85,6 +99,7 @@ impl World {
         };
         Ok(Self {
             terminal,
+            replies: Arc::clone(&replies),
             input: Input::start(tell(&sender))?,
             #[cfg(unix)]
             signals: Signals::start(tell(&sender))?,
@@ -112,6 +127,7 @@ impl World {
     /// Asks the terminal for its colours, and tmux for those of the terminal behind it: answers
     /// come as [`Event::Reply`], if they come.
     pub(crate) fn ask_for_colours(&self) -> io::Result<()> {
+        self.replies.expect();
         self.terminal.ask_for_colours()?;
         let sender = self.sender.clone();
         // Without a thread there is no answer.
@@ -119,7 +135,7 @@ impl World {
             .name("colours".to_owned())
             .spawn(move || {
                 if tmux::shows_true_colour() == Some(true) {
-                    let _ = sender.send(Event::Reply(Reply::TrueColour));
+                    let _ = sender.send(Event::Replied(Reply::TrueColour, Instant::now()));
                 }
             });
         Ok(())
@@ -134,7 +150,6 @@ impl World {
     pub(crate) fn message(&self, event: Event) -> Option<Msg> {
         match event {
             Event::Msg(msg) => Some(msg),
-            Event::Reply(_) => None,
             Event::Ready(target) => {
                 let frame = self.numbered(target)?.renderer.latest()?;
                 Some(Msg::Frame(target, frame))
@@ -144,16 +159,41 @@ impl World {
                 let ended = self.numbered(target)?.number == number;
                 ended.then_some(Msg::Ended(target))
             }
-            Event::Cleared => None,
+            Event::Cleared | Event::Replied(..) => None,
         }
     }
 
     /// Gives the terminal back, until `deadline` at most, and waits for files being written;
     /// whether unsaved edits are kept.
     pub(crate) fn close(self, deadline: Instant) -> bool {
+        self.await_replies(deadline);
         self.terminal.close(deadline);
         self.writers.finish(deadline.min(Instant::now() + PATIENCE));
         self.files.finish()
+    }
+
+    /// Has the terminal reply when all that was sent has arrived.
+    pub(crate) fn ask_status(&self) -> io::Result<()> {
+        self.replies.expect();
+        self.terminal.ask_status()
+    }
+
+    /// Expects no more that the question about colours is answered.
+    pub(crate) fn give_up_colours(&self) {
+        self.replies.came();
+    }
+
+    /// Expects no reply any more to what was asked.
+    pub(crate) fn give_up_replies(&self) {
+        self.replies.forget();
+    }
+
+    /// Lets replies come in that whoever has the terminal next would take for keys.
+    fn await_replies(&self, deadline: Instant) {
+        if self.terminal.is_clear() {
+            self.replies
+                .wait(deadline.min(Instant::now() + REPLY_PATIENCE));
+        }
     }
 
     /// When the next timer is due.
@@ -302,6 +342,7 @@ impl World {
     }
 
     fn open_editor(&mut self, path: &Path, line: usize) -> Result<(), String> {
+        self.await_replies(Instant::now() + REPLY_PATIENCE);
         self.input.park();
         #[cfg(unix)]
         self.signals.lend();
@@ -321,6 +362,7 @@ impl World {
 
     #[cfg(unix)]
     fn suspend(&mut self) -> Result<(), String> {
+        self.await_replies(Instant::now() + REPLY_PATIENCE);
         self.input.park();
         let stopped = self.terminal.leave().and_then(|()| suspend_process());
         match stopped {
@@ -373,7 +415,7 @@ impl From<terminal::Event> for Event {
     fn from(event: terminal::Event) -> Self {
         use terminal::Event as E;
         Self::Msg(match event {
-            E::Reply(reply) => return Self::Reply(reply),
+            E::Reply(reply) => return Self::Replied(reply, Instant::now()),
             E::Key(key) => Msg::Key(key),
             E::Paste(text) => Msg::Paste(text),
             E::Mouse(event) => Msg::Mouse(event),

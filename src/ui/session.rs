@@ -8,16 +8,13 @@ use std::time::{Duration, Instant};
 use super::app::App;
 use super::effects::{Event, World};
 use super::msg::{Effect, Kept, Msg, Target};
-use super::terminal::{self, Choice, ColourDepth, Link, Reply, default_bandwidth, query};
+use super::terminal::{self, Budget, Choice, ColourDepth, Link, Reply, query};
 use super::view::{self, Inks};
 use super::{Ending, Options};
 use crate::text;
 
 /// The least time between two drawings that only bring finer frames.
 const FRAME_TIME: Duration = Duration::from_millis(33);
-
-/// What is worth waiting for on a slow link, in bytes: less than this is not drawn by itself.
-const MORSEL: usize = 4096;
 
 /// Runs the interface until it is left.
 pub(crate) fn run(
@@ -27,13 +24,15 @@ pub(crate) fn run(
     recovered: Option<Kept>,
 ) -> io::Result<Ending> {
     let (sender, inbox) = mpsc::channel();
-    let bandwidth = options
-        .bandwidth
-        .or_else(|| default_bandwidth(|name| std::env::var(name).ok()));
+    let budget = options.bandwidth.map_or_else(
+        || Budget::of_environment(|name| std::env::var(name).ok()),
+        Budget::Fixed,
+    );
     let mut session = Session {
         app,
         world: World::new(options, sender)?,
-        link: Link::new(bandwidth),
+        link: Link::new(budget),
+        waiting: None,
         inks: Inks::for_depth(options.colours()),
         asked: None,
         inbox,
@@ -53,6 +52,8 @@ struct Session {
     app: App,
     world: World,
     link: Link,
+    /// When a frame was sent that the terminal has not taken yet, and its bytes.
+    waiting: Option<(Instant, usize)>,
     inks: Inks,
     /// The colours drawn with, and until when an answer of the terminal counts that there are more.
     asked: Option<(ColourDepth, Instant)>,
@@ -89,9 +90,12 @@ impl Session {
         Ok(())
     }
 
-    /// Takes an answer of the terminal, unless it comes too late.
-    fn answered(&mut self, reply: Reply) -> Urgency {
-        let is_in_time = |&(_, until): &(ColourDepth, Instant)| Instant::now() < until;
+    /// Takes what the terminal replied at this moment. That it has all colours counts only in time.
+    fn replied(&mut self, reply: Reply, at: Instant) -> Urgency {
+        if reply == Reply::Status {
+            self.link.replied(at);
+        }
+        let is_in_time = |&(_, until): &(ColourDepth, Instant)| at < until;
         if reply != Reply::TrueColour || self.asked.take_if(|asked| is_in_time(asked)).is_none() {
             return Urgency::Never;
         }
@@ -105,6 +109,7 @@ impl Session {
         let now = Instant::now();
         match self.asked.take_if(|&mut (_, until)| until <= now) {
             Some((depth, _)) => {
+                self.world.give_up_colours();
                 self.step(Msg::FewColours(depth));
                 Urgency::Now
             }
@@ -118,16 +123,23 @@ impl Session {
             let now = Instant::now();
             let draw_at = match urgency {
                 Urgency::Now => Some(now),
-                Urgency::Soon => Some(self.refined.map_or(now, |refined| refined + FRAME_TIME)),
+                Urgency::Soon => {
+                    let next = self.refined.map_or(now, |refined| refined + FRAME_TIME);
+                    self.link.ready_at(now).max(Some(next))
+                }
                 Urgency::Never => self.rest_at(now),
             };
             // Frames follow one another: while one is on its way, the next one waits.
-            let draw_at = draw_at.filter(|_| self.world.terminal().is_clear());
+            let is_clear = self.world.terminal().is_clear();
+            let draw_at = draw_at.filter(|_| is_clear);
+            if is_clear && let Some((sent, bytes)) = self.waiting.take() {
+                self.link.waited(bytes, now - sent, now);
+            }
             if draw_at.is_some_and(|at| at <= now) {
                 if urgency == Urgency::Soon {
                     self.refined = Some(now);
                 }
-                if self.draw().is_err() {
+                if self.draw(urgency).and_then(|()| self.ask()).is_err() {
                     // A terminal that can't be written to is gone; what must survive is kept.
                     self.step(Msg::HangUp);
                     return;
@@ -157,14 +169,14 @@ impl Session {
         if !self.app.picture().is_pending() {
             return None;
         }
-        Some(self.link.ready_at(now, MORSEL).unwrap_or(now))
+        Some(self.link.ready_at(now).unwrap_or(now))
     }
 
     /// Takes everything that came in, after waiting for it until `deadline` at most.
     fn wait(&mut self, deadline: Option<Instant>) -> Urgency {
         let answer_by = self.asked.map(|(_, until)| until);
-        let deadline = deadline.into_iter().chain(self.world.next_timer());
-        let deadline = deadline.chain(answer_by).min();
+        let others = [self.world.next_timer(), self.link.gives_up_at(), answer_by];
+        let deadline = others.into_iter().chain([deadline]).flatten().min();
         let first = match deadline {
             None => self
                 .inbox
@@ -178,14 +190,18 @@ impl Session {
         let mut urgency = Urgency::Never;
         let events: Vec<_> = first.into_iter().chain(self.inbox.try_iter()).collect();
         for event in events {
-            if let Event::Reply(reply) = event {
-                urgency = urgency.max(self.answered(reply));
+            if let Event::Replied(reply, at) = event {
+                urgency = urgency.max(self.replied(reply, at));
             } else if let Some(msg) = self.world.message(event) {
                 urgency = urgency.max(self.urgency_of(&msg));
                 self.step(msg);
             }
         }
-        for msg in self.world.due(Instant::now()) {
+        let now = Instant::now();
+        if self.link.give_up(now) {
+            self.world.give_up_replies();
+        }
+        for msg in self.world.due(now) {
             urgency = Urgency::Now;
             self.step(msg);
         }
@@ -222,15 +238,29 @@ impl Session {
         }
     }
 
-    fn draw(&mut self) -> io::Result<()> {
+    /// Asks the terminal for a reply if the link is to be measured.
+    fn ask(&mut self) -> io::Result<()> {
         let now = Instant::now();
+        if self.link.has_question(now) {
+            self.world.ask_status()?;
+            self.link.asked(now);
+        }
+        Ok(())
+    }
+
+    fn draw(&mut self, urgency: Urgency) -> io::Result<()> {
+        let now = Instant::now();
+        let is_limited = self.link.is_limited();
         if let Some((_, size)) = self.app.raster() {
-            let allowance = self.link.allowance(now);
+            let allowance = match urgency {
+                // What the user waits for goes first, and by itself.
+                Urgency::Now if is_limited => 0,
+                _ => self.link.allowance(now),
+            };
             let picture = self.app.picture_mut();
             picture.advance(size, allowance);
             let rests = !picture.is_pending() && picture.is_complete();
-            let limited = allowance != usize::MAX;
-            self.app.net = (limited && !rests).then(|| self.link.rate(now));
+            self.app.net = (is_limited && !rests).then(|| self.link.rate(now));
         }
         let (app, inks) = (&self.app, &mut self.inks);
         let mut area = app.terminal;
@@ -239,9 +269,12 @@ impl Session {
             view::draw(app, inks, frame);
         })?;
         self.link.spent(bytes, now);
+        if !self.world.terminal().is_clear() {
+            self.waiting = Some((now, bytes));
+        }
         if area != self.app.terminal {
             self.step(Msg::Resize(area.0, area.1));
-            return self.draw();
+            return self.draw(urgency);
         }
         Ok(())
     }

@@ -24,9 +24,9 @@ pub struct Picture {
     /// What is on screen.
     pub shown: Shown,
     target: Shown,
-    /// The pair of pixel rows to look at next.
+    /// The cell to look at next, from the top left along the rows.
     cursor: usize,
-    /// How many pairs of rows are yet to be compared with the target.
+    /// How many cells are yet to be compared with the target.
     left: usize,
 }
 
@@ -111,7 +111,7 @@ impl Picture {
         self.progress().is_some_and(|progress| progress.complete)
     }
 
-    /// Brings rows of the newest frame to the screen until `budget` bytes are used up; goes on
+    /// Brings cells of the newest frame to the screen until `budget` bytes are used up; goes on
     /// next time where it stopped. With `usize::MAX` the whole frame.
     /// Over a limited link pixels of an unfinished frame that are almost right are left alone; a
     /// finished one is shown exactly.
@@ -122,11 +122,13 @@ impl Picture {
             _ if self.latest.as_ref().is_some_and(|f| f.progress.complete) => 0,
             _ => HYSTERESIS,
         };
-        let rows = size.height.div_ceil(2) as usize;
+        let cells = cells(size);
         let mut spent = 0;
         while 0 < self.left && spent < budget {
-            spent += BYTES_PER_CELL * self.bring_row(self.cursor, tolerance);
-            self.cursor = (self.cursor + 1) % rows;
+            if self.bring_cell(self.cursor, tolerance) {
+                spent += BYTES_PER_CELL;
+            }
+            self.cursor = (self.cursor + 1) % cells;
             self.left -= 1;
         }
     }
@@ -157,32 +159,34 @@ impl Picture {
             self.target = resample(&frame.pixels, &frame.objects, frame.size, size);
             // What lies under a pixel costs nothing to send.
             self.shown.objects.clone_from(&self.target.objects);
-            self.left = size.height.div_ceil(2) as usize;
+            self.left = cells(size);
         }
     }
 
-    /// Brings one row of cells to the screen; how many cells changed.
-    fn bring_row(&mut self, row: usize, tolerance: u8) -> usize {
+    /// Brings the two pixels of a cell to the screen; whether that changed any.
+    fn bring_cell(&mut self, cell: usize, tolerance: u8) -> bool {
         let width = self.shown.size.width as usize;
-        let start = 2 * row * width;
-        let end = (start + 2 * width).min(self.shown.pixels.len());
-        let mut changed = 0usize;
-        for (shown, target) in self.shown.pixels[start..end]
-            .iter_mut()
-            .zip(&self.target.pixels[start..end])
-        {
-            let differs = shown
-                .iter()
-                .zip(target)
-                .any(|(shown, target)| tolerance < shown.abs_diff(*target));
-            if differs {
-                *shown = *target;
-                changed += 1;
+        let upper = cell / width * 2 * width + cell % width;
+        let mut changed = false;
+        for at in [upper, upper + width] {
+            // The last row of cells may have no lower pixels.
+            let Some(shown) = self.shown.pixels.get_mut(at) else {
+                continue;
+            };
+            let target = self.target.pixels[at];
+            let off = |(shown, target): (&u8, &u8)| tolerance < shown.abs_diff(*target);
+            if shown.iter().zip(&target).any(off) {
+                *shown = target;
+                changed = true;
             }
         }
-        // Two pixels make a cell, and mostly change together.
-        changed.div_ceil(2)
+        changed
     }
+}
+
+/// How many cells show a picture of this size.
+fn cells(size: Size) -> usize {
+    size.width as usize * size.height.div_ceil(2) as usize
 }
 
 fn resample(pixels: &[[u8; 3]], objects: &[u32], from: Size, to: Size) -> Shown {
@@ -277,16 +281,15 @@ mod tests {
     }
 
     #[test]
-    fn a_budget_brings_rows_in_turn_and_the_next_one_goes_on() {
+    fn a_budget_brings_cells_in_turn_and_the_next_one_goes_on() {
         let size = size(10, 6);
         let mut picture = Picture::default();
         picture.take(frame(1, size, GREY, true));
-        // A row of ten cells fits, and a row begun is brought whole.
-        picture.advance(size, 10 * BYTES_PER_CELL);
-        assert_eq!(rows_shown(&picture, GREY), [10, 10, 0, 0, 0, 0]);
+        picture.advance(size, 13 * BYTES_PER_CELL);
+        assert_eq!(rows_shown(&picture, GREY), [10, 10, 3, 3, 0, 0]);
         assert!(picture.is_pending());
         picture.advance(size, 0);
-        assert_eq!(rows_shown(&picture, GREY), [10, 10, 0, 0, 0, 0]);
+        assert_eq!(rows_shown(&picture, GREY), [10, 10, 3, 3, 0, 0]);
         picture.advance(size, usize::MAX);
         assert_eq!(rows_shown(&picture, GREY), [10; 6]);
         assert!(!picture.is_pending());
@@ -298,9 +301,9 @@ mod tests {
         let newer = [200; 3];
         let mut picture = Picture::default();
         picture.take(frame(1, size, GREY, true));
-        picture.advance(size, 1);
+        picture.advance(size, 10 * BYTES_PER_CELL);
         picture.take(frame(2, size, newer, true));
-        picture.advance(size, 1);
+        picture.advance(size, 10 * BYTES_PER_CELL);
         assert_eq!(rows_shown(&picture, newer), [0, 0, 10, 10, 0, 0]);
         picture.advance(size, usize::MAX);
         assert_eq!(rows_shown(&picture, newer), [10; 6]);

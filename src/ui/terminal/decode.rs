@@ -262,6 +262,9 @@ fn control_sequence(bytes: &[u8]) -> Token {
             }
         }
         b'~' if parameters == b"200" => Token::PasteBegin(length),
+        b'n' if matches!(parameters, b"0" | b"3") => {
+            Token::Event(length, Event::Reply(Reply::Status))
+        }
         last @ (b'M' | b'm') if parameters.first() == Some(&b'<') => {
             event_or_noise(mouse(&parameters[1..], last), length)
         }

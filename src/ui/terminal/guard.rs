@@ -17,6 +17,7 @@ use super::colour::ColourDepth;
 use super::output::Output;
 use super::panics::{Shared, Tenure};
 use super::query;
+use super::reply::ASK_STATUS;
 use super::tty::{self, Line};
 
 /// Alternate screen, no cursor, pastes in brackets, no wrapping at the last column.
@@ -99,10 +100,13 @@ impl Terminal {
         self.screen.backend_mut().finish(|frame| output.send(frame))
     }
 
-    /// Asks for the colours that the terminal has. Meant for before the first frame, which covers
+    /// Asks for the colours that the terminal has, and for [`Reply::Attributes`](super::Reply) behind
+    /// them. Meant for before the first frame, which covers
     /// what a terminal that does not understand makes of the question.
     pub fn ask_for_colours(&self) -> io::Result<()> {
-        self.shared.output().send(query::COLOURS)
+        let output = self.shared.output();
+        output.send(query::COLOURS)?;
+        output.send(query::ATTRIBUTES)
     }
 
     /// Draws with so many colours from here on; the next frame is a whole one.
@@ -155,6 +159,11 @@ impl Terminal {
         }
         self.repaint();
         Ok(())
+    }
+
+    /// Asks for [`Reply::Status`](super::Reply), behind all that was sent.
+    pub fn ask_status(&self) -> io::Result<()> {
+        self.shared.output().send(ASK_STATUS.as_bytes())
     }
 
     /// Takes the mouse or leaves it to the terminal.

@@ -1,18 +1,32 @@
 //! How many bytes a second the line to the terminal is given.
 //!
 //! A write returns long before its bytes are seen: channel windows and socket buffers hide
-//! seconds of frames. So the pace of pictures is set by a token bucket, not by how long writes
-//! take. Knows no clock: every question carries its moment.
+//! seconds of frames. So the pace of pictures is set by a token bucket, and its rate by the replies
+//! of the terminal, which tell when bytes have arrived. Knows no clock: every question carries its
+//! moment.
+
+mod estimate;
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-/// Bytes a second for pictures when the terminal is at the other end of a network.
+use estimate::Estimate;
+
+/// Bytes a second for pictures at the other end of a network where nothing can be measured.
 const REMOTE_BANDWIDTH: u32 = 128_000;
 
-/// The bucket holds this part of a second of bytes: four pictures a second even when each of them
-/// empties it.
+/// A bucket of a fixed rate holds this part of a second of bytes: four pictures a second even when
+/// each of them empties it.
 const CAPACITY: Duration = Duration::from_millis(250);
+
+/// What is worth waiting for at a fixed rate, in bytes.
+const MORSEL: usize = 4096;
+
+/// A frame that the terminal takes longer for than this shows a line slower than it seemed.
+const SLOW: Duration = Duration::from_millis(250);
+
+/// A line that takes so many bytes a second needs no limit at home.
+const AMPLE: u32 = 8_000_000;
 
 /// The span over which the rate is measured.
 const MEASURED: Duration = Duration::from_secs(1);
@@ -20,43 +34,111 @@ const MEASURED: Duration = Duration::from_secs(1);
 /// One byte in the bucket's units, which make a nanosecond at one byte a second a whole number.
 const BYTE: i128 = 1_000_000_000;
 
-/// Holds pictures back to a number of bytes a second.
+/// What pictures are held to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Budget {
+    /// So many bytes a second; 0 is no limit.
+    Fixed(u32),
+    /// What the line turns out to take, as at the other end of a network.
+    Measured,
+    /// No limit, unless the line turns out to be slow.
+    Local,
+}
+
+impl Budget {
+    /// What suits a line of which the environment says this.
+    ///
+    /// Multiplexers reply for themselves, so replies say nothing of the line behind them.
+    pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Self {
+        let set = |name: &str| variable(name).is_some_and(|value| !value.is_empty());
+        let is_remote = set("SSH_CONNECTION") || set("SSH_TTY");
+        let term = variable("TERM").unwrap_or_default();
+        let is_multiplexed = set("TMUX")
+            || set("STY")
+            || ["tmux", "screen"].iter().any(|name| term.starts_with(name));
+        match (is_remote, is_multiplexed) {
+            (false, false) => Self::Local,
+            (false, true) => Self::Fixed(0),
+            (true, false) => Self::Measured,
+            (true, true) => Self::Fixed(REMOTE_BANDWIDTH),
+        }
+    }
+}
+
+/// Holds pictures back to what the line takes.
 ///
 /// Text is never held back, but it counts, and may take the bucket into debt.
 #[derive(Debug)]
 pub struct Link {
-    bytes_per_second: Option<u32>,
+    budget: Budget,
+    pace: Pace,
     /// What was in the bucket at `as_of`, in billionths of a byte; negative is debt.
     level: i128,
     as_of: Option<Instant>,
     recent: VecDeque<(Instant, usize)>,
 }
 
+#[derive(Debug)]
+enum Pace {
+    Unlimited,
+    Fixed(u32),
+    Measured(Estimate),
+}
+
+/// What a bucket is like.
+#[derive(Clone, Copy, Debug)]
+struct Bucket {
+    /// Bytes a second.
+    rate: u32,
+    /// Bytes.
+    capacity: u64,
+    /// The bytes that a picture waits for.
+    worth: u64,
+}
+
 impl Link {
-    /// Starts with a full bucket; `None` and zero mean no limit.
-    pub fn new(bytes_per_second: Option<u32>) -> Self {
-        let bytes_per_second = bytes_per_second.filter(|&rate| rate != 0);
-        Self {
-            bytes_per_second,
-            level: bytes_per_second.map_or(0, capacity),
+    /// Starts with a full bucket.
+    pub fn new(budget: Budget) -> Self {
+        let pace = match budget {
+            Budget::Fixed(0) | Budget::Local => Pace::Unlimited,
+            Budget::Fixed(rate) => Pace::Fixed(rate),
+            Budget::Measured => Pace::Measured(Estimate::new()),
+        };
+        let mut link = Self {
+            budget,
+            pace,
+            level: 0,
             as_of: None,
             recent: VecDeque::new(),
-        }
+        };
+        link.level = link.bucket(None).map_or(0, |bucket| units(bucket.capacity));
+        link
+    }
+
+    /// Whether pictures are held back at all.
+    pub fn is_limited(&self) -> bool {
+        !matches!(self.pace, Pace::Unlimited)
     }
 
     /// Returns how many bytes of picture may go at once, `usize::MAX` without a limit.
     pub fn allowance(&self, now: Instant) -> usize {
-        match self.bytes_per_second {
-            None => usize::MAX,
-            Some(rate) => (self.level_at(now, rate) / BYTE).max(0) as usize,
+        let Some(bucket) = self.bucket(Some(now)) else {
+            return usize::MAX;
+        };
+        if self.held_until(now).is_some() {
+            return 0;
         }
+        (self.level_at(now, bucket) / BYTE).max(0) as usize
     }
 
-    /// Counts bytes that were written, text and pictures alike.
+    /// Counts bytes that were sent, text and pictures alike.
     pub fn spent(&mut self, bytes: usize, now: Instant) {
-        if let Some(rate) = self.bytes_per_second {
-            self.level = self.level_at(now, rate) - bytes as i128 * BYTE;
+        if let Some(bucket) = self.bucket(Some(now)) {
+            self.level = self.level_at(now, bucket) - units(bytes as u64);
             self.as_of = Some(now);
+        }
+        if let Pace::Measured(estimate) = &mut self.pace {
+            estimate.sent(bytes as u64, now);
         }
         self.recent.push_back((now, bytes));
         while self.recent.front().is_some_and(|&(at, _)| is_past(at, now)) {
@@ -64,43 +146,135 @@ impl Link {
         }
     }
 
-    /// Returns when a picture of so many bytes may go, `None` if it may go at once.
-    ///
-    /// A picture larger than the bucket waits for a full one and leaves a debt.
-    pub fn ready_at(&self, now: Instant, bytes: usize) -> Option<Instant> {
-        let rate = self.bytes_per_second?;
-        let wanted = (bytes as i128 * BYTE).min(capacity(rate));
-        let missing = wanted - self.level_at(now, rate);
+    /// Returns when a piece of picture that is worth it may go, `None` if it may go at once.
+    pub fn ready_at(&self, now: Instant) -> Option<Instant> {
+        let bucket = self.bucket(Some(now))?;
+        if let Some(until) = self.held_until(now) {
+            return Some(until);
+        }
+        let missing = units(bucket.worth) - self.level_at(now, bucket);
         if missing <= 0 {
             return None;
         }
-        let nanoseconds = (missing + i128::from(rate) - 1) / i128::from(rate);
+        let rate = i128::from(bucket.rate);
+        let nanoseconds = (missing + rate - 1) / rate;
         Some(now + Duration::from_nanos(nanoseconds as u64))
     }
 
-    /// Returns the bytes written during the last second.
+    /// Returns the bytes sent during the last second.
     pub fn rate(&self, now: Instant) -> usize {
         let recent = self.recent.iter().filter(|&&(at, _)| !is_past(at, now));
         recent.map(|&(_, bytes)| bytes).sum()
     }
 
-    fn level_at(&self, now: Instant, rate: u32) -> i128 {
+    /// Learns that a frame of so many bytes waited this long for the terminal to take it.
+    pub fn waited(&mut self, bytes: usize, time: Duration, now: Instant) {
+        if self.budget != Budget::Local || self.is_limited() || time < SLOW {
+            return;
+        }
+        let rate = bytes as f64 / time.as_secs_f64();
+        if rate < f64::from(AMPLE) {
+            self.pace = Pace::Measured(Estimate::of_slow(rate as u32));
+            self.level = 0;
+            self.as_of = Some(now);
+        }
+    }
+
+    /// Whether the terminal is to be asked for a reply, behind all that was sent.
+    pub fn has_question(&self, now: Instant) -> bool {
+        matches!(&self.pace, Pace::Measured(estimate) if estimate.has_question(now))
+    }
+
+    /// Takes note that the terminal was asked.
+    pub fn asked(&mut self, now: Instant) {
+        if let Pace::Measured(estimate) = &mut self.pace {
+            estimate.asked(now);
+        }
+    }
+
+    /// Takes the reply to the oldest question.
+    pub fn replied(&mut self, at: Instant) {
+        if let Pace::Measured(estimate) = &mut self.pace {
+            estimate.replied(at);
+            if self.budget == Budget::Local && AMPLE < estimate.rate() {
+                self.pace = Pace::Unlimited;
+            }
+        }
+    }
+
+    /// Gives up on replies that are overdue; whether there were any. A terminal that has never
+    /// replied is not asked again.
+    pub fn give_up(&mut self, now: Instant) -> bool {
+        let Pace::Measured(estimate) = &mut self.pace else {
+            return false;
+        };
+        if estimate.gives_up_at().is_none_or(|at| now < at) {
+            return false;
+        }
+        if !estimate.give_up() {
+            self.budget = match self.budget {
+                Budget::Local => Budget::Fixed(0),
+                _ => Budget::Fixed(REMOTE_BANDWIDTH),
+            };
+            let recent = std::mem::take(&mut self.recent);
+            *self = Self {
+                recent,
+                ..Self::new(self.budget)
+            };
+        }
+        true
+    }
+
+    /// When [`Link::give_up`] is due.
+    pub fn gives_up_at(&self) -> Option<Instant> {
+        match &self.pace {
+            Pace::Measured(estimate) => estimate.gives_up_at(),
+            _ => None,
+        }
+    }
+
+    /// Until when pictures wait, whatever is in the bucket.
+    fn held_until(&self, now: Instant) -> Option<Instant> {
+        match &self.pace {
+            Pace::Measured(estimate) => estimate.holds_until(now).filter(|&until| now < until),
+            _ => None,
+        }
+    }
+
+    fn bucket(&self, now: Option<Instant>) -> Option<Bucket> {
+        match &self.pace {
+            Pace::Unlimited => None,
+            &Pace::Fixed(rate) => {
+                let capacity = u64::from(rate) * CAPACITY.as_millis() as u64 / 1000;
+                Some(Bucket {
+                    rate,
+                    capacity,
+                    worth: (MORSEL as u64).min(capacity),
+                })
+            }
+            Pace::Measured(estimate) => {
+                let worth = estimate.burst(now);
+                Some(Bucket {
+                    rate: estimate.pace(),
+                    // What comes late to an empty bucket loses nothing.
+                    capacity: worth + worth / 4,
+                    worth,
+                })
+            }
+        }
+    }
+
+    fn level_at(&self, now: Instant, bucket: Bucket) -> i128 {
         let elapsed = self
             .as_of
             .map_or(Duration::ZERO, |as_of| now.saturating_duration_since(as_of));
-        let gained = elapsed.as_nanos() as i128 * i128::from(rate);
-        (self.level + gained).min(capacity(rate))
+        let gained = elapsed.as_nanos() as i128 * i128::from(bucket.rate);
+        (self.level + gained).min(units(bucket.capacity))
     }
 }
 
-/// Returns the bytes a second that suit the line: a limit over SSH, none at home.
-pub fn default_bandwidth(variable: impl Fn(&str) -> Option<String>) -> Option<u32> {
-    let set = |name: &str| variable(name).is_some_and(|value| !value.is_empty());
-    (set("SSH_CONNECTION") || set("SSH_TTY")).then_some(REMOTE_BANDWIDTH)
-}
-
-fn capacity(rate: u32) -> i128 {
-    i128::from(rate) * CAPACITY.as_nanos() as i128
+fn units(bytes: u64) -> i128 {
+    i128::from(bytes) * BYTE
 }
 
 fn is_past(at: Instant, now: Instant) -> bool {
@@ -108,96 +282,4 @@ fn is_past(at: Instant, now: Instant) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const fn ms(milliseconds: u64) -> Duration {
-        Duration::from_millis(milliseconds)
-    }
-
-    #[test]
-    fn fills_at_the_rate_up_to_a_quarter_of_a_second() {
-        let start = Instant::now();
-        let mut link = Link::new(Some(1000));
-        assert_eq!(link.allowance(start), 250);
-        link.spent(250, start);
-        for (after, allowance) in [(0, 0), (1, 1), (100, 100), (250, 250), (9000, 250)] {
-            assert_eq!(
-                link.allowance(start + ms(after)),
-                allowance,
-                "after {after} ms"
-            );
-        }
-    }
-
-    #[test]
-    fn text_may_go_into_debt_and_pictures_wait_for_it() {
-        let start = Instant::now();
-        let mut link = Link::new(Some(1000));
-        link.spent(1250, start);
-        assert_eq!(link.allowance(start), 0);
-        assert_eq!(link.ready_at(start, 100), Some(start + ms(1100)));
-        assert_eq!(link.allowance(start + ms(1100)), 100);
-        assert_eq!(link.ready_at(start + ms(1100), 100), None);
-    }
-
-    #[test]
-    fn a_picture_larger_than_the_bucket_waits_for_a_full_one() {
-        let start = Instant::now();
-        let mut link = Link::new(Some(1000));
-        assert_eq!(link.ready_at(start, 100_000), None);
-        link.spent(50, start);
-        assert_eq!(link.ready_at(start, 100_000), Some(start + ms(50)));
-    }
-
-    #[test]
-    fn the_moment_named_is_never_too_early_for_an_odd_rate() {
-        let start = Instant::now();
-        for rate in [1, 3, 7, 999_983, u32::MAX] {
-            let mut link = Link::new(Some(rate));
-            link.spent(rate as usize, start);
-            let ready = link.ready_at(start, 1).expect("the bucket is in debt");
-            assert_eq!(link.ready_at(ready, 1), None, "at {rate} bytes a second");
-            let before = ready
-                .checked_sub(Duration::from_nanos(1))
-                .expect("it is after the start");
-            assert!(
-                link.ready_at(before, 1).is_some(),
-                "at {rate} bytes a second"
-            );
-        }
-    }
-
-    #[test]
-    fn nothing_and_zero_mean_no_limit() {
-        let start = Instant::now();
-        for limit in [None, Some(0)] {
-            let mut link = Link::new(limit);
-            link.spent(1 << 40, start);
-            assert_eq!(link.allowance(start), usize::MAX);
-            assert_eq!(link.ready_at(start, usize::MAX), None);
-        }
-    }
-
-    #[test]
-    fn measures_the_last_second_only() {
-        let start = Instant::now();
-        let mut link = Link::new(None);
-        link.spent(10, start);
-        link.spent(20, start + ms(600));
-        assert_eq!(link.rate(start + ms(999)), 30);
-        assert_eq!(link.rate(start + ms(1000)), 20);
-        assert_eq!(link.rate(start + ms(1600)), 0);
-    }
-
-    #[test]
-    fn a_network_line_gets_a_limit() {
-        let with = |name: &'static str, value: &'static str| {
-            default_bandwidth(move |asked| (asked == name).then(|| value.to_owned()))
-        };
-        assert_eq!(with("SSH_TTY", "/dev/pts/1"), Some(128_000));
-        assert_eq!(with("SSH_CONNECTION", "a 1 b 22"), Some(128_000));
-        assert_eq!(with("SSH_TTY", ""), None);
-        assert_eq!(with("TERM", "xterm"), None);
-    }
-}
+mod tests;

@@ -2,8 +2,8 @@
 //! screen and gives it back, the encoder of cells, the reader of keys, the signals, and the
 //! measure of the link.
 //!
-//! It must not know what is drawn or what a key means. It asks the terminal about its colours and
-//! never waits for the answer: a terminal that stays silent would hold up the first frame.
+//! It must not know what is drawn or what a key means. It asks the terminal only what no key looks
+//! like the reply to, and nothing waits for replies: a terminal may stay silent.
 
 #[cfg(unix)]
 mod abort;
@@ -30,8 +30,8 @@ pub use colour::{Choice, ColourDepth};
 pub use decode::Decoder;
 pub use guard::{Mouse, Terminal};
 pub use input::Input;
-pub use link::{Link, default_bandwidth};
-pub use reply::Reply;
+pub use link::{Budget, Link};
+pub use reply::{Replies, Reply};
 #[cfg(unix)]
 pub use signals::{Signals, suspend_process};
 pub(crate) use tty::{complain, size};

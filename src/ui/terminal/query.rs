@@ -20,6 +20,9 @@ const COLOUR: [u16; 3] = [49, 73, 87];
 /// The names RGB and Tc in hexadecimal.
 const NAMES: [&[u8]; 2] = [b"524742", b"5463"];
 
+/// Asks what the terminal is (DA1), which every terminal answers.
+pub(super) const ATTRIBUTES: &[u8] = b"\x1b[c";
+
 /// How long answers count. What comes later is read and ignored.
 pub(crate) const PATIENCE: Duration = Duration::from_millis(200);
 

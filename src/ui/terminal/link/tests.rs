@@ -1,0 +1,215 @@
+//! The bucket at a fixed rate, and lines that are measured, all in times of their own.
+
+use super::*;
+
+const fn ms(milliseconds: u64) -> Duration {
+    Duration::from_millis(milliseconds)
+}
+
+#[test]
+fn fills_at_the_rate_up_to_a_quarter_of_a_second() {
+    let start = Instant::now();
+    let mut link = Link::new(Budget::Fixed(1000));
+    assert_eq!(link.allowance(start), 250);
+    link.spent(250, start);
+    for (after, allowance) in [(0, 0), (1, 1), (100, 100), (250, 250), (9000, 250)] {
+        assert_eq!(
+            link.allowance(start + ms(after)),
+            allowance,
+            "after {after} ms"
+        );
+    }
+}
+
+#[test]
+fn text_may_go_into_debt_and_pictures_wait_for_it() {
+    let start = Instant::now();
+    let mut link = Link::new(Budget::Fixed(1000));
+    link.spent(1250, start);
+    assert_eq!(link.allowance(start), 0);
+    assert_eq!(link.allowance(start + ms(1100)), 100);
+    assert_eq!(link.ready_at(start), Some(start + ms(1250)));
+    assert_eq!(link.ready_at(start + ms(1250)), None);
+}
+
+#[test]
+fn a_picture_larger_than_the_bucket_waits_for_a_full_one() {
+    let start = Instant::now();
+    let mut link = Link::new(Budget::Fixed(1000));
+    assert_eq!(link.ready_at(start), None);
+    link.spent(50, start);
+    assert_eq!(link.ready_at(start), Some(start + ms(50)));
+}
+
+#[test]
+fn the_moment_named_is_never_too_early_for_an_odd_rate() {
+    let start = Instant::now();
+    for rate in [1, 3, 7, 999_983, u32::MAX] {
+        let mut link = Link::new(Budget::Fixed(rate));
+        link.spent(rate as usize, start);
+        let ready = link.ready_at(start).expect("the bucket is in debt");
+        assert_eq!(link.ready_at(ready), None, "at {rate} bytes a second");
+        let before = ready
+            .checked_sub(Duration::from_nanos(1))
+            .expect("it is after the start");
+        assert!(link.ready_at(before).is_some(), "at {rate} bytes a second");
+    }
+}
+
+#[test]
+fn nothing_and_zero_mean_no_limit() {
+    let start = Instant::now();
+    for limit in [Budget::Local, Budget::Fixed(0)] {
+        let mut link = Link::new(limit);
+        link.spent(1 << 40, start);
+        assert_eq!(link.allowance(start), usize::MAX);
+        assert_eq!(link.ready_at(start), None);
+    }
+}
+
+#[test]
+fn measures_the_last_second_only() {
+    let start = Instant::now();
+    let mut link = Link::new(Budget::Local);
+    link.spent(10, start);
+    link.spent(20, start + ms(600));
+    assert_eq!(link.rate(start + ms(999)), 30);
+    assert_eq!(link.rate(start + ms(1000)), 20);
+    assert_eq!(link.rate(start + ms(1600)), 0);
+}
+
+#[test]
+fn the_environment_says_what_can_be_measured() {
+    for (variables, budget) in [
+        (&[("TERM", "xterm")][..], Budget::Local),
+        (&[("SSH_TTY", "")], Budget::Local),
+        (&[("SSH_TTY", "/dev/pts/1")], Budget::Measured),
+        (&[("SSH_CONNECTION", "a 1 b 22")], Budget::Measured),
+        (
+            &[("SSH_TTY", "/dev/pts/1"), ("TMUX", "/tmp/tmux-0/default")],
+            Budget::Fixed(128_000),
+        ),
+        (
+            &[("SSH_TTY", "/dev/pts/1"), ("TERM", "screen-256color")],
+            Budget::Fixed(128_000),
+        ),
+        (&[("TERM", "tmux-256color")], Budget::Fixed(0)),
+    ] {
+        let variable = |asked: &str| {
+            let found = variables.iter().find(|(name, _)| *name == asked);
+            found.map(|(_, value)| (*value).to_owned())
+        };
+        assert_eq!(Budget::of_environment(variable), budget, "{variables:?}");
+    }
+}
+
+/// A line that takes so many bytes a second, with so many milliseconds from end to end and back.
+#[derive(Clone, Copy, Debug)]
+struct Line {
+    rate: u32,
+    round_trip: u64,
+    /// The most that a reply is late, in milliseconds.
+    jitter: u64,
+}
+
+/// What came of a minute of pictures and keys.
+struct Minute {
+    /// The delays of the answers to keys, beyond the round trip, from the least.
+    delays: Vec<Duration>,
+    /// The bytes of picture.
+    pictures: usize,
+    questions: usize,
+}
+
+/// What a key's answer takes.
+const ANSWER: usize = 300;
+
+/// Runs pictures without end over a line of a budget, with a key every 210 ms, through frames as a
+/// session draws them. The first second is not counted.
+fn minute(budget: Budget, line: Line) -> Minute {
+    let start = Instant::now();
+    let half = ms(line.round_trip) / 2;
+    let mut link = Link::new(budget);
+    let mut minute = Minute {
+        delays: Vec::new(),
+        pictures: 0,
+        questions: 0,
+    };
+    // When the line has taken everything, and when replies come.
+    let mut free = start;
+    let mut replies = VecDeque::new();
+    let mut jitter = 0;
+    let mut send = |bytes: usize, now: Instant| {
+        let time = Duration::from_secs_f64(bytes as f64 / f64::from(line.rate));
+        free = free.max(now) + time;
+        free + half
+    };
+    let text = send(6000, start);
+    assert!(start < text);
+    link.spent(6000, start);
+    for step in 0..60_000 {
+        let now = start + ms(step);
+        while replies.front().is_some_and(|&at| at <= now) {
+            link.replied(now);
+            replies.pop_front();
+        }
+        link.give_up(now);
+        if step % 210 == 0 {
+            let seen = send(ANSWER, now);
+            link.spent(ANSWER, now);
+            if 1000 <= step {
+                minute.delays.push(seen - now - half);
+            }
+        }
+        let bytes = link.allowance(now).min(60_000);
+        if 0 < bytes && link.ready_at(now).is_none() {
+            send(bytes, now);
+            link.spent(bytes, now);
+            minute.pictures += bytes;
+        }
+        if link.has_question(now) {
+            jitter = (jitter + 7) % (line.jitter + 1);
+            replies.push_back(send(4, now) + half + ms(jitter));
+            link.asked(now);
+            minute.questions += 1;
+        }
+    }
+    minute.delays.sort();
+    minute
+}
+
+#[test]
+fn answers_to_keys_wait_for_few_bytes_of_pictures() {
+    for (rate, round_trip, jitter) in [
+        (40_000, 50, 0),
+        (40_000, 200, 0),
+        (40_000, 200, 15),
+        (64_000, 100, 10),
+        (128_000, 20, 0),
+        (128_000, 200, 15),
+        (1_000_000, 20, 0),
+        (1_000_000, 200, 20),
+        (10_000_000, 2, 1),
+    ] {
+        let line = Line {
+            rate,
+            round_trip,
+            jitter,
+        };
+        let minute = minute(Budget::Measured, line);
+        let p95 = minute.delays[minute.delays.len() * 95 / 100];
+        assert!(p95 <= ms(50), "{line:?}: {p95:?}");
+        // Half of what the line takes, or of what it is ever given.
+        let least = (rate as usize * 60 / 2).min(60_000_000);
+        assert!(
+            least <= minute.pictures,
+            "{line:?}: {} bytes",
+            minute.pictures
+        );
+        assert!(
+            minute.questions < 60,
+            "{line:?}: {} questions",
+            minute.questions
+        );
+    }
+}

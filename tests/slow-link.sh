@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Measures what keys wait for over SSH on slow lines: a real sshd on the loopback, and before it a
+# proxy that limits the rate and adds delay. Needs Debian's openssh-server, ssh and python3.
+#
+#     tests/slow-link.sh target/release/halflight
+#
+# TERM is what ssh hands on, and COLORTERM is not set. Prints a line for each link: how long a `j`
+# takes until the text that answers it has arrived, with pictures at rest and while they flow, what
+# a `j` costs in bytes, and whether the last picture on the screen is that of a line without limits.
+set -euo pipefail
+
+halflight=$(realpath "${1:?usage: tests/slow-link.sh path/to/halflight}")
+here=$(cd "$(dirname "$0")" && pwd)
+for program in ssh ssh-keygen python3; do
+    command -v "$program" >/dev/null || { echo "$program is needed"; exit 1; }
+done
+sshd=$(command -v sshd || command -v /usr/sbin/sshd) || { echo 'sshd is needed'; exit 1; }
+
+place=$(mktemp -d)
+daemon=
+finish() {
+    [ -z "$daemon" ] || kill "$daemon" 2>/dev/null || true
+    rm -rf "$place"
+}
+trap finish EXIT
+
+ssh-keygen -q -t ed25519 -N '' -f "$place/host"
+ssh-keygen -q -t ed25519 -N '' -f "$place/key"
+cp "$place/key.pub" "$place/authorized"
+port=$(python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')
+cat >"$place/config" <<END
+Port $port
+ListenAddress 127.0.0.1
+HostKey $place/host
+AuthorizedKeysFile $place/authorized
+PidFile none
+StrictModes no
+UsePAM no
+PasswordAuthentication no
+PermitRootLogin prohibit-password
+AcceptEnv none
+END
+# Debian's sshd wants this folder where it runs as root.
+[ "$(id -u)" != 0 ] || mkdir -p /run/sshd
+"$sshd" -D -e -f "$place/config" 2>"$place/log" &
+daemon=$!
+cp "$here/../scenes/default.ray" "$place/default.ray"
+HALFLIGHT=$halflight PLACE=$place PORT=$port python3 "$here/slow-link.py"
