@@ -2,7 +2,7 @@
 # Measures what keys wait for over SSH on slow lines: a real sshd on the loopback, and before it a
 # proxy that limits the rate and adds delay. Needs Debian's openssh-server, ssh and python3.
 #
-#     tests/slow-link.sh target/release/halflight
+#     tests/slow-link.sh target/release/halflight [RATE...]
 #
 # TERM is what ssh hands on, and COLORTERM is not set. Prints a line for each link: how long a `j`
 # takes until the text that answers it has arrived, with pictures at rest and while they flow, what
@@ -45,4 +45,4 @@ END
 "$sshd" -D -e -f "$place/config" 2>"$place/log" &
 daemon=$!
 cp "$here/../scenes/default.ray" "$place/default.ray"
-HALFLIGHT=$halflight PLACE=$place PORT=$port python3 "$here/slow-link.py"
+HALFLIGHT=$halflight PLACE=$place PORT=$port python3 "$here/slow-link.py" "${@:2}"

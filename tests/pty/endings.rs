@@ -133,14 +133,17 @@ fn a_terminal_that_is_gone_ends_it() {
     assert_eq!(session.end().exit_code(), 129);
 }
 
+/// A way to end the program.
+type End = dyn Fn(&mut Session);
+
 #[test]
 fn a_terminal_that_nobody_reads_holds_up_no_ending() {
     let signal = |signal| move |session: &mut Session| kill(session.process_id(), signal);
-    let endings: [(&str, u32, &dyn Fn(&mut Session)); 4] = [
+    let endings: [(&str, u32, &End); 4] = [
         ("SIGTERM", 143, &signal(Signal::TERM)),
         ("SIGHUP", 129, &signal(Signal::HUP)),
         ("Ctrl-C twice", 0, &|session| {
-            session.send([CTRL_C; 2].concat())
+            session.send([CTRL_C; 2].concat());
         }),
         ("no terminal", 129, &|session| session.hang_up_at_once()),
     ];
