@@ -37,6 +37,7 @@ fn whole_sequences() {
     for (bytes, events) in [
         (&b"a"[..], &["Char('a')"][..]),
         (b"A", &["SHIFT+Char('A')"]),
+        (b"\x1b[0n\x1b[3n", &["Reply(Status)", "Reply(Status)"]),
         (b"\r\t\x7f\x08", &["Enter", "Tab", "Backspace", "Backspace"]),
         (
             b"\x03\x0c\x00\x1c",

@@ -158,7 +158,7 @@ fn minute(budget: Budget, line: Line) -> Minute {
             let seen = send(ANSWER, now);
             link.spent(ANSWER, now);
             if 1000 <= step {
-                minute.delays.push(seen - now - half);
+                minute.delays.push((seen - now).saturating_sub(half));
             }
         }
         let bytes = link.allowance(now).min(60_000);
