@@ -15,6 +15,10 @@ fn main() -> ExitCode {
         Ok(Command::Interface(options)) => interface(&options),
         Ok(Command::Render(work)) => cli::exit_code(&batch::render(&work)),
         Ok(Command::Check(work)) => cli::exit_code(&batch::check(&work)),
+        Ok(Command::Doctor(scene)) => print(&Stop {
+            text: ui::doctor::examine(scene.as_deref()),
+            code: cli::DONE,
+        }),
         Err(stop) => print(&stop),
     })
 }

@@ -109,6 +109,28 @@ fn wrong_arguments_end_with_2() {
     assert_eq!(place.names(), ["ball.ray"]);
 }
 
+#[test]
+fn the_doctor_reports_without_a_terminal() {
+    let place = Place::new();
+    let mut command = place.command("doctor ball.ray");
+    let output = command
+        .env_remove("COLORTERM")
+        .env("TERM", "xterm-256color");
+    let output = output.env_remove("NO_COLOR").output().expect("it starts");
+    assert_eq!(output.status.code(), Some(0));
+    let report = String::from_utf8(output.stdout).expect("UTF-8");
+    for words in [
+        "TERM=xterm-256color",
+        "256 colours by TERM alone",
+        "--color 24",
+        "threads",
+        "unsaved edits are kept in",
+    ] {
+        assert!(report.contains(words), "{report}");
+    }
+    assert!(!report.contains('\x1b'));
+}
+
 /// Runs the program where no thread can start: no machine has such a stack for one.
 fn without_threads(place: &Place, line: &str) -> (Option<i32>, String) {
     let mut command = place.command(line);

@@ -50,7 +50,7 @@ pub(crate) fn noise(scene: &str, (columns, rows): (u16, u16), turns: usize) -> E
 }
 
 /// The interface with nothing but a picture on screen, and how that is traced.
-fn opened(scene: &str, terminal: (u16, u16)) -> (App, Job) {
+pub(crate) fn opened(scene: &str, terminal: (u16, u16)) -> (App, Job) {
     let (mut app, mut effects) = App::open(Opening {
         path: Some(PathBuf::from("scene.ray")),
         format: Format::Ray,

@@ -51,6 +51,8 @@ pub enum Command {
     Interface(ui::Options),
     /// Make a picture.
     Render(Render),
+    /// Say what was detected of the terminal and the machine, for this scene.
+    Doctor(Option<PathBuf>),
     /// Say what is wrong with scenes.
     Check(Check),
 }
@@ -81,6 +83,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, S
             warnings: strictness.meaning(),
             assets: assets.folders,
         })),
+        Some(Subcommands::Doctor { scene }) => Ok(Command::Doctor(scene)),
         None => said
             .interface
             .meaning()
@@ -178,8 +181,9 @@ Examples:
   halflight render scene.ray -o scene.bmp         make a picture
   halflight render scene.ray -o - --format ppm | ssh far 'cat > scene.ppm'
   halflight check scenes/*.ray                    say what is wrong with scenes
+  halflight doctor                                say what was detected, and why
 
-A scene named like a command is opened as ./render or ./check. Scenes are read from files, not
+A scene named like a command is opened as ./render, ./check or ./doctor. Scenes are read from files, not
 from standard input, pipes or devices.
 
 Exit codes: 0 done, 1 writing or the machine failed, 2 wrong arguments, 65 wrong scene,
@@ -200,6 +204,12 @@ enum Subcommands {
         strictness: StrictnessArguments,
         #[command(flatten)]
         assets: AssetArguments,
+    },
+    /// Say what was detected of the terminal and the machine, and why
+    Doctor {
+        /// Scene file whose folder is examined [default: the current folder]
+        #[arg(value_name = "SCENE")]
+        scene: Option<PathBuf>,
     },
 }
 
@@ -283,8 +293,8 @@ impl InterfaceArguments {
         }
         if let Some(second) = self.surplus.first() {
             return Err(format!(
-                "one scene is opened at a time, {} is a second one; the commands are render and \
-                 check",
+                "one scene is opened at a time, {} is a second one; the commands are render, \
+                 check and doctor",
                 second.display()
             ));
         }

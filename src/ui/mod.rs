@@ -12,6 +12,7 @@
 
 pub mod app;
 mod assets;
+pub mod doctor;
 mod editor;
 mod effects;
 mod files;
@@ -122,7 +123,7 @@ pub enum Error {
     },
     /// Neither a file nor, by its name, a scene.
     #[error(
-        "no such file or command `{path}`; the commands are render and check, scenes end in .ray, .dat or .xml",
+        "no such file or command `{path}`; the commands are render, check and doctor, scenes end in .ray, .dat or .xml",
         path = path.display()
     )]
     NoSuch {

@@ -157,17 +157,22 @@ fn lock(file: &File) -> bool {
     }
 }
 
-/// Where a scene's edits may be kept: `$XDG_STATE_HOME/halflight/recovery/NAME-HASH-N.ray`.
-fn places(scene: Option<&Path>) -> io::Result<impl Iterator<Item = PathBuf>> {
+/// The folder of edits that are kept.
+pub(super) fn folder() -> io::Result<PathBuf> {
     let set = |name| std::env::var_os(name).filter(|value| !value.is_empty());
     let state = set("XDG_STATE_HOME").map(PathBuf::from);
     let state = state.or_else(|| Some(PathBuf::from(set("HOME")?).join(".local/state")));
     let state = state.ok_or_else(|| io::Error::other("no home folder is known"))?;
+    Ok(state.join("halflight").join("recovery"))
+}
+
+/// Where a scene's edits may be kept: `$XDG_STATE_HOME/halflight/recovery/NAME-HASH-N.ray`.
+fn places(scene: Option<&Path>) -> io::Result<impl Iterator<Item = PathBuf>> {
+    let folder = folder()?;
     let name = match scene {
         Some(path) => name_of(&std::path::absolute(path)?),
         None => NAMELESS.to_owned(),
     };
-    let folder = state.join("halflight").join("recovery");
     Ok((0..MOST).map(move |number| folder.join(format!("{name}-{number}.ray"))))
 }
 

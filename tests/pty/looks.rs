@@ -84,7 +84,7 @@ fn colours_are_those_the_terminal_has() {
 
     let mut session = start(&["balls.ray", "--color", "256"], &[]);
     wait_for_rest(&mut session);
-    assert!(!colours(session.screen()).iter().any(is_rgb));
+    assert!(!colours(session.screen()).into_iter().any(is_rgb));
     assert!(
         last(QUESTION, &session.written).is_none(),
         "the user decided"
@@ -128,7 +128,7 @@ fn colours(screen: &Screen) -> Vec<Color> {
         .collect()
 }
 
-fn is_rgb(colour: &Color) -> bool {
+fn is_rgb(colour: Color) -> bool {
     matches!(colour, Color::Rgb(..))
 }
 
@@ -153,7 +153,7 @@ fn a_terminal_that_stays_silent_is_told_the_cure_once() {
     let mut session = start_far(&place);
     session.wait_for(CURE);
     wait_for_rest(&mut session);
-    assert!(!colours(session.screen()).iter().any(is_rgb));
+    assert!(!colours(session.screen()).into_iter().any(is_rgb));
     session.send("j");
     wait_until_gone(&mut session, CURE);
     session.send("?");
@@ -179,7 +179,7 @@ fn a_late_answer_is_neither_believed_nor_typed() {
     session.wait_for(" Keys ");
     session.send(ESC);
     wait_until_gone(&mut session, " Keys ");
-    assert!(!colours(session.screen()).iter().any(is_rgb));
+    assert!(!colours(session.screen()).into_iter().any(is_rgb));
     quit(session);
 }
 
@@ -221,4 +221,26 @@ fn nothing_from_files_reaches_the_terminal_raw() {
     let mut after_escapes = written.split('\x1b').skip(1);
     assert!(after_escapes.all(|rest| rest.starts_with('[')));
     assert!(!written.contains("\x1b[7;9r"));
+}
+
+#[test]
+fn the_doctor_reports_what_the_terminal_answers() {
+    let place = Place::new();
+    let environment = [("COLORTERM", "")];
+    let mut session = Session::start(place.directory.path(), &["doctor"], WIDE, &environment);
+    while last(b"\x1b[c", &session.written).is_none() {
+        session.drain(Duration::from_millis(1));
+    }
+    session.send([ANSWER, "\x1b[?2026;2$y\x1b[?62c"].concat());
+    let status = session.end();
+    assert!(status.success());
+    let text = session.text();
+    for words in [
+        "256 colours by TERM alone",
+        "answers that it has 24-bit colour",
+        "known to the terminal",
+    ] {
+        assert!(text.contains(words), "{text}");
+    }
+    session.assert_restored();
 }

@@ -133,8 +133,7 @@ impl App {
             Msg::Continued => return vec![Effect::TakeTerminal],
             Msg::Interrupt => return self.interrupt(),
             Msg::Terminate | Msg::HangUp => return self.quit_keeping_edits(),
-            Msg::FewColours(depth) if self.message.is_none() => self.say(depth.cure()),
-            Msg::FewColours(_) => {}
+            Msg::FewColours(depth) => self.suggest(depth.cure()),
             Msg::Failed(reason) => self.fail_too(&reason),
         }
         Vec::new()
@@ -368,6 +367,13 @@ impl App {
         match &mut self.help {
             Some(help) => help.focus = HelpFocus::Search,
             None => self.open_prompt(PromptKind::Search, ""),
+        }
+    }
+
+    /// Says something that gives way to what is said already.
+    fn suggest(&mut self, text: String) {
+        if self.message.is_none() {
+            self.say(text);
         }
     }
 

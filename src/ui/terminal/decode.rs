@@ -176,7 +176,7 @@ fn longest(bytes: &[u8]) -> usize {
 fn token(bytes: &[u8]) -> Token {
     match bytes {
         // Alt with P begins the same; what follows an answer's introducer is a parameter.
-        [0x1b, b'P'] => Token::Unfinished,
+        [0x1b] | [0x1b, b'P'] => Token::Unfinished,
         [0x1b, b'P', 0x30..=0x3f, ..] => control_string(bytes),
         [0x1b, b'[', ..] => control_sequence(bytes),
         [0x1b, b'O', rest @ ..] => match rest.first() {
@@ -186,7 +186,6 @@ fn token(bytes: &[u8]) -> Token {
                 None => Token::Noise(3),
             },
         },
-        [0x1b] => Token::Unfinished,
         [0x1b, 0x1b, ..] => Token::Event(1, key(KeyCode::Esc, KeyModifiers::NONE)),
         [0x1b, rest @ ..] => match plain(rest) {
             Token::Event(length, event) => Token::Event(length + 1, with_alt(event)),

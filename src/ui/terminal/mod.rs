@@ -13,6 +13,7 @@ mod colour;
 mod decode;
 mod guard;
 mod input;
+pub(crate) mod interview;
 mod link;
 mod output;
 mod panics;

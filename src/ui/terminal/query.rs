@@ -14,6 +14,10 @@ use super::Reply;
 pub(super) const COLOURS: &[u8] =
     b"\x1b[38:2::49:73:87m\x1bP$qm\x1b\\\x1b[m\x1bP+q524742\x1b\\\x1bP+q5463\x1b\\";
 
+/// Asks how synchronized output stands (DECRQM), and what the terminal is (DA1).
+#[cfg(unix)]
+pub(super) const MODES: &[u8] = b"\x1b[?2026$p\x1b[c";
+
 /// The channels of the colour that is asked about.
 const COLOUR: [u16; 3] = [49, 73, 87];
 
@@ -57,7 +61,7 @@ pub(super) fn answer(string: &[u8]) -> Option<Reply> {
     let value = parts.next().unwrap_or_default();
     // RGB has the bits of a channel, if anything, in hexadecimal digits of its characters: 8.
     let is_wide = value.is_empty() || value.starts_with(b"38");
-    let is_asked = NAMES.iter().any(|asked| name == *asked);
+    let is_asked = NAMES.contains(&name);
     (is_asked && is_wide).then_some(Reply::TrueColour)
 }
 

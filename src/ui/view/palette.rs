@@ -17,7 +17,7 @@ const PARTS: u32 = 16;
 /// right on average and loud to the eye.
 const CANDIDATES: usize = 12;
 
-/// How much more a wrong hue counts than a wrong lightness. OkLab's two axes of hue are about half
+/// How much more a wrong hue counts than a wrong lightness. `OkLab`'s two axes of hue are about half
 /// as long as the eye has them.
 const HUE_WEIGHT: f32 = 2.0;
 
@@ -126,12 +126,15 @@ fn mix(fixed: &[Fixed], lab: [f32; 3]) -> Mix {
                 (other, one)
             };
             let (along, mean, spread) = projected(below.lab, above.lab, lab);
+            let cost = distance(mean, lab) + NOISE_WEIGHT * along * (1.0 - along) * spread;
+            if least <= cost {
+                continue;
+            }
             let share = (light_share(along, below.lab[0], above.lab[0]) * PARTS as f32).round();
             let part = share / PARTS as f32;
             // In an ordered pattern each pixel of the rarer colour has its neighbours of the other.
             let step = 2.0 * part.min(1.0 - part) * (above.luma - below.luma);
-            let cost = distance(mean, lab) + NOISE_WEIGHT * along * (1.0 - along) * spread;
-            if 0.0 < share && share < PARTS as f32 && step <= FLAT && cost < least {
+            if 0.0 < part && part < 1.0 && step <= FLAT {
                 least = cost;
                 best = Mix {
                     below: below.index,
@@ -149,8 +152,8 @@ fn nearest(fixed: &[Fixed], lab: [f32; 3]) -> [Fixed; CANDIDATES] {
     let mut found = [(f32::INFINITY, fixed[0]); CANDIDATES];
     for &candidate in fixed {
         let far = distance(candidate.lab, lab);
-        let at = found.partition_point(|&(closer, _)| closer <= far);
-        if at < CANDIDATES {
+        if far < found[CANDIDATES - 1].0 {
+            let at = found.partition_point(|&(closer, _)| closer <= far);
             found.copy_within(at..CANDIDATES - 1, at + 1);
             found[at] = (far, candidate);
         }
@@ -199,7 +202,7 @@ pub(super) fn luma([red, green, blue]: [u8; 3]) -> f32 {
     0.2126 * f32::from(red) + 0.7152 * f32::from(green) + 0.0722 * f32::from(blue)
 }
 
-/// An 8-bit sRGB colour in OkLab, where distances are about those that are seen (B. Ottosson, “A
+/// An 8-bit sRGB colour in `OkLab`, where distances are about those that are seen (B. Ottosson, “A
 /// perceptual color space for image processing”, 2020).
 fn oklab(colour: [u8; 3]) -> [f32; 3] {
     let light = colour.map(|channel| {

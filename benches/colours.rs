@@ -1,0 +1,285 @@
+//! How far pictures in few colours are from what they show, beside chafa's.
+//!
+//! `cargo bench --bench colours` prints a table: for each scene and depth the error of a pixel, the
+//! error of the mean light of 2×2 pixels, both as mean distances in `OkLab` times 1000, and the mean
+//! step in luma between neighbours in flat areas, of 255. Without chafa only our own rows. The
+//! pictures are those in `scenes`; sixteen colours are taken for xterm's.
+
+#[allow(dead_code, reason = "shared with the other bench")]
+mod encoding;
+
+use std::convert::Infallible;
+use std::fs;
+use std::num::NonZeroU16;
+use std::path::Path;
+use std::process::Command;
+use std::sync::Arc;
+use std::time::Duration;
+
+use halflight::render::{Frame, NO_OBJECT, Progress};
+use halflight::scene::Size;
+use halflight::ui::app::Shown;
+use halflight::ui::msg::{Msg, Target};
+use halflight::ui::terminal::{AnsiBackend, ColourDepth};
+use halflight::ui::view::{self, Inks};
+use vt100::{Cell, Color, Parser, Screen};
+
+const SCENES: [&str; 5] = ["default", "courtyard", "glass", "mirrors", "still-life"];
+
+const DEPTHS: [(ColourDepth, &str); 2] = [
+    (ColourDepth::Palette256, "256"),
+    (ColourDepth::Palette16, "16"),
+];
+
+/// The terminal, in cells.
+const TERMINAL: (u16, u16) = (160, 62);
+
+fn main() {
+    println!("scene         colours  by      pixel    2x2   flat");
+    for scene in SCENES {
+        for (depth, name) in DEPTHS {
+            let (picture, ours) = ours(scene, depth);
+            row(scene, name, "ours", &picture, &ours);
+            if let Some(theirs) = chafa(&picture, name) {
+                row(scene, name, "chafa", &picture, &theirs);
+            }
+        }
+    }
+}
+
+fn row(scene: &str, colours: &str, by: &str, picture: &Shown, quarters: &[[u8; 3]]) {
+    let [pixel, block, flat] = errors(picture, quarters);
+    println!("{scene:13} {colours:8} {by:6} {pixel:6.1} {block:6.1} {flat:6.1}");
+}
+
+/// A picture, and the colours that it is drawn in: four of each cell, two above two.
+fn ours(scene: &str, depth: ColourDepth) -> (Shown, Vec<[u8; 3]>) {
+    let (mut app, _) = encoding::opened(include_str!("../scenes/default.ray"), TERMINAL);
+    let (cells, size) = app.raster().expect("there is room");
+    let picture = read(scene).resampled(size);
+    let frame = Frame {
+        generation: 1,
+        size,
+        pixels: picture.pixels.clone(),
+        objects: picture.objects.clone(),
+        values: Vec::new(),
+        progress: Progress {
+            pass: 1,
+            passes: 1,
+            spp: 1,
+            done: 1.0,
+            elapsed: Duration::ZERO,
+            rays: 0,
+            shadow_rays: 0,
+            over_budget: 0,
+            noise: None,
+            complete: true,
+        },
+    };
+    app.update(Msg::Frame(Target::Preview, Arc::new(frame)));
+    app.picture_mut().advance(size, usize::MAX);
+    let backend = AnsiBackend::new(depth, ratatui::layout::Size::from(TERMINAL));
+    let Ok(mut terminal) = ratatui::Terminal::new(backend);
+    let mut inks = Inks::for_depth(depth);
+    let Ok(_) = terminal.draw(|frame| view::draw(&app, &mut inks, frame));
+    let mut parser = parser(TERMINAL);
+    let Ok(_) = terminal.backend_mut().finish(|bytes| {
+        parser.process(bytes);
+        Ok::<_, Infallible>(())
+    });
+    let quarters = quarters(parser.screen(), (cells.x, cells.y), size);
+    (picture, quarters)
+}
+
+/// What chafa makes of a picture, if it is installed.
+fn chafa(picture: &Shown, colours: &str) -> Option<Vec<[u8; 3]>> {
+    let Size { width, height } = picture.size;
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("colours.ppm");
+    let mut file = format!("P6\n{width} {height}\n255\n").into_bytes();
+    file.extend(picture.pixels.iter().flatten());
+    fs::write(&path, file).expect("a folder for temporary files");
+    let rows = height.div_ceil(2);
+    let output = Command::new("chafa")
+        .args(["--colors", colours, "--symbols", "half", "--stretch"])
+        .args(["--size", &format!("{width}x{rows}")])
+        .arg(&path)
+        .output()
+        .ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    let mut parser = parser((width as u16, rows as u16 + 1));
+    parser.process(text.replace('\n', "\r\n").as_bytes());
+    Some(quarters(parser.screen(), (0, 0), picture.size))
+}
+
+/// One of our pictures, as it was traced.
+fn read(scene: &str) -> Shown {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{scene}.bmp"));
+    let bytes = fs::read(path).expect("the scene's picture");
+    let number = |at: usize| {
+        let bytes = bytes[at..at + 4].try_into().expect("four bytes");
+        u32::from_le_bytes(bytes)
+    };
+    let (start, width, height) = (number(10) as usize, number(18), number(22));
+    let size = Size { width, height };
+    let stride = (3 * width as usize).next_multiple_of(4);
+    // The lowest row comes first, and blue before red.
+    let pixels = bytes[start..].chunks(stride).take(height as usize).rev();
+    let pixels = pixels.flat_map(|row| row.chunks_exact(3).take(width as usize));
+    Shown {
+        size,
+        pixels: pixels.map(|pixel| [pixel[2], pixel[1], pixel[0]]).collect(),
+        objects: vec![NO_OBJECT; size.pixels()],
+    }
+}
+
+fn parser((columns, rows): (u16, u16)) -> Parser {
+    let cells = |cells| NonZeroU16::new(cells).expect("a screen has cells");
+    Parser::new(cells(rows), cells(columns), 0)
+}
+
+/// The colours of the quarters of a picture's cells: as many rows as it has, of twice its columns.
+fn quarters(screen: &Screen, (left, top): (u16, u16), size: Size) -> Vec<[u8; 3]> {
+    let quarter = |x: u32, y: u32| {
+        let cell = screen.cell(top + y as u16 / 2, left + x as u16 / 2);
+        let cell = cell.expect("the picture is on the screen");
+        let (upper, at_left) = (y.is_multiple_of(2), x.is_multiple_of(2));
+        let in_front = match cell.contents() {
+            "▀" => upper,
+            "▄" => !upper,
+            "▌" => at_left,
+            "▐" => !at_left,
+            "█" => true,
+            _ => false,
+        };
+        colour(cell, in_front)
+    };
+    let row = |y| (0..2 * size.width).map(move |x| quarter(x, y));
+    (0..size.height).flat_map(row).collect()
+}
+
+/// The colour of a cell's foreground or background.
+fn colour(cell: &Cell, in_front: bool) -> [u8; 3] {
+    match (in_front != cell.inverse(), cell.fgcolor(), cell.bgcolor()) {
+        (true, Color::Idx(index), _) | (false, _, Color::Idx(index)) => of_palette(index),
+        (true, Color::Rgb(r, g, b), _) | (false, _, Color::Rgb(r, g, b)) => [r, g, b],
+        (true, Color::Default, _) => of_palette(7),
+        (false, _, Color::Default) => of_palette(0),
+    }
+}
+
+/// The palette as xterm has it.
+fn of_palette(index: u8) -> [u8; 3] {
+    match index {
+        4 => [0, 0, 238],
+        7 => [229; 3],
+        8 => [127; 3],
+        12 => [92, 92, 255],
+        0..16 => {
+            let full = if index < 8 { 205 } else { 255 };
+            [0, 1, 2].map(|bit| if index >> bit & 1 == 1 { full } else { 0 })
+        }
+        232.. => [8 + 10 * (index - 232); 3],
+        _ => {
+            let at = index - 16;
+            [at / 36, at / 6 % 6, at % 6].map(|level| if level == 0 { 0 } else { 55 + 40 * level })
+        }
+    }
+}
+
+/// The error of a pixel and of a mean of 2×2, and the step in flat areas.
+fn errors(picture: &Shown, quarters: &[[u8; 3]]) -> [f64; 3] {
+    let (width, height) = (picture.size.width as usize, picture.size.height as usize);
+    let wanted = |x: usize, y: usize| picture.pixels[y * width + x];
+    let shown = |x: usize, y: usize| {
+        let at = 2 * (y * width + x);
+        [quarters[at], quarters[at + 1]]
+    };
+    let (mut pixel, mut block, mut flat) = (Mean::default(), Mean::default(), Mean::default());
+    for y in 0..height {
+        for x in 0..width {
+            for half in shown(x, y) {
+                pixel.add(distance(light(wanted(x, y)), light(half)));
+            }
+            for (x2, y2) in [(x + 1, y), (x, y + 1)] {
+                let is_flat = |one: [u8; 3], other: [u8; 3]| {
+                    one.iter().zip(other).all(|(a, b)| a.abs_diff(b) <= 1)
+                };
+                if x2 < width && y2 < height && is_flat(wanted(x, y), wanted(x2, y2)) {
+                    flat.add((luma(shown(x, y)[0]) - luma(shown(x2, y2)[0])).abs());
+                }
+            }
+            if x + 1 < width && y + 1 < height {
+                let places = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
+                let whole = mean(places.map(|(x, y)| light(wanted(x, y))));
+                let drawn = mean(places.map(|(x, y)| mean(shown(x, y).map(light))));
+                block.add(distance(whole, drawn));
+            }
+        }
+    }
+    [1000.0 * pixel.value(), 1000.0 * block.value(), flat.value()]
+}
+
+#[derive(Default)]
+struct Mean {
+    sum: f64,
+    count: f64,
+}
+
+impl Mean {
+    fn add(&mut self, value: f64) {
+        self.sum += value;
+        self.count += 1.0;
+    }
+
+    fn value(&self) -> f64 {
+        self.sum / self.count.max(1.0)
+    }
+}
+
+fn mean<const N: usize>(colours: [[f64; 3]; N]) -> [f64; 3] {
+    std::array::from_fn(|at| colours.iter().map(|colour| colour[at]).sum::<f64>() / N as f64)
+}
+
+fn luma([red, green, blue]: [u8; 3]) -> f64 {
+    0.2126 * f64::from(red) + 0.7152 * f64::from(green) + 0.0722 * f64::from(blue)
+}
+
+fn light(colour: [u8; 3]) -> [f64; 3] {
+    colour.map(|channel| {
+        let value = f64::from(channel) / 255.0;
+        if value <= 0.04045 {
+            value / 12.92
+        } else {
+            ((value + 0.055) / 1.055).powf(2.4)
+        }
+    })
+}
+
+/// The distance of two colours of light in `OkLab`.
+fn distance(one: [f64; 3], other: [f64; 3]) -> f64 {
+    let (one, other) = (oklab(one), oklab(other));
+    let squares = one.iter().zip(other).map(|(a, b)| (a - b).powi(2));
+    squares.sum::<f64>().sqrt()
+}
+
+fn oklab(light: [f64; 3]) -> [f64; 3] {
+    let times = |rows: [[f64; 3]; 3], of: [f64; 3]| {
+        rows.map(|row| row[0] * of[0] + row[1] * of[1] + row[2] * of[2])
+    };
+    let cones = times(
+        [
+            [0.412_221_470_8, 0.536_332_536_3, 0.051_445_992_9],
+            [0.211_903_498_2, 0.680_699_545_1, 0.107_396_956_6],
+            [0.088_302_461_9, 0.281_718_837_6, 0.629_978_700_5],
+        ],
+        light,
+    );
+    times(
+        [
+            [0.210_454_255_3, 0.793_617_785_0, -0.004_072_046_8],
+            [1.977_998_495_1, -2.428_592_205_0, 0.450_593_709_9],
+            [0.025_904_037_1, 0.782_771_766_2, -0.808_675_766_0],
+        ],
+        cones.map(f64::cbrt),
+    )
+}

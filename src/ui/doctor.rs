@@ -1,0 +1,312 @@
+//! What was detected of the terminal and the machine, and why, as a text.
+
+use std::fmt::Write;
+use std::io::{self, IsTerminal};
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc;
+use std::thread;
+use std::time::Duration;
+
+use super::recovery;
+use super::terminal::interview::{self, Answers};
+use super::terminal::{Choice, ColourDepth, default_bandwidth, query, tmux};
+use crate::text::{counted, visible};
+
+/// Synchronized output.
+const SYNCHRONIZED: u16 = 2026;
+
+/// How long tmux may take to answer.
+const TMUX_PATIENCE: Duration = Duration::from_secs(1);
+
+/// Examines the surroundings in which the interface would open a scene; the lines end in `\n` and
+/// are safe to print. Asks the terminal if both ends of it are there.
+pub fn examine(scene: Option<&Path>) -> String {
+    let variable = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
+    let has_terminal = io::stdin().is_terminal() && io::stdout().is_terminal();
+    let answers =
+        (has_terminal && query::may_ask(variable)).then(|| interview::ask().unwrap_or_default());
+    let folder = match scene.and_then(Path::parent) {
+        Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
+        _ => PathBuf::from("."),
+    };
+    // Each has its label, and then lines of what was found.
+    let findings = [
+        ("terminal", terminal(has_terminal, variable)),
+        (
+            "colours",
+            colours(answers.as_ref(), behind_tmux(), variable),
+        ),
+        ("synchronized", synchronized(answers.as_ref())),
+        ("mouse", vec!["taken; --no-mouse leaves it".to_owned()]),
+        ("clipboard", vec!["not used".to_owned()]),
+        ("link", link(variable)),
+        ("changes", changes(&folder)),
+        ("threads", threads()),
+        ("processor", vec![processor()]),
+        ("folders", folders(scene, &folder)),
+    ];
+    let mut text = String::new();
+    for (label, lines) in findings {
+        for (at, line) in lines.iter().enumerate() {
+            let label = if at == 0 { label } else { "" };
+            // Writing to a string can't fail.
+            let _ = writeln!(text, "{label:<14}{}", visible(line));
+        }
+    }
+    text
+}
+
+fn terminal(has_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> Vec<String> {
+    let names = [
+        "TERM",
+        "TERM_PROGRAM",
+        "COLORTERM",
+        "TMUX",
+        "SSH_CONNECTION",
+    ];
+    let said: Vec<_> = names
+        .into_iter()
+        .map(|name| match variable(name) {
+            Some(value) => format!("{name}={value}"),
+            None => format!("{name} not set"),
+        })
+        .collect();
+    let mut lines = vec![said.join(", ")];
+    if !has_terminal {
+        lines.push("input or output is no terminal: nothing was asked".to_owned());
+    }
+    lines
+}
+
+/// What tmux says, if it is there and says it in time.
+fn behind_tmux() -> Option<bool> {
+    let (sender, answer) = mpsc::channel();
+    thread::spawn(move || sender.send(tmux::shows_true_colour()));
+    answer.recv_timeout(TMUX_PATIENCE).ok().flatten()
+}
+
+fn colours(
+    answers: Option<&Answers>,
+    behind_tmux: Option<bool>,
+    variable: impl Fn(&str) -> Option<String>,
+) -> Vec<String> {
+    let depth = ColourDepth::detect_from(Choice::Auto, &variable);
+    if variable("NO_COLOR").is_some() {
+        return vec![format!(
+            "{}: NO_COLOR is set; --color overrides it",
+            depth.name()
+        )];
+    }
+    let why = if variable("COLORTERM").is_some() {
+        "by COLORTERM and TERM"
+    } else {
+        "by TERM alone"
+    };
+    let mut lines = vec![format!("{} {why}", depth.name())];
+    if depth == ColourDepth::TrueColour {
+        return lines;
+    }
+    let (shows_more, said) = match (answers, behind_tmux) {
+        (Some(answers), _) if answers.has_true_colour() => (
+            true,
+            "the terminal answers that it has 24-bit colour, which is used",
+        ),
+        (_, Some(true)) => (true, "tmux sends its terminal 24-bit colour, which is used"),
+        (_, Some(false)) => (
+            false,
+            "tmux takes its terminal for one without 24-bit colour; if it has it: \
+             set -as terminal-features ',*:RGB'",
+        ),
+        (None, None) => (false, "the terminal was not asked"),
+        (Some(answers), None) if answers.is_silent() => {
+            (false, "the terminal does not answer within 200 ms")
+        }
+        (Some(_), None) => (
+            false,
+            "the terminal does not answer that it has 24-bit colour",
+        ),
+    };
+    lines.push(said.to_owned());
+    if !shows_more {
+        lines.push(depth.cure());
+    }
+    lines
+}
+
+fn synchronized(answers: Option<&Answers>) -> Vec<String> {
+    vec![
+        match answers {
+            None => "sent; the terminal was not asked whether it knows it",
+            Some(answers) if answers.mode(SYNCHRONIZED).is_some() => "known to the terminal",
+            Some(_) => "sent; the terminal does not say that it knows it, and may show half frames",
+        }
+        .to_owned(),
+    ]
+}
+
+fn link(variable: impl Fn(&str) -> Option<String>) -> Vec<String> {
+    vec![match default_bandwidth(variable) {
+        Some(rate) => format!(
+            "{} KB/s for pictures, as the terminal is at the other end of SSH; --bandwidth sets it",
+            rate / 1000
+        ),
+        None => "local: no limit; --bandwidth sets one".to_owned(),
+    }]
+}
+
+fn changes(folder: &Path) -> Vec<String> {
+    vec![match network_file_system(folder) {
+        Some(name) => {
+            format!("the folder is on {name}, which may send no notices of changes: use --poll")
+        }
+        None => "by the system's notices; --poll compares instead".to_owned(),
+    }]
+}
+
+/// The name of the folder's file system if others may change it without a notice.
+#[cfg(target_os = "linux")]
+fn network_file_system(folder: &Path) -> Option<&'static str> {
+    // The magic numbers of `statfs(2)`.
+    match rustix::fs::statfs(folder).ok()?.f_type as u32 {
+        0x6969 => Some("NFS"),
+        0x517b | 0xfe53_4d42 | 0xff53_4d42 => Some("SMB"),
+        0x0102_1997 => Some("9p"),
+        0x6573_5546 => Some("FUSE"),
+        _ => None,
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+fn network_file_system(_folder: &Path) -> Option<&'static str> {
+    None
+}
+
+fn threads() -> Vec<String> {
+    let cores = thread::available_parallelism().map_or(1, NonZero::get);
+    let preview = cores.saturating_sub(1).max(1);
+    let mut lines = vec![format!(
+        "{preview} for the preview, {cores} for full-size traces and exports; --threads sets both"
+    )];
+    #[cfg(target_os = "linux")]
+    if let Ok(allowed) = rustix::thread::sched_getaffinity(None) {
+        let count = allowed.count() as usize;
+        let quota = if cores < count {
+            format!(", of which a cgroup grants {cores}")
+        } else {
+            String::new()
+        };
+        lines.push(format!(
+            "{} allowed by affinity{quota}",
+            counted(count, "core")
+        ));
+    }
+    lines
+}
+
+/// The vector instructions that the renderer chooses from.
+fn processor() -> String {
+    #[cfg(target_arch = "x86_64")]
+    {
+        let known = [
+            ("avx2", std::arch::is_x86_feature_detected!("avx2")),
+            ("fma", std::arch::is_x86_feature_detected!("fma")),
+            ("avx512f", std::arch::is_x86_feature_detected!("avx512f")),
+        ];
+        let said = known.map(|(name, has)| format!("{name} {}", if has { "yes" } else { "no" }));
+        format!("x86_64: {}", said.join(", "))
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    {
+        std::env::consts::ARCH.to_owned()
+    }
+}
+
+fn folders(scene: Option<&Path>, folder: &Path) -> Vec<String> {
+    let current = std::env::current_dir();
+    let current = current.map_or_else(|error| error.to_string(), |path| path.display().to_string());
+    let kept = match recovery::folder() {
+        Ok(folder) => folder.display().to_string(),
+        Err(error) => format!("nowhere: {error}"),
+    };
+    let above = std::path::absolute(folder).ok();
+    let above = above.as_deref().and_then(Path::parent);
+    let scene = scene.map_or_else(|| "a scene".to_owned(), |scene| scene.display().to_string());
+    let above = above.map_or_else(|| "/".to_owned(), |above| above.display().to_string());
+    vec![
+        format!("current: {current}"),
+        format!("unsaved edits are kept in {kept}"),
+        format!("{scene} here may read pictures and meshes below {above}; --assets adds folders"),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::terminal::Reply;
+
+    fn said(
+        answers: Option<&[Reply]>,
+        behind_tmux: Option<bool>,
+        variables: &[(&str, &str)],
+    ) -> String {
+        let answers = answers.map(|replies| Answers {
+            replies: replies.to_vec(),
+        });
+        let variable = |name: &str| {
+            let (_, value) = variables.iter().find(|(known, _)| *known == name)?;
+            Some((*value).to_owned())
+        };
+        colours(answers.as_ref(), behind_tmux, variable).join("\n")
+    }
+
+    #[test]
+    fn colours_come_with_their_reason_and_cure() {
+        const FAR: &[(&str, &str)] = &[("TERM", "xterm-256color")];
+        let cure = "--color 24";
+        for (answers, tmux, variables, words, has_cure) in [
+            (
+                None,
+                None,
+                &[("TERM", "xterm-256color"), ("COLORTERM", "truecolor")][..],
+                "24-bit by COLORTERM",
+                false,
+            ),
+            (
+                None,
+                None,
+                &[("TERM", "xterm"), ("NO_COLOR", "1")],
+                "NO_COLOR is set",
+                false,
+            ),
+            (None, None, FAR, "was not asked", true),
+            (Some(&[][..]), None, FAR, "does not answer within", true),
+            (
+                Some(&[Reply::Attributes]),
+                None,
+                FAR,
+                "does not answer that",
+                true,
+            ),
+            (Some(&[Reply::TrueColour]), None, FAR, "is used", false),
+            (Some(&[]), Some(true), FAR, "tmux sends", false),
+            (Some(&[]), Some(false), FAR, "terminal-features", true),
+        ] {
+            let said = said(answers, tmux, variables);
+            assert!(said.contains(words), "{said}");
+            assert_eq!(said.contains(cure), has_cure, "{said}");
+        }
+    }
+
+    #[test]
+    fn modes_that_the_terminal_does_not_know_are_not_believed() {
+        let answers = |state| Answers {
+            replies: vec![Reply::Mode {
+                number: SYNCHRONIZED,
+                state,
+            }],
+        };
+        assert_eq!(synchronized(Some(&answers(2))), ["known to the terminal"]);
+        assert!(synchronized(Some(&answers(0)))[0].contains("does not say"));
+    }
+}
