@@ -165,7 +165,7 @@ fn answers_are_no_keys() {
         (&[(0, b"\x1bP1$rquit:q!\rj")], &["Enter", "Char('j')"]),
         (&[(0, b"\x1bP1$rquit"), (2000, b"k")], &["Char('k')"]),
         // The key that begins like one.
-        (&[(0, b"\x1bPj")], &["SHIFT | ALT+Char('P')", "Char('j')"]),
+        (&[(0, b"\x1bPj")], &["SHIFT+ALT+Char('P')", "Char('j')"]),
         (
             &[(0, b"\x1b[?2026;2$y\x1b[?62;4c")],
             &[
