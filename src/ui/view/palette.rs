@@ -22,9 +22,9 @@ const CANDIDATES: usize = 12;
 const HUE_WEIGHT: f32 = 2.0;
 
 /// How much the noise of a mix counts beside the error of its mean. At 1 nothing is ever mixed; at
-/// 0 the pairs lie far apart. With 0.3, pixels and means of 2×2 both come closer to the picture
+/// 0 the pairs lie far apart. With a half, pixels and means of 2×2 both come closer to the picture
 /// than chafa's (see `benches/colours.rs`).
-const NOISE_WEIGHT: f32 = 0.3;
+const NOISE_WEIGHT: f32 = 0.5;
 
 /// The most that neighbours in an area of one colour may differ in luma, as a mean.
 const FLAT: f32 = 12.0;

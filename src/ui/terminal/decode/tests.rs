@@ -73,7 +73,7 @@ fn whole_sequences() {
         (b"\x1b[<35;9;9M\x1b[M !!x", &["Char('x')"]),
         (
             b"\x1b[?62;4cx\x1b[12;40Ry\x1b[Iz",
-            &["Char('x')", "Char('y')", "Char('z')"],
+            &["Reply(Attributes)", "Char('x')", "Char('y')", "Char('z')"],
         ),
         (
             b"\x1b[200~a\rb\x1b[201~c",
