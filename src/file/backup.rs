@@ -7,9 +7,8 @@ use std::path::{Path, PathBuf};
 
 use super::calls::call;
 use super::owner::{Lock, PREFIX, lock, random};
-use super::replace::sync_directory;
 use super::target::directory_of;
-use super::temporary::{Access, Temporary, copy_all};
+use super::temporary::{Access, Temporary, copy_all, is_refusal, sync_directory};
 
 /// What follows the common beginning of names of temporary files.
 const MARK: &str = "backup-";
@@ -32,7 +31,7 @@ impl Backup {
             let folder = std::env::temp_dir();
             Self::in_folder(&folder, path, file).map_err(|second| {
                 // A folder that can't be written to is why there is a copy at all.
-                if super::replace::is_refusal(&first) {
+                if is_refusal(&first) {
                     let shown = folder.display();
                     let reason = format!("no copy of it can be kept in {shown}: {second}");
                     io::Error::new(second.kind(), reason)

@@ -9,7 +9,7 @@ use super::backup::Backup;
 use super::calls::{Content, call};
 use super::stream;
 use super::target::{Target, directory_of, not_a_file, open};
-use super::temporary::{Access, Temporary};
+use super::temporary::{Access, Temporary, is_refusal, sync_directory};
 
 /// Bytes handed to the system at once: pictures come in rows of a few hundred.
 const CHUNK: usize = 1 << 18;
@@ -121,13 +121,6 @@ fn twin(path: &Path, metadata: &Metadata) -> io::Result<Option<Temporary>> {
     }
 }
 
-pub(super) fn is_refusal(error: &io::Error) -> bool {
-    matches!(
-        error.kind(),
-        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem
-    )
-}
-
 #[cfg(unix)]
 fn is_hard_linked(metadata: &Metadata) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -137,16 +130,6 @@ fn is_hard_linked(metadata: &Metadata) -> bool {
 #[cfg(not(unix))]
 fn is_hard_linked(_metadata: &Metadata) -> bool {
     false
-}
-
-/// Makes a new name last through a power cut. Some file systems can't; the file is whole either way.
-pub(super) fn sync_directory(directory: &Path) {
-    #[cfg(unix)]
-    if let Ok(directory) = File::open(directory) {
-        let _ = call("fsync", || directory.sync_all());
-    }
-    #[cfg(not(unix))]
-    let _ = directory;
 }
 
 fn overwrite<E: From<io::Error>>(

@@ -156,6 +156,24 @@ pub(super) fn copy_all(mut from: &File, to: &File) -> io::Result<()> {
     Content(to).write_all(&bytes)
 }
 
+/// Makes a new name last through a power cut. Some file systems can't; the file is whole either way.
+pub(super) fn sync_directory(directory: &Path) {
+    #[cfg(unix)]
+    if let Ok(directory) = File::open(directory) {
+        let _ = call("fsync", || directory.sync_all());
+    }
+    #[cfg(not(unix))]
+    let _ = directory;
+}
+
+/// Whether an error says that a folder can't be written to.
+pub(super) fn is_refusal(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem
+    )
+}
+
 fn options(access: Access) -> OpenOptions {
     let mut options = OpenOptions::new();
     options.read(true).write(true);

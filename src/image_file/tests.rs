@@ -338,3 +338,33 @@ fn an_unknown_extension_is_refused_with_the_known_ones() {
     assert!(error.starts_with("pictures end in .bmp, .ppm, .png, .tiff"));
     assert!(!path.exists());
 }
+
+#[test]
+fn a_picture_is_whole_whichever_call_fails() {
+    use crate::file::faults::{Fault, during};
+    use rustix::io::Errno;
+    let directory = tempfile::tempdir().expect("a directory for a test");
+    let path = directory.path().join("a.png");
+    let (old, new) = (frame(1, 1, &[RED]), frame(2, 1, &[RED, RED]));
+    let write = |frame: &Frame| -> io::Result<()> { save(frame, &path, || Ok(())) };
+    let bytes = |frame: &Frame| {
+        write(frame).expect("nothing is wrong");
+        std::fs::read(&path).expect("a file")
+    };
+    let (whole, before) = (bytes(&new), bytes(&old));
+    for fault in [Errno::NOSPC, Errno::INTR].map(Fault::Once) {
+        let last = (0..100).find(|&at| {
+            bytes(&old);
+            let (outcome, calls) = during(fault, at, || write(&new));
+            let expected = if outcome.is_ok() { &whole } else { &before };
+            assert!(
+                &std::fs::read(&path).expect("a file") == expected,
+                "{calls:?}"
+            );
+            assert!(outcome.is_ok() || !fault.is_harmless(), "{calls:?}");
+            assert_eq!(directory.path().read_dir().expect("a folder").count(), 1);
+            calls.hit.is_none()
+        });
+        assert!(last.is_some_and(|last| 0 < last), "each was hit");
+    }
+}

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use super::Options;
 use super::assets::AssetReader;
 use super::editor;
-use super::files::{Files, PATIENCE, Task};
+use super::files::{Files, Task};
 use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
 use super::terminal::tmux;
 use super::terminal::{self, Input, Replies, Reply, Terminal};
@@ -24,6 +24,10 @@ use crate::watch::{Method, Watcher};
 /// How long replies of the terminal are waited for before it is handed over: longer than most
 /// round trips.
 const REPLY_PATIENCE: Duration = Duration::from_millis(300);
+
+/// How long unsaved edits may take to be kept, however hurried the end is: with a terminal that hung
+/// up the process has half a second.
+const KEEPING: Duration = Duration::from_millis(350);
 
 /// Something that came in.
 #[derive(Debug)]
@@ -163,13 +167,16 @@ impl World {
         }
     }
 
-    /// Gives the terminal back, until `deadline` at most, and waits for files being written;
-    /// whether unsaved edits are kept.
-    pub(crate) fn close(self, deadline: Instant) -> bool {
+    /// Gives the terminal back, which may take `patience`, and then waits about as long for files
+    /// being written; whether unsaved edits are kept.
+    pub(crate) fn close(self, patience: Duration) -> bool {
+        let deadline = Instant::now() + patience;
         self.await_replies(deadline);
         self.terminal.close(deadline);
-        self.writers.finish(deadline.min(Instant::now() + PATIENCE));
-        self.files.finish()
+        let deadline = Instant::now() + patience.max(KEEPING);
+        let is_kept = self.files.finish(deadline);
+        self.writers.finish(deadline);
+        is_kept
     }
 
     /// Has the terminal reply when all that was sent has arrived.

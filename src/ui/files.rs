@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::msg::Msg;
 use super::reading::{Known, Understanding};
@@ -75,10 +75,11 @@ impl Files {
         sent.map_err(|_| "the thread that reads and writes files has ended".to_owned())
     }
 
-    /// Waits until all is done; whether edits are kept for the next run.
-    pub(super) fn finish(self) -> bool {
+    /// Waits until all is done, or the time has come; whether edits are kept for the next run.
+    pub(super) fn finish(self, deadline: Instant) -> bool {
         drop(self.tasks);
-        self.kept.recv_timeout(PATIENCE).unwrap_or(false)
+        let patience = deadline.saturating_duration_since(Instant::now());
+        self.kept.recv_timeout(patience).unwrap_or(false)
     }
 }
 

@@ -156,7 +156,7 @@ impl Session {
         let path = self.app.path.map_or_else(String::new, |path| {
             format!(" {}", text::visible(&path.to_string_lossy()))
         });
-        if self.world.close(Instant::now() + patience(self.ending)) {
+        if self.world.close(patience(self.ending)) {
             terminal::complain(format!(
                 "unsaved edits are kept; halflight{path} offers them"
             ));
@@ -280,7 +280,7 @@ impl Session {
     }
 }
 
-/// How long the terminal may take to be given back. Somebody who quits may sit at the end of a line
+/// How long the terminal may take to be given back, and files to be written. Somebody who quits may sit at the end of a line
 /// that stalls; who ends the program from outside waits less, and a terminal that hung up not at all.
 fn patience(ending: Ending) -> Duration {
     Duration::from_millis(match ending {

@@ -241,6 +241,35 @@ mod tests {
     }
 
     #[test]
+    fn a_scene_is_whole_whichever_call_fails() {
+        use crate::file::faults::{Fault, during};
+        use rustix::io::Errno;
+        let place = tempfile::tempdir().expect("a folder");
+        let path = place.path().join("x.ray");
+        let text = Arc::new("new".to_owned());
+        let last = (0..100).find(|&at| {
+            std::fs::write(&path, "old").expect("the folder is new");
+            let guard = Guard::Holding(Arc::new("old".to_owned()));
+            let fault = Fault::Once(Errno::NOSPC);
+            let (outcome, calls) =
+                during(fault, at, || save(path.clone(), Arc::clone(&text), &guard));
+            let held = std::fs::read_to_string(&path).expect("a file");
+            match outcome {
+                SaveOutcome::Saved { .. } => assert_eq!(held, "new", "{calls:?}"),
+                SaveOutcome::Failed(reason) => {
+                    let cause = io::Error::from(Errno::NOSPC);
+                    assert_eq!(reason, format!("{}: {cause}", path.display()));
+                    assert_eq!(held, "old", "{calls:?}");
+                }
+                SaveOutcome::ChangedOnDisk => panic!("{calls:?}"),
+            }
+            assert_eq!(place.path().read_dir().expect("a folder").count(), 1);
+            calls.hit.is_none()
+        });
+        assert!(last.is_some_and(|last| 0 < last), "each was hit");
+    }
+
+    #[test]
     fn a_picture_is_not_written_over_a_file_of_its_scene() {
         let place = tempfile::tempdir().expect("a folder");
         let texture = place.path().join("bricks.png");

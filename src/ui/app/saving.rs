@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::model::Settle;
 use super::{App, Disk, Stage};
 use crate::ui::msg::{Effect, Guard, SaveId, SaveOutcome, Timer};
 
@@ -176,7 +177,7 @@ impl App {
             }
             SaveOutcome::ChangedOnDisk => {
                 self.warn("the file has changed: nothing was written yet");
-                self.pending.settle = super::model::Settle::Final;
+                self.pending.settle = Settle::Final;
                 self.read_effect()
             }
             SaveOutcome::Failed(reason) => {

@@ -396,9 +396,12 @@ impl App {
     fn fail_too(&mut self, text: &str) {
         let before = self.message.as_ref();
         let before = before.filter(|before| before.severity == Some(Severity::Error));
-        let both = before.map(|before| match before.text.contains(text) {
-            true => before.text.clone(),
-            false => format!("{}; {text}", before.text),
+        let both = before.map(|before| {
+            if before.text.contains(text) {
+                before.text.clone()
+            } else {
+                format!("{}; {text}", before.text)
+            }
         });
         self.fail(both.unwrap_or_else(|| text.to_owned()));
     }
