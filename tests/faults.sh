@@ -5,12 +5,13 @@
 #
 # needs strace, tmux and a folder on the file system to be tested (by default one for temporary
 # files). Headless: a new picture, one over an existing picture, one over a hard link. Interface: a
-# save over an existing scene and one through a hard link. Of every case the k-th call of each kind is hit, for each k until nothing is hit any more.
+# save over an existing scene and one through a hard link. Of every case the k-th call of each kind is
+# hit, for each k until nothing is hit any more.
 #
 # Then the target holds its old or its new bytes (else it is "torn", or "lost" where it is gone), but
 # for a save through a hard link, whose old bytes a copy named for the file may hold instead. After
 # one more write in the folder nothing else is left there (else it is "left behind"). KINDS names the
-# cases to run, LIMIT the greatest k.
+# cases to run, OUTCOMES what a call that is hit does, LIMIT the greatest k.
 #
 # Prints a line a case and ends with 1 if anything was torn, lost or left behind.
 
@@ -22,7 +23,7 @@ export XDG_STATE_HOME="$folder/state" TMPDIR="$folder/temporary"
 mkdir "$TMPDIR"
 
 calls="write fsync rename,renameat,renameat2 link,linkat unlink,unlinkat fchmod,fchown ftruncate openat"
-outcomes="signal=KILL error=ENOSPC error=EIO error=EDQUOT error=EINTR"
+outcomes=${OUTCOMES:-signal=KILL error=ENOSPC error=EIO error=EDQUOT error=EINTR}
 bad=0
 
 scene() {
@@ -32,7 +33,7 @@ scene() {
 
 # Makes the folder of one run: scene, target, what the target holds before.
 prepare() {
-    rm -rf "$work"
+    rm -rf "$work" "$XDG_STATE_HOME"
     mkdir "$work"
     scene 1 >"$work/a.ray"
     case $1 in
@@ -50,11 +51,10 @@ run() {
     shift
     case $kind in
     saved*)
-        # Only the save is hit: the edit is kept in another folder.
         tmux -L "faults$$" new-session -d -x 100 -y 30 \
             "cd '$work' && strace -f -qq -o '$folder/trace' $* '$binary' --color 24 a.ray"
-        keys 'j' Enter
-        keys '2' Enter
+        keys '' Enter
+        keys 'j2' Enter
         keys 'w' ''
         tmux -L "faults$$" send-keys -l ':q!' 2>/dev/null
         tmux -L "faults$$" send-keys Enter 2>/dev/null
@@ -73,8 +73,8 @@ run() {
 }
 
 keys() {
-    sleep 0.3
-    tmux -L "faults$$" send-keys -l "$1" 2>/dev/null
+    sleep "${PAUSE:-0.5}"
+    [ -n "$1" ] && tmux -L "faults$$" send-keys -l "$1" 2>/dev/null
     [ -n "$2" ] && tmux -L "faults$$" send-keys "$2" 2>/dev/null
     sleep 0.2
 }
@@ -122,7 +122,11 @@ check() {
                 run "$kind" -e "trace=$call" -e "inject=$call:$outcome:when=$k"
                 runs=$((runs + 1))
                 judge "$kind"
-                grep -q 'INJECTED\|killed by SIGKILL' "$folder/trace" || break
+                if ! grep -q 'INJECTED\|killed by SIGKILL' "$folder/trace"; then
+                    # Nothing was hit: all must have come to its end.
+                    cmp -s "$target" "$new" || lost=$((lost + 1))
+                    break
+                fi
                 k=$((k + 1))
             done
         done
