@@ -535,6 +535,55 @@ fn on_a_full_disk(place: &Place, line: &str) -> Output {
     in_shell(place, "ulimit -f 1", line)
 }
 
+/// Many spheres with the view of the ball, on as many lines.
+#[cfg(target_os = "linux")]
+fn spheres(count: usize) -> String {
+    let line = "sphere 0 0 0 1  1 1 1 0 0 0 0 0 0 1 0 0 1\n";
+    let view = "// view: eye 0 0 5 target 0 0 0 up 0 1 0 fov 40 size 8 6";
+    format!("1 1 1 1 0 9 0 0 0 0 {count}\n{}{view}", line.repeat(count))
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn whatever_the_limit_on_memory_it_is_done_or_refused() {
+    let place = Place::new();
+    place.write("many.ray", spheres(100_000));
+    let mut refused = 0;
+    // From too little for the program's threads to more than enough, in kilobytes.
+    for limit in (4..=26).step_by(2).map(|limit| limit * 10_000) {
+        for line in ["check many.ray", "render many.ray -o -"] {
+            let output = in_shell(&place, &format!("ulimit -v {limit}"), line);
+            let told = String::from_utf8_lossy(&output.stderr);
+            match output.status.code() {
+                Some(0) => {}
+                Some(1) => {
+                    refused += 1;
+                    let says = told.contains("out of memory: ") || told.contains("no threads");
+                    assert!(
+                        says && told.contains("error: "),
+                        "{line} in {limit} kB: {told}"
+                    );
+                }
+                code => panic!("{line} in {limit} kB: {code:?}: {told}"),
+            }
+        }
+    }
+    assert!((2..20).contains(&refused), "{refused} of 24 are refused");
+}
+
+#[test]
+fn bytes_that_are_no_text_end_with_65() {
+    let place = Place::new();
+    place.write("start.ray", [0; 5000]);
+    place.write("late.ray", format!("{BALL}{}\0", "// \n".repeat(5000)));
+    for (name, line) in [("start.ray", 1), ("late.ray", 5005)] {
+        let binary = "is a binary file, not text: it has a byte 0x00 in line";
+        let told = place.told(&format!("check {name}"), 65);
+        let said = format!("error: {name}: {binary} {line}\n");
+        assert!(told.starts_with(&said), "{told}");
+    }
+}
+
 #[test]
 #[cfg(target_os = "linux")]
 fn a_picture_that_memory_does_not_hold_is_an_error() {

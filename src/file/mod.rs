@@ -121,8 +121,14 @@ pub fn read_text(path: &Path) -> Result<String, ReadError> {
 }
 
 /// The line of the first zero among a file's first bytes, which are looked at before long ones are
-/// read. None where they begin as UTF-16 does.
+/// read. None where they begin as UTF-16 does, or the file is too long anyway.
 fn binary_start(file: &File) -> Option<usize> {
+    if file
+        .metadata()
+        .is_ok_and(|metadata| MAX_BYTES < metadata.len())
+    {
+        return None;
+    }
     let mut start = [0; 4096];
     let length = read_start(file, &mut start).unwrap_or(0);
     let start = &start[..length];

@@ -15,6 +15,10 @@ pub const MAX_TEXTURE_PIXELS: u64 = 1 << 26;
 /// most that any format has, and those are rare.
 const MAX_MEMORY: u64 = 512 << 20;
 
+/// The most that what comes before a picture's pixels may take, such as a colour profile. Larger ones
+/// are passed over, or refused with the picture.
+const MAX_PREFACE: u64 = 16 << 20;
+
 /// Why bytes are not a picture that can be used.
 #[derive(Debug, thiserror::Error)]
 pub enum Unreadable {
@@ -57,10 +61,13 @@ fn decode_trusting(bytes: &[u8], room: u64) -> Result<Image, Unreadable> {
     let mut reader = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
         .map_err(|error| Unreadable::Broken(error.to_string()))?;
-    let mut limits = Limits::default();
-    limits.max_alloc = Some(MAX_MEMORY);
-    reader.limits(limits);
-    let decoder = reader.into_decoder().map_err(broken)?;
+    let limits = |bytes| {
+        let mut limits = Limits::default();
+        limits.max_alloc = Some(bytes);
+        limits
+    };
+    reader.limits(limits(MAX_PREFACE));
+    let mut decoder = reader.into_decoder().map_err(broken)?;
     let (width, height) = decoder.dimensions();
     let count = u64::from(width) * u64::from(height);
     if MAX_TEXTURE_PIXELS < count {
@@ -72,6 +79,7 @@ fn decode_trusting(bytes: &[u8], room: u64) -> Result<Image, Unreadable> {
     if MAX_MEMORY < decoder.total_bytes() {
         return Err(Unreadable::NoMemory);
     }
+    decoder.set_limits(limits(MAX_MEMORY)).map_err(broken)?;
     let size = Size { width, height };
     let mut pixels = Vec::<[u8; 3]>::new();
     let reserved = pixels.try_reserve_exact(size.pixels());

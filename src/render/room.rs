@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use super::film::Film;
 use super::frame::Job;
+use super::renderer::Refusal;
 use super::structures::instances;
 use super::world::{FEW, has_shapes_of};
-use crate::memory::{self, Need, OutOfMemory};
+use crate::memory::{self, Need};
 use crate::scene::Scene;
 
 /// What a box takes while its tree is built: references, nodes twice, places.
@@ -17,7 +18,7 @@ const ENCODED: usize = 4;
 
 /// Refuses a job whose world and film do not fit into memory. The world of a scene of the same shapes
 /// as that of the job `before` is there already, or is about to be.
-pub(super) fn fits(job: &Job, before: Option<&Arc<Scene>>) -> Result<(), OutOfMemory> {
+pub(super) fn fits(job: &Job, before: Option<&Arc<Scene>>) -> Result<(), Refusal> {
     let size = job.settings.size;
     let pixels = (size.pixels() * ENCODED) as u64;
     let film = Film::bytes(&job.settings, job.frames).saturating_add(pixels);
@@ -26,13 +27,17 @@ pub(super) fn fits(job: &Job, before: Option<&Arc<Scene>>) -> Result<(), OutOfMe
         Some(before) if has_shapes_of(before, &job.scene) => 0,
         _ => world(&job.scene),
     };
-    memory::check(film.saturating_add(world), || Need {
-        what: if film < world {
-            format!("{objects} objects")
+    let bytes = film.saturating_add(world);
+    let need = || Need {
+        what: format!("{objects} objects"),
+        bytes,
+    };
+    memory::check(bytes, need).map_err(|refused| {
+        if film < world {
+            Refusal::OutOfMemory(refused)
         } else {
-            format!("{}x{} pixels", size.width, size.height)
-        },
-        bytes: film.saturating_add(world),
+            Refusal::Memory { size, bytes }
+        }
     })
 }
 

@@ -245,13 +245,18 @@ impl Session {
         }
     }
 
+    /// How the program has ended, if it has.
+    pub(crate) fn ended(&mut self) -> Option<ExitStatus> {
+        let ended = self.child.try_wait();
+        ended.expect("a child can be waited for")
+    }
+
     /// Waits for the program's end, and takes all that it wrote.
     pub(crate) fn end(&mut self) -> ExitStatus {
         let deadline = Instant::now() + WATCHDOG;
         let mut is_open = true;
         loop {
-            let ended = self.child.try_wait();
-            if let Some(status) = ended.expect("a child can be waited for") {
+            if let Some(status) = self.ended() {
                 self.has_ended = true;
                 while self.read(WATCHDOG).is_some() {}
                 return status;

@@ -10,6 +10,9 @@ const MOST_ATTRIBUTES: usize = 1000;
 /// The same of declared name spaces, which each element inherits from the one around it.
 const MOST_NAME_SPACES: usize = 64;
 
+/// Elements inside one another beyond this are no scene's.
+const MOST_LEVELS: usize = 1 << 17;
+
 /// What the look finds.
 pub(super) struct Scan {
     /// What is refused.
@@ -68,6 +71,12 @@ pub(super) fn scan(text: &str) -> Scan {
                 return refuse(Diagnostic::error(span, message, "fewer attributes"));
             }
             if !tag.ends_with("/>") {
+                if open.len() == MOST_LEVELS {
+                    let span = Span::new(start, start + name);
+                    let message =
+                        format!("more than {MOST_LEVELS} elements inside one another are refused");
+                    return refuse(Diagnostic::error(span, message, "fewer levels"));
+                }
                 open.push(Span::new(start, start + name));
             }
             end

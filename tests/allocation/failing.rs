@@ -1,0 +1,71 @@
+//! An allocator that fails on purpose.
+#![allow(
+    unsafe_code,
+    reason = "an allocator that can fail is one that is implemented"
+)]
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::ptr;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+#[global_allocator]
+static ALLOCATOR: Failing = Failing;
+
+/// How many allocations there were, of all threads.
+static COUNT: AtomicU64 = AtomicU64::new(0);
+
+/// The first and the last one that fails.
+static FIRST: AtomicU64 = AtomicU64::new(u64::MAX);
+static LAST: AtomicU64 = AtomicU64::new(u64::MAX);
+
+/// The system's allocator, but for some allocations.
+struct Failing;
+
+/// Has allocations fail, counted from 1 at this moment.
+pub(crate) fn fail(first: u64, last: u64) {
+    COUNT.store(0, Ordering::SeqCst);
+    LAST.store(last, Ordering::SeqCst);
+    FIRST.store(first, Ordering::SeqCst);
+}
+
+/// How many allocations there were since.
+pub(crate) fn count() -> u64 {
+    COUNT.load(Ordering::SeqCst)
+}
+
+fn fails() -> bool {
+    let number = 1 + COUNT.fetch_add(1, Ordering::Relaxed);
+    FIRST.load(Ordering::Relaxed) <= number && number <= LAST.load(Ordering::Relaxed)
+}
+
+// SAFETY: everything is left to the system's allocator; a null pointer says that there is no memory.
+unsafe impl GlobalAlloc for Failing {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        if fails() {
+            return ptr::null_mut();
+        }
+        // SAFETY: the caller's promises are passed on.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        if fails() {
+            return ptr::null_mut();
+        }
+        // SAFETY: the caller's promises are passed on.
+        unsafe { System.alloc_zeroed(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: the caller's promises are passed on.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        if fails() {
+            return ptr::null_mut();
+        }
+        // SAFETY: the caller's promises are passed on.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}

@@ -1,0 +1,172 @@
+//! What becomes of the program where an allocation fails: a message and an exit code, or an abort, and
+//! in any case a terminal as before.
+//!
+//! The program that is tested is this one, started again with an allocator that fails at the k-th
+//! allocation, or from there on. It has a `main` of its own for that.
+
+#[cfg(unix)]
+mod failing;
+#[cfg(unix)]
+#[allow(dead_code, reason = "the harness has more than is needed here")]
+#[path = "../harness/mod.rs"]
+mod harness;
+
+#[cfg(unix)]
+fn main() -> std::process::ExitCode {
+    let mut arguments = std::env::args_os();
+    if arguments.nth(1).is_some_and(|first| first == CHILD) {
+        return child(arguments);
+    }
+    for (arguments, samples) in WORK {
+        headless(arguments, samples);
+    }
+    interface();
+    println!("allocations that fail: passed");
+    std::process::ExitCode::SUCCESS
+}
+
+#[cfg(not(unix))]
+fn main() {}
+
+#[cfg(unix)]
+use unix::*;
+
+#[cfg(unix)]
+mod unix {
+    use std::env;
+    use std::ffi::OsString;
+    use std::os::unix::process::ExitStatusExt;
+    use std::path::Path;
+    use std::process::{Command, ExitCode, Output};
+    use std::time::{Duration, Instant};
+
+    use halflight::{batch, cli, ui};
+    use portable_pty::CommandBuilder;
+
+    use super::failing;
+    use super::harness::Session;
+
+    /// Says that this is the program under test.
+    pub(crate) const CHILD: &str = "--child";
+
+    /// Command lines in the folder of scenes, and at how many allocations each fails.
+    pub(crate) const WORK: [(&str, u64); 3] = [
+        ("check default.ray still-life.dat carousel.xml", 16),
+        (
+            "render courtyard.xml -o - --size 16x12 --threads 1 --format png",
+            16,
+        ),
+        (
+            "render still-life.dat -o - --size 16x12 --threads 2 --format bmp",
+            12,
+        ),
+    ];
+
+    /// How often the interface's allocations fail.
+    const INTERFACE: u64 = 6;
+
+    /// Nothing takes this long.
+    const WATCHDOG: Duration = Duration::from_secs(60);
+
+    const SIGABRT: i32 = 6;
+
+    /// Runs a command line with allocations that fail: `FIRST LAST ARGUMENTS…`.
+    pub(crate) fn child(mut arguments: impl Iterator<Item = OsString>) -> ExitCode {
+        let mut number = || arguments.next()?.to_str()?.parse().ok();
+        let (first, last) = number().zip(number()).expect("two numbers");
+        let command = cli::parse([OsString::from("halflight")].into_iter().chain(arguments));
+        failing::fail(first, last);
+        let code = match command {
+            Ok(cli::Command::Render(work)) => cli::exit_code(&batch::render(&work)),
+            Ok(cli::Command::Check(work)) => cli::exit_code(&batch::check(&work)),
+            Ok(cli::Command::Interface(options)) => cli::interface_exit_code(&ui::run(&options)),
+            Err(stop) => panic!("{}", stop.text),
+        };
+        let count = failing::count();
+        failing::fail(u64::MAX, u64::MAX);
+        if first == u64::MAX {
+            eprintln!("{count} allocations");
+        }
+        ExitCode::from(code)
+    }
+
+    fn scenes() -> &'static Path {
+        Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes"))
+    }
+
+    fn run(arguments: &str, first: u64, last: u64) -> Output {
+        let mut command = Command::new(env::current_exe().expect("this program"));
+        command.args([CHILD, &first.to_string(), &last.to_string()]);
+        command.args(arguments.split(' ')).current_dir(scenes());
+        command.env_remove("RUST_BACKTRACE");
+        command.output().expect("it starts")
+    }
+
+    /// The numbers of allocations to fail among so many: the first ones, where little is there yet, and
+    /// some of all others.
+    fn samples(count: u64, samples: u64) -> impl Iterator<Item = u64> {
+        (1..=samples).map(move |sample| (count * sample * sample).div_ceil(samples * samples))
+    }
+
+    /// Each failure ends with an exit code and a message, or an abort that says why.
+    pub(crate) fn headless(arguments: &str, failures: u64) {
+        let whole = run(arguments, u64::MAX, u64::MAX);
+        let said = String::from_utf8_lossy(&whole.stderr).into_owned();
+        assert!(whole.status.success(), "{arguments}: {said}");
+        let count = said.lines().last().and_then(|line| line.split(' ').next());
+        let count: u64 = count.and_then(|count| count.parse().ok()).expect("a count");
+        for first in samples(count, failures) {
+            for last in [first, u64::MAX] {
+                let ended = run(arguments, first, last);
+                let said = String::from_utf8_lossy(&ended.stderr);
+                let what = format!(
+                    "{arguments}: allocations {first} to {last}: {:?}: {said}",
+                    ended.status
+                );
+                match (ended.status.code(), ended.status.signal()) {
+                    (Some(0), _) => {}
+                    (Some(1 | 65 | 66 | 73), _) => assert!(said.contains("error: "), "{what}"),
+                    (_, Some(SIGABRT)) => assert!(said.contains("memory allocation of "), "{what}"),
+                    _ => panic!("{what}"),
+                }
+            }
+        }
+    }
+
+    /// Whatever fails, the terminal is as it was before.
+    pub(crate) fn interface() {
+        let start = |first: u64| {
+            let mut command = CommandBuilder::new(env::current_exe().expect("this program"));
+            let (first, last) = (first.to_string(), first.to_string());
+            command.args([CHILD, &first, &last, "default.ray", "--threads", "1"]);
+            let home = tempfile::tempdir().expect("a folder");
+            let state = home.path().to_string_lossy().into_owned();
+            let session = Session::run(command, scenes(), (100, 30), &[("HOME", &state)]);
+            (session, home)
+        };
+        let end = |mut session: Session| {
+            let deadline = Instant::now() + WATCHDOG;
+            let mut has_quit = false;
+            while session.ended().is_none() {
+                assert!(Instant::now() < deadline, "it runs on:\n{}", session.text());
+                session.read(Duration::from_millis(5));
+                if !has_quit && session.text().contains("64 spp") {
+                    has_quit = true;
+                    session.send("q");
+                }
+            }
+            session.end();
+            session.assert_restored();
+            session.text()
+        };
+        let said = end(start(u64::MAX).0);
+        let count = said
+            .split_whitespace()
+            .next()
+            .and_then(|count| count.parse().ok());
+        for first in samples(count.expect("a count"), INTERFACE) {
+            let (session, _home) = start(first);
+            end(session);
+        }
+    }
+}
