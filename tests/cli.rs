@@ -550,7 +550,7 @@ fn whatever_the_limit_on_memory_it_is_done_or_refused() {
     place.write("many.ray", spheres(100_000));
     let mut refused = 0;
     // From too little for the program's threads to more than enough, in kilobytes.
-    for limit in (4..=26).step_by(2).map(|limit| limit * 10_000) {
+    for limit in (8..=30).step_by(2).map(|limit| limit * 10_000) {
         for line in ["check many.ray", "render many.ray -o -"] {
             let output = in_shell(&place, &format!("ulimit -v {limit}"), line);
             let told = String::from_utf8_lossy(&output.stderr);
@@ -575,11 +575,14 @@ fn whatever_the_limit_on_memory_it_is_done_or_refused() {
 fn bytes_that_are_no_text_end_with_65() {
     let place = Place::new();
     place.write("start.ray", [0; 5000]);
-    place.write("late.ray", format!("{BALL}{}\0", "// \n".repeat(5000)));
+    place.write(
+        "late.ray",
+        format!("{BALL}{}{}", "// \n".repeat(5000), "\0".repeat(200)),
+    );
     for (name, line) in [("start.ray", 1), ("late.ray", 5005)] {
-        let binary = "is a binary file, not text: it has a byte 0x00 in line";
+        let binary = "is a binary file, not text: it has bytes 0x00 from line";
         let told = place.told(&format!("check {name}"), 65);
-        let said = format!("error: {name}: {binary} {line}\n");
+        let said = format!("error: {name}: {binary} {line} on\n");
         assert!(told.starts_with(&said), "{told}");
     }
 }

@@ -26,6 +26,9 @@ pub use target::{check_target, directory_of};
 /// The longest file that is read, in bytes: positions in a text are 32-bit numbers.
 pub const MAX_BYTES: u64 = u32::MAX as u64;
 
+/// A text with more zeros than this is none.
+const MOST_ZEROS: usize = 100;
+
 /// Longer files may be worked on side by side.
 const WITHOUT_THREADS: u64 = 1 << 14;
 
@@ -71,8 +74,8 @@ pub enum ReadError {
     /// It is too long to be read without threads.
     #[error(transparent)]
     NoThreads(#[from] NoThreads),
-    /// It holds bytes that no text has.
-    #[error("{path}: is a binary file, not text: it has a byte 0x00 in line {line}", path = path.display())]
+    /// It holds many bytes that no text has.
+    #[error("{path}: is a binary file, not text: it has bytes 0x00 from line {line} on", path = path.display())]
     Binary {
         /// The file.
         path: PathBuf,
@@ -101,7 +104,7 @@ pub enum ReadError {
     },
 }
 
-/// Reads a scene file: a regular file of at most [`MAX_BYTES`] bytes in UTF-8, without zeros.
+/// Reads a scene file: a regular file of at most [`MAX_BYTES`] bytes in UTF-8, with few zeros.
 pub fn read_text(path: &Path) -> Result<String, ReadError> {
     let file = open(path)?;
     if let Some(line) = binary_start(&file) {
@@ -111,7 +114,7 @@ pub fn read_text(path: &Path) -> Result<String, ReadError> {
         });
     }
     let text = decode(path, read_opened(&file, path, MAX_BYTES)?)?;
-    match text.bytes().position(|byte| byte == 0) {
+    match first_zero(text.as_bytes()) {
         None => Ok(text),
         Some(at) => Err(ReadError::Binary {
             path: path.to_owned(),
@@ -135,8 +138,16 @@ fn binary_start(file: &File) -> Option<usize> {
     if start.starts_with(&[0xFF, 0xFE]) || start.starts_with(&[0xFE, 0xFF]) {
         return None;
     }
-    let at = start.iter().position(|&byte| byte == 0)?;
-    Some(line_of(&start[..at]))
+    Some(line_of(&start[..first_zero(start)?]))
+}
+
+/// The first zero of bytes that are no text; none where there are so few that each is worth a message.
+fn first_zero(bytes: &[u8]) -> Option<usize> {
+    let zeros = bytes.iter().filter(|&&byte| byte == 0).count();
+    if zeros <= MOST_ZEROS {
+        return None;
+    }
+    bytes.iter().position(|&byte| byte == 0)
 }
 
 /// Reads bytes from a file's beginning without moving on.
