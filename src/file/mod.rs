@@ -143,7 +143,7 @@ fn binary_start(file: &File) -> Option<usize> {
 
 /// The first zero of bytes that are no text; none where there are so few that each is worth a message.
 fn first_zero(bytes: &[u8]) -> Option<usize> {
-    let zeros = bytes.iter().filter(|&&byte| byte == 0).count();
+    let zeros: usize = bytes.iter().map(|&byte| usize::from(byte == 0)).sum();
     if zeros <= MOST_ZEROS {
         return None;
     }
@@ -167,7 +167,7 @@ fn read_start(mut file: &File, start: &mut [u8]) -> io::Result<usize> {
 
 /// The number of the line that begins before the end of some bytes, from 1.
 fn line_of(before: &[u8]) -> usize {
-    1 + before.iter().filter(|&&byte| byte == b'\n').count()
+    before.split(|&byte| byte == b'\n').count()
 }
 
 fn decode(path: &Path, bytes: Vec<u8>) -> Result<String, ReadError> {

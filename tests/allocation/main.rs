@@ -29,7 +29,7 @@ fn main() -> std::process::ExitCode {
 fn main() {}
 
 #[cfg(unix)]
-use unix::*;
+use unix::{CHILD, WORK, child, headless, interface};
 
 #[cfg(unix)]
 mod unix {
