@@ -201,7 +201,7 @@ impl Gate {
     }
 
     /// The folders that may be read, in words.
-    fn allowed(&self) -> String {
+    pub(super) fn allowed(&self) -> String {
         let named = self.named.iter().map(|(_, folder)| folder);
         let folders = self.near.last().into_iter().chain(named);
         let folders: Vec<_> = folders

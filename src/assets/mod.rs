@@ -145,6 +145,11 @@ impl Assets {
         }
     }
 
+    /// The folders that files of a scene may be read below, in words.
+    pub fn allowed(&self, scene: &Path) -> String {
+        Gate::new(scene, &self.folders, self.home.as_deref()).allowed()
+    }
+
     fn gate(&self, wanted: &Wanted) -> Gate {
         Gate::new(&wanted.scene, &self.folders, self.home.as_deref())
     }

@@ -7,6 +7,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::Document;
 use super::hunks::{Chunks, Hunk, hunks};
 use super::windows::{Change, Window, widening, windows};
 use crate::format::Format;
@@ -59,9 +60,30 @@ enum Piece {
     Conflict(usize),
 }
 
+impl Side {
+    /// The other text.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Mine => Self::Theirs,
+            Self::Theirs => Self::Mine,
+        }
+    }
+}
+
+impl Conflict {
+    /// What one of the texts says there.
+    pub fn said(&self, side: Side) -> &str {
+        match side {
+            Side::Mine => &self.mine,
+            Side::Theirs => &self.theirs,
+        }
+    }
+}
+
 impl Merge {
     /// Merges the changes of two texts against their common ancestor.
-    pub(super) fn new(
+    pub fn new(
         format: Format,
         base: &Arc<String>,
         mine: &Arc<String>,
@@ -78,6 +100,11 @@ impl Merge {
             mine: Arc::clone(mine),
             theirs: Arc::clone(theirs),
         }
+    }
+
+    /// Whether the text under edit still is the one that it started from.
+    pub fn is_of(&self, document: &Document) -> bool {
+        Arc::ptr_eq(&self.mine, &document.text)
     }
 
     /// The merged text under the decisions made so far.

@@ -12,6 +12,7 @@ mod windows;
 
 pub use merge::{Conflict, Merge, Side};
 pub use snapshot::{Merged, Snapshot};
+pub use windows::differences;
 
 use std::sync::Arc;
 
@@ -41,7 +42,7 @@ pub enum Adopted {
     Taken,
     /// The text was edited since, and conflicts are open again; nothing was touched.
     Conflict(Merge),
-    /// The text saved is another one since; nothing was touched.
+    /// The text, or the text saved, is another one since; nothing was touched.
     OutOfDate,
 }
 
@@ -161,11 +162,6 @@ impl Document {
         changed
     }
 
-    /// How many places of another text differ from this one: numbers and words, or runs of them.
-    pub fn differences(&self, other: &str) -> usize {
-        windows::differences(self.format, &self.text, other)
-    }
-
     /// Notes that `text` was written to the file; it need not be the present text, which may have
     /// been edited while it was written.
     pub fn mark_saved(&mut self, text: Arc<String>) {
@@ -220,6 +216,18 @@ impl Document {
         self.edit(&merge.edits());
         self.history.settle();
         self.set_saved(merge.theirs);
+        Adopted::Taken
+    }
+
+    /// Takes the outcome of a merge of this text with edits from elsewhere, as one undoable step; the
+    /// text saved stays the same. Unlike for [`Document::adopt`], the text from outside is the edited
+    /// one.
+    pub fn restore(&mut self, merge: &Merge) -> Adopted {
+        if merge.mine != self.text {
+            return Adopted::OutOfDate;
+        }
+        self.edit(&merge.edits());
+        self.history.settle();
         Adopted::Taken
     }
 

@@ -118,7 +118,7 @@ fn lines_around(text: &str, span: Span, margin: usize) -> Span {
 }
 
 /// How many places of another text differ from one: leaves, or runs of them.
-pub(super) fn differences(format: Format, text: &str, other: &str) -> usize {
+pub fn differences(format: Format, text: &str, other: &str) -> usize {
     let change = Change::between(text, other);
     widening(format, |margin| {
         let mut count = 0;

@@ -10,7 +10,9 @@ use std::time::Duration;
 
 use super::recovery;
 use super::terminal::interview::{self, Answers};
-use super::terminal::{Choice, ColourDepth, default_bandwidth, query, tmux};
+use super::terminal::{Budget, Choice, ColourDepth, query, tmux};
+use crate::assets::Assets;
+use crate::memory::{self, Available};
 use crate::text::{counted, visible};
 
 /// Synchronized output.
@@ -44,6 +46,7 @@ pub fn examine(scene: Option<&Path>) -> String {
         ("changes", changes(&folder)),
         ("threads", threads()),
         ("processor", vec![processor()]),
+        ("memory", memory_limits()),
         ("folders", folders(scene, &folder)),
     ];
     let mut text = String::new();
@@ -146,13 +149,18 @@ fn synchronized(answers: Option<&Answers>) -> Vec<String> {
 }
 
 fn link(variable: impl Fn(&str) -> Option<String>) -> Vec<String> {
-    vec![match default_bandwidth(variable) {
-        Some(rate) => format!(
-            "{} KB/s for pictures, as the terminal is at the other end of SSH; --bandwidth sets it",
+    let words = match Budget::of_environment(variable) {
+        Budget::Measured => {
+            "the terminal is at the other end of SSH: pictures follow what the line takes"
+                .to_owned()
+        }
+        Budget::Fixed(rate @ 1..) => format!(
+            "a multiplexer at the other end of SSH: {} KB/s for pictures",
             rate / 1000
         ),
-        None => "local: no limit; --bandwidth sets one".to_owned(),
-    }]
+        Budget::Fixed(0) | Budget::Local => "local: no limit".to_owned(),
+    };
+    vec![format!("{words}; --bandwidth sets a limit")]
 }
 
 fn changes(folder: &Path) -> Vec<String> {
@@ -222,21 +230,33 @@ fn processor() -> String {
     }
 }
 
+/// What each limit on memory leaves, the one that counts first.
+fn memory_limits() -> Vec<String> {
+    let mut limits = memory::limits();
+    limits.sort_by_key(|available| available.bytes);
+    if limits.is_empty() {
+        return vec!["no limit is known".to_owned()];
+    }
+    let line = |available: &Available| {
+        let free = memory::megabytes(available.bytes);
+        format!("{free} left by {}", available.limit)
+    };
+    limits.iter().map(line).collect()
+}
+
 fn folders(scene: Option<&Path>, folder: &Path) -> Vec<String> {
     let current = std::env::current_dir();
     let current = current.map_or_else(|error| error.to_string(), |path| path.display().to_string());
-    let kept = match recovery::folder() {
+    let kept = match recovery::state() {
         Ok(folder) => folder.display().to_string(),
         Err(error) => format!("nowhere: {error}"),
     };
-    let above = std::path::absolute(folder).ok();
-    let above = above.as_deref().and_then(Path::parent);
-    let scene = scene.map_or_else(|| "a scene".to_owned(), |scene| scene.display().to_string());
-    let above = above.map_or_else(|| "/".to_owned(), |above| above.display().to_string());
+    let scene = scene.map_or_else(|| folder.join("scene"), Path::to_owned);
+    let readable = Assets::new(&[]).allowed(&scene);
     vec![
         format!("current: {current}"),
         format!("unsaved edits are kept in {kept}"),
-        format!("{scene} here may read pictures and meshes below {above}; --assets adds folders"),
+        format!("pictures and meshes are read below {readable}; --assets adds folders"),
     ]
 }
 

@@ -13,6 +13,7 @@ use super::assets::AssetReader;
 use super::editor;
 use super::files::{Files, Task};
 use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
+use super::recovery::{self, Edits, End, Keeper, Order, Sought};
 use super::terminal::tmux;
 use super::terminal::{self, Input, Replies, Reply, Terminal};
 #[cfg(unix)]
@@ -25,9 +26,8 @@ use crate::watch::{Method, Watcher};
 /// round trips.
 const REPLY_PATIENCE: Duration = Duration::from_millis(300);
 
-/// How long unsaved edits may take to be kept, however hurried the end is: with a terminal that hung
-/// up the process has half a second.
-const KEEPING: Duration = Duration::from_millis(350);
+/// How long unsaved edits may take to be kept where the end is hurried.
+const KEEPING: Duration = Duration::from_millis(700);
 
 /// Something that came in.
 #[derive(Debug)]
@@ -57,6 +57,7 @@ pub(crate) struct World {
     sender: Sender<Event>,
     files: Files,
     writers: Writers,
+    keeper: Keeper,
     assets: AssetReader,
     threads: Option<usize>,
     preview: Option<Numbered>,
@@ -109,6 +110,7 @@ impl World {
             signals: Signals::start(tell(&sender))?,
             files: Files::start(send(&sender))?,
             writers: Writers::new(sender.clone()),
+            keeper: Keeper::start(send(&sender))?,
             assets: AssetReader::start(&options.assets, method, send(&sender))?,
             threads: options.threads,
             preview: None,
@@ -167,16 +169,16 @@ impl World {
         }
     }
 
-    /// Gives the terminal back, which may take `patience`, and then waits about as long for files
-    /// being written; whether unsaved edits are kept.
-    pub(crate) fn close(self, patience: Duration) -> bool {
-        let deadline = Instant::now() + patience;
-        self.await_replies(deadline);
-        self.terminal.close(deadline);
-        let deadline = Instant::now() + patience.max(KEEPING);
-        let is_kept = self.files.finish(deadline);
+    /// Gives the terminal back, which may take `patience`, and waits about as long for files being
+    /// written; what is left of unsaved edits.
+    pub(crate) fn close(self, patience: Duration) -> End {
+        let begun = Instant::now();
+        self.await_replies(begun + patience);
+        self.terminal.close(begun + patience);
+        let deadline = begun + patience.max(KEEPING);
+        let end = self.keeper.finish(deadline);
         self.writers.finish(deadline);
-        is_kept
+        end
     }
 
     /// Has the terminal reply when all that was sent has arrived.
@@ -248,10 +250,17 @@ impl World {
                 self.timers.push((Instant::now() + time, timer));
                 Ok(())
             }
-            Effect::WriteRecovery { scene, text } => self.files.order(Task::Keep { scene, text }),
-            Effect::DropRecovery => self.files.order(Task::Forget),
-            Effect::AdoptKept { scene, place } => self.files.order(Task::Adopt { scene, place }),
-            Effect::DropKept(place) => self.files.order(Task::Discard(place)),
+            Effect::WriteRecovery {
+                scene,
+                known,
+                revision,
+            } => self
+                .keeper
+                .order(Order::Keep(revision, Edits { scene, known })),
+            Effect::DropRecovery => self.keeper.order(Order::Forget),
+            Effect::LookForKept(sought) => self.look_for_kept(sought),
+            Effect::AdoptKept(claim) => self.keeper.order(Order::Adopt(claim)),
+            Effect::DropKept(claim) => self.keeper.order(Order::Discard(claim)),
             Effect::OpenEditor { path, line } => {
                 return Some(Msg::EditorClosed(self.open_editor(&path, line)));
             }
@@ -328,6 +337,13 @@ impl World {
             Target::Trace => self.trace = None,
             Target::Export => self.export = None,
         }
+    }
+
+    fn look_for_kept(&self, sought: Sought) -> Result<(), String> {
+        let sender = self.sender.clone();
+        recovery::look_for(sought, move |msg| {
+            let _ = sender.send(Event::Msg(msg));
+        })
     }
 
     fn watch(&mut self, path: PathBuf) -> Result<(), String> {

@@ -1,5 +1,4 @@
-//! The thread that reads scene files and writes the edits kept for the next run, one task after the
-//! other.
+//! The thread that reads scene files, one after the other.
 
 use std::any::Any;
 use std::collections::VecDeque;
@@ -8,15 +7,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
-use std::time::{Duration, Instant};
 
 use super::msg::Msg;
 use super::reading::{Known, Understanding};
-use super::recovery::{self, Journal};
 use crate::file::{self, ReadError};
-
-/// How long the end of the program waits for a disk that does not answer.
-pub(super) const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Work for the thread.
 pub(super) enum Task {
@@ -24,27 +18,11 @@ pub(super) enum Task {
     /// Have what was read understood.
     Understand(PathBuf, Result<String, ReadError>, Known),
     Free(Arc<dyn Any + Send + Sync>),
-    /// Keep the unsaved edits of this scene, which is the one without a file if it has no path.
-    Keep {
-        scene: Option<PathBuf>,
-        text: Arc<String>,
-    },
-    /// Make what an earlier run kept this one's.
-    Adopt {
-        scene: Option<PathBuf>,
-        place: PathBuf,
-    },
-    /// Forget what this run has kept.
-    Forget,
-    /// Forget what an earlier run kept.
-    Discard(PathBuf),
 }
 
-/// The thread's handle.
+/// The thread's handle. Its end is not waited for: nothing is lost with it.
 pub(super) struct Files {
     tasks: Sender<Task>,
-    /// Whether edits are kept, told at the end.
-    kept: Receiver<bool>,
 }
 
 impl Files {
@@ -52,34 +30,23 @@ impl Files {
     pub(super) fn start(send: impl Fn(Msg) + Clone + Send + 'static) -> io::Result<Self> {
         let understanding = Understanding::start(send.clone())?;
         let (tasks, inbox) = mpsc::channel();
-        let (tell, kept) = mpsc::channel();
         let work = move || {
-            let mut journal = Journal::default();
             let mut waiting = VecDeque::new();
             while let Some(task) = next(&inbox, &mut waiting) {
-                let came = perform(task, &mut waiting, &mut journal, &understanding);
+                let came = perform(task, &mut waiting, &understanding);
                 came.into_iter().for_each(&send);
             }
-            // A program that has lost its patience is gone.
-            let _ = tell.send(journal.is_kept());
         };
         thread::Builder::new()
             .name("files".to_owned())
             .spawn(work)?;
-        Ok(Self { tasks, kept })
+        Ok(Self { tasks })
     }
 
     /// Has a task done after those before.
     pub(super) fn order(&self, task: Task) -> Result<(), String> {
         let sent = self.tasks.send(task);
-        sent.map_err(|_| "the thread that reads and writes files has ended".to_owned())
-    }
-
-    /// Waits until all is done, or the time has come; whether edits are kept for the next run.
-    pub(super) fn finish(self, deadline: Instant) -> bool {
-        drop(self.tasks);
-        let patience = deadline.saturating_duration_since(Instant::now());
-        self.kept.recv_timeout(patience).unwrap_or(false)
+        sent.map_err(|_| "the thread that reads files has ended".to_owned())
     }
 }
 
@@ -104,41 +71,23 @@ fn next(inbox: &Receiver<Task>, waiting: &mut VecDeque<Task>) -> Option<Task> {
     }
 }
 
-fn perform(
-    task: Task,
-    waiting: &mut VecDeque<Task>,
-    journal: &mut Journal,
-    understanding: &Understanding,
-) -> Option<Msg> {
-    let (done, words) = match task {
+fn perform(task: Task, waiting: &mut VecDeque<Task>, understanding: &Understanding) -> Option<Msg> {
+    match task {
         Task::Read(path, known) => {
             let read = file::read_text(&path);
             // Unless the file has changed again by now.
             waiting.push_front(Task::Understand(path, read, known));
-            return None;
+            None
         }
         Task::Free(unneeded) => {
             drop(unneeded);
-            return None;
+            None
         }
         Task::Understand(path, read, known) => {
-            return understanding
-                .order(path, read, known)
-                .err()
-                .map(Msg::Failed);
+            let ordered = understanding.order(path, read, known);
+            ordered.err().map(Msg::Failed)
         }
-        Task::Keep { scene, text } => (
-            journal.write(scene, &text),
-            "the unsaved edits can't be kept",
-        ),
-        Task::Adopt { scene, place } => {
-            (journal.adopt(scene, place), "the kept edits can't be used")
-        }
-        Task::Forget => (journal.forget(), "the kept edits can't be removed"),
-        Task::Discard(place) => (recovery::remove(&place), "the kept edits can't be removed"),
-    };
-    done.err()
-        .map(|error| Msg::Failed(format!("{words}: {error}")))
+    }
 }
 
 #[cfg(test)]

@@ -19,7 +19,7 @@ mod files;
 pub mod keymap;
 pub mod msg;
 pub mod reading;
-mod recovery;
+pub mod recovery;
 mod session;
 pub mod terminal;
 pub mod view;
@@ -153,9 +153,8 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
         mouse: options.mouse,
         terminal: (size.width, size.height),
     };
-    let recovered = recovery::find(opening.path.as_deref());
     let (app, effects) = App::open(opening);
-    Ok(session::run(options, app, effects, recovered)?)
+    Ok(session::run(options, app, effects)?)
 }
 
 /// The scene to open: its path, unless it is the built-in one, its language and its text.

@@ -8,9 +8,11 @@ use std::time::Duration;
 use crossterm::event::{KeyEvent, MouseEvent};
 
 use crate::assets::{Loaded, Wanted};
+use crate::document::Snapshot;
 use crate::file::ReadError;
 use crate::render::{Frame, Job};
 use crate::ui::reading::{Known, Reading};
+use crate::ui::recovery::{Claim, Found, Sought};
 use crate::ui::terminal::{ColourDepth, Mouse};
 
 /// Which picture a frame belongs to.
@@ -71,7 +73,9 @@ pub enum Msg {
     /// The external editor has ended.
     EditorClosed(Result<(), String>),
     /// Edits of an earlier run that were never saved were found.
-    Recovered(Kept),
+    Recovered(Found),
+    /// The text of this revision is kept for the next run; or why not.
+    Kept(u64, Result<(), String>),
     /// Someone outside asks the process to stop for a while.
     Suspend,
     /// The process goes on after a stop.
@@ -88,15 +92,6 @@ pub enum Msg {
     Failed(String),
 }
 
-/// Edits that an earlier run kept.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Kept {
-    /// Where.
-    pub place: PathBuf,
-    /// The whole text.
-    pub text: String,
-}
-
 /// What a while was awaited for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Timer {
@@ -106,7 +101,7 @@ pub enum Timer {
     Interrupt,
     /// A second click.
     Click,
-    /// More edits, which are kept together.
+    /// More edits, which are kept together; or another try to keep them.
     Keep,
     /// Files that are being written.
     Writing,
@@ -163,24 +158,23 @@ pub enum Effect {
     ReadAssets(Wanted),
     /// Send [`Msg::Elapsed`] after a while; the same timer set again starts anew.
     Later(Duration, Timer),
-    /// Keep the text of unsaved edits for the next run.
+    /// Keep unsaved edits for the next run: [`Msg::Kept`].
     WriteRecovery {
         /// The scene; `None` is the one without a file.
         scene: Option<PathBuf>,
-        /// The text.
-        text: Arc<String>,
+        /// The text that they started from, and the text under edit.
+        known: Snapshot,
+        /// The revision of the text under edit.
+        revision: u64,
     },
     /// Forget what this run has kept for the next one.
     DropRecovery,
-    /// Make what an earlier run kept what this one keeps.
-    AdoptKept {
-        /// The scene; `None` is the one without a file.
-        scene: Option<PathBuf>,
-        /// [`Kept::place`].
-        place: PathBuf,
-    },
+    /// Look for edits that an earlier run kept: [`Msg::Recovered`] if there are any.
+    LookForKept(Sought),
+    /// Forget what an earlier run kept once this run's edits are kept or forgotten.
+    AdoptKept(Arc<Claim>),
     /// Forget what an earlier run kept.
-    DropKept(PathBuf),
+    DropKept(Arc<Claim>),
     /// Lend the terminal to the user's editor, at a line: [`Msg::EditorClosed`].
     OpenEditor {
         /// The file.

@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use super::app::App;
 use super::effects::{Event, World};
-use super::msg::{Effect, Kept, Msg, Target};
+use super::msg::{Effect, Msg, Target};
+use super::recovery::End;
 use super::terminal::{self, Budget, Choice, ColourDepth, Link, Reply, query};
 use super::view::{self, Inks};
 use super::{Ending, Options};
@@ -17,12 +18,7 @@ use crate::text;
 const FRAME_TIME: Duration = Duration::from_millis(33);
 
 /// Runs the interface until it is left.
-pub(crate) fn run(
-    options: &Options,
-    app: App,
-    effects: Vec<Effect>,
-    recovered: Option<Kept>,
-) -> io::Result<Ending> {
+pub(crate) fn run(options: &Options, app: App, effects: Vec<Effect>) -> io::Result<Ending> {
     let (sender, inbox) = mpsc::channel();
     let budget = options.bandwidth.map_or_else(
         || Budget::of_environment(|name| std::env::var(name).ok()),
@@ -41,9 +37,6 @@ pub(crate) fn run(
     };
     session.ask_for_colours(options)?;
     session.perform(effects);
-    if let Some(kept) = recovered {
-        session.step(Msg::Recovered(kept));
-    }
     session.run();
     Ok(session.close())
 }
@@ -153,14 +146,16 @@ impl Session {
 
     /// Gives the terminal back, and says there where unsaved edits went.
     fn close(self) -> Ending {
-        let path = self.app.path.map_or_else(String::new, |path| {
-            format!(" {}", text::visible(&path.to_string_lossy()))
-        });
-        if self.world.close(patience(self.ending)) {
-            terminal::complain(format!(
-                "unsaved edits are kept; halflight{path} offers them"
-            ));
-        }
+        let path = self
+            .app
+            .path
+            .map_or_else(String::new, |path| format!(" {}", path.display()));
+        let words = match self.world.close(patience(self.ending)) {
+            End::Nothing => return self.ending,
+            End::Kept => format!("unsaved edits are kept; halflight{path} offers them"),
+            End::Lost(reason) => format!("not all unsaved edits are kept: {reason}"),
+        };
+        terminal::complain(text::visible(&words).into_owned());
         self.ending
     }
 

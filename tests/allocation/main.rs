@@ -76,10 +76,11 @@ mod unix {
         let (first, last) = number().zip(number()).expect("two numbers");
         let command = cli::parse([OsString::from("halflight")].into_iter().chain(arguments));
         failing::fail(first, last);
-        let code = match command {
-            Ok(cli::Command::Render(work)) => cli::exit_code(&batch::render(&work)),
-            Ok(cli::Command::Check(work)) => cli::exit_code(&batch::check(&work)),
-            Ok(cli::Command::Interface(options)) => cli::interface_exit_code(&ui::run(&options)),
+        let code = match &command {
+            Ok(cli::Command::Render(work)) => cli::exit_code(&batch::render(work)),
+            Ok(cli::Command::Check(work)) => cli::exit_code(&batch::check(work)),
+            Ok(cli::Command::Interface(options)) => cli::interface_exit_code(&ui::run(options)),
+            Ok(cli::Command::Doctor(_)) => panic!("{command:?} is not tested here"),
             Err(stop) => panic!("{}", stop.text),
         };
         let count = failing::count();

@@ -76,7 +76,7 @@ fn unsaved_edits_outlive_the_process() {
         assert_eq!(place.read("balls.ray"), BALLS);
         let kept = place.recovery_files();
         assert_eq!(kept.len(), 1, "after {signal:?}");
-        assert_eq!(fs::read_to_string(&kept[0]).expect("a text"), edited());
+        assert_eq!(place.kept_texts(), [edited()]);
         let mode = fs::metadata(&kept[0]).expect("a file").permissions().mode();
         assert_eq!(mode & 0o777, 0o600);
 
@@ -90,38 +90,6 @@ fn unsaved_edits_outlive_the_process() {
         quit(session);
         assert_eq!(place.recovery_files(), [] as [PathBuf; 0]);
     }
-}
-
-#[test]
-fn edits_outlive_a_crash_and_a_run_that_leaves_them_undecided() {
-    let place = Place::new();
-    let mut session = place.open_edited();
-    let is_kept = || {
-        let mut kept = place.recovery_files().into_iter();
-        kept.any(|file| fs::read_to_string(file).is_ok_and(|text| text == edited()))
-    };
-    while !is_kept() {
-        session.drain(Duration::from_millis(1));
-    }
-    kill(session.process_id(), Signal::KILL);
-    session.end();
-
-    let question = "Edits of an earlier run of balls.ray were never saved";
-    let mut session = place.start(&["balls.ray"], WIDE);
-    session.wait_for(question);
-    session.send(ESC);
-    wait_until_gone(&mut session, question);
-    session.send("G\rj2\rw");
-    session.wait_for("wrote balls.ray");
-    quit(session);
-    assert!(is_kept());
-
-    let mut session = place.start(&["balls.ray"], WIDE);
-    session.wait_for(question);
-    session.send("d");
-    wait_until_gone(&mut session, question);
-    quit(session);
-    assert!(!is_kept());
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod editing;
 mod endings;
 #[path = "../harness/mod.rs"]
 mod harness;
+mod journals;
 mod looks;
 
 use std::fs;
@@ -106,6 +107,26 @@ impl Place {
             .map(|entry| entry.expect("an entry").path())
             .filter(|path| path.extension().is_some_and(|extension| extension == "ray"))
             .collect()
+    }
+}
+
+impl Place {
+    /// The texts that journals hold, each by its last edit.
+    fn kept_texts(&self) -> Vec<String> {
+        let journals = self.recovery_files().into_iter();
+        let texts = journals.filter_map(|journal| {
+            let content = fs::read_to_string(journal).ok()?;
+            let edits = content.match_indices("\nedit ");
+            // A torn edit at the end does not count.
+            let whole = edits.filter_map(|(at, _)| {
+                let (line, below) = content[at + 1..].split_once('\n')?;
+                let length: usize = line.split(' ').nth(3)?.parse().ok()?;
+                let text = below.get(..length)?;
+                below[length..].starts_with('\n').then(|| text.to_owned())
+            });
+            whole.last()
+        });
+        texts.collect()
     }
 }
 

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::cursor::Held;
-use super::model::{Reader, Settle};
+use super::model::{Outside, Reader, Settle};
 use super::{App, Broken, Dialog, Disk, PromptKind};
-use crate::document::{Adopted, Side};
+use crate::document::Adopted;
 use crate::file::ReadError;
 use crate::scene::Lowered;
 use crate::text::{Edit, Findings, Position, smallest_edit};
@@ -107,7 +107,11 @@ impl App {
     fn take_text(&mut self, reading: Reading, is_final: bool) -> Vec<Effect> {
         let reader = std::mem::take(&mut self.pending.reader);
         // A merge that was being decided is out of date, whatever the file holds now.
-        if let Some(Dialog::Conflict { .. }) = self.dialog {
+        if let Some(Dialog::Conflict {
+            from: Outside::File,
+            ..
+        }) = self.dialog
+        {
             self.dialog = None;
         }
         let Some(news) = reading.news else {
@@ -140,7 +144,8 @@ impl App {
             }
             News::Conflict(merge) => {
                 self.disk = Disk::Changed;
-                self.dialog = Some(Dialog::Conflict { merge, at: 0 });
+                let from = Outside::File;
+                self.dialog = Some(Dialog::Conflict { merge, at: 0, from });
                 return Vec::new();
             }
             News::Broken(text, diagnostics) => {
@@ -240,12 +245,12 @@ impl App {
     }
 
     pub(super) fn decide(&mut self, action: Action) {
-        let Some(Dialog::Conflict { merge, at }) = &mut self.dialog else {
+        let Some(Dialog::Conflict { merge, at, from }) = &mut self.dialog else {
             return;
         };
         let side = match action {
-            Action::Mine | Action::AllMine => Side::Mine,
-            _ => Side::Theirs,
+            Action::Mine | Action::AllMine => from.mine(),
+            _ => from.mine().other(),
         };
         if let Action::AllMine | Action::AllTheirs = action {
             for conflict in &mut merge.conflicts {
@@ -258,23 +263,28 @@ impl App {
     }
 
     /// Takes a merge once all is decided.
-    pub(super) fn adopt(&mut self) {
+    pub(super) fn adopt(&mut self) -> Vec<Effect> {
         let Some(Dialog::Conflict { merge, .. }) = &mut self.dialog else {
-            return;
+            return Vec::new();
         };
         if let Some(open) = merge.conflicts.iter().position(|c| c.decision.is_none()) {
             if let Some(Dialog::Conflict { at, .. }) = &mut self.dialog {
                 *at = open;
             }
             self.warn("decide every conflict first: m mine, t the file's");
-            return;
+            return Vec::new();
         }
-        let Some(Dialog::Conflict { merge, .. }) = self.dialog.take() else {
-            return;
+        let Some(Dialog::Conflict { merge, from, .. }) = self.dialog.take() else {
+            return Vec::new();
         };
+        if let Outside::Kept(claim, since) = from {
+            return self.restore_merged(&merge, claim, since);
+        }
         let held = self.hold();
         match self.document.adopt(merge) {
-            Adopted::Conflict(merge) => self.dialog = Some(Dialog::Conflict { merge, at: 0 }),
+            Adopted::Conflict(merge) => {
+                self.dialog = Some(Dialog::Conflict { merge, at: 0, from });
+            }
             Adopted::Taken => {
                 self.disk = Disk::Known;
                 let edit = smallest_edit(&held.text, self.document.text());
@@ -282,6 +292,7 @@ impl App {
             }
             Adopted::OutOfDate => self.warn("the file was saved since: nothing is merged"),
         }
+        Vec::new()
     }
 
     /// Opens the user's editor where the cursor is.

@@ -1,56 +1,114 @@
-//! Unsaved edits that outlive the program: keeping them, and taking those of an earlier run.
+//! Unsaved edits that outlive the program: keeping them.
 
 use std::time::Duration;
 
-use super::{App, Dialog};
-use crate::text::smallest_edit;
+use super::App;
+use super::model::Await;
 use crate::ui::msg::{Effect, Timer};
 
 /// How long an edit may be lost with the program, and how seldom a held key is written down.
 const KEPT_AFTER: Duration = Duration::from_secs(1);
 
+/// The longest time between two tries to keep the same edits.
+const PATIENCE: Duration = Duration::from_secs(30);
+
 impl App {
     /// Sees to it that unsaved edits, or that there are none any more, are written down soon.
     pub(super) fn follow_edits(&mut self) -> Option<Effect> {
-        if self.pending.keeping.due || self.is_kept() {
+        let revision = self.document.revision();
+        let waits = match self.pending.keeping.awaits {
+            Await::Nothing => false,
+            Await::Edits => true,
+            // What is new is tried at once.
+            Await::Retry(failed) => failed == revision && self.document.is_dirty(),
+        };
+        if waits || self.is_kept() {
             return None;
         }
-        self.pending.keeping.due = true;
+        self.pending.keeping.awaits = Await::Edits;
         Some(Effect::Later(KEPT_AFTER, Timer::Keep))
     }
 
-    /// Whether what is kept is what would be lost.
+    /// Whether what is kept, or about to be, is what would be lost.
     fn is_kept(&self) -> bool {
-        match self.pending.keeping.revision {
+        let keeping = &self.pending.keeping;
+        match keeping.ordered.or(keeping.revision) {
             Some(kept) => kept == self.document.revision() && self.document.is_dirty(),
             None => !self.document.is_dirty(),
         }
     }
 
+    /// Whether unsaved edits would be lost with the program though they should be kept by now.
+    pub fn fails_to_keep(&self) -> bool {
+        self.pending.keeping.trouble.is_some() && self.document.is_dirty()
+    }
+
     pub(super) fn keep_edits(&mut self) -> Vec<Effect> {
-        self.pending.keeping.due = false;
-        if self.is_kept() {
+        if self.document.is_dirty() && self.is_kept() {
+            self.pending.keeping.awaits = Await::Nothing;
             return Vec::new();
         }
+        self.keep_the_rest()
+    }
+
+    /// Keeps edits that the journal does not hold, or holds as edits of a text that the file no
+    /// longer says.
+    pub(super) fn keep_the_rest(&mut self) -> Vec<Effect> {
+        self.pending.keeping.awaits = Await::Nothing;
         if !self.document.is_dirty() {
-            self.pending.keeping.revision = None;
-            return vec![Effect::DropRecovery];
+            return self.forget_edits();
         }
-        let text = self.document.shared_text();
-        self.pending.keeping.revision = Some(self.document.revision());
-        let scene = self.path.clone();
-        vec![Effect::WriteRecovery { scene, text }]
+        let revision = self.document.revision();
+        self.pending.keeping.ordered = Some(revision);
+        vec![Effect::WriteRecovery {
+            scene: self.path.clone(),
+            known: self.document.snapshot(),
+            revision,
+        }]
+    }
+
+    /// Has this run's journal removed, if there is one.
+    fn forget_edits(&mut self) -> Vec<Effect> {
+        let keeping = &mut self.pending.keeping;
+        let (kept, ordered) = (keeping.revision.take(), keeping.ordered.take());
+        keeping.trouble = None;
+        let is_any = kept.or(ordered).is_some();
+        is_any.then_some(Effect::DropRecovery).into_iter().collect()
+    }
+
+    /// Takes it that a text is kept; or has another try made, ever more seldom, saying why once.
+    pub(super) fn kept(&mut self, revision: u64, outcome: Result<(), String>) -> Vec<Effect> {
+        let keeping = &mut self.pending.keeping;
+        if keeping.ordered != Some(revision) {
+            // Forgotten since, or another order is on its way.
+            return Vec::new();
+        }
+        keeping.ordered = None;
+        let before = keeping.trouble.take();
+        let reason = match outcome {
+            Ok(()) => {
+                keeping.revision = Some(revision);
+                let is_said = |said: &str| before.is_some_and(|(_, reason)| said == words(&reason));
+                self.message.take_if(|message| is_said(&message.text));
+                return Vec::new();
+            }
+            Err(reason) => reason,
+        };
+        let doubled = |(time, _): &(Duration, String)| (2 * *time).min(PATIENCE);
+        let time = before.as_ref().map_or(KEPT_AFTER, doubled);
+        keeping.awaits = Await::Retry(revision);
+        keeping.trouble = Some((time, reason.clone()));
+        if before.is_none_or(|(_, said)| said != reason) {
+            self.fail(words(&reason));
+        }
+        vec![Effect::Later(time, Timer::Keep)]
     }
 
     /// Ends with nothing worth keeping.
     pub(super) fn leave(&mut self) -> Vec<Effect> {
-        let kept = self
-            .pending
-            .keeping
-            .revision
-            .take()
-            .map(|_| Effect::DropRecovery);
-        kept.into_iter().chain([Effect::Quit]).collect()
+        let mut effects = self.forget_edits();
+        effects.push(Effect::Quit);
+        effects
     }
 
     pub(super) fn quit_keeping_edits(&mut self) -> Vec<Effect> {
@@ -58,30 +116,9 @@ impl App {
         effects.push(Effect::Quit);
         effects
     }
+}
 
-    /// Takes the edits of an earlier run, as an edit like any other.
-    pub(super) fn restore(&mut self) -> Vec<Effect> {
-        let Some(Dialog::Recover(kept)) = self.dialog.take() else {
-            return Vec::new();
-        };
-        let edits: Vec<_> = smallest_edit(self.document.text(), &kept.text)
-            .into_iter()
-            .collect();
-        self.document.edit(&edits);
-        self.relower();
-        self.say("restored; u undoes");
-        self.pending.keeping.revision = Some(self.document.revision());
-        vec![Effect::AdoptKept {
-            scene: self.path.clone(),
-            place: kept.place,
-        }]
-    }
-
-    /// Throws the edits of an earlier run away.
-    pub(super) fn decline(&mut self) -> Vec<Effect> {
-        match self.dialog.take() {
-            Some(Dialog::Recover(kept)) => vec![Effect::DropKept(kept.place)],
-            _ => Vec::new(),
-        }
-    }
+/// What is said of edits that can't be kept.
+fn words(reason: &str) -> String {
+    format!("unsaved edits are not kept: {reason}")
 }

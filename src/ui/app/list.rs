@@ -41,7 +41,7 @@ impl App {
                 }
             }
             Context::Conflict => {
-                if let Some(Dialog::Conflict { merge, at }) = &mut self.dialog {
+                if let Some(Dialog::Conflict { merge, at, .. }) = &mut self.dialog {
                     *at = moved(*at, rows, merge.conflicts.len());
                 }
             }

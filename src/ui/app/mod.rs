@@ -21,6 +21,7 @@ mod picture;
 mod places;
 mod pointer;
 mod quit;
+mod recovering;
 mod saving;
 #[cfg(test)]
 mod tests;
@@ -30,8 +31,8 @@ mod update;
 use std::time::Duration;
 
 pub use model::{
-    App, Broken, Dialog, Disk, Export, FieldRow, Help, HelpFocus, Message, Mode, Outline, Prompt,
-    PromptKind, Quality, Source, Stage, Stride, Typing,
+    App, Broken, Dialog, Disk, Export, FieldRow, Help, HelpFocus, Message, Mode, Outline, Outside,
+    Prompt, PromptKind, Quality, Source, Stage, Stride, Typing,
 };
 pub use picture::{Picture, Shown};
 pub use update::Opening;

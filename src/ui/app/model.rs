@@ -2,19 +2,21 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 
 use tui_input::Input;
 
 use super::assets::Assets;
 use super::picture::Picture;
 use super::saving::Saves;
-use crate::document::{Document, Merge};
+use crate::document::{Document, Merge, Side};
 use crate::render::{Aov, Filter, Progress};
 use crate::scene::fields::Field;
 use crate::scene::{Camera, Images, Integrator, Meshes, Node, Origins, Scene, Size};
 use crate::text::{Diagnostic, Findings, Severity};
 use crate::ui::keymap::Action;
-use crate::ui::msg::{Destination, ExportId, Kept};
+use crate::ui::msg::{Destination, ExportId};
+use crate::ui::recovery::{Claim, Offer, Since};
 use crate::ui::terminal::Mouse;
 use crate::ui::view::layout::Zoom;
 
@@ -182,15 +184,36 @@ pub enum PromptKind {
 pub enum Dialog {
     /// Quit though edits are unsaved or an export is under way?
     Quit,
-    /// The file and the interface changed the same places.
+    /// The text under edit and another one changed the same places.
     Conflict {
         /// What to decide.
         merge: Merge,
         /// The conflict the cursor is on.
         at: usize,
+        /// Where the other text comes from.
+        from: Outside,
     },
     /// The edits of an earlier run that were never saved: take them?
-    Recover(Kept),
+    Recover(Box<Offer>),
+}
+
+/// Where a text comes from that is merged with the one under edit.
+#[derive(Clone, Debug)]
+pub enum Outside {
+    /// The scene's file.
+    File,
+    /// A journal.
+    Kept(Arc<Claim>, Since),
+}
+
+impl Outside {
+    /// The side of the user's own unsaved edits.
+    pub fn mine(&self) -> Side {
+        match self {
+            Self::File => Side::Mine,
+            Self::Kept(..) => Side::Theirs,
+        }
+    }
 }
 
 /// The help page.
@@ -323,6 +346,10 @@ pub(super) struct Pending {
     pub(super) sound: Option<Arc<String>>,
     /// What is kept for the next run.
     pub(super) keeping: Keeping,
+    /// Edits of an earlier run, to be asked about once nothing else is asked.
+    pub(super) offer: Option<Box<Offer>>,
+    /// The journals that the user decides about another time.
+    pub(super) put_off: Vec<String>,
     /// The export that was begun last.
     pub(super) export: ExportId,
     /// The pictures written so far: they may be overwritten.
@@ -342,8 +369,24 @@ pub(super) struct Pending {
 pub(super) struct Keeping {
     /// The revision of the document whose text is kept.
     pub(super) revision: Option<u64>,
-    /// Unsaved edits are to be kept in a moment.
-    pub(super) due: bool,
+    /// The revision whose text is being written down.
+    pub(super) ordered: Option<u64>,
+    /// What the timer runs for.
+    pub(super) awaits: Await,
+    /// Why the last try failed, and how long the next one was put off.
+    pub(super) trouble: Option<(Duration, String)>,
+}
+
+/// What the timer of kept edits runs for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Await {
+    /// It does not.
+    #[default]
+    Nothing,
+    /// Edits are to be kept in a moment.
+    Edits,
+    /// Another try for this revision.
+    Retry(u64),
 }
 
 /// Who wants the file to be read.

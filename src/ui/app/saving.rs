@@ -161,14 +161,14 @@ impl App {
                 self.disk = Disk::Known;
                 self.broken = None;
                 self.say(format!("wrote {}", path.display()));
-                let kept = self.pending.keeping.revision.take();
-                let mut effects: Vec<_> = kept.map(|_| Effect::DropRecovery).into_iter().collect();
+                let mut effects = Vec::new();
                 if self.path.as_ref() != Some(&path) {
                     self.path = Some(path);
                     effects.extend(self.watch());
                     // Files are looked for from another folder now.
                     self.relower();
                 }
+                effects.extend(self.keep_the_rest());
                 if quit {
                     self.pending.quit = true;
                     effects.extend(self.quit_when_done());

@@ -9,8 +9,8 @@ use super::assets::{Assets, STILL_READING};
 use super::model::Pending;
 use super::saving::Saves;
 use super::{
-    App, Dialog, Disk, Help, HelpFocus, Message, Mode, Outline, Picture, Prompt, PromptKind,
-    Quality, Stride, line,
+    App, Disk, Help, HelpFocus, Message, Mode, Outline, Picture, Prompt, PromptKind, Quality,
+    Stride, line,
 };
 use crate::document::Document;
 use crate::format::Format;
@@ -87,6 +87,7 @@ impl App {
         app.keep_selection();
         app.scroll();
         let mut effects = app.watch();
+        effects.push(app.look_for_kept());
         effects.extend(app.follow());
         (app, effects)
     }
@@ -97,6 +98,7 @@ impl App {
         self.scroll();
         effects.extend(self.follow());
         effects.extend(self.follow_edits());
+        effects.extend(self.follow_kept());
         effects
     }
 
@@ -125,10 +127,8 @@ impl App {
             Msg::BackupsFound(copies) => self.backups_found(&copies),
             Msg::Exported(id, outcome) => return self.exported(id, outcome),
             Msg::EditorClosed(outcome) => return self.editor_closed(outcome),
-            Msg::Recovered(kept) if kept.text != self.document.text() => {
-                self.dialog = Some(Dialog::Recover(kept));
-            }
-            Msg::Recovered(kept) => return vec![Effect::DropKept(kept.place)],
+            Msg::Recovered(found) => self.found_kept(found),
+            Msg::Kept(revision, outcome) => return self.kept(revision, outcome),
             Msg::Suspend => return vec![Effect::Suspend],
             Msg::Continued => return vec![Effect::TakeTerminal],
             Msg::Interrupt => return self.interrupt(),
@@ -305,10 +305,7 @@ impl App {
         match context {
             Context::Help => self.help = None,
             Context::Errors => self.errors = None,
-            Context::Conflict | Context::Quit | Context::Recover => {
-                self.dialog = None;
-                self.pending.quit = false;
-            }
+            Context::Conflict | Context::Quit | Context::Recover => return self.put_off(),
             Context::In(Mode::Trace) => {
                 self.mode = self.pending.before_trace.take().unwrap_or(Mode::Select);
             }
@@ -323,7 +320,7 @@ impl App {
     fn accept(&mut self, context: Context) -> Vec<Effect> {
         match context {
             Context::Errors => self.go_to_error(),
-            Context::Conflict => self.adopt(),
+            Context::Conflict => return self.adopt(),
             Context::Quit => return self.quit_anyway(),
             Context::Recover => return self.restore(),
             Context::In(Mode::Pick) => self.pick_cross(),

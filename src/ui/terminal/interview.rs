@@ -46,8 +46,9 @@ pub(crate) fn ask() -> io::Result<Answers> {
 
     let keyboard = tty::keyboard()?;
     let _raw = Raw::enter()?;
-    tty::write_whole(query::COLOURS)?;
-    tty::write_whole(query::MODES)?;
+    let line = tty::Line::open()?;
+    // A terminal that takes nothing answers nothing.
+    let _ = line.write_at_once(&[query::COLOURS, query::MODES].concat())?;
     let until = Instant::now() + query::PATIENCE;
     let mut decoder = Decoder::default();
     let mut answers = Answers::default();
@@ -72,7 +73,7 @@ pub(crate) fn ask() -> io::Result<Answers> {
         });
     }
     // What the terminal may have made of the questions.
-    tty::write_whole(b"\r\x1b[K")?;
+    let _ = line.write_at_once(b"\r\x1b[K")?;
     Ok(answers)
 }
 

@@ -9,10 +9,11 @@ use unicode_width::UnicodeWidthStr;
 use super::layout;
 use super::row::{Row, wrap};
 use super::theme;
-use crate::document::{Merge, Side};
+use crate::document::Merge;
 use crate::text::{Position, counted};
-use crate::ui::app::{App, Dialog};
+use crate::ui::app::{App, Dialog, Outside};
 use crate::ui::keymap;
+use crate::ui::recovery::{Offer, Since};
 
 /// The least room for one side of a conflict, in columns.
 const SIDE: usize = 12;
@@ -25,18 +26,44 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
             let text = format!("{}. Quit?", app.losses().unwrap_or_default());
             ask(app, " Quit ", &text, area, buffer);
         }
-        Some(Dialog::Recover(kept)) => {
-            let count = app.document.differences(&kept.text);
-            let places = counted(count, "place");
-            let differ = if count == 1 { "differs" } else { "differ" };
-            let text = format!(
-                "Edits of an earlier run of {} were never saved: {places} {differ} from the \
-                 file. Take them?",
-                app.file_name()
-            );
-            ask(app, " Recover ", &text, area, buffer);
+        Some(Dialog::Recover(offer)) => {
+            ask(app, " Recover ", &offered(app, offer), area, buffer);
         }
-        Some(Dialog::Conflict { merge, at }) => conflict(app, merge, *at, area, buffer),
+        Some(Dialog::Conflict { merge, at, from }) => conflict(app, merge, *at, from, area, buffer),
+    }
+}
+
+/// What is said of edits that an earlier run kept.
+fn offered(app: &App, offer: &Offer) -> String {
+    let places = counted(offer.places, "place");
+    let differ = if offer.places == 1 {
+        "differs"
+    } else {
+        "differ"
+    };
+    let text = text_name(app);
+    let since = match (offer.since, offer.conflicts()) {
+        (Since::Same, _) => String::new(),
+        (Since::Changed, 0) => format!(" The {text} has changed since; both are merged."),
+        (Since::Changed, count) => {
+            let both = counted(count, "place");
+            format!(" The {text} has changed since, {both} in both: you will be asked.")
+        }
+        (Since::Unknown, _) => format!(" If the {text} has changed since, that is undone."),
+    };
+    format!(
+        "Edits of an earlier run of {} were never saved: {places} {differ} from the {text}.{since} \
+         Take them?",
+        app.file_name(),
+    )
+}
+
+/// What the text is that kept edits are merged with.
+fn text_name(app: &App) -> &'static str {
+    if app.document.is_dirty() {
+        "text"
+    } else {
+        "file"
     }
 }
 
@@ -55,14 +82,19 @@ fn ask(app: &App, title: &str, text: &str, area: Rect, buffer: &mut Buffer) {
 }
 
 /// Draws the conflicts with what was decided, and both texts of the one under the cursor.
-fn conflict(app: &App, merge: &Merge, at: usize, area: Rect, buffer: &mut Buffer) {
+fn conflict(app: &App, merge: &Merge, at: usize, from: &Outside, area: Rect, buffer: &mut Buffer) {
     let width = area.width.saturating_sub(4).min(90);
     let keys = answers(app, width.saturating_sub(4));
     let conflicts = &merge.conflicts;
     let height = conflicts.len() + keys.len() + 4;
-    let inner = frame(" The file changed too ", (width, height), area, buffer);
+    let (title, theirs) = match from {
+        Outside::File => (" The file changed too ", "file"),
+        Outside::Kept(..) => (" Recover ", text_name(app)),
+    };
+    let inner = frame(title, (width, height), area, buffer);
     let (list, _) = layout::split_bottom(inner, keys.len() as u16);
-    let head = "Both the file and unsaved edits changed these. Which is to stand?";
+    let head = format!("Both the {theirs} and unsaved edits changed these. Which is to stand?");
+    let head = &head;
     Row::new(buffer, list, 0).skip(1).put(head, Style::new());
 
     let list = layout::contents(list);
@@ -87,19 +119,14 @@ fn conflict(app: &App, merge: &Merge, at: usize, area: Rect, buffer: &mut Buffer
         let was = Some(was).filter(|_| !conflict.base.trim().is_empty());
         let was = was.filter(|was| was.width() + 2 * SIDE <= row.room());
         let each = (row.room() - was.as_ref().map_or(0, |was| was.width())) / 2;
-        for (side, text) in [
-            (Side::Mine, &conflict.mine),
-            (Side::Theirs, &conflict.theirs),
-        ] {
-            let name = match side {
-                Side::Mine => "mine ",
-                Side::Theirs => "file ",
-            };
+        let mine = from.mine();
+        for (side, name) in [(mine, "mine"), (mine.other(), theirs)] {
+            let text = conflict.said(side);
             let chosen = conflict.decision == Some(side);
             let mark = if chosen { "● " } else { "○ " };
             let style = if chosen { theme::GOOD } else { theme::DIM };
-            let room = each.saturating_sub(mark.width() + name.len() + 1);
-            row.put(mark, style).put(name, style);
+            let room = each.saturating_sub(mark.width() + name.len() + 2);
+            row.put(mark, style).put(name, style).skip(1);
             row.put_in(&one_line(text), room, here).skip(1);
         }
         if let Some(was) = was {
@@ -171,7 +198,7 @@ fn one_line(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use crate::document::Side;
-    use crate::ui::app::Dialog;
+    use crate::ui::app::{Dialog, Outside};
     use crate::ui::view::tests::{SCENE, app, conflict, drawn, retype};
 
     #[test]
@@ -192,7 +219,11 @@ mod tests {
         let theirs = SCENE.replace(" 0.25 //", " 0.75 //");
         let mut merge = conflict(&app, &theirs);
         merge.conflicts[0].decision = Some(Side::Theirs);
-        app.dialog = Some(Dialog::Conflict { merge, at: 0 });
+        app.dialog = Some(Dialog::Conflict {
+            merge,
+            at: 0,
+            from: Outside::File,
+        });
         let lines = drawn(&app, super::render, 80, 24);
         let line = lines.iter().find(|line| line.contains('▸'));
         let line = line.expect("a cursor");
@@ -212,7 +243,11 @@ mod tests {
         let from = SCENE.find("box").expect("a box");
         let theirs = SCENE[..from].replacen("\n2\n", "\n1\n", 1);
         let merge = conflict(&app, &theirs);
-        app.dialog = Some(Dialog::Conflict { merge, at: 0 });
+        app.dialog = Some(Dialog::Conflict {
+            merge,
+            at: 0,
+            from: Outside::File,
+        });
         let lines = drawn(&app, super::render, 100, 24);
         let line = lines.iter().find(|line| line.contains('▸'));
         let line = line.expect("a cursor");

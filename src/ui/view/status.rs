@@ -173,6 +173,9 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if let Some(disk) = disk {
         say(3, disk.to_owned(), theme::WARNING);
     }
+    if app.fails_to_keep() {
+        say(3, "[not kept]".to_owned(), theme::WARNING);
+    }
     if app.view.is_some() {
         say(7, "view*".to_owned(), theme::WARNING);
     }

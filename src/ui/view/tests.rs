@@ -17,10 +17,11 @@ use crate::render::{Filter, Frame, NO_OBJECT, Progress};
 use crate::scene::{Node, Size, lower};
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
-    App, Dialog, Disk, Export, Help, HelpFocus, Message, Mode, Opening, Prompt, PromptKind,
-    Quality, Stage, Typing,
+    App, Dialog, Disk, Export, Help, HelpFocus, Message, Mode, Opening, Outside, Prompt,
+    PromptKind, Quality, Stage, Typing,
 };
-use crate::ui::msg::{Destination, Existing, ExportId, Kept};
+use crate::ui::msg::{Destination, Existing, ExportId};
+use crate::ui::recovery::tests::offer;
 use crate::ui::terminal::Mouse;
 
 pub(super) const SCENE: &str = "\
@@ -182,16 +183,20 @@ const STATES: &[(&str, Change)] = &[
     }),
     ("quit", |app| app.dialog = Some(Dialog::Quit)),
     ("recover", |app| {
-        app.dialog = Some(Dialog::Recover(Kept {
-            place: PathBuf::new(),
-            text: SCENE.to_owned(),
-        }));
+        let text = app.document.shared_text();
+        let kept = SCENE.replace(" 0.25 ", " 0.75 ");
+        let offer = offer(app.document.format(), &text, Some(""), &kept);
+        app.dialog = Some(Dialog::Recover(Box::new(offer)));
     }),
     ("conflict", |app| {
         retype(app, " 0.25 ", " 0.5 ");
         let mut merge = conflict(app, &SCENE.replace(" 0.25 ", " 0.75 "));
         merge.conflicts[0].decision = Some(Side::Mine);
-        app.dialog = Some(Dialog::Conflict { merge, at: 0 });
+        app.dialog = Some(Dialog::Conflict {
+            merge,
+            at: 0,
+            from: Outside::File,
+        });
     }),
     ("typing", |app| {
         app.selected = Node::Object(0);
@@ -284,10 +289,9 @@ fn a_screen_that_is_too_small_says_so() {
 fn the_places_that_kept_edits_change_are_counted() {
     let shown = |change: fn(&str) -> String| {
         let mut app = app();
-        app.dialog = Some(Dialog::Recover(Kept {
-            place: PathBuf::new(),
-            text: change(SCENE),
-        }));
+        let text = app.document.shared_text();
+        let offer = offer(Format::Ray, &text, Some(SCENE), &change(SCENE));
+        app.dialog = Some(Dialog::Recover(Box::new(offer)));
         let lines = screen(&mut app, 100, 30);
         let words: Vec<_> = lines.iter().flat_map(|line| line.split('│')).collect();
         words

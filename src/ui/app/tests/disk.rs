@@ -1,4 +1,4 @@
-//! Reading again, saving, conflicts, quitting, recovering.
+//! Reading again, saving, conflicts, quitting.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use super::*;
 use crate::document::Side;
 use crate::file::ReadError;
 use crate::scene;
-use crate::ui::msg::{Guard, Kept, SaveId, SaveOutcome, Timer};
+use crate::ui::msg::{Guard, SaveId, SaveOutcome, Timer};
 
 #[test]
 fn a_save_may_only_replace_what_was_last_seen() {
@@ -333,88 +333,14 @@ fn a_second_interrupt_quits_and_keeps_the_edits() {
     let effects = press(&mut app, "<Ctrl-c>");
     assert!(matches!(
         &effects[..],
-        [Effect::WriteRecovery { scene: Some(_), text }, Effect::Quit]
-            if **text == app.document.text()
+        [Effect::WriteRecovery { scene: Some(_), known, .. }, Effect::Quit]
+            if **known.text() == app.document.text()
     ));
     let mut app = open(SCENE);
     press(&mut app, "jjjel<Ctrl-c><Esc>");
     app.update(Msg::Elapsed(Timer::Interrupt));
     let effects = press(&mut app, "<Ctrl-c>");
     assert!(!wants(&effects, |effect| matches!(effect, Effect::Quit)));
-}
-
-fn kept_edits() -> Kept {
-    Kept {
-        place: PathBuf::from("kept"),
-        text: SCENE.replace("1.5", "1.7"),
-    }
-}
-
-#[test]
-fn unsaved_edits_are_written_down_once_and_forgotten_when_there_are_none() {
-    let waits = |effects: &[Effect]| {
-        wants(effects, |effect| {
-            matches!(effect, Effect::Later(_, Timer::Keep))
-        })
-    };
-    let mut app = open(SCENE);
-    assert!(waits(&press(&mut app, "jjjel")));
-    assert!(!waits(&press(&mut app, "l")), "a held key waits once");
-    let effects = app.update(Msg::Elapsed(Timer::Keep));
-    let scene = Some(PathBuf::from("scene.ray"));
-    assert!(matches!(
-        &effects[..],
-        [Effect::WriteRecovery { scene: of, text }]
-            if *of == scene && **text == app.document.text()
-    ));
-    assert!(app.update(Msg::Elapsed(Timer::Keep)).is_empty());
-    assert!(waits(&press(&mut app, "u")));
-    let effects = app.update(Msg::Elapsed(Timer::Keep));
-    assert!(matches!(effects[..], [Effect::DropRecovery]));
-}
-
-#[test]
-fn kept_edits_put_off_are_left_alone() {
-    let mut app = open(SCENE);
-    app.update(Msg::Recovered(kept_edits()));
-    let saved = |app: &App| {
-        Msg::Saved(
-            SaveId(1),
-            SaveOutcome::Saved {
-                path: PathBuf::from("scene.ray"),
-                text: app.document.shared_text(),
-            },
-        )
-    };
-    let mut effects = press(&mut app, "<Esc>jjjelw");
-    effects.extend(app.update(saved(&app)));
-    effects.extend(press(&mut app, "q"));
-    assert!(!wants(&effects, |effect| matches!(
-        effect,
-        Effect::DropKept(_) | Effect::AdoptKept { .. }
-    )));
-}
-
-#[test]
-fn kept_edits_can_be_restored_and_undone() {
-    let mut app = open(SCENE);
-    let kept = kept_edits();
-    app.update(Msg::Recovered(kept.clone()));
-    press(&mut app, "j");
-    assert_eq!(words(&app), "the question comes first: r, d, Esc");
-    let effects = press(&mut app, "r");
-    assert!(wants(&effects, |effect| matches!(
-        effect,
-        Effect::AdoptKept { .. }
-    )));
-    assert_eq!(app.document.text(), kept.text);
-    press(&mut app, "u");
-    assert_eq!(app.document.text(), SCENE);
-    let mut app = open(SCENE);
-    app.update(Msg::Recovered(kept));
-    let effects = press(&mut app, "d");
-    assert!(matches!(effects[..], [Effect::DropKept(_)]));
-    assert_eq!(app.document.text(), SCENE);
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod editing;
 mod making;
 mod moving;
 mod pictures;
+mod recovering;
 mod xml;
 
 use std::path::{Path, PathBuf};

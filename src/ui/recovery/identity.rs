@@ -1,0 +1,108 @@
+//! Which scene a journal belongs to.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::record::fnv1a;
+use crate::format::Format;
+
+/// The stem of the journals of the scene without a file.
+const NAMELESS: &str = "unsaved";
+
+/// The most journals of one scene.
+const MOST: usize = 100;
+
+/// A scene under all its names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Identity {
+    /// What its journals' names begin with.
+    stem: String,
+    /// The extension of its language.
+    pub(super) extension: &'static str,
+    /// Its canonical path in ASCII, or `-`.
+    pub(super) label: String,
+}
+
+impl Identity {
+    /// The scene at a path, or the one without a file.
+    pub(super) fn of(scene: Option<&Path>, format: Format) -> Self {
+        let extension = format.extension();
+        let Some(path) = scene.map(canonical) else {
+            return Self {
+                stem: NAMELESS.to_owned(),
+                extension,
+                label: "-".to_owned(),
+            };
+        };
+        let stem = path.file_stem().unwrap_or_else(|| OsStr::new("scene"));
+        let shown = |c: char| if c.is_control() { '_' } else { c };
+        let stem: String = stem.to_string_lossy().chars().take(40).map(shown).collect();
+        let bytes = path.as_os_str().as_encoded_bytes();
+        Self {
+            stem: format!("{stem}-{:016x}", fnv1a(bytes)),
+            extension,
+            label: bytes.escape_ascii().to_string(),
+        }
+    }
+
+    /// The names that its journals may have.
+    pub(super) fn names(&self) -> impl Iterator<Item = String> + use<'_> {
+        (0..MOST).map(|number| format!("{}-{number}.{}", self.stem, self.extension))
+    }
+}
+
+/// The path without links, `.` and `..`, as far as it exists.
+fn canonical(path: &Path) -> PathBuf {
+    let in_folder = || {
+        let folder = path.parent()?;
+        let folder = Some(folder).filter(|folder| !folder.as_os_str().is_empty());
+        let folder = fs::canonicalize(folder.unwrap_or_else(|| Path::new("."))).ok()?;
+        Some(folder.join(path.file_name()?))
+    };
+    fs::canonicalize(path)
+        .ok()
+        .or_else(in_folder)
+        .or_else(|| std::path::absolute(path).ok())
+        .unwrap_or_else(|| path.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scenes_are_told_apart_by_path_and_language() {
+        let of = |path: &str, format| Identity::of(Some(Path::new(path)), format);
+        let names = [
+            of("/a/scene.ray", Format::Ray),
+            of("/b/scene.ray", Format::Ray),
+            of("/b/scene.ray", Format::Dat),
+            Identity::of(None, Format::Ray),
+        ];
+        let first = names.each_ref().map(|name| name.names().next());
+        for (at, name) in first.iter().enumerate() {
+            assert!(!first[..at].contains(name), "{name:?}");
+        }
+        let last = names[2].names().last().expect("there are some");
+        assert!(last.starts_with("scene-") && last.ends_with("-99.dat"));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_scene_is_the_same_under_all_its_names() {
+        let place = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| place.path().join(name);
+        fs::create_dir(at("x")).expect("the folder is new");
+        fs::write(at("b.ray"), "").expect("the folder is new");
+        std::os::unix::fs::symlink("../b.ray", at("x/link.ray")).expect("the folder is new");
+        std::os::unix::fs::symlink("x", at("y")).expect("the folder is new");
+        let of = |name: &str| Identity::of(Some(&at(name)), Format::Ray);
+        for name in ["x/../b.ray", "./b.ray", "x/link.ray", "y/link.ray"] {
+            assert_eq!(of(name), of("b.ray"), "{name}");
+        }
+        // A file that is not there yet, or no longer.
+        assert_eq!(of("y/none.ray"), of("x/none.ray"));
+        assert_ne!(of("none.ray"), of("x/none.ray"));
+    }
+}

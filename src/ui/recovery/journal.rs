@@ -1,0 +1,139 @@
+//! The edits of this run, as they are kept for the next one.
+
+use std::io::{self, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::claim::Claim;
+use super::folder::Folder;
+use super::identity::Identity;
+use super::record;
+use crate::document::Snapshot;
+use crate::format::Format;
+
+/// Edits that are out of date may take as many bytes as the text, or as this.
+const WASTE: u64 = 1 << 20;
+
+/// A text to keep.
+#[derive(Clone, Debug)]
+pub(crate) struct Edits {
+    /// The scene; `None` is the one without a file.
+    pub(crate) scene: Option<PathBuf>,
+    /// The text that the edits started from, and the text under edit.
+    pub(crate) known: Snapshot,
+}
+
+/// This run's journal, once there is something to keep.
+#[derive(Debug)]
+pub(super) struct Journal {
+    state: PathBuf,
+    held: Option<Held>,
+}
+
+#[derive(Debug)]
+struct Held {
+    folder: Arc<Folder>,
+    claim: Claim,
+    scene: Option<PathBuf>,
+    format: Format,
+    identity: Identity,
+    base: Arc<String>,
+    /// Where the first edit begins.
+    first: u64,
+    /// Where the last edit ends; `None` once it is not known what stands there.
+    end: Option<u64>,
+}
+
+impl Journal {
+    /// The journal of a run with this state folder.
+    pub(super) fn new(state: PathBuf) -> Self {
+        Self { state, held: None }
+    }
+
+    /// Keeps a text in place of the last one. If that fails the last one is kept.
+    pub(super) fn write(&mut self, edits: &Edits) -> io::Result<()> {
+        self.held.take_if(|held| !held.claim.is_there());
+        let of_scene =
+            |held: &&mut Held| held.scene == edits.scene && held.format == edits.known.format;
+        if let Some(held) = self.held.as_mut().filter(of_scene) {
+            held.folder.check()?;
+            return held.write(edits);
+        }
+        let held = Held::new(&self.state, edits)?;
+        match self.held.replace(held) {
+            Some(before) => before.claim.remove(),
+            None => Ok(()),
+        }
+    }
+
+    /// Forgets what is kept.
+    pub(super) fn forget(&mut self) -> io::Result<()> {
+        self.held.take().map_or(Ok(()), |held| held.claim.remove())
+    }
+
+    /// Whether anything is kept.
+    pub(super) fn is_kept(&self) -> bool {
+        self.held.is_some()
+    }
+}
+
+impl Held {
+    fn new(state: &Path, edits: &Edits) -> io::Result<Self> {
+        let folder = Arc::new(Folder::make(state)?);
+        let identity = Identity::of(edits.scene.as_deref(), edits.known.format);
+        let (content, first) = content(&identity, edits);
+        let claim = Claim::new(&folder, &identity)?;
+        if let Err(error) = claim.fill(&content) {
+            let _ = claim.remove();
+            return Err(error);
+        }
+        Ok(Self {
+            folder,
+            claim,
+            scene: edits.scene.clone(),
+            format: edits.known.format,
+            identity,
+            base: Arc::clone(&edits.known.saved),
+            first,
+            end: Some(content.len() as u64),
+        })
+    }
+
+    fn write(&mut self, edits: &Edits) -> io::Result<()> {
+        let Snapshot { saved, .. } = &edits.known;
+        let is_base = Arc::ptr_eq(&self.base, saved) || self.base == *saved;
+        let room = self.first + WASTE.max(edits.known.text().len() as u64);
+        match self.end.take().filter(|&end| is_base && end < room) {
+            Some(end) => self.append(end, edits),
+            None => self.replace(edits),
+        }
+    }
+
+    fn append(&mut self, end: u64, edits: &Edits) -> io::Result<()> {
+        let edit = record::edit(&self.base, edits.known.text());
+        let mut file = self.claim.file();
+        file.seek(SeekFrom::Start(end))?;
+        file.write_all(&edit)?;
+        file.sync_data()?;
+        self.end = Some(end + edit.len() as u64);
+        Ok(())
+    }
+
+    fn replace(&mut self, edits: &Edits) -> io::Result<()> {
+        let (content, first) = content(&self.identity, edits);
+        self.claim.replace(&content)?;
+        self.base = Arc::clone(&edits.known.saved);
+        self.first = first;
+        self.end = Some(content.len() as u64);
+        Ok(())
+    }
+}
+
+/// A journal's whole content, and where its edit begins.
+fn content(scene: &Identity, edits: &Edits) -> (Vec<u8>, u64) {
+    let (base, text) = (&edits.known.saved, edits.known.text());
+    let mut content = record::head(scene, base);
+    let first = content.len() as u64;
+    content.extend(record::edit(base, text));
+    (content, first)
+}

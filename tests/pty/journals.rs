@@ -1,0 +1,193 @@
+//! Unsaved edits that outlive the process: after crashes, changes from outside, and trouble with the
+//! folder they are kept in.
+
+use super::*;
+
+const QUESTION: &str = "Edits of an earlier run of";
+
+/// Makes the green ball's radius another one, as another editor does while the program is not there.
+fn change_green(place: &Place, radius: &str) {
+    let text = place.read("balls.ray");
+    place.replace("balls.ray", &text.replacen("0.8 ", radius, 1));
+}
+
+/// Waits until the text under edit is in a journal.
+fn wait_until_kept(place: &Place, session: &mut Session, text: &str) {
+    while !place.kept_texts().contains(&text.to_owned()) {
+        session.drain(Duration::from_millis(1));
+    }
+}
+
+/// Edits the red ball's radius and loses the process once the edit is kept.
+fn crash_with_edits(place: &Place) {
+    let mut session = place.open_edited();
+    wait_until_kept(place, &mut session, &edited());
+    kill(session.process_id(), Signal::KILL);
+    session.end();
+}
+
+#[test]
+fn edits_outlive_a_crash_and_a_run_that_leaves_them_undecided() {
+    let place = Place::new();
+    crash_with_edits(&place);
+    let is_kept = || place.kept_texts() == [edited()];
+    assert!(is_kept());
+
+    let mut session = place.start(&["balls.ray"], WIDE);
+    session.wait_for(QUESTION);
+    session.send(ESC);
+    wait_until_gone(&mut session, QUESTION);
+    session.send("G\rj2\rw");
+    session.wait_for("wrote balls.ray");
+    quit(session);
+    assert!(is_kept());
+
+    let mut session = place.start(&["balls.ray"], WIDE);
+    session.wait_for(QUESTION);
+    session.send("d");
+    wait_until_gone(&mut session, QUESTION);
+    quit(session);
+    assert_eq!(place.kept_texts(), [] as [String; 0]);
+}
+
+/// The scene is the same one by whatever name it is opened.
+#[test]
+fn what_others_wrote_since_is_merged_with_restored_edits() {
+    for name in ["balls.ray", "x/../balls.ray", "x/link.ray"] {
+        let place = Place::new();
+        fs::create_dir(place.at("x")).expect("the folder is new");
+        std::os::unix::fs::symlink("../balls.ray", place.at("x/link.ray")).expect("no such file");
+        crash_with_edits(&place);
+        change_green(&place, "0.5 ");
+        let theirs = place.read("balls.ray");
+
+        let mut session = place.start(&[name], WIDE);
+        session.wait_for(QUESTION);
+        session.wait_for("has changed since");
+        session.send("r");
+        session.wait_for("restored and merged");
+        session.send("w");
+        session.wait_for("wrote ");
+        let both = theirs.replacen(".80", "2", 1);
+        assert_eq!(place.read("balls.ray"), both, "{name}");
+        quit(session);
+        assert_eq!(place.kept_texts(), [] as [String; 0], "{name}");
+    }
+}
+
+#[test]
+fn it_asks_where_others_changed_what_was_edited() {
+    for (answer, radius) in [("m", "2"), ("t", ".90")] {
+        let place = Place::new();
+        crash_with_edits(&place);
+        let theirs = BALLS.replacen(".80", ".90", 1).replacen("0.8 ", "0.5 ", 1);
+        place.replace("balls.ray", &theirs);
+        let mut session = place.start(&["balls.ray"], WIDE);
+        session.wait_for(QUESTION);
+        session.send("r");
+        session.wait_for("Both the file and unsaved edits changed these");
+        session.wait_for("mine 2");
+        session.wait_for("file .90");
+        session.send([answer, ENTER].concat());
+        wait_until_gone(&mut session, "Both the file");
+        session.send("w");
+        session.wait("waiting for the answer to the save", |screen| {
+            ["wrote balls.ray", "nothing to save"]
+                .iter()
+                .any(|said| screen.contents().contains(said))
+        });
+        assert_eq!(place.read("balls.ray"), theirs.replacen(".90", radius, 1));
+        quit(session);
+        assert_eq!(place.kept_texts(), [] as [String; 0], "after {answer}");
+    }
+}
+
+#[test]
+fn the_edits_of_two_windows_are_kept_apart_and_both_offered() {
+    let place = Place::new();
+    let mut first = place.open_edited();
+    wait_until_kept(&place, &mut first, &edited());
+    let mut second = place.start(&["balls.ray"], WIDE);
+    wait_for_rest(&mut second);
+    assert!(!second.text().contains(QUESTION), "the first one goes on");
+    second.send("G\rj3\r");
+    let other = BALLS.replacen("0.8 ", "3 ", 1);
+    wait_until_kept(&place, &mut second, &other);
+    assert_eq!(place.kept_texts().len(), 2);
+    for mut session in [first, second] {
+        kill(session.process_id(), Signal::KILL);
+        session.end();
+    }
+
+    let mut session = place.start(&["balls.ray"], WIDE);
+    session.wait_for(QUESTION);
+    session.send("r");
+    // The newer one first; then the other one, which is merged with it.
+    session.wait_for("differs from the text");
+    session.send("r");
+    session.wait_for("restored and merged");
+    session.send("w");
+    session.wait_for("wrote balls.ray");
+    assert_eq!(place.read("balls.ray"), other.replacen(".80", "2", 1));
+    quit(session);
+    assert_eq!(place.kept_texts(), [] as [String; 0]);
+}
+
+#[test]
+fn edits_are_kept_once_their_folder_can_be_made() {
+    let place = Place::new();
+    fs::create_dir_all(place.at(".local/state")).expect("the folder is new");
+    place.write(".local/state/halflight", "in the way");
+    let mut session = place.open_edited();
+    session.wait_for("unsaved edits are not kept");
+    session.wait_for("[not kept]");
+    fs::remove_file(place.at(".local/state/halflight")).expect("it is there");
+    wait_until_gone(&mut session, "not kept");
+    kill(session.process_id(), Signal::KILL);
+    session.end();
+    assert_eq!(place.kept_texts(), [edited()]);
+}
+
+#[test]
+fn edits_that_can_t_be_kept_are_said_to_be_lost_at_the_end() {
+    let place = Place::new();
+    place.write(".local", "in the way");
+    let mut session = place.open_edited();
+    session.wait_for("[not kept]");
+    kill(session.process_id(), Signal::TERM);
+    assert_eq!(session.end().exit_code(), 143);
+    session.assert_restored();
+    let text = session.text();
+    assert!(text.contains("not all unsaved edits are kept"), "{text}");
+}
+
+/// A disk that is full for a while, as far as one process can have one of its own.
+#[test]
+#[cfg(target_os = "linux")]
+fn edits_are_kept_once_there_is_room_again() {
+    use rustix::process::{Resource, Rlimit, prlimit};
+    for signal in [Signal::HUP, Signal::KILL] {
+        let place = Place::new();
+        let mut session = place.open_edited();
+        wait_until_kept(&place, &mut session, &edited());
+        let process = Pid::from_raw(session.process_id().cast_signed());
+        let limit = |current| {
+            let limit = Rlimit {
+                current,
+                maximum: None,
+            };
+            prlimit(process, Resource::Fsize, limit).expect("it is ours");
+        };
+        limit(Some(300));
+        session.send("3\r");
+        session.wait_for("[not kept]");
+        assert_eq!(place.kept_texts(), [edited()], "the last text is kept");
+        limit(None);
+        if signal == Signal::KILL {
+            wait_until_gone(&mut session, "[not kept]");
+        }
+        kill(session.process_id(), signal);
+        session.end();
+        assert_eq!(place.kept_texts(), [BALLS.replacen(".80", "3", 1)]);
+    }
+}
