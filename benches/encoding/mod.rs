@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use crossterm::event::{KeyCode, KeyEvent};
 use halflight::format::Format;
 use halflight::render::{Filter, Frame, Job, Renderer, Threads};
-use halflight::ui::app::{App, Opening, Quality};
+use halflight::ui::app::{App, Opening, OpeningText, Quality};
 use halflight::ui::msg::{Effect, Msg, Target};
 use halflight::ui::terminal::{AnsiBackend, ColourDepth, Mouse};
 use halflight::ui::view::{self, Inks};
@@ -54,7 +54,7 @@ pub(crate) fn opened(scene: &str, terminal: (u16, u16)) -> (App, Job) {
     let (mut app, mut effects) = App::open(Opening {
         path: Some(PathBuf::from("scene.ray")),
         format: Format::Ray,
-        text: scene.to_owned(),
+        text: OpeningText::Known(scene.to_owned()),
         quality: Quality {
             spp: 1,
             depth: None,

@@ -191,6 +191,21 @@ fn decode(path: &Path, bytes: Vec<u8>) -> Result<String, ReadError> {
     })
 }
 
+/// The length of a scene file that [`read_text`] can open; the error is the one that it would give.
+/// Reads nothing.
+pub fn scene_length(path: &Path) -> Result<u64, ReadError> {
+    let metadata = open(path)?.metadata().map_err(|source| ReadError::Io {
+        path: path.to_owned(),
+        source,
+    })?;
+    if MAX_BYTES < metadata.len() {
+        return Err(ReadError::TooLong {
+            path: path.to_owned(),
+        });
+    }
+    Ok(metadata.len())
+}
+
 /// Reads a regular file of at most `limit` bytes.
 pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     read_opened(&open(path)?, path, limit)

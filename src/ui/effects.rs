@@ -2,7 +2,7 @@
 
 use std::io;
 use std::num::NonZero;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 use std::thread;
@@ -11,16 +11,16 @@ use std::time::{Duration, Instant};
 use super::Options;
 use super::assets::AssetReader;
 use super::editor;
-use super::files::{Files, Task};
+use super::freeing::Freeing;
 use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
-use super::recovery::{self, Edits, End, Keeper, Order, Sought};
+use super::reading::Reader;
+use super::recovery::{self, Edits, End, Keeper, Order};
 use super::terminal::tmux;
 use super::terminal::{self, Input, Replies, Reply, Terminal};
 #[cfg(unix)]
 use super::terminal::{Signals, suspend_process};
 use super::writing::Writers;
 use crate::render::{Job, Refusal, Renderer, Threads};
-use crate::watch::{Method, Watcher};
 
 /// How long replies of the terminal are waited for before it is handed over: longer than most
 /// round trips.
@@ -55,7 +55,8 @@ pub(crate) struct World {
     #[cfg(unix)]
     signals: Signals,
     sender: Sender<Event>,
-    files: Files,
+    reader: Reader,
+    freeing: Freeing,
     writers: Writers,
     keeper: Keeper,
     assets: AssetReader,
@@ -65,15 +66,17 @@ pub(crate) struct World {
     export: Option<Numbered>,
     /// How many renderers there were.
     renderers: u64,
-    method: Method,
-    watcher: Option<Watcher>,
     timers: Vec<(Instant, Timer)>,
     ended: bool,
 }
 
 impl World {
     /// Takes the terminal over and starts everything that sends messages.
-    pub(crate) fn new(options: &Options, sender: Sender<Event>) -> io::Result<Self> {
+    pub(crate) fn new(
+        options: &Options,
+        reader: Reader,
+        sender: Sender<Event>,
+    ) -> io::Result<Self> {
         let terminal = {
             let sender = sender.clone();
             let cleared = move || {
@@ -95,30 +98,22 @@ impl World {
                 let _ = sender.send(Event::from(event));
             }
         };
-        let method = options.poll.map_or(Method::Native, Method::Poll);
-        let send = |sender: &Sender<Event>| {
-            let sender = sender.clone();
-            move |msg| {
-                let _ = sender.send(Event::Msg(msg));
-            }
-        };
         Ok(Self {
             terminal,
             replies: Arc::clone(&replies),
             input: Input::start(tell(&sender))?,
             #[cfg(unix)]
             signals: Signals::start(tell(&sender))?,
-            files: Files::start(send(&sender))?,
+            reader,
+            freeing: Freeing::start()?,
             writers: Writers::new(sender.clone()),
-            keeper: Keeper::start(send(&sender))?,
-            assets: AssetReader::start(&options.assets, method, send(&sender))?,
+            keeper: Keeper::start(sending(&sender))?,
+            assets: AssetReader::start(&options.assets, options.watching(), sending(&sender))?,
             threads: options.threads,
             preview: None,
             trace: None,
             export: None,
             renderers: 0,
-            method,
-            watcher: None,
             timers: Vec::new(),
             ended: false,
             sender,
@@ -232,8 +227,8 @@ impl World {
             }
             Effect::CheckTarget(id, to) => self.writers.check(id, to),
             Effect::FindBackups(scene) => self.writers.find_backups(scene),
-            Effect::Read(path, known) => self.files.order(Task::Read(path, known)),
-            Effect::Free(unneeded) => self.files.order(Task::Free(unneeded)),
+            Effect::Read(path, known) => self.reader.read(path, known),
+            Effect::Free(unneeded) => self.freeing.order(unneeded),
             Effect::Save {
                 id,
                 path,
@@ -243,7 +238,7 @@ impl World {
                 let refused = self.writers.save(id, path, text, guard).err()?;
                 return Some(Msg::Saved(id, SaveOutcome::Failed(refused)));
             }
-            Effect::Watch(path) => self.watch(path),
+            Effect::Watch(path) => self.reader.watch(path),
             Effect::ReadAssets(wanted) => self.assets.order(wanted),
             Effect::Later(time, timer) => {
                 self.timers.retain(|&(_, set)| set != timer);
@@ -258,7 +253,7 @@ impl World {
                 .keeper
                 .order(Order::Keep(revision, Edits { scene, known })),
             Effect::DropRecovery => self.keeper.order(Order::Forget),
-            Effect::LookForKept(sought) => self.look_for_kept(sought),
+            Effect::LookForKept(sought) => recovery::look_for(sought, sending(&self.sender)),
             Effect::AdoptKept(claim) => self.keeper.order(Order::Adopt(claim)),
             Effect::DropKept(claim) => self.keeper.order(Order::Discard(claim)),
             Effect::OpenEditor { path, line } => {
@@ -339,31 +334,6 @@ impl World {
         }
     }
 
-    fn look_for_kept(&self, sought: Sought) -> Result<(), String> {
-        let sender = self.sender.clone();
-        recovery::look_for(sought, move |msg| {
-            let _ = sender.send(Event::Msg(msg));
-        })
-    }
-
-    fn watch(&mut self, path: PathBuf) -> Result<(), String> {
-        let sender = self.sender.clone();
-        let changed = move || {
-            let _ = sender.send(Event::Msg(Msg::FileChanged));
-        };
-        // The old watch ends first: its notices would be taken for the new file's.
-        self.watcher = None;
-        let path = [path];
-        let watcher = Watcher::new(&path, self.method, changed).map_err(|error| {
-            format!(
-                "changes of {} go unnoticed: {error}; try --poll",
-                path[0].display()
-            )
-        })?;
-        self.watcher = Some(watcher);
-        Ok(())
-    }
-
     fn open_editor(&mut self, path: &Path, line: usize) -> Result<(), String> {
         self.await_replies(Instant::now() + REPLY_PATIENCE);
         self.input.park();
@@ -405,6 +375,14 @@ impl World {
     }
 }
 
+/// Puts messages into the inbox.
+pub(crate) fn sending(sender: &Sender<Event>) -> impl Fn(Msg) + Clone + Send + Sync + 'static {
+    let sender = sender.clone();
+    move |msg| {
+        // An inbox that is gone belongs to a program that ends.
+        let _ = sender.send(Event::Msg(msg));
+    }
+}
 /// A renderer, and which of all it is.
 struct Numbered {
     number: u64,

@@ -14,6 +14,8 @@ pub use help::{HelpLine, help, hints};
 pub enum Context {
     /// In this mode.
     In(Mode),
+    /// While the scene is read for the first time.
+    Opening,
     /// On the help page.
     Help,
     /// In the list of errors.
@@ -202,7 +204,18 @@ const EVERYWHERE: &[Context] = &[
     Context::In(Pick),
     Context::Errors,
 ];
+/// Where a scene is not needed.
+const SCENELESS: &[Context] = &[
+    Context::Opening,
+    Context::In(Select),
+    Context::In(View),
+    Context::In(Edit),
+    Context::In(Trace),
+    Context::In(Pick),
+    Context::Errors,
+];
 const ALL: &[Context] = &[
+    Context::Opening,
     Context::In(Select),
     Context::In(View),
     Context::In(Edit),
@@ -307,8 +320,8 @@ pub const TABLE: &[Binding] = &[
     bind(TRACE, &[c('x')], A::Stop, "stop"),
     bind(SELECT, &[c('x')], A::Stop, "cancel the export"),
     bind(EVERYWHERE, &[key(Esc)], A::Back, "back"),
-    bind(EVERYWHERE, &[c('?')], A::Help, "help"),
-    bind(EVERYWHERE, &[c(':')], A::Command, "command"),
+    bind(SCENELESS, &[c('?')], A::Help, "help"),
+    bind(SCENELESS, &[c(':')], A::Command, "command"),
     bind(EVERYWHERE, &[c('w')], A::Save, "save the scene"),
     bind(EVERYWHERE, &[c('b')], A::Export, "export what is shown"),
     bind(EVERYWHERE, &[key(F(5)), c('r')], A::Go(Trace), "trace at full size"),
@@ -318,10 +331,10 @@ pub const TABLE: &[Binding] = &[
     bind(EVERYWHERE, &[c('E')], A::Editor, "open the editor at the selected thing"),
     bind(EVERYWHERE, &[c('z')], A::Zoom, "picture alone, or with panels"),
     bind(EVERYWHERE, &[c('P')], A::Integrator, "path tracing, or Whitted's rays"),
-    bind(EVERYWHERE, &[c('m')], A::Mouse, "mouse on or off"),
+    bind(SCENELESS, &[c('m')], A::Mouse, "mouse on or off"),
     bind(ALL, &[ctrl('l')], A::Repaint, "draw the screen anew"),
     bind(ALL, &[ctrl('z')], A::Suspend, "stop until continued"),
-    bind(EVERYWHERE, &[c('q')], A::Quit, "quit"),
+    bind(SCENELESS, &[c('q')], A::Quit, "quit"),
     bind(ALL, &[ctrl('c')], A::Interrupt, "quit; twice: at once"),
     bind(VIEW, &[c('e')], A::Go(Edit), "edit fields"),
     bind(EDIT, &[c('v')], A::Go(View), "move the camera"),
@@ -349,6 +362,8 @@ pub fn context(app: &App) -> Context {
         Context::Help
     } else if app.errors.is_some() {
         Context::Errors
+    } else if app.is_opening() {
+        Context::Opening
     } else {
         Context::In(app.mode)
     }

@@ -12,10 +12,11 @@
 
 pub mod app;
 mod assets;
+mod beginning;
 pub mod doctor;
 mod editor;
 mod effects;
-mod files;
+mod freeing;
 pub mod keymap;
 pub mod msg;
 pub mod reading;
@@ -30,10 +31,11 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::file::{self, ReadError};
-use crate::format::{self, Format, UnknownLanguage};
+use crate::format::{Format, UnknownLanguage};
 use crate::render::{DEFAULT_SPP, Filter};
 use crate::scene::Integrator;
-use app::{App, Opening, Quality};
+use crate::watch::Method;
+use app::{App, Opening, OpeningText, Quality};
 use terminal::{Choice, ColourDepth, Mouse};
 
 /// The scene that is opened without a name, if the current folder has one.
@@ -91,6 +93,10 @@ impl Options {
     fn colours(&self) -> ColourDepth {
         ColourDepth::detect(self.colour)
     }
+
+    fn watching(&self) -> Method {
+        self.poll.map_or(Method::Native, Method::Poll)
+    }
 }
 
 /// How the interface ended.
@@ -135,10 +141,10 @@ pub enum Error {
     Terminal(#[from] io::Error),
 }
 
-/// Opens the interface and stays until the user leaves it. The terminal is touched only once the
-/// scene is read.
+/// Opens the interface and stays until the user leaves it. What can be told of the scene's file
+/// without reading it is told before the terminal is touched; the file is read beside the interface.
 pub fn run(options: &Options) -> Result<Ending, Error> {
-    let (path, format, text) = read_scene(options.scene.as_deref())?;
+    let (path, format, text) = find_scene(options.scene.as_deref())?;
     let size = terminal::size();
     let opening = Opening {
         path,
@@ -154,11 +160,11 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
         terminal: (size.width, size.height),
     };
     let (app, effects) = App::open(opening);
-    Ok(session::run(options, app, effects)?)
+    session::run(options, app, effects)
 }
 
 /// The scene to open: its path, unless it is the built-in one, its language and its text.
-fn read_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Format, String), Error> {
+fn find_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Format, OpeningText), Error> {
     let path = named.unwrap_or_else(|| Path::new(DEFAULT_SCENE));
     if path.is_dir() {
         return Err(Error::Folder {
@@ -173,16 +179,10 @@ fn read_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Format, String),
             path: path.to_owned(),
         }
     })?;
-    match file::read_text(path) {
-        Ok(text) => match format::fits(format, &text, text.len()) {
-            Ok(()) => Ok((Some(path.to_owned()), format, text)),
-            Err(reason) => {
-                let path = path.to_owned();
-                Err(ReadError::NoMemory { path, reason }.into())
-            }
-        },
+    match file::scene_length(path) {
+        Ok(bytes) => Ok((Some(path.to_owned()), format, OpeningText::Unread(bytes))),
         Err(ReadError::NotFound { .. }) if named.is_none() => {
-            Ok((None, format, EMBEDDED_SCENE.to_owned()))
+            Ok((None, format, OpeningText::Known(EMBEDDED_SCENE.to_owned())))
         }
         Err(error) => Err(error.into()),
     }

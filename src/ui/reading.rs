@@ -1,19 +1,21 @@
-//! What the scene's file says, understood beside the interface: for a text of millions of objects
-//! that takes longer than a key may wait.
+//! What the scene's file says, read and understood beside the interface: for a text of millions of
+//! objects that takes longer than a key may wait.
 
+use std::cell::LazyCell;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 
 use super::msg::Msg;
 use crate::document::{Document, Merge, Merged, Snapshot};
-use crate::file::ReadError;
+use crate::file::{self, ReadError};
 use crate::format;
 use crate::memory::{self, OutOfMemory};
 use crate::scene::{self, Lowered, Meshes};
 use crate::text::{Edit, Findings, smallest_edit};
+use crate::watch::{Method, Watcher};
 
 /// What a text is compared with and understood by.
 #[derive(Clone, Debug)]
@@ -104,37 +106,34 @@ impl News {
     }
 }
 
-/// What was read of a file, and what is needed to understand it.
-type Order = (PathBuf, Result<String, ReadError>, Known);
+/// A text from this many bytes on is understood on several threads.
+const LARGE: usize = 1 << 20;
 
-/// The handle of the thread that understands what the files' thread has read. It is another one, so
-/// that no save and nothing kept for the next run waits for it; its end is not waited for.
-pub(super) struct Understanding {
+/// What the thread is asked to do.
+enum Order {
+    /// Watch this file in place of the one before.
+    Watch(PathBuf),
+    /// Read it.
+    Read(PathBuf, Known),
+}
+
+/// The handle of the thread that has the scene's file watched, reads it and understands it. Nothing
+/// else waits for it, neither a save nor the end of the program.
+pub(super) struct Reader {
     orders: Sender<Order>,
 }
 
-impl Understanding {
-    /// Starts the thread; `send` is called on it.
-    pub(super) fn start(send: impl Fn(Msg) + Send + 'static) -> io::Result<Self> {
+impl Reader {
+    /// Starts the thread; `send` is called on it, and on that of the watcher.
+    pub(super) fn start(
+        method: Method,
+        send: impl Fn(Msg) + Clone + Send + 'static,
+    ) -> io::Result<Self> {
         let (orders, inbox) = mpsc::channel();
         let work = move || {
-            // An edit may lower a large scene on the threads that all share, and would wait there.
-            let cores = thread::available_parallelism().map_or(1, usize::from);
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(memory::threads(cores));
-            let pool = pool.build();
-            while let Some((path, read, known)) = last(&inbox) {
-                let understand = |text| match &pool {
-                    Ok(pool) => pool.install(|| Reading::new(text, known)),
-                    Err(_) => Reading::new(text, known),
-                };
-                let reading = read.and_then(|text| {
-                    understand(text).map_err(|reason| ReadError::NoMemory {
-                        path: path.clone(),
-                        reason,
-                    })
-                });
-                send(Msg::Read(path, reading));
-            }
+            let mut watcher = None;
+            let watch = |path| watch(path, method, &mut watcher, &send);
+            follow(&inbox, watch, file::read_text, &send);
         };
         thread::Builder::new()
             .name("reading".to_owned())
@@ -142,20 +141,152 @@ impl Understanding {
         Ok(Self { orders })
     }
 
-    /// Has it send what was read of a file; of several orders that wait, only the last is worth it.
-    pub(super) fn order(
-        &self,
-        path: PathBuf,
-        read: Result<String, ReadError>,
-        known: Known,
-    ) -> Result<(), String> {
-        let sent = self.orders.send((path, read, known));
-        sent.map_err(|_| "the thread that understands scenes has ended".to_owned())
+    /// Has a file watched from here on: [`Msg::FileChanged`].
+    pub(super) fn watch(&self, path: PathBuf) -> Result<(), String> {
+        self.order(Order::Watch(path))
+    }
+
+    /// Has a file read: [`Msg::Read`]. Of several orders that wait only the last is carried out.
+    pub(super) fn read(&self, path: PathBuf, known: Known) -> Result<(), String> {
+        self.order(Order::Read(path, known))
+    }
+
+    fn order(&self, order: Order) -> Result<(), String> {
+        let sent = self.orders.send(order);
+        sent.map_err(|_| "the thread that reads scenes has ended".to_owned())
     }
 }
 
-/// The last order of those that wait, once there is one; `None` at the end.
-fn last(inbox: &Receiver<Order>) -> Option<Order> {
-    let first = inbox.recv().ok()?;
-    Some(inbox.try_iter().last().unwrap_or(first))
+/// Carries out orders until there are no more. A file that has changed while it was read is not
+/// understood, only read again.
+fn follow(
+    inbox: &Receiver<Order>,
+    mut watch: impl FnMut(PathBuf),
+    read: impl Fn(&Path) -> Result<String, ReadError>,
+    send: impl Fn(Msg),
+) {
+    // An edit may lower a large scene on the threads that all share, and would wait there.
+    let pool = LazyCell::new(|| {
+        let cores = thread::available_parallelism().map_or(1, usize::from);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(memory::threads(cores));
+        pool.build()
+    });
+    while let Ok(first) = inbox.recv() {
+        let mut orders = vec![first];
+        orders.extend(inbox.try_iter());
+        while let Some((path, known)) = last(orders, &mut watch) {
+            let read = read(&path);
+            orders = inbox.try_iter().collect();
+            if orders.iter().any(|order| matches!(order, Order::Read(..))) {
+                continue;
+            }
+            let understand = |text: String| {
+                if text.len() < LARGE {
+                    return Reading::new(text, known);
+                }
+                match &*pool {
+                    Ok(pool) => pool.install(|| Reading::new(text, known)),
+                    Err(_) => Reading::new(text, known),
+                }
+            };
+            let reading = read.and_then(|text| {
+                understand(text).map_err(|reason| ReadError::NoMemory {
+                    path: path.clone(),
+                    reason,
+                })
+            });
+            send(Msg::Read(path, reading));
+        }
+    }
+}
+
+/// Does what is to be watched; the last file that is to be read.
+fn last(orders: Vec<Order>, mut watch: impl FnMut(PathBuf)) -> Option<(PathBuf, Known)> {
+    let mut last = None;
+    for order in orders {
+        match order {
+            // Before the file is read: what happens after that must not be missed.
+            Order::Watch(path) => watch(path),
+            Order::Read(path, known) => last = Some((path, known)),
+        }
+    }
+    last
+}
+
+fn watch(
+    path: PathBuf,
+    method: Method,
+    watcher: &mut Option<Watcher>,
+    send: &(impl Fn(Msg) + Clone + Send + 'static),
+) {
+    // The old watch ends first: its notices would be taken for the new file's.
+    drop(watcher.take());
+    let path = [path];
+    let changed = send.clone();
+    match Watcher::new(&path, method, move || changed(Msg::FileChanged)) {
+        Ok(new) => *watcher = Some(new),
+        Err(error) => send(Msg::Failed(format!(
+            "changes of {} go unnoticed: {error}; try --poll",
+            path[0].display()
+        ))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::Document;
+    use crate::format::Format;
+    use std::cell::{Cell, RefCell};
+
+    fn order(name: &str) -> Order {
+        let known = Known {
+            scene: Document::new(Format::Ray, String::new()).snapshot(),
+            meshes: Meshes::default(),
+        };
+        Order::Read(name.into(), known)
+    }
+
+    /// The names that are read and those that come back, where `during` is ordered while the first
+    /// one is read.
+    fn followed(before: &[&str], during: Option<&str>) -> (Vec<PathBuf>, Vec<PathBuf>) {
+        let (orders, inbox) = mpsc::channel();
+        for name in before {
+            orders.send(order(name)).expect("it is there");
+        }
+        let orders = Cell::new(Some(orders));
+        let (read, sent) = (RefCell::new(Vec::new()), RefCell::new(Vec::new()));
+        let reads = |path: &Path| {
+            if let (Some(orders), Some(name)) = (orders.take(), during) {
+                orders.send(order(name)).expect("it is there");
+            }
+            read.borrow_mut().push(path.to_owned());
+            Ok(String::new())
+        };
+        follow(
+            &inbox,
+            |_| {},
+            reads,
+            |msg| match msg {
+                Msg::Read(path, Ok(_)) => sent.borrow_mut().push(path),
+                msg => panic!("{msg:?}"),
+            },
+        );
+        (read.into_inner(), sent.into_inner())
+    }
+
+    #[test]
+    fn only_the_last_of_the_files_that_wait_is_read() {
+        let paths = |names: &[&str]| names.iter().map(PathBuf::from).collect::<Vec<_>>();
+        assert_eq!(
+            followed(&["a", "b", "a"], None),
+            (paths(&["a"]), paths(&["a"]))
+        );
+    }
+
+    #[test]
+    fn a_file_that_changed_while_it_was_read_is_not_understood() {
+        let (read, sent) = followed(&["a"], Some("a"));
+        assert_eq!((read.len(), sent.len()), (2, 1));
+    }
 }

@@ -2,31 +2,36 @@
 
 use std::collections::VecDeque;
 use std::io;
+use std::mem;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use super::app::App;
-use super::effects::{Event, World};
+use super::beginning::Beginning;
+use super::effects::{Event, World, sending};
 use super::msg::{Effect, Msg, Target};
+use super::reading::Reader;
 use super::recovery::End;
 use super::terminal::{self, Budget, Choice, ColourDepth, Link, Reply, query};
 use super::view::{self, Inks};
-use super::{Ending, Options};
+use super::{Ending, Error, Options};
 use crate::text;
 
 /// The least time between two drawings that only bring finer frames.
 const FRAME_TIME: Duration = Duration::from_millis(33);
 
 /// Runs the interface until it is left.
-pub(crate) fn run(options: &Options, app: App, effects: Vec<Effect>) -> io::Result<Ending> {
+pub(crate) fn run(options: &Options, app: App, effects: Vec<Effect>) -> Result<Ending, Error> {
     let (sender, inbox) = mpsc::channel();
+    let reader = Reader::start(options.watching(), sending(&sender))?;
+    let beginning = Beginning::new(app, effects, reader, &inbox)?;
     let budget = options.bandwidth.map_or_else(
         || Budget::of_environment(|name| std::env::var(name).ok()),
         Budget::Fixed,
     );
     let mut session = Session {
-        app,
-        world: World::new(options, sender)?,
+        app: beginning.app,
+        world: World::new(options, beginning.reader, sender)?,
         link: Link::new(budget),
         waiting: None,
         inks: Inks::for_depth(options.colours()),
@@ -36,9 +41,9 @@ pub(crate) fn run(options: &Options, app: App, effects: Vec<Effect>) -> io::Resu
         ending: Ending::Quit,
     };
     session.ask_for_colours(options)?;
-    session.perform(effects);
+    session.perform(beginning.effects);
     session.run();
-    Ok(session.close())
+    session.close()
 }
 
 struct Session {
@@ -145,18 +150,23 @@ impl Session {
     }
 
     /// Gives the terminal back, and says there where unsaved edits went.
-    fn close(self) -> Ending {
-        let path = self
-            .app
-            .path
-            .map_or_else(String::new, |path| format!(" {}", path.display()));
+    fn close(mut self) -> Result<Ending, Error> {
+        let unreadable = self.app.unreadable.take();
+        let path = self.app.path.as_ref();
+        let path = path.map_or_else(String::new, |path| format!(" {}", path.display()));
+        // The end of the process frees a large scene at once.
+        mem::forget(self.app);
         let words = match self.world.close(patience(self.ending)) {
-            End::Nothing => return self.ending,
-            End::Kept => format!("unsaved edits are kept; halflight{path} offers them"),
-            End::Lost(reason) => format!("not all unsaved edits are kept: {reason}"),
+            End::Nothing => None,
+            End::Kept => Some(format!(
+                "unsaved edits are kept; halflight{path} offers them"
+            )),
+            End::Lost(reason) => Some(format!("not all unsaved edits are kept: {reason}")),
         };
-        terminal::complain(text::visible(&words).into_owned());
-        self.ending
+        if let Some(words) = words {
+            terminal::complain(text::visible(&words).into_owned());
+        }
+        unreadable.map_or(Ok(self.ending), |error| Err(error.into()))
     }
 
     /// When the rest of a picture may go over the link, if one is left.

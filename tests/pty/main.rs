@@ -7,6 +7,7 @@ mod endings;
 mod harness;
 mod journals;
 mod looks;
+mod opening;
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;

@@ -180,6 +180,14 @@ impl App {
 
     fn run(&mut self, command: Command) -> Vec<Effect> {
         match command {
+            Command::Quit(_) | Command::Help => {}
+            _ if self.is_opening() => {
+                self.warn_of_opening();
+                return Vec::new();
+            }
+            _ => {}
+        }
+        match command {
             Command::Write(file, force) => return self.write(file, force),
             Command::Quit(Force::No) => return self.quit(),
             Command::Quit(Force::Yes) => return self.quit_anyway(),

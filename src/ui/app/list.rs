@@ -45,7 +45,7 @@ impl App {
                     *at = moved(*at, rows, merge.conflicts.len());
                 }
             }
-            Context::In(_) | Context::Quit | Context::Recover => {}
+            Context::In(_) | Context::Opening | Context::Quit | Context::Recover => {}
         }
     }
 

@@ -17,6 +17,7 @@ mod literals;
 mod making;
 mod model;
 mod navigate;
+mod opening;
 mod picture;
 mod places;
 mod pointer;
@@ -34,8 +35,8 @@ pub use model::{
     App, Broken, Dialog, Disk, Export, FieldRow, Help, HelpFocus, Message, Mode, Outline, Outside,
     Prompt, PromptKind, Quality, Source, Stage, Stride, Typing,
 };
+pub use opening::{Opening, OpeningText, Unread};
 pub use picture::{Picture, Shown};
-pub use update::Opening;
 
 /// How soon a second Ctrl-C ends the program.
 const INTERRUPT_AGAIN: Duration = Duration::from_secs(2);

@@ -7,9 +7,11 @@ use std::time::Duration;
 use tui_input::Input;
 
 use super::assets::Assets;
+use super::opening::Unread;
 use super::picture::Picture;
 use super::saving::Saves;
 use crate::document::{Document, Merge, Side};
+use crate::file::ReadError;
 use crate::render::{Aov, Filter, Progress};
 use crate::scene::fields::Field;
 use crate::scene::{Camera, Images, Integrator, Meshes, Node, Origins, Scene, Size};
@@ -42,6 +44,10 @@ pub struct App {
     pub path: Option<PathBuf>,
     /// The text.
     pub document: Document,
+    /// The scene is yet to be read, and the text empty.
+    pub unread: Option<Unread>,
+    /// Why it could not be read: the program ends.
+    pub unreadable: Option<ReadError>,
     /// Where in the text as it stands each thing is.
     pub origins: Origins,
     /// What is wrong with the text as it stands.

@@ -19,7 +19,9 @@ impl App {
     /// nothing.
     pub(super) fn pointer(&mut self, event: MouseEvent) -> Vec<Effect> {
         let at = (event.column, event.row);
-        let waits = self.dialog.is_some() || self.prompt.is_some();
+        let waits = self.dialog.is_some()
+            || self.prompt.is_some()
+            || self.is_opening() && self.help.is_none();
         match event.kind {
             _ if waits => {}
             MouseEventKind::ScrollUp => self.wheel(at, -1),

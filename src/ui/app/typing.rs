@@ -208,6 +208,10 @@ impl App {
         if self.dialog.is_some() || self.help.is_some() {
             return;
         }
+        if self.is_opening() {
+            self.warn_of_opening();
+            return;
+        }
         if self.mode != Mode::Edit {
             self.say("values are pasted into fields: e edits the selected thing's");
             return;

@@ -1,97 +1,17 @@
 //! The step from one state to the next: who takes a message.
 
-use std::path::PathBuf;
-
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
-use super::assets::{Assets, STILL_READING};
-use super::model::Pending;
-use super::saving::Saves;
-use super::{
-    App, Disk, Help, HelpFocus, Message, Mode, Outline, Picture, Prompt, PromptKind, Quality,
-    Stride, line,
-};
-use crate::document::Document;
-use crate::format::Format;
-use crate::scene::{Images, Meshes, Node, Origins};
-use crate::text::{Findings, Severity};
+use super::assets::STILL_READING;
+use super::{App, Help, HelpFocus, Message, Mode, Outline, Prompt, PromptKind, line};
+use crate::text::Severity;
 use crate::ui::keymap::{self, Action, Context};
 use crate::ui::msg::{Effect, Msg, Timer};
 use crate::ui::terminal::Mouse;
 use crate::ui::view::layout::Zoom;
 
-/// What the interface starts from.
-#[derive(Clone, Debug)]
-pub struct Opening {
-    /// Where the scene was read from; `None` for the embedded one.
-    pub path: Option<PathBuf>,
-    /// Its language.
-    pub format: Format,
-    /// Its text.
-    pub text: String,
-    /// How pictures are traced.
-    pub quality: Quality,
-    /// Who has the mouse.
-    pub mouse: Mouse,
-    /// Size of the terminal in cells.
-    pub terminal: (u16, u16),
-}
-
 impl App {
-    /// The interface as it opens, and what is to be done first.
-    pub fn open(opening: Opening) -> (Self, Vec<Effect>) {
-        let mut app = Self {
-            path: opening.path,
-            document: Document::new(opening.format, opening.text),
-            origins: Origins::default(),
-            diagnostics: Findings::default(),
-            scene: None,
-            images: Images::default(),
-            meshes: Meshes::default(),
-            view: None,
-            quality: opening.quality,
-            aov: None,
-            mode: Mode::Select,
-            zoom: Zoom::default(),
-            selected: Node::View,
-            list_top: 0,
-            field: 0,
-            field_top: 0,
-            component: 0,
-            stride: Stride::default(),
-            typing: None,
-            prompt: None,
-            searched: String::new(),
-            dialog: None,
-            help: None,
-            errors: None,
-            message: None,
-            disk: Disk::default(),
-            broken: None,
-            outline: Outline::default(),
-            cross: (0, 0),
-            preview: Picture::default(),
-            trace: None,
-            export: None,
-            net: None,
-            mouse: opening.mouse,
-            terminal: opening.terminal,
-            assets: Assets::default(),
-            saves: Saves::default(),
-            pending: Pending::default(),
-        };
-        app.relower();
-        // What is changed first is rather an object than the camera.
-        app.select(Node::Object(0));
-        app.keep_selection();
-        app.scroll();
-        let mut effects = app.watch();
-        effects.push(app.look_for_kept());
-        effects.extend(app.follow());
-        (app, effects)
-    }
-
     /// Takes a message; says what is to be done about it.
     pub fn update(&mut self, msg: Msg) -> Vec<Effect> {
         let mut effects = self.take(msg);
@@ -114,8 +34,9 @@ impl App {
             Msg::Ended(target) => self.ended(target, "the picture can't be traced to its end"),
             Msg::FileChanged => return self.read_again(),
             // The answer may come after the scene got another name.
-            Msg::Read(path, read) if self.is_own_path(&path) => return self.was_read(read),
-            Msg::Read(..) => {}
+            Msg::Read(path, read) if !self.is_own_path(&path) => drop(read),
+            Msg::Read(_, read) if self.is_opening() => return self.opened(read),
+            Msg::Read(_, read) => return self.was_read(read),
             Msg::AssetsRead(wanted, loaded) => self.assets_read(&wanted, loaded),
             Msg::AssetsChanged => return self.read_assets(),
             Msg::Elapsed(Timer::Settled) => return self.settled(),
@@ -169,6 +90,10 @@ impl App {
                     .map(|(key, _)| key)
                     .collect();
                 self.warn(format!("the question comes first: {}", keys.join(", ")));
+                Vec::new()
+            }
+            None if context == Context::Opening => {
+                self.warn_of_opening();
                 Vec::new()
             }
             None => self.start_typing_with(context, key),
@@ -306,6 +231,7 @@ impl App {
             Context::Help => self.help = None,
             Context::Errors => self.errors = None,
             Context::Conflict | Context::Quit | Context::Recover => return self.put_off(),
+            Context::Opening => {}
             Context::In(Mode::Trace) => {
                 self.mode = self.pending.before_trace.take().unwrap_or(Mode::Select);
             }
@@ -324,7 +250,7 @@ impl App {
             Context::Quit => return self.quit_anyway(),
             Context::Recover => return self.restore(),
             Context::In(Mode::Pick) => self.pick_cross(),
-            Context::In(_) | Context::Help => {}
+            Context::In(_) | Context::Help | Context::Opening => {}
         }
         Vec::new()
     }

@@ -1,7 +1,7 @@
 //! The table of keys as text: the page of help, and the line of hints.
 
 use super::{A, Action, Binding, Chord, Context, Edit, Pick, Plain, Select, TABLE, Trace, View};
-use super::{ALL, EVERYWHERE};
+use super::{ALL, EVERYWHERE, SCENELESS};
 use crate::render::Aov;
 use crate::ui::app::Mode;
 
@@ -118,6 +118,7 @@ pub fn hints(context: Context) -> Vec<(String, &'static str)> {
         Context::In(Pick) => PICK_HINTS,
         Context::In(Trace) => TRACE_HINTS,
         Context::Errors => ERROR_HINTS,
+        Context::Opening => &[],
         Context::Help | Context::Conflict | Context::Quit | Context::Recover => {
             return TABLE
                 .iter()
@@ -137,6 +138,7 @@ pub fn hints(context: Context) -> Vec<(String, &'static str)> {
                 .collect();
             (keys.join("/"), *words)
         })
+        .filter(|(keys, _)| !keys.is_empty())
         .collect()
 }
 
@@ -223,7 +225,7 @@ fn holds(text: &str, lower_case: &str) -> bool {
 
 /// Whether a key means the same wherever it means anything.
 fn is_common(row: &Binding) -> bool {
-    [EVERYWHERE.len(), ALL.len()].contains(&row.contexts.len())
+    [EVERYWHERE.len(), SCENELESS.len(), ALL.len()].contains(&row.contexts.len())
 }
 
 fn binding(context: Context, action: Action) -> Option<&'static Binding> {

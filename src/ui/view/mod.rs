@@ -110,7 +110,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     }
     picture::render(app, inks, areas.picture, buffer);
     rule(app, areas.rule, buffer);
-    if !areas.list.is_empty() {
+    if !areas.list.is_empty() && !app.is_opening() {
         list::render(app, areas.list, buffer);
         fields::render(app, areas.fields, buffer);
     }

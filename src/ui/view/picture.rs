@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
+use unicode_width::UnicodeWidthStr;
 
 use super::dither;
 use super::layout::{self, raster};
@@ -47,13 +48,23 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
 
 /// Says why there is no picture.
 fn notice(app: &App, area: Rect, buffer: &mut Buffer) {
-    let text = match (&app.scene, app.picture().wanted) {
-        (Some(_), Some(_)) => "tracing…",
-        (Some(_), None) => "no picture",
-        (None, _) => "no picture: the scene has errors",
+    let text = match (&app.unread, &app.scene, app.picture().wanted) {
+        (Some(unread), ..) => opening(&app.file_name(), unread.bytes),
+        (None, Some(_), Some(_)) => "tracing…".to_owned(),
+        (None, Some(_), None) => "no picture".to_owned(),
+        (None, None, _) => "no picture: the scene has errors".to_owned(),
     };
-    let line = Rect::new(0, 0, text.chars().count() as u16, 1);
-    Row::new(buffer, layout::centred(area, line), 0).put(text, theme::DIM);
+    let line = Rect::new(0, 0, text.width().min(usize::from(area.width)) as u16, 1);
+    Row::new(buffer, layout::centred(area, line), 0).put(&text, theme::DIM);
+}
+
+/// Says that a file is read, and how long it is if that explains the wait.
+fn opening(name: &str, bytes: u64) -> String {
+    match bytes as f64 / 1e6 {
+        ..1.0 => format!("opening {name}…"),
+        megabytes @ ..1e3 => format!("opening {name}, {megabytes:.0} MB…"),
+        megabytes => format!("opening {name}, {:.1} GB…", megabytes / 1e3),
+    }
 }
 
 /// Marks the cell that is picked from, and says what lies there.

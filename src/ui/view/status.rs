@@ -23,7 +23,7 @@ pub(crate) fn render_hint(app: &App, area: Rect, buffer: &mut Buffer) {
         return;
     }
     let context = keymap::context(app);
-    let help = matches!(context, Context::In(_) | Context::Errors);
+    let help = matches!(context, Context::In(_) | Context::Errors | Context::Opening);
     let last = if help { "  ? help " } else { "" };
     let mut row = Row::new(buffer, area, 0);
     row.skip(1);
@@ -152,7 +152,11 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
 
 /// Says the mode, and how the text stands.
 fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
-    let (mode, style) = mode_chip(app.mode);
+    let (mode, style) = if app.is_opening() {
+        ("OPENING", theme::ACCENT)
+    } else {
+        mode_chip(app.mode)
+    };
     say(0, format!(" {mode} "), theme::chip(style));
     let errors = app.error_count();
     let warnings = app.diagnostics.warnings();

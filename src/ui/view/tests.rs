@@ -17,8 +17,8 @@ use crate::render::{Filter, Frame, NO_OBJECT, Progress};
 use crate::scene::{Node, Size, lower};
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
-    App, Dialog, Disk, Export, Help, HelpFocus, Message, Mode, Opening, Outside, Prompt,
-    PromptKind, Quality, Stage, Typing,
+    App, Dialog, Disk, Export, Help, HelpFocus, Message, Mode, Opening, OpeningText, Outside,
+    Prompt, PromptKind, Quality, Stage, Typing,
 };
 use crate::ui::msg::{Destination, Existing, ExportId};
 use crate::ui::recovery::tests::offer;
@@ -46,7 +46,7 @@ pub(super) fn app_of(format: Format, text: &str) -> App {
     let (mut app, _) = App::open(Opening {
         format,
         path: Some(PathBuf::from("somewhere/test").with_extension(format.extension())),
-        text: text.to_owned(),
+        text: OpeningText::Known(text.to_owned()),
         quality: Quality {
             spp: 16,
             depth: None,

@@ -6,6 +6,7 @@ mod disk;
 mod editing;
 mod making;
 mod moving;
+mod opening;
 mod pictures;
 mod recovering;
 mod xml;
@@ -55,10 +56,14 @@ fn opened(text: &str) -> (App, Vec<Effect>) {
 }
 
 fn opened_as(name: &str, text: &str) -> (App, Vec<Effect>) {
-    App::open(Opening {
+    App::open(opening_as(name, text.to_owned()))
+}
+
+fn opening_as(name: &str, text: String) -> Opening {
+    Opening {
         path: Some(PathBuf::from(name)),
         format: Format::of_path(Path::new(name)).expect("a scene's name"),
-        text: text.to_owned(),
+        text: OpeningText::Known(text),
         quality: Quality {
             spp: 4,
             depth: None,
@@ -67,7 +72,7 @@ fn opened_as(name: &str, text: &str) -> (App, Vec<Effect>) {
         },
         mouse: Mouse::On,
         terminal: (120, 40),
-    })
+    }
 }
 
 /// Keys written as characters, others by name: `jje<Right><Shift-Right><Ctrl-r>`.

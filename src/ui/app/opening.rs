@@ -1,0 +1,160 @@
+//! The interface before its scene: the file is read beside it, and the first screen waits for none.
+
+use std::path::PathBuf;
+
+use super::assets::Assets;
+use super::model::Pending;
+use super::saving::Saves;
+use super::{App, Disk, Mode, Outline, Picture, Quality, Stride};
+use crate::document::Document;
+use crate::file::ReadError;
+use crate::format::Format;
+use crate::scene::{self, Images, Lowered, Meshes, Node};
+use crate::text::{Findings, Severity};
+use crate::ui::msg::Effect;
+use crate::ui::reading::{News, Reading};
+use crate::ui::terminal::Mouse;
+use crate::ui::view::layout::Zoom;
+
+/// What the interface starts from.
+#[derive(Clone, Debug)]
+pub struct Opening {
+    /// Where the scene is read from; `None` for the embedded one.
+    pub path: Option<PathBuf>,
+    /// Its language.
+    pub format: Format,
+    /// Its text.
+    pub text: OpeningText,
+    /// How pictures are traced.
+    pub quality: Quality,
+    /// Who has the mouse.
+    pub mouse: Mouse,
+    /// Size of the terminal in cells.
+    pub terminal: (u16, u16),
+}
+
+/// The text that the interface starts with.
+#[derive(Clone, Debug)]
+pub enum OpeningText {
+    /// It is known.
+    Known(String),
+    /// It is yet to be read from a file of so many bytes.
+    Unread(u64),
+}
+
+/// A scene that is being read for the first time.
+#[derive(Debug)]
+pub struct Unread {
+    /// How long its file is.
+    pub bytes: u64,
+}
+
+impl App {
+    /// The interface as it opens, and what is to be done first.
+    pub fn open(opening: Opening) -> (Self, Vec<Effect>) {
+        let (document, unread) = match opening.text {
+            OpeningText::Known(text) => (Document::new(opening.format, text), None),
+            OpeningText::Unread(bytes) => {
+                let unread = Unread { bytes };
+                (Document::new(opening.format, String::new()), Some(unread))
+            }
+        };
+        let meshes = Meshes::default();
+        let lowered = scene::lower(document.text(), document.tree(), &meshes);
+        let mut app = Self {
+            path: opening.path,
+            document,
+            unread,
+            unreadable: None,
+            origins: scene::Origins::default(),
+            diagnostics: Findings::default(),
+            scene: None,
+            images: Images::default(),
+            meshes,
+            view: None,
+            quality: opening.quality,
+            aov: None,
+            mode: Mode::Select,
+            zoom: Zoom::default(),
+            selected: Node::View,
+            list_top: 0,
+            field: 0,
+            field_top: 0,
+            component: 0,
+            stride: Stride::default(),
+            typing: None,
+            prompt: None,
+            searched: String::new(),
+            dialog: None,
+            help: None,
+            errors: None,
+            message: None,
+            disk: Disk::default(),
+            broken: None,
+            outline: Outline::default(),
+            cross: (0, 0),
+            preview: Picture::default(),
+            trace: None,
+            export: None,
+            net: None,
+            mouse: opening.mouse,
+            terminal: opening.terminal,
+            assets: Assets::default(),
+            saves: Saves::default(),
+            pending: Pending::default(),
+        };
+        let mut effects = app.watch();
+        if app.is_opening() {
+            app.origins = lowered.origins;
+        } else {
+            effects.push(app.begin(lowered));
+            effects.extend(app.follow());
+        }
+        (app, effects)
+    }
+
+    /// Whether the scene is yet to be read: there is nothing to see, and nothing to edit.
+    pub fn is_opening(&self) -> bool {
+        self.unread.is_some()
+    }
+
+    /// Takes the first text of the scene, or ends for want of one.
+    pub(super) fn opened(&mut self, read: Result<Reading, ReadError>) -> Vec<Effect> {
+        let reading = match read {
+            Ok(reading) => reading,
+            Err(error) => {
+                self.unreadable = Some(error);
+                return vec![Effect::Quit];
+            }
+        };
+        self.unread = None;
+        let lowered = match reading.news.map(|news| *news) {
+            Some(News::Text(document, meaning)) => {
+                // What it was before is empty.
+                drop(self.document.load(document));
+                meaning.lowered
+            }
+            // Nothing is edited yet: there is nothing to merge, and only an empty file holds no news.
+            Some(News::Merged(..) | News::Conflict(_) | News::Broken(..)) | None => self.lowered(),
+        };
+        vec![self.begin(lowered)]
+    }
+
+    /// Shows what the first text means, and has edits looked for that earlier runs kept of it.
+    fn begin(&mut self, lowered: Lowered) -> Effect {
+        // That the scene is still being opened; what has failed is still to be read.
+        self.message
+            .take_if(|message| message.severity != Some(Severity::Error));
+        self.install(lowered);
+        // What is changed first is rather an object than the camera.
+        self.select(Node::Object(0));
+        self.keep_selection();
+        self.scroll();
+        self.look_for_kept()
+    }
+
+    /// Says that what was asked for needs the scene.
+    pub(super) fn warn_of_opening(&mut self) {
+        self.warn(format!("{} is still being opened", self.file_name()));
+    }
+}

@@ -1,0 +1,113 @@
+//! The interface before its scene is read.
+
+use std::path::PathBuf;
+
+use super::*;
+use crate::file::ReadError;
+
+/// The interface while a file of so many bytes is read.
+fn opening() -> (App, Vec<Effect>) {
+    let mut opening = opening_as("scene.ray", String::new());
+    opening.text = OpeningText::Unread(2_000_000_000);
+    App::open(opening)
+}
+
+/// What its first reading comes to, if the file holds this text.
+fn read(effects: &[Effect], text: &str) -> Msg {
+    let known = effects.iter().find_map(|effect| match effect {
+        Effect::Read(path, known) => Some((path.clone(), known.clone())),
+        _ => None,
+    });
+    let (path, known) = known.expect("it is to be read");
+    Msg::Read(
+        path,
+        Ok(Reading::new(text.to_owned(), known).expect("it fits")),
+    )
+}
+
+#[test]
+fn a_scene_is_read_after_its_watch_began_and_shown_as_if_it_had_been_there() {
+    for text in [SCENE, "", "no scene"] {
+        let (mut app, effects) = opening();
+        assert!(matches!(effects[..], [Effect::Watch(_), Effect::Read(..)]));
+        let first = read(&effects, text);
+        let effects = app.update(first);
+        let at_once = opened(text).0;
+        assert!(!app.is_opening());
+        assert_eq!(app.document.text(), text);
+        assert_eq!(app.diagnostics, at_once.diagnostics, "of {text:?}");
+        assert_eq!(app.scene, at_once.scene);
+        assert_eq!(app.selected, at_once.selected);
+        let traces = effects.iter().any(|e| matches!(e, Effect::Trace(..)));
+        assert_eq!(traces, text == SCENE);
+        assert!(!app.document.is_dirty());
+    }
+}
+
+#[test]
+fn what_needs_a_scene_is_refused_until_there_is_one() {
+    for said in [
+        "w",
+        "b",
+        "<F5>",
+        "e",
+        "E",
+        "u",
+        "5",
+        ":w<Enter>",
+        ":export a.bmp<Enter>",
+    ] {
+        let (mut app, _) = opening();
+        let effects = press(&mut app, said);
+        assert!(effects.is_empty(), "{said}: {effects:?}");
+        let message = app.message.as_ref().expect("it says why");
+        assert_eq!(message.text, "scene.ray is still being opened", "{said}");
+    }
+    let (mut app, _) = opening();
+    app.update(Msg::Paste("1 2 3".to_owned()));
+    assert!(app.message.is_some() && !app.document.is_dirty());
+}
+
+#[test]
+fn help_and_the_way_out_need_no_scene() {
+    let (mut app, _) = opening();
+    press(&mut app, "?");
+    assert!(app.help.is_some());
+    press(&mut app, "q");
+    assert!(app.help.is_none());
+    for said in ["q", ":q<Enter>", "<Ctrl-c>"] {
+        let (mut app, _) = opening();
+        let effects = press(&mut app, said);
+        assert!(matches!(effects[..], [Effect::Quit]), "{said}: {effects:?}");
+    }
+    for msg in [Msg::Terminate, Msg::HangUp] {
+        let (mut app, _) = opening();
+        assert!(matches!(app.update(msg)[..], [Effect::Quit]));
+    }
+}
+
+#[test]
+fn a_scene_that_cannot_be_read_ends_it() {
+    let (mut app, _) = opening();
+    let path = PathBuf::from("scene.ray");
+    let error = ReadError::NotFound { path: path.clone() };
+    let effects = app.update(Msg::Read(path, Err(error)));
+    assert!(matches!(effects[..], [Effect::Quit]));
+    assert!(matches!(app.unreadable, Some(ReadError::NotFound { .. })));
+}
+
+#[test]
+fn kept_edits_are_looked_for_once_the_scene_is_there() {
+    let looks = |effects: &[Effect]| {
+        wants(
+            effects,
+            |effect| matches!(effect, Effect::LookForKept(sought) if *sought.text == SCENE),
+        )
+    };
+    let (mut app, effects) = opening();
+    assert!(!wants(&effects, |effect| matches!(
+        effect,
+        Effect::LookForKept(_)
+    )));
+    assert!(looks(&app.update(read(&effects, SCENE))));
+}

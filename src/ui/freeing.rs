@@ -1,0 +1,30 @@
+//! The thread that frees what is no longer needed: of a large scene that takes longer than a key may
+//! wait.
+
+use std::any::Any;
+use std::io;
+use std::sync::Arc;
+use std::sync::mpsc::{self, Sender};
+use std::thread;
+
+/// The thread's handle. Its end is not waited for: nothing is lost with it.
+pub(super) struct Freeing {
+    unneeded: Sender<Arc<dyn Any + Send + Sync>>,
+}
+
+impl Freeing {
+    /// Starts the thread.
+    pub(super) fn start() -> io::Result<Self> {
+        let (unneeded, inbox) = mpsc::channel();
+        thread::Builder::new()
+            .name("freeing".to_owned())
+            .spawn(move || inbox.into_iter().for_each(drop))?;
+        Ok(Self { unneeded })
+    }
+
+    /// Has something freed.
+    pub(super) fn order(&self, unneeded: Arc<dyn Any + Send + Sync>) -> Result<(), String> {
+        let sent = self.unneeded.send(unneeded);
+        sent.map_err(|_| "the thread that frees memory has ended".to_owned())
+    }
+}

@@ -1,0 +1,64 @@
+//! Files that take long to read, and files that can't be.
+
+use super::*;
+
+/// Starts with a scene so long that the screen is there before it is read.
+fn open_long(place: &Place) -> Session {
+    let file = fs::File::create(place.at("long.ray")).expect("a file");
+    // It has holes only, which take no room on the disk.
+    file.set_len(1 << 29).expect("a sparse file");
+    let mut session = place.start(&["long.ray"], WIDE);
+    session.wait_for("opening long.ray, 537 MB");
+    session
+}
+
+#[test]
+fn keys_are_answered_while_a_scene_is_read() {
+    let place = Place::new();
+    let mut session = open_long(&place);
+    session.send("w");
+    session.wait_for("long.ray is still being opened");
+    session.send("?");
+    session.wait_for(" Keys ");
+    session.send(ESC);
+    wait_until_gone(&mut session, " Keys ");
+    quit(session);
+}
+
+#[test]
+fn signals_end_it_while_a_scene_is_read() {
+    for (signal, code) in [(Signal::INT, 130), (Signal::TERM, 143), (Signal::HUP, 129)] {
+        let place = Place::new();
+        let session = open_long(&place);
+        kill(session.process_id(), signal);
+        assert_end(session, code);
+    }
+}
+
+#[test]
+fn a_scene_that_cannot_be_read_ends_it_with_its_code() {
+    let place = Place::new();
+    fs::write(place.at("latin.ray"), b"// caf\xe9\n").expect("written");
+    for (name, code, words) in [
+        (
+            "latin.ray",
+            65,
+            "latin.ray:1:7: the byte 0xE9 is not UTF-8 text",
+        ),
+        ("none.ray", 66, "no such file"),
+        (".", 66, "is a folder"),
+    ] {
+        let mut session = place.start(&[name], WIDE);
+        let status = session.end();
+        assert!(
+            session.text().contains(words),
+            "{name}:\n{}",
+            session.text()
+        );
+        assert_eq!(status.exit_code(), code, "{name}");
+        // Reading may have taken so long that there was a screen.
+        let is_entered = last(ENTER_SCREEN, &session.written).is_some();
+        assert!(!is_entered || name == "latin.ray", "{name}");
+        session.assert_restored();
+    }
+}
