@@ -12,6 +12,7 @@ use super::Options;
 use super::assets::AssetReader;
 use super::editor;
 use super::freeing::Freeing;
+use super::heap;
 use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
 use super::reading::Reader;
 use super::recovery::{self, Edits, End, Keeper, Order};
@@ -28,6 +29,9 @@ const REPLY_PATIENCE: Duration = Duration::from_millis(300);
 
 /// How long unsaved edits may take to be kept where the end is hurried.
 const KEEPING: Duration = Duration::from_millis(700);
+
+/// How long memory that pictures have left behind is kept for the next ones.
+const TRIM_TIME: Duration = Duration::from_secs(30);
 
 /// Something that came in.
 #[derive(Debug)]
@@ -67,6 +71,8 @@ pub(crate) struct World {
     /// How many renderers there were.
     renderers: u64,
     timers: Vec<(Instant, Timer)>,
+    /// When memory that pictures have left behind is given back to the system.
+    trim_at: Option<Instant>,
     ended: bool,
 }
 
@@ -115,6 +121,7 @@ impl World {
             export: None,
             renderers: 0,
             timers: Vec::new(),
+            trim_at: None,
             ended: false,
             sender,
         })
@@ -148,10 +155,12 @@ impl World {
     }
 
     /// What an event says; nothing where its frame was taken before.
-    pub(crate) fn message(&self, event: Event) -> Option<Msg> {
+    pub(crate) fn message(&mut self, event: Event) -> Option<Msg> {
         match event {
             Event::Msg(msg) => Some(msg),
             Event::Ready(target) => {
+                self.trim_at
+                    .get_or_insert_with(|| Instant::now() + TRIM_TIME);
                 let frame = self.numbered(target)?.renderer.latest()?;
                 Some(Msg::Frame(target, frame))
             }
@@ -202,11 +211,15 @@ impl World {
 
     /// When the next timer is due.
     pub(crate) fn next_timer(&self) -> Option<Instant> {
-        self.timers.iter().map(|&(at, _)| at).min()
+        let timers = self.timers.iter().map(|&(at, _)| at);
+        timers.chain(self.trim_at).min()
     }
 
     /// The timers that are due, as messages.
     pub(crate) fn due(&mut self, now: Instant) -> Vec<Msg> {
+        if self.trim_at.take_if(|at| *at <= now).is_some() {
+            heap::trim();
+        }
         self.timers
             .extract_if(.., |&mut (at, _)| at <= now)
             .map(|(_, timer)| Msg::Elapsed(timer))

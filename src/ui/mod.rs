@@ -17,6 +17,7 @@ pub mod doctor;
 mod editor;
 mod effects;
 mod freeing;
+mod heap;
 pub mod keymap;
 pub mod msg;
 pub mod reading;
