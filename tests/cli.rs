@@ -535,12 +535,13 @@ fn on_a_full_disk(place: &Place, line: &str) -> Output {
     in_shell(place, "ulimit -f 1", line)
 }
 
-/// Many spheres with the view of the ball, on as many lines.
+/// Many spheres side by side, before the view of the ball.
 #[cfg(target_os = "linux")]
 fn spheres(count: usize) -> String {
-    let line = "sphere 0 0 0 1  1 1 1 0 0 0 0 0 0 1 0 0 1\n";
+    let sphere = |number| format!("sphere {number} 0 0 .1  1 1 1 0 0 0 0 0 0 1 0 0 1\n");
+    let spheres: String = (0..count).map(sphere).collect();
     let view = "// view: eye 0 0 5 target 0 0 0 up 0 1 0 fov 40 size 8 6";
-    format!("1 1 1 1 0 9 0 0 0 0 {count}\n{}{view}", line.repeat(count))
+    format!("1 1 1 1 0 9 0 0 0 0 {count}\n{spheres}{view}")
 }
 
 #[test]
