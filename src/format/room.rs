@@ -87,7 +87,7 @@ impl Counts {
             counts.tokens += u64::from(begins);
             counts.words += u64::from(begins && byte.is_ascii_alphabetic());
             counts.comments += u64::from(begins && matches!(byte, b'/' | b'\\' | b'#'));
-            counts.lines += u64::from(byte == b'\n');
+            counts.lines += u64::from(byte == b'\r' || byte == b'\n' && before != b'\r');
             counts.openings += u64::from(before == b'<' && byte != b'/');
             counts.equals += u64::from(byte == b'=');
             before = byte;
@@ -113,10 +113,10 @@ mod tests {
 
     #[test]
     fn leaves_are_counted() {
-        let text = "sphere 1 2\n// a\n<a b='1'> </a>\n";
+        let text = "sphere 1 2\n// a\r\n<a b='1'> </a>\r";
         let counted = Counts {
             tokens: 8,
-            words: 2,
+            words: 3,
             comments: 1,
             lines: 3,
             openings: 1,

@@ -278,7 +278,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_every_key_is_there() {
         let lines = help("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 13);
+        assert_eq!(headings(&lines).len(), 14);
         assert!(lines.contains(&entry("gg", "first")));
         for row in TABLE {
             assert!(lines.contains(&entry(&keys(row), row.words)), "{row:?}");

@@ -29,7 +29,10 @@ fn read(effects: &[Effect], text: &str) -> Msg {
 fn a_scene_is_read_after_its_watch_began_and_shown_as_if_it_had_been_there() {
     for text in [SCENE, "", "no scene"] {
         let (mut app, effects) = opening();
-        assert!(matches!(effects[..], [Effect::Watch(_), Effect::Read(..)]));
+        assert!(matches!(
+            effects[..],
+            [Effect::Watch(_), Effect::Read(..), Effect::FindBackups(_)]
+        ));
         let first = read(&effects, text);
         let effects = app.update(first);
         let at_once = opened(text).0;
