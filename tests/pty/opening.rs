@@ -1,14 +1,17 @@
 //! Files that take long to read, and files that can't be.
 
+use std::io::Write;
+
 use super::*;
 
 /// Starts with a scene so long that the screen is there before it is read.
 fn open_long(place: &Place) -> Session {
-    let file = fs::File::create(place.at("long.ray")).expect("a file");
-    // It has holes only, which take no room on the disk.
-    file.set_len(1 << 29).expect("a sparse file");
+    let mut file = fs::File::create(place.at("long.ray")).expect("a file");
+    // It begins as a text would, and the rest is a hole, which takes no room on the disk.
+    file.write_all(&[b'\n'; 1 << 14]).expect("written");
+    file.set_len(1 << 31).expect("a sparse file");
     let mut session = place.start(&["long.ray"], WIDE);
-    session.wait_for("opening long.ray, 537 MB");
+    session.wait_for("opening long.ray, 2.1 GB");
     session
 }
 
