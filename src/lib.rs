@@ -50,8 +50,10 @@
 //!   in a fixed order: any thread count and any cancellation history gives the same bits.
 //! - `ui` changes documents, never scenes. `App::update` is a pure step that returns effects;
 //!   drawing never locks.
-//! - What threads share is a message, with three exceptions: a renderer's newest generation and its
-//!   frame slot, and the messages of panics, which a panic hook must be able to leave anywhere.
+//! - What threads share is a message, with few exceptions: a renderer's newest generation and its
+//!   frame slot; and in [`ui::terminal`] the bytes on their way to the terminal and who has it, which
+//!   a panic hook must be able to change, the messages that it leaves, and the number of replies that
+//!   are awaited.
 
 pub mod accel;
 pub mod assets;

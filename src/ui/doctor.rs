@@ -247,7 +247,7 @@ fn memory_limits() -> Vec<String> {
 fn folders(scene: Option<&Path>, folder: &Path) -> Vec<String> {
     let current = std::env::current_dir();
     let current = current.map_or_else(|error| error.to_string(), |path| path.display().to_string());
-    let kept = match recovery::state() {
+    let kept = match recovery::place() {
         Ok(folder) => folder.display().to_string(),
         Err(error) => format!("nowhere: {error}"),
     };

@@ -133,7 +133,7 @@ impl World {
     }
 
     /// Asks the terminal for its colours, and tmux for those of the terminal behind it: answers
-    /// come as [`Event::Reply`], if they come.
+    /// come as [`Event::Replied`], if they come.
     pub(crate) fn ask_for_colours(&self) -> io::Result<()> {
         self.replies.expect();
         self.terminal.ask_for_colours()?;

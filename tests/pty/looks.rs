@@ -64,6 +64,31 @@ fn a_finished_picture_is_left_alone() {
 }
 
 #[test]
+fn a_selection_that_changes_no_pixel_sends_no_picture() {
+    let place = Place::new();
+    for (colours, size) in [
+        ("24", (120, 40)),
+        ("256", (120, 40)),
+        ("24", (200, 50)),
+        ("256", (200, 50)),
+    ] {
+        let arguments = ["--color", colours, "balls.ray"];
+        let mut session = Session::start(place.directory.path(), &arguments, size, &[]);
+        wait_for_rest(&mut session);
+        // Without the outline of what is selected.
+        session.send("o");
+        session.drain(Duration::from_millis(300));
+        session.send("j");
+        let bytes = session.drain(Duration::from_millis(300));
+        assert!(
+            (1..=2048).contains(&bytes),
+            "{colours} at {size:?}: {bytes} bytes"
+        );
+        quit(session);
+    }
+}
+
+#[test]
 fn what_cannot_be_opened_leaves_the_terminal_alone() {
     let place = Place::new();
     for (name, code) in [("none.ray", 66), ("none.txt", 2), (".", 66)] {

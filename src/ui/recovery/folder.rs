@@ -25,8 +25,19 @@ pub(super) struct Folder {
     held: system::Held,
 }
 
+/// Where journals are kept; the error is why none can be.
+pub(crate) fn place() -> io::Result<PathBuf> {
+    let state = state()?;
+    Folder::find(&state)?;
+    Ok(path_in(&state.join("halflight")))
+}
+
+fn path_in(own: &Path) -> PathBuf {
+    own.join("recovery")
+}
+
 /// Where programs keep their state, by the environment.
-pub(crate) fn state() -> io::Result<PathBuf> {
+pub(super) fn state() -> io::Result<PathBuf> {
     state_by(|name| env::var_os(name))
 }
 
@@ -65,7 +76,7 @@ impl Folder {
     }
 
     fn open_in(own: &Path, missing: system::Missing) -> io::Result<Self> {
-        let path = own.join("recovery");
+        let path = path_in(own);
         let held = system::Held::of(own, &path, missing)?;
         Ok(Self { path, held })
     }

@@ -26,7 +26,7 @@ mod record;
 pub(crate) mod tests;
 
 pub use claim::Claim;
-pub(crate) use folder::state;
+pub(crate) use folder::place;
 pub(crate) use journal::Edits;
 pub(crate) use keeper::{End, Keeper, Order};
 pub(crate) use offer::look_for;
