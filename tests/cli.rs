@@ -332,7 +332,7 @@ fn what_is_left_of_a_save_that_was_cut_off_is_named() {
     place.write(".halflight-backup-0-00c0ffee-ball.ray", "old");
     for line in ["check ball.ray", "render ball.ray -o a.bmp"] {
         let told = place.told(line, 0);
-        let words = "note: a save of ball.ray was cut off: ";
+        let words = "note: a save of ball.ray was interrupted: ";
         assert!(told.starts_with(words), "{told}");
         assert!(
             told.contains(".halflight-backup-0-00c0ffee-ball.ray has what"),
@@ -581,7 +581,7 @@ fn bytes_that_are_no_text_end_with_65() {
         format!("{BALL}{}{}", "// \n".repeat(5000), "\0".repeat(200)),
     );
     for (name, line) in [("start.ray", 1), ("late.ray", 5005)] {
-        let binary = "is a binary file, not text: it has bytes 0x00 from line";
+        let binary = "is a binary file, not text: NUL bytes from line";
         let told = place.told(&format!("check {name}"), 65);
         let said = format!("error: {name}: {binary} {line} on\n");
         assert!(told.starts_with(&said), "{told}");

@@ -72,7 +72,7 @@ pub enum Warnings {
 }
 
 /// Bytes of a scene that may be read with several threads. Starting them costs a small one too much.
-const LARGE: u64 = 1 << 16;
+const LARGE: u64 = 1 << 14;
 
 /// Scenes to look at.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -150,7 +150,7 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
     let text = file::read_text(path)?;
     for copy in file::backups(path) {
         let (scene, copy) = (path.display(), copy.display());
-        let note = format!("a save of {scene} was cut off: {copy} has what it held before");
+        let note = format!("a save of {scene} was interrupted: {copy} holds the previous content");
         tell("note", &note);
     }
     let no_memory = |reason| ReadError::NoMemory {

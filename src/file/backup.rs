@@ -83,11 +83,15 @@ pub fn backups(path: &Path) -> Vec<PathBuf> {
     let Ok(path) = fs::canonicalize(path) else {
         return Vec::new();
     };
-    let content = super::read_bytes(&path, super::MAX_BYTES).unwrap_or_default();
     let beside = copies(directory_of(&path), &path);
     let elsewhere = copies(&std::env::temp_dir(), &path);
-    let all = beside.chain(elsewhere);
-    let mut found: Vec<_> = all.filter(|copy| !is_needless(copy, &content)).collect();
+    let mut found: Vec<_> = beside.chain(elsewhere).collect();
+    if found.is_empty() {
+        // There hardly ever are any, and the file may be large.
+        return found;
+    }
+    let content = super::read_bytes(&path, super::MAX_BYTES).unwrap_or_default();
+    found.retain(|copy| !is_needless(copy, &content));
     found.sort();
     found.dedup();
     found

@@ -75,7 +75,7 @@ pub enum ReadError {
     #[error(transparent)]
     NoThreads(#[from] NoThreads),
     /// It holds many bytes that no text has.
-    #[error("{path}: is a binary file, not text: it has bytes 0x00 from line {line} on", path = path.display())]
+    #[error("{path}: is a binary file, not text: NUL bytes from line {line} on", path = path.display())]
     Binary {
         /// The file.
         path: PathBuf,

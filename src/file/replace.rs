@@ -3,6 +3,8 @@
 use std::fs::{File, Metadata, OpenOptions};
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::Path;
+use std::thread;
+use std::time::{Duration, Instant};
 
 use super::alike::take_after;
 use super::backup::Backup;
@@ -11,12 +13,17 @@ use super::stream;
 use super::target::{Target, directory_of, not_a_file, open};
 use super::temporary::{Access, Temporary, is_refusal, sync_directory};
 
+/// How long a file that another program has locked is waited for, and how often it is looked at.
+const LOCK_PATIENCE: Duration = Duration::from_secs(1);
+const LOCK_RETRY: Duration = Duration::from_millis(20);
+
 /// Bytes handed to the system at once: pictures come in rows of a few hundred.
 const CHUNK: usize = 1 << 18;
 
 /// Replaces a file, or creates it, so that at every moment it holds either its old content or the
 /// new one whole. Follows symbolic links; keeps mode, owner and extended attributes. What is not a
-/// file is refused; nothing here waits for another process.
+/// file is refused. A program that has locked a file which is written over in place is waited for, for
+/// a second at most.
 ///
 /// The content is written to a file without a name, or with a temporary one where the file system
 /// has no such files, and synced; then it takes the name. `may` is asked at that moment: an error
@@ -140,7 +147,7 @@ fn overwrite<E: From<io::Error>>(
     let mut content = Vec::new();
     write(&mut content)?;
     let file = open(OpenOptions::new().read(true).write(true), path)?;
-    wait_for_others(&file);
+    wait_for_others(&file)?;
     let backup = Backup::of(path, &file)?;
     if let Err(refused) = may() {
         backup.discard();
@@ -158,16 +165,24 @@ fn overwrite<E: From<io::Error>>(
     Ok(())
 }
 
-/// Waits until nobody else writes over a file, under whatever name.
-fn wait_for_others(file: &File) {
+/// Waits until nobody else writes over a file, under whatever name; an error if that takes long.
+fn wait_for_others(file: &File) -> io::Result<()> {
     #[cfg(unix)]
     {
         use rustix::fs::{FlockOperation, flock};
-        // Where files can't be locked, nobody is known to.
-        let _ = call("flock", || Ok(flock(file, FlockOperation::LockExclusive)?));
+        let give_up = Instant::now() + LOCK_PATIENCE;
+        let lock = || Ok(flock(file, FlockOperation::NonBlockingLockExclusive)?);
+        // Where files can't be locked, nobody is known to write.
+        while call("flock", lock).is_err_and(|error| error.kind() == io::ErrorKind::WouldBlock) {
+            if give_up < Instant::now() {
+                return Err(io::Error::other("another program has it locked"));
+            }
+            thread::sleep(LOCK_RETRY);
+        }
     }
     #[cfg(not(unix))]
     let _ = file;
+    Ok(())
 }
 
 /// Puts the content of a backup back after an error, which is returned; where that fails too, the

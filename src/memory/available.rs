@@ -7,7 +7,11 @@ const SPARE: u64 = 16 << 20;
 
 /// What the tightest limit leaves; `None` where no limit is known.
 pub fn available() -> Option<Available> {
-    let tightest = limits().into_iter().min_by_key(|limit| limit.bytes)?;
+    // Beyond that one the group is slowed down, not stopped.
+    let hard = limits()
+        .into_iter()
+        .filter(|available| available.limit != Limit::GroupHigh);
+    let tightest = hard.min_by_key(|limit| limit.bytes)?;
     Some(Available {
         bytes: tightest.bytes.saturating_sub(SPARE),
         ..tightest

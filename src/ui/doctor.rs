@@ -111,10 +111,9 @@ fn colours(
         return lines;
     }
     let (shows_more, said) = match (answers, behind_tmux) {
-        (Some(answers), _) if answers.has_true_colour() => (
-            true,
-            "the terminal answers that it has 24-bit colour, which is used",
-        ),
+        (Some(answers), _) if answers.has_true_colour() => {
+            (true, "the terminal reports 24-bit colour, which is used")
+        }
         (_, Some(true)) => (true, "tmux sends its terminal 24-bit colour, which is used"),
         (_, Some(false)) => (
             false,
@@ -125,10 +124,7 @@ fn colours(
         (Some(answers), None) if answers.is_silent() => {
             (false, "the terminal does not answer within 200 ms")
         }
-        (Some(_), None) => (
-            false,
-            "the terminal does not answer that it has 24-bit colour",
-        ),
+        (Some(_), None) => (false, "the terminal does not report 24-bit colour"),
     };
     lines.push(said.to_owned());
     if !shows_more {

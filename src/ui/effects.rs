@@ -23,9 +23,9 @@ use super::terminal::{Signals, suspend_process};
 use super::writing::Writers;
 use crate::render::{Job, Refusal, Renderer, Threads};
 
-/// How long replies of the terminal are waited for before it is handed over: longer than most
+/// How long replies of the terminal are waited for before it is handed over: longer than nearly all
 /// round trips.
-const REPLY_PATIENCE: Duration = Duration::from_millis(300);
+const REPLY_PATIENCE: Duration = Duration::from_secs(1);
 
 /// How long unsaved edits may take to be kept where the end is hurried.
 const KEEPING: Duration = Duration::from_millis(700);
@@ -94,11 +94,8 @@ impl World {
         let tell = |sender: &Sender<Event>| {
             let (sender, replies) = (sender.clone(), Arc::clone(&replies));
             move |event| {
-                if matches!(
-                    event,
-                    terminal::Event::Reply(Reply::Status | Reply::Attributes)
-                ) {
-                    replies.came();
+                if let terminal::Event::Reply(reply) = event {
+                    replies.came(reply);
                 }
                 // An inbox that is gone belongs to a program that ends.
                 let _ = sender.send(Event::from(event));
@@ -135,7 +132,7 @@ impl World {
     /// Asks the terminal for its colours, and tmux for those of the terminal behind it: answers
     /// come as [`Event::Replied`], if they come.
     pub(crate) fn ask_for_colours(&self) -> io::Result<()> {
-        self.replies.expect();
+        self.replies.expect(Reply::Attributes);
         self.terminal.ask_for_colours()?;
         let sender = self.sender.clone();
         // Without a thread there is no answer.
@@ -187,18 +184,18 @@ impl World {
 
     /// Has the terminal reply when all that was sent has arrived.
     pub(crate) fn ask_status(&self) -> io::Result<()> {
-        self.replies.expect();
+        self.replies.expect(Reply::Status);
         self.terminal.ask_status()
     }
 
     /// Expects no more that the question about colours is answered.
     pub(crate) fn give_up_colours(&self) {
-        self.replies.came();
+        self.replies.came(Reply::Attributes);
     }
 
     /// Expects no reply any more to what was asked.
     pub(crate) fn give_up_replies(&self) {
-        self.replies.forget();
+        self.replies.forget_statuses();
     }
 
     /// Lets replies come in that whoever has the terminal next would take for keys.

@@ -237,6 +237,13 @@ impl Session {
     fn perform(&mut self, effects: Vec<Effect>) {
         let mut left = VecDeque::from(effects);
         while let Some(effect) = left.pop_front() {
+            if matches!(
+                effect,
+                Effect::OpenEditor { .. } | Effect::Suspend | Effect::TakeTerminal
+            ) {
+                // How long the terminal is somebody else's says nothing of the link.
+                self.waiting = None;
+            }
             if let Some(msg) = self.world.perform(effect) {
                 left.extend(self.app.update(msg));
             }

@@ -44,9 +44,12 @@ impl Writers {
     ) -> Result<(), String> {
         let shown = path.display();
         let panicked = SaveOutcome::Failed(format!("{shown}: the scene can't be written"));
-        self.start("save", Msg::Saved(id, panicked), move || {
-            Some(Msg::Saved(id, save(path, text, &guard)))
-        })
+        self.start(
+            "save",
+            Some(&self.at_work),
+            Msg::Saved(id, panicked),
+            move || Some(Msg::Saved(id, save(path, text, &guard))),
+        )
     }
 
     /// Writes a frame to a picture file: [`Msg::Exported`].
@@ -58,16 +61,19 @@ impl Writers {
     ) -> Result<(), String> {
         let shown = to.path.display();
         let panicked = Err(format!("{shown}: the picture can't be written"));
-        self.start("export", Msg::Exported(id, panicked), move || {
-            Some(Msg::Exported(id, export(&frame, to)))
-        })
+        self.start(
+            "export",
+            Some(&self.at_work),
+            Msg::Exported(id, panicked),
+            move || Some(Msg::Exported(id, export(&frame, to))),
+        )
     }
 
     /// Says why no picture can be written there, if so: [`Msg::Exported`].
     pub(super) fn check(&self, id: ExportId, to: Destination) -> Result<(), String> {
         let shown = to.path.display();
         let panicked = Err(format!("{shown}: the picture can't be written"));
-        self.start("check", Msg::Exported(id, panicked), move || {
+        self.start("check", None, Msg::Exported(id, panicked), move || {
             check_target(&to)
                 .err()
                 .map(|reason| Msg::Exported(id, Err(reason)))
@@ -78,14 +84,16 @@ impl Writers {
     /// [`Msg::BackupsFound`].
     pub(super) fn find_backups(&self, scene: PathBuf) -> Result<(), String> {
         let found = Msg::BackupsFound(Vec::new());
-        self.start("backups", found, move || {
+        self.start("backups", None, found, move || {
             Some(Msg::BackupsFound(file::backups(&scene)))
         })
     }
 
+    /// Does work on a thread of its own; the end of the program waits for what holds `at_work`.
     fn start(
         &self,
         name: &str,
+        at_work: Option<&Sender<Infallible>>,
         panicked: Msg,
         work: impl FnOnce() -> Option<Msg> + Send + 'static,
     ) -> Result<(), String> {
@@ -93,7 +101,7 @@ impl Writers {
             sender: self.sender.clone(),
             msg: Some(panicked),
         };
-        let at_work = self.at_work.clone();
+        let at_work = at_work.cloned();
         let thread = thread::Builder::new().name(name.to_owned());
         let spawned = thread.spawn(move || {
             report.msg = work();
@@ -219,7 +227,7 @@ mod tests {
         let (sender, inbox) = mpsc::channel();
         let writers = Writers::new(sender);
         let failed = Msg::Saved(SaveId(3), SaveOutcome::Failed("a.ray: broken".to_owned()));
-        let started = writers.start("test", failed, || panic!("on purpose"));
+        let started = writers.start("test", None, failed, || panic!("on purpose"));
         started.expect("a thread");
         let far = Instant::now() + std::time::Duration::from_secs(30);
         writers.finish(far);

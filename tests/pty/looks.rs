@@ -76,10 +76,16 @@ fn a_selection_that_changes_no_pixel_sends_no_picture() {
         let mut session = Session::start(place.directory.path(), &arguments, size, &[]);
         wait_for_rest(&mut session);
         // Without the outline of what is selected.
+        let before = picture(session.screen());
         session.send("o");
-        session.drain(Duration::from_millis(300));
+        wait_for_change(&mut session, &before);
+        session.drain(Duration::from_millis(100));
+        let (before, sent) = (session.text(), session.written.len());
         session.send("j");
-        let bytes = session.drain(Duration::from_millis(300));
+        session.wait("another one is selected", |screen| {
+            screen.contents() != before
+        });
+        let bytes = session.written.len() - sent;
         assert!(
             (1..=2048).contains(&bytes),
             "{colours} at {size:?}: {bytes} bytes"

@@ -337,7 +337,7 @@ impl App {
         if let Some(copy) = copies.last() {
             let (name, copy) = (self.file_name(), copy.display());
             self.warn(format!(
-                "a save of {name} was cut off: {copy} has what it held before"
+                "a save of {name} was interrupted: {copy} holds the previous content"
             ));
         }
     }

@@ -120,7 +120,7 @@ impl App {
             return Vec::new();
         }
         if self.pending.quit && self.message.is_none() && self.still_writing().is_some() {
-            self.say("quits when it is written; Ctrl-C or :q! does not wait");
+            self.say("will quit once the save finishes; Ctrl-C or :q! quits now");
         }
         self.count_seconds()
     }

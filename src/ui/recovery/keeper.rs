@@ -85,7 +85,7 @@ impl Keeper {
         {
             Ok(end) => end,
             Err(_) if !self.keeps => End::Nothing,
-            Err(RecvTimeoutError::Timeout) => lost("the folder they are kept in does not answer"),
+            Err(RecvTimeoutError::Timeout) => lost("the recovery folder is not responding"),
             Err(RecvTimeoutError::Disconnected) => lost("the thread that keeps them has ended"),
         }
     }

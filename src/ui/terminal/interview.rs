@@ -2,6 +2,8 @@
 //! interface never waits.
 
 use std::io;
+#[cfg(unix)]
+use std::time::Duration;
 
 use super::Reply;
 
@@ -32,8 +34,12 @@ impl Answers {
     }
 }
 
-/// Asks the terminal at both ends of this process, for [`PATIENCE`](super::query::PATIENCE) at
-/// most.
+/// How long the last answer is waited for, that it is not left to the shell.
+#[cfg(unix)]
+const LATEST: Duration = Duration::from_secs(1);
+
+/// Asks the terminal at both ends of this process. Answers count for
+/// [`PATIENCE`](super::query::PATIENCE).
 #[cfg(unix)]
 pub(crate) fn ask() -> io::Result<Answers> {
     use std::time::Instant;
@@ -49,10 +55,13 @@ pub(crate) fn ask() -> io::Result<Answers> {
     let line = tty::Line::open()?;
     // A terminal that takes nothing answers nothing.
     let _ = line.write_at_once(&[query::COLOURS, query::MODES].concat())?;
-    let until = Instant::now() + query::PATIENCE;
+    let asked = Instant::now();
+    // Late answers don't count, but must not be left to the shell.
+    let until = asked + LATEST;
     let mut decoder = Decoder::default();
     let mut answers = Answers::default();
-    while !answers.replies.contains(&Reply::Attributes) {
+    let mut is_ended = false;
+    while !is_ended {
         let left = until.saturating_duration_since(Instant::now());
         let mut sources = [PollFd::new(&keyboard, PollFlags::IN)];
         match poll(&mut sources, Timespec::try_from(left).ok().as_ref()) {
@@ -66,10 +75,16 @@ pub(crate) fn ask() -> io::Result<Answers> {
         if count == 0 {
             break;
         }
-        decoder.feed(&bytes[..count], Instant::now(), |event| {
-            if let Event::Reply(reply) = event {
+        let in_time = asked.elapsed() < query::PATIENCE;
+        decoder.feed(&bytes[..count], Instant::now(), |event| match event {
+            Event::Reply(Reply::Attributes) => {
+                is_ended = true;
+                answers.replies.extend(in_time.then_some(Reply::Attributes));
+            }
+            Event::Reply(reply) if in_time => {
                 answers.replies.push(reply);
             }
+            _ => {}
         });
     }
     // What the terminal may have made of the questions.

@@ -26,42 +26,58 @@ pub enum Reply {
     Attributes,
 }
 
-/// Counts replies that are on their way, so that the terminal is handed to nobody who would take
-/// them for keys.
+/// Which replies are on their way, so that the terminal is handed to nobody who would take them for
+/// keys.
 #[derive(Debug, Default)]
 pub struct Replies {
-    expected: Mutex<usize>,
+    expected: Mutex<Expected>,
     came: Condvar,
 }
 
+#[derive(Debug, Default)]
+struct Expected {
+    /// Whether [`Reply::Attributes`], which ends the answers about colours, is to come.
+    attributes: bool,
+    /// How many times [`Reply::Status`] is to come.
+    statuses: usize,
+}
+
 impl Replies {
-    /// One more is on its way.
-    pub fn expect(&self) {
-        *self.lock() += 1;
+    /// One that ends with this is on its way.
+    pub fn expect(&self, reply: Reply) {
+        let mut expected = self.lock();
+        match reply {
+            Reply::Status => expected.statuses += 1,
+            Reply::Attributes => expected.attributes = true,
+            Reply::TrueColour | Reply::Mode { .. } => {}
+        }
     }
 
-    /// One has come.
-    pub fn came(&self) {
+    /// It has come.
+    pub fn came(&self, reply: Reply) {
         let mut expected = self.lock();
-        *expected = expected.saturating_sub(1);
+        match reply {
+            Reply::Status => expected.statuses = expected.statuses.saturating_sub(1),
+            Reply::Attributes => expected.attributes = false,
+            Reply::TrueColour | Reply::Mode { .. } => return,
+        }
         self.came.notify_all();
     }
 
-    /// None will come.
-    pub fn forget(&self) {
-        *self.lock() = 0;
+    /// No status will come.
+    pub fn forget_statuses(&self) {
+        self.lock().statuses = 0;
     }
 
     /// Waits until none is on its way, until `deadline` at most.
     pub fn wait(&self, deadline: Instant) {
         let time = deadline.saturating_duration_since(Instant::now());
-        let waited = self
-            .came
-            .wait_timeout_while(self.lock(), time, |expected| 0 < *expected);
+        let is_awaited = |expected: &mut Expected| expected.attributes || 0 < expected.statuses;
+        let waited = self.came.wait_timeout_while(self.lock(), time, is_awaited);
         drop(waited.unwrap_or_else(PoisonError::into_inner));
     }
 
-    fn lock(&self) -> MutexGuard<'_, usize> {
+    fn lock(&self) -> MutexGuard<'_, Expected> {
         self.expected.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -9,6 +9,7 @@ mod moving;
 mod opening;
 mod pictures;
 mod recovering;
+mod saving;
 mod xml;
 
 use std::path::{Path, PathBuf};

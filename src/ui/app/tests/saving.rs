@@ -1,0 +1,159 @@
+//! Saves that take long, and what they leave.
+
+use super::*;
+use crate::ui::msg::{Guard, SaveId, SaveOutcome, Timer};
+use std::sync::Arc;
+
+#[test]
+fn a_save_that_was_given_up_does_not_quit_later() {
+    let mut app = open(SCENE);
+    app.path = None;
+    press(&mut app, "jjjel");
+    // The question's answer asks for a name, which is not given.
+    press(&mut app, "qw<Esc>");
+    assert!(app.prompt.is_none());
+    assert!(!app.pending.quit);
+}
+
+pub(super) fn saved(app: &mut App, id: u32, path: &str, text: &Arc<String>) -> Vec<Effect> {
+    let outcome = SaveOutcome::Saved {
+        path: PathBuf::from(path),
+        text: Arc::clone(text),
+    };
+    app.update(Msg::Saved(SaveId(id), outcome))
+}
+
+/// The saves among effects: number, file, guard.
+fn saves(effects: &[Effect]) -> Vec<(u32, String, Guard)> {
+    let saves = effects.iter().filter_map(|effect| match effect {
+        Effect::Save {
+            id, path, guard, ..
+        } => Some((id.0, path.display().to_string(), guard.clone())),
+        _ => None,
+    });
+    saves.collect()
+}
+
+#[test]
+fn a_save_that_hangs_is_shown_and_holds_up_no_other_file() {
+    let mut app = open(SCENE);
+    let effects = press(&mut app, "jjjel:w! stuck.ray<Enter>");
+    assert_eq!(saves(&effects)[0].1, "stuck.ray");
+    let ticks = |effects: &[Effect]| {
+        wants(effects, |effect| {
+            matches!(effect, Effect::Later(_, Timer::Writing))
+        })
+    };
+    assert!(ticks(&effects));
+    assert_eq!(app.still_writing(), None);
+    for _ in 0..12 {
+        assert!(ticks(&app.update(Msg::Elapsed(Timer::Writing))));
+    }
+    assert_eq!(app.still_writing(), Some((Path::new("stuck.ray"), 12)));
+
+    let effects = press(&mut app, ":w free.ray<Enter>");
+    assert_eq!(saves(&effects), [(2, "free.ray".to_owned(), Guard::Absent)]);
+    let text = app.document.shared_text();
+    saved(&mut app, 2, "free.ray", &text);
+    assert_eq!(words(&app), "wrote free.ray");
+    assert_eq!(app.file_name(), "free.ray");
+    // The late one changes nothing any more.
+    saved(&mut app, 1, "stuck.ray", &Arc::new(SCENE.to_owned()));
+    assert_eq!(
+        (words(&app), app.file_name().as_str()),
+        ("wrote stuck.ray", "free.ray")
+    );
+    assert!(!app.document.is_dirty());
+    assert!(!ticks(&app.update(Msg::Elapsed(Timer::Writing))));
+    assert_eq!(app.still_writing(), None);
+}
+
+#[test]
+fn saves_of_one_file_wait_for_each_other() {
+    let mut app = open(SCENE);
+    press(&mut app, "jjjelw");
+    let first = app.document.shared_text();
+    assert!(saves(&press(&mut app, "lw")).is_empty());
+    assert!(saves(&press(&mut app, "l:wq<Enter>")).is_empty());
+    let last = app.document.shared_text();
+    let effects = saved(&mut app, 1, "scene.ray", &first);
+    let expected = Guard::Holding(first);
+    assert_eq!(saves(&effects), [(3, "scene.ray".to_owned(), expected)]);
+    assert!(app.document.is_dirty());
+    let effects = saved(&mut app, 3, "scene.ray", &last);
+    assert!(!app.document.is_dirty());
+    // The quit has waited for the last one.
+    assert!(wants(&effects, |effect| matches!(effect, Effect::Quit)));
+}
+
+#[test]
+fn a_quit_waits_for_a_save_that_hangs_until_it_is_forced() {
+    let quits = |effects: &[Effect]| wants(effects, |effect| matches!(effect, Effect::Quit));
+    let keeps = |effects: &[Effect]| {
+        wants(effects, |effect| {
+            matches!(effect, Effect::WriteRecovery { .. })
+        })
+    };
+    for (keys, forced) in [
+        (":q!<Enter>", true),
+        ("<Ctrl-c>y", true),
+        ("<Ctrl-c><Esc>", false),
+    ] {
+        let mut app = open(SCENE);
+        assert!(!quits(&press(&mut app, "jjjel:wq<Enter>")));
+        app.update(Msg::Elapsed(Timer::Writing));
+        app.update(Msg::Elapsed(Timer::Writing));
+        assert!(words(&app).starts_with("quits when it is written"));
+        let effects = press(&mut app, keys);
+        // What was to be saved is not lost.
+        assert_eq!(
+            (quits(&effects), keeps(&effects)),
+            (forced, forced),
+            "{keys}"
+        );
+    }
+    let mut app = open(SCENE);
+    press(&mut app, "jjjel:wq<Enter>");
+    let text = app.document.shared_text();
+    assert!(quits(&saved(&mut app, 1, "scene.ray", &text)));
+}
+
+#[test]
+fn a_save_of_unchanged_text_is_asked_about_until_it_is_done() {
+    let mut app = open(SCENE);
+    press(&mut app, ":w copy.ray<Enter>q");
+    assert!(matches!(app.dialog, Some(Dialog::Quit)));
+    assert_eq!(
+        app.losses().as_deref(),
+        Some("copy.ray is still being written")
+    );
+}
+
+#[test]
+fn what_fails_besides_a_save_does_not_hide_why_the_save_failed() {
+    let mut app = open(SCENE);
+    press(&mut app, "jjjelw");
+    let failed = SaveOutcome::Failed("scene.ray: no space left".to_owned());
+    app.update(Msg::Saved(SaveId(1), failed));
+    app.update(Msg::Failed("the unsaved edits can't be kept".to_owned()));
+    assert_eq!(
+        words(&app),
+        "scene.ray: no space left; the unsaved edits can't be kept"
+    );
+}
+
+#[test]
+fn what_a_save_that_was_cut_off_has_left_is_named() {
+    let (mut app, effects) = opened(SCENE);
+    assert!(wants(&effects, |effect| matches!(
+        effect,
+        Effect::FindBackups(_)
+    )));
+    app.update(Msg::BackupsFound(vec![PathBuf::from(
+        ".halflight-backup-1-2-scene.ray",
+    )]));
+    assert_eq!(
+        words(&app),
+        "a save of scene.ray was interrupted: .halflight-backup-1-2-scene.ray has what it held before"
+    );
+}
