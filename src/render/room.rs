@@ -20,7 +20,7 @@ const ENCODED: usize = 4;
 /// as that of the job `before` is there already, or is about to be.
 pub(super) fn fits(job: &Job, before: Option<&Arc<Scene>>) -> Result<(), Refusal> {
     let size = job.settings.size;
-    let pixels = (size.pixels() * ENCODED) as u64;
+    let pixels = (size.pixels() as u64).saturating_mul(ENCODED as u64);
     let film = Film::bytes(&job.settings, job.frames).saturating_add(pixels);
     let objects = job.scene.objects.len();
     let world = match before {

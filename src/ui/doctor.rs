@@ -301,7 +301,7 @@ mod tests {
                 Some(&[Reply::Attributes]),
                 None,
                 FAR,
-                "does not answer that",
+                "does not report 24-bit colour",
                 true,
             ),
             (Some(&[Reply::TrueColour]), None, FAR, "is used", false),

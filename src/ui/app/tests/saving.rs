@@ -103,7 +103,7 @@ fn a_quit_waits_for_a_save_that_hangs_until_it_is_forced() {
         assert!(!quits(&press(&mut app, "jjjel:wq<Enter>")));
         app.update(Msg::Elapsed(Timer::Writing));
         app.update(Msg::Elapsed(Timer::Writing));
-        assert!(words(&app).starts_with("quits when it is written"));
+        assert!(words(&app).starts_with("will quit once the save finishes"));
         let effects = press(&mut app, keys);
         // What was to be saved is not lost.
         assert_eq!(
@@ -154,6 +154,6 @@ fn what_a_save_that_was_cut_off_has_left_is_named() {
     )]));
     assert_eq!(
         words(&app),
-        "a save of scene.ray was interrupted: .halflight-backup-1-2-scene.ray has what it held before"
+        "a save of scene.ray was interrupted: .halflight-backup-1-2-scene.ray holds the previous content"
     );
 }
