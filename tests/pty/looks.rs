@@ -268,7 +268,7 @@ fn the_doctor_reports_what_the_terminal_answers() {
     let text = session.text();
     for words in [
         "256 colours by TERM alone",
-        "answers that it has 24-bit colour",
+        "the terminal reports 24-bit colour",
         "known to the terminal",
     ] {
         assert!(text.contains(words), "{text}");
