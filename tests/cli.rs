@@ -553,7 +553,7 @@ fn whatever_the_limit_on_memory_it_is_done_or_refused() {
     place.write("many.ray", spheres(100_000));
     let mut refused = 0;
     // From too little for the program's threads to more than enough, in kilobytes.
-    for limit in (8..=30).step_by(2).map(|limit| limit * 10_000) {
+    for limit in (8..=52).step_by(4).map(|limit| limit * 10_000) {
         for line in ["check many.ray", "render many.ray -o -"] {
             let output = in_shell(&place, &format!("ulimit -v {limit}"), line);
             let told = String::from_utf8_lossy(&output.stderr);
