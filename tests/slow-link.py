@@ -1,6 +1,6 @@
 """The measuring half of slow-link.sh: a proxy with a rate and a delay, and a user behind it."""
 
-import asyncio, fcntl, os, pty, re, signal, socket, struct, sys, termios, time
+import asyncio, contextlib, fcntl, os, pty, re, signal, socket, struct, sys, termios, time
 
 PLACE, PORT, HALFLIGHT = (os.environ[name] for name in ("PLACE", "PORT", "HALFLIGHT"))
 COLUMNS, ROWS = 120, 40
@@ -29,7 +29,9 @@ class Proxy:
                 at, data = item
                 await asyncio.sleep(max(0, at - time.monotonic()))
                 writer.write(data)
-                await writer.drain()
+                # A far end that is gone takes nothing more.
+                with contextlib.suppress(ConnectionError):
+                    await writer.drain()
             writer.close()
 
         delivery = asyncio.create_task(deliver())
@@ -53,12 +55,14 @@ class Screen:
     """As much of a terminal as shows the colours of cells: moves, clears, colours, characters."""
 
     def __init__(self):
+        # Where the selection is in the last frame that was complete.
+        self.selection = frozenset()
         self.cells, self.x, self.y = {}, 0, 0
         self.style = [None, None, False]
         self.rest = b""
 
     TOKEN = re.compile(
-        rb"\x1b\[([?0-9;:]*)([@-~])|\x1b[^\[]|[\r\n\x08]|[\x20-\x7e]"
+        rb"\x1b\[([?0-9;:]*)([@-~])|\x1bP[^\x1b]*\x1b\\|\x1b[^\[P]|[\r\n\x08]|[\x20-\x7e]"
         rb"|[\xc2-\xdf][\x80-\xbf]|[\xe0-\xef][\x80-\xbf]{2}|[\xf0-\xf4][\x80-\xbf]{3}"
     )
 
@@ -80,7 +84,13 @@ class Screen:
         return asked
 
     def command(self, parameters, end):
-        if parameters.startswith(b"?"):
+        # The end of synchronized output, when a terminal shows the frame.
+        if parameters == b"?2026" and end == b"l":
+            self.selection = frozenset(
+                at for at, cell in self.cells.items() if cell[0] == "▸" or (cell[3] and at[0] > 70)
+            )
+        # Other private modes, and a colour that is only set to ask whether it was understood.
+        if parameters.startswith(b"?") or b":" in parameters:
             return 0
         numbers = [int(part or 0) for part in parameters.split(b";")]
         first = numbers[0]
@@ -190,16 +200,11 @@ class Session:
         while time.monotonic() - self.last < quiet:
             await asyncio.sleep(0.05)
 
-    def cursor(self):
-        """The rows that show where the selection is."""
-        cells = self.screen.cells
-        return frozenset(at for at in cells if cells[at][0] == "▸" or (cells[at][3] and at[0] > 70))
-
     async def key(self, keys):
-        """Sends keys; how long until the selection has moved."""
-        before, sent = self.cursor(), time.monotonic()
+        """Sends keys; how long until the frame is complete in which the selection has moved."""
+        before, sent = self.screen.selection, time.monotonic()
         os.write(self.line, keys)
-        came = await self.until(lambda: self.cursor() not in (before, frozenset()))
+        came = await self.until(lambda: self.screen.selection not in (before, frozenset()))
         return (came or sent + 30) - sent
 
 
@@ -258,7 +263,14 @@ async def measure(rate, round_trip):
     )
 
 
+def fail(loop, context):
+    """An error in a callback ends the measurement."""
+    print(context["message"], repr(context.get("exception")), flush=True)
+    os._exit(1)
+
+
 async def main():
+    asyncio.get_running_loop().set_exception_handler(fail)
     print("                 |  j at rest, ms       |  j, pictures flow    |  bytes a j   |  KB/s  | picture, s    | asked")
     print("link             |    p50    p95    max |    p50    p95    max |   p50    max | flowing| first settled |")
     wanted = sys.argv[1:]

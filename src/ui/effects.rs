@@ -129,6 +129,11 @@ impl World {
         &mut self.terminal
     }
 
+    /// Whether the terminal is not lent to another program.
+    pub(crate) fn has_terminal(&self) -> bool {
+        self.terminal.is_ours()
+    }
+
     /// Asks the terminal for its colours, and tmux for those of the terminal behind it: answers
     /// come as [`Event::Replied`], if they come.
     pub(crate) fn ask_for_colours(&self) -> io::Result<()> {

@@ -133,19 +133,20 @@ impl Session {
             if is_clear && let Some((sent, bytes)) = self.waiting.take() {
                 self.link.waited(bytes, now - sent, now);
             }
-            if draw_at.is_some_and(|at| at <= now) {
-                if urgency == Urgency::Soon {
-                    self.refined = Some(now);
-                }
-                if self.draw(urgency).and_then(|()| self.ask()).is_err() {
-                    // A terminal that can't be written to is gone; what must survive is kept.
-                    self.step(Msg::HangUp);
-                    return;
-                }
-                urgency = Urgency::Never;
-                continue;
+            let is_due = draw_at.is_some_and(|at| at <= now);
+            if is_due && urgency == Urgency::Soon {
+                self.refined = Some(now);
             }
-            urgency = urgency.max(self.wait(draw_at));
+            if is_clear && self.ask(now).is_err() || is_due && self.draw(urgency).is_err() {
+                // A terminal that can't be written to is gone; what must survive is kept.
+                self.step(Msg::HangUp);
+                return;
+            }
+            urgency = if is_due {
+                Urgency::Never
+            } else {
+                urgency.max(self.wait(draw_at, is_clear))
+            };
         }
     }
 
@@ -178,9 +179,15 @@ impl Session {
     }
 
     /// Takes everything that came in, after waiting for it until `deadline` at most.
-    fn wait(&mut self, deadline: Option<Instant>) -> Urgency {
-        let answer_by = self.asked.map(|(_, until)| until);
-        let others = [self.world.next_timer(), self.link.gives_up_at(), answer_by];
+    fn wait(&mut self, deadline: Option<Instant>, is_clear: bool) -> Urgency {
+        let others = [
+            self.world.next_timer(),
+            self.link.gives_up_at(),
+            self.link
+                .asks_at()
+                .filter(|_| is_clear && self.world.has_terminal()),
+            self.asked.map(|(_, until)| until),
+        ];
         let deadline = others.into_iter().chain([deadline]).flatten().min();
         let first = match deadline {
             None => self
@@ -251,9 +258,8 @@ impl Session {
     }
 
     /// Asks the terminal for a reply if the link is to be measured.
-    fn ask(&mut self) -> io::Result<()> {
-        let now = Instant::now();
-        if self.link.has_question(now) {
+    fn ask(&mut self, now: Instant) -> io::Result<()> {
+        if self.world.has_terminal() && self.link.has_question(now) {
             self.world.ask_status()?;
             self.link.asked(now);
         }
@@ -269,8 +275,9 @@ impl Session {
                 Urgency::Now if is_limited => 0,
                 _ => self.link.allowance(now),
             };
+            let marked = self.app.marked_object();
             let picture = self.app.picture_mut();
-            picture.advance(size, allowance);
+            picture.advance(size, marked, allowance);
             let rests = !picture.is_pending() && picture.is_complete();
             self.app.net = (is_limited && !rests).then(|| self.link.rate(now));
         }

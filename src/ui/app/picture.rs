@@ -1,5 +1,6 @@
 //! A picture on screen, and the newer one that replaces it as fast as the link allows.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use crate::render::{Frame, NO_OBJECT, Progress};
@@ -28,6 +29,10 @@ pub struct Picture {
     cursor: usize,
     /// How many cells are yet to be compared with the target.
     left: usize,
+    /// The object whose outline the target has.
+    marked: Option<u32>,
+    /// The cells in which the outline changes. They go before the others, as they answer a key.
+    outline: VecDeque<usize>,
 }
 
 /// Pixels as they are on screen: two a cell, one above the other.
@@ -39,6 +44,8 @@ pub struct Shown {
     pub pixels: Vec<[u8; 3]>,
     /// The object under each pixel, or [`NO_OBJECT`].
     pub objects: Vec<u32>,
+    /// Whether each pixel is part of the outline of the selected object; empty where none is.
+    pub outline: Vec<bool>,
 }
 
 impl Default for Shown {
@@ -50,6 +57,7 @@ impl Default for Shown {
             },
             pixels: Vec::new(),
             objects: Vec::new(),
+            outline: Vec::new(),
         }
     }
 }
@@ -65,7 +73,37 @@ impl Shown {
         (object != NO_OBJECT).then_some(object)
     }
 
-    /// The same picture at another size: means going down, the nearest pixels going up.
+    /// Whether a pixel, given by its index, is part of the outline.
+    pub fn is_outlined(&self, at: usize) -> bool {
+        self.outline.get(at) == Some(&true)
+    }
+
+    /// The outline of an object: its pixels with a neighbour that is not. The picture's edge is no
+    /// border: an object that goes on beyond it is not framed by it.
+    fn outline_of(&self, object: u32) -> Vec<bool> {
+        let Size { width, height } = self.size;
+        let is_object = |x: u32, y: u32| {
+            let inside = x < width && y < height;
+            let at = y as usize * width as usize + x as usize;
+            !inside || self.objects.get(at) == Some(&object)
+        };
+        let is_border = |x: u32, y: u32| {
+            let neighbours = [
+                (x.wrapping_sub(1), y),
+                (x + 1, y),
+                (x, y.wrapping_sub(1)),
+                (x, y + 1),
+            ];
+            is_object(x, y) && !neighbours.iter().all(|&(x, y)| is_object(x, y))
+        };
+        (0..height)
+            .flat_map(|y| (0..width).map(move |x| (x, y)))
+            .map(|(x, y)| is_border(x, y))
+            .collect()
+    }
+
+    /// The same picture at another size, without an outline: means going down, the nearest pixels
+    /// going up.
     #[must_use]
     pub fn resampled(&self, size: Size) -> Self {
         resample(&self.pixels, &self.objects, self.size, size)
@@ -104,6 +142,7 @@ impl Picture {
     /// other numbers now, and another one than the chosen would be outlined.
     pub fn forget_objects(&mut self) {
         self.shown.objects.fill(NO_OBJECT);
+        self.mark(None);
     }
 
     /// Whether every sample of what was asked for last is taken and on its way to the screen.
@@ -111,12 +150,13 @@ impl Picture {
         self.progress().is_some_and(|progress| progress.complete)
     }
 
-    /// Brings cells of the newest frame to the screen until `budget` bytes are used up; goes on
-    /// next time where it stopped. With `usize::MAX` the whole frame.
+    /// Brings cells of the newest frame to the screen, with the outline of the object `marked`,
+    /// until `budget` bytes are used up; goes on next time where it stopped. With `usize::MAX` the
+    /// whole frame. What changes in the outline goes first.
     /// Over a limited link pixels of an unfinished frame that are almost right are left alone; a
     /// finished one is shown exactly.
-    pub fn advance(&mut self, size: Size, budget: usize) {
-        self.aim(size);
+    pub fn advance(&mut self, size: Size, marked: Option<u32>, budget: usize) {
+        self.aim(size, marked);
         let tolerance = match budget {
             usize::MAX => 0,
             _ if self.latest.as_ref().is_some_and(|f| f.progress.complete) => 0,
@@ -124,31 +164,42 @@ impl Picture {
         };
         let cells = cells(size);
         let mut spent = 0;
-        while 0 < self.left && spent < budget {
-            if self.bring_cell(self.cursor, tolerance) {
+        while spent < budget {
+            let cell = if let Some(cell) = self.outline.pop_front() {
+                cell
+            } else if 0 < self.left {
+                let cell = self.cursor;
+                self.cursor = (cell + 1) % cells;
+                self.left -= 1;
+                cell
+            } else {
+                break;
+            };
+            if self.bring_cell(cell, tolerance) {
                 spent += BYTES_PER_CELL;
             }
-            self.cursor = (self.cursor + 1) % cells;
-            self.left -= 1;
         }
     }
 
     /// Whether parts of the newest frame are not on screen yet.
     pub fn is_pending(&self) -> bool {
-        0 < self.left
+        0 < self.left || !self.outline.is_empty()
     }
 
-    /// Makes the newest frame at this size the target.
-    fn aim(&mut self, size: Size) {
+    /// Makes the newest frame at this size the target, with the outline of an object.
+    fn aim(&mut self, size: Size, marked: Option<u32>) {
         let Some(frame) = &self.latest else {
             return;
         };
+        let mut is_stale = self.marked != marked;
         if self.shown.size != size {
+            is_stale = true;
             self.shown = if self.shown.pixels.is_empty() {
                 Shown {
                     size,
                     pixels: vec![[0; 3]; size.pixels()],
                     objects: vec![NO_OBJECT; size.pixels()],
+                    outline: Vec::new(),
                 }
             } else {
                 self.shown.resampled(size)
@@ -156,27 +207,52 @@ impl Picture {
             self.cursor = 0;
         }
         if self.target.size != size {
+            is_stale = true;
             self.target = resample(&frame.pixels, &frame.objects, frame.size, size);
             // What lies under a pixel costs nothing to send.
             self.shown.objects.clone_from(&self.target.objects);
             self.left = cells(size);
         }
+        if is_stale {
+            self.mark(marked);
+        }
+    }
+
+    /// Gives the target the outline of an object.
+    fn mark(&mut self, marked: Option<u32>) {
+        self.marked = marked;
+        self.target.outline = marked.map_or_else(Vec::new, |object| self.shown.outline_of(object));
+        let changes = |cell: &usize| {
+            self.pixels_of(*cell)
+                .any(|at| self.shown.is_outlined(at) != self.target.is_outlined(at))
+        };
+        self.outline = (0..cells(self.shown.size)).filter(changes).collect();
+    }
+
+    /// The indices of the pixels of a cell; the last row of cells may have no lower ones.
+    fn pixels_of(&self, cell: usize) -> impl Iterator<Item = usize> + use<> {
+        let width = self.shown.size.width as usize;
+        let pixels = self.shown.pixels.len();
+        let upper = cell / width * 2 * width + cell % width;
+        [upper, upper + width]
+            .into_iter()
+            .filter(move |&at| at < pixels)
     }
 
     /// Brings the two pixels of a cell to the screen; whether that changed any.
     fn bring_cell(&mut self, cell: usize, tolerance: u8) -> bool {
-        let width = self.shown.size.width as usize;
-        let upper = cell / width * 2 * width + cell % width;
         let mut changed = false;
-        for at in [upper, upper + width] {
-            // The last row of cells may have no lower pixels.
-            let Some(shown) = self.shown.pixels.get_mut(at) else {
-                continue;
-            };
-            let target = self.target.pixels[at];
+        for at in self.pixels_of(cell) {
+            let (shown, target) = (self.shown.pixels[at], self.target.pixels[at]);
             let off = |(shown, target): (&u8, &u8)| tolerance < shown.abs_diff(*target);
             if shown.iter().zip(&target).any(off) {
-                *shown = target;
+                self.shown.pixels[at] = target;
+                changed = true;
+            }
+            let is_outlined = self.target.is_outlined(at);
+            if self.shown.is_outlined(at) != is_outlined {
+                self.shown.outline.resize(self.shown.pixels.len(), false);
+                self.shown.outline[at] = is_outlined;
                 changed = true;
             }
         }
@@ -195,6 +271,7 @@ fn resample(pixels: &[[u8; 3]], objects: &[u32], from: Size, to: Size) -> Shown 
             size: from,
             pixels: pixels.to_vec(),
             objects: objects.to_vec(),
+            outline: Vec::new(),
         };
     }
     let width = from.width as usize;
@@ -202,6 +279,7 @@ fn resample(pixels: &[[u8; 3]], objects: &[u32], from: Size, to: Size) -> Shown 
         size: to,
         pixels: Vec::with_capacity(to.pixels()),
         objects: Vec::with_capacity(to.pixels()),
+        outline: Vec::new(),
     };
     for y in 0..to.height {
         let rows = covered(y, to.height, from.height);
@@ -285,12 +363,12 @@ mod tests {
         let size = size(10, 6);
         let mut picture = Picture::default();
         picture.take(frame(1, size, GREY, true));
-        picture.advance(size, 13 * BYTES_PER_CELL);
+        picture.advance(size, None, 13 * BYTES_PER_CELL);
         assert_eq!(rows_shown(&picture, GREY), [10, 10, 3, 3, 0, 0]);
         assert!(picture.is_pending());
-        picture.advance(size, 0);
+        picture.advance(size, None, 0);
         assert_eq!(rows_shown(&picture, GREY), [10, 10, 3, 3, 0, 0]);
-        picture.advance(size, usize::MAX);
+        picture.advance(size, None, usize::MAX);
         assert_eq!(rows_shown(&picture, GREY), [10; 6]);
         assert!(!picture.is_pending());
     }
@@ -301,11 +379,11 @@ mod tests {
         let newer = [200; 3];
         let mut picture = Picture::default();
         picture.take(frame(1, size, GREY, true));
-        picture.advance(size, 10 * BYTES_PER_CELL);
+        picture.advance(size, None, 10 * BYTES_PER_CELL);
         picture.take(frame(2, size, newer, true));
-        picture.advance(size, 10 * BYTES_PER_CELL);
+        picture.advance(size, None, 10 * BYTES_PER_CELL);
         assert_eq!(rows_shown(&picture, newer), [0, 0, 10, 10, 0, 0]);
-        picture.advance(size, usize::MAX);
+        picture.advance(size, None, usize::MAX);
         assert_eq!(rows_shown(&picture, newer), [10; 6]);
     }
 
@@ -315,9 +393,9 @@ mod tests {
         let shown_after = |pixel, complete, budget| {
             let mut picture = Picture::default();
             picture.take(frame(1, size, GREY, true));
-            picture.advance(size, usize::MAX);
+            picture.advance(size, None, usize::MAX);
             picture.take(frame(1, size, pixel, complete));
-            picture.advance(size, budget);
+            picture.advance(size, None, budget);
             picture.shown.pixels[0]
         };
         for (pixel, complete, budget, shown) in [
@@ -330,12 +408,64 @@ mod tests {
         }
     }
 
+    /// Object 7 fills the three right columns, up to the edge of the picture.
+    fn half(complete: bool) -> Arc<Frame> {
+        let size = size(4, 2);
+        let mut frame = Arc::unwrap_or_clone(frame(1, size, GREY, complete));
+        frame.objects = [NO_OBJECT, 7, 7, 7].repeat(2);
+        Arc::new(frame)
+    }
+
+    fn outline(picture: &Picture) -> String {
+        let marks = (0..picture.shown.pixels.len()).map(|at| picture.shown.is_outlined(at));
+        marks.map(|mark| if mark { '#' } else { '.' }).collect()
+    }
+
+    #[test]
+    fn the_outline_is_inside_the_object_and_not_along_the_edge() {
+        let mut picture = Picture::default();
+        picture.take(half(true));
+        for (marked, marks) in [
+            (Some(7), ".#...#.."),
+            (Some(8), "........"),
+            (None, "........"),
+        ] {
+            picture.advance(size(4, 2), marked, usize::MAX);
+            assert_eq!(outline(&picture), marks, "{marked:?}");
+        }
+        picture.advance(size(4, 2), Some(7), usize::MAX);
+        picture.forget_objects();
+        picture.advance(size(4, 2), Some(7), usize::MAX);
+        assert_eq!(outline(&picture), "........");
+    }
+
+    /// A selection is answered by its text; the cells of its outline wait for the link.
+    #[test]
+    fn the_outline_goes_before_the_picture_but_not_without_a_budget() {
+        let mut picture = Picture::default();
+        picture.take(half(true));
+        picture.advance(size(4, 2), None, usize::MAX);
+        picture.advance(size(4, 2), Some(7), 0);
+        assert_eq!(outline(&picture), "........");
+        assert!(picture.is_pending());
+        let mut brighter = Arc::unwrap_or_clone(half(true));
+        brighter.pixels.fill([200; 3]);
+        picture.take(Arc::new(brighter));
+        picture.advance(size(4, 2), Some(7), BYTES_PER_CELL);
+        assert_eq!(outline(&picture), ".#...#..");
+        assert_eq!(rows_shown(&picture, GREY), [3, 3]);
+        picture.advance(size(4, 2), Some(7), usize::MAX);
+        assert_eq!(rows_shown(&picture, [200; 3]), [4, 4]);
+        assert!(!picture.is_pending());
+    }
+
     #[test]
     fn smaller_pictures_are_means_and_larger_ones_repeat_pixels() {
         let shown = Shown {
             size: size(2, 2),
             pixels: vec![[0, 0, 0], [100, 0, 0], [0, 50, 0], [101, 51, 8]],
             objects: vec![1, 2, 3, 4],
+            outline: Vec::new(),
         };
         let one = shown.resampled(size(1, 1));
         // 201/4, 101/4 and 8/4, rounded.
@@ -350,7 +480,7 @@ mod tests {
     fn a_picture_of_a_full_size_trace_is_shown_at_the_size_of_the_screen() {
         let mut picture = Picture::default();
         picture.take(frame(1, size(640, 480), GREY, true));
-        picture.advance(size(64, 48), usize::MAX);
+        picture.advance(size(64, 48), None, usize::MAX);
         assert_eq!(rows_shown(&picture, GREY), [64; 48]);
         assert_eq!(picture.shown.object_at(63, 47), Some(7));
         assert_eq!(picture.shown.object_at(64, 0), None);

@@ -80,6 +80,11 @@ impl Terminal {
         Ok(terminal)
     }
 
+    /// Whether the terminal is neither lent nor given back.
+    pub fn is_ours(&self) -> bool {
+        *self.shared.tenure() == Tenure::Ours
+    }
+
     /// Whether the terminal has taken all that was drawn. A frame that is drawn before is the
     /// later, as none may be left out.
     pub fn is_clear(&self) -> bool {
@@ -91,7 +96,7 @@ impl Terminal {
     /// Returns the number of bytes sent: none at all when nothing differs or while the terminal
     /// is lent.
     pub fn draw(&mut self, paint: impl FnOnce(&mut Frame)) -> io::Result<usize> {
-        if *self.shared.tenure() != Tenure::Ours {
+        if !self.is_ours() {
             return Ok(0);
         }
         self.screen.backend_mut().fit(tty::size());
@@ -169,7 +174,7 @@ impl Terminal {
     /// Takes the mouse or leaves it to the terminal.
     pub fn set_mouse(&mut self, mouse: Mouse) -> io::Result<()> {
         self.mouse = mouse;
-        if *self.shared.tenure() != Tenure::Ours {
+        if !self.is_ours() {
             return Ok(());
         }
         self.shared.output().send(mouse_sequence(mouse).as_bytes())

@@ -185,6 +185,14 @@ impl Link {
         matches!(&self.pace, Pace::Measured(estimate) if estimate.has_question(now))
     }
 
+    /// When [`Link::has_question`] becomes true though nothing is sent: when the line is empty.
+    pub fn asks_at(&self) -> Option<Instant> {
+        match &self.pace {
+            Pace::Measured(estimate) => estimate.asks_at(),
+            _ => None,
+        }
+    }
+
     /// Takes note that the terminal was asked.
     pub fn asked(&mut self, now: Instant) {
         if let Pace::Measured(estimate) = &mut self.pace {

@@ -12,7 +12,6 @@ use super::layout::{self, raster};
 use super::row::Row;
 use super::theme;
 use super::{Glyphs, Inks};
-use crate::scene::Size;
 use crate::ui::app::{App, Mode, Shown};
 
 /// Characters from dark to bright, for terminals without colours.
@@ -33,7 +32,7 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     } else {
         Cow::Owned(shown.resampled(size))
     };
-    paint(&shown, app.marked_object(), inks, cells, buffer);
+    paint(&shown, inks, cells, buffer);
     if app.mode == Mode::Pick {
         cross(app, cells, buffer);
     }
@@ -85,15 +84,15 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
     Row::new(buffer, cells, 0).put(&format!(" {name} "), theme::chip(theme::ACCENT));
 }
 
-/// Draws pixels over the cells of their raster, with the outline of one object.
-fn paint(shown: &Shown, outlined: Option<u32>, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
+/// Draws pixels over the cells of their raster.
+fn paint(shown: &Shown, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let width = shown.size.width;
     let pixel = |x: u32, y: u32| -> Option<Pixel> {
         let at = y as usize * width as usize + x as usize;
         let colour = (x < width).then(|| shown.pixels.get(at)).flatten()?;
         Some(Pixel {
             colour: *colour,
-            outlined: outlined.is_some_and(|o| is_border(shown, o, x, y)),
+            outlined: shown.is_outlined(at),
             at: (x, y),
         })
     };
@@ -157,38 +156,22 @@ fn character(upper: Pixel, lower: Option<Pixel>) -> (&'static str, Style) {
     (RAMP[at], style)
 }
 
-/// Whether a pixel of `object` has a neighbour that is none. The picture's edge is no border: an
-/// object that goes on beyond it is not framed by it.
-fn is_border(shown: &Shown, object: u32, x: u32, y: u32) -> bool {
-    let Size { width, height } = shown.size;
-    let is_object = |x: u32, y: u32| {
-        let inside = x < width && y < height;
-        let at = y as usize * width as usize + x as usize;
-        !inside || shown.objects.get(at) == Some(&object)
-    };
-    let neighbours = [
-        (x.wrapping_sub(1), y),
-        (x + 1, y),
-        (x, y.wrapping_sub(1)),
-        (x, y + 1),
-    ];
-    is_object(x, y) && !neighbours.iter().all(|&(x, y)| is_object(x, y))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::render::NO_OBJECT;
+    use crate::scene::Size;
 
-    fn shown(width: u32, height: u32, pixels: &[[u8; 3]], objects: &[u32]) -> Shown {
+    fn shown(width: u32, height: u32, pixels: &[[u8; 3]]) -> Shown {
         Shown {
             size: Size { width, height },
             pixels: pixels.to_vec(),
-            objects: objects.to_vec(),
+            objects: vec![NO_OBJECT; pixels.len()],
+            outline: Vec::new(),
         }
     }
 
-    fn painted(shown: &Shown, outlined: Option<u32>, glyphs: Glyphs) -> Buffer {
+    fn painted(shown: &Shown, glyphs: Glyphs) -> Buffer {
         let area = Rect::new(
             0,
             0,
@@ -196,18 +179,14 @@ mod tests {
             shown.size.height.div_ceil(2) as u16,
         );
         let mut buffer = Buffer::empty(area);
-        paint(shown, outlined, &mut Inks::new(glyphs), area, &mut buffer);
+        paint(shown, &mut Inks::new(glyphs), area, &mut buffer);
         buffer
     }
 
     #[test]
     fn a_cell_shows_two_pixels() {
         let [a, b, c, d] = [[1, 2, 3], [40, 50, 60], [255, 0, 0], [0, 0, 255]];
-        let buffer = painted(
-            &shown(2, 2, &[a, b, c, d], &[NO_OBJECT; 4]),
-            None,
-            Glyphs::HalfBlocks,
-        );
+        let buffer = painted(&shown(2, 2, &[a, b, c, d]), Glyphs::HalfBlocks);
         let cell = |x| {
             let cell = &buffer[(x, 0)];
             (cell.symbol(), cell.fg, cell.bg)
@@ -219,41 +198,24 @@ mod tests {
 
     #[test]
     fn below_an_odd_last_row_is_nothing() {
-        let buffer = painted(
-            &shown(1, 1, &[[9; 3]], &[NO_OBJECT]),
-            None,
-            Glyphs::HalfBlocks,
-        );
+        let buffer = painted(&shown(1, 1, &[[9; 3]]), Glyphs::HalfBlocks);
         assert_eq!(buffer[(0, 0)].bg, Color::Reset);
     }
 
     #[test]
-    fn the_outline_is_inside_the_object_and_not_along_the_edge() {
-        // Object 7 fills the three right columns, up to the edge of the picture.
-        let (n, o) = (NO_OBJECT, 7);
-        let objects = [n, o, o, o, n, o, o, o];
-        let picture = shown(4, 2, &[[0; 3]; 8], &objects);
-        let marks: String = (0..8)
-            .map(|at| {
-                if is_border(&picture, o, at % 4, at / 4) {
-                    '#'
-                } else {
-                    '.'
-                }
-            })
-            .collect();
-        assert_eq!(marks, ".#...#..");
-        let buffer = painted(&picture, Some(o), Glyphs::HalfBlocks);
-        let [r, g, b] = theme::OUTLINE;
-        assert_eq!(buffer[(1, 0)].fg, Color::Rgb(r, g, b));
-        assert_eq!(buffer[(2, 0)].fg, Color::Rgb(0, 0, 0));
+    fn the_outline_is_drawn_over_the_picture() {
+        let mut picture = shown(2, 1, &[[9; 3]; 2]);
+        picture.outline = vec![true, false];
+        let buffer = painted(&picture, Glyphs::HalfBlocks);
+        assert_eq!(buffer[(0, 0)].fg, rgb(theme::OUTLINE));
+        assert_eq!(buffer[(1, 0)].fg, Color::Rgb(9, 9, 9));
     }
 
     #[test]
     fn without_colours_brightness_is_a_character() {
         let check = |upper, lower, symbol: &str| {
-            let picture = shown(1, 2, &[upper, lower], &[NO_OBJECT; 2]);
-            let buffer = painted(&picture, None, Glyphs::Characters);
+            let picture = shown(1, 2, &[upper, lower]);
+            let buffer = painted(&picture, Glyphs::Characters);
             assert_eq!(buffer[(0, 0)].symbol(), symbol);
         };
         check([0; 3], [0; 3], " ");

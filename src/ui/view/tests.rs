@@ -149,6 +149,7 @@ const STATES: &[(&str, Change)] = &[
                 width: 8,
                 height: 6,
             },
+            None,
             usize::MAX,
         );
         app.selected = Node::Object(1);
@@ -323,7 +324,7 @@ fn errors_mark_the_picture_as_stale_and_explain_themselves() {
     let mut app = app();
     app.preview.take(frame(8, 6));
     let size = app.raster().expect("there is room").1;
-    app.preview.advance(size, usize::MAX);
+    app.preview.advance(size, None, usize::MAX);
     retype(&mut app, " 0.25 ", " -1 ");
     let text = screen(&mut app, 100, 30).join("\n");
     for part in ["STALE", "1 error", "test.ray:6:18", "^^", "SELECT", "[+]"] {
@@ -340,6 +341,7 @@ fn a_picture_of_another_size_fills_its_place() {
             width: 4,
             height: 3,
         },
+        None,
         usize::MAX,
     );
     let lines = screen(&mut app, 20, 7);

@@ -137,7 +137,7 @@ fn no_object_is_outlined_by_another_one_s_number() {
         height: 2,
     };
     app.preview.take(Arc::new(frame(size, vec![1; 8])));
-    app.preview.advance(size, usize::MAX);
+    app.preview.advance(size, None, usize::MAX);
     outside(&mut app, &SCENE.replace("1.5", "1.7"));
     assert_eq!(app.preview.shown.object_at(0, 0), Some(1));
     let (head, second) = SCENE.split_at(SCENE.rfind("sphere").expect("two of them"));

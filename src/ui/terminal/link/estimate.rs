@@ -35,6 +35,13 @@ const SLACK: Duration = Duration::from_millis(30);
 /// The least time between questions once the rate has settled.
 const INTERVAL: Duration = Duration::from_secs(2);
 
+/// The least time between questions behind what is too little to measure, before it has settled.
+const UNSETTLED_INTERVAL: Duration = Duration::from_millis(250);
+
+/// The most that the rate grows by one burst: a round trip that was taken too long, as while
+/// everything starts, makes a line look endless.
+const GROWTH: f64 = 4.0;
+
 /// How long a reply is waited for.
 const PATIENCE: Duration = Duration::from_secs(5);
 
@@ -56,8 +63,6 @@ pub(super) struct Estimate {
     questions: VecDeque<Question>,
     /// When the last question was asked.
     asked: Option<Instant>,
-    /// How many bursts were judged.
-    judged: u64,
     /// When the last reply came, and the bytes that were sent before its question.
     acknowledged: Option<(Instant, u64)>,
 }
@@ -90,6 +95,8 @@ enum Kind {
     Bare,
     /// Behind a burst.
     Burst,
+    /// Behind bytes too few to measure: only a late reply says something.
+    Check,
 }
 
 impl Estimate {
@@ -109,7 +116,6 @@ impl Estimate {
             sent: 0,
             questions: VecDeque::new(),
             asked: None,
-            judged: 0,
             acknowledged: None,
         }
     }
@@ -142,15 +148,23 @@ impl Estimate {
         if self.stage == Stage::Empty {
             return self.questions.is_empty() && self.is_empty_at() <= Some(now);
         }
-        self.wants_burst(now) && TELLING <= self.time_for(self.queue_at(now))
+        self.wants_burst(now) && self.is_telling(now) || self.wants_check(now)
+    }
+
+    /// When the line is empty, if the round trip is to be measured then.
+    pub(super) fn asks_at(&self) -> Option<Instant> {
+        let is_wanted = self.stage == Stage::Empty && self.questions.is_empty();
+        self.is_empty_at().filter(|_| is_wanted)
     }
 
     pub(super) fn asked(&mut self, now: Instant) {
         let kind = if self.stage == Stage::Empty {
             self.stage = Stage::Open;
             Kind::Bare
-        } else {
+        } else if self.is_telling(now) {
             Kind::Burst
+        } else {
+            Kind::Check
         };
         self.questions.push_back(Question {
             at: now,
@@ -167,16 +181,21 @@ impl Estimate {
         };
         let time = at.saturating_duration_since(question.at);
         match (question.kind, self.round_trip) {
-            (Kind::Burst, Some(round_trip)) => {
+            (Kind::Bare, _) | (_, None) => self.round_trip = Some(time),
+            (kind, Some(round_trip)) => {
                 self.round_trip = Some(round_trip.min(time));
-                if time.mul_f64(1.25) + RESOLUTION < round_trip {
+                let on_line = time.saturating_sub(round_trip);
+                let is_late = self.time_for(question.queue) + SLACK < on_line;
+                let is_first = self.stage == Stage::Open && kind == Kind::Burst;
+                if is_late && !is_first {
+                    self.slow_down(question, at);
+                } else if time.mul_f64(1.25) + RESOLUTION < round_trip {
                     // The line was not empty when the round trip was measured.
                     self.stage = Stage::Raised;
-                } else {
-                    self.judge(question, time.saturating_sub(round_trip), at);
+                } else if kind == Kind::Burst {
+                    self.judge(question, on_line);
                 }
             }
-            _ => self.round_trip = Some(time),
         }
         self.acknowledged = Some((at, question.sent));
     }
@@ -207,35 +226,48 @@ impl Estimate {
     }
 
     /// Takes the time that a burst was on its way, beyond the round trip.
-    fn judge(&mut self, question: Question, time: Duration, at: Instant) {
+    fn judge(&mut self, question: Question, time: Duration) {
         let expected = self.time_for(question.queue);
         let rate = f64::from(self.rate);
-        let told = question.queue / time.max(RESOLUTION).as_secs_f64();
-        self.stage = if self.stage == Stage::Open {
-            let most = if self.judged == 0 {
-                f64::from(MOST_RATE)
-            } else {
-                2.0 * rate
-            };
-            self.set_rate(told.clamp(rate / 4.0, most));
-            Stage::Raised
-        } else if expected + SLACK < time {
-            let delivered = self.acknowledged.map_or(0.0, |(before, sent)| {
-                let time = at.saturating_duration_since(before).max(RESOLUTION);
-                (question.sent - sent) as f64 / time.as_secs_f64()
-            });
-            self.set_rate(delivered.clamp(rate / 2.0, rate));
-            // What was sent since is still on its way.
-            self.queue = (self.sent - question.sent) as f64;
-            self.as_of = Some(at);
-            Stage::Empty
-        } else if time.as_secs_f64() < 0.7 * expected.as_secs_f64() {
-            self.set_rate(told.min(2.0 * rate));
+        let measured = question.queue / time.max(RESOLUTION).as_secs_f64();
+        self.stage = if self.stage == Stage::Open || time < expected.mul_f64(0.7) {
+            self.set_rate(measured.clamp(rate / GROWTH, rate * GROWTH));
             Stage::Raised
         } else {
             Stage::Settled
         };
-        self.judged += 1;
+    }
+
+    /// Takes a reply that came late: the line is given what it has delivered since the reply before,
+    /// and is measured anew when it is empty.
+    fn slow_down(&mut self, question: Question, at: Instant) {
+        let delivered = self.acknowledged.map_or(0.0, |(before, sent)| {
+            let time = at.saturating_duration_since(before).max(RESOLUTION);
+            (question.sent - sent) as f64 / time.as_secs_f64()
+        });
+        let rate = f64::from(self.rate);
+        self.set_rate(delivered.clamp(rate / GROWTH, rate));
+        // What was sent since is still on its way.
+        self.queue = (self.sent - question.sent) as f64;
+        self.as_of = Some(at);
+        self.stage = Stage::Empty;
+    }
+
+    /// Whether the line takes long enough for what is on it to measure its rate.
+    fn is_telling(&self, now: Instant) -> bool {
+        TELLING <= self.time_for(self.queue_at(now))
+    }
+
+    /// Whether it is time to see that nothing piles up, which needs no burst: at a rate taken too
+    /// high none may ever be long enough.
+    fn wants_check(&self, now: Instant) -> bool {
+        let interval = match self.stage {
+            Stage::Settled => INTERVAL,
+            _ => UNSETTLED_INTERVAL,
+        };
+        let is_due = |asked: Instant| interval <= now.saturating_duration_since(asked);
+        let is_news = self.acknowledged.is_some_and(|(_, sent)| sent < self.sent);
+        self.questions.is_empty() && is_news && self.asked.is_some_and(is_due)
     }
 
     fn wants_burst(&self, now: Instant) -> bool {

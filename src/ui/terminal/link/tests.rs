@@ -110,6 +110,10 @@ struct Line {
     round_trip: u64,
     /// The most that a reply is late, in milliseconds.
     jitter: u64,
+    /// How late the first reply is, in milliseconds.
+    start: u64,
+    /// The bytes of the picture that replaces the last one every 400 ms.
+    picture: usize,
 }
 
 /// What came of a minute of pictures and keys.
@@ -124,8 +128,9 @@ struct Minute {
 /// What a key's answer takes.
 const ANSWER: usize = 300;
 
-/// Runs pictures without end over a line of a budget, with a key every 210 ms, through frames as a
-/// session draws them. The first second is not counted.
+/// Runs pictures over a line of a budget, with a key every 210 ms, as a session does: it
+/// asks after it has sent something, and when [`Link::asks_at`] has come. The first second is not
+/// counted.
 fn minute(budget: Budget, line: Line) -> Minute {
     let start = Instant::now();
     let half = ms(line.round_trip) / 2;
@@ -139,6 +144,7 @@ fn minute(budget: Budget, line: Line) -> Minute {
     let mut free = start;
     let mut replies = VecDeque::new();
     let mut jitter = 0;
+    let mut picture = 0;
     let mut send = |bytes: usize, now: Instant| {
         let time = Duration::from_secs_f64(bytes as f64 / f64::from(line.rate));
         free = free.max(now) + time;
@@ -154,22 +160,34 @@ fn minute(budget: Budget, line: Line) -> Minute {
             replies.pop_front();
         }
         link.give_up(now);
+        let mut is_awake = link.asks_at().is_some_and(|at| at <= now);
         if step % 210 == 0 {
+            is_awake = true;
             let seen = send(ANSWER, now);
             link.spent(ANSWER, now);
             if 1000 <= step {
                 minute.delays.push((seen - now).saturating_sub(half));
             }
         }
-        let bytes = link.allowance(now).min(60_000);
+        if step % 400 == 0 {
+            picture = line.picture;
+        }
+        let bytes = link.allowance(now).min(picture);
         if 0 < bytes && link.ready_at(now).is_none() {
             send(bytes, now);
             link.spent(bytes, now);
             minute.pictures += bytes;
+            picture -= bytes;
+            is_awake = true;
         }
-        if link.has_question(now) {
+        if is_awake && link.has_question(now) {
             jitter = (jitter + 7) % (line.jitter + 1);
-            replies.push_back(send(4, now) + half + ms(jitter));
+            let late = if minute.questions == 0 {
+                line.start
+            } else {
+                jitter
+            };
+            replies.push_back(send(4, now) + half + ms(late));
             link.asked(now);
             minute.questions += 1;
         }
@@ -178,29 +196,39 @@ fn minute(budget: Budget, line: Line) -> Minute {
     minute
 }
 
+const ENDLESS: usize = 1 << 40;
+
 #[test]
 fn answers_to_keys_wait_for_few_bytes_of_pictures() {
-    for (rate, round_trip, jitter) in [
-        (40_000, 50, 0),
-        (40_000, 200, 0),
-        (40_000, 200, 15),
-        (64_000, 100, 10),
-        (128_000, 20, 0),
-        (128_000, 200, 15),
-        (1_000_000, 20, 0),
-        (1_000_000, 200, 20),
-        (10_000_000, 2, 1),
+    for (rate, round_trip, jitter, start, picture) in [
+        (40_000, 50, 0, 0, ENDLESS),
+        (40_000, 50, 0, 70, 50_000),
+        (40_000, 200, 0, 0, ENDLESS),
+        (40_000, 200, 15, 0, 50_000),
+        (40_000, 200, 15, 300, 50_000),
+        (64_000, 100, 10, 0, ENDLESS),
+        (128_000, 20, 0, 0, ENDLESS),
+        (128_000, 200, 15, 0, ENDLESS),
+        (128_000, 200, 15, 100, 20_000),
+        (1_000_000, 20, 0, 0, ENDLESS),
+        (1_000_000, 200, 20, 0, ENDLESS),
+        (1_000_000, 200, 20, 100, 50_000),
+        (10_000_000, 2, 1, 0, ENDLESS),
     ] {
         let line = Line {
             rate,
             round_trip,
             jitter,
+            start,
+            picture,
         };
         let minute = minute(Budget::Measured, line);
         let p95 = minute.delays[minute.delays.len() * 95 / 100];
         assert!(p95 <= ms(50), "{line:?}: {p95:?}");
-        // Half of what the line takes, or of what it is ever given.
-        let least = (rate as usize * 60 / 2).min(60_000_000);
+        // Half of what the line takes, of what there is, or of what it is ever given.
+        let least = (rate as usize * 60 / 2)
+            .min(60_000_000)
+            .min(picture.saturating_mul(150) / 2);
         assert!(
             least <= minute.pictures,
             "{line:?}: {} bytes",
