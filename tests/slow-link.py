@@ -264,7 +264,9 @@ async def measure(rate, round_trip):
 
 
 def fail(loop, context):
-    """An error in a callback ends the measurement."""
+    """An error in a callback ends the measurement; a proxy that is stopped is none."""
+    if isinstance(context.get("exception"), asyncio.CancelledError):
+        return
     print(context["message"], repr(context.get("exception")), flush=True)
     os._exit(1)
 

@@ -36,7 +36,7 @@ const SLACK: Duration = Duration::from_millis(30);
 const INTERVAL: Duration = Duration::from_secs(2);
 
 /// The least time between questions behind what is too little to measure, before it has settled.
-const UNSETTLED_INTERVAL: Duration = Duration::from_millis(250);
+const UNSETTLED_INTERVAL: Duration = Duration::from_millis(500);
 
 /// The most that the rate grows by one burst: a round trip that was taken too long, as while
 /// everything starts, makes a line look endless.
@@ -194,6 +194,9 @@ impl Estimate {
                     self.stage = Stage::Raised;
                 } else if kind == Kind::Burst {
                     self.judge(question, on_line);
+                } else if self.stage == Stage::Raised {
+                    // What there is to send piles nothing up.
+                    self.stage = Stage::Settled;
                 }
             }
         }
