@@ -145,6 +145,7 @@ pub enum Error {
 /// Opens the interface and stays until the user leaves it. What can be told of the scene's file
 /// without reading it is told before the terminal is touched; the file is read beside the interface.
 pub fn run(options: &Options) -> Result<Ending, Error> {
+    heap::map_large();
     let (path, format, text) = find_scene(options.scene.as_deref())?;
     let size = terminal::size();
     let opening = Opening {
