@@ -125,7 +125,7 @@ fn colours_are_those_the_terminal_has() {
     let mut session = start(&["balls.ray"], &[("NO_COLOR", "1")]);
     session.wait("a picture of characters", |screen| {
         let text = screen.contents();
-        text.contains("64 spp") && ["*", "#"].iter().all(|ink| text.contains(ink))
+        text.contains("64 spp") && ["░", "▓"].iter().all(|ink| text.contains(ink))
     });
     assert!(
         colours(session.screen())
