@@ -129,7 +129,7 @@ pub fn interface_exit_code(outcome: &Result<ui::Ending, ui::Error>) -> u8 {
         Err(ui::Error::Read(error)) => read_code(error),
         Err(ui::Error::UnknownLanguage(_)) => INVALID,
         Err(ui::Error::Folder { .. }) => NO_INPUT,
-        Err(ui::Error::NoSuch { .. }) => USAGE,
+        Err(ui::Error::NoSuch { .. } | ui::Error::DumbTerminal) => USAGE,
         Err(ui::Error::Terminal(_)) => FAILED,
     }
 }
