@@ -23,7 +23,7 @@ const BURST: Duration = Duration::from_millis(20);
 /// How long it takes for one that is measured: long beside the jitter of replies.
 const MEASURED_BURST: Duration = Duration::from_millis(50);
 
-/// The shortest burst that says something of the rate.
+/// The shortest burst that the rate can be measured by.
 const TELLING: Duration = Duration::from_millis(25);
 
 /// The least piece of picture, in bytes: about ten cells.
@@ -38,7 +38,7 @@ const INTERVAL: Duration = Duration::from_secs(2);
 /// How long a reply is waited for.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// The shortest time that is told from none.
+/// The shortest time that is distinguished from none.
 const RESOLUTION: Duration = Duration::from_millis(1);
 
 /// The rate and the round trip of a line.
@@ -210,14 +210,14 @@ impl Estimate {
     fn judge(&mut self, question: Question, time: Duration, at: Instant) {
         let expected = self.time_for(question.queue);
         let rate = f64::from(self.rate);
-        let told = question.queue / time.max(RESOLUTION).as_secs_f64();
+        let measured = question.queue / time.max(RESOLUTION).as_secs_f64();
         self.stage = if self.stage == Stage::Open {
             let most = if self.judged == 0 {
                 f64::from(MOST_RATE)
             } else {
                 2.0 * rate
             };
-            self.set_rate(told.clamp(rate / 4.0, most));
+            self.set_rate(measured.clamp(rate / 4.0, most));
             Stage::Raised
         } else if expected + SLACK < time {
             let delivered = self.acknowledged.map_or(0.0, |(before, sent)| {
@@ -230,7 +230,7 @@ impl Estimate {
             self.as_of = Some(at);
             Stage::Empty
         } else if time.as_secs_f64() < 0.7 * expected.as_secs_f64() {
-            self.set_rate(told.min(2.0 * rate));
+            self.set_rate(measured.min(2.0 * rate));
             Stage::Raised
         } else {
             Stage::Settled
