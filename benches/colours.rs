@@ -186,8 +186,8 @@ fn quarters(screen: &Screen, (left, top): (u16, u16), size: Size) -> Vec<[u8; 3]
     (0..size.height).flat_map(row).collect()
 }
 
-/// How much of its upper and lower half a character fills, as in DejaVu Sans Mono and Noto Sans Mono
-/// on average.
+/// How much of its upper and lower half a character fills in common fonts (`DejaVu` Sans Mono, Noto
+/// Sans Mono) on average.
 fn filled(symbol: &str) -> [f64; 2] {
     match symbol {
         "" | " " => [0.0, 0.0],

@@ -8,7 +8,7 @@ use super::oklab::light;
 use crate::ui::app::Shown;
 
 /// Characters, and how much of their upper and lower halves they fill: blocks by definition, the
-/// others as in DejaVu Sans Mono and Noto Sans Mono on average.
+/// others as in common fonts (`DejaVu` Sans Mono, Noto Sans Mono) on average.
 const GLYPHS: [(&str, [f32; 2]); 13] = [
     (" ", [0.0, 0.0]),
     (".", [0.0, 0.04]),

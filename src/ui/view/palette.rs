@@ -10,8 +10,8 @@ use super::oklab::{light, luma, oklab};
 const CUBE: [u8; 6] = [0, 95, 135, 175, 215, 255];
 
 /// The sixteen colours: the mean light of xterm's, the Linux console's, the Tango palette's and
-/// Windows' first. Pictures made for the mean are closer than chafa's in each of these themes; made
-/// for one they are not in the others.
+/// Windows' first. Pictures made for the mean are closer than chafa's in each of these themes; those
+/// made for xterm's alone are not.
 const THEME: [[u8; 3]; 16] = [
     [0, 0, 0],
     [180, 0, 0],
@@ -225,8 +225,10 @@ mod tests {
 
     const PLACES: std::ops::Range<u32> = 0..64;
 
-    /// The palettes, and how each index of theirs looks.
-    fn palettes() -> [(Palette, fn(u8) -> [u8; 3]); 2] {
+    /// The colour of an index.
+    type Look = fn(u8) -> [u8; 3];
+
+    fn palettes() -> [(Palette, Look); 2] {
         [
             (Palette::of_256(), fixed_colour),
             (Palette::of_16(), |index| THEME[usize::from(index)]),
@@ -234,7 +236,7 @@ mod tests {
     }
 
     /// The colours of a patch of one colour, 8×8 pixels.
-    fn patch(palette: &mut Palette, look: fn(u8) -> [u8; 3], colour: [u8; 3]) -> Vec<[u8; 3]> {
+    fn patch(palette: &mut Palette, look: Look, colour: [u8; 3]) -> Vec<[u8; 3]> {
         PLACES
             .map(|at| look(palette.at(colour, at % 8, at / 8)))
             .collect()
