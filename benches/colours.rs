@@ -2,8 +2,12 @@
 //!
 //! `cargo bench --bench colours` prints a table: for each scene and depth the error of a pixel, the
 //! error of the mean light of 2×2 pixels, both as mean distances in `OkLab` times 1000, and the mean
-//! step in luma between neighbours in flat areas, of 255. Without chafa only our own rows. The
-//! pictures are those in `scenes`; sixteen colours are taken for xterm's.
+//! step in luma between neighbours in flat areas, of 255; for ours also how long drawing takes, the
+//! first time and again, in milliseconds. Without chafa only our own rows. The
+//! pictures are those in `scenes`; sixteen colours are taken for xterm's. Without colours the error
+//! is that from the picture in greys, and a character is taken for the light of what it fills.
+//!
+//! `cargo bench --bench colours -- DIR` leaves the pictures in a folder as well, to be looked at.
 
 #[allow(dead_code, reason = "shared with the other bench")]
 mod encoding;
@@ -11,10 +15,10 @@ mod encoding;
 use std::convert::Infallible;
 use std::fs;
 use std::num::NonZeroU16;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use halflight::render::{Frame, NO_OBJECT, Progress};
 use halflight::scene::Size;
@@ -26,34 +30,56 @@ use vt100::{Cell, Color, Parser, Screen};
 
 const SCENES: [&str; 5] = ["default", "courtyard", "glass", "mirrors", "still-life"];
 
-const DEPTHS: [(ColourDepth, &str); 2] = [
+/// The depths, as chafa calls them.
+const DEPTHS: [(ColourDepth, &str); 3] = [
     (ColourDepth::Palette256, "256"),
     (ColourDepth::Palette16, "16"),
+    (ColourDepth::Mono, "none"),
 ];
 
 /// The terminal, in cells.
 const TERMINAL: (u16, u16) = (160, 62);
 
 fn main() {
-    println!("scene         colours  by      pixel    2x2   flat");
+    let folder = std::env::args().skip(1).find(|arg| arg != "--bench");
+    let folder = folder.map(PathBuf::from);
+    println!("scene         colours  by      pixel    2x2   flat  first again");
     for scene in SCENES {
         for (depth, name) in DEPTHS {
-            let (picture, ours) = ours(scene, depth);
-            row(scene, name, "ours", &picture, &ours);
-            if let Some(theirs) = chafa(&picture, name) {
-                row(scene, name, "chafa", &picture, &theirs);
+            let (picture, ours, [first, again]) = ours(scene, depth);
+            let theirs = chafa(&picture, name);
+            let wanted = match depth {
+                ColourDepth::Mono => greys(&picture),
+                _ => picture,
+            };
+            let times = format!(" {first:6.1} {again:5.1}");
+            let drawn = [("ours", Some(ours), &*times), ("chafa", theirs, "")];
+            for (by, quarters, times) in drawn {
+                let Some(quarters) = quarters else {
+                    continue;
+                };
+                let [pixel, block, flat] = errors(&wanted, &quarters);
+                println!("{scene:13} {name:8} {by:6} {pixel:6.1} {block:6.1} {flat:6.1}{times}");
+                if let Some(folder) = &folder {
+                    let path = folder.join(format!("{scene}-{name}-{by}.ppm"));
+                    write(&path, 2 * wanted.size.width, &quarters);
+                }
             }
         }
     }
 }
 
-fn row(scene: &str, colours: &str, by: &str, picture: &Shown, quarters: &[[u8; 3]]) {
-    let [pixel, block, flat] = errors(picture, quarters);
-    println!("{scene:13} {colours:8} {by:6} {pixel:6.1} {block:6.1} {flat:6.1}");
+/// Writes a picture in rows of so many pixels.
+fn write(path: &Path, width: u32, pixels: &[[u8; 3]]) {
+    let height = pixels.len() / width as usize;
+    let mut file = format!("P6\n{width} {height}\n255\n").into_bytes();
+    file.extend(pixels.iter().flatten());
+    fs::write(path, file).expect("a folder that can be written to");
 }
 
-/// A picture, and the colours that it is drawn in: four of each cell, two above two.
-fn ours(scene: &str, depth: ColourDepth) -> (Shown, Vec<[u8; 3]>) {
+/// A picture, the colours that it is drawn in, four of each cell, two above two, and how long drawing
+/// it takes in milliseconds, at first and again.
+fn ours(scene: &str, depth: ColourDepth) -> (Shown, Vec<[u8; 3]>, [f64; 2]) {
     let (mut app, _) = encoding::opened(include_str!("../scenes/default.ray"), TERMINAL);
     let (cells, size) = app.raster().expect("there is room");
     let picture = read(scene).resampled(size);
@@ -81,23 +107,27 @@ fn ours(scene: &str, depth: ColourDepth) -> (Shown, Vec<[u8; 3]>) {
     let backend = AnsiBackend::new(depth, ratatui::layout::Size::from(TERMINAL));
     let Ok(mut terminal) = ratatui::Terminal::new(backend);
     let mut inks = Inks::for_depth(depth);
-    let Ok(_) = terminal.draw(|frame| view::draw(&app, &mut inks, frame));
+    let mut draw = || {
+        let begun = Instant::now();
+        let Ok(_) = terminal.draw(|frame| view::draw(&app, &mut inks, frame));
+        1000.0 * begun.elapsed().as_secs_f64()
+    };
+    let first = draw();
+    let again = (0..20).map(|_| draw()).fold(f64::INFINITY, f64::min);
     let mut parser = parser(TERMINAL);
     let Ok(_) = terminal.backend_mut().finish(|bytes| {
         parser.process(bytes);
         Ok::<_, Infallible>(())
     });
     let quarters = quarters(parser.screen(), (cells.x, cells.y), size);
-    (picture, quarters)
+    (picture, quarters, [first, again])
 }
 
 /// What chafa makes of a picture, if it is installed.
 fn chafa(picture: &Shown, colours: &str) -> Option<Vec<[u8; 3]>> {
     let Size { width, height } = picture.size;
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("colours.ppm");
-    let mut file = format!("P6\n{width} {height}\n255\n").into_bytes();
-    file.extend(picture.pixels.iter().flatten());
-    fs::write(&path, file).expect("a folder for temporary files");
+    write(&path, width, &picture.pixels);
     let rows = height.div_ceil(2);
     let output = Command::new("chafa")
         .args(["--colors", colours, "--symbols", "half", "--stretch"])
@@ -129,6 +159,7 @@ fn read(scene: &str) -> Shown {
         size,
         pixels: pixels.map(|pixel| [pixel[2], pixel[1], pixel[0]]).collect(),
         objects: vec![NO_OBJECT; size.pixels()],
+        outline: Vec::new(),
     }
 }
 
@@ -143,18 +174,63 @@ fn quarters(screen: &Screen, (left, top): (u16, u16), size: Size) -> Vec<[u8; 3]
         let cell = screen.cell(top + y as u16 / 2, left + x as u16 / 2);
         let cell = cell.expect("the picture is on the screen");
         let (upper, at_left) = (y.is_multiple_of(2), x.is_multiple_of(2));
-        let in_front = match cell.contents() {
-            "▀" => upper,
-            "▄" => !upper,
-            "▌" => at_left,
-            "▐" => !at_left,
-            "█" => true,
-            _ => false,
+        let filled = match cell.contents() {
+            "▀" => f64::from(u8::from(upper)),
+            "▄" => f64::from(u8::from(!upper)),
+            "▌" => f64::from(u8::from(at_left)),
+            "▐" => f64::from(u8::from(!at_left)),
+            symbol => filled(symbol)[usize::from(!upper)],
         };
-        colour(cell, in_front)
+        between(colour(cell, false), colour(cell, true), filled)
     };
     let row = |y| (0..2 * size.width).map(move |x| quarter(x, y));
     (0..size.height).flat_map(row).collect()
+}
+
+/// How much of its upper and lower half a character fills in common fonts (`DejaVu` Sans Mono, Noto
+/// Sans Mono) on average.
+fn filled(symbol: &str) -> [f64; 2] {
+    match symbol {
+        "" | " " => [0.0, 0.0],
+        "." => [0.0, 0.043],
+        "'" => [0.057, 0.0],
+        ":" => [0.044, 0.043],
+        "\"" => [0.113, 0.0],
+        "=" => [0.106, 0.105],
+        "%" => [0.189, 0.194],
+        "░" => [0.25, 0.25],
+        "▒" => [0.5, 0.5],
+        "▓" => [0.75, 0.75],
+        "█" => [1.0, 1.0],
+        _ => panic!("{symbol:?} is in no picture"),
+    }
+}
+
+/// The colour of light from two.
+fn between(behind: [u8; 3], front: [u8; 3], share: f64) -> [u8; 3] {
+    let (behind, front) = (light(behind), light(front));
+    std::array::from_fn(|at| {
+        let light = behind[at] + share * (front[at] - behind[at]);
+        let value = if light <= 0.003_130_8 {
+            12.92 * light
+        } else {
+            1.055 * light.powf(1.0 / 2.4) - 0.055
+        };
+        (255.0 * value).round() as u8
+    })
+}
+
+/// A picture in greys of the same luminance.
+fn greys(picture: &Shown) -> Shown {
+    let grey = |&pixel: &[u8; 3]| {
+        let [red, green, blue] = light(pixel);
+        let luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+        between([0; 3], [255; 3], luminance)
+    };
+    Shown {
+        pixels: picture.pixels.iter().map(grey).collect(),
+        ..picture.clone()
+    }
 }
 
 /// The colour of a cell's foreground or background.
@@ -162,8 +238,8 @@ fn colour(cell: &Cell, in_front: bool) -> [u8; 3] {
     match (in_front != cell.inverse(), cell.fgcolor(), cell.bgcolor()) {
         (true, Color::Idx(index), _) | (false, _, Color::Idx(index)) => of_palette(index),
         (true, Color::Rgb(r, g, b), _) | (false, _, Color::Rgb(r, g, b)) => [r, g, b],
-        (true, Color::Default, _) => of_palette(7),
-        (false, _, Color::Default) => of_palette(0),
+        (true, Color::Default, _) => [255; 3],
+        (false, _, Color::Default) => [0; 3],
     }
 }
 

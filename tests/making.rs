@@ -48,8 +48,11 @@ fn options_of_making_hold_for_every_language() {
                 .stdin(Stdio::null())
                 .output()
                 .expect("it starts");
-            let told = String::from_utf8(output.stderr).expect("UTF-8");
-            assert!(output.status.success() && told.is_empty(), "{line}: {told}");
+            let stderr = String::from_utf8(output.stderr).expect("UTF-8");
+            assert!(
+                output.status.success() && stderr.is_empty(),
+                "{line}: {stderr}"
+            );
             output.stdout
         };
         let plain = made("");

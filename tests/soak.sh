@@ -11,7 +11,7 @@
 # The verdict is the slope of the resident memory after the warm-up: a straight line through the
 # medians of each minute from a third of the time on. 5 MB an hour and more fail, and so do more
 # descriptors or threads at the end than at the end of the warm-up, and a program that ends by itself
-# or does not leave when told to. Needs Linux and python3.
+# or does not quit on q. Needs Linux and python3.
 exec python3 - "$@" <<'PYTHON'
 import fcntl, os, pty, random, select, shutil, signal, statistics, struct, sys, tempfile, termios, time
 

@@ -197,16 +197,16 @@ impl Place {
         fs::write(self.at(name), content).expect("written");
     }
 
-    /// What the program says on the error stream, which ends with a code.
-    fn told(&self, line: &str, code: i32) -> String {
+    /// Runs the program, expects an exit code, and returns what it wrote to the error stream.
+    fn stderr(&self, line: &str, code: i32) -> String {
         let output = Command::new(env!("CARGO_BIN_EXE_halflight"))
             .args(line.split_ascii_whitespace())
             .current_dir(self.directory.path())
             .output()
             .expect("it starts");
-        let told = String::from_utf8(output.stderr).expect("UTF-8");
-        assert_eq!(output.status.code(), Some(code), "{line}: {told}");
-        told
+        let stderr = String::from_utf8(output.stderr).expect("UTF-8");
+        assert_eq!(output.status.code(), Some(code), "{line}: {stderr}");
+        stderr
     }
 
     /// The colour in the middle of `a.ppm`.
@@ -221,16 +221,16 @@ impl Place {
 #[test]
 fn a_mesh_is_drawn_in_the_colours_of_its_library() {
     let place = Place::new("newmtl a\nKd 0 .2 1\n");
-    assert_eq!(place.told("render a.xml -o a.ppm --spp 1", 0), "");
+    assert_eq!(place.stderr("render a.xml -o a.ppm --spp 1", 0), "");
     assert_eq!(place.middle(), [0, 51, 255]);
-    let told = place.told("check a.xml", 0);
-    assert_eq!(told, "1 scene checked: 0 errors, 0 warnings\n");
+    let stderr = place.stderr("check a.xml", 0);
+    assert_eq!(stderr, "1 scene checked: 0 errors, 0 warnings\n");
 
     place.write("skins/a.mtl", "newmtl b\n");
-    let told = place.told("render a.xml -o a.ppm --spp 1", 0);
+    let stderr = place.stderr("render a.xml -o a.ppm --spp 1", 0);
     let first =
         "warning: a.xml:2:28: meshes/a.obj (obj): line 5, column 8: no library defines `a`\n";
-    assert!(told.starts_with(first), "{told}");
+    assert!(stderr.starts_with(first), "{stderr}");
     assert_eq!(place.middle(), [255; 3]);
 }
 
@@ -238,13 +238,13 @@ fn a_mesh_is_drawn_in_the_colours_of_its_library() {
 #[test]
 fn the_pictures_of_a_library_are_read_from_beside_it() {
     let place = Place::new("newmtl a\nmap_Kd skin.ppm\n");
-    let told = place.told("check a.xml", 0);
+    let stderr = place.stderr("check a.xml", 0);
     let first = "warning: a.xml:2:28: meshes/a.obj (obj) map_Kd meshes/../skins/skin.ppm: \
                  no such file; magenta stands for it\n";
-    assert!(told.starts_with(first), "{told}");
+    assert!(stderr.starts_with(first), "{stderr}");
     place.write("skins/skin.ppm", "P3\n1 1\n255\n1 2 3\n");
-    let told = place.told("check a.xml", 0);
-    assert_eq!(told, "1 scene checked: 0 errors, 0 warnings\n");
+    let stderr = place.stderr("check a.xml", 0);
+    assert_eq!(stderr, "1 scene checked: 0 errors, 0 warnings\n");
 }
 
 #[test]
@@ -264,14 +264,14 @@ fn a_mesh_that_cannot_be_read_is_an_error() {
         }
         let first = format!("error: a.xml:2:28: meshes/a.obj (obj): {reason}\n");
         for line in ["render a.xml -o a.ppm --spp 1", "check a.xml"] {
-            let told = place.told(line, 65);
-            assert!(told.starts_with(&first), "{told}");
+            let stderr = place.stderr(line, 65);
+            assert!(stderr.starts_with(&first), "{stderr}");
         }
         assert!(!place.at("a.ppm").exists());
     }
     // Whatever else is wrong.
     place.write("a.xml", &MESHED.replace("<target/>", "<target x='q'/>"));
-    let told = place.told("check a.xml", 65);
-    assert!(told.contains("no such file"), "{told}");
-    assert!(told.contains("`q` is no number"), "{told}");
+    let stderr = place.stderr("check a.xml", 65);
+    assert!(stderr.contains("no such file"), "{stderr}");
+    assert!(stderr.contains("`q` is no number"), "{stderr}");
 }

@@ -129,7 +129,7 @@ pub fn interface_exit_code(outcome: &Result<ui::Ending, ui::Error>) -> u8 {
         Err(ui::Error::Read(error)) => read_code(error),
         Err(ui::Error::UnknownLanguage(_)) => INVALID,
         Err(ui::Error::Folder { .. }) => NO_INPUT,
-        Err(ui::Error::NoSuch { .. }) => USAGE,
+        Err(ui::Error::NoSuch { .. } | ui::Error::DumbTerminal) => USAGE,
         Err(ui::Error::Terminal(_)) => FAILED,
     }
 }
@@ -183,12 +183,12 @@ Examples:
   halflight check scenes/*.ray                    say what is wrong with scenes
   halflight doctor                                say what was detected, and why
 
-A scene named like a command is opened as ./render, ./check or ./doctor. Scenes are read from files, not
-from standard input, pipes or devices.
+A scene named like a command is opened as ./render, ./check or ./doctor. Scenes are read from \
+files, not from standard input, pipes or devices.
 
-Exit codes: 0 done, 1 writing or the machine failed, 2 wrong arguments, 65 wrong scene,
-66 scene not found or not to be read, 73 picture file not to be created,
-129 terminal gone, 130 interrupted, 143 asked to end.";
+Exit codes: 0 success, 1 write or system error, 2 wrong arguments, 65 invalid scene, \
+66 scene not found or unreadable, 73 picture file cannot be created, 129 terminal gone, \
+130 interrupted, 143 terminated.";
 
 #[derive(Debug, Subcommand)]
 enum Subcommands {
@@ -329,7 +329,7 @@ Examples:
   halflight render scene.ray -o scene.png --size 1920x1080 --spp 64
   halflight render scene.ray -o - --format ppm | display
 
-GIF keeps 256 colours, JPEG has quality 95; EXR and HDR hold unclamped values, the other formats
+GIF keeps 256 colours, JPEG has quality 95; EXR and HDR hold unclamped values, the other formats \
 every pixel in 8 bits a channel.
 
 The same scene and options give the same bytes on every machine and with any number of threads.";

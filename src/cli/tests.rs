@@ -29,7 +29,7 @@ fn the_declaration_is_sound() {
 }
 
 #[test]
-fn what_is_not_said_is_left_to_the_interface() {
+fn omitted_options_are_left_to_the_interface() {
     assert_eq!(interface("halflight"), ui::Options::default());
     assert_eq!(
         interface("halflight a.ray --poll").poll,
@@ -38,7 +38,7 @@ fn what_is_not_said_is_left_to_the_interface() {
 }
 
 #[test]
-fn the_interface_is_told_what_was_said() {
+fn options_reach_the_interface() {
     let line = "halflight --poll=20 --bandwidth 128 --color 256 --no-mouse --spp 4 --depth 0 --integrator path --filter gaussian --threads 3 --assets b --assets c a";
     assert_eq!(
         interface(line),
@@ -61,7 +61,7 @@ fn the_interface_is_told_what_was_said() {
 }
 
 #[test]
-fn a_picture_s_format_is_its_extension_unless_said() {
+fn a_picture_s_format_is_its_extension_unless_given() {
     let cases = [
         ("halflight render a -o b.PNG", ImageFormat::Png),
         ("halflight render a -o b.png --format ppm", ImageFormat::Ppm),
@@ -99,7 +99,7 @@ fn a_picture_has_defaults() {
 }
 
 #[test]
-fn folders_of_textures_are_told_to_every_command() {
+fn folders_of_textures_reach_every_command() {
     let folders: Vec<PathBuf> = vec!["b".into(), "c".into()];
     let line = "halflight render a.dat -o a.bmp --assets b --assets c";
     assert_eq!(render(line).assets, folders);
@@ -174,6 +174,31 @@ fn help_is_no_error() {
         let stop = parsed(line).expect_err("help");
         assert_eq!(stop.code, DONE);
         assert!(stop.text.contains("halflight"));
+    }
+}
+
+#[test]
+fn the_paragraphs_of_help_fill_80_columns() {
+    let mut cli = Cli::command();
+    cli.build();
+    let render = cli.find_subcommand("render").cloned();
+    for command in [Some(cli), render] {
+        let mut command = command.expect("a command").term_width(80);
+        let help = command.render_long_help().to_string();
+        let (_, below) = help.split_once("Examples:\n").expect("examples");
+        let lines: Vec<_> = below.lines().collect();
+        for lines in lines.windows(2) {
+            let (line, next) = (lines[0], lines[1]);
+            assert!(line.len() <= 80, "{line:?}");
+            let is_paragraph = |line: &str| !line.is_empty() && !line.starts_with(' ');
+            if is_paragraph(line) && is_paragraph(next) {
+                let word = next.split(' ').next().unwrap_or_default();
+                assert!(
+                    80 <= line.len() + word.len(),
+                    "{word:?} fits after {line:?}"
+                );
+            }
+        }
     }
 }
 

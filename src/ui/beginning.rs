@@ -10,7 +10,7 @@ use super::msg::{Effect, Msg};
 use super::reading::Reader;
 
 /// How long the terminal is left alone while the scene is read. Most files are read within it, and
-/// the first screen shows them; after it the first screen says what is being opened.
+/// the first screen shows them; after it the first screen shows what is being opened.
 const PATIENCE: Duration = Duration::from_millis(40);
 
 /// The interface before it has a terminal.

@@ -82,7 +82,7 @@ fn terminal(has_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> Ve
     lines
 }
 
-/// What tmux says, if it is there and says it in time.
+/// tmux's answer, if there is one in time.
 fn behind_tmux() -> Option<bool> {
     let (sender, answer) = mpsc::channel();
     thread::spawn(move || sender.send(tmux::shows_true_colour()));

@@ -25,7 +25,7 @@ const FORMS: &[(&[&str], Form)] = &[
         ],
         &[Line, Text("--"), File],
     ),
-    // micro takes a `--` that stands behind anything else for a file.
+    // micro takes a `--` after any other argument for a file.
     (&["nano", "rnano", "micro"], &[Text("--"), Line, File]),
     (&["emacs"], &[Line, Text("--"), LocalFile]),
     (&["emacsclient"], &[Text("--"), Line, LocalFile]),
@@ -86,7 +86,7 @@ fn open(path: &Path, line: usize) -> Result<(), String> {
     }
 }
 
-/// What a variable says, if it says anything.
+/// The value of a variable, if it has one.
 fn said(name: &str) -> Result<Option<String>, String> {
     match env::var(name) {
         Ok(said) => Ok(Some(said).filter(|said| !said.trim().is_empty())),

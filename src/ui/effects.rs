@@ -27,9 +27,6 @@ use crate::render::{Job, Refusal, Renderer, Threads};
 /// round trips.
 const REPLY_PATIENCE: Duration = Duration::from_secs(1);
 
-/// How long unsaved edits may take to be kept where the end is hurried.
-const KEEPING: Duration = Duration::from_millis(700);
-
 /// How long memory that pictures have left behind is kept for the next ones.
 const TRIM_TIME: Duration = Duration::from_secs(30);
 
@@ -91,7 +88,7 @@ impl World {
             Terminal::enter(options.colours(), options.mouse, cleared)?
         };
         let replies = Arc::new(Replies::default());
-        let tell = |sender: &Sender<Event>| {
+        let sink = |sender: &Sender<Event>| {
             let (sender, replies) = (sender.clone(), Arc::clone(&replies));
             move |event| {
                 if let terminal::Event::Reply(reply) = event {
@@ -104,9 +101,9 @@ impl World {
         Ok(Self {
             terminal,
             replies: Arc::clone(&replies),
-            input: Input::start(tell(&sender))?,
+            input: Input::start(sink(&sender))?,
             #[cfg(unix)]
-            signals: Signals::start(tell(&sender))?,
+            signals: Signals::start(sink(&sender))?,
             reader,
             freeing: Freeing::start()?,
             writers: Writers::new(sender.clone()),
@@ -156,7 +153,7 @@ impl World {
         self.ended
     }
 
-    /// What an event says; nothing where its frame was taken before.
+    /// The message of an event; none where its frame was taken before.
     pub(crate) fn message(&mut self, event: Event) -> Option<Msg> {
         match event {
             Event::Msg(msg) => Some(msg),
@@ -175,15 +172,14 @@ impl World {
         }
     }
 
-    /// Gives the terminal back, which may take `patience`, and waits about as long for files being
-    /// written; what is left of unsaved edits.
-    pub(crate) fn close(self, patience: Duration) -> End {
+    /// Restores the terminal and waits for files being written, each for so long at most; returns
+    /// what became of unsaved edits.
+    pub(crate) fn close(self, terminal: Duration, files: Duration) -> End {
         let begun = Instant::now();
-        self.await_replies(begun + patience);
-        self.terminal.close(begun + patience);
-        let deadline = begun + patience.max(KEEPING);
-        let end = self.keeper.finish(deadline);
-        self.writers.finish(deadline);
+        self.await_replies(begun + terminal);
+        self.terminal.close(begun + terminal);
+        let end = self.keeper.finish(begun + files);
+        self.writers.finish(begun + files);
         end
     }
 
@@ -193,17 +189,17 @@ impl World {
         self.terminal.ask_status()
     }
 
-    /// Expects no more that the question about colours is answered.
+    /// Stops expecting an answer about colours.
     pub(crate) fn give_up_colours(&self) {
         self.replies.came(Reply::Attributes);
     }
 
-    /// Expects no reply any more to what was asked.
+    /// Stops expecting status reports.
     pub(crate) fn give_up_replies(&self) {
         self.replies.forget_statuses();
     }
 
-    /// Lets replies come in that whoever has the terminal next would take for keys.
+    /// Waits for replies that the next program on the terminal would take for keys.
     fn await_replies(&self, deadline: Instant) {
         if self.terminal.is_clear() {
             self.replies
@@ -374,7 +370,7 @@ impl World {
         self.input.park();
         let stopped = self.terminal.leave().and_then(|()| suspend_process());
         match stopped {
-            // The news that it was continued take the terminal back, and must not do so twice.
+            // The event of being continued takes the terminal back, which must not happen twice.
             Ok(true) => Ok(()),
             Ok(false) => self.take_terminal(),
             Err(error) => {
@@ -404,7 +400,7 @@ struct Numbered {
     renderer: Renderer,
 }
 
-/// Tells of a renderer's frames, and of its worker's end, which drops this.
+/// Announces a renderer's frames, and its worker's end, which drops this.
 struct Waker {
     sender: Sender<Event>,
     target: Target,
@@ -450,7 +446,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_worker_that_panics_tells_that_it_has_ended() {
+    fn a_worker_that_panics_announces_its_end() {
         let (sender, inbox) = std::sync::mpsc::channel();
         let waker = Waker {
             sender,

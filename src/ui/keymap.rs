@@ -107,7 +107,7 @@ pub enum Action {
     Integrator,
     /// Takes the mouse or leaves it to the terminal.
     Mouse,
-    /// Draws everything anew.
+    /// Redraws everything.
     Repaint,
     /// Stops the program until it is continued.
     Suspend,
@@ -235,7 +235,7 @@ use KeyCode::{
 use Mode::{Edit, Pick, Select, Trace, View};
 use Stride::{Coarse, Fine, Plain};
 
-/// Every key, most telling first. The bytes of Ctrl-H, Ctrl-I, Ctrl-M and Ctrl-[ are those of
+/// Every key, the most useful first. The bytes of Ctrl-H, Ctrl-I, Ctrl-M and Ctrl-[ are those of
 /// Backspace, Tab, Enter and Esc, so that they are never bound.
 #[rustfmt::skip]
 pub const TABLE: &[Binding] = &[
@@ -332,7 +332,7 @@ pub const TABLE: &[Binding] = &[
     bind(EVERYWHERE, &[c('z')], A::Zoom, "picture alone, or with panels"),
     bind(EVERYWHERE, &[c('P')], A::Integrator, "path tracing, or Whitted's rays"),
     bind(SCENELESS, &[c('m')], A::Mouse, "mouse on or off"),
-    bind(ALL, &[ctrl('l')], A::Repaint, "draw the screen anew"),
+    bind(ALL, &[ctrl('l')], A::Repaint, "redraw the screen"),
     bind(ALL, &[ctrl('z')], A::Suspend, "stop until continued"),
     bind(SCENELESS, &[c('q')], A::Quit, "quit"),
     bind(ALL, &[ctrl('c')], A::Interrupt, "quit; twice: at once"),

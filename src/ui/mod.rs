@@ -27,6 +27,7 @@ pub mod terminal;
 pub mod view;
 mod writing;
 
+use std::env;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -45,7 +46,7 @@ const DEFAULT_SCENE: &str = "default.ray";
 /// The scene that is opened where there is no other: a copy of [`DEFAULT_SCENE`].
 const EMBEDDED_SCENE: &str = include_str!("../../scenes/default.ray");
 
-/// What the user said about the interface; `None` is left to it.
+/// What the user asked of the interface; `None` leaves the choice to it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Options {
     /// The scene to open; without one `default.ray` of the current folder, or else a built-in one.
@@ -134,19 +135,28 @@ pub enum Error {
         path = path.display()
     )]
     NoSuch {
-        /// What was said.
+        /// The argument.
         path: PathBuf,
     },
+    /// A terminal that cannot place text.
+    #[error(
+        "TERM=dumb: the interface needs a terminal that can move its cursor; if this one can, set \
+         TERM, such as to xterm; to make a picture: halflight render SCENE -o FILE"
+    )]
+    DumbTerminal,
     /// The terminal can't be used.
     #[error("terminal: {0}")]
     Terminal(#[from] io::Error),
 }
 
-/// Opens the interface and stays until the user leaves it. What can be told of the scene's file
-/// without reading it is told before the terminal is touched; the file is read beside the interface.
+/// Opens the interface and stays until the user leaves it. Errors that show without reading the
+/// scene's file are returned before the terminal is touched; the file is read beside the interface.
 pub fn run(options: &Options) -> Result<Ending, Error> {
     heap::map_large();
     let (path, format, text) = find_scene(options.scene.as_deref())?;
+    if env::var_os("TERM").is_some_and(|term| term == "dumb") {
+        return Err(Error::DumbTerminal);
+    }
     let size = terminal::size();
     let opening = Opening {
         path,

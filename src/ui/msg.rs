@@ -27,7 +27,7 @@ pub enum Target {
 }
 
 /// Which of the session's exports: a file that is being written when its export is cancelled is
-/// told of later.
+/// reported later.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ExportId(pub u32);
 
@@ -52,7 +52,7 @@ pub enum Msg {
     Refused(Target, String),
     /// A newer frame is there.
     Frame(Target, Arc<Frame>),
-    /// Whoever traced this picture has ended unasked, by a panic or for want of threads.
+    /// The renderer of this picture has ended by itself: it panicked, or could not start threads.
     Ended(Target),
     /// Something happened to the scene file.
     FileChanged,
@@ -66,7 +66,7 @@ pub enum Msg {
     Elapsed(Timer),
     /// The scene was written, or not.
     Saved(SaveId, SaveOutcome),
-    /// Copies of what the scene's file held before saves that were cut off.
+    /// Copies of the scene's file from before interrupted saves.
     BackupsFound(Vec<PathBuf>),
     /// An export ended.
     Exported(ExportId, Result<PathBuf, String>),
@@ -156,7 +156,7 @@ pub enum Effect {
     /// Read the files that the scene names and watch them from here on: [`Msg::AssetsRead`],
     /// [`Msg::AssetsChanged`].
     ReadAssets(Wanted),
-    /// Send [`Msg::Elapsed`] after a while; the same timer set again starts anew.
+    /// Send [`Msg::Elapsed`] after a while; the same timer set again restarts.
     Later(Duration, Timer),
     /// Keep unsaved edits for the next run: [`Msg::Kept`].
     WriteRecovery {
@@ -184,9 +184,9 @@ pub enum Effect {
     },
     /// Take the mouse or leave it to the terminal.
     SetMouse(Mouse),
-    /// Draw the whole screen anew.
+    /// Redraw the whole screen.
     Repaint,
-    /// Take the terminal back from whoever ran in between.
+    /// Take the terminal back from the program that ran in between.
     TakeTerminal,
     /// Stop the process until it is continued.
     Suspend,

@@ -1,4 +1,4 @@
-//! What the scene's file says, read and understood beside the interface: for a text of millions of
+//! The content of the scene's file, read and parsed beside the interface: for a text of millions of
 //! objects that takes longer than a key may wait.
 
 use std::cell::LazyCell;
@@ -26,12 +26,12 @@ pub struct Known {
     pub meshes: Meshes,
 }
 
-/// What a file says.
+/// The content of a file.
 #[derive(Debug)]
 pub struct Reading {
     /// What was known when it was asked for.
     pub known: Known,
-    /// What it says; `None` if that is the text last saved.
+    /// What has changed; `None` if it is the text last saved.
     pub news: Option<Box<News>>,
 }
 

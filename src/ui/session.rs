@@ -58,7 +58,7 @@ struct Session {
     inbox: Receiver<Event>,
     /// When a finer frame was last waited for and drawn.
     refined: Option<Instant>,
-    /// What the program's end came of.
+    /// Why the program ends.
     ending: Ending,
 }
 
@@ -150,14 +150,15 @@ impl Session {
         }
     }
 
-    /// Gives the terminal back, and says there where unsaved edits went.
+    /// Gives the terminal back, and prints there where unsaved edits went.
     fn close(mut self) -> Result<Ending, Error> {
         let unreadable = self.app.unreadable.take();
         let path = self.app.path.as_ref();
         let path = path.map_or_else(String::new, |path| format!(" {}", path.display()));
         // The end of the process frees a large scene at once.
         mem::forget(self.app);
-        let words = match self.world.close(patience(self.ending)) {
+        let (terminal, files) = patience(self.ending);
+        let words = match self.world.close(terminal, files) {
             End::Nothing => None,
             End::Kept => Some(format!(
                 "unsaved edits are kept; halflight{path} offers them"
@@ -248,7 +249,7 @@ impl Session {
                 effect,
                 Effect::OpenEditor { .. } | Effect::Suspend | Effect::TakeTerminal
             ) {
-                // How long the terminal is somebody else's says nothing of the link.
+                // How long another program has the terminal is no measure of the link.
                 self.waiting = None;
             }
             if let Some(msg) = self.world.perform(effect) {
@@ -299,17 +300,22 @@ impl Session {
     }
 }
 
-/// How long the terminal may take to be given back, and files to be written. Somebody who quits may sit at the end of a line
-/// that stalls; who ends the program from outside waits less, and a terminal that hung up not at all.
-fn patience(ending: Ending) -> Duration {
-    Duration::from_millis(match ending {
-        Ending::Quit | Ending::Interrupted => 2000,
-        Ending::Terminated => 400,
-        Ending::HungUp => 100,
-    })
+/// How long the terminal may take to be restored, and files to be written. A user who quits may sit
+/// at the far end of a slow link, but should not wait a second for a terminal that takes nothing;
+/// a file that is being saved gets longer. A terminal that hung up is not waited for.
+fn patience(ending: Ending) -> (Duration, Duration) {
+    let (terminal, files) = match ending {
+        Ending::Quit | Ending::Interrupted => (700, 2000),
+        Ending::Terminated => (400, 700),
+        Ending::HungUp => (100, 700),
+    };
+    (
+        Duration::from_millis(terminal),
+        Duration::from_millis(files),
+    )
 }
 
-/// How the program ends if this message ends it.
+/// The ending that this message causes if it ends the program.
 fn ending(msg: &Msg) -> Ending {
     match msg {
         Msg::Interrupt => Ending::Interrupted,

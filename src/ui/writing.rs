@@ -135,7 +135,7 @@ impl Drop for Report {
     }
 }
 
-/// Writes a scene, unless that would lose what somebody else wrote.
+/// Writes a scene, unless that would overwrite another program's changes.
 fn save(path: PathBuf, text: Arc<String>, guard: &Guard) -> SaveOutcome {
     let folder = file::directory_of(&path);
     if let Ok(false) = folder.try_exists() {
@@ -188,7 +188,7 @@ fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), Refusal> {
     }
 }
 
-/// Writes a picture, and says where.
+/// Writes a picture, and returns where.
 fn export(frame: &Frame, to: Destination) -> Result<PathBuf, String> {
     check_target(&to)?;
     let may = || check_target(&to).map_err(Refusal::Other);

@@ -18,7 +18,7 @@ static COUNT: AtomicU64 = AtomicU64::new(0);
 static FIRST: AtomicU64 = AtomicU64::new(u64::MAX);
 static LAST: AtomicU64 = AtomicU64::new(u64::MAX);
 
-/// The system's allocator, but for some allocations.
+/// The system's allocator, except for some allocations.
 struct Failing;
 
 /// Has allocations fail, counted from 1 at this moment.
@@ -38,7 +38,7 @@ fn fails() -> bool {
     FIRST.load(Ordering::Relaxed) <= number && number <= LAST.load(Ordering::Relaxed)
 }
 
-// SAFETY: everything is left to the system's allocator; a null pointer says that there is no memory.
+// SAFETY: everything is left to the system's allocator; a null pointer means that there is no memory.
 unsafe impl GlobalAlloc for Failing {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         if fails() {

@@ -46,7 +46,7 @@ mod unix {
     use super::failing;
     use super::harness::Session;
 
-    /// Says that this is the program under test.
+    /// Marks this process as the program under test.
     pub(crate) const CHILD: &str = "--child";
 
     /// Command lines in the folder of scenes, and at how many allocations each fails.
@@ -99,13 +99,13 @@ mod unix {
         command.output().expect("it starts")
     }
 
-    /// The numbers of allocations to fail among so many: the first ones, where little is there yet, and
+    /// The numbers of allocations to fail out of `count`: the first ones, where little is there yet, and
     /// some of all others.
     fn samples(count: u64, samples: u64) -> impl Iterator<Item = u64> {
         (1..=samples).map(move |sample| (count * sample * sample).div_ceil(samples * samples))
     }
 
-    /// Each failure ends with an exit code and a message, or an abort that says why.
+    /// Each failure ends with an exit code and a message, or an abort that names its reason.
     pub(crate) fn headless(arguments: &str, failures: u64) {
         let whole = run(arguments, u64::MAX, u64::MAX);
         let said = String::from_utf8_lossy(&whole.stderr).into_owned();
@@ -152,8 +152,18 @@ mod unix {
                     session.send("q");
                 }
             }
-            session.end();
+            let status = session.end();
             session.assert_restored();
+            // An abort prints its reason while the screen is the interface's.
+            let written = String::from_utf8_lossy(&session.written);
+            match (status.exit_code(), status.signal()) {
+                (0, None) => {}
+                (1, None) => assert!(written.contains("error: "), "{written}"),
+                (_, Some("Aborted")) => {
+                    assert!(written.contains("memory allocation of "), "{written}");
+                }
+                _ => panic!("{status:?}: {written}"),
+            }
             session.text()
         };
         let said = end(start(u64::MAX).0);

@@ -19,10 +19,10 @@ const WATCHDOG: Duration = Duration::from_secs(30);
 const POLL: Duration = Duration::from_millis(2);
 
 /// Begins a frame that the terminal is to show only when all of it is there.
-const BEGIN_FRAME: &[u8] = b"\x1b[?2026h";
+pub(crate) const BEGIN_FRAME: &[u8] = b"\x1b[?2026h";
 const END_FRAME: &[u8] = b"\x1b[?2026l";
 
-/// Has the whole screen drawn anew.
+/// Has the whole screen redrawn.
 pub(crate) const CTRL_L: &str = "\x0c";
 
 /// A program on a terminal of its own.
@@ -191,7 +191,7 @@ impl Session {
 
     /// Takes the terminal away, as a lost connection does.
     pub(crate) fn hang_up(&mut self) {
-        // The end that is read from is let go of too.
+        // The end that is read from is closed too.
         self.stop_reading();
         self.hang_up_at_once();
     }
@@ -344,7 +344,7 @@ impl Drop for Session {
     }
 }
 
-/// Reads on a thread, until the terminal is gone or nobody is to listen.
+/// Reads on a thread, until the terminal is gone or the output is no longer wanted.
 fn listen(mut reader: Box<dyn Read + Send>, deaf: Arc<AtomicBool>) -> Receiver<(Instant, Vec<u8>)> {
     let (send, output) = mpsc::channel();
     std::thread::spawn(move || {

@@ -97,7 +97,7 @@ fn a_number_changed_on_both_sides_is_asked_for() {
         ("m", edited(), "wrote balls.ray"),
         ("t", theirs.clone(), "nothing to save"),
     ];
-    for (key, chosen, told) in cases {
+    for (key, chosen, message) in cases {
         let place = Place::new();
         let mut session = place.open_edited();
         place.replace("balls.ray", &theirs);
@@ -112,7 +112,7 @@ fn a_number_changed_on_both_sides_is_asked_for() {
         session.send([key, ENTER].concat());
         wait_until_gone(&mut session, "[disk changed]");
         session.send(":w\r");
-        session.wait_for(told);
+        session.wait_for(message);
         assert_eq!(place.read("balls.ray"), chosen, "after {key}");
         quit(session);
     }
@@ -191,9 +191,9 @@ fn the_picture_follows_the_files_of_its_textures() {
         place.replace("skin.ppm", &skin("0 0 255"));
         wait_for_colour(&mut session, BLUE);
 
-        // Half a picture changes nothing, but is told.
+        // Half a picture changes nothing, but is reported.
         place.write("skin.ppm", "P3\n1 1\n255\n0");
-        session.wait_for("1 file can't be read: ! says why");
+        session.wait_for("1 file can't be read: ! shows why");
         session.send("!");
         session.wait_for("its last picture is kept");
         wait_for_colour(&mut session, BLUE);
@@ -225,7 +225,7 @@ fn the_picture_follows_meshes_their_libraries_and_pictures() {
         wait_for_colour(&mut session, BLUE);
 
         place.write("a.obj", "v 1 2\n");
-        session.wait_for("1 file can't be read: ! says why");
+        session.wait_for("1 file can't be read: ! shows why");
         session.send("!");
         session.wait_for("line 1, column 6: v: expected 3 numbers");
         wait_for_colour(&mut session, BLUE);

@@ -149,7 +149,7 @@ fn edits_are_kept_once_their_folder_can_be_made() {
 }
 
 #[test]
-fn edits_that_can_t_be_kept_are_said_to_be_lost_at_the_end() {
+fn edits_that_can_t_be_kept_are_reported_as_lost_at_the_end() {
     let place = Place::new();
     place.write(".local", "in the way");
     let mut session = place.open_edited();

@@ -58,8 +58,14 @@ fn any_size_is_survived() {
 fn a_finished_picture_is_left_alone() {
     let place = Place::new();
     let mut session = place.open();
-    session.drain(Duration::from_millis(100));
-    assert_eq!(session.drain(Duration::from_millis(300)), 0);
+    let sent = session.written.len();
+    session.send("?");
+    session.wait_for(" Keys ");
+    session.send(ESC);
+    wait_until_gone(&mut session, " Keys ");
+    let frames = session.written[sent..].windows(BEGIN_FRAME.len());
+    let frames = frames.filter(|part| *part == BEGIN_FRAME).count();
+    assert_eq!(frames, 2, "one for each key");
     quit(session);
 }
 
@@ -107,6 +113,19 @@ fn what_cannot_be_opened_leaves_the_terminal_alone() {
 }
 
 #[test]
+fn a_dumb_terminal_is_refused() {
+    let place = Place::new();
+    let environment = [("TERM", "dumb")];
+    let arguments = ["balls.ray"];
+    let mut session = Session::start(place.directory.path(), &arguments, WIDE, &environment);
+    assert_eq!(session.end().exit_code(), 2);
+    let text = session.text();
+    assert!(text.starts_with("error: TERM=dumb"), "{text}");
+    assert!(text.contains("halflight render"), "{text}");
+    assert!(!session.written.contains(&0x1b));
+}
+
+#[test]
 fn colours_are_those_the_terminal_has() {
     let place = Place::new();
     let start = |arguments: &[&str], environment| {
@@ -125,7 +144,7 @@ fn colours_are_those_the_terminal_has() {
     let mut session = start(&["balls.ray"], &[("NO_COLOR", "1")]);
     session.wait("a picture of characters", |screen| {
         let text = screen.contents();
-        text.contains("64 spp") && ["*", "#"].iter().all(|ink| text.contains(ink))
+        text.contains("64 spp") && ["░", "▓"].iter().all(|ink| text.contains(ink))
     });
     assert!(
         colours(session.screen())
@@ -138,13 +157,13 @@ fn colours_are_those_the_terminal_has() {
 /// Asks which colour the pen has.
 const QUESTION: &[u8] = b"\x1bP$qm\x1b\\";
 
-/// Says that it is the one that was set.
+/// Reports the one that was set.
 const ANSWER: &str = "\x1bP1$r0;38:2::49:73:87m\x1b\\";
 
-/// What is said where nothing answers.
+/// The hint where nothing answers.
 const CURE: &str = "256 colours; if the terminal has 24-bit colour: --color 24";
 
-/// A session as a login over SSH has it: the environment says 256 colours.
+/// A session as in a login over SSH: the environment promises 256 colours.
 fn start_far(place: &Place) -> Session {
     let environment = [("COLORTERM", "")];
     Session::start(place.directory.path(), &["balls.ray"], WIDE, &environment)
@@ -179,7 +198,7 @@ fn a_terminal_that_answers_gets_all_colours() {
 }
 
 #[test]
-fn a_terminal_that_stays_silent_is_told_the_cure_once() {
+fn a_silent_terminal_gets_the_hint_once() {
     let place = Place::new();
     let mut session = start_far(&place);
     session.wait_for(CURE);

@@ -13,14 +13,14 @@ use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use portable_pty::CommandBuilder;
 use rustix::process::{Pid, Signal, kill_process};
 use tempfile::TempDir;
 use vt100::{Color, MouseProtocolMode, Screen};
 
-use harness::{CTRL_L, Pixels, Session, last, picture};
+use harness::{BEGIN_FRAME, CTRL_L, Pixels, Session, last, picture};
 
 /// Two balls that shine by ambient light alone, so that their pixels are of their own colours.
 const BALLS: &str = "\
@@ -131,7 +131,7 @@ impl Place {
     }
 }
 
-/// What is said at the end where unsaved edits are kept.
+/// What is printed at the end where unsaved edits are kept.
 const KEPT: &str = "unsaved edits are kept; halflight balls.ray offers them";
 
 /// Wide enough for long messages beside the file's name.

@@ -58,7 +58,7 @@ fn folders_that_come_all_at_once_are_watched() {
 }
 
 #[test]
-fn folders_that_are_removed_and_made_anew_are_watched_again() {
+fn folders_that_are_removed_and_created_again_are_watched_again() {
     let mut watched = Watched::new("m/deep/s.ray", Method::Native, &DEEP);
     for content in ["new", "newer"] {
         watched.expect(

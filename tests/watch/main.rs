@@ -1,5 +1,5 @@
-//! Saves as editors make them, step by step: whoever looks at the file when told, and only then,
-//! ends with its final content.
+//! Saves as editors make them, step by step: a reader that looks at the file when notified, and only
+//! then, ends with its final content.
 
 mod folders;
 #[cfg(unix)]
@@ -49,7 +49,7 @@ enum Step {
 
 use Step::{Close, Directory, Duplicate, Open, Put, Remove, RemoveDirectory, Rename, Save};
 
-/// A watched file `s.ray` in a directory of its own, and a reader who looks when told.
+/// A watched file `s.ray` in a directory of its own, and a reader that looks when notified.
 struct Watched {
     directory: TempDir,
     path: PathBuf,
@@ -71,10 +71,10 @@ impl Watched {
         let path = directory.path().join(name);
         let (sender, notices) = mpsc::channel();
         // The receiver may go first when the test ends.
-        let told = move || {
+        let notify = move || {
             let _ = sender.send(());
         };
-        let watcher = Watcher::new(std::slice::from_ref(&path), method, told).expect("a watcher");
+        let watcher = Watcher::new(std::slice::from_ref(&path), method, notify).expect("a watcher");
         Self {
             seen: fs::read_to_string(&path).ok(),
             directory,
@@ -224,14 +224,14 @@ fn a_file_that_is_not_there_yet_is_noticed_when_it_comes() {
     }
 }
 
-/// Watches files of a directory; tells of each notice.
+/// Watches files of a directory; reports each notice.
 fn watch(directory: &Path, names: &[&str], method: Method) -> (Watcher, Receiver<()>) {
     let paths: Vec<_> = names.iter().map(|name| directory.join(name)).collect();
     let (sender, notices) = mpsc::channel();
-    let told = move || {
+    let notify = move || {
         let _ = sender.send(());
     };
-    let watcher = Watcher::new(&paths, method, told).expect("a watcher");
+    let watcher = Watcher::new(&paths, method, notify).expect("a watcher");
     (watcher, notices)
 }
 

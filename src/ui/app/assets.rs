@@ -124,7 +124,7 @@ impl App {
         }
     }
 
-    /// What is to be said of files found elsewhere than first looked for.
+    /// The notice about files found elsewhere than first looked for.
     fn found_elsewhere(&mut self, found: BTreeMap<String, PathBuf>) -> Option<String> {
         let said = &self.assets.elsewhere;
         let mut new = found
@@ -143,9 +143,9 @@ impl App {
     fn tell_of_files(&mut self) {
         let meshes = self.meshes.unreadable();
         match meshes + self.assets.troubles.len() {
-            0 => self.say("all files are there again"),
+            0 => self.say("all files can be read again"),
             count => {
-                let words = format!("{} can't be read: ! says why", counted(count, "file"));
+                let words = format!("{} can't be read: ! shows why", counted(count, "file"));
                 if meshes == 0 {
                     self.warn(words);
                 } else {

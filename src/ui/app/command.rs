@@ -10,7 +10,7 @@ use crate::scene::{Camera, Size};
 use crate::text::slips;
 use crate::ui::msg::{Effect, Existing, Guard};
 
-/// What a line says.
+/// What a command line means.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Command {
     /// Save, here or in another file.
@@ -66,7 +66,7 @@ const NAMES: [&str; 13] = [
     "help",
 ];
 
-/// Reads a line; the error says what would be right.
+/// Parses a command line; the error names what is expected.
 pub(super) fn parse(line: &str) -> Result<Command, String> {
     let line = line.trim();
     let (name, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
@@ -164,7 +164,7 @@ fn unknown(name: &str) -> String {
 }
 
 impl App {
-    /// Does what a line says.
+    /// Runs a command line.
     pub(super) fn command(&mut self, line: &str) -> Vec<Effect> {
         if line.trim().is_empty() {
             return Vec::new();
@@ -272,7 +272,7 @@ mod tests {
     #[test]
     fn every_command_is_in_the_help() {
         let lines = help("", Mode::Select);
-        let told: Vec<_> = lines
+        let listed: Vec<_> = lines
             .iter()
             .filter_map(|line| match line {
                 HelpLine::Entry { keys, .. } => Some(keys.split("  ")),
@@ -282,8 +282,8 @@ mod tests {
             .filter_map(|form| form.strip_prefix(':'))
             .collect();
         for name in NAMES {
-            let tells = |form: &&str| *form == name || form.starts_with(&format!("{name} "));
-            assert!(told.iter().any(tells), "{name} is not in {told:?}");
+            let matches = |form: &&str| *form == name || form.starts_with(&format!("{name} "));
+            assert!(listed.iter().any(matches), "{name} is not in {listed:?}");
         }
     }
 }

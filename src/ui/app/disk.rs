@@ -30,7 +30,7 @@ impl App {
     /// `:e`.
     pub(super) fn reread(&mut self) -> Vec<Effect> {
         if self.path.is_none() {
-            self.fail("this scene has no file to read: :w FILE makes one");
+            self.fail("this scene has no file to read: :w FILE creates one");
         }
         self.pending.reader = Reader::User;
         let mut effects = self.read_again();
@@ -51,8 +51,9 @@ impl App {
         }
     }
 
-    /// Whether nothing has come in between that what was read is compared with: a save, and for what
-    /// is new an edit or a mesh. Of a million objects, news come about a second after the last edit.
+    /// Whether what was read was compared with what is still current: there was no save meanwhile,
+    /// and for changes neither an edit nor a mesh. Of a million objects, changes arrive about a
+    /// second after the last edit.
     fn is_known(&self, reading: &Reading) -> bool {
         let known = &reading.known;
         if reading.news.is_none() {
@@ -118,9 +119,9 @@ impl App {
             if self.disk != Disk::Known {
                 self.disk = Disk::Known;
                 self.broken = None;
-                self.say("the file is as it was again");
+                self.say("the file is back to its saved text");
             } else if reader == Reader::User {
-                self.say(format!("{} holds nothing new", self.file_name()));
+                self.say(format!("{} has not changed", self.file_name()));
             }
             return Vec::new();
         };
@@ -138,7 +139,7 @@ impl App {
                 let words = if merged.document.is_dirty() {
                     "the file's changes are merged; u undoes"
                 } else {
-                    "the file says the same now"
+                    "the file has the same changes now"
                 };
                 (self.document.take(merged), meaning, words)
             }
@@ -195,14 +196,14 @@ impl App {
             };
             match place {
                 _ if same && !self.lacks_meshes() => {
-                    self.say(format!("{words}: the scene is as it was"));
+                    self.say(format!("{words}: the scene is unchanged"));
                 }
                 Some(place) => self.say(format!("{words}: {place}")),
                 None => self.say(words),
             }
         }
         if lost {
-            self.warn("what was being typed is dropped: its field is gone");
+            self.warn("the value being typed is dropped: its field is gone");
         }
     }
 
@@ -332,7 +333,7 @@ impl App {
         watch.chain(self.read_effect()).chain(backups).collect()
     }
 
-    /// Says where the content is of a scene that a save was cut off in.
+    /// Reports where an interrupted save left the scene's previous content.
     pub(super) fn backups_found(&mut self, copies: &[PathBuf]) {
         if let Some(copy) = copies.last() {
             let (name, copy) = (self.file_name(), copy.display());

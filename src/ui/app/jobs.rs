@@ -20,7 +20,7 @@ fn preview_samples(integrator: Integrator) -> u32 {
 }
 
 impl App {
-    /// Has traced anew what no longer shows the scene.
+    /// Restarts pictures that no longer show the scene.
     pub(super) fn follow(&mut self) -> Vec<Effect> {
         let mut effects = self.follow_assets();
         if self.awaits_assets() {
@@ -180,7 +180,7 @@ impl App {
         let Some(export) = self.export.take_if(|export| export.id == id) else {
             // One that was cancelled; nobody waits for it, but its file is there now.
             if let Ok(path) = outcome {
-                self.say(format!("wrote {} all the same", path.display()));
+                self.say(format!("wrote {} anyway", path.display()));
                 self.pending.written.push(path);
             }
             return Vec::new();
@@ -328,7 +328,7 @@ impl App {
         let seen = self.trace.as_mut().filter(|_| self.mode == Mode::Trace);
         if let Some(trace) = seen.filter(|trace| trace.wanted.is_some() && !trace.is_complete()) {
             trace.wanted = None;
-            self.say("stopped; F5 starts anew");
+            self.say("stopped; F5 restarts");
             return vec![Effect::Stop(Target::Trace)];
         }
         self.cancel_export()
@@ -336,7 +336,7 @@ impl App {
 
     pub(super) fn cancel_export(&mut self) -> Vec<Effect> {
         let Some(export) = self.export.take() else {
-            self.say("nothing is under way");
+            self.say("nothing is running");
             return Vec::new();
         };
         self.pending.quit = false;

@@ -6,7 +6,7 @@ use super::App;
 use super::model::Await;
 use crate::ui::msg::{Effect, Timer};
 
-/// How long an edit may be lost with the program, and how seldom a held key is written down.
+/// How long an edit may go without being kept, and how often a held key is written down.
 const KEPT_AFTER: Duration = Duration::from_secs(1);
 
 /// The longest time between two tries to keep the same edits.
@@ -76,7 +76,7 @@ impl App {
         is_any.then_some(Effect::DropRecovery).into_iter().collect()
     }
 
-    /// Takes it that a text is kept; or has another try made, ever more seldom, saying why once.
+    /// Notes that a text is kept, or schedules another try at growing intervals and reports why once.
     pub(super) fn kept(&mut self, revision: u64, outcome: Result<(), String>) -> Vec<Effect> {
         let keeping = &mut self.pending.keeping;
         if keeping.ordered != Some(revision) {
@@ -118,7 +118,7 @@ impl App {
     }
 }
 
-/// What is said of edits that can't be kept.
+/// The message about edits that can't be kept.
 fn words(reason: &str) -> String {
     format!("unsaved edits are not kept: {reason}")
 }

@@ -124,7 +124,7 @@ impl App {
                 }
                 self.say(format!("{} of {}", at + 1, found.len()));
             }
-            None => self.fail(format!("nothing is called {}", self.searched)),
+            None => self.fail(format!("no match for {}", self.searched)),
         }
     }
 
@@ -152,7 +152,7 @@ impl App {
             return;
         };
         if self.is_disk_wrong() {
-            self.warn("it stands in the file on disk: E opens the editor at the line");
+            self.warn("it is in the file on disk: E opens the editor at the line");
             return;
         }
         let Some(span) = self.diagnostics.get(at).map(|diagnostic| diagnostic.span) else {
@@ -168,7 +168,7 @@ impl App {
                     .position(|placed| placed.spans.iter().any(|s| s.touches(span)));
                 self.focus_field(field.unwrap_or(0), 0);
             }
-            None => self.warn("no thing stands there: E opens the editor at the line"),
+            None => self.warn("nothing to select there: E opens the editor at the line"),
         }
     }
 

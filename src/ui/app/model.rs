@@ -246,7 +246,7 @@ pub enum HelpFocus {
 /// Something worth saying.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
-    /// `None` for good news.
+    /// `None` for success.
     pub severity: Option<Severity>,
     /// What.
     pub text: String,
@@ -360,7 +360,7 @@ pub(super) struct Pending {
     pub(super) export: ExportId,
     /// The pictures written so far: they may be overwritten.
     pub(super) written: Vec<PathBuf>,
-    /// The scene or the view changed: pictures are to be traced anew.
+    /// The scene or the view changed: pictures are to be traced again.
     pub(super) scene: bool,
     /// The component that was clicked a moment ago.
     pub(super) click: Option<(usize, usize)>,
@@ -401,7 +401,7 @@ pub(super) enum Reader {
     /// The interface, because it may have changed.
     #[default]
     Interface,
-    /// The user, who is to be told even if it is the same.
+    /// The user, who gets an answer even if nothing changed.
     User,
 }
 

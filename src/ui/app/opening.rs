@@ -118,7 +118,7 @@ impl App {
         self.unread.is_some()
     }
 
-    /// Takes the first text of the scene, or ends for want of one.
+    /// Takes the first text of the scene; without one the interface ends.
     pub(super) fn opened(&mut self, read: Result<Reading, ReadError>) -> Vec<Effect> {
         let reading = match read {
             Ok(reading) => reading,
@@ -134,7 +134,7 @@ impl App {
                 drop(self.document.load(document));
                 meaning.lowered
             }
-            // Nothing is edited yet: there is nothing to merge, and only an empty file holds no news.
+            // Nothing is edited yet: nothing is merged, and only an empty file changes nothing.
             Some(News::Merged(..) | News::Conflict(_) | News::Broken(..)) | None => self.lowered(),
         };
         vec![self.begin(lowered)]

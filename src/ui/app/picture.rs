@@ -16,7 +16,7 @@ const HYSTERESIS: u8 = 3;
 #[derive(Debug, Default)]
 pub struct Picture {
     /// The generation that was asked for last, as older frames show an older scene; `None` when
-    /// nothing is under way, before a start or after a stop.
+    /// nothing is running, before a start or after a stop.
     pub wanted: Option<u64>,
     /// The size that was asked for last.
     pub asked: Option<Size>,

@@ -53,9 +53,9 @@ pub(super) fn name_of(origins: &Origins, tree: &Tree, span: Span) -> Option<Stri
     }
 }
 
-/// A node's name, with the field and the component where the span meets just one.
+/// A node's name, with the field and the component where the span overlaps just one.
 fn name_in(origins: &Origins, tree: &Tree, node: Node, span: Span) -> String {
-    let meets = |place: &Span| {
+    let overlaps = |place: &Span| {
         if span.is_empty() {
             place.touches(span)
         } else {
@@ -64,14 +64,18 @@ fn name_in(origins: &Origins, tree: &Tree, node: Node, span: Span) -> String {
     };
     let name = origins.name(node);
     let fields = origins.fields(tree, node);
-    let mut met = fields
+    let mut touched = fields
         .iter()
-        .filter(|placed| placed.spans.iter().any(meets));
-    let (Some(placed), None) = (met.next(), met.next()) else {
+        .filter(|placed| placed.spans.iter().any(overlaps));
+    let (Some(placed), None) = (touched.next(), touched.next()) else {
         return name;
     };
     let names = placed.field.kind.component_names();
-    let mut components = placed.spans.iter().zip(names).filter(|(at, _)| meets(at));
+    let mut components = placed
+        .spans
+        .iter()
+        .zip(names)
+        .filter(|(at, _)| overlaps(at));
     match (components.next(), components.next()) {
         (Some((_, component)), None) if 1 < names.len() => {
             format!("{name} {} {component}", placed.field.key)

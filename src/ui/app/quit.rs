@@ -29,8 +29,8 @@ impl App {
         self.leave()
     }
 
-    /// Quits whatever is lost. Edits that are being saved are not given up: they are kept, for the
-    /// save may never end.
+    /// Quits whatever is lost. Edits that are being saved are kept in the journal: the save may
+    /// never end.
     pub(super) fn quit_anyway(&mut self) -> Vec<Effect> {
         if self.file_being_saved().is_some() {
             self.quit_keeping_edits()

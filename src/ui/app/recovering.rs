@@ -9,7 +9,7 @@ use crate::ui::msg::Effect;
 use crate::ui::recovery::{Claim, Found, Offer, Since, Sought, Way};
 
 impl App {
-    /// Looks for edits that runs before this one have kept and nobody has decided about.
+    /// Looks for edits that earlier runs kept and that are still undecided.
     pub(super) fn look_for_kept(&self) -> Effect {
         Effect::LookForKept(Sought {
             scene: self.path.clone(),
@@ -28,7 +28,7 @@ impl App {
         }
     }
 
-    /// Asks about kept edits once nothing else is asked; looks at them anew where the text that they
+    /// Asks about kept edits once nothing else is asked; examines them again where the text that they
     /// would be taken into has changed.
     pub(super) fn follow_kept(&mut self) -> Option<Effect> {
         let text = self.document.shared_text();
@@ -84,7 +84,7 @@ impl App {
     ) -> Vec<Effect> {
         match self.document.restore(merge) {
             Adopted::Taken => self.restored(claim, since),
-            // The text is another one: they are looked at anew.
+            // The text is another one: they are examined again.
             Adopted::Conflict(_) | Adopted::OutOfDate => vec![self.look_for_kept()],
         }
     }

@@ -9,10 +9,10 @@ use super::model::Settle;
 use super::{App, Disk, Stage};
 use crate::ui::msg::{Effect, Guard, SaveId, SaveOutcome, Timer};
 
-/// How often it is looked at what is still being written.
+/// How often unfinished saves are checked.
 const TICK: Duration = Duration::from_secs(1);
 
-/// How many of them pass before the user is told.
+/// After how many checks the user is notified.
 const PATIENCE: u32 = 2;
 
 /// The saves that have no outcome yet.

@@ -12,7 +12,7 @@ use crate::ui::terminal::Mouse;
 use crate::ui::view::layout::Zoom;
 
 impl App {
-    /// Takes a message; says what is to be done about it.
+    /// Takes a message; returns what is to be done about it.
     pub fn update(&mut self, msg: Msg) -> Vec<Effect> {
         let mut effects = self.take(msg);
         self.scroll();
@@ -84,7 +84,7 @@ impl App {
             Some(Action::G) if second_g => self.act(Action::First, context),
             Some(action) => self.act(action, context),
             None if self.dialog.is_some() => {
-                // Whoever types on, not having seen the question, is told what became of the key.
+                // A user who types on without having seen the question learns why nothing happens.
                 let keys: Vec<_> = keymap::hints(context)
                     .into_iter()
                     .map(|(key, _)| key)
@@ -293,7 +293,7 @@ impl App {
         }
     }
 
-    /// Says something that gives way to what is said already.
+    /// Shows a message unless another one is shown already.
     fn suggest(&mut self, text: String) {
         if self.message.is_none() {
             self.say(text);

@@ -14,10 +14,10 @@ fn what_could_not_be_watched_is_tried_again() {
     };
     allow(0o300);
     if fs::read_dir(directory.path()).is_ok() {
-        // Whoever may do everything can't see the system say no.
+        // Root is never refused.
         return;
     }
-    let (send, told) = mpsc::channel();
+    let (send, messages) = mpsc::channel();
     let mut work = Work {
         assets: Assets::new(&[]),
         method: Method::Native,
@@ -33,9 +33,9 @@ fn what_could_not_be_watched_is_tried_again() {
         meshes: BTreeSet::new(),
     };
     assert!(!work.watch(&wanted));
-    assert!(matches!(told.try_recv(), Ok(Msg::Failed(_))));
+    assert!(matches!(messages.try_recv(), Ok(Msg::Failed(_))));
     allow(0o700);
     assert!(work.watch(&wanted));
     assert!(!work.watch(&wanted));
-    assert!(told.try_recv().is_err());
+    assert!(messages.try_recv().is_err());
 }

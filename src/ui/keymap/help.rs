@@ -109,7 +109,7 @@ pub fn help(search: &str, mode: Mode) -> Vec<HelpLine> {
     lines
 }
 
-/// The keys for the line of hints, most telling first. A dialog's are all its own.
+/// The keys for the line of hints, the most useful first. A dialog's are all its own.
 pub fn hints(context: Context) -> Vec<(String, &'static str)> {
     let own: &[Hint] = match context {
         Context::In(Select) => SELECT_HINTS,

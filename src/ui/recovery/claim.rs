@@ -1,4 +1,4 @@
-//! Journals that nobody else uses: claimed by a lock that ends with the process at the latest.
+//! Journals that no other process uses: claimed by a lock that ends with the process at the latest.
 
 use std::fs::File;
 use std::io;
@@ -23,7 +23,7 @@ impl Claim {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(error),
                 Ok(file) => {
-                    // Somebody who looks for journals may have taken it for one left behind.
+                    // A process that looks for journals may have taken it for one left behind.
                     if lock(&file) && is_named(&file)? {
                         return Ok(Self {
                             folder: Arc::clone(folder),
@@ -40,7 +40,7 @@ impl Claim {
     /// Claims a file that an earlier run left behind; `None` if there is none.
     pub(super) fn take(folder: &Arc<Folder>, name: String) -> Option<Self> {
         let file = folder.open(&name).ok()?;
-        // Once it is locked, nobody gives its name to another file. It may have lost it before.
+        // Once it is locked, no process gives its name to another file. It may have lost it before.
         (lock(&file) && is_named(&file).ok()?).then(|| Self {
             folder: Arc::clone(folder),
             name,

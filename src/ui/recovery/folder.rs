@@ -161,17 +161,17 @@ mod unix {
     impl Held {
         pub(super) fn of(own: &Path, path: &Path, missing: Missing) -> io::Result<Self> {
             let flags = OFlags::RDONLY | OFlags::DIRECTORY | OFlags::CLOEXEC;
-            let told = |path| move |error: Errno| at(path, &error.into());
-            let outer = openat(CWD, own, flags, Mode::empty()).map_err(told(own))?;
+            let failed = |path| move |error: Errno| at(path, &error.into());
+            let outer = openat(CWD, own, flags, Mode::empty()).map_err(failed(own))?;
             check(&fstat(&outer)?, own)?;
             if missing == Missing::Made {
                 match mkdirat(&outer, "recovery", Mode::RWXU) {
                     Ok(()) | Err(Errno::EXIST) => {}
-                    Err(error) => return Err(told(path)(error)),
+                    Err(error) => return Err(failed(path)(error)),
                 }
             }
             let flags = flags | OFlags::NOFOLLOW;
-            let held = openat(&outer, "recovery", flags, Mode::empty()).map_err(told(path))?;
+            let held = openat(&outer, "recovery", flags, Mode::empty()).map_err(failed(path))?;
             let held = Self(held);
             held.check(path)?;
             Ok(held)

@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn scenes_are_told_apart_by_path_and_language() {
+    fn scenes_are_distinguished_by_path_and_language() {
         let of = |path: &str, format| Identity::of(Some(Path::new(path)), format);
         let names = [
             of("/a/scene.ray", Format::Ray),

@@ -1,7 +1,7 @@
 //! Unsaved edits kept from one run to the next, readable by their owner only.
 //!
 //! Every run keeps its edits in a journal of its own, `recovery/STEM-HASH-N.EXTENSION` below the
-//! [state folder](folder), locked while it runs: edits that nobody has decided about stay, and those
+//! [state folder](folder), locked while it runs: edits that are undecided stay, and those
 //! of a run that is not over are not offered. The hash is that of the scene's canonical path, so
 //! that one scene has the same journals under all its names.
 //!

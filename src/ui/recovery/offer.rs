@@ -67,7 +67,7 @@ pub enum Since {
     Same,
     /// It has changed.
     Changed,
-    /// The journal does not say what it was.
+    /// The journal does not hold what it was.
     Unknown,
 }
 
@@ -97,7 +97,7 @@ pub(super) fn look_in(state: &Path, sought: &Sought) -> Found {
         Ok(Some(folder)) => Arc::new(folder),
         Ok(None) => return found,
         Err(error) => {
-            // Where there is no folder, nothing is missed: that is said once there is something to keep.
+            // Without a folder nothing is missed: that is reported once there is something to keep.
             if error.kind() == io::ErrorKind::PermissionDenied {
                 let complaint = format!("edits kept before are not offered: {error}");
                 found.complaints.push(complaint);

@@ -72,7 +72,7 @@ pub(super) fn edit(base: &str, text: &str) -> Vec<u8> {
     format!("{line} {sum:016x}\n{text}\n").into_bytes()
 }
 
-/// What the bytes of a file say of a scene.
+/// What the bytes of a journal hold of a scene.
 pub(super) fn read(bytes: Vec<u8>, scene: &Identity) -> Content {
     if bytes.is_empty() {
         return Content::Empty;
@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn files_that_are_no_journals_of_the_scene_are_told_apart() {
+    fn files_that_are_no_journals_of_the_scene_are_distinguished() {
         let a = scene("/a.ray");
         let bare = |text: &str| Content::Edits {
             base: None,

@@ -99,7 +99,7 @@ impl Place {
         look_in(&self.state, &sought)
     }
 
-    /// What the file would say with the edits that are offered.
+    /// What the file would hold with the edits that are offered.
     fn offered(&self) -> Option<String> {
         let found = self.look(BASE);
         assert_eq!(found.complaints, [] as [String; 0]);
@@ -223,7 +223,7 @@ fn edits_are_appended_until_they_take_more_than_the_text() {
 }
 
 #[test]
-fn a_journal_that_was_removed_is_made_anew() {
+fn a_journal_that_was_removed_is_created_again() {
     let place = Place::new();
     let mut journal = place.run();
     place.keep(&mut journal, "1 2 4");
@@ -332,7 +332,7 @@ fn files_in_place_of_journals() {
         assert_eq!(
             place.look(BASE).complaints,
             [] as [String; 0],
-            "{name}: said once"
+            "{name}: reported once"
         );
     }
 }
@@ -439,7 +439,7 @@ mod hostile {
         }
     }
 
-    /// What somebody may have left in the folder before it was ours alone: none of it is followed,
+    /// What another user may have left in the folder before it was ours alone: none of it is followed,
     /// waited for or written to.
     #[test]
     fn files_that_are_not_followed() {

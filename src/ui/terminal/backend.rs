@@ -79,7 +79,7 @@ impl AnsiBackend {
         self.depth = depth;
     }
 
-    /// Forgets what the terminal was told, as after somebody else has used it.
+    /// Forgets the state of the terminal, as after another program has used it.
     pub fn forget(&mut self) {
         self.pen = Pen::UNKNOWN;
         self.place = Place::Unknown;
@@ -427,7 +427,7 @@ fn push_character(out: &mut Vec<u8>, cell: &Cell) -> Advance {
     }
 }
 
-/// Tells accents and the like from the invisible characters that join, direct or vary others.
+/// Distinguishes accents and the like from the invisible characters that join, direct or vary others.
 fn is_mark(character: char) -> bool {
     let invisible = matches!(
         character,

@@ -22,7 +22,7 @@ pub enum ColourDepth {
     TrueColour,
 }
 
-/// What the user says about colours.
+/// The user's choice of colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Choice {
     /// The environment decides.
@@ -52,7 +52,7 @@ impl ColourDepth {
             return Self::Mono;
         }
         if cfg!(windows) && !set("TERM") {
-            // Every console since Windows 10 shows all colours and none of them says so.
+            // Every console since Windows 10 shows all colours, and none sets a variable.
             return Self::TrueColour;
         }
         let promised = variable("COLORTERM");
@@ -80,7 +80,7 @@ impl ColourDepth {
         }
     }
 
-    /// Says what to do where the terminal shows more than this.
+    /// Names the depth, and the option for a terminal that shows more.
     pub fn cure(self) -> String {
         format!(
             "{}; if the terminal has 24-bit colour: --color 24 or COLORTERM=truecolor",
@@ -110,7 +110,7 @@ impl ColourDepth {
     }
 }
 
-/// A colour as the terminal is told it.
+/// A colour as it is sent to the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ink {
     /// The terminal's own foreground or background, whichever is being set.

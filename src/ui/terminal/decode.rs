@@ -54,7 +54,7 @@ enum Mode {
 /// What the pending bytes begin with.
 #[derive(Debug, PartialEq, Eq)]
 enum Token {
-    /// Not yet to be told.
+    /// Still incomplete.
     Unfinished,
     /// So many bytes that mean this.
     Event(usize, Event),
@@ -65,11 +65,11 @@ enum Token {
 }
 
 impl Decoder {
-    /// Takes bytes and tells the events they complete.
-    pub fn feed(&mut self, bytes: &[u8], now: Instant, mut tell: impl FnMut(Event)) {
+    /// Takes bytes and emits the events they complete.
+    pub fn feed(&mut self, bytes: &[u8], now: Instant, mut emit: impl FnMut(Event)) {
         self.pending.extend_from_slice(bytes);
         self.fed = Some(now);
-        self.advance(&mut tell);
+        self.advance(&mut emit);
     }
 
     /// Returns when [`Decoder::expire`] is due, `None` if nothing is held back.
@@ -84,19 +84,19 @@ impl Decoder {
         self.fed.map(|fed| fed + patience)
     }
 
-    /// Tells what is held back if its time is over: the Esc key, Alt with a key, or a paste whose
+    /// Emits what is held back if its time is over: the Esc key, Alt with a key, or a paste whose
     /// end got lost.
-    pub fn expire(&mut self, now: Instant, mut tell: impl FnMut(Event)) {
+    pub fn expire(&mut self, now: Instant, mut emit: impl FnMut(Event)) {
         if self.deadline().is_none_or(|deadline| now < deadline) {
             return;
         }
         if self.mode == Mode::Paste {
-            tell(Event::Paste(pasted(&self.pending)));
+            emit(Event::Paste(pasted(&self.pending)));
         } else {
             match self.pending[..] {
-                [0x1b] => tell(key(KeyCode::Esc, KeyModifiers::NONE)),
+                [0x1b] => emit(key(KeyCode::Esc, KeyModifiers::NONE)),
                 [0x1b, introducer @ (b'[' | b'O')] => {
-                    tell(with_alt(character(introducer.into())));
+                    emit(with_alt(character(introducer.into())));
                 }
                 _ => {}
             }
@@ -105,7 +105,7 @@ impl Decoder {
         self.pending.clear();
     }
 
-    fn advance(&mut self, tell: &mut impl FnMut(Event)) {
+    fn advance(&mut self, emit: &mut impl FnMut(Event)) {
         let mut start = 0;
         while start < self.pending.len() {
             let rest = &self.pending[start..];
@@ -113,7 +113,7 @@ impl Decoder {
                 let Some(end) = find(rest, PASTE_END) else {
                     break;
                 };
-                tell(Event::Paste(pasted(&rest[..end])));
+                emit(Event::Paste(pasted(&rest[..end])));
                 self.mode = Mode::Keys;
                 start += end + PASTE_END.len();
                 continue;
@@ -156,7 +156,7 @@ impl Decoder {
                     start += length;
                 }
                 Token::Event(length, event) => {
-                    tell(event);
+                    emit(event);
                     start += length;
                 }
             }

@@ -201,8 +201,8 @@ fn restore(shared: &Shared) {
     let _ = give_back(shared, Tenure::GivenBack, Instant::now() + PATIENCE);
 }
 
-/// What was drawn last is cut off if it still waits: the sequence that restores the screen ends
-/// whatever it cuts.
+/// Restores the screen and the modes. What was drawn last is dropped if it still waits: the sequence
+/// that restores the screen ends any that is left incomplete.
 fn give_back(shared: &Shared, to: Tenure, deadline: Instant) -> io::Result<()> {
     let mut tenure = shared.tenure();
     let before = std::mem::replace(&mut *tenure, to);

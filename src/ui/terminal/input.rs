@@ -1,4 +1,4 @@
-//! The thread that reads the keyboard, and can let go of it.
+//! The thread that reads the keyboard, and can release it.
 //!
 //! On Unix the bytes are read here, not by crossterm 0.29: its reader blocks in the middle of a
 //! sequence, where it cannot be parked, and spins when the terminal is gone (crossterm#793).
@@ -24,7 +24,7 @@ pub struct Input {
 
 #[derive(Debug)]
 enum Order {
-    /// Let go of the keyboard and acknowledge.
+    /// Release the keyboard and acknowledge.
     Park(Sender<()>),
     Resume,
     Stop,
@@ -187,7 +187,7 @@ mod unix {
             if keys.intersects(PollFlags::HUP | PollFlags::ERR | PollFlags::NVAL) {
                 return Wake::Gone;
             }
-            // Bytes that wait already come before the verdict that there are none.
+            // Bytes that are waiting are read before the terminal counts as gone.
             if keys.contains(PollFlags::IN) {
                 return self.read(send);
             }
@@ -247,14 +247,14 @@ mod windows {
                 Err(_) => return Wake::Gone,
             }
             match event::read() {
-                Ok(event) => told(event).into_iter().for_each(send),
+                Ok(event) => meaning(event).into_iter().for_each(send),
                 Err(_) => return Wake::Gone,
             }
             Wake::Again
         }
     }
 
-    fn told(event: event::Event) -> Option<Event> {
+    fn meaning(event: event::Event) -> Option<Event> {
         match event {
             event::Event::Key(key) if key.kind != KeyEventKind::Release => Some(Event::Key(key)),
             event::Event::Mouse(mouse) if mouse.kind != MouseEventKind::Moved => {

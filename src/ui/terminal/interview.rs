@@ -1,11 +1,13 @@
-//! Asks the terminal and waits for its answers: for commands that print a text and end. The
+//! Queries the terminal and waits for its answers: for commands that print a text and end. The
 //! interface never waits.
 
 use std::io;
 #[cfg(unix)]
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::Reply;
+#[cfg(unix)]
+use super::query;
 
 /// What a terminal answered.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -15,17 +17,17 @@ pub(crate) struct Answers {
 }
 
 impl Answers {
-    /// Whether it said anything at all.
+    /// Whether it answered nothing at all.
     pub(crate) fn is_silent(&self) -> bool {
         self.replies.is_empty()
     }
 
-    /// Whether it shows 24-bit colours, as it says.
+    /// Whether it reports 24-bit colour.
     pub(crate) fn has_true_colour(&self) -> bool {
         self.replies.contains(&Reply::TrueColour)
     }
 
-    /// How a DEC private mode stands, if the terminal knows it.
+    /// The state of a DEC private mode, if the terminal knows it.
     pub(crate) fn mode(&self, wanted: u16) -> Option<u16> {
         self.replies.iter().find_map(|reply| match *reply {
             Reply::Mode { number, state } if number == wanted && state != 0 => Some(state),
@@ -34,34 +36,53 @@ impl Answers {
     }
 }
 
-/// How long the last answer is waited for, that it is not left to the shell.
+/// How long answers are waited for. Late ones don't count, but must not be left to the shell.
 #[cfg(unix)]
 const LATEST: Duration = Duration::from_secs(1);
+
+/// The answers so far.
+#[cfg(unix)]
+#[derive(Debug)]
+struct Interview {
+    asked: Instant,
+    answers: Answers,
+    /// Whether the last answer has arrived.
+    is_over: bool,
+}
+
+#[cfg(unix)]
+impl Interview {
+    fn take(&mut self, reply: Reply, at: Instant) {
+        if at.duration_since(self.asked) < query::PATIENCE {
+            self.answers.replies.push(reply);
+        }
+        self.is_over |= reply == Reply::Attributes;
+    }
+}
 
 /// Asks the terminal at both ends of this process. Answers count for
 /// [`PATIENCE`](super::query::PATIENCE).
 #[cfg(unix)]
 pub(crate) fn ask() -> io::Result<Answers> {
-    use std::time::Instant;
-
     use rustix::event::{PollFd, PollFlags, Timespec, poll};
     use rustix::io::Errno;
 
     use super::decode::Decoder;
-    use super::{Event, query, tty};
+    use super::{Event, tty};
 
     let keyboard = tty::keyboard()?;
     let _raw = Raw::enter()?;
     let line = tty::Line::open()?;
     // A terminal that takes nothing answers nothing.
-    let _ = line.write_at_once(&[query::COLOURS, query::MODES].concat())?;
-    let asked = Instant::now();
-    // Late answers don't count, but must not be left to the shell.
-    let until = asked + LATEST;
+    let _ = line.write_at_once(&[query::COLOURS, query::MODES, query::ATTRIBUTES].concat())?;
+    let mut interview = Interview {
+        asked: Instant::now(),
+        answers: Answers::default(),
+        is_over: false,
+    };
+    let until = interview.asked + LATEST;
     let mut decoder = Decoder::default();
-    let mut answers = Answers::default();
-    let mut is_ended = false;
-    while !is_ended {
+    while !interview.is_over {
         let left = until.saturating_duration_since(Instant::now());
         let mut sources = [PollFd::new(&keyboard, PollFlags::IN)];
         match poll(&mut sources, Timespec::try_from(left).ok().as_ref()) {
@@ -75,21 +96,16 @@ pub(crate) fn ask() -> io::Result<Answers> {
         if count == 0 {
             break;
         }
-        let in_time = asked.elapsed() < query::PATIENCE;
-        decoder.feed(&bytes[..count], Instant::now(), |event| match event {
-            Event::Reply(Reply::Attributes) => {
-                is_ended = true;
-                answers.replies.extend(in_time.then_some(Reply::Attributes));
+        let now = Instant::now();
+        decoder.feed(&bytes[..count], now, |event| {
+            if let Event::Reply(reply) = event {
+                interview.take(reply, now);
             }
-            Event::Reply(reply) if in_time => {
-                answers.replies.push(reply);
-            }
-            _ => {}
         });
     }
     // What the terminal may have made of the questions.
     let _ = line.write_at_once(b"\r\x1b[K")?;
-    Ok(answers)
+    Ok(interview.answers)
 }
 
 /// Asks nothing.
@@ -115,5 +131,39 @@ impl Drop for Raw {
     fn drop(&mut self) {
         // A terminal that is gone has no modes.
         let _ = crossterm::terminal::disable_raw_mode();
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn late_answers_do_not_count_and_the_last_one_ends_the_wait() {
+        use Reply::{Attributes, TrueColour};
+        for (arrivals, counted, is_over) in [
+            (&[][..], &[][..], false),
+            (&[(TrueColour, 199)], &[TrueColour], false),
+            (&[(TrueColour, 200)], &[], false),
+            (
+                &[(TrueColour, 10), (Attributes, 20)],
+                &[TrueColour, Attributes],
+                true,
+            ),
+            (&[(TrueColour, 10), (Attributes, 300)], &[TrueColour], true),
+            (&[(TrueColour, 500), (Attributes, 500)], &[], true),
+        ] {
+            let asked = Instant::now();
+            let mut interview = Interview {
+                asked,
+                answers: Answers::default(),
+                is_over: false,
+            };
+            for &(reply, milliseconds) in arrivals {
+                interview.take(reply, asked + Duration::from_millis(milliseconds));
+            }
+            assert_eq!(interview.answers.replies, counted, "{arrivals:?}");
+            assert_eq!(interview.is_over, is_over, "{arrivals:?}");
+        }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! A write returns long before its bytes are seen: channel windows and socket buffers hide
 //! seconds of frames. So the pace of pictures is set by a token bucket, and its rate by the replies
-//! of the terminal, which tell when bytes have arrived. Knows no clock: every question carries its
+//! of the terminal, which show when bytes have arrived. Knows no clock: every question carries its
 //! moment.
 
 mod estimate;
@@ -46,9 +46,9 @@ pub enum Budget {
 }
 
 impl Budget {
-    /// What suits a line of which the environment says this.
+    /// What suits the line that these variables of the environment describe.
     ///
-    /// Multiplexers reply for themselves, so replies say nothing of the line behind them.
+    /// Multiplexers reply for themselves, so replies are no measure of the line behind them.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Self {
         let set = |name: &str| variable(name).is_some_and(|value| !value.is_empty());
         let is_remote = set("SSH_CONNECTION") || set("SSH_TTY");

@@ -39,14 +39,14 @@ pub(crate) use tty::{complain, size};
 
 use crossterm::event::{KeyEvent, MouseEvent};
 
-/// Something the terminal or the system tells the interface.
+/// An event from the terminal or the system.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// A key was pressed or repeats; releases are never told.
+    /// A key was pressed or repeats; releases are not reported.
     Key(KeyEvent),
     /// Text arrived in one piece, its line ends as `\n`.
     Paste(String),
-    /// A button, a drag or the wheel; bare motion is never told.
+    /// A button, a drag or the wheel; bare motion is not reported.
     Mouse(MouseEvent),
     /// The terminal answered.
     Reply(Reply),
@@ -57,14 +57,14 @@ pub enum Event {
         /// Rows of cells.
         rows: u16,
     },
-    /// Somebody asks the process to stop until it is continued.
+    /// The process is asked to stop until it is continued.
     Suspend,
-    /// The process runs again; whoever ran in between may have changed the terminal's modes.
+    /// The process runs again; another program may have changed the terminal's modes in between.
     Continue,
     /// The terminal is gone: 500 ms remain to save what must survive.
     HangUp,
     /// The system asks the process to end, as by `kill`.
     Terminate,
-    /// Somebody interrupts the process from outside; Ctrl-C on the keyboard is a key.
+    /// The process is interrupted from outside; Ctrl-C on the keyboard is a key.
     Interrupt,
 }

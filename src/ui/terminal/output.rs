@@ -1,8 +1,8 @@
-//! What goes to the terminal: bytes in order, on a thread that waits for the terminal so that
-//! nobody else has to.
+//! What goes to the terminal: bytes in order, on a thread that waits for the terminal so that no
+//! other has to.
 //!
-//! A terminal that nobody reads takes nothing, for ever. What it takes at once is written by
-//! whoever has it to write, which costs a healthy terminal no detour; the rest is the thread's.
+//! A terminal that is not read takes nothing, ever. What it takes at once is written by the calling
+//! thread, which costs a healthy terminal no detour; the rest is left to this one.
 
 use std::io;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};

@@ -1,6 +1,6 @@
 //! What panics do to the screen.
 //!
-//! A panic on the interface's thread gives the terminal back before it is told; one on any other
+//! A panic on the interface's thread gives the terminal back before it is reported; one on any other
 //! thread is kept, because the interface is still drawing.
 
 use std::backtrace::{Backtrace, BacktraceStatus};
@@ -12,6 +12,7 @@ use std::thread::{self, ThreadId};
 
 use super::output::Output;
 use super::tty;
+use crate::text::visible;
 
 /// Who has the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +21,7 @@ pub(super) enum Tenure {
     Ours,
     /// Another program, for a while.
     Lent,
-    /// Whoever started us.
+    /// The program that started us.
     GivenBack,
 }
 
@@ -58,7 +59,7 @@ impl Shared {
 
     /// Locks who has the terminal; held while it changes hands.
     pub(super) fn tenure(&self) -> MutexGuard<'_, Tenure> {
-        // Whoever panicked with the lock has left a valid value.
+        // A panic while it was locked has left a valid value.
         self.tenure.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -73,20 +74,20 @@ impl Shared {
         }
     }
 
-    /// Returns the panics of other threads that nobody has taken yet.
+    /// Returns the panics of other threads since the last call.
     pub(super) fn take_panics(&self) -> Vec<String> {
         std::mem::take(&mut *self.panics.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     fn caught(&self, panic: &PanicHookInfo, restore: fn(&Self)) {
         let text = description(panic);
-        let told_at_once = if thread::current().id() == self.interface {
+        let reported_at_once = if thread::current().id() == self.interface {
             restore(self);
             true
         } else {
             *self.tenure() == Tenure::GivenBack
         };
-        if told_at_once {
+        if reported_at_once {
             tty::complain(text);
         } else {
             self.panics
@@ -106,20 +107,14 @@ fn description(panic: &PanicHookInfo) -> String {
         text.push('\n');
         text.push_str(&backtrace);
     }
-    visible(&text)
+    printable(&text)
 }
 
-/// Shows characters that would command or deceive the terminal as escapes. A panic may quote a
+/// Every line with escapes for what would command or deceive the terminal: a panic may quote a
 /// hostile file.
-fn visible(text: &str) -> String {
-    let mut shown = String::with_capacity(text.len());
-    for character in text.chars() {
-        match character {
-            '\n' | '\'' | '"' | '\\' => shown.push(character),
-            _ => shown.extend(character.escape_debug()),
-        }
-    }
-    shown
+fn printable(text: &str) -> String {
+    let lines: Vec<_> = text.split('\n').map(visible).collect();
+    lines.join("\n")
 }
 
 #[cfg(test)]
@@ -133,7 +128,7 @@ mod tests {
             ("\x1b]52;c;eA==\x07", "\\u{1b}]52;c;eA==\\u{7}"),
             ("a\u{9b}2J\u{202e}b", "a\\u{9b}2J\\u{202e}b"),
         ] {
-            assert_eq!(visible(text), shown);
+            assert_eq!(printable(text), shown);
         }
     }
 }

@@ -18,7 +18,7 @@ pub(super) struct Style {
     pub(super) fg: Option<Ink>,
     pub(super) bg: Option<Ink>,
     pub(super) modifier: Modifier,
-    /// The attributes that may be on or off, whatever `modifier` says.
+    /// The attributes that may be on or off, regardless of `modifier`.
     pub(super) indifferent: Modifier,
 }
 
@@ -34,7 +34,7 @@ pub(super) struct Pen {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Knowledge {
     Known,
-    /// Somebody else may have used the terminal.
+    /// Another program may have used the terminal.
     Unknown,
 }
 
@@ -56,7 +56,7 @@ impl Pen {
         };
     }
 
-    /// Returns the bytes the colours of a style would take, but for the frame of the sequence.
+    /// Returns the bytes the colours of a style would take, without the frame of the sequence.
     pub(super) fn colour_cost(&self, style: &Style) -> usize {
         let cost = |wanted: Option<Ink>, current| match wanted {
             Some(ink) if ink != current => ink_length(ink),
@@ -192,7 +192,7 @@ fn ink_length(ink: Ink) -> usize {
         _ => 3,
     };
     match ink {
-        // Bright backgrounds take a third digit, too little to tell the two sides apart for.
+        // Bright backgrounds take a third digit, too little to distinguish the two sides for.
         Ink::Default | Ink::Index(0..16) => 2,
         Ink::Index(index) => 5 + digits(index),
         Ink::Rgb(red, green, blue) => 7 + digits(red) + digits(green) + digits(blue),

@@ -1,8 +1,8 @@
 //! What the terminal is asked about its colours, and what its answers mean.
 //!
-//! A login over SSH says `xterm-256color` whatever the terminal can do. Most terminals that show
-//! 24-bit colours say so when they are asked what a colour has become (DECRQSS), or what they have
-//! of terminfo (XTGETTCAP); others stay silent. The sequences are xterm's (`ctlseqs`, "Device
+//! A login over SSH has `TERM=xterm-256color` whatever the terminal can do. Most terminals that show
+//! 24-bit colours report that when asked what a colour has become (DECRQSS), or for entries of
+//! terminfo (XTGETTCAP); others stay silent. The sequences are xterm's (`ctlseqs`, "Device
 //! Control functions").
 
 use std::time::Duration;
@@ -14,9 +14,9 @@ use super::Reply;
 pub(super) const COLOURS: &[u8] =
     b"\x1b[38:2::49:73:87m\x1bP$qm\x1b\\\x1b[m\x1bP+q524742\x1b\\\x1bP+q5463\x1b\\";
 
-/// Asks how synchronized output stands (DECRQM), and what the terminal is (DA1).
+/// Asks for the state of synchronized output (DECRQM).
 #[cfg(unix)]
-pub(super) const MODES: &[u8] = b"\x1b[?2026$p\x1b[c";
+pub(super) const MODES: &[u8] = b"\x1b[?2026$p";
 
 /// The channels of the colour that is asked about.
 const COLOUR: [u16; 3] = [49, 73, 87];

@@ -1,11 +1,11 @@
-//! What the terminal says when it is asked.
+//! What the terminal replies to queries.
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-/// Has the terminal say that it is there (DSR, ECMA-48 8.3.35), which it does when everything
-/// before has arrived. No key sends what it replies, unlike the position of the cursor, which in
-/// the first row looks like F3.
+/// Asks the terminal for its status (DSR, ECMA-48 8.3.35), which it reports when everything before
+/// has arrived. No key sends that report, unlike that of the cursor's position, which in the first
+/// row looks like F3.
 pub(super) const ASK_STATUS: &str = "\x1b[5n";
 
 /// An answer of the terminal.
@@ -15,19 +15,19 @@ pub enum Reply {
     Status,
     /// It shows 24-bit colours.
     TrueColour,
-    /// How a DEC private mode stands, as DECRPM says it: 1 set, 2 reset, 0 unknown to it.
+    /// The state of a DEC private mode (DECRPM): 1 set, 2 reset, 0 unknown to the terminal.
     Mode {
         /// The mode's number.
         number: u16,
-        /// How it stands.
+        /// Its state.
         state: u16,
     },
-    /// What it is (DA1). Every terminal answers this, and answers in order: no other is to come.
+    /// What it is (DA1). Every terminal answers this, and in order: it ends the answers before it.
     Attributes,
 }
 
-/// Which replies are on their way, so that the terminal is handed to nobody who would take them for
-/// keys.
+/// The replies that are on their way, so that the terminal is not handed to a program that would take
+/// them for keys.
 #[derive(Debug, Default)]
 pub struct Replies {
     expected: Mutex<Expected>,
@@ -36,14 +36,14 @@ pub struct Replies {
 
 #[derive(Debug, Default)]
 struct Expected {
-    /// Whether [`Reply::Attributes`], which ends the answers about colours, is to come.
+    /// Whether [`Reply::Attributes`], which ends the answers about colours, is on its way.
     attributes: bool,
-    /// How many times [`Reply::Status`] is to come.
+    /// How many times [`Reply::Status`] is on its way.
     statuses: usize,
 }
 
 impl Replies {
-    /// One that ends with this is on its way.
+    /// Counts a reply of this kind as on its way.
     pub fn expect(&self, reply: Reply) {
         let mut expected = self.lock();
         match reply {
@@ -53,7 +53,7 @@ impl Replies {
         }
     }
 
-    /// It has come.
+    /// Counts a reply of this kind as arrived.
     pub fn came(&self, reply: Reply) {
         let mut expected = self.lock();
         match reply {
@@ -64,7 +64,7 @@ impl Replies {
         self.came.notify_all();
     }
 
-    /// No status will come.
+    /// Expects no more status reports.
     pub fn forget_statuses(&self) {
         self.lock().statuses = 0;
     }
@@ -72,12 +72,90 @@ impl Replies {
     /// Waits until none is on its way, until `deadline` at most.
     pub fn wait(&self, deadline: Instant) {
         let time = deadline.saturating_duration_since(Instant::now());
-        let is_awaited = |expected: &mut Expected| expected.attributes || 0 < expected.statuses;
-        let waited = self.came.wait_timeout_while(self.lock(), time, is_awaited);
+        let waited = self
+            .came
+            .wait_timeout_while(self.lock(), time, |expected| expected.is_any());
         drop(waited.unwrap_or_else(PoisonError::into_inner));
     }
 
     fn lock(&self) -> MutexGuard<'_, Expected> {
         self.expected.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Expected {
+    fn is_any(&self) -> bool {
+        self.attributes || 0 < self.statuses
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+    use std::thread;
+    use std::time::Duration;
+
+    use super::*;
+
+    const MODE: Reply = Reply::Mode {
+        number: 2026,
+        state: 1,
+    };
+
+    #[test]
+    fn replies_are_counted_by_kind() {
+        use Reply::{Attributes, Status, TrueColour};
+        for (expected, arrived, is_any) in [
+            (&[][..], &[][..], false),
+            (&[Status], &[], true),
+            (&[Status], &[Status], false),
+            (&[Status, Status], &[Status], true),
+            (&[Status, Status], &[Status, Status], false),
+            (&[Status], &[Attributes], true),
+            (&[Attributes], &[Status, Status], true),
+            (&[Attributes], &[TrueColour, MODE], true),
+            (&[Attributes], &[TrueColour, Attributes], false),
+            (&[Attributes, Status], &[Attributes], true),
+            (&[Attributes, Status], &[Status, Attributes], false),
+            (&[TrueColour, MODE], &[], false),
+            // One that was forgotten arrives late.
+            (&[], &[Status], false),
+        ] {
+            let replies = Replies::default();
+            for &reply in expected {
+                replies.expect(reply);
+            }
+            for &reply in arrived {
+                replies.came(reply);
+            }
+            let found = replies.lock().is_any();
+            assert_eq!(found, is_any, "{arrived:?} of {expected:?}");
+        }
+    }
+
+    #[test]
+    fn forgotten_reports_leave_the_attributes_expected() {
+        let replies = Replies::default();
+        replies.expect(Reply::Status);
+        replies.forget_statuses();
+        assert!(!replies.lock().is_any());
+        replies.expect(Reply::Status);
+        replies.expect(Reply::Attributes);
+        replies.forget_statuses();
+        assert!(replies.lock().is_any());
+    }
+
+    #[test]
+    fn the_last_reply_ends_the_wait() {
+        let replies = Arc::new(Replies::default());
+        replies.expect(Reply::Status);
+        replies.wait(Instant::now());
+        assert!(replies.lock().is_any(), "the deadline has passed");
+        let theirs = Arc::clone(&replies);
+        let arrival = thread::spawn(move || theirs.came(Reply::Status));
+        let begun = Instant::now();
+        replies.wait(begun + Duration::from_secs(60));
+        assert!(begun.elapsed() < Duration::from_secs(30));
+        arrival.join().expect("no panic");
     }
 }

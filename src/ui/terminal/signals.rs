@@ -1,7 +1,7 @@
 //! Signals and the end of the line, on one thread that sleeps in `poll` for all of them.
 //!
 //! The terminal is watched as well as `SIGHUP` awaited: the signal may be ignored by inheritance,
-//! as under `nohup`, and then only the terminal's end of the line tells.
+//! as under `nohup`, and then only the terminal itself reports the hang-up.
 
 use std::io::{self, Read, Write};
 use std::os::fd::OwnedFd;
@@ -33,7 +33,7 @@ const OURS: u8 = b'o';
 
 const WATCHED: [i32; 7] = [SIGHUP, SIGTERM, SIGQUIT, SIGINT, SIGTSTP, SIGCONT, SIGWINCH];
 
-/// Tells the interface of signals and of a terminal that is gone, until it is dropped.
+/// Reports signals and a terminal that is gone to the interface, until it is dropped.
 ///
 /// After [`Event::HangUp`] the process has 500 ms to end; then it is ended with status 129.
 #[derive(Debug)]
@@ -79,7 +79,7 @@ impl Signals {
         self.order(LENT);
     }
 
-    /// Tells of all signals again, but of none that came before.
+    /// Reports all signals again, but none that arrived before.
     pub fn take_back(&self) {
         self.order(OURS);
     }
@@ -105,7 +105,7 @@ impl Drop for Signals {
 }
 
 /// Stops the whole job, as Ctrl-Z does outside raw mode, and returns `true` when it is continued,
-/// of which an [`Event::Continue`] tells as well.
+/// which is also reported as an [`Event::Continue`].
 ///
 /// Returns `false` at once where no shell could continue it: in the process group of a session's
 /// leader, or when the shell has ended. The terminal must have been given back before.
@@ -125,11 +125,11 @@ fn is_job() -> io::Result<bool> {
     Ok(!leads && !is_orphan)
 }
 
-/// Does what SIGTSTP does by default. Whoever the terminal is lent to got the signal too, and may
-/// have reasons not to stop.
+/// Does what SIGTSTP does by default. The program that the terminal is lent to got the signal too,
+/// and may have reasons not to stop.
 fn stop_alone() {
     if is_job().unwrap_or(false) {
-        // Nobody is there to be told while the terminal is lent.
+        // There is nowhere to report an error while the terminal is lent.
         let _ = kill_process(getpid(), Signal::STOP);
     }
 }
@@ -174,7 +174,7 @@ impl Watch {
                     Err(_) => {}
                 }
             }
-            // What came before the terminal was taken back was still the other program's.
+            // What arrived before the terminal was taken back was still meant for the other program.
             let theirs = [self.tenure, tenure].contains(&Tenure::Lent);
             let whose = if theirs { Tenure::Lent } else { tenure };
             self.tenure = tenure;
@@ -183,12 +183,12 @@ impl Watch {
                 .copied()
                 .unwrap_or(PollFlags::empty());
             if !tty.is_empty() {
-                // Where terminals cannot be polled, NVAL says so, and SIGHUP must do.
+                // NVAL means that terminals cannot be polled here, and SIGHUP has to do.
                 self.tty = None;
             }
             // First, because a line that breaks sends SIGCONT as well.
             if tty.intersects(PollFlags::HUP | PollFlags::ERR) {
-                tell(SIGHUP, whose, &mut line, send);
+                report(SIGHUP, whose, &mut line, send);
             }
             for ((signal, arrival), revents) in self.arrivals.iter().zip(&reported[1..]) {
                 if revents.contains(PollFlags::IN) {
@@ -196,7 +196,7 @@ impl Watch {
                         .read(&mut [0; 64])
                         .is_ok_and(|bytes| bytes != 0)
                     {}
-                    tell(*signal, whose, &mut line, send);
+                    report(*signal, whose, &mut line, send);
                 }
             }
         }
@@ -209,13 +209,13 @@ enum Line {
     Down,
 }
 
-fn tell(signal: i32, whose: Tenure, line: &mut Line, send: &impl Fn(Event)) {
+fn report(signal: i32, whose: Tenure, line: &mut Line, send: &impl Fn(Event)) {
     match signal {
-        // Without a terminal nothing is left to tell but the end.
+        // Without a terminal only requests to end are left to report.
         SIGHUP | SIGWINCH | SIGTSTP | SIGCONT if *line == Line::Down => {}
         SIGHUP => {
             *line = Line::Down;
-            // Before the interface hears of it: it may be stuck in a write to the terminal.
+            // Before the event is sent: the interface may be stuck in a write to the terminal.
             end_after_grace();
             send(Event::HangUp);
         }

@@ -20,7 +20,7 @@ const USUAL: Size = Size {
 /// The most cells that are drawn in a row: beyond any screen.
 const MAX_COLUMNS: u16 = 2000;
 
-/// The most cells that are drawn. A terminal may say 65535×65535: drawing such a screen would take
+/// The most cells that are drawn. A terminal may report 65535×65535: drawing such a screen would take
 /// gigabytes and minutes.
 const MAX_CELLS: u32 = 500_000;
 
@@ -30,7 +30,7 @@ const LAST_WORDS: Duration = Duration::from_millis(200);
 /// Returns the size of the window in cells, never zero; of a window beyond any screen, the size of
 /// the part at its top left that is drawn on.
 ///
-/// A terminal that says 0×0 does not know; `LINES` and `COLUMNS` do then, or 80×24 it is.
+/// A terminal that reports 0×0 does not know; then `LINES` and `COLUMNS` count, or else 80×24.
 pub(crate) fn size() -> Size {
     let (width, height) = crossterm::terminal::size().unwrap_or((0, 0));
     let variable = |name: &str| std::env::var(name).ok()?.trim().parse().ok();
@@ -164,8 +164,8 @@ impl Line {
     }
 }
 
-/// Prints a line to standard error, which may be the terminal: one that is not taken in time is
-/// left to itself.
+/// Prints a line to standard error, which may be the terminal; does not wait for one that takes no
+/// output.
 pub(crate) fn complain(line: String) {
     let (done, printed) = mpsc::channel();
     let print = move || {
@@ -191,7 +191,7 @@ pub(super) fn keyboard() -> io::Result<OwnedFd> {
     }
 }
 
-/// Makes the terminal raw, whoever has changed its modes; one that is raw stays so throughout.
+/// Makes the terminal raw, whatever has changed its modes; one that is raw stays so throughout.
 #[cfg(unix)]
 pub(super) fn make_raw() -> io::Result<()> {
     use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
@@ -203,15 +203,16 @@ pub(super) fn make_raw() -> io::Result<()> {
     Ok(())
 }
 
-fn known_size(told: Size, variable: impl Fn(&str) -> Option<u16>) -> Size {
-    let known = |told: u16, name: &str, usual: u16| {
-        let told = Some(told).filter(|&cells| cells != 0);
-        told.or_else(|| variable(name).filter(|&cells| cells != 0))
+fn known_size(reported: Size, variable: impl Fn(&str) -> Option<u16>) -> Size {
+    let known = |reported: u16, name: &str, usual: u16| {
+        let reported = Some(reported).filter(|&cells| cells != 0);
+        reported
+            .or_else(|| variable(name).filter(|&cells| cells != 0))
             .unwrap_or(usual)
     };
     Size {
-        width: known(told.width, "COLUMNS", USUAL.width),
-        height: known(told.height, "LINES", USUAL.height),
+        width: known(reported.width, "COLUMNS", USUAL.width),
+        height: known(reported.height, "LINES", USUAL.height),
     }
 }
 
@@ -244,7 +245,7 @@ mod tests {
 
     #[test]
     fn an_unknown_size_comes_from_the_environment_or_is_the_usual_one() {
-        for (told, lines, expected) in [
+        for (reported, lines, expected) in [
             ((100, 30), Some(50), (100, 30)),
             ((0, 0), None, (80, 24)),
             ((0, 0), Some(50), (80, 50)),
@@ -252,8 +253,12 @@ mod tests {
             ((12, 2), Some(50), (12, 2)),
         ] {
             let variable = |name: &str| if name == "LINES" { lines } else { None };
-            let size = known_size(Size::from(told), variable);
-            assert_eq!(size, Size::from(expected), "{told:?} with LINES {lines:?}");
+            let size = known_size(Size::from(reported), variable);
+            assert_eq!(
+                size,
+                Size::from(expected),
+                "{reported:?} with LINES {lines:?}"
+            );
         }
     }
 }

@@ -33,7 +33,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// What is said of edits that an earlier run kept.
+/// The question about edits that an earlier run kept.
 fn offered(app: &App, offer: &Offer) -> String {
     let places = counted(offer.places, "place");
     let differ = if offer.places == 1 {
@@ -185,7 +185,7 @@ fn draw_answers(lines: &[Answers], area: Rect, buffer: &mut Buffer) {
 }
 
 /// A text on one line, its white space as single blanks. Of a side that has nothing where the other
-/// has something, it says that it was deleted.
+/// has something, it shows that it was deleted.
 fn one_line(text: &str) -> String {
     let words: Vec<_> = text.split_whitespace().take(50).collect();
     if words.is_empty() {
@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn a_conflict_with_a_deletion_says_so() {
+    fn a_conflict_with_a_deletion_is_shown_as_one() {
         let mut app = app();
         retype(&mut app, "box 0 0 0", "box 0 0 7");
         let from = SCENE.find("box").expect("a box");

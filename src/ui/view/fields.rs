@@ -171,7 +171,7 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// The colour that a field's literals say.
+/// The colour that a field's literals name.
 fn swatch(field: &FieldRow) -> Option<Rgb> {
     let channel = |at: usize| {
         let literal = field.literals.get(at)?;
@@ -232,15 +232,15 @@ mod tests {
     }
 
     #[test]
-    fn what_is_usual_is_told_before_it_is_left() {
+    fn the_usual_range_is_shown_before_it_is_left() {
         let mut app = editing(Node::Object(0));
-        for (field, told) in [
+        for (field, shown) in [
             (0, " x: a number · step"),
             (2, " red: a number, usually from 0 to 1 · step"),
         ] {
             app.field = field;
             let lines = drawn(&app, render, 50, 20);
-            assert!(lines[16].starts_with(told), "{}", lines[16]);
+            assert!(lines[16].starts_with(shown), "{}", lines[16]);
         }
     }
 

@@ -49,7 +49,7 @@ const STACKED: (u16, u16) = (40, 16);
 /// The least size of anything but a notice.
 pub const LEAST: (u16, u16) = (20, 6);
 
-/// Divides the screen. All areas are inside `area` and disjoint, but for the errors; below
+/// Divides the screen. All areas are inside `area` and disjoint, except for the errors; below
 /// [`LEAST`] all are empty. `fields` is how many the selected thing has: beside the picture, what
 /// they don't need is the list's.
 pub fn arrange(area: Rect, zoom: Zoom, fields: usize) -> Areas {

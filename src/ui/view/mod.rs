@@ -4,6 +4,7 @@
 //! app and never panic, whatever the size of the screen. Text from files reaches the screen
 //! through [`row`], which shows control characters instead of sending them.
 
+mod characters;
 mod dialog;
 mod dither;
 pub(crate) mod errors;
@@ -11,6 +12,7 @@ mod fields;
 mod help;
 pub mod layout;
 mod list;
+mod oklab;
 mod palette;
 mod picture;
 mod row;
@@ -39,7 +41,7 @@ enum Glyphs {
     HalfBlocksOf256,
     /// Two pixels a cell, in a pattern of the sixteen colours.
     HalfBlocksOf16,
-    /// One of a few characters a cell, by brightness: for terminals without colours.
+    /// A character a cell, by brightness: for terminals without colours.
     Characters,
 }
 
@@ -79,18 +81,19 @@ impl Inks {
     }
 
     fn new(glyphs: Glyphs) -> Self {
-        let palette = (glyphs == Glyphs::HalfBlocksOf256).then(Palette::new);
+        let palette = match glyphs {
+            Glyphs::HalfBlocksOf256 => Some(Palette::of_256()),
+            Glyphs::HalfBlocksOf16 => Some(Palette::of_16()),
+            Glyphs::HalfBlocks | Glyphs::Characters => None,
+        };
         Self { glyphs, palette }
     }
 
     /// The colour of a pixel at a place.
     fn colour(&mut self, colour: [u8; 3], x: u32, y: u32) -> Color {
-        if let Some(palette) = &mut self.palette {
-            return Color::Indexed(palette.at(colour, x, y));
-        }
-        match self.glyphs {
-            Glyphs::HalfBlocksOf16 => dither::of_16(colour, x, y),
-            _ => Color::Rgb(colour[0], colour[1], colour[2]),
+        match &mut self.palette {
+            Some(palette) => Color::Indexed(palette.at(colour, x, y)),
+            None => Color::Rgb(colour[0], colour[1], colour[2]),
         }
     }
 }
@@ -128,7 +131,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     dialog::render(app, body, buffer);
 }
 
-/// Draws the line between the picture and the panels, which tells a stale picture from afar.
+/// Draws the line between the picture and the panels, which shows from afar that a picture is stale.
 fn rule(app: &App, area: Rect, buffer: &mut Buffer) {
     let style = if 0 < app.error_count() {
         theme::WARNING
@@ -147,7 +150,7 @@ fn rule(app: &App, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// Says that there is no room, in what room there is.
+/// Shows that the screen is too small, in what room there is.
 fn too_small(area: Rect, buffer: &mut Buffer) {
     let (width, height) = LEAST;
     let text = format!("needs {width}×{height}");

@@ -1,4 +1,5 @@
-//! The picture: two pixels a cell, `▀` with the upper one in front and the lower one behind.
+//! The picture: two pixels a cell, `▀` with the upper one in front and the lower one behind; a
+//! character where there are no colours.
 
 use std::borrow::Cow;
 
@@ -7,15 +8,12 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
 use unicode_width::UnicodeWidthStr;
 
-use super::dither;
+use super::characters::Characters;
 use super::layout::{self, raster};
 use super::row::Row;
 use super::theme;
 use super::{Glyphs, Inks};
 use crate::ui::app::{App, Mode, Shown};
-
-/// Characters from dark to bright, for terminals without colours.
-const RAMP: [&str; 10] = [" ", ".", ":", "-", "=", "+", "*", "#", "%", "@"];
 
 /// Draws the picture on screen, letterboxed, with what is marked in it.
 pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
@@ -45,7 +43,7 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     }
 }
 
-/// Says why there is no picture.
+/// Shows why there is no picture.
 fn notice(app: &App, area: Rect, buffer: &mut Buffer) {
     let text = match (&app.unread, &app.scene, app.picture().wanted) {
         (Some(unread), ..) => opening(&app.file_name(), unread.bytes),
@@ -57,7 +55,7 @@ fn notice(app: &App, area: Rect, buffer: &mut Buffer) {
     Row::new(buffer, layout::centred(area, line), 0).put(&text, theme::DIM);
 }
 
-/// Says that a file is read, and how long it is if that explains the wait.
+/// The notice that a file is being read, with its length if that explains the wait.
 fn opening(name: &str, bytes: u64) -> String {
     match bytes as f64 / 1e6 {
         ..1.0 => format!("opening {name}…"),
@@ -66,7 +64,7 @@ fn opening(name: &str, bytes: u64) -> String {
     }
 }
 
-/// Marks the cell that is picked from, and says what lies there.
+/// Marks the cell that is picked from, and names what lies there.
 fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
     let (column, row) = app.cross;
     let (x, y) = (cells.x.saturating_add(column), cells.y.saturating_add(row));
@@ -96,14 +94,16 @@ fn paint(shown: &Shown, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
             at: (x, y),
         })
     };
+    let characters = (inks.glyphs == Glyphs::Characters).then(|| Characters::of(shown));
     for row in 0..area.height {
         for column in 0..area.width {
             let (x, y) = (u32::from(column), 2 * u32::from(row));
             let cell = buffer.cell_mut((area.x + column, area.y + row));
             if let (Some(cell), Some(upper)) = (cell, pixel(x, y)) {
-                let (symbol, style) = match inks.glyphs {
-                    Glyphs::Characters => character(upper, pixel(x, y + 1)),
-                    _ => half_block(upper, pixel(x, y + 1), inks),
+                let lower = pixel(x, y + 1);
+                let (symbol, style) = match &characters {
+                    Some(characters) => (characters.at(x, y / 2), marked(upper, lower)),
+                    None => half_block(upper, lower, inks),
                 };
                 cell.set_symbol(symbol).set_style(style);
             }
@@ -137,23 +137,13 @@ fn rgb([red, green, blue]: [u8; 3]) -> Color {
     Color::Rgb(red, green, blue)
 }
 
-fn character(upper: Pixel, lower: Option<Pixel>) -> (&'static str, Style) {
-    let (below, outlined) = lower.map_or(([0; 3], false), |p| (p.colour, p.outlined));
-    // Weights of Rec. 709 luminance, in thousandths.
-    let luminance = |[red, green, blue]: [u8; 3]| {
-        (213 * usize::from(red) + 715 * usize::from(green) + 72 * usize::from(blue)) / 1000
-    };
-    let mean = usize::midpoint(luminance(upper.colour), luminance(below));
-    // A cell is one pixel of the ramp's: rows of cells, not of pixels, have thresholds.
-    let threshold = dither::threshold(upper.at.0, upper.at.1 / 2) as usize;
-    let steps = dither::STEPS as usize;
-    let at = (mean * (RAMP.len() - 1) * steps / 255 + threshold) / steps;
-    let style = if upper.outlined || outlined {
+/// How an outline looks without colours.
+fn marked(upper: Pixel, lower: Option<Pixel>) -> Style {
+    if upper.outlined || lower.is_some_and(|lower| lower.outlined) {
         Style::reset().add_modifier(Modifier::REVERSED)
     } else {
         Style::reset()
-    };
-    (RAMP[at], style)
+    }
 }
 
 #[cfg(test)]
@@ -212,17 +202,12 @@ mod tests {
     }
 
     #[test]
-    fn without_colours_brightness_is_a_character() {
-        let check = |upper, lower, symbol: &str| {
-            let picture = shown(1, 2, &[upper, lower]);
-            let buffer = painted(&picture, Glyphs::Characters);
-            assert_eq!(buffer[(0, 0)].symbol(), symbol);
-        };
-        check([0; 3], [0; 3], " ");
-        check([255; 3], [255; 3], "@");
-        // Half of 255, of nine steps four and a half: this place rounds down.
-        check([255; 3], [0; 3], "=");
-        // Blue is dark: 0.072 · 255 = 18, less than a ninth of 255.
-        check([0, 0, 255], [0, 0, 255], " ");
+    fn without_colours_brightness_is_a_character_and_an_outline_is_reversed() {
+        let mut picture = shown(2, 2, &[[255; 3], [0; 3], [255; 3], [0; 3]]);
+        picture.outline = [true, false].repeat(2);
+        let buffer = painted(&picture, Glyphs::Characters);
+        let cell = |x| (buffer[(x, 0)].symbol(), buffer[(x, 0)].modifier);
+        assert_eq!(cell(0), ("█", Modifier::REVERSED));
+        assert_eq!(cell(1), (" ", Modifier::empty()));
     }
 }

@@ -194,7 +194,7 @@ fn picture_of(c: char) -> Option<char> {
     }
 }
 
-/// Controls, and characters that take no cell by themselves but for combining marks: joiners,
+/// Controls, and characters without a cell of their own other than combining marks: joiners,
 /// direction marks, tags.
 fn is_invisible(c: char) -> bool {
     c.is_control()

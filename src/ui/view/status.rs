@@ -54,9 +54,9 @@ pub(crate) fn render_prompt(prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
     row.put_input(&prompt.input, room, Style::new(), theme::CURSOR);
 }
 
-/// One thing to say, unless others are more important.
+/// One part of the line, unless others are more important.
 struct Segment {
-    /// 0 is said first.
+    /// 0 is the most important.
     rank: u8,
     text: String,
     style: Style,
@@ -103,7 +103,7 @@ fn fitting(segments: &[Segment], room: usize) -> Vec<&Segment> {
 /// The most cells between two segments.
 const GAP: usize = 3;
 
-/// The ranks of what is said about the picture's progress.
+/// The ranks of the parts about the picture's progress.
 const PROGRESS: std::ops::RangeInclusive<u8> = 20..=29;
 
 /// The rank of the mark of unsaved edits, which stands close to the name of the file.
@@ -253,7 +253,7 @@ fn mode_chip(mode: Mode) -> (&'static str, Style) {
 }
 
 fn percent(share: f64) -> String {
-    // Rounded down: 100 % is said of what is complete only.
+    // Rounded down: only what is complete shows 100 %.
     format!("{} %", (100.0 * share).floor())
 }
 
@@ -300,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_shown_is_said_with_a_star_where_the_scene_says_otherwise() {
+    fn what_is_shown_has_a_star_where_the_scene_differs() {
         let mut app = app();
         let said = |app: &App| {
             let mut words = Vec::new();
@@ -317,7 +317,7 @@ mod tests {
     }
 
     #[test]
-    fn progress_is_said_until_it_is_complete() {
+    fn progress_is_shown_until_it_is_complete() {
         let said = |complete| {
             let progress = Progress {
                 pass: 3,

@@ -1,7 +1,7 @@
 //! The few styles everything is drawn in.
 //!
 //! Colours are the terminal's own sixteen where it can be, so that they fit the user's theme. Each
-//! meaning also has a sign or a modifier: nothing is said by colour alone.
+//! meaning also has a sign or a modifier: nothing is shown by colour alone.
 
 use ratatui::style::{Color, Modifier, Style};
 
@@ -18,7 +18,7 @@ pub(crate) const DIM: Style = Style::new().fg(Color::Indexed(245));
 /// Titles.
 pub(crate) const BOLD: Style = Style::new().add_modifier(Modifier::BOLD);
 
-/// Good news.
+/// Success.
 pub(crate) const GOOD: Style = Style::new().fg(Color::Green);
 
 /// Warnings, and what is not saved.
@@ -42,7 +42,7 @@ pub(crate) const fn chip(style: Style) -> Style {
         .add_modifier(Modifier::BOLD)
 }
 
-/// The style of a message; `None` is good news.
+/// The style of a message; `None` is success.
 pub(crate) const fn severity(severity: Option<Severity>) -> Style {
     match severity {
         None => GOOD,

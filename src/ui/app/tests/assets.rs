@@ -140,7 +140,7 @@ fn what_is_wrong_with_a_file_is_a_warning_at_its_name() {
     let skin = wanted(&["skin.ppm"]);
     let missing = Assets::new(&[]).read(&skin);
     assert!(traces(&app.update(Msg::AssetsRead(skin.clone(), missing))));
-    assert_eq!(words(&app), "1 file can't be read: ! says why");
+    assert_eq!(words(&app), "1 file can't be read: ! shows why");
     let said = |app: &App| {
         let (text, found) = app.wrong();
         let found = found.first()?;
@@ -155,7 +155,7 @@ fn what_is_wrong_with_a_file_is_a_warning_at_its_name() {
 
     app.update(Msg::AssetsRead(skin, loaded("skin.ppm", [9; 3])));
     assert_eq!(said(&app), None);
-    assert_eq!(words(&app), "all files are there again");
+    assert_eq!(words(&app), "all files can be read again");
 }
 
 const MESHED: &str = "<xml><scene>
@@ -234,7 +234,7 @@ fn a_mesh_arrives_later_and_the_picture_follows_its_file() {
         assert_eq!(words(&app), "files read again");
     }
 
-    // What was understood by other meshes than there are now is read anew.
+    // What was lowered with other meshes than there are now is read again.
     let effects = app.update(Msg::Read(PathBuf::from("none/scene.xml"), Ok(late)));
     assert!(matches!(effects[..], [Effect::Read(..), Effect::Free(_)]));
     assert_eq!(app.document.text(), MESHED);
@@ -256,9 +256,9 @@ fn a_broken_mesh_is_an_error_and_the_picture_is_kept() {
     let effects = app.update(Msg::AssetsRead(wanted_mesh(&[]), broken()));
     assert!(!traces(&effects));
     assert_eq!(app.scene, scene);
-    assert_eq!(words(&app), "1 file can't be read: ! says why");
+    assert_eq!(words(&app), "1 file can't be read: ! shows why");
     let (text, found) = app.wrong();
-    let error = found.first_error().expect("it is told");
+    let error = found.first_error().expect("it is reported");
     assert_eq!(error.span.of(text), "a.obj");
     let message = "a.obj (obj): line 2, column 3: v: `x` is no number";
     assert_eq!(error.message, message);
@@ -277,7 +277,7 @@ fn a_broken_mesh_is_an_error_and_the_picture_is_kept() {
         triangle("3", "newmtl a\n"),
     ));
     assert_eq!(traced_objects(&effects), Some(2));
-    assert_eq!(words(&app), "all files are there again");
+    assert_eq!(words(&app), "all files can be read again");
     assert_eq!(app.error_count(), 0);
 }
 
@@ -319,7 +319,7 @@ fn pictures_that_a_mesh_names_are_asked_for_once_it_is_there() {
 }
 
 #[test]
-fn where_a_file_was_found_is_said_once() {
+fn where_a_file_was_found_is_reported_once() {
     let (mut app, _) = open_textured(TEXTURED);
     let found = |colour, place: &str| Loaded {
         elsewhere: [("skin.ppm".to_owned(), PathBuf::from(place))].into(),

@@ -106,7 +106,7 @@ fn a_changed_file_is_taken_when_nothing_is_unsaved() {
 
 /// Keys come in while a large file is understood.
 #[test]
-fn what_was_read_is_read_anew_if_what_it_was_compared_with_is_another() {
+fn a_file_is_read_again_if_what_it_was_compared_with_has_changed() {
     let mut app = open(SCENE);
     let late = |app: &App| {
         let theirs = app.document.text().replace("1.5", "1.7");
@@ -176,14 +176,14 @@ fn changes_of_different_places_are_merged_as_one_step() {
 }
 
 #[test]
-fn a_file_that_says_what_the_edits_say_is_saved() {
+fn a_file_equal_to_the_edits_counts_as_saved() {
     let mut app = open(SCENE);
     press(&mut app, "jjjel");
     let mine = app.document.text().to_owned();
     outside(&mut app, &mine);
     assert!(!app.document.is_dirty());
     assert!(
-        words(&app).starts_with("the file says the same now"),
+        words(&app).starts_with("the file has the same changes now"),
         "{}",
         words(&app)
     );
@@ -204,7 +204,7 @@ fn a_file_that_says_what_the_edits_say_is_saved() {
     );
 }
 
-/// A file is read after each save; the news that it holds nothing new may come late.
+/// A file is read after each save; the result, that nothing has changed, may arrive late.
 #[test]
 fn nothing_new_is_not_read_again_for_an_edit_in_between() {
     let mut app = open(SCENE);
@@ -289,7 +289,7 @@ fn what_is_wrong_with_the_file_is_what_was_read_last() {
 }
 
 #[test]
-fn a_missing_file_is_told_after_a_while_and_forgotten_when_it_is_back() {
+fn a_missing_file_is_reported_after_a_while_and_no_longer_when_it_is_back() {
     let missing = || {
         let path = PathBuf::from("scene.ray");
         Msg::Read(path.clone(), Err(ReadError::NotFound { path }))
@@ -302,7 +302,7 @@ fn a_missing_file_is_told_after_a_while_and_forgotten_when_it_is_back() {
     assert_eq!(app.disk, Disk::Missing);
     outside(&mut app, SCENE);
     assert_eq!(app.disk, Disk::Known);
-    assert_eq!(words(&app), "the file is as it was again");
+    assert_eq!(words(&app), "the file is back to its saved text");
 }
 
 #[test]
@@ -464,7 +464,7 @@ fn a_reload_names_what_differs_from_the_last_good_text() {
     broken(&mut app, "x");
     broken(&mut app, "x y");
     outside(&mut app, SCENE);
-    assert_eq!(words(&app), "read again: the scene is as it was");
+    assert_eq!(words(&app), "read again: the scene is unchanged");
     broken(&mut app, "x");
     outside(&mut app, &SCENE.replace("1.5", "1.7"));
     assert_eq!(words(&app), "read again: object 1 (sphere) radius");
@@ -486,11 +486,11 @@ fn nothing_is_written_where_nothing_is_to_be_saved() {
 }
 
 #[test]
-fn commands_without_a_change_say_so() {
+fn commands_without_a_change_report_that() {
     let mut app = open(SCENE);
     press(&mut app, ":e<Enter>");
     outside(&mut app, SCENE);
-    assert_eq!(words(&app), "scene.ray holds nothing new");
+    assert_eq!(words(&app), "scene.ray has not changed");
     app.path = None;
     press(&mut app, "w");
     assert!(app.prompt.is_some() && words(&app).contains("no file yet"));

@@ -83,7 +83,7 @@ fn a_scene_is_followed_until_the_user_chooses_another_way() {
 }
 
 #[test]
-fn bounces_that_the_user_said_hold_for_both_ways() {
+fn bounces_set_by_the_user_hold_for_both_ways() {
     let mut app = open(SCENE);
     app.quality.depth = Some(3);
     for integrator in [Integrator::Path, Integrator::Whitted] {
@@ -144,7 +144,7 @@ fn digits_are_typed_while_fields_are_edited() {
 }
 
 #[test]
-fn an_export_writes_what_is_shown_and_says_so() {
+fn an_export_writes_what_is_shown_and_reports_it() {
     let mut app = open(SCENE);
     let effects = press(&mut app, "2b");
     let [
@@ -192,7 +192,7 @@ fn a_finished_trace_is_exported_while_it_shows_what_is_asked_for() {
 }
 
 #[test]
-fn the_preview_is_not_filtered_and_full_size_pictures_are_as_the_user_said() {
+fn the_preview_is_not_filtered_and_full_size_pictures_are_as_the_user_chose() {
     let mut app = open(SCENE);
     app.quality.filter = Filter::Gaussian;
     for (said, target, filter) in [

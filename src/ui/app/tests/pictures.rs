@@ -60,7 +60,7 @@ fn exports_are_refused_before_anything_is_traced() {
         (":export 10x<Enter>", "`10x` is no size"),
         (":export a.bmp 99999999999<Enter>", "99999999999: samples"),
         (":export a.bmp fine<Enter>", "`fine` is neither"),
-        (":export cancel<Enter>", "nothing is under way"),
+        (":export cancel<Enter>", "nothing is running"),
         (":expoort<Enter>", "export is"),
     ] {
         let mut app = open(SCENE);
@@ -71,7 +71,7 @@ fn exports_are_refused_before_anything_is_traced() {
 }
 
 #[test]
-fn an_export_is_traced_written_and_told() {
+fn an_export_is_traced_written_and_reported() {
     let mut app = open(SCENE);
     let effects = press(&mut app, ":export b c.png 32x8 2<Enter>");
     let [
@@ -182,7 +182,7 @@ fn pictures_of_a_text_with_errors_say_that_they_are_of_the_last_one_without() {
 }
 
 #[test]
-fn a_file_written_after_its_export_was_cancelled_is_told_and_stops_no_other() {
+fn a_file_written_after_its_export_was_cancelled_is_reported_and_stops_no_other() {
     let late = |outcome: Result<PathBuf, String>| {
         let mut app = open(SCENE);
         press(&mut app, ":export a.bmp 32x8<Enter>");
@@ -200,7 +200,7 @@ fn a_file_written_after_its_export_was_cancelled_is_told_and_stops_no_other() {
         assert_eq!(export.destination.path, PathBuf::from("b.bmp"));
         words(&app).to_owned()
     };
-    assert_eq!(late(Ok("a.bmp".into())), "wrote a.bmp all the same");
+    assert_eq!(late(Ok("a.bmp".into())), "wrote a.bmp anyway");
     assert_eq!(late(Err("full".into())), "exporting to b.bmp");
 }
 
@@ -264,7 +264,7 @@ fn quitting_asks_about_an_export_and_can_wait_for_it() {
 }
 
 #[test]
-fn a_stopped_trace_starts_anew() {
+fn a_stopped_trace_restarts() {
     let traces = |effects: &[Effect]| {
         wants(effects, |effect| {
             matches!(effect, Effect::Trace(Target::Trace, _))
@@ -283,7 +283,7 @@ fn a_stopped_trace_starts_anew() {
 }
 
 #[test]
-fn f5_starts_a_stopped_trace_anew_where_it_is_watched() {
+fn f5_restarts_a_stopped_trace_where_it_is_watched() {
     let begun = |effects: &[Effect]| {
         wants(effects, |effect| {
             matches!(effect, Effect::Trace(Target::Trace, _))
@@ -294,7 +294,7 @@ fn f5_starts_a_stopped_trace_anew_where_it_is_watched() {
     app.update(Msg::Started(Target::Trace, 1));
     assert!(!begun(&press(&mut app, "<F5>")));
     press(&mut app, "x");
-    assert_eq!(words(&app), "stopped; F5 starts anew");
+    assert_eq!(words(&app), "stopped; F5 restarts");
     assert!(begun(&press(&mut app, "<F5>")));
     press(&mut app, "<Esc>");
     assert_eq!(app.mode, Mode::Select);

@@ -109,7 +109,7 @@ fn edits_that_could_not_be_kept_are_tried_again() {
 }
 
 #[test]
-fn words_about_edits_that_are_not_kept_go_once_they_are() {
+fn messages_about_edits_that_are_not_kept_go_once_they_are() {
     for (said, left) in [(None, ""), (Some("something else"), "something else")] {
         let mut app = open(SCENE);
         press(&mut app, "jjjel");

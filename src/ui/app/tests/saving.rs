@@ -5,7 +5,7 @@ use crate::ui::msg::{Guard, SaveId, SaveOutcome, Timer};
 use std::sync::Arc;
 
 #[test]
-fn a_save_that_was_given_up_does_not_quit_later() {
+fn an_abandoned_save_does_not_quit_later() {
     let mut app = open(SCENE);
     app.path = None;
     press(&mut app, "jjjel");
@@ -143,7 +143,7 @@ fn what_fails_besides_a_save_does_not_hide_why_the_save_failed() {
 }
 
 #[test]
-fn what_a_save_that_was_cut_off_has_left_is_named() {
+fn the_backup_of_an_interrupted_save_is_named() {
     let (mut app, effects) = opened(SCENE);
     assert!(wants(&effects, |effect| matches!(
         effect,

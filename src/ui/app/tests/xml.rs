@@ -42,7 +42,7 @@ fn changed(node: Node, said: &str) -> String {
 }
 
 #[test]
-fn what_is_not_said_is_shown_and_said_when_typed() {
+fn defaults_are_shown_and_written_when_typed() {
     let rows = at(Node::Object(1)).fields();
     let scale = rows.iter().find(|row| row.field.key == "scale");
     let scale = scale.expect("it is scaled");
@@ -118,7 +118,7 @@ fn what_is_pasted_on_a_missing_colour_is_written_at_once() {
 
 /// A text that is no XML has nothing to list, and no key makes anything of it.
 #[test]
-fn a_text_that_is_no_xml_is_stood() {
+fn a_text_that_is_no_xml_is_survived() {
     for text in ["", "<xml>", "<xml><scene></xml>", "<scene/>"] {
         let mut app = opened_as("scene.xml", text).0;
         assert!(app.nodes().is_empty() && 0 < app.error_count(), "{text}");

@@ -278,7 +278,7 @@ fn a_shown_cursor_stays_where_it_is_put() {
 }
 
 #[test]
-fn a_smaller_window_is_drawn_afresh() {
+fn a_smaller_window_is_redrawn() {
     let mut rig = Rig::new(ColourDepth::Mono, SIZE);
     let text = |frame: &mut ratatui::Frame| {
         let area = frame.area();

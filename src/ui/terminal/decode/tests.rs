@@ -16,7 +16,7 @@ fn decode(pieces: &[(u64, &[u8])]) -> Vec<String> {
     decoder.expire(start + Duration::from_hours(1), |event| {
         events.push(short(&event));
     });
-    assert_eq!(decoder.deadline(), None, "everything is told in the end");
+    assert_eq!(decoder.deadline(), None, "everything is decoded in the end");
     events
 }
 
@@ -121,7 +121,7 @@ fn a_lone_escape_is_a_key_after_its_time() {
 }
 
 #[test]
-fn a_paste_without_an_end_is_told_after_a_while() {
+fn a_paste_without_an_end_is_emitted_after_a_while() {
     assert_eq!(
         decode(&[(0, b"\x1b[200~a"), (500, b"b")]),
         ["Paste(\"ab\")"]

@@ -23,7 +23,7 @@ const BURST: Duration = Duration::from_millis(20);
 /// How long it takes for one that is measured: long beside the jitter of replies.
 const MEASURED_BURST: Duration = Duration::from_millis(50);
 
-/// The shortest burst that says something of the rate.
+/// The shortest burst that the rate can be measured by.
 const TELLING: Duration = Duration::from_millis(25);
 
 /// The least piece of picture, in bytes: about ten cells.
@@ -45,7 +45,7 @@ const GROWTH: f64 = 4.0;
 /// How long a reply is waited for.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// The shortest time that is told from none.
+/// The shortest time that is distinguished from none.
 const RESOLUTION: Duration = Duration::from_millis(1);
 
 /// The rate and the round trip of a line.

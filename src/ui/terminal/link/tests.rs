@@ -79,7 +79,7 @@ fn measures_the_last_second_only() {
 }
 
 #[test]
-fn the_environment_says_what_can_be_measured() {
+fn the_environment_decides_what_can_be_measured() {
     for (variables, budget) in [
         (&[("TERM", "xterm")][..], Budget::Local),
         (&[("SSH_TTY", "")], Budget::Local),

@@ -12,15 +12,15 @@ const MUCH: usize = 4 << 20;
 
 const WATCHDOG: Duration = Duration::from_secs(30);
 
-/// An output, the end that may be read, and news of when it is clear.
+/// An output, the end that may be read, and a notice of each time that it is clear.
 fn output() -> (Output, UnixStream, Receiver<()>) {
     let (ours, theirs) = UnixStream::pair().expect("sockets");
     ours.set_nonblocking(true).expect("it can be");
-    let (cleared, news) = mpsc::channel();
+    let (cleared, notices) = mpsc::channel();
     let output = Output::start(Line::own(ours.into()), move || {
         let _ = cleared.send(());
     });
-    (output.expect("a thread"), theirs, news)
+    (output.expect("a thread"), theirs, notices)
 }
 
 fn frame(byte: u8, length: usize) -> Vec<u8> {
@@ -29,25 +29,25 @@ fn frame(byte: u8, length: usize) -> Vec<u8> {
 
 #[test]
 fn what_is_taken_at_once_needs_no_thread() {
-    let (output, mut reader, news) = output();
+    let (output, mut reader, notices) = output();
     output.send(b"abc").expect("it takes bytes");
     assert!(output.is_clear());
     let mut read = [0; 3];
     reader.read_exact(&mut read).expect("they came");
     assert_eq!(&read, b"abc");
-    assert!(news.try_recv().is_err());
+    assert!(notices.try_recv().is_err());
 }
 
 #[test]
 fn what_is_not_taken_follows_in_order() {
-    let (output, mut reader, news) = output();
+    let (output, mut reader, notices) = output();
     output.send(&frame(b'a', MUCH)).expect("it waits");
     assert!(!output.is_clear());
     output.send(&frame(b'b', MUCH)).expect("it waits as well");
     let mut read = vec![0; 2 * MUCH];
     reader.read_exact(&mut read).expect("they came");
     assert_eq!(read, [frame(b'a', MUCH), frame(b'b', MUCH)].concat());
-    news.recv_timeout(WATCHDOG).expect("all is taken");
+    notices.recv_timeout(WATCHDOG).expect("all is taken");
     assert!(output.is_clear());
 }
 
@@ -78,10 +78,10 @@ fn the_last_bytes_wait_no_longer_than_they_may() {
 
 #[test]
 fn an_end_that_is_gone_is_an_error() {
-    let (output, reader, news) = output();
+    let (output, reader, notices) = output();
     output.send(&frame(b'a', MUCH)).expect("it waits");
     drop(reader);
-    news.recv_timeout(WATCHDOG).expect("it fails");
+    notices.recv_timeout(WATCHDOG).expect("it fails");
     assert!(output.is_clear());
     assert!(output.send(b"b").is_err());
     assert!(output.send_last(b"c", Instant::now() + WATCHDOG).is_err());

@@ -1,0 +1,202 @@
+//! A picture as characters, for terminals without colours.
+//!
+//! Dark areas are letters and dots, bright ones blocks, so that the ramp goes from black to white;
+//! edges are sharpened and follow the halves of cells.
+
+use super::dither;
+use super::oklab::light;
+use crate::ui::app::Shown;
+
+/// Characters, and how much of their upper and lower halves they fill: blocks by definition, the
+/// others as in common fonts (`DejaVu` Sans Mono, Noto Sans Mono) on average.
+const GLYPHS: [(&str, [f32; 2]); 13] = [
+    (" ", [0.0, 0.0]),
+    (".", [0.0, 0.04]),
+    ("'", [0.06, 0.0]),
+    (":", [0.04, 0.04]),
+    ("\"", [0.11, 0.0]),
+    ("=", [0.1, 0.1]),
+    ("%", [0.19, 0.19]),
+    ("░", [0.25, 0.25]),
+    ("▒", [0.5, 0.5]),
+    ("▓", [0.75, 0.75]),
+    ("█", [1.0, 1.0]),
+    ("▀", [1.0, 0.0]),
+    ("▄", [0.0, 1.0]),
+];
+
+/// What lightness is raised to. Characters are coarse: in the midst of their ramp more of a picture
+/// is recognized than where its lightness is exact.
+const TONE: f32 = 0.75;
+
+/// How much of the difference from its neighbours a pixel's lightness is changed by.
+const SHARPNESS: f32 = 1.5;
+
+/// How much lightness varies in the pattern: as much as the ramp's last step, so that white is white.
+const NOISE: f32 = 0.09;
+
+/// The lightness of a picture's pixels, ready to be drawn.
+#[derive(Debug)]
+pub(super) struct Characters {
+    /// From 0 to 1, row by row, as many as the picture has pixels.
+    lightness: Vec<f32>,
+    width: usize,
+    glyphs: [Glyph; GLYPHS.len()],
+}
+
+/// A character, and the lightness of its halves and of the whole.
+#[derive(Clone, Copy, Debug)]
+struct Glyph {
+    symbol: &'static str,
+    lightness: [f32; 3],
+}
+
+impl Characters {
+    /// Prepares a picture.
+    pub(super) fn of(shown: &Shown) -> Self {
+        let lightness = shown.pixels.iter().map(|&pixel| {
+            let [red, green, blue] = light(pixel);
+            // Rec. 709.
+            let luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+            luminance.powf(TONE / 3.0)
+        });
+        Self {
+            lightness: lightness.collect(),
+            width: shown.size.width as usize,
+            glyphs: GLYPHS.map(|(symbol, [upper, lower])| Glyph {
+                symbol,
+                lightness: [upper, lower, f32::midpoint(upper, lower)].map(f32::cbrt),
+            }),
+        }
+    }
+
+    /// The character of a cell inside the picture; below an odd last row is black.
+    pub(super) fn at(&self, column: u32, row: u32) -> &'static str {
+        let x = column as usize;
+        let [upper, lower] = [2 * row, 2 * row + 1].map(|y| self.sharpened(x, y as usize));
+        let whole = f32::midpoint(upper.powi(3), lower.powi(3)).cbrt();
+        // A cell is one step of the pattern: rows of cells, not of pixels, have thresholds.
+        let threshold = dither::threshold(column, row) as f32 + 0.5;
+        let noise = NOISE * (threshold / dither::STEPS as f32 - 0.5);
+        let goal = [upper, lower, whole].map(|lightness| lightness + noise);
+        let error = |glyph: &Glyph| -> f32 {
+            let pairs = glyph.lightness.into_iter().zip(goal);
+            pairs.map(|(shown, goal)| (shown - goal).powi(2)).sum()
+        };
+        let closest = |one: &&Glyph, other: &&Glyph| error(one).total_cmp(&error(other));
+        let glyph = self.glyphs.iter().min_by(closest);
+        glyph.map_or(" ", |glyph| glyph.symbol)
+    }
+
+    /// The lightness of a pixel, farther from its four neighbours' than it is; the picture goes on
+    /// beyond its edge as it is there.
+    fn sharpened(&self, x: usize, y: usize) -> f32 {
+        let Some(here) = self.lightness(x, y) else {
+            return 0.0;
+        };
+        let neighbours = [
+            (x.wrapping_sub(1), y),
+            (x + 1, y),
+            (x, y.wrapping_sub(1)),
+            (x, y + 1),
+        ];
+        let lightness = neighbours.map(|(x, y)| self.lightness(x, y).unwrap_or(here));
+        let around = lightness.iter().sum::<f32>() / 4.0;
+        (here + SHARPNESS * (here - around)).clamp(0.0, 1.0)
+    }
+
+    fn lightness(&self, x: usize, y: usize) -> Option<f32> {
+        let inside = x < self.width;
+        let at = y.checked_mul(self.width)?.checked_add(x)?;
+        inside.then(|| self.lightness.get(at).copied()).flatten()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::NO_OBJECT;
+    use crate::scene::Size;
+
+    /// The rows of cells of a picture of greys.
+    fn drawn(width: u32, height: u32, grey: impl Fn(u32, u32) -> u8) -> Vec<String> {
+        let size = Size { width, height };
+        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let characters = Characters::of(&Shown {
+            size,
+            pixels: pixels.map(|(x, y)| [grey(x, y); 3]).collect(),
+            objects: vec![NO_OBJECT; size.pixels()],
+            outline: Vec::new(),
+        });
+        let row = |row| {
+            (0..width)
+                .map(|column| characters.at(column, row))
+                .collect()
+        };
+        (0..height.div_ceil(2)).map(row).collect()
+    }
+
+    #[test]
+    fn the_ramp_goes_from_black_to_white() {
+        assert_eq!(drawn(2, 2, |_, _| 0), ["  "]);
+        assert_eq!(drawn(2, 2, |_, _| 255), ["██"]);
+        let fill = |symbol: char| {
+            let found = GLYPHS.iter().find(|(known, _)| known.starts_with(symbol));
+            found
+                .expect("a character of the ramp")
+                .1
+                .iter()
+                .sum::<f32>()
+        };
+        let mut last = 0.0;
+        for grey in (0..=255).step_by(5) {
+            let patch = drawn(8, 16, |_, _| grey).concat();
+            let filled: f32 = patch.chars().map(fill).sum();
+            assert!(last <= filled, "{grey}: {filled} after {last}");
+            last = filled;
+        }
+    }
+
+    #[test]
+    fn edges_follow_the_halves_of_cells() {
+        for (rows, expected) in [
+            ([255, 0, 0, 0], ["▀▀", "  "]),
+            ([0, 255, 255, 255], ["▄▄", "██"]),
+            ([0, 0, 0, 255], ["  ", "▄▄"]),
+        ] {
+            let cells = drawn(2, 4, |_, y| rows[y as usize]);
+            assert_eq!(cells, expected, "{rows:?}");
+        }
+    }
+
+    #[test]
+    fn a_faint_step_is_sharpened() {
+        let cells = drawn(6, 2, |x, _| if x < 3 { 100 } else { 120 }).concat();
+        let cells: Vec<char> = cells.chars().collect();
+        assert_ne!(cells[2], cells[3], "{cells:?}");
+    }
+
+    #[test]
+    fn below_an_odd_last_row_is_black() {
+        assert_eq!(drawn(1, 1, |_, _| 255), ["▀"]);
+    }
+
+    #[test]
+    fn blue_is_darker_than_green() {
+        let cell = |colour| {
+            let size = Size {
+                width: 1,
+                height: 2,
+            };
+            let (pixels, objects) = (vec![colour; 2], vec![NO_OBJECT; 2]);
+            let shown = Shown {
+                size,
+                pixels,
+                objects,
+                outline: Vec::new(),
+            };
+            Characters::of(&shown).at(0, 0)
+        };
+        assert_eq!([cell([0, 0, 255]), cell([0, 255, 0])], ["=", "▓"]);
+    }
+}

@@ -1,0 +1,99 @@
+//! Limits on threads and memory.
+
+use super::*;
+
+/// Runs the program where no thread can start: no machine has such a stack for one.
+fn without_threads(place: &Place, line: &str) -> (Option<i32>, String) {
+    let mut command = place.command(line);
+    let output = command
+        .env("RUST_MIN_STACK", (1_u64 << 60).to_string())
+        .output();
+    let output = output.expect("it starts");
+    let stderr = String::from_utf8(output.stderr).expect("UTF-8");
+    (output.status.code(), stderr)
+}
+
+#[test]
+fn scenes_are_checked_where_no_thread_can_start() {
+    let place = Place::new();
+    let (head, ball) = BALL.split_once("1 sphere").expect("a ball");
+    let (ball, _) = ball.split_once('\n').expect("a line");
+    let balls = format!("sphere{ball}\n").repeat(50_000);
+    place.write("balls.ray", format!("{head}50000\n{balls}"));
+    place.write("a.dat", TEXTURED);
+    let pixels = vec![b'x'; 3 * 1024 * 1024];
+    place.write("skin.ppm", [b"P6\n1024 1024\n255\n", &pixels[..]].concat());
+    for scene in ["ball.ray", "balls.ray", "a.dat"] {
+        let (code, stderr) = without_threads(&place, &format!("check {scene}"));
+        assert_eq!(code, Some(0), "{scene}: {stderr}");
+    }
+}
+
+#[test]
+fn threads_that_cannot_start_are_an_error() {
+    let place = Place::new();
+    let (code, stderr) = without_threads(&place, "render ball.ray -o a.ppm --threads 3");
+    assert_eq!(code, Some(1), "{stderr}");
+    let first = "error: can't start the threads to trace with (3): ";
+    assert!(stderr.starts_with(first), "{stderr}");
+    assert!(
+        stderr.ends_with("; --threads N sets how many\n"),
+        "{stderr}"
+    );
+    assert_eq!(place.names(), ["ball.ray"]);
+    for many in ["0", "1025", "1000000"] {
+        let stderr = place.stderr(&format!("render ball.ray -o a.ppm --threads {many}"), 2);
+        assert!(stderr.contains("1..=1024"), "{stderr}");
+    }
+}
+
+/// Many spheres side by side, before the view of the ball.
+#[cfg(target_os = "linux")]
+fn spheres(count: usize) -> String {
+    let sphere = |number| format!("sphere {number} 0 0 .1  1 1 1 0 0 0 0 0 0 1 0 0 1\n");
+    let spheres: String = (0..count).map(sphere).collect();
+    let view = "// view: eye 0 0 5 target 0 0 0 up 0 1 0 fov 40 size 8 6";
+    format!("1 1 1 1 0 9 0 0 0 0 {count}\n{spheres}{view}")
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn work_under_any_limit_on_memory_succeeds_or_is_refused() {
+    let place = Place::new();
+    place.write("many.ray", spheres(100_000));
+    let mut refused = 0;
+    // From too little for the program's threads to more than enough, in kilobytes.
+    for limit in (8..=52).step_by(4).map(|limit| limit * 10_000) {
+        for line in ["check many.ray", "render many.ray -o -"] {
+            let output = in_shell(&place, &format!("ulimit -v {limit}"), line);
+            let stderr = String::from_utf8_lossy(&output.stderr);
+            match output.status.code() {
+                Some(0) => {}
+                Some(1) => {
+                    refused += 1;
+                    let says = stderr.contains("out of memory: ") || stderr.contains("no threads");
+                    assert!(
+                        says && stderr.contains("error: "),
+                        "{line} in {limit} kB: {stderr}"
+                    );
+                }
+                code => panic!("{line} in {limit} kB: {code:?}: {stderr}"),
+            }
+        }
+    }
+    assert!((2..20).contains(&refused), "{refused} of 24 are refused");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_picture_that_does_not_fit_in_memory_is_an_error() {
+    let place = Place::new();
+    let line = "render ball.ray -o a.ppm --size 16384x16384 --threads 1";
+    let output = in_shell(&place, "ulimit -v 2000000", line);
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{stderr}");
+    let expected = "error: 16384x16384: tracing it takes ";
+    assert!(stderr.starts_with(expected), "{stderr}");
+    assert_eq!(stderr.lines().count(), 1, "{stderr}");
+    assert_eq!(place.names(), ["ball.ray"]);
+}

@@ -1,0 +1,112 @@
+//! The program as a shell sees it: arguments, streams, files and exit codes.
+
+mod arguments;
+mod limits;
+mod pictures;
+mod scenes;
+mod streams;
+mod textures;
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+
+const BINARY: &str = env!("CARGO_BIN_EXE_halflight");
+
+/// A white ball that fills the middle of the picture, lit by ambient light alone.
+const BALL: &str = "\
+1 1 1
+1 0 9 0 0 0 0
+1 sphere 0 0 0 1  1 1 1 0 0 0 0 0 0 1 0 0 1
+// view: eye 0 0 5 target 0 0 0 up 0 1 0 fov 40 size 8 6
+";
+
+/// A directory with the ball in `ball.ray`.
+struct Place {
+    directory: TempDir,
+}
+
+impl Place {
+    fn new() -> Self {
+        let directory = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).expect("a directory");
+        let place = Self { directory };
+        place.write("ball.ray", BALL);
+        place
+    }
+
+    fn at(&self, name: &str) -> PathBuf {
+        self.directory.path().join(name)
+    }
+
+    fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        fs::write(self.at(name), content).expect("written");
+    }
+
+    fn read(&self, name: &str) -> Vec<u8> {
+        fs::read(self.at(name)).expect("a file")
+    }
+
+    fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.directory.path()).expect("a directory");
+        let mut names: Vec<_> = entries
+            .map(|entry| {
+                entry
+                    .expect("an entry")
+                    .file_name()
+                    .to_string_lossy()
+                    .into_owned()
+            })
+            .collect();
+        names.sort();
+        names
+    }
+
+    fn command(&self, line: &str) -> Command {
+        let mut command = Command::new(BINARY);
+        command
+            .args(line.split_ascii_whitespace())
+            .current_dir(self.directory.path())
+            .stdin(Stdio::null());
+        command
+    }
+
+    /// Runs the program with the words of `line` as arguments, its streams being pipes.
+    fn run(&self, line: &str) -> Output {
+        self.command(line).output().expect("it starts")
+    }
+
+    /// Runs it, expects an exit code, and returns what it wrote to the error stream.
+    fn stderr(&self, line: &str, code: i32) -> String {
+        let output = self.run(line);
+        let stderr = String::from_utf8(output.stderr).expect("UTF-8");
+        assert_eq!(output.status.code(), Some(code), "{line}: {stderr}");
+        stderr
+    }
+}
+
+/// Runs the program from a shell, after other commands there.
+#[cfg(unix)]
+fn in_shell(place: &Place, before: &str, line: &str) -> Output {
+    let script = format!("{before}; exec {BINARY} {line}");
+    let mut shell = Command::new("bash");
+    let shell = shell
+        .args(["-c", &script])
+        .current_dir(place.directory.path());
+    shell.output().expect("it starts")
+}
+
+/// A ball in the colours of a picture file.
+const TEXTURED: &str = "\
+camera perspective 0 0 8  0 0 0  0 1 0  1 0 100
+resolution .02 .02
+viewport 40 30
+light ID 0 amb 0 0 0  0 0 0  1 1 1  1 0 0  0 shadow_off
+mat ID 0  1 1 1  1 0 0 1  0 0 1
+texture ID 3 image 1 1 skin.ppm
+use colour ID 3 mat ID 0
+obj sphere ID 0 mat ID 0  0 0 0  2
+";
+
+const SKIN: &str = "P3\n1 1\n255\n1 2 3\n";

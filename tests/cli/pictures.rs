@@ -1,0 +1,134 @@
+//! Pictures: their bytes, their formats, and the files they go to.
+
+use super::*;
+
+#[test]
+fn a_picture_that_cannot_be_created_ends_with_73_before_tracing() {
+    let place = Place::new();
+    fs::create_dir(place.at("dir.bmp")).expect("created");
+    for output in ["none/a.bmp", "dir.bmp", "ball.ray/a.bmp"] {
+        let stderr = place.stderr(&format!("render ball.ray -o {output}"), 73);
+        assert!(stderr.contains(output), "{stderr}");
+    }
+    let stderr = place.stderr("render ball.ray -o none/a.bmp", 73);
+    assert_eq!(stderr, "error: none/a.bmp: no such folder\n");
+    assert_eq!(place.names(), ["ball.ray", "dir.bmp"]);
+}
+
+#[test]
+fn a_picture_never_replaces_its_scene() {
+    let place = Place::new();
+    let mut outputs = vec!["ball.ray", "./ball.ray", "hard.bmp"];
+    fs::hard_link(place.at("ball.ray"), place.at("hard.bmp")).expect("linked");
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("ball.ray", place.at("soft.bmp")).expect("linked");
+        outputs.push("soft.bmp");
+    }
+    for output in outputs {
+        let stderr = place.stderr(&format!("render ball.ray -o {output} --format bmp"), 2);
+        assert!(
+            stderr.contains(output) && stderr.contains("is the scene itself"),
+            "{stderr}"
+        );
+        assert_eq!(place.read("ball.ray"), BALL.as_bytes());
+    }
+}
+
+#[test]
+fn a_picture_never_replaces_a_file_that_its_scene_uses() {
+    let place = Place::new();
+    place.write("a.dat", TEXTURED);
+    place.write("skin.ppm", SKIN);
+    fs::hard_link(place.at("skin.ppm"), place.at("hard.bmp")).expect("linked");
+    for output in ["skin.ppm", "./skin.ppm", "hard.bmp"] {
+        let stderr = place.stderr(&format!("render a.dat --spp 1 -o {output}"), 2);
+        let reason = "is a file that the scene uses; name another file for the picture";
+        assert_eq!(stderr, format!("error: {output}: {reason}\n"));
+        assert_eq!(place.read("skin.ppm"), SKIN.as_bytes());
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn a_picture_goes_into_a_pipe_that_somebody_reads() {
+    use rustix::fs::{CWD, FileType, Mode, mknodat};
+    let place = Place::new();
+    mknodat(CWD, place.at("pipe"), FileType::Fifo, Mode::RWXU, 0).expect("a pipe");
+    let stderr = place.stderr("render ball.ray -o pipe --format ppm", 1);
+    assert_eq!(stderr, "error: pipe: nobody reads this pipe\n");
+    let pipe = place.at("pipe");
+    let reader = std::thread::spawn(move || fs::read(pipe));
+    assert_eq!(place.stderr("render ball.ray -o pipe --format ppm", 0), "");
+    let read = reader.join().expect("no panic").expect("read");
+    assert!(read.starts_with(b"P6\n8 6\n255\n"));
+    place.stderr("render ball.ray -o /dev/null --format ppm", 0);
+    assert_eq!(place.names(), ["ball.ray", "pipe"]);
+}
+
+#[test]
+fn a_ppm_on_the_output_stream_is_the_picture() {
+    let place = Place::new();
+    let output = place.run("render ball.ray -o - --format ppm --spp 1");
+    assert_eq!(output.status.code(), Some(0));
+    let header = b"P6\n8 6\n255\n";
+    let (head, pixels) = output.stdout.split_at(header.len());
+    assert_eq!(head, header);
+    // The ball's outline subtends tan(asin(1/5)) = 0.2041 of the eye's distance, the picture's
+    // half height tan(20°) = 0.3640: a circle of radius 1.68 pixels about its centre.
+    let white: String = pixels
+        .chunks(3)
+        .map(|pixel| match pixel {
+            [255, 255, 255] => '#',
+            [0, 0, 0] => '.',
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    let rows: Vec<_> = (0..6).map(|row| &white[row * 8..][..8]).collect();
+    let expected = [
+        "........", "...##...", "..####..", "..####..", "...##...", "........",
+    ];
+    assert_eq!(rows, expected);
+}
+
+#[test]
+fn every_way_to_the_same_picture_gives_the_same_bytes() {
+    let place = Place::new();
+    let picture = "render ball.ray --spp 4 --size 16x9";
+    assert_eq!(
+        place.stderr(&format!("{picture} -o a.bmp --threads 1"), 0),
+        ""
+    );
+    let expected = place.read("a.bmp");
+    assert_eq!(expected.len(), 54 + 16 * 9 * 3);
+    for threads in ["2", "8"] {
+        place.stderr(&format!("{picture} -o b.bmp --threads {threads}"), 0);
+        assert_eq!(place.read("b.bmp"), expected, "{threads} threads");
+    }
+    assert_eq!(place.run(&format!("{picture} -o -")).stdout, expected);
+    place.stderr(&format!("{picture} -o named.wrongly --format bmp"), 0);
+    assert_eq!(place.read("named.wrongly"), expected);
+    assert_eq!(
+        place.names(),
+        ["a.bmp", "b.bmp", "ball.ray", "named.wrongly"]
+    );
+}
+
+#[test]
+fn a_picture_has_the_format_that_is_asked_for() {
+    let place = Place::new();
+    for (name, magic) in [
+        ("a.tif", &b"II*\0"[..]),
+        ("a.exr", b"\x76\x2f\x31\x01"),
+        ("a.hdr", b"#?RADIANCE\n"),
+        ("a.gif", b"GIF89a"),
+        ("a.jpg", b"\xFF\xD8\xFF"),
+        ("a.png", b"\x89PNG"),
+    ] {
+        place.stderr(&format!("render ball.ray -o {name} --spp 1"), 0);
+        assert!(place.read(name).starts_with(magic), "{name}");
+        let format = name.trim_start_matches("a.");
+        let streamed = place.run(&format!("render ball.ray -o - --spp 1 --format {format}"));
+        assert_eq!(streamed.stdout, place.read(name), "{name}");
+    }
+}

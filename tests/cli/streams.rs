@@ -1,0 +1,126 @@
+//! Streams and devices that are closed, full, or a terminal.
+
+use std::io::Read;
+use std::path::Path;
+
+use super::*;
+
+#[test]
+fn a_reader_that_leaves_early_is_no_error() {
+    let place = Place::new();
+    let mut child = place
+        .command("render ball.ray -o - --size 400x300 --spp 1")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    // Far less than the picture, of which the pipe can't hold all.
+    let mut stdout = child.stdout.take().expect("a pipe");
+    stdout.read_exact(&mut [0]).expect("a byte");
+    drop(stdout);
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_device_is_an_error() {
+    let place = Place::new();
+    let full = || {
+        fs::File::options()
+            .write(true)
+            .open("/dev/full")
+            .expect("a device")
+    };
+    for (line, stdout) in [
+        ("render ball.ray -o -", Stdio::from(full())),
+        ("render ball.ray -o /dev/full --format bmp", Stdio::null()),
+        ("--help", Stdio::from(full())),
+    ] {
+        let mut command = place.command(line);
+        let output = command.stdout(stdout).output().expect("it starts");
+        assert_eq!(output.status.code(), Some(1), "{line}");
+        assert!(output.stderr.starts_with(b"error: "), "{line}");
+    }
+    assert!(!Path::new("/dev/full").is_file());
+}
+
+#[test]
+#[cfg(unix)]
+fn a_closed_output_stream_is_an_error() {
+    let place = Place::new();
+    let output = in_shell(&place, "exec >&-", "render ball.ray -o -");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{stderr}");
+    assert!(
+        stderr.starts_with("error: standard output: closed"),
+        "{stderr}"
+    );
+    let output = in_shell(&place, "exec >/dev/null", "render ball.ray -o -");
+    assert_eq!(output.status.code(), Some(0), "nobody wants the picture");
+    let output = in_shell(&place, "exec >&- 2>&-", "check ball.ray");
+    assert_eq!(output.status.code(), Some(0), "its answer is the code");
+}
+
+#[test]
+#[cfg(unix)]
+fn a_closed_error_stream_is_no_panic() {
+    let place = Place::new();
+    let (reader, writer) = std::io::pipe().expect("a pipe");
+    drop(reader);
+    let mut command = place.command("check none.ray");
+    let status = command.stderr(writer).status().expect("it starts");
+    assert_eq!(status.code(), Some(66));
+}
+
+/// Runs the program with files limited to 1 KiB: writing more fails, as on a full disk.
+#[cfg(unix)]
+fn on_a_full_disk(place: &Place, line: &str) -> Output {
+    in_shell(place, "ulimit -f 1", line)
+}
+
+#[test]
+#[cfg(unix)]
+fn a_full_disk_leaves_the_old_picture() {
+    let place = Place::new();
+    for linked in [false, true] {
+        place.write("a.bmp", "the old picture");
+        if linked {
+            fs::hard_link(place.at("a.bmp"), place.at("b.bmp")).expect("linked");
+        }
+        let output = on_a_full_disk(&place, "render ball.ray -o a.bmp --size 100x100 --spp 1");
+        assert_eq!(output.status.code(), Some(1), "{output:?}");
+        assert_eq!(place.read("a.bmp"), b"the old picture");
+    }
+    assert_eq!(place.names(), ["a.bmp", "b.bmp", "ball.ray"]);
+}
+
+#[test]
+#[cfg(unix)]
+fn a_terminal_is_refused_unless_forced() {
+    use portable_pty::{CommandBuilder, PtySize, native_pty_system};
+
+    let place = Place::new();
+    for (force, code, mark) in [("", 2, "--force"), ("--force", 0, "BM")] {
+        let pair = native_pty_system()
+            .openpty(PtySize::default())
+            .expect("a terminal");
+        let mut command = CommandBuilder::new(BINARY);
+        command.args(["render", "ball.ray", "-o", "-"]);
+        command.args(force.split_ascii_whitespace());
+        command.cwd(place.directory.path());
+        let mut child = pair.slave.spawn_command(command).expect("it starts");
+        drop(pair.slave);
+        let mut shown = Vec::new();
+        // The terminal's end is an error on some systems.
+        let _ = pair
+            .master
+            .try_clone_reader()
+            .expect("a reader")
+            .read_to_end(&mut shown);
+        let status = child.wait().expect("it ends");
+        assert_eq!(status.exit_code(), code);
+        assert!(String::from_utf8_lossy(&shown).contains(mark), "{shown:?}");
+    }
+}
