@@ -105,6 +105,12 @@ fn cases() -> Vec<Case> {
             3 * MB,
         ),
         case(
+            "dark.ray",
+            format!("0 0 0 87382 {}", many("1 2 3 1 1 1 ", MB)),
+            "nObjects: missing, the text ends here",
+            8 * MB,
+        ),
+        case(
             "surplus.ray",
             format!("{HEAD}1 {}", many("1 ", MB)),
             "numbers too many after it",
@@ -120,7 +126,7 @@ fn cases() -> Vec<Case> {
             "comments.dat",
             many("//\n", MB),
             "no object is defined",
-            6 * MB,
+            9 * MB,
         )),
         case(
             "twice.xml",
@@ -181,7 +187,7 @@ fn cases() -> Vec<Case> {
             "ends.dat",
             many("\n", LONG),
             "the first 1048576 bytes hold no scene",
-            2 * MB,
+            3 * MB,
         ),
         case("less.xml", many("<", LONG), "here no name begins", 96 * MB),
         case(

@@ -215,11 +215,14 @@ impl<'a> Reader<'a> {
         let (first, end) = (self.at, self.at + take);
         while self.at < end {
             let mut values = [0.0; LONGEST];
-            let name = Name::Light(self.lights.len());
+            let name = Name::Light((self.at - first) / each);
             let light = self.record(name, LIGHT.iter(), &mut values);
             let gathered = light.gather(LIGHT.iter());
-            self.lights
-                .push(Light::point(gathered.points[0], gathered.colours[0]));
+            // Without objects there is no scene for them.
+            if run.object.is_some() {
+                self.lights
+                    .push(Light::point(gathered.points[0], gathered.colours[0]));
+            }
         }
         self.origins.lights = (first, take);
         if !known {
