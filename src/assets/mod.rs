@@ -19,6 +19,7 @@ use gate::{Content, Gate, Stream};
 use meshes::KnownMesh;
 use trouble::Failure;
 
+pub use folder::{NoFolder, check_folders};
 pub use trouble::{Trouble, Troubles, report};
 
 /// What all files of a scene may have together: 512 MiB in files, 384 MiB of pictures in memory, and

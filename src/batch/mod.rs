@@ -10,7 +10,7 @@ mod threads;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use crate::assets::{self, Assets, Wanted};
+use crate::assets::{self, Assets, NoFolder, Wanted};
 use crate::file::{self, ReadError};
 use crate::format::{self, Format, Tree, UnknownLanguage};
 use crate::render::Refusal;
@@ -25,6 +25,9 @@ pub enum Error {
     /// A scene can't be read.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// A folder to read from can't be read.
+    #[error(transparent)]
+    Assets(#[from] NoFolder),
     /// A file that is no scene by its name.
     #[error(transparent)]
     UnknownLanguage(#[from] UnknownLanguage),
@@ -99,6 +102,11 @@ pub struct Check {
 /// up, all to the error stream. Every scene is looked at. The error of the first scene that can't be
 /// read or is wrong is returned; for wrong ones, with the errors of all.
 pub fn check(work: &Check) -> Result<(), Error> {
+    if let Err(error) = assets::check_folders(&work.assets) {
+        let error = error.into();
+        tell_error(&error);
+        return Err(error);
+    }
     let mut first = None;
     let mut errors = 0;
     let mut warnings = 0;

@@ -31,6 +31,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use crate::assets::{NoFolder, check_folders};
 use crate::file::{self, ReadError};
 use crate::format::{Format, UnknownLanguage};
 use crate::render::{DEFAULT_SPP, Filter};
@@ -122,6 +123,9 @@ pub enum Error {
     /// A file that is no scene by its name.
     #[error(transparent)]
     UnknownLanguage(#[from] UnknownLanguage),
+    /// A folder to read from can't be read.
+    #[error(transparent)]
+    Assets(#[from] NoFolder),
     /// A folder.
     #[error("{path}: is a folder, not a scene", path = path.display())]
     Folder {
@@ -146,6 +150,7 @@ pub enum Error {
 /// without reading it is told before the terminal is touched; the file is read beside the interface.
 pub fn run(options: &Options) -> Result<Ending, Error> {
     let (path, format, text) = find_scene(options.scene.as_deref())?;
+    check_folders(&options.assets)?;
     let size = terminal::size();
     let opening = Opening {
         path,
