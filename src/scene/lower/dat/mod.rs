@@ -28,11 +28,6 @@ const NAMED: usize = 8;
 /// The errors of a text that begins with these records, whatever follows them.
 pub(super) fn errors_of_beginning(text: &str, tree: &Tree) -> Findings {
     let mut reader = Reader::new(text, tree);
-    // The last one may be cut.
-    let whole = tree.records.len().saturating_sub(1);
-    for record in 0..whole {
-        reader.record(record);
-    }
     let first = |record: usize| tree.tokens_of(record).first().copied();
     let mut heads = (0..tree.records.len()).filter_map(first);
     let is_known = |head: Span| RECORDS.iter().any(|(word, _)| *word == head.of(text));
@@ -40,12 +35,15 @@ pub(super) fn errors_of_beginning(text: &str, tree: &Tree) -> Findings {
         && !heads.any(is_known)
     {
         reader.report.error(|| {
-            let message = format!(
-                "none of the first {} lines holds a known record",
-                tree.records.len()
-            );
+            let lines = tree.records.len();
+            let message = format!("none of the first {lines} lines holds a known record");
             Diagnostic::error(head, message, known_records())
         });
+        return reader.report;
+    }
+    // The last one may be cut.
+    for record in 0..tree.records.len().saturating_sub(1) {
+        reader.record(record);
     }
     reader.report
 }
