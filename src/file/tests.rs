@@ -405,7 +405,7 @@ fn a_long_file_has_a_beginning() {
 
 #[test]
 fn little_is_kept_of_a_line_that_is_not_text() {
-    let bytes = [&b"a\n "[..], &[0xFF; 1 << 20]].concat();
+    let bytes = [&b"a\n "[..], &vec![0xFF; 1 << 20]].concat();
     let wrong = decode(Path::new("s"), bytes).expect_err("it is not UTF-8");
     let ReadError::NotUtf8 { text, position, .. } = wrong else {
         panic!("{wrong}");

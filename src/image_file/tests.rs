@@ -396,7 +396,7 @@ fn bent(format: ImageFormat, head: usize, more: &[u8]) -> Vec<u8> {
 }
 
 /// A chunk of a PNG without its checksum.
-fn chunk(kind: &[u8; 4], length: usize) -> Vec<u8> {
+fn chunk(kind: [u8; 4], length: usize) -> Vec<u8> {
     let mut chunk = (length as u32).to_be_bytes().to_vec();
     chunk.extend(kind);
     chunk.resize(chunk.len() + length + 4, 0);
@@ -409,13 +409,13 @@ fn what_pixels_do_not_need_is_not_read() {
     // Signature and first chunk of a PNG; the first mark of a JPEG.
     let (png, jpeg) = (8 + 25, 2);
     let comments = |marker: u8| {
-        let comment = [&[0xFF, marker, 0xFF, 0xFF], &[b'c'; 0xFFFD][..]].concat();
+        let comment = [&[0xFF, marker, 0xFF, 0xFF], &vec![b'c'; 0xFFFD][..]].concat();
         comment.repeat(LENGTH / comment.len())
     };
     for (format, head, more) in [
-        (ImageFormat::Png, png, chunk(b"iCCP", LENGTH)),
-        (ImageFormat::Png, png, chunk(b"tEXt", LENGTH)),
-        (ImageFormat::Png, png, chunk(b"eXIf", LENGTH)),
+        (ImageFormat::Png, png, chunk(*b"iCCP", LENGTH)),
+        (ImageFormat::Png, png, chunk(*b"tEXt", LENGTH)),
+        (ImageFormat::Png, png, chunk(*b"eXIf", LENGTH)),
         (ImageFormat::Jpeg, jpeg, comments(0xFE)),
         (ImageFormat::Jpeg, jpeg, comments(0xE1)),
         (ImageFormat::Jpeg, jpeg, comments(0xE2)),
@@ -434,7 +434,7 @@ fn what_pixels_do_not_need_is_not_read() {
 fn a_jpeg_far_longer_than_its_pixels_is_refused() {
     let bytes = encoded(ImageFormat::Jpeg, &gradient());
     let end = bytes.len() - 2;
-    let tables = [0xFF, 0xDB, 0xFF, 0xFF].into_iter().chain([1; 0xFFFD]);
+    let tables = [0xFF, 0xDB, 0xFF, 0xFF].into_iter().chain(vec![1; 0xFFFD]);
     let tables: Vec<u8> = tables.collect();
     for (head, more) in [(end, vec![1; 2 << 20]), (2, tables.repeat(40))] {
         let refused = decode(&bent(ImageFormat::Jpeg, head, &more)).expect_err("too long");

@@ -1,6 +1,7 @@
 //! Threads under a limit on memory: each takes address space for its stack and for what its
 //! allocations come from, used or not. Where the system gives fewer than wanted, fewer do the work.
 
+use std::hint::black_box;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
@@ -58,16 +59,14 @@ fn address_space_limit() -> Option<u64> {
 /// Where there are none, the calling thread is the pool: only its own work is done then, and the pool
 /// is never freed.
 pub fn pool(wanted: usize, begin: impl Fn() + Clone + Send + Sync + 'static) -> ThreadPool {
-    match started(wanted, &begin) {
-        Some(pool) => pool,
-        None => {
-            begin();
-            let alone = ThreadPoolBuilder::new().num_threads(1).use_current_thread();
-            alone
-                .build()
-                .expect("nothing is started, and a thread calls this once")
-        }
+    if let Some(pool) = started(wanted, &begin) {
+        return pool;
     }
+    begin();
+    let alone = ThreadPoolBuilder::new().num_threads(1).use_current_thread();
+    alone
+        .build()
+        .expect("nothing is started, and a thread calls this once")
 }
 
 /// A pool of as many threads as the system gives of those wanted; `None` if it gives none.
@@ -116,7 +115,7 @@ pub fn start_threads(otherwise: WithoutThreads) -> Result<(), NoThreads> {
             started => started.map_err(|_| NoThreads)?,
         }
         // From here on the address space that each takes is known.
-        let _ = rayon::broadcast(|_| vec![0_u8].len());
+        let _ = rayon::broadcast(|_| drop(black_box(vec![0_u8])));
         RUNNING.fetch_add(tried.unwrap_or(0), Ordering::Relaxed);
         Ok(())
     };

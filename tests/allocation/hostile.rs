@@ -28,6 +28,7 @@ struct Case {
     most: usize,
 }
 
+#[allow(clippy::too_many_lines, reason = "it is a table")]
 fn cases() -> Vec<Case> {
     const HEAD: &str = "0 0 0 1 0 0 0 1 1 1 ";
     const SPHERE: &str = "sphere 0 0 0 1 0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n";

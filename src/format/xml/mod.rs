@@ -194,9 +194,10 @@ pub fn fault_of_beginning(text: &str) -> Option<Diagnostic> {
         return scan.refused;
     }
     match document(text) {
-        Ok(_) => None,
         // What follows may close what is open.
-        Err(Error::NoRootNode | Error::UnclosedRootNode | Error::UnexpectedEndOfStream) => None,
+        Ok(_) | Err(Error::NoRootNode | Error::UnclosedRootNode | Error::UnexpectedEndOfStream) => {
+            None
+        }
         Err(error) => {
             let fault = fault::told(text, &error, None);
             (fault.span.start() + NEAR < text.len()).then_some(fault)

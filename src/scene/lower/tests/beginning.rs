@@ -61,7 +61,7 @@ fn what_is_wrong_with_a_beginning_is_wrong_with_the_whole() {
         {
             for by in ["", "x", " 9 ", "<", "\n"] {
                 let bent = [&text[..at], by, &text[at + 1..]].concat();
-                for cut in [at + 70, (at + bent.len()) / 2] {
+                for cut in [at + 70, usize::midpoint(at, bent.len())] {
                     let Some(beginning) = bent.get(..cut) else {
                         continue;
                     };
