@@ -48,6 +48,17 @@ def filled(name, *parts):
     return write(name, *((p[0], p[1] // len(p[0])) if isinstance(p, tuple) else p for p in parts))
 
 
+def apart(make):
+    """Makes a large file in a process of its own: what a child is said to use at most includes what its
+    parent used when it was started."""
+    child = os.fork()
+    if child == 0:
+        make()
+        os._exit(0)
+    if os.waitpid(child, 0)[1] != 0:
+        sys.exit("a file can't be made")
+
+
 def chunk(kind, data):
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
@@ -122,7 +133,7 @@ def texts():
     yield "not numbers", write("nan.ray", b"nan inf 1e999 -0 0x1 1 1")
     yield "1000000 nested elements", write("deep.xml", b"<xml><scene>", (b"<object>", 1000000), (b"</object>", 1000000), b"</scene></xml>")
     yield "1000000 that are never closed", write("open.xml", (b"<a>", 1000000))
-    yield "a million attributes", write("attributes.xml", b"<xml ", b" ".join(b"a%d='1'" % n for n in range(1000000)), b"/>")
+    yield "a million attributes", write("attributes.xml", b"<xml ", (b"a='1' ", 1000000), b"/>")
     yield "an attribute twice", write("twice.xml", b"<xml a='1' a='2'/>")
     yield "entities of entities", write("laughs.xml", laughs())
     yield "objects made of each other", write("cycle.dat", b"obj CSG ID 1 union ID 2 ID 2\nobj CSG ID 2 union ID 1 ID 1\nrender 1 ID 1\n")
@@ -131,7 +142,7 @@ def texts():
 def pictures():
     """Scenes with a hostile picture, and how many bytes its pixels are."""
     def case(what, name, content, pixels=0):
-        content()
+        apart(content)
         scene = os.path.splitext(name)[0] + "-picture.dat"
         return what, textured(scene, name), pixels
 
@@ -177,7 +188,7 @@ def main():
         size = os.stat(scene).st_size
         # Read before: what is measured is the program, not the disk.
         with open(scene, "rb") as text:
-            while text.read(64 * MB):
+            while text.read(MB):
                 pass
         for command in (["check", scene], ["render", scene, "-o", "out.ppm", "--size", "4x3", "--spp", "1"]):
             took, resident, code, first = measured([binary, *command])
