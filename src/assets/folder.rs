@@ -25,6 +25,35 @@ pub(super) struct Folder {
     held: OwnedFd,
 }
 
+/// A folder that is named to be read from can't be.
+#[derive(Debug, thiserror::Error)]
+#[error("--assets {path}: {reason}", path = path.display(), reason = reason(source))]
+pub struct NoFolder {
+    /// Its name.
+    path: PathBuf,
+    /// What the system said.
+    source: io::Error,
+}
+
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "no such folder".to_owned(),
+        io::ErrorKind::NotADirectory => "not a folder".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
+/// Finds out whether these folders can be read from.
+pub fn check_folders(folders: &[PathBuf]) -> Result<(), NoFolder> {
+    for path in folders {
+        Folder::open(path).map_err(|source| NoFolder {
+            path: path.clone(),
+            source,
+        })?;
+    }
+    Ok(())
+}
+
 impl Folder {
     /// Opens a folder, wherever links lead.
     pub(super) fn open(path: &Path) -> io::Result<Self> {

@@ -5,7 +5,7 @@
 //! home, and folders that everybody may write.
 
 use std::env;
-use std::fs;
+use std::fs::{self, File};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -15,6 +15,7 @@ use rayon::prelude::*;
 use super::folder::Folder;
 use super::trouble::Failure;
 use crate::file::{self, directory_of};
+use crate::memory::{self, WithoutThreads};
 
 /// Whether and from where a scene's files are read.
 #[derive(Debug)]
@@ -36,6 +37,16 @@ pub(super) struct Content {
     /// What stands for them.
     pub(super) print: u64,
     /// Where they were, if not where they were looked for first.
+    pub(super) elsewhere: Option<PathBuf>,
+}
+
+/// A file that is open at its beginning.
+#[derive(Debug)]
+pub(super) struct Stream {
+    pub(super) file: File,
+    /// What stands for its bytes.
+    pub(super) print: u64,
+    /// Where it was, if not where it was looked for first.
     pub(super) elsewhere: Option<PathBuf>,
 }
 
@@ -68,16 +79,35 @@ impl Gate {
 
     /// Reads a file, and takes its length from the `room` there is.
     pub(super) fn read(&self, name: &str, room: &mut u64) -> Result<Content, Failure> {
-        let (real, elsewhere) = self.find(name)?;
-        let folder = self.folder_of(&real).ok_or(Failure::Missing(Vec::new()))?;
-        let opened = file::regular(folder.file(&real)?, &real)?;
-        let bytes = file::read_opened(&opened, &real, *room)?;
+        let (file, real, elsewhere) = self.open(name)?;
+        let bytes = file::read_opened(&file, &real, *room)?;
         *room -= bytes.len() as u64;
         Ok(Content {
             print: print(&bytes),
             bytes,
             elsewhere,
         })
+    }
+
+    /// Opens a file that is not read as a whole, and takes its length from the `room` there is.
+    pub(super) fn stream(&self, name: &str, room: &mut u64) -> Result<Stream, Failure> {
+        let (file, _, elsewhere) = self.open(name)?;
+        let length = file.metadata()?.len();
+        *room = room.checked_sub(length).ok_or(Failure::TooLong)?;
+        Ok(Stream {
+            print: print_of_file(&file, length)?,
+            file,
+            elsewhere,
+        })
+    }
+
+    /// Opens a regular file; with it its path without links, and where it was if not where it was
+    /// looked for first.
+    fn open(&self, name: &str) -> Result<(File, PathBuf, Option<PathBuf>), Failure> {
+        let (real, elsewhere) = self.find(name)?;
+        let folder = self.folder_of(&real).ok_or(Failure::Missing(Vec::new()))?;
+        let file = file::regular(folder.file(&real)?, &real)?;
+        Ok((file, real, elsewhere))
     }
 
     /// A file's path without links, and by which path it was found, if not by the first.
@@ -230,19 +260,60 @@ fn is_absolute(name: &str) -> bool {
     Path::new(&portable(name)).is_absolute()
 }
 
-/// What stands for bytes. Those of large files are taken in by parts, side by side.
+/// Bytes of a large file that are taken in at once, side by side with others.
+const PART: usize = 1 << 20;
+
+fn hash(value: impl Hash) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    value.hash(&mut hasher);
+    hasher.finish()
+}
+
+/// What stands for bytes.
 fn print(bytes: &[u8]) -> u64 {
-    const PART: usize = 1 << 20;
-    fn of(value: impl Hash) -> u64 {
-        let mut hasher = DefaultHasher::new();
-        value.hash(&mut hasher);
-        hasher.finish()
+    let parts: Vec<u64> = if bytes.len() <= PART {
+        vec![hash(bytes)]
+    } else {
+        bytes.par_chunks(PART).map(hash).collect()
+    };
+    hash(parts)
+}
+
+/// What stands for the bytes of a file of this length. Leaves it at its beginning.
+#[cfg(unix)]
+fn print_of_file(file: &File, length: u64) -> Result<u64, Failure> {
+    use std::os::unix::fs::FileExt;
+    let part = |at: u64| {
+        let mut bytes = vec![0; PART.min((length - at) as usize)];
+        file.read_exact_at(&mut bytes, at)?;
+        Ok(hash(&bytes[..]))
+    };
+    let starts = 0..length.div_ceil(PART as u64);
+    let starts = starts.map(|number| number * PART as u64);
+    let parts: io::Result<Vec<u64>> = if length <= PART as u64 {
+        starts.map(part).collect()
+    } else {
+        memory::start_threads(WithoutThreads::Refused).map_err(io::Error::other)?;
+        let starts: Vec<u64> = starts.collect();
+        starts.into_par_iter().map(part).collect()
+    };
+    Ok(hash(parts?))
+}
+
+/// What stands for the bytes of a file of this length. Leaves it at its beginning.
+#[cfg(not(unix))]
+fn print_of_file(mut file: &File, length: u64) -> Result<u64, Failure> {
+    use std::io::{Read, Seek};
+    let mut parts = Vec::new();
+    let mut left = length;
+    while 0 < left {
+        let mut bytes = vec![0; PART.min(left as usize)];
+        file.read_exact(&mut bytes)?;
+        left -= bytes.len() as u64;
+        parts.push(hash(&bytes[..]));
     }
-    if bytes.len() <= PART {
-        return of(bytes);
-    }
-    let parts: Vec<u64> = bytes.par_chunks(PART).map(of).collect();
-    of(parts)
+    file.rewind()?;
+    Ok(hash(parts))
 }
 
 #[cfg(all(test, unix))]

@@ -15,10 +15,11 @@ use std::sync::Arc;
 use crate::obj;
 use crate::scene::{FileKind, Image, Images, Meshes, NamedFile};
 
-use gate::{Content, Gate};
+use gate::{Content, Gate, Stream};
 use meshes::KnownMesh;
 use trouble::Failure;
 
+pub use folder::{NoFolder, check_folders};
 pub use trouble::{Trouble, Troubles, report};
 
 /// What all files of a scene may have together: 512 MiB in files, 384 MiB of pictures in memory, and
@@ -179,10 +180,22 @@ impl Reading<'_> {
     /// Reads one file.
     fn content(&mut self, name: &str) -> Result<Content, Failure> {
         let mut content = self.gate.read(name, &mut self.room.bytes)?;
-        if let Some(place) = content.elsewhere.take() {
+        self.note(name, content.elsewhere.take());
+        Ok(content)
+    }
+
+    /// Opens one file that is not read as a whole.
+    fn stream(&mut self, name: &str) -> Result<Stream, Failure> {
+        let mut stream = self.gate.stream(name, &mut self.room.bytes)?;
+        self.note(name, stream.elsewhere.take());
+        Ok(stream)
+    }
+
+    /// Notes that a file was found elsewhere.
+    fn note(&mut self, name: &str, elsewhere: Option<PathBuf>) {
+        if let Some(place) = elsewhere {
             self.elsewhere.insert(name.to_owned(), place);
         }
-        Ok(content)
     }
 }
 

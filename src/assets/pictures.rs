@@ -42,12 +42,12 @@ impl Reading<'_> {
 
     /// Reads one picture: what stands for its bytes, and itself.
     fn picture(&mut self, name: &str) -> Result<(u64, Arc<Image>), Failure> {
-        let content = self.content(name)?;
-        let print = content.print;
+        let stream = self.stream(name)?;
+        let print = stream.print;
         let known = self.now.images.get(&print);
         let image = match known.or_else(|| self.before.images.get(&print)) {
             Some(image) => Arc::clone(image),
-            None => Arc::new(image_file::decode(&content.bytes, self.room.pixels)?),
+            None => Arc::new(image_file::decode(&stream.file, self.room.pixels)?),
         };
         if self.has_room(print, &image) {
             Ok((print, image))

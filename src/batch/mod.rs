@@ -5,17 +5,17 @@ mod progress;
 mod render;
 mod report;
 mod stdout;
-mod threads;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use crate::assets::{self, Assets, Wanted};
+use crate::assets::{self, Assets, NoFolder, Wanted};
 use crate::file::{self, ReadError};
 use crate::format::{self, Format, Tree, UnknownLanguage};
+use crate::memory::{self, WithoutThreads};
 use crate::render::Refusal;
 use crate::scene::{self, Images, Lowered, Meshes, Node, Origins, Scene};
-use crate::text::{Diagnostic, Span, counted, visible};
+use crate::text::{Diagnostic, Findings, Span, counted, visible};
 
 pub use render::{Output, Render, render};
 
@@ -25,6 +25,9 @@ pub enum Error {
     /// A scene can't be read.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// A folder to read from can't be read.
+    #[error(transparent)]
+    Assets(#[from] NoFolder),
     /// A file that is no scene by its name.
     #[error(transparent)]
     UnknownLanguage(#[from] UnknownLanguage),
@@ -71,6 +74,16 @@ pub enum Warnings {
     Refused,
 }
 
+impl Warnings {
+    /// The same findings under this treatment.
+    fn judge(self, findings: Findings) -> Findings {
+        match self {
+            Self::Allowed => findings,
+            Self::Refused => findings.strict(),
+        }
+    }
+}
+
 /// Bytes of a scene that may be read with several threads. Starting them costs a small one too much.
 const LARGE: u64 = 1 << 14;
 
@@ -89,6 +102,11 @@ pub struct Check {
 /// up, all to the error stream. Every scene is looked at. The error of the first scene that can't be
 /// read or is wrong is returned; for wrong ones, with the errors of all.
 pub fn check(work: &Check) -> Result<(), Error> {
+    if let Err(error) = assets::check_folders(&work.assets) {
+        let error = error.into();
+        tell_error(&error);
+        return Err(error);
+    }
     let mut first = None;
     let mut errors = 0;
     let mut warnings = 0;
@@ -100,6 +118,10 @@ pub fn check(work: &Check) -> Result<(), Error> {
                 if 0 < loaded.errors {
                     first.get_or_insert(Error::Invalid { errors: 0 });
                 }
+            }
+            Err(Error::Invalid { errors: more }) => {
+                errors += more;
+                first.get_or_insert(Error::Invalid { errors: 0 });
             }
             Err(error) => {
                 errors += 1;
@@ -144,8 +166,11 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
         // What can't be opened is no scene under any name.
         file::open(path).map_or_else(Error::from, |_| unknown.into())
     })?;
+    if let Some(beginning) = file::read_beginning(path)? {
+        check_beginning(path, format, &beginning, warnings)?;
+    }
     if LARGE < path.metadata().map_or(0, |metadata| metadata.len()) {
-        threads::settle();
+        memory::start_threads(WithoutThreads::DoneByCaller).map_err(ReadError::from)?;
     }
     let text = file::read_text(path)?;
     for copy in file::backups(path) {
@@ -161,19 +186,9 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
     let tree = format::parse(format, &text);
     scene::fits(&text, &tree).map_err(no_memory)?;
     let (lowered, images, files) = mean(path, &text, &tree, folders);
-    let findings = match warnings {
-        Warnings::Allowed => lowered.diagnostics,
-        Warnings::Refused => lowered.diagnostics.strict(),
-    };
-    print_findings(path, &text, &findings);
+    let findings = warnings.judge(lowered.diagnostics);
+    print_all_findings(path, &text, &findings);
     let (errors, warnings) = (findings.errors(), findings.warnings());
-    let more = errors + warnings - findings.len();
-    if 0 < more {
-        tell(
-            "note",
-            &format!("{} not shown", counted(more, "more finding")),
-        );
-    }
     Ok(Loaded {
         size: size_place(&lowered.origins, &tree),
         scene: lowered.scene.filter(|_| errors == 0),
@@ -183,6 +198,28 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
         errors,
         warnings,
         syntax: (tree, lowered.origins),
+    })
+}
+
+/// Finds out whether a long scene is worth reading, which it is not where its beginning has errors.
+/// They are printed.
+fn check_beginning(
+    path: &Path,
+    format: Format,
+    beginning: &str,
+    warnings: Warnings,
+) -> Result<(), Error> {
+    let findings = scene::errors_of_beginning(format, beginning);
+    if findings.errors() == 0 {
+        return Ok(());
+    }
+    let findings = warnings.judge(findings);
+    print_all_findings(path, beginning, &findings);
+    let read = counted(beginning.len(), "byte");
+    let note = format!("only the first {read} of {} were read", path.display());
+    tell("note", &note);
+    Err(Error::Invalid {
+        errors: findings.errors(),
     })
 }
 
@@ -200,7 +237,8 @@ fn mean(
     let mut files = lowered.origins.files(text, tree);
     let mut wanted = Wanted::new(path, &files);
     if !files.is_empty() {
-        threads::settle();
+        // A long file among them is refused where there are none.
+        let _ = memory::start_threads(WithoutThreads::DoneByCaller);
     }
     let mut loaded = assets.read(&wanted);
     if !wanted.meshes.is_empty() {
@@ -228,6 +266,16 @@ fn size_place(origins: &Origins, tree: &Tree) -> Option<Span> {
     sizes
         .flat_map(|size| size.spans.iter().copied())
         .reduce(Span::to)
+}
+
+/// Prints the findings that are kept, and how many more there are.
+fn print_all_findings(path: &Path, text: &str, findings: &Findings) {
+    print_findings(path, text, findings);
+    let more = findings.errors() + findings.warnings() - findings.len();
+    if 0 < more {
+        let more = counted(more, "more finding");
+        tell("note", &format!("{more} not shown"));
+    }
 }
 
 fn print_findings(path: &Path, text: &str, findings: &[Diagnostic]) {

@@ -7,6 +7,7 @@ use std::sync::mpsc::{self, Receiver};
 
 use super::progress::ProgressLine;
 use super::{Error, Warnings, load, print_findings, stdout, tell, tell_error};
+use crate::assets;
 use crate::file;
 use crate::image_file::ImageFormat;
 use crate::render::{Aov, Filter, Frame, Job, Renderer, Settings, Threads, default_depth};
@@ -66,6 +67,7 @@ pub fn render(work: &Render) -> Result<(), Error> {
 
 fn make(work: &Render) -> Result<(), Error> {
     check_output(work)?;
+    assets::check_folders(&work.assets)?;
     let loaded = load(&work.scene, &work.assets, work.warnings)?;
     let scene = loaded.scene.ok_or(Error::Invalid {
         errors: loaded.errors,

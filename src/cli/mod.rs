@@ -112,6 +112,7 @@ pub fn exit_code(outcome: &Result<(), batch::Error>) -> u8 {
     };
     match error {
         Error::Read(error) => read_code(error),
+        Error::Assets(_) => NO_INPUT,
         Error::UnknownLanguage(_) | Error::Invalid { .. } => INVALID,
         Error::Refused(_) => USAGE,
         Error::Create { .. } => NO_OUTPUT,
@@ -128,7 +129,7 @@ pub fn interface_exit_code(outcome: &Result<ui::Ending, ui::Error>) -> u8 {
         Ok(ui::Ending::Terminated) => TERMINATED,
         Err(ui::Error::Read(error)) => read_code(error),
         Err(ui::Error::UnknownLanguage(_)) => INVALID,
-        Err(ui::Error::Folder { .. }) => NO_INPUT,
+        Err(ui::Error::Folder { .. } | ui::Error::Assets(_)) => NO_INPUT,
         Err(ui::Error::NoSuch { .. } | ui::Error::DumbTerminal) => USAGE,
         Err(ui::Error::Terminal(_)) => FAILED,
     }

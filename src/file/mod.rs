@@ -16,7 +16,7 @@ use std::fs::{self, File, FileType, OpenOptions};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use crate::memory::{self, Need, NoThreads, OutOfMemory};
+use crate::memory::{self, Need, NoThreads, OutOfMemory, WithoutThreads};
 use crate::text::{Position, Span};
 
 pub use backup::backups;
@@ -25,6 +25,15 @@ pub use target::{check_target, directory_of};
 
 /// The longest file that is read, in bytes: positions in a text are 32-bit numbers.
 pub const MAX_BYTES: u64 = u32::MAX as u64;
+
+/// Longer files have a beginning that is worth a look before the rest: see [`read_beginning`].
+pub const LONG: u64 = 16 << 20;
+
+/// The most bytes of a beginning. To understand so many takes a few milliseconds.
+const BEGINNING: usize = 1 << 20;
+
+/// The most bytes that are kept of a line that is not UTF-8, from the first wrong one on.
+const WRONG_LINE: usize = 1 << 10;
 
 /// A text with more zeros than this is none.
 const MOST_ZEROS: usize = 100;
@@ -93,7 +102,8 @@ pub enum ReadError {
         path: PathBuf,
         /// Where the first wrong byte stands.
         position: Position,
-        /// The text to the end of its line, with U+FFFD for what can't be read.
+        /// The text to the end of its line or a good part of that, with U+FFFD for what can't be
+        /// read.
         text: String,
         /// The place in `text` of what stands for the byte.
         span: Span,
@@ -113,7 +123,49 @@ pub fn read_text(path: &Path) -> Result<String, ReadError> {
             line,
         });
     }
-    let text = decode(path, read_opened(&file, path, MAX_BYTES)?)?;
+    text(path, read_opened(&file, path, MAX_BYTES)?)
+}
+
+/// Reads the first characters, about a megabyte, of a scene file of more than [`LONG`] bytes; `None`
+/// of a shorter one. The error is the one that [`read_text`] would give.
+pub fn read_beginning(path: &Path) -> Result<Option<String>, ReadError> {
+    let file = open(path)?;
+    let metadata = file.metadata().map_err(|source| ReadError::Io {
+        path: path.to_owned(),
+        source,
+    })?;
+    if metadata.len() <= LONG {
+        return Ok(None);
+    }
+    if MAX_BYTES < metadata.len() {
+        return Err(ReadError::TooLong {
+            path: path.to_owned(),
+        });
+    }
+    if let Some(line) = binary_start(&file) {
+        return Err(ReadError::Binary {
+            path: path.to_owned(),
+            line,
+        });
+    }
+    let mut bytes = Vec::with_capacity(BEGINNING);
+    let read = file.take(BEGINNING as u64).read_to_end(&mut bytes);
+    read.map_err(|source| ReadError::Io {
+        path: path.to_owned(),
+        source,
+    })?;
+    if let Err(error) = std::str::from_utf8(&bytes)
+        && error.error_len().is_none()
+    {
+        // The cut is inside a character.
+        bytes.truncate(error.valid_up_to());
+    }
+    text(path, bytes).map(Some)
+}
+
+/// The text that bytes are, if they are UTF-8 with few zeros.
+fn text(path: &Path, bytes: Vec<u8>) -> Result<String, ReadError> {
+    let text = decode(path, bytes)?;
     match first_zero(text.as_bytes()) {
         None => Ok(text),
         Some(at) => Err(ReadError::Binary {
@@ -173,20 +225,27 @@ fn line_of(before: &[u8]) -> usize {
 fn decode(path: &Path, bytes: Vec<u8>) -> Result<String, ReadError> {
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
-        let bytes = error.as_bytes();
-        let line_end = bytes[valid..].iter().position(|&byte| byte == b'\n');
-        let line_end = line_end.map_or(bytes.len(), |length| valid + length);
-        let text = String::from_utf8_lossy(&bytes[..line_end]).into_owned();
+        let mut bytes = error.into_bytes();
+        let encoding = match bytes[..] {
+            [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => "UTF-16",
+            _ => "WINDOWS-1252",
+        };
+        let wrong = &bytes[valid..];
+        let byte = wrong[0];
+        let line = wrong.split(|&byte| byte == b'\n').next().unwrap_or(wrong);
+        let line = &line[..line.len().min(WRONG_LINE)];
+        let line = String::from_utf8_lossy(line).into_owned();
+        // The text may be long: what is valid of it is not copied.
+        bytes.truncate(valid);
+        let mut text = String::from_utf8(bytes).unwrap_or_default();
+        text.push_str(&line);
         ReadError::NotUtf8 {
             path: path.to_owned(),
             position: Position::of(&text, valid),
             text,
             span: Span::new(valid, valid + char::REPLACEMENT_CHARACTER.len_utf8()),
-            byte: bytes[valid],
-            encoding: match bytes {
-                [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => "UTF-16",
-                _ => "WINDOWS-1252",
-            },
+            byte,
+            encoding,
         }
     })
 }
@@ -223,7 +282,7 @@ pub(crate) fn read_opened(file: &File, path: &Path, limit: u64) -> Result<Vec<u8
         reason,
     })?;
     if WITHOUT_THREADS < length {
-        memory::start_threads()?;
+        memory::start_threads(WithoutThreads::Refused)?;
     }
     read_open(file, limit).map_err(|source| match source.kind() {
         io::ErrorKind::FileTooLarge => ReadError::TooLong {

@@ -371,3 +371,45 @@ mod unix {
         assert_eq!(names(directory.path()), ["s"]);
     }
 }
+
+#[test]
+fn a_long_file_has_a_beginning() {
+    let directory = directory();
+    let path = directory.path().join("s");
+    let write = |head: &[u8], len: u64| {
+        fs::write(&path, head).expect("written");
+        let mut file = OpenOptions::new().append(true).open(&path).expect("opened");
+        let rest = vec![b' '; (len - head.len() as u64) as usize];
+        file.write_all(&rest).expect("written");
+    };
+    write(b"a", LONG);
+    assert_eq!(read_beginning(&path).expect("read"), None);
+    write(b"a", LONG + 1);
+    let beginning = read_beginning(&path).expect("read").expect("it is long");
+    assert_eq!(beginning.len(), BEGINNING);
+    // A character that is cut is left away, one that is wrong is an error.
+    let cut = ["a".repeat(BEGINNING - 1), "é".to_owned()].concat();
+    write(cut.as_bytes(), LONG + 1);
+    let beginning = read_beginning(&path).expect("read").expect("it is long");
+    assert_eq!(beginning.len(), BEGINNING - 1);
+    write(b"a\n \xE9 \n", LONG + 1);
+    let wrong = read_beginning(&path).expect_err("it is not UTF-8");
+    assert!(wrong.to_string().contains(":2:2: the byte 0xE9"), "{wrong}");
+    write(&[[b'a'; 5000], [0; 5000]].concat(), LONG + 1);
+    let wrong = read_beginning(&path).expect_err("it is binary");
+    assert!(
+        matches!(wrong, ReadError::Binary { line: 1, .. }),
+        "{wrong}"
+    );
+}
+
+#[test]
+fn little_is_kept_of_a_line_that_is_not_text() {
+    let bytes = [&b"a\n "[..], &vec![0xFF; 1 << 20]].concat();
+    let wrong = decode(Path::new("s"), bytes).expect_err("it is not UTF-8");
+    let ReadError::NotUtf8 { text, position, .. } = wrong else {
+        panic!("{wrong}");
+    };
+    assert_eq!((position.line, position.column), (2, 2));
+    assert!(text.len() < 4 * WRONG_LINE, "{}", text.len());
+}

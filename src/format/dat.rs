@@ -4,6 +4,9 @@
 use super::white_space;
 use crate::text::Span;
 
+/// Bytes of a token and of the space before it, or fewer.
+const BYTES: usize = 4;
+
 /// The records and comments of a text, each in order.
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
@@ -56,11 +59,14 @@ impl Tree {
 /// all but one end lines without a token. The no-break space and the byte order mark are white space.
 pub fn parse(text: &str) -> Tree {
     let mut tree = Tree::default();
+    // A list that grows is copied, and both are there meanwhile. Memory that is not written to is none.
+    let _ = tree.tokens.try_reserve(text.len() / BYTES);
     let mut start = 0;
     for line in text.split_inclusive(['\n', '\r']) {
         read_line(text, Span::new(start, start + line.len()), &mut tree);
         start += line.len();
     }
+    tree.tokens.shrink_to_fit();
     tree
 }
 

@@ -2,6 +2,7 @@
 //! pictures and their sizes.
 
 mod read;
+mod sieve;
 mod write;
 
 use std::path::Path;

@@ -1,11 +1,14 @@
-//! Picture files to the pixels of textures. The bytes may be anybody's: sizes are looked at before
-//! memory is asked for.
+//! Picture files to the pixels of textures. The files may be anybody's: sizes are looked at before
+//! memory is asked for, and what pixels do not need is not read.
 
-use std::io::Cursor;
-use std::panic;
+use std::io::{BufRead, BufReader, ErrorKind, Read, Seek};
+use std::panic::{self, AssertUnwindSafe};
 
-use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageReader, Limits, Rgba};
+use image::error::UnsupportedErrorKind;
+use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader};
+use image::{Limits, Rgba};
 
+use super::sieve::Sieve;
 use crate::scene::{Image, Size};
 
 /// The most pixels of a texture: 8192 × 8192, 192 MiB.
@@ -15,17 +18,19 @@ pub const MAX_TEXTURE_PIXELS: u64 = 1 << 26;
 /// most that any format has, and those are rare.
 const MAX_MEMORY: u64 = 512 << 20;
 
-/// The most that what comes before a picture's pixels may take, such as a colour profile. Larger ones
-/// are passed over, or refused with the picture.
+/// The most that what comes before a picture's pixels may take.
 const MAX_PREFACE: u64 = 16 << 20;
 
-/// Why bytes are not a picture that can be used.
+/// Why a file is not a picture that can be used.
 #[derive(Debug, thiserror::Error)]
 pub enum Unreadable {
-    /// They are no picture of a known format.
+    /// It is no picture of a known format.
     #[error("is no picture of a known format")]
     Unknown,
-    /// They break off or contradict themselves; what the decoder says.
+    /// It uses a part of its format, which is named, that is not supported.
+    #[error("is a {0} of an unsupported kind")]
+    Unsupported(&'static str),
+    /// It breaks off or contradicts itself: how.
     #[error("is no whole picture: {0}")]
     Broken(String),
     /// The picture has more than [`MAX_TEXTURE_PIXELS`].
@@ -44,23 +49,36 @@ pub enum Unreadable {
     NoMemory,
 }
 
-/// Decodes a picture in whatever format its first bytes say. Of several in a file the first; what
-/// is more than red, green and blue of 8 bits is left away. More pixels than `room` are refused.
-pub fn decode(bytes: &[u8], room: u64) -> Result<Image, Unreadable> {
+/// Decodes a picture file in whatever format its first bytes say, from the place where it stands. Of
+/// several pictures in it the first; what is more than red, green and blue of 8 bits is left away. More
+/// pixels than `room` are refused, and a JPEG of more than eight bytes a pixel and a MiB, segments that
+/// its pixels don't need not counted. Memory is taken for the pixels and for what the decoder keeps of
+/// the file, which is all of a JPEG.
+pub fn decode(file: impl Read + Seek, room: u64) -> Result<Image, Unreadable> {
     // Decoders are others' work on anybody's bytes: if one panics, that costs the picture only.
-    let decoded = panic::catch_unwind(|| decode_trusting(bytes, room));
+    let decoded = panic::catch_unwind(AssertUnwindSafe(|| by_format(file, room)));
     decoded.unwrap_or_else(|_| Err(Unreadable::Broken("its decoder failed".to_owned())))
 }
 
-fn decode_trusting(bytes: &[u8], room: u64) -> Result<Image, Unreadable> {
-    let broken = |error: ImageError| match error {
-        ImageError::Limits(_) => Unreadable::NoMemory,
-        ImageError::Unsupported(_) => Unreadable::Unknown,
-        other => Unreadable::Broken(other.to_string()),
-    };
-    let mut reader = ImageReader::new(Cursor::new(bytes))
-        .with_guessed_format()
-        .map_err(|error| Unreadable::Broken(error.to_string()))?;
+fn by_format(mut file: impl Read + Seek, room: u64) -> Result<Image, Unreadable> {
+    /// As many as any format is known by.
+    const MARK: u64 = 16;
+    let unreadable = |error: std::io::Error| Unreadable::Broken(error.to_string());
+    let mut mark = Vec::new();
+    let length = (&mut file).take(MARK).read_to_end(&mut mark);
+    let back = -(length.map_err(unreadable)? as i64);
+    file.seek_relative(back).map_err(unreadable)?;
+    let format = image::guess_format(&mark).map_err(|_| Unreadable::Unknown)?;
+    match format {
+        ImageFormat::Png => pixels(BufReader::new(Sieve::png(file)), format, room),
+        ImageFormat::Jpeg => pixels(BufReader::new(Sieve::jpeg(file)), format, room),
+        _ => pixels(BufReader::new(file), format, room),
+    }
+}
+
+fn pixels(file: impl BufRead + Seek, format: ImageFormat, room: u64) -> Result<Image, Unreadable> {
+    let broken = |error| unreadable(error, format);
+    let mut reader = ImageReader::with_format(file, format);
     let limits = |bytes| {
         let mut limits = Limits::default();
         limits.max_alloc = Some(bytes);
@@ -101,4 +119,31 @@ fn decode_trusting(bytes: &[u8], room: u64) -> Result<Image, Unreadable> {
         }
     }
     Image::new(size, pixels).ok_or_else(|| Unreadable::Broken("it has no pixels".to_owned()))
+}
+
+/// What a decoder's error means. Its own words are no more than hints for programmers.
+fn unreadable(error: ImageError, format: ImageFormat) -> Unreadable {
+    let name = match format {
+        ImageFormat::Png => "PNG",
+        ImageFormat::Jpeg => "JPEG",
+        ImageFormat::Gif => "GIF",
+        ImageFormat::Tiff => "TIFF",
+        ImageFormat::Bmp => "BMP",
+        ImageFormat::Hdr => "Radiance HDR",
+        ImageFormat::OpenExr => "OpenEXR",
+        ImageFormat::Pnm => "PNM",
+        _ => "picture",
+    };
+    match error {
+        ImageError::Limits(_) => Unreadable::NoMemory,
+        ImageError::Unsupported(error) => match error.kind() {
+            UnsupportedErrorKind::Format(_) => Unreadable::Unknown,
+            _ => Unreadable::Unsupported(name),
+        },
+        ImageError::IoError(error) if error.kind() == ErrorKind::UnexpectedEof => {
+            Unreadable::Broken("it ends too early".to_owned())
+        }
+        ImageError::IoError(error) => Unreadable::Broken(error.to_string()),
+        _ => Unreadable::Broken(format!("its {name} data is damaged")),
+    }
 }

@@ -1,4 +1,4 @@
-use std::io::{self, Write};
+use std::io::{self, Cursor, Write};
 use std::time::Duration;
 
 use super::*;
@@ -43,7 +43,7 @@ fn encoded(format: ImageFormat, frame: &Frame) -> Vec<u8> {
 }
 
 fn decode(bytes: &[u8]) -> Result<Image, Unreadable> {
-    super::decode(bytes, u64::MAX)
+    super::decode(Cursor::new(bytes), u64::MAX)
 }
 
 #[test]
@@ -266,9 +266,9 @@ fn headers_that_claim_too_much_are_refused_before_memory_is_asked_for() {
 #[test]
 fn a_picture_for_which_there_is_no_room_is_refused() {
     let bytes = encoded(ImageFormat::Png, &gradient());
-    let refused = super::decode(&bytes, 48 * 32 - 1).expect_err("one too many");
+    let refused = super::decode(Cursor::new(&bytes), 48 * 32 - 1).expect_err("one too many");
     assert!(matches!(refused, Unreadable::NoRoom), "{refused}");
-    assert!(super::decode(&bytes, 48 * 32).is_ok());
+    assert!(super::decode(Cursor::new(&bytes), 48 * 32).is_ok());
 }
 
 #[test]
@@ -366,5 +366,109 @@ fn a_picture_is_whole_whichever_call_fails() {
             calls.hit.is_none()
         });
         assert!(last.is_some_and(|last| 0 < last), "each was hit");
+    }
+}
+
+/// A file that counts the bytes that are read of it.
+struct Counted<'a> {
+    file: Cursor<&'a [u8]>,
+    read: usize,
+}
+
+impl io::Read for Counted<'_> {
+    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        let read = self.file.read(out)?;
+        self.read += read;
+        Ok(read)
+    }
+}
+
+impl io::Seek for Counted<'_> {
+    fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
+        self.file.seek(to)
+    }
+}
+
+/// A picture with bytes put in, and the place behind its head where they go.
+fn bent(format: ImageFormat, head: usize, more: &[u8]) -> Vec<u8> {
+    let bytes = encoded(format, &gradient());
+    [&bytes[..head], more, &bytes[head..]].concat()
+}
+
+/// A chunk of a PNG without its checksum.
+fn chunk(kind: [u8; 4], length: usize) -> Vec<u8> {
+    let mut chunk = (length as u32).to_be_bytes().to_vec();
+    chunk.extend(kind);
+    chunk.resize(chunk.len() + length + 4, 0);
+    chunk
+}
+
+#[test]
+fn what_pixels_do_not_need_is_not_read() {
+    const LENGTH: usize = 1 << 20;
+    // Signature and first chunk of a PNG; the first mark of a JPEG.
+    let (png, jpeg) = (8 + 25, 2);
+    let comments = |marker: u8| {
+        let comment = [&[0xFF, marker, 0xFF, 0xFF], &vec![b'c'; 0xFFFD][..]].concat();
+        comment.repeat(LENGTH / comment.len())
+    };
+    for (format, head, more) in [
+        (ImageFormat::Png, png, chunk(*b"iCCP", LENGTH)),
+        (ImageFormat::Png, png, chunk(*b"tEXt", LENGTH)),
+        (ImageFormat::Png, png, chunk(*b"eXIf", LENGTH)),
+        (ImageFormat::Jpeg, jpeg, comments(0xFE)),
+        (ImageFormat::Jpeg, jpeg, comments(0xE1)),
+        (ImageFormat::Jpeg, jpeg, comments(0xE2)),
+    ] {
+        let bytes = bent(format, head, &more);
+        let file = Cursor::new(&bytes[..]);
+        let mut counted = Counted { file, read: 0 };
+        let image = super::decode(&mut counted, u64::MAX).expect("a picture");
+        assert_eq!(image, decoded(format, &gradient()), "{format:?}");
+        let mark = &more[..8];
+        assert!(counted.read < LENGTH / 4, "{mark:?}: {}", counted.read);
+    }
+}
+
+#[test]
+fn a_jpeg_far_longer_than_its_pixels_is_refused() {
+    let bytes = encoded(ImageFormat::Jpeg, &gradient());
+    let end = bytes.len() - 2;
+    let tables = [0xFF, 0xDB, 0xFF, 0xFF].into_iter().chain(vec![1; 0xFFFD]);
+    let tables: Vec<u8> = tables.collect();
+    for (head, more) in [(end, vec![1; 2 << 20]), (2, tables.repeat(40))] {
+        let refused = decode(&bent(ImageFormat::Jpeg, head, &more)).expect_err("too long");
+        let message = refused.to_string();
+        let expected = "is no whole picture: it has more than 10";
+        assert!(message.starts_with(expected), "{message}");
+    }
+}
+
+#[test]
+fn damage_is_told_without_the_decoders_words() {
+    for (format, name) in [
+        (ImageFormat::Png, "PNG"),
+        (ImageFormat::Jpeg, "JPEG"),
+        (ImageFormat::Bmp, "BMP"),
+    ] {
+        let bytes = encoded(format, &gradient());
+        let damaged = format!("is no whole picture: its {name} data is damaged");
+        let unsupported = format!("is a {name} of an unsupported kind");
+        let mut found = 0;
+        for at in 2..bytes.len().min(300) {
+            let mut bent = bytes.clone();
+            bent[at] ^= 0x55;
+            let Err(error) = decode(&bent) else {
+                continue;
+            };
+            let message = error.to_string();
+            found += usize::from(message == damaged);
+            let is_known = message == damaged
+                || message == unsupported
+                || message.ends_with("it ends too early")
+                || !matches!(error, Unreadable::Broken(_) | Unreadable::Unsupported(_));
+            assert!(is_known, "{format:?} at {at}: {message}");
+        }
+        assert!(0 < found, "{format:?}");
     }
 }

@@ -19,7 +19,7 @@ use glam::DVec3;
 
 use crate::geometry::{Aabb, Hit, Shape};
 
-pub use lower::{Before, Lowered, fits, lower, lower_again};
+pub use lower::{Before, Lowered, errors_of_beginning, fits, lower, lower_again};
 pub use mesh::{Meshes, NoMesh, beside};
 pub use objects::Objects;
 pub use origins::{FileKind, NamedFile, Node, Nodes, Origins};

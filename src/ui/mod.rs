@@ -32,6 +32,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use crate::assets::{NoFolder, check_folders};
 use crate::file::{self, ReadError};
 use crate::format::{Format, UnknownLanguage};
 use crate::render::{DEFAULT_SPP, Filter};
@@ -123,6 +124,9 @@ pub enum Error {
     /// A file that is no scene by its name.
     #[error(transparent)]
     UnknownLanguage(#[from] UnknownLanguage),
+    /// A folder to read from can't be read.
+    #[error(transparent)]
+    Assets(#[from] NoFolder),
     /// A folder.
     #[error("{path}: is a folder, not a scene", path = path.display())]
     Folder {
@@ -154,6 +158,7 @@ pub enum Error {
 pub fn run(options: &Options) -> Result<Ending, Error> {
     heap::map_large();
     let (path, format, text) = find_scene(options.scene.as_deref())?;
+    check_folders(&options.assets)?;
     if env::var_os("TERM").is_some_and(|term| term == "dumb") {
         return Err(Error::DumbTerminal);
     }

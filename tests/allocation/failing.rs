@@ -1,4 +1,4 @@
-//! An allocator that fails on purpose.
+//! An allocator that counts, and fails on purpose.
 #![allow(
     unsafe_code,
     reason = "an allocator that can fail is one that is implemented"
@@ -18,6 +18,10 @@ static COUNT: AtomicU64 = AtomicU64::new(0);
 static FIRST: AtomicU64 = AtomicU64::new(u64::MAX);
 static LAST: AtomicU64 = AtomicU64::new(u64::MAX);
 
+/// Bytes that are allocated, and the most that ever were.
+static BYTES: AtomicU64 = AtomicU64::new(0);
+static MOST: AtomicU64 = AtomicU64::new(0);
+
 /// The system's allocator, except for some allocations.
 struct Failing;
 
@@ -33,6 +37,20 @@ pub(crate) fn count() -> u64 {
     COUNT.load(Ordering::SeqCst)
 }
 
+/// The most bytes that ever were allocated at once.
+pub(crate) fn most_bytes() -> u64 {
+    MOST.load(Ordering::SeqCst)
+}
+
+fn grow(by: usize) {
+    let bytes = by as u64 + BYTES.fetch_add(by as u64, Ordering::Relaxed);
+    MOST.fetch_max(bytes, Ordering::Relaxed);
+}
+
+fn shrink(by: usize) {
+    BYTES.fetch_sub(by as u64, Ordering::Relaxed);
+}
+
 fn fails() -> bool {
     let number = 1 + COUNT.fetch_add(1, Ordering::Relaxed);
     FIRST.load(Ordering::Relaxed) <= number && number <= LAST.load(Ordering::Relaxed)
@@ -44,6 +62,7 @@ unsafe impl GlobalAlloc for Failing {
         if fails() {
             return ptr::null_mut();
         }
+        grow(layout.size());
         // SAFETY: the caller's promises are passed on.
         unsafe { System.alloc(layout) }
     }
@@ -52,11 +71,13 @@ unsafe impl GlobalAlloc for Failing {
         if fails() {
             return ptr::null_mut();
         }
+        grow(layout.size());
         // SAFETY: the caller's promises are passed on.
         unsafe { System.alloc_zeroed(layout) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        shrink(layout.size());
         // SAFETY: the caller's promises are passed on.
         unsafe { System.dealloc(pointer, layout) }
     }
@@ -65,6 +86,9 @@ unsafe impl GlobalAlloc for Failing {
         if fails() {
             return ptr::null_mut();
         }
+        // Both are there while one is copied.
+        grow(size);
+        shrink(layout.size());
         // SAFETY: the caller's promises are passed on.
         unsafe { System.realloc(pointer, layout, size) }
     }

@@ -1,5 +1,5 @@
 //! What becomes of the program where an allocation fails: a message and an exit code, or an abort, and
-//! in any case a terminal as before.
+//! in any case a terminal as before. And how much is allocated for hostile files.
 //!
 //! The program that is tested is this one, started again with an allocator that fails at the k-th
 //! allocation, or from there on. It has a `main` of its own for that.
@@ -10,6 +10,8 @@ mod failing;
 #[allow(dead_code, reason = "the harness has more than is needed here")]
 #[path = "../harness/mod.rs"]
 mod harness;
+#[cfg(unix)]
+mod hostile;
 
 #[cfg(unix)]
 fn main() -> std::process::ExitCode {
@@ -21,6 +23,7 @@ fn main() -> std::process::ExitCode {
         headless(arguments, samples);
     }
     interface();
+    hostile::check();
     println!("allocations that fail: passed");
     std::process::ExitCode::SUCCESS
 }
@@ -29,7 +32,7 @@ fn main() -> std::process::ExitCode {
 fn main() {}
 
 #[cfg(unix)]
-use unix::{CHILD, WORK, child, headless, interface};
+use unix::{CHILD, WORK, child, headless, interface, run_in};
 
 #[cfg(unix)]
 mod unix {
@@ -82,7 +85,7 @@ mod unix {
         let count = failing::count();
         failing::fail(u64::MAX, u64::MAX);
         if first == u64::MAX {
-            eprintln!("{count} allocations");
+            eprintln!("{count} allocations, {} bytes", failing::most_bytes());
         }
         ExitCode::from(code)
     }
@@ -91,12 +94,17 @@ mod unix {
         Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes"))
     }
 
-    fn run(arguments: &str, first: u64, last: u64) -> Output {
+    /// Runs a command line in a folder.
+    pub(crate) fn run_in(folder: &Path, arguments: &str, first: u64, last: u64) -> Output {
         let mut command = Command::new(env::current_exe().expect("this program"));
         command.args([CHILD, &first.to_string(), &last.to_string()]);
-        command.args(arguments.split(' ')).current_dir(scenes());
+        command.args(arguments.split(' ')).current_dir(folder);
         command.env_remove("RUST_BACKTRACE");
         command.output().expect("it starts")
+    }
+
+    fn run(arguments: &str, first: u64, last: u64) -> Output {
+        run_in(scenes(), arguments, first, last)
     }
 
     /// The numbers of allocations to fail out of `count`: the first ones, where little is there yet, and

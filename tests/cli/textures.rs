@@ -58,7 +58,13 @@ fn textures_from_elsewhere_need_permission() {
     assert_eq!(middle(&place.read("a.ppm")), [255, 0, 255]);
     let folder = elsewhere.directory.path().display();
     assert!(stderr.contains(&format!("--assets {folder} ")), "{stderr}");
-    let allowed = format!("render a.dat -o a.ppm --spp 1 --assets /nowhere --assets {folder}");
+    for (named, wrong) in [("nowhere", "no such folder"), ("a.dat", "not a folder")] {
+        for command in ["check a.dat", "render a.dat -o a.ppm --spp 1"] {
+            let stderr = place.stderr(&format!("{command} --assets {named} --assets {folder}"), 66);
+            assert_eq!(stderr, format!("error: --assets {named}: {wrong}\n"));
+        }
+    }
+    let allowed = format!("render a.dat -o a.ppm --spp 1 --assets {folder}");
     let path = path.display();
     let note = format!("note: {path} is read from {path}\n");
     assert_eq!(place.stderr(&allowed, 0), note);

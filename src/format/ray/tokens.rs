@@ -194,7 +194,8 @@ impl Tokens {
 
     /// The tokens of a range, as far as there are any.
     pub fn range(&self, range: Range<usize>) -> Vec<Span> {
-        let mut spans = Vec::new();
+        let range = range.start.min(self.len())..range.end.min(self.len());
+        let mut spans = Vec::with_capacity(range.len());
         self.append_to(&mut spans, range);
         spans
     }

@@ -11,7 +11,7 @@ mod tests;
 use std::borrow::Cow;
 use std::ops::Range;
 
-use roxmltree::{Document, Node, NodeType, ParsingOptions};
+use roxmltree::{Document, Error, Node, NodeType, ParsingOptions};
 
 use super::white_space;
 use crate::text::{Diagnostic, Span};
@@ -177,15 +177,40 @@ pub fn parse(text: &str) -> Tree {
         tree.fault = Some(refused);
         return tree;
     }
-    let options = ParsingOptions {
-        allow_dtd: false,
-        ..ParsingOptions::default()
-    };
-    match Document::parse_with_options(text, options) {
+    match document(text) {
         Ok(document) => tree.fill(text, &document),
         Err(error) => tree.fault = Some(fault::told(text, &error, scan.unclosed)),
     }
     tree
+}
+
+/// Why no text that begins like this is XML, if that can be told.
+pub fn fault_of_beginning(text: &str) -> Option<Diagnostic> {
+    /// An error this near to the end may be one of where the text is cut: longer than any reference
+    /// and any mark that begins a comment or the like.
+    const NEAR: usize = 64;
+    let scan = scan::scan(text);
+    if scan.refused.is_some() {
+        return scan.refused;
+    }
+    match document(text) {
+        // What follows may close what is open.
+        Ok(_) | Err(Error::NoRootNode | Error::UnclosedRootNode | Error::UnexpectedEndOfStream) => {
+            None
+        }
+        Err(error) => {
+            let fault = fault::told(text, &error, None);
+            (fault.span.start() + NEAR < text.len()).then_some(fault)
+        }
+    }
+}
+
+fn document(text: &str) -> Result<Document<'_>, Error> {
+    let options = ParsingOptions {
+        allow_dtd: false,
+        ..ParsingOptions::default()
+    };
+    Document::parse_with_options(text, options)
 }
 
 /// The quote that ends a value.

@@ -2,6 +2,7 @@
 //! the text merely declares, and takes time linear in the text.
 
 mod again;
+mod beginning;
 mod blocks;
 mod dat;
 mod objects;
@@ -14,6 +15,7 @@ mod tests;
 mod view;
 mod xml;
 
+pub use beginning::errors_of_beginning;
 pub use room::fits;
 
 use super::{Meshes, Origins, Scene};

@@ -53,11 +53,14 @@ impl<'a> Reader<'a> {
         let found = self.places.len() as u64;
         if let Some(count) = count.filter(|count| count.declared < found) {
             let more = match found - count.declared {
+                _ if self.is_beginning => "more objects follow".to_owned(),
                 1 => "1 more object follows".to_owned(),
                 more => format!("{more} more objects follow"),
             };
             self.miscounted(count, &more);
-        } else if let Some(count) = count.filter(|count| found < count.declared && !lost) {
+        } else if let Some(count) =
+            count.filter(|count| found < count.declared && !lost && !self.is_cut())
+        {
             let after = match self.places.len().checked_sub(1) {
                 Some(last) => format!("after {}", object_name(&self.places, last)),
                 None => "before any object".to_owned(),
@@ -73,6 +76,7 @@ impl<'a> Reader<'a> {
         let message = format!("nObjects: says {says}, but {truth}");
         self.report.error(|| {
             let hint = match found {
+                _ if self.is_beginning => "it counts the objects".to_owned(),
                 0 => format!("an object begins with {TYPES}"),
                 found => format!("there are {found}: write {found}"),
             };
@@ -210,6 +214,9 @@ impl<'a> Reader<'a> {
         let Some((field, component)) = component(kind.fields(), record.values.len()) else {
             return;
         };
+        if self.is_cut() {
+            return;
+        }
         let says = quoted(count.token.of(self.text));
         let space = if component.is_empty() { "" } else { " " };
         self.report.error(|| {
@@ -252,8 +259,10 @@ impl<'a> Reader<'a> {
         let surplus = self.at - from;
         let span = first.to(self.tokens[self.at - 1]);
         let previous = self.places.last().map(|object| object.kind);
+        let is_cut = self.is_cut();
         self.report.error(|| {
-            let too_many = format!("{} too many", counted(surplus, "number"));
+            let least = if is_cut { "at least " } else { "" };
+            let too_many = format!("{least}{} too many", counted(surplus, "number"));
             let message = match self.places.len().checked_sub(1) {
                 Some(last) => format!("{}: {too_many}", object_name(&self.places, last)),
                 None => format!("nObjects: {too_many} after it"),

@@ -32,6 +32,17 @@ pub(super) fn lower_in_order(text: &str, tree: &ray::Tree) -> Lowered {
     lower_by(text, tree, Err)
 }
 
+/// The errors of a text that begins with these tokens, whatever follows them.
+pub(super) fn errors_of_beginning(text: &str, tree: &ray::Tree) -> Findings {
+    let mut tokens = tree.tokens.all();
+    // It may be cut.
+    tokens.pop();
+    let mut reader = Reader::new(text, &tokens, Findings::default());
+    reader.is_beginning = true;
+    reader.read();
+    reader.report
+}
+
 /// Reads a scene by blocks, or else in order.
 fn lower_by<'a>(
     text: &'a str,
@@ -95,6 +106,8 @@ struct Run {
 pub(super) struct Reader<'a> {
     pub(super) text: &'a str,
     pub(super) tokens: &'a [Span],
+    /// Whether others follow that are not known: that the tokens end is no error then.
+    pub(super) is_beginning: bool,
     /// Index of the next token.
     pub(super) at: usize,
     pub(super) report: Findings,
@@ -120,6 +133,7 @@ impl<'a> Reader<'a> {
         Self {
             text,
             tokens,
+            is_beginning: false,
             at: 0,
             report,
             origins: Origins::default(),
@@ -136,7 +150,7 @@ impl<'a> Reader<'a> {
 
     /// Reads everything; returns where the number of objects stands.
     fn read(&mut self) -> Span {
-        if self.tokens.is_empty() {
+        if self.is_at_end() {
             self.report.error(|| {
                 Diagnostic::error(
                     Span::at(0),
@@ -194,17 +208,21 @@ impl<'a> Reader<'a> {
         };
         if let (Some(count), Some(due)) = (count, due)
             && take != due
+            && (run.object.is_some() || !self.is_beginning)
         {
             self.wrong_lights(count, take, &run);
         }
         let (first, end) = (self.at, self.at + take);
         while self.at < end {
             let mut values = [0.0; LONGEST];
-            let name = Name::Light(self.lights.len());
+            let name = Name::Light((self.at - first) / each);
             let light = self.record(name, LIGHT.iter(), &mut values);
             let gathered = light.gather(LIGHT.iter());
-            self.lights
-                .push(Light::point(gathered.points[0], gathered.colours[0]));
+            // Without objects there is no scene for them.
+            if run.object.is_some() {
+                self.lights
+                    .push(Light::point(gathered.points[0], gathered.colours[0]));
+            }
         }
         self.origins.lights = (first, take);
         if !known {
@@ -257,9 +275,12 @@ impl<'a> Reader<'a> {
         let expected = Range::Count.words();
         let Some(&token) = self.tokens.get(self.at) else {
             let end = self.end();
-            self.report.error(|| {
-                Diagnostic::error(end, format!("{key}: missing, the text ends here"), expected)
-            });
+            if self.is_at_end() {
+                self.report.error(|| {
+                    let message = format!("{key}: missing, the text ends here");
+                    Diagnostic::error(end, message, expected)
+                });
+            }
             return None;
         };
         let word = token.of(self.text);
@@ -365,6 +386,9 @@ impl<'a> Reader<'a> {
         let Some((field, component)) = component(fields.clone(), have) else {
             return;
         };
+        if self.is_cut() {
+            return;
+        }
         let due: usize = fields.map(|field| field.kind.components()).sum();
         let next = self.tokens.get(self.at).copied();
         let end = self.end();
@@ -393,6 +417,16 @@ impl<'a> Reader<'a> {
         self.tokens
             .get(at + 1..=at + LEAST_NUMBERS)
             .is_some_and(|follow| follow.iter().all(|token| !is_word(token.of(self.text))))
+    }
+
+    /// Whether the text ends here.
+    pub(super) fn is_at_end(&self) -> bool {
+        self.at == self.tokens.len() && !self.is_beginning
+    }
+
+    /// Whether the tokens end here, but not the text.
+    pub(super) fn is_cut(&self) -> bool {
+        self.at == self.tokens.len() && self.is_beginning
     }
 
     /// The empty span behind the last token.

@@ -4,7 +4,7 @@ use super::ray::LEAST_NUMBERS;
 use super::{Lowered, blocks};
 use crate::format::{Tree, ray};
 use crate::geometry::{Affine, Shape};
-use crate::memory::{self, Need, OutOfMemory};
+use crate::memory::{self, Need, OutOfMemory, megabytes};
 use crate::scene::fields::ray::ShapeKind;
 use crate::scene::objects::BLOCK;
 use crate::scene::origins::ray::ObjectPlace;
@@ -94,8 +94,14 @@ fn of_objects(text: &str, tree: &ray::Tree) -> Need {
         // It is read in order, for it has errors.
         None => each(tree.tokens.len(), size_of::<Span>()) + each(count, size_of::<Object>()),
     };
+    // What is not much of its objects is called by its size.
+    let most_is_objects = tree.tokens.len() <= count * 10 * LEAST_NUMBERS;
     Need {
-        what: counted(count, "object"),
+        what: if most_is_objects {
+            counted(count, "object")
+        } else {
+            format!("{} of text", megabytes(text.len() as u64))
+        },
         bytes: shapes + materials,
     }
 }
@@ -139,6 +145,7 @@ mod tests {
             };
             of_objects(text, &tree)
         };
+        assert_eq!(need(&"1 ".repeat(600_000)).what, "2 MB of text");
         let (alike, different) = (need(&text(true)), need(&text(false)));
         assert_eq!(alike.what, "5120 objects");
         let each = |need: &Need| need.bytes / (5 * BLOCK as u64);

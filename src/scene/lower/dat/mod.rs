@@ -7,6 +7,7 @@ mod objects;
 mod shapes;
 mod surfaces;
 
+use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
@@ -21,22 +22,35 @@ use crate::scene::{self, Light, Material, Phong, Rgb, Scene, Setting, Source, Te
 use crate::text::{Diagnostic, Findings, Position, Span};
 use line::Line;
 
+/// Numbers of things that a message lists at most.
+const NAMED: usize = 8;
+
+/// The errors of a text that begins with these records, whatever follows them.
+pub(super) fn errors_of_beginning(text: &str, tree: &Tree) -> Findings {
+    let mut reader = Reader::new(text, tree);
+    let first = |record: usize| tree.tokens_of(record).first().copied();
+    let mut heads = (0..tree.records.len()).filter_map(first);
+    let is_known = |head: Span| RECORDS.iter().any(|(word, _)| *word == head.of(text));
+    if let Some(head) = first(0)
+        && !heads.any(is_known)
+    {
+        reader.report.error(|| {
+            let lines = tree.records.len();
+            let message = format!("none of the first {lines} lines holds a known record");
+            Diagnostic::error(head, message, known_records())
+        });
+        return reader.report;
+    }
+    // The last one may be cut.
+    for record in 0..tree.records.len().saturating_sub(1) {
+        reader.record(record);
+    }
+    reader.report
+}
+
 /// Reads a scene.
 pub(super) fn lower(text: &str, tree: &Tree) -> Lowered {
-    let mut reader = Reader {
-        text,
-        tree,
-        report: Findings::default(),
-        origins: Origins::default(),
-        camera: camera::Said::default(),
-        lights: Vec::new(),
-        materials: Vec::new(),
-        textures: Vec::new(),
-        solids: Vec::new(),
-        ids: HashMap::new(),
-        used: HashMap::new(),
-        drawn: Drawn::Results,
-    };
+    let mut reader = Reader::new(text, tree);
     for record in 0..tree.records.len() {
         reader.record(record);
     }
@@ -86,6 +100,10 @@ struct Reader<'a> {
     solids: Vec<Solid>,
     /// The index of each thing that is known by a number.
     ids: HashMap<(Category, i64), usize>,
+    /// The smallest of these numbers in each category, in order: at most [`NAMED`].
+    smallest: [Vec<i64>; 4],
+    /// The last record of each such thing, looked for once a message asks for it.
+    definitions: OnceCell<HashMap<(Category, i64), usize>>,
     /// What was done to each material, by its index: the place in the origins.
     used: HashMap<(usize, UseKind), usize>,
     /// What the last `render` draws.
@@ -100,6 +118,27 @@ enum Drawn {
     All(Span),
     /// Those with these numbers.
     Listed(Vec<(i64, Span)>),
+}
+
+impl<'a> Reader<'a> {
+    fn new(text: &'a str, tree: &'a Tree) -> Self {
+        Self {
+            text,
+            tree,
+            report: Findings::default(),
+            origins: Origins::default(),
+            camera: camera::Said::default(),
+            lights: Vec::new(),
+            materials: Vec::new(),
+            textures: Vec::new(),
+            solids: Vec::new(),
+            ids: HashMap::new(),
+            smallest: Default::default(),
+            definitions: OnceCell::new(),
+            used: HashMap::new(),
+            drawn: Drawn::Results,
+        }
+    }
 }
 
 impl Reader<'_> {
@@ -196,6 +235,12 @@ impl Reader<'_> {
         match self.ids.entry((category, id)) {
             Entry::Vacant(entry) => {
                 entry.insert(index);
+                let smallest = &mut self.smallest[category as usize];
+                let at = smallest.partition_point(|&known| known < id);
+                if at < NAMED {
+                    smallest.truncate(NAMED - 1);
+                    smallest.insert(at, id);
+                }
                 Some(id)
             }
             Entry::Occupied(_) => {
@@ -215,15 +260,19 @@ impl Reader<'_> {
         let (id, span) = reference?;
         let found = self.ids.get(&(category, id)).copied();
         if found.is_none() {
+            let (text, tree) = (self.text, self.tree);
+            let definitions = &self.definitions;
             self.report.error(|| {
+                let all = definitions.get_or_init(|| definitions_of(text, tree));
+                let below = all.get(&(category, id));
+                let below = below.filter(|&&record| tree.records_at(span).end <= record);
                 let word = category.word();
-                let mut ids: Vec<_> = self.ids.keys().filter(|key| key.0 == category).collect();
-                ids.sort_unstable_by_key(|key| key.1);
                 let message = format!("there is no {word} {id} above");
                 let expected = "the ID of one defined before";
-                let shown: Vec<_> = ids.iter().take(8).map(|key| key.1.to_string()).collect();
+                let shown = self.smallest[category as usize].iter();
+                let shown: Vec<_> = shown.map(ToString::to_string).collect();
                 let hint = match shown.len() {
-                    _ if is_defined_below(self.text, self.tree, span, category, id) => {
+                    _ if below.is_some() => {
                         format!("{word} {id} is defined below: it must come first")
                     }
                     0 => format!("no {word} is defined yet: it must come first"),
@@ -236,26 +285,32 @@ impl Reader<'_> {
     }
 }
 
-/// Whether a record below `span` begins as if it defined a thing with this number.
-fn is_defined_below(text: &str, tree: &Tree, span: Span, category: Category, id: i64) -> bool {
-    let (word, place) = match category {
-        Category::Light => ("light", 2),
-        Category::Material => ("mat", 2),
-        Category::Texture => ("texture", 2),
-        Category::Object => ("obj", 3),
+/// The last record that begins as if it defined each thing.
+fn definitions_of(text: &str, tree: &Tree) -> HashMap<(Category, i64), usize> {
+    let definition = |record: usize| {
+        let tokens = tree.tokens_of(record);
+        let said = |at: usize| tokens.get(at).map(|token| token.of(text));
+        let (category, place) = match said(0)? {
+            "light" => (Category::Light, 2),
+            "mat" => (Category::Material, 2),
+            "texture" => (Category::Texture, 2),
+            "obj" => (Category::Object, 3),
+            _ => return None,
+        };
+        Some(((category, said(place)?.parse().ok()?), record))
     };
-    let said = |tokens: &[Span], at: usize| tokens.get(at).map(|token| token.of(text));
-    (tree.records_at(span).end..tree.records.len())
-        .map(|record| tree.tokens_of(record))
-        .any(|tokens| {
-            let number = said(tokens, place).and_then(|number| number.parse().ok());
-            said(tokens, 0) == Some(word) && number == Some(id)
-        })
+    (0..tree.records.len()).filter_map(definition).collect()
+}
+
+/// The words that records begin with.
+fn known_records() -> String {
+    let words: Vec<_> = RECORDS.iter().map(|(word, _)| *word).collect();
+    words.join(", ")
 }
 
 fn unknown_record(span: Span, word: &str) -> Diagnostic {
     let known = || RECORDS.iter().map(|(word, _)| *word);
-    let expected = known().collect::<Vec<_>>().join(", ");
+    let expected = known_records();
     let message = format!("unknown record {}: the line is skipped", quoted(word));
     let diagnostic = Diagnostic::warning(span, message, expected);
     let same = known().find(|known| known.eq_ignore_ascii_case(word));

@@ -276,7 +276,8 @@ impl<'a> Reader<'a> {
         };
         drawn.sort_unstable();
         drawn.dedup();
-        if self.solids.is_empty() {
+        // Where there are errors, an object may be what they are about.
+        if self.solids.is_empty() && self.report.errors() == 0 {
             self.report.warning(|| {
                 Diagnostic::warning(Span::at(0), "no object is defined", "an `obj` record")
             });

@@ -1,5 +1,6 @@
 //! What texts mean, as data.
 
+mod beginning;
 mod blocks;
 mod dat;
 mod errors;

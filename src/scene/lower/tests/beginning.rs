@@ -1,0 +1,170 @@
+//! What the beginning of a text tells of the whole.
+
+use std::fs;
+use std::path::Path;
+
+use super::super::errors_of_beginning;
+use crate::format::{Format, parse};
+use crate::scene::{Meshes, lower};
+
+/// The texts of the sample scenes.
+fn scenes() -> Vec<(Format, String)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let paths = fs::read_dir(folder)
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").path());
+    let scenes: Vec<_> = paths
+        .filter_map(|path| {
+            Some((
+                Format::of_path(&path).ok()?,
+                fs::read_to_string(path).expect("a text"),
+            ))
+        })
+        .collect();
+    assert!(
+        Format::ALL
+            .iter()
+            .all(|format| scenes.iter().any(|(of, _)| of == format))
+    );
+    scenes
+}
+
+/// Whether all that is read of a beginning is white space and comments, or no known record.
+fn says_nothing(beginning: &str, message: &str) -> bool {
+    message.contains("hold no scene")
+        || beginning.lines().count() < 20 && message.starts_with("none of")
+}
+
+#[test]
+fn a_scene_has_no_error_wherever_it_is_cut() {
+    for (format, text) in scenes() {
+        let cuts = (0..text.len()).step_by(1 + text.len() / 250);
+        for cut in cuts.filter(|&cut| text.is_char_boundary(cut)) {
+            let beginning = &text[..cut];
+            let found = errors_of_beginning(format, beginning);
+            let wrong = found
+                .first_error()
+                .filter(|error| !says_nothing(beginning, &error.message));
+            assert_eq!(wrong, None, "{beginning}");
+        }
+    }
+}
+
+#[test]
+fn what_is_wrong_with_a_beginning_is_wrong_with_the_whole() {
+    let mut found = 0;
+    for (format, text) in scenes() {
+        let boundary = |at: &usize| text.is_char_boundary(*at) && text.is_char_boundary(at + 1);
+        for at in (0..text.len() - 1)
+            .step_by(1 + text.len() / 40)
+            .filter(boundary)
+        {
+            for by in ["", "x", " 9 ", "<", "\n"] {
+                let bent = [&text[..at], by, &text[at + 1..]].concat();
+                for cut in [at + 70, usize::midpoint(at, bent.len())] {
+                    let Some(beginning) = bent.get(..cut) else {
+                        continue;
+                    };
+                    let wrong = errors_of_beginning(format, beginning);
+                    let Some(wrong) = wrong
+                        .first_error()
+                        .filter(|error| !says_nothing(beginning, &error.message))
+                    else {
+                        continue;
+                    };
+                    found += 1;
+                    let whole = lower(&bent, &parse(format, &bent), &Meshes::default());
+                    assert!(
+                        0 < whole.diagnostics.errors(),
+                        "{}: {beginning}",
+                        wrong.message
+                    );
+                }
+            }
+        }
+    }
+    assert!(100 < found, "{found}");
+}
+
+#[test]
+fn a_beginning_without_hope_says_so() {
+    use Format::{Dat, Ray, Xml};
+    let nested = "<a>".repeat(200_000);
+    let blank = " \n".repeat(5000);
+    let comments = "// \n".repeat(5000);
+    let long = "a".repeat(70_000);
+    let numbers = "0.25 1 -3.5 12.125 7 0.5\n".repeat(5000);
+    let lights = format!("0 0 0 2 {}", "1 ".repeat(5000));
+    let spheres = format!(
+        "0 0 0 1 0 0 0 1 1 1 1 {}",
+        "sphere 0 0 0 1 0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n".repeat(50)
+    );
+    let cases: &[(Format, &str, Option<&str>)] = &[
+        (Ray, &blank, Some("the first 10000 bytes hold no scene")),
+        (Dat, &comments, Some("the first 20000 bytes hold no scene")),
+        (
+            Ray,
+            &long,
+            Some("a word or number of more than 65536 bytes"),
+        ),
+        (
+            Dat,
+            &long,
+            Some("a word or number of more than 65536 bytes"),
+        ),
+        (Xml, &long, Some("this is no part of XML")),
+        (
+            Ray,
+            &numbers,
+            Some("nLights: must be a whole number, 1 or more, not `12.125`"),
+        ),
+        (
+            Dat,
+            &numbers,
+            Some("none of the first 5000 lines holds a known record"),
+        ),
+        (
+            Ray,
+            &lights,
+            Some("nObjects: at least 4986 numbers too many after it"),
+        ),
+        (
+            Ray,
+            &spheres,
+            Some("nObjects: says `1`, but more objects follow"),
+        ),
+        (Ray, "0 0 0 1 0 0 0 1 1 1 3 sphere 0 0 0 1 0 0 0 1", None),
+        (Ray, "0 0 0 100 0 0 0 1 1 1 0 0", None),
+        (
+            Ray,
+            "0 0 0 spere 0 0 0 1 0 0 0 1 1 1 1 1 1 1 1 1 1 1 1 1",
+            Some("nLights: missing before `spere`"),
+        ),
+        (
+            Dat,
+            "obj spere ID 1\nobj",
+            Some("obj: unknown kind `spere`"),
+        ),
+        (Dat, "render 2 ID 5 ID 6\nobj", None),
+        (
+            Xml,
+            "<xml><a b='1' b='2'/> and a good deal more than is cut, and more than is cut, and more, and more",
+            Some("attribute `b`: said twice"),
+        ),
+        (
+            Xml,
+            &nested,
+            Some("more than 131072 elements inside one another are refused"),
+        ),
+        (
+            Xml,
+            "<xml><!-- -- and more than is cut, and more than is cut, and more, and more, and more",
+            None,
+        ),
+    ];
+    for (format, text, expected) in cases {
+        let found = errors_of_beginning(*format, text);
+        let message = found.first_error().map(|error| error.message.as_str());
+        assert_eq!(message, *expected, "{format:?} {text:.60}");
+    }
+}

@@ -1,0 +1,243 @@
+//! Hostile files: each has its message, and takes little memory beside its text.
+
+use std::fs;
+use std::path::Path;
+
+use crate::run_in;
+
+const MB: usize = 1 << 20;
+
+/// A text that is read beginning first.
+const LONG: usize = 16 * MB + 1;
+
+/// What every run takes: arguments, tables, messages.
+const BASE: usize = MB;
+
+/// A text of so many bytes at least.
+fn many(of: &str, bytes: usize) -> String {
+    of.repeat(bytes.div_ceil(of.len()))
+}
+
+struct Case {
+    name: &'static str,
+    content: String,
+    /// The exit code.
+    code: i32,
+    message: &'static str,
+    /// How much is allocated at most, beside the text and [`BASE`].
+    most: usize,
+}
+
+#[allow(clippy::too_many_lines, reason = "it is a table")]
+fn cases() -> Vec<Case> {
+    const HEAD: &str = "0 0 0 1 0 0 0 1 1 1 ";
+    const SPHERE: &str = "sphere 0 0 0 1 0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n";
+    let case = |name, content: String, message, most| Case {
+        name,
+        content,
+        code: 65,
+        message,
+        most,
+    };
+    let read_whole = |case: Case| Case { code: 0, ..case };
+    let numbers = "0.25 1 -3.5 12.125 7 0.5\n";
+    vec![
+        case(
+            "objects.ray",
+            format!("{HEAD}100000000"),
+            "nObjects: says `100000000`, but the text ends before any object",
+            0,
+        ),
+        case(
+            "lights.ray",
+            "0 0 0 100000000".to_owned(),
+            "nLights: says `100000000`, but the text has 0 lights",
+            0,
+        ),
+        case(
+            "cuts.dat",
+            format!(
+                "mat ID 1 1 1 1 1 1 0 1 0 0 1\nobj quadric ID 1 mat ID 1 {} 100000000",
+                "1 ".repeat(10)
+            ),
+            "says `100000000` cuts, but 0 cuts follow",
+            0,
+        ),
+        case(
+            "shown.dat",
+            "render 100000000 ID 1".to_owned(),
+            "render: says `100000000`, but 1 object follows",
+            0,
+        ),
+        case(
+            "digits.ray",
+            format!("0 0 {} 1", "9".repeat(MB)),
+            "is too large for any number",
+            0,
+        ),
+        case(
+            "nan.ray",
+            "nan inf 1e999 1".to_owned(),
+            "`nan` is no number",
+            0,
+        ),
+        case(
+            "nul.ray",
+            many("\0", MB),
+            "is a binary file, not text: NUL bytes from line 1 on",
+            0,
+        ),
+        case(
+            "bad.ray",
+            format!("{HEAD}9 {}", many("spher 0 0 0 1\n", MB / 2)),
+            "object 1: unknown type `spher`",
+            3 * MB,
+        ),
+        case(
+            "bad.dat",
+            many("obj spere 1 2 3\n", MB / 2),
+            "obj: unknown kind `spere`",
+            3 * MB,
+        ),
+        case(
+            "unknown.dat",
+            many("obj sphere ID 1 mat ID 7 0 0 0 1\n", MB / 2),
+            "there is no material 7 above",
+            3 * MB,
+        ),
+        case(
+            "dark.ray",
+            format!("0 0 0 87382 {}", many("1 2 3 1 1 1 ", MB)),
+            "nObjects: missing, the text ends here",
+            8 * MB,
+        ),
+        case(
+            "surplus.ray",
+            format!("{HEAD}1 {}", many("1 ", MB)),
+            "numbers too many after it",
+            8 * MB,
+        ),
+        case(
+            "words.ray",
+            format!("{HEAD}1 {}", many("a ", MB)),
+            "object 1: unknown type `a`",
+            16 * MB,
+        ),
+        read_whole(case(
+            "comments.dat",
+            many("//\n", MB),
+            "no object is defined",
+            9 * MB,
+        )),
+        case(
+            "twice.xml",
+            "<xml a='1' a='2'/>".to_owned(),
+            "attribute `a`: said twice",
+            0,
+        ),
+        case(
+            "laughs.xml",
+            "<!DOCTYPE x [<!ENTITY a 'ha'>]><xml>&a;</xml>".to_owned(),
+            "document type declarations are refused",
+            0,
+        ),
+        case(
+            "deep.xml",
+            many("<a>", MB / 2),
+            "more than 131072 elements inside one another are refused",
+            3 * MB,
+        ),
+        case(
+            "attributes.xml",
+            format!("<xml {}/>", many("a='1' ", MB / 2)),
+            "more than 1000 attributes are refused",
+            MB,
+        ),
+        case(
+            "cycle.dat",
+            "obj CSG ID 1 union ID 2 ID 2\nobj CSG ID 2 union ID 1 ID 1\n".to_owned(),
+            "object 2 is defined below",
+            0,
+        ),
+        // Of longer ones the beginning tells enough; the text is not read.
+        case(
+            "numbers.ray",
+            many(numbers, LONG),
+            "nLights: must be a whole number, 1 or more, not `12.125`",
+            6 * MB,
+        ),
+        case(
+            "numbers.dat",
+            many(numbers, LONG),
+            "lines holds a known record",
+            8 * MB,
+        ),
+        case(
+            "letters.ray",
+            many("a", LONG),
+            "a word or number of more than 65536 bytes",
+            2 * MB,
+        ),
+        case(
+            "ends.ray",
+            many("\n", LONG),
+            "the first 1048576 bytes hold no scene",
+            2 * MB,
+        ),
+        case(
+            "ends.dat",
+            many("\n", LONG),
+            "the first 1048576 bytes hold no scene",
+            3 * MB,
+        ),
+        case("less.xml", many("<", LONG), "here no name begins", 96 * MB),
+        case(
+            "spheres.ray",
+            format!("{HEAD}1 {}", many(SPHERE, LONG)),
+            "nObjects: says `1`, but more objects follow",
+            16 * MB,
+        ),
+    ]
+}
+
+/// Checks each file in a process of its own that counts what it allocates.
+pub(crate) fn check() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let wrong: Vec<_> = cases()
+        .iter()
+        .filter_map(|case| wrong(folder.path(), case))
+        .collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// What is wrong with the answer to a file.
+fn wrong(folder: &Path, case: &Case) -> Option<String> {
+    let Case { name, content, .. } = case;
+    fs::write(folder.join(name), content).expect("written");
+    let ended = run_in(folder, &format!("check {name}"), u64::MAX, u64::MAX);
+    let told = String::from_utf8_lossy(&ended.stderr);
+    let bytes = told
+        .trim_end()
+        .strip_suffix(" bytes")
+        .and_then(|told| told.rsplit(' ').next());
+    let bytes: usize = bytes
+        .and_then(|bytes| bytes.parse().ok())
+        .expect("a number");
+    let text = if content.len() < LONG {
+        content.len()
+    } else {
+        0
+    };
+    let beside = bytes.saturating_sub(text + BASE);
+    let is_right = ended.status.code() == Some(case.code)
+        && told.contains(case.message)
+        && told.lines().count() < 3000
+        && beside <= case.most;
+    (!is_right).then(|| {
+        let start: String = told.chars().take(200).collect();
+        format!(
+            "{name}: {beside} bytes beside {text}, {:?}: {start}",
+            ended.status
+        )
+    })
+}
