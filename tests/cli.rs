@@ -334,10 +334,10 @@ fn what_is_left_of_a_save_that_was_cut_off_is_named() {
     place.write(".halflight-backup-0-00c0ffee-ball.ray", "old");
     for line in ["check ball.ray", "render ball.ray -o a.bmp"] {
         let told = place.told(line, 0);
-        let words = "note: a save of ball.ray was interrupted: ";
+        let words = "note: the last save of ball.ray was interrupted: its previous content is in ";
         assert!(told.starts_with(words), "{told}");
         assert!(
-            told.contains(".halflight-backup-0-00c0ffee-ball.ray holds the previous content"),
+            told.contains(".halflight-backup-0-00c0ffee-ball.ray\n"),
             "{told}"
         );
     }
