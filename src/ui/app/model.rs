@@ -19,6 +19,7 @@ use crate::scene::{Camera, Images, Integrator, Meshes, Node, Origins, Scene, Siz
 use crate::text::{Diagnostic, Findings, Severity};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Destination, ExportId};
+use crate::ui::reading::Place;
 use crate::ui::recovery::{Claim, Offer, Since};
 use crate::ui::terminal::Mouse;
 use crate::ui::view::layout::Zoom;
@@ -349,6 +350,8 @@ pub(super) struct Pending {
     pub(super) quit: bool,
     /// Who wants the file to be read.
     pub(super) reader: Reader,
+    /// Where the file was read last.
+    pub(super) place: Option<Place>,
     /// The last text without errors, while the text has some.
     pub(super) sound: Option<Arc<String>>,
     /// What is kept for the next run.
