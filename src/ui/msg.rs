@@ -149,6 +149,8 @@ pub enum Effect {
         /// What may be overwritten.
         guard: Guard,
     },
+    /// Say why no scene can be written there, if so: [`Msg::Failed`].
+    CheckPlace(PathBuf),
     /// Say whether copies are left of what the file held before a save: [`Msg::BackupsFound`].
     FindBackups(PathBuf),
     /// Watch this file from here on: [`Msg::FileChanged`].

@@ -80,6 +80,15 @@ impl Writers {
         })
     }
 
+    /// Says why no scene can be written there, if so: [`Msg::Failed`].
+    pub(super) fn check_place(&self, path: PathBuf) -> Result<(), String> {
+        let panicked = Msg::Failed(format!("{}: can't be examined", path.display()));
+        self.start("check", None, panicked, move || {
+            let refused = file::check_replaceable(&path).err()?;
+            Some(Msg::Failed(format!("{}: {refused}", path.display())))
+        })
+    }
+
     /// Says where the content is of a scene that an earlier save has damaged, if so:
     /// [`Msg::BackupsFound`].
     pub(super) fn find_backups(&self, scene: PathBuf) -> Result<(), String> {

@@ -305,6 +305,11 @@ fn a_pipe_is_refused_and_holds_up_no_save() {
     let place = Place::new();
     let mut session = place.open_edited();
     mknodat(CWD, place.at("pipe.ray"), FileType::Fifo, Mode::RWXU, 0).expect("a pipe");
+    mknodat(CWD, place.at("pipe"), FileType::Fifo, Mode::RWXU, 0).expect("a pipe");
+    session.send(":w! pipe\r");
+    session.wait_for("pipe: this scene's name ends in .ray; pipe: is a pipe, not a file");
+    session.send(ESC);
+    wait_until_gone(&mut session, "w pipe.ray");
     session.send(":w! pipe.ray\r");
     session.wait_for("pipe.ray: is a pipe, not a file");
     session.send(":wq\r");
