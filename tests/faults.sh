@@ -4,13 +4,17 @@
 #     tests/faults.sh BINARY [FOLDER]
 #
 # needs strace, tmux and a folder on the file system to be tested (by default one for temporary
-# files). Headless: a new picture, one over an existing picture, one over a hard link. Interface: a
-# save over an existing scene and one through a hard link. Of every case the k-th call of each kind is
-# hit, for each k until nothing is hit any more.
+# files; /dev/shm is another file system nearly everywhere). Headless: a new picture, one over an
+# existing picture, one over a hard link. Interface: a save over an existing scene, one through a hard
+# link, a picture exported over an existing one, and an edit that is never saved before the terminal
+# hangs up ("kept": its journal is the target). Of every case the k-th call of each kind is hit, for
+# each k until nothing is hit any more. strace can't shorten a write, only pretend to: short writes are
+# tested where the calls are made, in src/file/tests/faults.rs.
 #
 # Then the target holds its old or its new bytes (else it is "torn", or "lost" where it is gone), but
-# for a save through a hard link, whose old bytes a copy named for the file may hold instead. After
-# one more write in the folder nothing else is left there (else it is "left behind"). KINDS names the
+# for a save through a hard link, whose old bytes a copy named for the file may hold instead. An edit
+# that is not in a journal is "lost" unless the process was killed. After one more write in the folder
+# nothing else is left there, nor in that of the journals (else it is "left behind"). KINDS names the
 # cases to run, OUTCOMES what a call that is hit does, LIMIT the greatest k.
 #
 # Prints a line a case and ends with 1 if anything was torn, lost or left behind.
@@ -38,28 +42,44 @@ prepare() {
     scene 1 >"$work/a.ray"
     case $1 in
     new) ;;
-    replaced) cp "$folder/old" "$work/t.png" ;;
+    replaced | exported) cp "$folder/old" "$work/t.png" ;;
     linked) cp "$folder/old" "$work/t.png" && ln "$work/t.png" "$work/other.png" ;;
-    saved) ;;
+    saved | kept) ;;
     saved-linked) ln "$work/a.ray" "$work/other.ray" ;;
     esac
 }
 
-# Renders, or edits and saves, under strace with the options given.
+# Renders, saves, exports or edits under strace with the options given.
 run() {
     kind=$1
     shift
     case $kind in
-    saved*)
+    saved* | exported | kept)
         tmux -L "faults$$" new-session -d -x 100 -y 30 \
-            "cd '$work' && strace -f -qq -o '$folder/trace' $* '$binary' --color 24 a.ray"
-        keys '' Enter
-        keys 'j2' Enter
-        keys 'w' ''
-        tmux -L "faults$$" send-keys -l ':q!' 2>/dev/null
-        tmux -L "faults$$" send-keys Enter 2>/dev/null
+            "cd '$work' && echo \$\$ >'$folder/pid' &&
+            exec strace -f -qq -o '$folder/trace' $* '$binary' --color 24 a.ray"
+        case $kind in
+        saved*)
+            keys '' Enter
+            keys 'j2' Enter
+            keys 'w' ''
+            keys ':q!' Enter
+            ;;
+        exported)
+            keys ':export! t.png 1' Enter
+            sleep "${PAUSE:-0.5}"
+            keys ':q!' Enter
+            ;;
+        kept)
+            keys '' Enter
+            keys 'j2' Enter
+            # Edits are kept a second later, and once more at the end.
+            sleep 1.5
+            tmux -L "faults$$" kill-server 2>/dev/null
+            ;;
+        esac
         patience=50
-        while tmux -L "faults$$" has-session 2>/dev/null && [ $patience -gt 0 ]; do
+        while kill -0 "$(cat "$folder/pid")" 2>/dev/null && [ $patience -gt 0 ]; do
             sleep 0.1
             patience=$((patience - 1))
         done
@@ -82,7 +102,16 @@ keys() {
 # Judges what is there after a run.
 judge() {
     kind=$1
+    journals=$XDG_STATE_HOME/halflight/recovery
     case $kind in
+    kept)
+        # The scene stays as it is.
+        target=$work/a.ray old=$folder/a.old new=$folder/a.old
+        case $outcome in
+        *KILL*) ;;
+        *) grep -aqs '^edit ' "$journals"/*.ray || lost=$((lost + 1)) ;;
+        esac
+        ;;
     saved*) target=$work/a.ray old=$folder/a.old new=$folder/a.new ;;
     *) target=$work/t.png old=$folder/old new=$folder/new ;;
     esac
@@ -102,6 +131,15 @@ judge() {
     if find "$work" -name '.halflight-*' ! -name '.halflight-backup-*' | grep -q .; then
         left=$((left + 1))
     fi
+    if [ "$kind" = kept ]; then
+        # The next run of the scene takes what is kept, and has nothing to keep any more.
+        tmux -L "faults$$" new-session -d -x 100 -y 30 \
+            "cd '$work' && echo \$\$ >'$folder/pid' && exec '$binary' --color 24 a.ray"
+        keys 'd' ''
+        keys ':q!' Enter
+        tmux -L "faults$$" kill-server 2>/dev/null
+        if find "$journals" -type f 2>/dev/null | grep -q .; then left=$((left + 1)); fi
+    fi
 }
 
 # Hits every call of the kinds given.
@@ -111,7 +149,7 @@ check() {
         runs=0 torn=0 lost=0 left=0 copied=0
         # The interface writes to its terminal most of all, and opens what it shows.
         case $kind in
-        saved*) some="fsync rename,renameat,renameat2 link,linkat unlink,unlinkat fchmod,fchown ftruncate" ;;
+        saved* | exported | kept) some="fsync rename,renameat,renameat2 link,linkat unlink,unlinkat fchmod,fchown ftruncate" ;;
         *) some=$calls ;;
         esac
         for call in $some; do
@@ -141,7 +179,7 @@ mkdir "$work"
 scene 1 >"$work/a.ray"
 "$binary" render "$work/a.ray" -o "$folder/new.png" --spp 1 --threads 1 &&
     mv "$folder/new.png" "$folder/new" && printf 'an old picture' >"$folder/old"
-for kind in ${KINDS:-new replaced linked saved saved-linked}; do
+for kind in ${KINDS:-new replaced linked saved saved-linked exported kept}; do
     scene 1 >"$folder/a.old"
     scene 2 >"$folder/a.new"
     check "$kind"

@@ -174,9 +174,7 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
     }
     let text = file::read_text(path)?;
     for copy in file::backups(path) {
-        let (scene, copy) = (path.display(), copy.display());
-        let note = format!("a save of {scene} was interrupted: {copy} holds the previous content");
-        tell("note", &note);
+        tell("note", &file::interruption(path.display(), &copy));
     }
     let no_memory = |reason| ReadError::NoMemory {
         path: path.to_owned(),

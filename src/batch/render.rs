@@ -179,7 +179,9 @@ fn last(renderer: &Renderer, woken: &Receiver<()>) -> Result<Arc<Frame>, Error> 
 
 fn write(work: &Render, frame: &Frame) -> Result<(), Error> {
     let written = match &work.output {
-        Output::File(path) => file::deliver(path, |out| work.format.write(frame, out), || Ok(())),
+        Output::File(path) => {
+            file::deliver(path, |out| work.format.write(frame, out), || Ok(())).map(drop)
+        }
         Output::Stdout | Output::StdoutTerminal => stdout::write(work.format, frame),
     };
     written.or_else(|source| match (source.kind(), &work.output) {

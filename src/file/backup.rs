@@ -1,12 +1,15 @@
 //! What a file held before it was written over, kept beside it until the new content is whole. The
 //! copy's name says which file it is of: where the process is killed meanwhile, the copy is found.
 
-use std::fs::{self, File, Metadata};
+use std::fmt::Display;
+use std::fs::{self, DirEntry, File, Metadata};
 use std::io::{self, Read, Seek};
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use super::calls::call;
-use super::owner::{Lock, PREFIX, lock, random};
+use super::lock::{Lock, lock};
+use super::owner::{PREFIX, random};
 use super::target::directory_of;
 use super::temporary::{Access, Temporary, copy_all, is_refusal, sync_directory};
 
@@ -97,6 +100,12 @@ pub fn backups(path: &Path) -> Vec<PathBuf> {
     found
 }
 
+/// What is said of a copy that [`backups`] found of a file.
+pub fn interruption(name: impl Display, copy: &Path) -> String {
+    let copy = copy.display();
+    format!("the last save of {name} was interrupted: its previous content is in {copy}")
+}
+
 /// Removes copies of what a file holds anyway.
 fn sweep(folder: &Path, path: &Path) {
     let Ok(content) = super::read_bytes(path, super::MAX_BYTES) else {
@@ -108,10 +117,13 @@ fn sweep(folder: &Path, path: &Path) {
 }
 
 /// This user's copies of a file in a folder, but for those of saves under way. Beside the file they
-/// bear its number or its name, for it may be known by another of its names now; elsewhere both.
+/// bear its number or its name, for it may be known by another of its names now; elsewhere both. A
+/// number is used again once its file is gone: whoever got it is younger than the copy.
 fn copies(folder: &Path, path: &Path) -> impl Iterator<Item = PathBuf> + use<> {
     let beside = folder == directory_of(path);
-    let number = fs::metadata(path).ok().map(|metadata| inode(&metadata));
+    let metadata = fs::metadata(path).ok();
+    let number = metadata.as_ref().map(inode);
+    let born = metadata.and_then(|metadata| metadata.created().ok());
     let named = shown_name(path);
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     entries
@@ -119,12 +131,21 @@ fn copies(folder: &Path, path: &Path) -> impl Iterator<Item = PathBuf> + use<> {
             let copy = entry.file_name();
             let copy = copy.to_string_lossy();
             parts(&copy).is_some_and(|(inode, name)| {
-                let (is_number, is_name) = (number == Some(inode), name == named);
+                let is_number = number == Some(inode) && !is_older(entry, born);
+                let is_name = name == named;
                 is_number && is_name || beside && (is_number || is_name)
             })
         })
         .map(|entry| entry.path())
         .filter(|copy| is_own(copy) && !is_at_work(copy))
+}
+
+/// Whether a copy was finished before a file was made, as far as that can be told.
+fn is_older(copy: &DirEntry, born: Option<SystemTime>) -> bool {
+    let finished = copy.metadata().and_then(|copy| copy.modified()).ok();
+    finished
+        .zip(born)
+        .is_some_and(|(finished, born)| finished < born)
 }
 
 /// Whether a copy holds nothing that is not in the file.

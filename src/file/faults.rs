@@ -14,6 +14,8 @@ pub(crate) enum Fault {
     Ever(Errno),
     /// Writes from the k-th call on take half of what they are given.
     Short,
+    /// The process is killed at the k-th call. All writes take half of what they are given.
+    Kill,
 }
 
 impl Fault {
@@ -63,7 +65,8 @@ pub(super) fn injected(name: &'static str) -> io::Result<()> {
         let error = match plan.fault {
             Fault::Once(error) => (number == plan.at).then_some(error),
             Fault::Ever(error) => (plan.at <= number).then_some(error),
-            Fault::Short => None,
+            Fault::Kill if number == plan.at => kill(),
+            Fault::Kill | Fault::Short => None,
         };
         match error {
             Some(error) => {
@@ -76,11 +79,25 @@ pub(super) fn injected(name: &'static str) -> io::Result<()> {
     PLAN.with_borrow_mut(|plan| plan.as_mut().map_or(Ok(()), step))
 }
 
+/// Ends the process as a power cut would: without another word.
+fn kill() -> ! {
+    #[cfg(unix)]
+    {
+        use rustix::process::{Signal, getpid, kill_process};
+        let _ = kill_process(getpid(), Signal::KILL);
+    }
+    std::process::abort()
+}
+
 /// What of `bytes` a write takes.
 pub(super) fn shortened(bytes: &[u8]) -> &[u8] {
     let step = |plan: &mut Plan| {
         // This write is counted already.
-        let is_hit = plan.fault == Fault::Short && plan.at < plan.calls.names.len();
+        let is_hit = match plan.fault {
+            Fault::Short => plan.at < plan.calls.names.len(),
+            Fault::Kill => true,
+            Fault::Once(_) | Fault::Ever(_) => false,
+        };
         if is_hit && 1 < bytes.len() {
             plan.calls.hit.get_or_insert("write");
             &bytes[..bytes.len() / 2]

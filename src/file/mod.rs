@@ -6,22 +6,26 @@ mod backup;
 mod calls;
 #[cfg(test)]
 pub(crate) mod faults;
+mod lock;
 mod owner;
 mod replace;
 mod stream;
 mod target;
 mod temporary;
+mod version;
 
-use std::fs::{self, File, FileType, OpenOptions};
+use std::fs::{File, FileType, OpenOptions};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use crate::memory::{self, Need, NoThreads, OutOfMemory, WithoutThreads};
 use crate::text::{Position, Span};
 
-pub use backup::backups;
+pub use backup::{backups, interruption};
+pub(crate) use lock::{Lock, lock};
 pub use replace::{deliver, replace};
-pub use target::{check_target, directory_of};
+pub use target::{check_replaceable, check_target, directory_of};
+pub use version::{FileId, Version};
 
 /// The longest file that is read, in bytes: positions in a text are 32-bit numbers.
 pub const MAX_BYTES: u64 = u32::MAX as u64;
@@ -274,7 +278,7 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
 pub(crate) fn read_opened(file: &File, path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     let length = file.metadata().map_or(0, |metadata| metadata.len());
     memory::check(length.min(limit), || Need {
-        what: "its bytes".to_owned(),
+        what: "the file's contents".to_owned(),
         bytes: length,
     })
     .map_err(|reason| ReadError::NoMemory {
@@ -297,20 +301,7 @@ pub(crate) fn read_opened(file: &File, path: &Path, limit: u64) -> Result<Vec<u8
 
 /// Whether two names mean one file, through links of either kind. Names of nothing do not.
 pub fn is_same(one: &Path, other: &Path) -> bool {
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt;
-        let identity = |path| {
-            let metadata = fs::metadata(path).ok()?;
-            Some((metadata.dev(), metadata.ino()))
-        };
-        identity(one).is_some_and(|found| identity(other) == Some(found))
-    }
-    #[cfg(not(unix))]
-    {
-        let resolved = |path| fs::canonicalize(path).ok();
-        resolved(one).is_some_and(|found| resolved(other) == Some(found))
-    }
+    FileId::of(one).is_some_and(|found| FileId::of(other) == Some(found))
 }
 
 /// Opens a regular file for reading. Never waits: opening a pipe would, until somebody writes.

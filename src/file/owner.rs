@@ -1,9 +1,11 @@
 //! Whose a temporary file is: its name says which process on which machine has made it, so that the
 //! files of processes that were killed are found and removed.
 
-use std::fs::{self, File};
+use std::fs;
 use std::hash::{BuildHasher, DefaultHasher, Hash, Hasher, RandomState};
 use std::path::Path;
+
+use super::lock::{Lock, lock};
 
 /// What the names of temporary files begin with.
 pub(super) const PREFIX: &str = ".halflight-";
@@ -100,36 +102,6 @@ fn remove_if_left(path: &Path, owner: &Owner) {
     }
 }
 
-/// What came of an attempt to lock a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Lock {
-    /// It is locked until it is closed.
-    Taken,
-    /// Another writer has it.
-    Busy,
-    /// Files can't be locked there.
-    Unknown,
-}
-
-/// Locks a file as that of a writer at work.
-pub(super) fn lock(file: &File) -> Lock {
-    #[cfg(unix)]
-    {
-        use rustix::fs::{FlockOperation, flock};
-        use rustix::io::Errno;
-        match flock(file, FlockOperation::NonBlockingLockExclusive) {
-            Ok(()) => Lock::Taken,
-            Err(Errno::WOULDBLOCK) => Lock::Busy,
-            Err(_) => Lock::Unknown,
-        }
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = file;
-        Lock::Unknown
-    }
-}
-
 fn hash(value: impl Hash) -> u32 {
     let mut hasher = DefaultHasher::new();
     value.hash(&mut hasher);
@@ -175,6 +147,8 @@ fn began(_process: u32) -> Option<u64> {
 
 #[cfg(all(test, target_os = "linux"))]
 mod tests {
+    use std::fs::File;
+
     use super::*;
 
     /// A name of a temporary file that another process might have given.

@@ -9,9 +9,11 @@ use std::time::{Duration, Instant};
 use super::alike::take_after;
 use super::backup::Backup;
 use super::calls::{Content, call};
+use super::lock::{Lock, lock};
 use super::stream;
 use super::target::{Target, directory_of, not_a_file, open};
 use super::temporary::{Access, Temporary, is_refusal, sync_directory};
+use super::version::Version;
 
 /// How long a file that another program has locked is waited for, and how often it is looked at.
 const LOCK_PATIENCE: Duration = Duration::from_secs(1);
@@ -41,24 +43,24 @@ pub fn replace<E: From<io::Error>>(
 ) -> Result<(), E> {
     match Target::of(path)? {
         Target::Stream(_, kind) => Err(not_a_file(kind).into()),
-        target => put(&target, write, may),
+        target => put(&target, write, may).map(drop),
     }
 }
 
 /// As [`replace`], but a pipe or a device, which has no content to keep, is written to. A pipe that
-/// nobody reads is an error.
+/// nobody reads is an error. Returns the version of the file that was written, if it is one.
 pub fn deliver<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     may: impl Fn() -> Result<(), E>,
-) -> Result<(), E> {
+) -> Result<Option<Version>, E> {
     match Target::of(path)? {
         Target::Stream(path, _) => {
             may()?;
             let mut out = BufWriter::with_capacity(CHUNK, stream::open(&path)?);
             write(&mut out)?;
             out.flush()?;
-            Ok(())
+            Ok(None)
         }
         target => put(&target, write, may),
     }
@@ -68,7 +70,7 @@ fn put<E: From<io::Error>>(
     target: &Target,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     may: impl Fn() -> Result<(), E>,
-) -> Result<(), E> {
+) -> Result<Option<Version>, E> {
     match target {
         Target::New(path) => {
             let new = Temporary::new(directory_of(path), Access::AsUsual)?;
@@ -81,8 +83,9 @@ fn put<E: From<io::Error>>(
                 }
                 taken => taken?,
             }
+            let version = version_of(new.file());
             sync_directory(directory_of(path));
-            Ok(())
+            Ok(version)
         }
         Target::File(path, metadata) => {
             let Some(twin) = twin(path, metadata)? else {
@@ -91,11 +94,18 @@ fn put<E: From<io::Error>>(
             let mut twin = filled(twin, write)?;
             may()?;
             twin.take_name(path)?;
+            let version = version_of(twin.file());
             sync_directory(directory_of(path));
-            Ok(())
+            Ok(version)
         }
         Target::Stream(_, kind) => Err(not_a_file(kind).into()),
     }
+}
+
+/// The version of a file that has its name; none where the system can't tell.
+fn version_of(file: &File) -> Option<Version> {
+    let metadata = file.metadata().ok()?;
+    Some(Version::of_metadata(&metadata))
 }
 
 /// A file with all of its content, which a power cut does not take.
@@ -143,7 +153,7 @@ fn overwrite<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     may: impl Fn() -> Result<(), E>,
-) -> Result<(), E> {
+) -> Result<Option<Version>, E> {
     let mut content = Vec::new();
     write(&mut content)?;
     let file = open(OpenOptions::new().read(true).write(true), path)?;
@@ -153,35 +163,33 @@ fn overwrite<E: From<io::Error>>(
         backup.discard();
         return Err(refused);
     }
-    let mut written = 0;
-    match put_in_place(&file, &content, &mut written) {
-        Ok(()) => backup.discard(),
-        Err(error) if written == 0 => {
+    let mut is_changed = false;
+    match put_in_place(&file, &content, &mut is_changed) {
+        Ok(()) => {
             backup.discard();
-            return Err(error.into());
+            Ok(version_of(&file))
         }
-        Err(error) => return Err(restore(&file, backup, path, error).into()),
+        Err(error) if is_changed => Err(restore(&file, backup, path, error).into()),
+        Err(error) => {
+            backup.discard();
+            Err(error.into())
+        }
     }
-    Ok(())
 }
 
 /// Waits until nobody else writes over a file, under whatever name; an error if that takes long.
 fn wait_for_others(file: &File) -> io::Result<()> {
-    #[cfg(unix)]
-    {
-        use rustix::fs::{FlockOperation, flock};
+    // Elsewhere a lock would keep this process, too, from reading the file by its name.
+    if cfg!(unix) {
         let give_up = Instant::now() + LOCK_PATIENCE;
-        let lock = || Ok(flock(file, FlockOperation::NonBlockingLockExclusive)?);
         // Where files can't be locked, nobody is known to write.
-        while call("flock", lock).is_err_and(|error| error.kind() == io::ErrorKind::WouldBlock) {
+        while lock(file) == Lock::Busy {
             if give_up < Instant::now() {
                 return Err(io::Error::other("another program has it locked"));
             }
             thread::sleep(LOCK_RETRY);
         }
     }
-    #[cfg(not(unix))]
-    let _ = file;
     Ok(())
 }
 
@@ -189,7 +197,7 @@ fn wait_for_others(file: &File) -> io::Result<()> {
 /// copy stays and the error says first where it is.
 fn restore(file: &File, backup: Backup, path: &Path, error: io::Error) -> io::Error {
     let old = backup.content();
-    let restored = old.and_then(|old| put_in_place(file, &old, &mut 0));
+    let restored = old.and_then(|old| put_in_place(file, &old, &mut false));
     if restored.is_ok() {
         backup.discard();
         return error;
@@ -197,20 +205,24 @@ fn restore(file: &File, backup: Backup, path: &Path, error: io::Error) -> io::Er
     let copy = backup.path();
     let beside = (directory_of(copy) == directory_of(path)).then(|| copy.file_name());
     let shown = beside.flatten().map_or(copy, Path::new).display();
-    let reason = format!("it is damaged, {shown} has its old content: {error}");
+    let reason = format!("the file is damaged, its previous content is in {shown}: {error}");
     io::Error::new(error.kind(), reason)
 }
 
-/// Makes `content` the whole content of a file, and says how much of it was written. Cuts only at the
-/// end, so that the blocks of the old content stay its own and it can be put back even on a full disk.
-fn put_in_place(mut file: &File, content: &[u8], written: &mut usize) -> io::Result<()> {
+/// Makes `content` the whole content of a file, and notes from when on the old one may be gone. Cuts
+/// only at the end, so that the blocks of the old content stay its own and it can be put back even on
+/// a full disk.
+fn put_in_place(mut file: &File, mut content: &[u8], is_changed: &mut bool) -> io::Result<()> {
+    let length = content.len() as u64;
     call("seek", || file.rewind())?;
-    while *written < content.len() {
-        match Content(file).write(&content[*written..])? {
+    while !content.is_empty() {
+        match Content(file).write(content)? {
             0 => return Err(io::ErrorKind::WriteZero.into()),
-            length => *written += length,
+            written => content = &content[written..],
         }
+        *is_changed = true;
     }
-    call("ftruncate", || file.set_len(content.len() as u64))?;
+    call("ftruncate", || file.set_len(length))?;
+    *is_changed = true;
     call("fsync", || file.sync_all())
 }

@@ -86,6 +86,15 @@ pub fn check_target(path: &Path) -> io::Result<()> {
     }
 }
 
+/// Says what stands at `path` if [`replace`](super::replace()) can't write there: a folder, a pipe, a
+/// device, a file that may not be written.
+pub fn check_replaceable(path: &Path) -> io::Result<()> {
+    match Target::of(path)? {
+        Target::Stream(_, kind) => Err(not_a_file(kind)),
+        Target::New(_) | Target::File(..) => Ok(()),
+    }
+}
+
 /// Where a chain of links that leads to no file ends.
 fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     if path.file_name().is_none() {

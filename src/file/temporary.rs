@@ -4,8 +4,10 @@ use std::fs::{self, File, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::alike::take_after;
 use super::calls::{Content, call};
-use super::owner::{Lock, lock, sweep, temporary_name};
+use super::lock::{Lock, lock};
+use super::owner::{sweep, temporary_name};
 
 /// How often a name is looked for that nobody has.
 const ATTEMPTS: usize = 16;
@@ -103,6 +105,8 @@ impl Temporary {
         Ok(())
     }
 
+    /// Gives a file without a name a temporary one; where it can't have one, a file like it.
+    #[cfg(target_os = "linux")]
     fn take_temporary_name(&mut self) -> io::Result<()> {
         let name = self.folder.join(temporary_name());
         match self.link(&name) {
@@ -110,16 +114,18 @@ impl Temporary {
             Err(error) if is_unlinkable(&error) => {
                 let copy = Self::named(&self.folder, Access::Private)?;
                 copy_all(&self.file, &copy.file)?;
-                call("chmod", || {
-                    copy.file
-                        .set_permissions(self.file.metadata()?.permissions())
-                })?;
+                take_after(&place_of(&self.file), &self.file.metadata()?, &copy.file)?;
                 copy.sync()?;
                 *self = copy;
             }
             Err(error) => return Err(error),
         }
         Ok(())
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    fn take_temporary_name(&mut self) -> io::Result<()> {
+        Err(io::ErrorKind::Unsupported.into())
     }
 
     /// Gives a file without a name one that nothing has.
@@ -206,7 +212,10 @@ fn unnamed(folder: &Path, access: Access) -> Option<io::Result<Temporary>> {
         Ok(opened) => File::from(opened),
         Err(error) => {
             let errno = Errno::from_io_error(&error);
-            let is_unknown = matches!(errno, Some(Errno::OPNOTSUPP | Errno::ISDIR | Errno::INVAL));
+            let is_unknown = matches!(
+                errno,
+                Some(Errno::OPNOTSUPP | Errno::ISDIR | Errno::INVAL | Errno::NOSYS)
+            );
             return (!is_unknown).then_some(Err(error));
         }
     };

@@ -1,4 +1,6 @@
 mod faults;
+#[cfg(unix)]
+mod kills;
 
 use std::fs;
 use std::io::Write;
@@ -265,6 +267,66 @@ mod unix {
         assert_eq!(mode("ours"), mode("theirs"));
     }
 
+    /// What others do to a file after it was written.
+    type Change = fn(&Path);
+
+    #[test]
+    fn a_file_has_another_version_once_others_touched_it() {
+        let rewrite = |path: &Path, content: &str| {
+            let modified = fs::metadata(path).and_then(|found| found.modified());
+            fs::write(path, content).expect("written");
+            let file = File::options().write(true).open(path);
+            let dated = file.and_then(|file| file.set_modified(modified.expect("a time")));
+            dated.expect("ours");
+        };
+        let cases: &[(&str, Change, bool)] = &[
+            ("nothing", |_| {}, true),
+            ("reading", |path| drop(content(path)), true),
+            (
+                "writing",
+                |path| fs::write(path, "xyz").expect("written"),
+                false,
+            ),
+            (
+                "removing",
+                |path| fs::remove_file(path).expect("there"),
+                false,
+            ),
+            (
+                "replacing",
+                |path| {
+                    let other = path.with_extension("new");
+                    fs::write(&other, "new").expect("written");
+                    fs::rename(&other, path).expect("renamed");
+                },
+                false,
+            ),
+        ];
+        for linked in [false, true] {
+            for (name, change, is_same) in cases {
+                let directory = directory();
+                let path = directory.path().join("s");
+                if linked {
+                    fs::write(&path, "old").expect("written");
+                    fs::hard_link(&path, directory.path().join("t")).expect("linked");
+                }
+                let written = deliver(&path, |out| out.write_all(b"new"), || io::Result::Ok(()));
+                let version = written.expect("written").expect("a file");
+                change(&path);
+                let found = Version::of(&path).ok();
+                assert_eq!(found == Some(version), *is_same, "{name}, {linked}");
+            }
+        }
+        // A date that is set back hides nothing.
+        let directory = directory();
+        let path = directory.path().join("s");
+        fs::write(&path, "one").expect("written");
+        let version = Version::of(&path).expect("there");
+        while Version::of(&path).is_ok_and(|found| found == version) {
+            rewrite(&path, "two");
+        }
+    }
+
     #[test]
     fn hard_links_stay_together() {
         let directory = directory();
@@ -296,7 +358,7 @@ mod unix {
     }
 
     fn deliver_to(path: &Path, content: &str) -> io::Result<()> {
-        deliver(path, |out| out.write_all(content.as_bytes()), || Ok(()))
+        deliver(path, |out| out.write_all(content.as_bytes()), || Ok(())).map(drop)
     }
 
     #[test]

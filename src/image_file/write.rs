@@ -13,7 +13,7 @@ use image::codecs::tiff::TiffEncoder;
 use image::{ExtendedColorType, ImageEncoder, ImageError, Rgb};
 
 use super::{ImageFormat, known_extensions};
-use crate::file;
+use crate::file::{self, Version};
 use crate::render::{Frame, Frames};
 use crate::scene::Size;
 
@@ -146,12 +146,13 @@ fn write_exr(values: &[[f32; 3]], size: Size, out: &mut impl Write) -> Result<()
 }
 
 /// Writes a frame to a file, whole or not at all, in the format its extension says; or to a pipe or
-/// a device of such a name. `may` is asked when the picture only has to take its place.
+/// a device of such a name. `may` is asked when the picture only has to take its place. Returns the
+/// version of the file, if it is one.
 pub fn save<E: From<io::Error>>(
     frame: &Frame,
     path: &Path,
     may: impl Fn() -> Result<(), E>,
-) -> Result<(), E> {
+) -> Result<Option<Version>, E> {
     let format = ImageFormat::of_path(path).ok_or_else(|| {
         io::Error::new(
             io::ErrorKind::InvalidInput,

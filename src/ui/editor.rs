@@ -10,7 +10,7 @@ use std::env::{self, VarError};
 use std::ffi::OsString;
 use std::io;
 use std::path::{Component, Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, ExitStatus};
 
 /// What is run where neither variable is set.
 const DEFAULT: &str = "vi";
@@ -65,11 +65,14 @@ enum Part {
 
 /// Runs the user's editor on a file at a line, counted from 1, and waits for its end.
 pub(super) fn run(path: &Path, line: usize) -> Result<(), String> {
-    open(path, line)
-        .map_err(|reason| format!("the editor can't be used: {reason} (see $VISUAL, $EDITOR)"))
+    let (program, status) = open(path, line).map_err(|reason| {
+        format!("can't start the editor: {reason}; $VISUAL or $EDITOR names another one")
+    })?;
+    ending(&program, status)
 }
 
-fn open(path: &Path, line: usize) -> Result<(), String> {
+/// Starts the editor and waits; its program, and how it ended.
+fn open(path: &Path, line: usize) -> Result<(String, ExitStatus), String> {
     let command = said("VISUAL")?.or(said("EDITOR")?);
     let words = words(command.as_deref().unwrap_or(DEFAULT))?;
     let (program, own) = words.split_first().ok_or("it has no name")?;
@@ -79,11 +82,24 @@ fn open(path: &Path, line: usize) -> Result<(), String> {
         .args(arguments(program, &path, line))
         .status()
         .map_err(|error| format!("{program}: {error}"))?;
+    Ok((program.clone(), status))
+}
+
+/// What is wrong with how a program ended.
+fn ending(program: &str, status: ExitStatus) -> Result<(), String> {
     if status.success() {
-        Ok(())
-    } else {
-        Err(format!("{program} ended with {status}"))
+        return Ok(());
     }
+    #[cfg(unix)]
+    if let Some(signal) = std::os::unix::process::ExitStatusExt::signal(&status) {
+        return Err(format!(
+            "the editor {program} was killed by signal {signal}"
+        ));
+    }
+    Err(match status.code() {
+        Some(code) => format!("the editor {program} failed with exit status {code}"),
+        None => format!("the editor {program} failed: {status}"),
+    })
 }
 
 /// The value of a variable, if it has one.

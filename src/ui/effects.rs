@@ -1,4 +1,5 @@
-//! What touches the world: files, renderers, timers, the terminal.
+//! What touches the world: the terminal, the renderers, timers, and the handles of the threads that
+//! read, write, watch and keep files. Nothing here waits for a file.
 
 use std::io;
 use std::num::NonZero;
@@ -45,7 +46,8 @@ pub(crate) enum Event {
     Replied(Reply, Instant),
 }
 
-/// What outlives a step: the terminal, the renderers, the timers, the file under watch.
+/// What outlives a step: the terminal, the renderers, the timers, and the threads that work on
+/// files: scenes and assets read and watched, scenes and pictures written, unsaved edits kept.
 pub(crate) struct World {
     // First, because fields are dropped in order: the terminal is given back before renderers and
     // the watcher end, which may take a moment.
@@ -237,6 +239,7 @@ impl World {
                 return Some(Msg::Exported(id, Err(refused)));
             }
             Effect::CheckTarget(id, to) => self.writers.check(id, to),
+            Effect::CheckPlace(path) => self.writers.check_place(path),
             Effect::FindBackups(scene) => self.writers.find_backups(scene),
             Effect::Read(path, known) => self.reader.read(path, known),
             Effect::Free(unneeded) => self.freeing.order(unneeded),

@@ -9,7 +9,7 @@ use crossterm::event::{KeyEvent, MouseEvent};
 
 use crate::assets::{Loaded, Wanted};
 use crate::document::Snapshot;
-use crate::file::ReadError;
+use crate::file::{ReadError, Version};
 use crate::render::{Frame, Job};
 use crate::ui::reading::{Known, Reading};
 use crate::ui::recovery::{Claim, Found, Sought};
@@ -69,7 +69,7 @@ pub enum Msg {
     /// Copies of the scene's file from before interrupted saves.
     BackupsFound(Vec<PathBuf>),
     /// An export ended.
-    Exported(ExportId, Result<PathBuf, String>),
+    Exported(ExportId, Result<Exported, String>),
     /// The external editor has ended.
     EditorClosed(Result<(), String>),
     /// Edits of an earlier run that were never saved were found.
@@ -149,6 +149,8 @@ pub enum Effect {
         /// What may be overwritten.
         guard: Guard,
     },
+    /// Say why no scene can be written there, if so: [`Msg::Failed`].
+    CheckPlace(PathBuf),
     /// Say whether copies are left of what the file held before a save: [`Msg::BackupsFound`].
     FindBackups(PathBuf),
     /// Watch this file from here on: [`Msg::FileChanged`].
@@ -218,11 +220,22 @@ pub struct Destination {
     pub named: Vec<PathBuf>,
 }
 
+/// A picture that was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Exported {
+    /// Where.
+    pub path: PathBuf,
+    /// The file as it was then; `None` for what is no file.
+    pub version: Option<Version>,
+}
+
 /// What becomes of a file that stands where a picture is to be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
     /// It stays, and nothing is written.
     Kept,
+    /// The picture takes its place if it still is this version, which this session has written.
+    Own(Version),
     /// The picture takes its place.
     Overwritten,
 }

@@ -10,7 +10,7 @@ use std::thread;
 
 use super::msg::Msg;
 use crate::document::{Document, Merge, Merged, Snapshot};
-use crate::file::{self, ReadError};
+use crate::file::{self, FileId, ReadError};
 use crate::format;
 use crate::memory::{self, OutOfMemory};
 use crate::scene::{self, Lowered, Meshes};
@@ -22,6 +22,8 @@ use crate::watch::{Method, Watcher};
 pub struct Known {
     /// The text under edit, and the one last saved or loaded.
     pub scene: Snapshot,
+    /// The text that is being written to the file.
+    pub saving: Option<Arc<String>>,
     /// The meshes that are read so far.
     pub meshes: Meshes,
 }
@@ -31,8 +33,31 @@ pub struct Known {
 pub struct Reading {
     /// What was known when it was asked for.
     pub known: Known,
-    /// What has changed; `None` if it is the text last saved.
+    /// What has changed; `None` if it is the text last saved, or the one being saved.
     pub news: Option<Box<News>>,
+    /// Where it was read, as far as that is known.
+    pub place: Option<Place>,
+}
+
+/// Where a scene's file was read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The absolute path of its folder.
+    pub folder: PathBuf,
+    /// Which folder that was.
+    pub id: FileId,
+}
+
+impl Place {
+    /// Where the file of this path is now.
+    pub fn of(path: &Path) -> Option<Self> {
+        let folder = file::directory_of(path);
+        Some(Self {
+            id: FileId::of(folder)?,
+            // A relative path leads elsewhere once the current folder is moved.
+            folder: std::path::absolute(folder).ok()?.components().collect(),
+        })
+    }
 }
 
 /// A text that is not the one last saved.
@@ -60,12 +85,17 @@ pub struct Meaning {
 impl Reading {
     /// Understands a text, unless that takes more memory than there is.
     pub fn new(text: String, known: Known) -> Result<Self, OutOfMemory> {
-        let news = if text == *known.scene.saved {
+        let is_own = |own: &Arc<String>| **own == text;
+        let news = if is_own(&known.scene.saved) || known.saving.as_ref().is_some_and(is_own) {
             None
         } else {
             Some(Box::new(News::new(text, &known)?))
         };
-        Ok(Self { known, news })
+        Ok(Self {
+            known,
+            news,
+            place: None,
+        })
     }
 }
 
@@ -186,10 +216,12 @@ fn follow(
                 pool.install(|| Reading::new(text, known))
             };
             let reading = read.and_then(|text| {
-                understand(text).map_err(|reason| ReadError::NoMemory {
+                let place = Place::of(&path);
+                let understood = understand(text).map_err(|reason| ReadError::NoMemory {
                     path: path.clone(),
                     reason,
-                })
+                });
+                understood.map(|reading| Reading { place, ..reading })
             });
             send(Msg::Read(path, reading));
         }
@@ -238,6 +270,7 @@ mod tests {
     fn order(name: &str) -> Order {
         let known = Known {
             scene: Document::new(Format::Ray, String::new()).snapshot(),
+            saving: None,
             meshes: Meshes::default(),
         };
         Order::Read(name.into(), known)

@@ -10,8 +10,8 @@ use std::thread;
 use std::time::Instant;
 
 use super::effects::Event;
-use super::msg::{Destination, Existing, ExportId, Guard, Msg, SaveId, SaveOutcome};
-use crate::file::{self, ReadError};
+use super::msg::{Destination, Existing, ExportId, Exported, Guard, Msg, SaveId, SaveOutcome};
+use crate::file::{self, ReadError, Version};
 use crate::image_file;
 use crate::render::Frame;
 
@@ -77,6 +77,15 @@ impl Writers {
             check_target(&to)
                 .err()
                 .map(|reason| Msg::Exported(id, Err(reason)))
+        })
+    }
+
+    /// Says why no scene can be written there, if so: [`Msg::Failed`].
+    pub(super) fn check_place(&self, path: PathBuf) -> Result<(), String> {
+        let panicked = Msg::Failed(format!("{}: can't be examined", path.display()));
+        self.start("check", None, panicked, move || {
+            let refused = file::check_replaceable(&path).err()?;
+            Some(Msg::Failed(format!("{}: {refused}", path.display())))
         })
     }
 
@@ -188,12 +197,15 @@ fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), Refusal> {
     }
 }
 
-/// Writes a picture, and returns where.
-fn export(frame: &Frame, to: Destination) -> Result<PathBuf, String> {
+/// Writes a picture.
+fn export(frame: &Frame, to: Destination) -> Result<Exported, String> {
     check_target(&to)?;
     let may = || check_target(&to).map_err(Refusal::Other);
     match image_file::save(frame, &to.path, may) {
-        Ok(()) => Ok(to.path),
+        Ok(version) => Ok(Exported {
+            path: to.path,
+            version,
+        }),
         Err(Refusal::Io(error)) => Err(format!("{}: {error}", to.path.display())),
         Err(Refusal::Other(reason)) => Err(reason),
         Err(Refusal::Changed) => Err(format!("{}: it has changed", to.path.display())),
@@ -212,8 +224,15 @@ fn check_target(to: &Destination) -> Result<(), String> {
             "{shown} is a file that the scene uses: name another file"
         ));
     }
-    if to.existing == Existing::Kept && path.symlink_metadata().is_ok() {
-        return Err(format!("{shown} exists: :export! {shown} overwrites it"));
+    let reason = match to.existing {
+        Existing::Kept => Some("exists"),
+        Existing::Own(version) if Version::of(path).ok() != Some(version) => {
+            Some("has changed since it was exported")
+        }
+        Existing::Own(_) | Existing::Overwritten => None,
+    };
+    if let Some(reason) = reason.filter(|_| path.symlink_metadata().is_ok()) {
+        return Err(format!("{shown} {reason}: :export! {shown} overwrites it"));
     }
     file::check_target(path).map_err(|error| format!("{shown}: {error}"))
 }
@@ -221,6 +240,8 @@ fn check_target(to: &Destination) -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Size;
+    use crate::ui::app::tests::pictures::frame;
 
     #[test]
     fn a_panic_while_a_file_is_written_is_an_outcome() {
@@ -309,6 +330,41 @@ mod tests {
         let refused = check_target(&to(Existing::Kept)).expect_err("it exists");
         assert!(refused.contains(":export! "), "{refused}");
         assert_eq!(check_target(&to(Existing::Overwritten)), Ok(()));
+        let exported = Version::of(&path).expect("a file");
+        assert_eq!(check_target(&to(Existing::Own(exported))), Ok(()));
+        std::fs::write(&path, "theirs").expect("it is ours");
+        let refused = check_target(&to(Existing::Own(exported))).expect_err("it was changed");
+        assert!(
+            refused.contains("has changed since it was exported: :export! "),
+            "{refused}"
+        );
+        std::fs::remove_file(&path).expect("it is there");
+        assert_eq!(check_target(&to(Existing::Own(exported))), Ok(()));
+    }
+
+    #[test]
+    fn a_picture_that_others_changed_after_its_export_is_kept() {
+        let place = tempfile::tempdir().expect("a folder");
+        let path = place.path().join("a.bmp");
+        let to = |existing| Destination {
+            path: path.clone(),
+            existing,
+            scene: None,
+            named: Vec::new(),
+        };
+        let size = Size {
+            width: 1,
+            height: 1,
+        };
+        let frame = frame(size, Vec::new());
+        let first = export(&frame, to(Existing::Kept)).expect("it is new");
+        let own = Existing::Own(first.version.expect("a file"));
+        let second = export(&frame, to(own)).expect("it is ours");
+        let own = Existing::Own(second.version.expect("a file"));
+        std::fs::write(&path, "theirs").expect("it is ours");
+        export(&frame, to(own)).expect_err("it is theirs");
+        let held = std::fs::read_to_string(&path).expect("a text");
+        assert_eq!(held, "theirs");
     }
 
     #[test]

@@ -309,6 +309,11 @@ fn a_pipe_is_refused_and_holds_up_no_save() {
     let place = Place::new();
     let mut session = place.open_edited();
     mknodat(CWD, place.at("pipe.ray"), FileType::Fifo, Mode::RWXU, 0).expect("a pipe");
+    mknodat(CWD, place.at("pipe"), FileType::Fifo, Mode::RWXU, 0).expect("a pipe");
+    session.send(":w! pipe\r");
+    session.wait_for("pipe: this scene's name ends in .ray; pipe: is a pipe, not a file");
+    session.send(ESC);
+    wait_until_gone(&mut session, "w pipe.ray");
     session.send(":w! pipe.ray\r");
     session.wait_for("pipe.ray: is a pipe, not a file");
     session.send(":wq\r");
@@ -317,10 +322,55 @@ fn a_pipe_is_refused_and_holds_up_no_save() {
 }
 
 #[test]
+fn a_picture_that_another_program_wrote_is_not_exported_over() {
+    let place = Place::new();
+    let mut session = place.open();
+    let export = ":export a.bmp 8x6 1\r";
+    for _ in 0..2 {
+        session.send(export);
+        session.wait_for("wrote a.bmp");
+        session.send("j");
+        wait_until_gone(&mut session, "wrote a.bmp");
+    }
+    place.write("a.bmp", "theirs");
+    session.send(export);
+    session.wait_for("a.bmp has changed since it was exported: :export! a.bmp overwrites it");
+    assert_eq!(place.read("a.bmp"), "theirs");
+    quit(session);
+}
+
+/// Relative paths lead into the folder that was moved, whatever is at its old path.
+#[test]
+fn a_folder_that_is_moved_away_is_reported() {
+    let place = Place::new();
+    fs::create_dir(place.at("old")).expect("the folder is new");
+    fs::rename(place.at("balls.ray"), place.at("old/balls.ray")).expect("it is there");
+    let absolute = place.at("old/balls.ray").display().to_string();
+    for (name, words) in [
+        ("balls.ray", "the scene's folder was moved to"),
+        (&absolute, "another folder is at"),
+    ] {
+        let arguments = ["--color", "24", name];
+        let mut session = Session::start(&place.at("old"), &arguments, (250, 40), &[]);
+        wait_for_rest(&mut session);
+        fs::rename(place.at("old"), place.at("new")).expect("it is there");
+        if name == absolute {
+            session.wait_for("[file missing]");
+        }
+        fs::create_dir(place.at("old")).expect("it is free");
+        place.write("old/balls.ray", BALLS);
+        session.wait_for(words);
+        fs::remove_dir_all(place.at("new")).expect("it is there");
+        session.send("q");
+        session.end();
+    }
+}
+
+#[test]
 fn an_interrupted_save_is_reported() {
     let place = Place::new();
     place.write(".halflight-backup-0-00c0ffee-balls.ray", "old");
     let mut session = place.start(&["balls.ray"], WIDE);
-    session.wait_for("a save of balls.ray was interrupted");
+    session.wait_for("the last save of balls.ray was interrupted");
     quit(session);
 }

@@ -139,13 +139,26 @@ fn edits_are_kept_once_their_folder_can_be_made() {
     fs::create_dir_all(place.at(".local/state")).expect("the folder is new");
     place.write(".local/state/halflight", "in the way");
     let mut session = place.open_edited();
-    session.wait_for("unsaved edits are not kept");
+    session.wait_for("unsaved edits can't be kept for recovery");
     session.wait_for("[not kept]");
     fs::remove_file(place.at(".local/state/halflight")).expect("it is there");
     wait_until_gone(&mut session, "not kept");
     kill(session.process_id(), Signal::KILL);
     session.end();
     assert_eq!(place.kept_texts(), [edited()]);
+}
+
+#[test]
+fn a_journal_that_somebody_removed_is_written_again_at_the_end() {
+    for signal in [Signal::HUP, Signal::TERM] {
+        let place = Place::new();
+        let mut session = place.open_edited();
+        wait_until_kept(&place, &mut session, &edited());
+        fs::remove_dir_all(place.at(".local/state/halflight")).expect("it is there");
+        kill(session.process_id(), signal);
+        session.end();
+        assert_eq!(place.kept_texts(), [edited()]);
+    }
 }
 
 #[test]

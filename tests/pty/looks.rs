@@ -248,7 +248,7 @@ fn nothing_from_files_reaches_the_terminal_raw() {
     session.wait_for("1 error");
     session.wait_for("␛]52;c;ZXZpbA==");
     // What is typed while the editor has the terminal is echoed.
-    let refused = "the editor can't be used";
+    let refused = "can't start the editor";
     session.send("!E");
     session.wait_for(refused);
     session.send("!G");

@@ -5,22 +5,23 @@ use rustix::io::Errno;
 use super::*;
 use crate::file::faults::{Calls, Fault, during};
 
-const OLD: &str = "the old content, which is longer than the new one";
-const NEW: &str = "the new content";
+pub(super) const OLD: &str = "the old content, which is longer than the new one";
+pub(super) const NEW: &str = "the new content";
 
 /// No write takes as many calls.
-const MOST: usize = 100;
+pub(super) const MOST: usize = 100;
 
 const ERRORS: [Errno; 4] = [Errno::NOSPC, Errno::IO, Errno::DQUOT, Errno::INTR];
 
 /// A file to be written in a folder of its own.
-struct Case {
-    name: &'static str,
-    directory: TempDir,
-    path: PathBuf,
+pub(super) struct Case {
+    pub(super) name: &'static str,
+    pub(super) directory: TempDir,
+    pub(super) path: PathBuf,
     /// What is in the folder from the start.
-    names: Vec<String>,
-    old: Option<&'static str>,
+    pub(super) names: Vec<String>,
+    pub(super) old: Option<&'static str>,
+    pub(super) new: &'static str,
 }
 
 impl Case {
@@ -34,11 +35,12 @@ impl Case {
             names: names(directory.path()),
             directory,
             old,
+            new: NEW,
         }
     }
 
     /// Makes one of each kind.
-    fn all() -> Vec<Self> {
+    pub(super) fn all() -> Vec<Self> {
         let mut all = vec![
             Self::new("new", |_| None),
             Self::new("replaced", |folder| {
@@ -53,23 +55,40 @@ impl Case {
                 std::os::unix::fs::symlink("end", folder.join("s")).expect("linked");
                 Some(OLD)
             }),
-            Self::new("hard-linked", |folder| {
-                fs::write(folder.join("s"), OLD).expect("written");
-                fs::hard_link(folder.join("s"), folder.join("t")).expect("linked");
-                Some(OLD)
-            }),
+            Self::new("hard-linked", |folder| Some(hard_linked(folder))),
+            Self {
+                new: "",
+                ..Self::new("emptied through a hard link", |folder| {
+                    Some(hard_linked(folder))
+                })
+            },
         ]);
         all
     }
 
+    /// What is left behind in the folder after one more write there, but for copies that are named.
+    pub(super) fn left_behind(&self) -> Vec<String> {
+        let other = self.directory.path().join("other");
+        replace_with(&other, "").expect("nothing is wrong by now");
+        fs::remove_file(&other).expect("removed");
+        replace_with(&self.path, self.new).expect("nothing is wrong by now");
+        let mut left = names(self.directory.path());
+        let told = backups(&self.path);
+        left.retain(|name| {
+            let is_own = self.names.contains(name) || name == "s";
+            !is_own && !told.iter().any(|copy| copy.ends_with(name))
+        });
+        left
+    }
+
     /// Writes while faults occur, and looks at the outcome.
     fn write(&self, fault: Fault, at: usize) -> Calls {
-        let (outcome, calls) = during(fault, at, || replace_with(&self.path, NEW));
+        let (outcome, calls) = during(fault, at, || replace_with(&self.path, self.new));
         let case = format!("{}, {fault:?} at {at}: {calls:?}: {outcome:?}", self.name);
         let found = fs::read_to_string(&self.path).ok();
         let copies = backups(&self.path);
         match &outcome {
-            Ok(()) => assert_eq!(found.as_deref(), Some(NEW), "{case}"),
+            Ok(()) => assert_eq!(found.as_deref(), Some(self.new), "{case}"),
             Err(error) => {
                 assert!(!fault.is_harmless(), "{case}");
                 // The first thing that went wrong is what is told.
@@ -91,20 +110,16 @@ impl Case {
                 }
             }
         }
-        // The next write in the folder leaves nothing but what is told of.
-        let other = self.directory.path().join("other");
-        replace_with(&other, "").expect("nothing is wrong by now");
-        fs::remove_file(&other).expect("removed");
-        replace_with(&self.path, NEW).expect("nothing is wrong by now");
-        let mut left = names(self.directory.path());
-        let told = backups(&self.path);
-        left.retain(|name| {
-            let is_own = self.names.contains(name) || name == "s";
-            !is_own && !told.iter().any(|copy| copy.ends_with(name))
-        });
-        assert_eq!(left, [""; 0], "{case}");
+        assert_eq!(self.left_behind(), [""; 0], "{case}");
         calls
     }
+}
+
+#[cfg(unix)]
+fn hard_linked(folder: &Path) -> &'static str {
+    fs::write(folder.join("s"), OLD).expect("written");
+    fs::hard_link(folder.join("s"), folder.join("t")).expect("linked");
+    OLD
 }
 
 /// Writes each kind of file anew with the k-th call failing, for every k; returns which calls were
@@ -203,6 +218,72 @@ fn a_file_in_a_folder_that_cannot_be_written_to_is_whole_too() {
     });
     assert!(last.is_some_and(|last| 0 < last), "each was hit");
     fs::set_permissions(directory.path(), Permissions::from_mode(0o755)).expect("changed");
+}
+
+/// On file systems that give no name to a file without one, and on systems without such files.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_file_written_the_other_way_has_all_that_the_old_one_had() {
+    use rustix::fs::{XattrFlags, getxattr, setxattr};
+    use std::fs::Permissions;
+    use std::os::unix::fs::{MetadataExt, PermissionsExt, chown};
+    for (call, error) in [("link", Errno::OPNOTSUPP), ("create", Errno::NOSYS)] {
+        let case = Case::all().swap_remove(1);
+        fs::set_permissions(&case.path, Permissions::from_mode(0o640)).expect("ours");
+        // Only an administrator can give a file away, and not every file system has attributes.
+        let _ = chown(&case.path, Some(1), Some(1));
+        let has_note = setxattr(&case.path, "user.note", b"mine", XattrFlags::empty()).is_ok();
+        let of = |metadata: fs::Metadata| (metadata.uid(), metadata.gid(), metadata.mode());
+        let before = fs::metadata(&case.path).map(of).expect("there");
+
+        let calls = during(Fault::Short, MOST, || replace_with(&case.path, NEW)).1;
+        let at = calls.names.iter().position(|name| *name == call);
+        let Some(at) = at else {
+            // There are no files without a name here.
+            continue;
+        };
+        let (outcome, calls) = during(Fault::Once(error), at, || replace_with(&case.path, "other"));
+        assert_eq!(calls.hit, Some(call));
+        outcome.expect("there is another way");
+        assert_eq!(content(&case.path), "other");
+        let after = fs::metadata(&case.path).map(of).expect("there");
+        assert_eq!(after, before, "{call}");
+        if has_note {
+            let mut value = [0; 4];
+            let length = getxattr(&case.path, "user.note", &mut value).expect(call);
+            assert_eq!(&value[..length], b"mine");
+        }
+        assert_eq!(case.left_behind(), [""; 0], "{call}");
+    }
+}
+
+/// The system gives the number of a file that is gone to another one.
+#[test]
+#[cfg(unix)]
+fn a_copy_of_a_file_that_is_gone_is_not_taken_for_that_of_another() {
+    use std::os::unix::fs::MetadataExt;
+    let directory = directory();
+    let place = |name: &str| directory.path().join(name);
+    fs::write(place("copy"), OLD).expect("written");
+    let born = |name: &str| fs::metadata(place(name)).and_then(|found| found.created());
+    let copied = fs::metadata(place("copy")).and_then(|copy| copy.modified());
+    let copied = copied.expect("a time");
+    loop {
+        fs::write(place("s"), "another file").expect("written");
+        match born("s") {
+            Ok(born) if born <= copied => fs::remove_file(place("s")).expect("ours"),
+            Ok(_) => break,
+            // Here it can't be told.
+            Err(_) => return,
+        }
+    }
+    let inode = fs::metadata(place("s")).expect("there").ino();
+    let copy = |name| place(&format!(".halflight-backup-{inode:x}-00c0ffee-{name}"));
+    fs::rename(place("copy"), copy("gone")).expect("renamed");
+    assert_eq!(backups(&place("s")), [] as [PathBuf; 0]);
+    // Of this name there was a file before, too.
+    fs::rename(copy("gone"), copy("s")).expect("renamed");
+    assert_eq!(backups(&place("s")), [copy("s")]);
 }
 
 #[test]

@@ -230,9 +230,10 @@ impl App {
             let extension = own.extension();
             let name = path.with_extension(extension);
             self.open_prompt(PromptKind::Command, &format!("w {}", name.display()));
-            let path = path.display();
-            self.fail(format!("{path}: this scene's name ends in .{extension}"));
-            return Vec::new();
+            let shown = path.display();
+            self.fail(format!("{shown}: this scene's name ends in .{extension}"));
+            // What stands there may be no file at all.
+            return vec![Effect::CheckPlace(path.clone())];
         }
         match (file.or_else(|| self.path.clone()), force) {
             (Some(path), Force::Yes) => self.save_to(path, Guard::Anything),

@@ -1,4 +1,6 @@
-//! The text and the file: reading again, saving, deciding conflicts.
+//! How the text follows its file: what was read is taken, merged or asked about; a save is begun
+//! or refused; the external editor has the file in between. What becomes of saves under way is in
+//! `saving`, what is kept of unsaved edits in `keeping`.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -8,7 +10,7 @@ use super::cursor::Held;
 use super::model::{Outside, Reader, Settle};
 use super::{App, Broken, Dialog, Disk, PromptKind};
 use crate::document::Adopted;
-use crate::file::ReadError;
+use crate::file::{self, ReadError};
 use crate::scene::Lowered;
 use crate::text::{Edit, Findings, Position, smallest_edit};
 use crate::ui::keymap::Action;
@@ -19,6 +21,35 @@ use crate::ui::reading::{Known, News, Reading};
 const QUIET: Duration = Duration::from_millis(100);
 /// Others move the old file away before the new one is there.
 const GONE: Duration = Duration::from_millis(500);
+
+/// What is said of a text that came in, in order: how it came, what it has changed, the rest.
+struct Words {
+    came: &'static str,
+    /// In place of what it has changed, if that is nothing but comments and spacing.
+    same: &'static str,
+    end: &'static str,
+}
+
+const READ_AGAIN: Words = Words {
+    came: "read again",
+    same: "the scene is unchanged",
+    end: "",
+};
+const MERGED: Words = Words {
+    came: "the file's changes are merged with your edits",
+    same: "the picture stays the same",
+    end: "; u undoes the merge",
+};
+const ADOPTED: Words = Words {
+    came: "merged",
+    same: "the picture stays the same",
+    end: "; u undoes the merge",
+};
+const SAME_NOW: Words = Words {
+    came: "the file has the same changes now",
+    same: "nothing is unsaved",
+    end: "",
+};
 
 impl App {
     pub(super) fn read_again(&mut self) -> Vec<Effect> {
@@ -47,6 +78,7 @@ impl App {
     pub(super) fn known(&self) -> Known {
         Known {
             scene: self.document.snapshot(),
+            saving: self.text_being_saved().cloned(),
             meshes: self.meshes.clone(),
         }
     }
@@ -56,6 +88,10 @@ impl App {
     /// second after the last edit.
     fn is_known(&self, reading: &Reading) -> bool {
         let known = &reading.known;
+        let saving = |text: Option<&Arc<String>>| text.map(Arc::as_ptr);
+        if saving(known.saving.as_ref()) != saving(self.text_being_saved()) {
+            return false;
+        }
         if reading.news.is_none() {
             return Arc::ptr_eq(&known.scene.saved, self.document.saved());
         }
@@ -80,7 +116,7 @@ impl App {
         }
         let is_final = std::mem::take(&mut self.pending.settle) == Settle::Final;
         match read {
-            Ok(reading) => self.take_text(reading, is_final),
+            Ok(reading) => self.take_reading(reading, is_final),
             Err(error) if !is_final => self.wait(match error {
                 ReadError::NotFound { .. } => GONE,
                 _ => QUIET,
@@ -105,6 +141,26 @@ impl App {
         vec![Effect::Later(time, Timer::Settled)]
     }
 
+    /// Takes what was read; says so if its folder was moved, or if another one stands in its place.
+    fn take_reading(&mut self, mut reading: Reading, is_final: bool) -> Vec<Effect> {
+        let Some(place) = reading.place.take() else {
+            return self.take_text(reading, is_final);
+        };
+        let before = self.pending.place.replace(place.clone());
+        let before = before.unwrap_or_else(|| place.clone());
+        self.message.take_if(|_| before.id != place.id);
+        let effects = self.take_text(reading, is_final);
+        let folder = place.folder.display();
+        if before.id != place.id {
+            let said = self.message.take().map(|said| format!("; {}", said.text));
+            let said = said.unwrap_or_default();
+            self.warn(format!("another folder is at {folder} now{said}"));
+        } else if before.folder != place.folder {
+            self.warn(format!("the scene's folder was moved to {folder}"));
+        }
+        effects
+    }
+
     fn take_text(&mut self, reading: Reading, is_final: bool) -> Vec<Effect> {
         let reader = std::mem::take(&mut self.pending.reader);
         // A merge that was being decided is out of date, whatever the file holds now.
@@ -116,7 +172,8 @@ impl App {
             self.dialog = None;
         }
         let Some(news) = reading.news else {
-            if self.disk != Disk::Known {
+            // Of a file that is being saved, the outcome tells how it stands.
+            if self.disk != Disk::Known && self.text_being_saved().is_none() {
                 self.disk = Disk::Known;
                 self.broken = None;
                 self.say("the file is back to its saved text");
@@ -134,12 +191,12 @@ impl App {
         self.disk = Disk::Known;
         self.broken = None;
         let (document, meaning, words) = match *news {
-            News::Text(document, meaning) => (self.document.load(document), meaning, "read again"),
+            News::Text(document, meaning) => (self.document.load(document), meaning, READ_AGAIN),
             News::Merged(merged, meaning) => {
                 let words = if merged.document.is_dirty() {
-                    "the file's changes are merged; u undoes"
+                    MERGED
                 } else {
-                    "the file has the same changes now"
+                    SAME_NOW
                 };
                 (self.document.take(merged), meaning, words)
             }
@@ -156,7 +213,7 @@ impl App {
         };
         let origins = std::mem::take(&mut self.origins);
         let former = (document, origins, self.scene.clone());
-        self.show_reload(&held, meaning.edit.as_ref(), meaning.lowered, words);
+        self.show_reload(&held, meaning.edit.as_ref(), meaning.lowered, &words);
         vec![Effect::Free(Arc::new(former))]
     }
 
@@ -174,7 +231,7 @@ impl App {
 
     /// Takes what the text means now, keeps the cursor where it was and says what changed; `edit`
     /// leads to it from the text before.
-    fn show_reload(&mut self, held: &Held, edit: Option<&Edit>, lowered: Lowered, words: &str) {
+    fn show_reload(&mut self, held: &Held, edit: Option<&Edit>, lowered: Lowered, words: &Words) {
         let (scene, sound) = (self.scene.clone(), self.error_count() == 0);
         self.install(lowered);
         let lost = self.follow_cursor(held, edit);
@@ -190,17 +247,16 @@ impl App {
                 .as_ref()
                 .map_or(edit, Option::as_ref)
                 .and_then(|edit| self.place_name(edit.placed()));
-            let same = match (&scene, &self.scene) {
+            let is_same = match (&scene, &self.scene) {
                 (Some(before), Some(after)) => Arc::ptr_eq(before, after),
                 _ => false,
             };
-            match place {
-                _ if same && !self.lacks_meshes() => {
-                    self.say(format!("{words}: the scene is unchanged"));
-                }
-                Some(place) => self.say(format!("{words}: {place}")),
-                None => self.say(words),
-            }
+            let Words { came, same, end } = words;
+            self.say(match place {
+                _ if is_same && !self.lacks_meshes() => format!("{came}: {same}{end}"),
+                Some(place) => format!("{came}: {place}{end}"),
+                None => format!("{came}{end}"),
+            });
         }
         if lost {
             self.warn("the value being typed is dropped: its field is gone");
@@ -289,7 +345,7 @@ impl App {
             Adopted::Taken => {
                 self.disk = Disk::Known;
                 let edit = smallest_edit(&held.text, self.document.text());
-                self.show_reload(&held, edit.as_ref(), self.lowered(), "merged; u undoes");
+                self.show_reload(&held, edit.as_ref(), self.lowered(), &ADOPTED);
             }
             Adopted::OutOfDate => self.warn("the file was saved since: nothing is merged"),
         }
@@ -336,10 +392,7 @@ impl App {
     /// Reports where an interrupted save left the scene's previous content.
     pub(super) fn backups_found(&mut self, copies: &[PathBuf]) {
         if let Some(copy) = copies.last() {
-            let (name, copy) = (self.file_name(), copy.display());
-            self.warn(format!(
-                "a save of {name} was interrupted: {copy} holds the previous content"
-            ));
+            self.warn(file::interruption(self.file_name(), copy));
         }
     }
 

@@ -8,7 +8,7 @@ use super::{App, Export, Mode, Picture, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
 use crate::render::{Filter, Frame, Frames, Job, Settings, default_depth};
 use crate::scene::{Camera, Integrator, Size};
-use crate::ui::msg::{Destination, Effect, Existing, ExportId, Target};
+use crate::ui::msg::{Destination, Effect, Existing, ExportId, Exported, Target};
 
 /// Samples a pixel at which the preview comes to rest: edges are smooth by then, noise of paths is
 /// gone to the eye.
@@ -175,20 +175,21 @@ impl App {
     pub(super) fn exported(
         &mut self,
         id: ExportId,
-        outcome: Result<PathBuf, String>,
+        outcome: Result<Exported, String>,
     ) -> Vec<Effect> {
         let Some(export) = self.export.take_if(|export| export.id == id) else {
             // One that was cancelled; nobody waits for it, but its file is there now.
-            if let Ok(path) = outcome {
-                self.say(format!("wrote {} anyway", path.display()));
-                self.pending.written.push(path);
+            if let Ok(exported) = outcome {
+                self.say(format!("wrote {} anyway", exported.path.display()));
+                self.note_export(exported);
             }
             return Vec::new();
         };
         match outcome {
-            Ok(path) => {
-                self.say(format!("wrote {}{}", path.display(), summary(&export)));
-                self.pending.written.push(path);
+            Ok(exported) => {
+                let path = exported.path.display();
+                self.say(format!("wrote {path}{}", summary(&export)));
+                self.note_export(exported);
                 self.quit_when_done()
             }
             Err(reason) => {
@@ -199,14 +200,18 @@ impl App {
         }
     }
 
+    fn note_export(&mut self, Exported { path, version }: Exported) {
+        match version {
+            Some(version) => self.pending.written.insert(path, version),
+            None => self.pending.written.remove(&path),
+        };
+    }
+
     /// What may become of a file where a picture is to be written: this session's own pictures are
-    /// overwritten.
+    /// overwritten unless others have changed them.
     fn existing(&self, path: &Path) -> Existing {
-        if self.pending.written.iter().any(|written| written == path) {
-            Existing::Overwritten
-        } else {
-            Existing::Kept
-        }
+        let own = self.pending.written.get(path);
+        own.map_or(Existing::Kept, |&version| Existing::Own(version))
     }
 
     /// Exports under the scene's name, in its folder.
@@ -260,7 +265,7 @@ impl App {
         let frames = format.map_or(Frames::Last, ImageFormat::frames);
         let existing = match existing {
             Existing::Kept => self.existing(path),
-            Existing::Overwritten => existing,
+            Existing::Own(_) | Existing::Overwritten => existing,
         };
         let destination = Destination {
             path: path.to_owned(),

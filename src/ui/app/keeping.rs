@@ -111,8 +111,9 @@ impl App {
         effects
     }
 
+    /// Ends with unsaved edits kept: written down once more, for the journal may have been removed.
     pub(super) fn quit_keeping_edits(&mut self) -> Vec<Effect> {
-        let mut effects = self.keep_edits();
+        let mut effects = self.keep_the_rest();
         effects.push(Effect::Quit);
         effects
     }
@@ -120,5 +121,5 @@ impl App {
 
 /// The message about edits that can't be kept.
 fn words(reason: &str) -> String {
-    format!("unsaved edits are not kept: {reason}")
+    format!("unsaved edits can't be kept for recovery: {reason}")
 }

@@ -25,7 +25,7 @@ mod quit;
 mod recovering;
 mod saving;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 mod typing;
 mod update;
 

@@ -1,5 +1,6 @@
 //! What the interface knows.
 
+use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -11,13 +12,14 @@ use super::opening::Unread;
 use super::picture::Picture;
 use super::saving::Saves;
 use crate::document::{Document, Merge, Side};
-use crate::file::ReadError;
+use crate::file::{ReadError, Version};
 use crate::render::{Aov, Filter, Progress};
 use crate::scene::fields::Field;
 use crate::scene::{Camera, Images, Integrator, Meshes, Node, Origins, Scene, Size};
 use crate::text::{Diagnostic, Findings, Severity};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Destination, ExportId};
+use crate::ui::reading::Place;
 use crate::ui::recovery::{Claim, Offer, Since};
 use crate::ui::terminal::Mouse;
 use crate::ui::view::layout::Zoom;
@@ -348,6 +350,8 @@ pub(super) struct Pending {
     pub(super) quit: bool,
     /// Who wants the file to be read.
     pub(super) reader: Reader,
+    /// Where the file was read last.
+    pub(super) place: Option<Place>,
     /// The last text without errors, while the text has some.
     pub(super) sound: Option<Arc<String>>,
     /// What is kept for the next run.
@@ -358,8 +362,9 @@ pub(super) struct Pending {
     pub(super) put_off: Vec<String>,
     /// The export that was begun last.
     pub(super) export: ExportId,
-    /// The pictures written so far: they may be overwritten.
-    pub(super) written: Vec<PathBuf>,
+    /// The pictures written so far, by their paths: as long as they are unchanged they may be
+    /// overwritten.
+    pub(super) written: HashMap<PathBuf, Version>,
     /// The scene or the view changed: pictures are to be traced again.
     pub(super) scene: bool,
     /// The component that was clicked a moment ago.

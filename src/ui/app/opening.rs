@@ -128,6 +128,7 @@ impl App {
             }
         };
         self.unread = None;
+        self.pending.place = reading.place;
         let lowered = match reading.news.map(|news| *news) {
             Some(News::Text(document, meaning)) => {
                 // What it was before is empty.

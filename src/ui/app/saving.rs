@@ -31,6 +31,7 @@ pub(super) struct Saves {
 struct Running {
     id: SaveId,
     path: PathBuf,
+    text: Arc<String>,
     seconds: u32,
     /// What is to be written there next.
     next: Option<Next>,
@@ -61,6 +62,13 @@ impl App {
         save.map(|save| save.path.as_path())
     }
 
+    /// The text that is being written to the scene's file.
+    pub(super) fn text_being_saved(&self) -> Option<&Arc<String>> {
+        let mut saves = self.saves.running.iter();
+        let save = saves.find(|save| self.is_own_path(&save.path));
+        save.map(|save| &save.text)
+    }
+
     /// Has the text saved; where a save of that file is under way, after it.
     pub(super) fn save_to(&mut self, path: PathBuf, guard: Guard) -> Vec<Effect> {
         self.document.end_step();
@@ -86,6 +94,7 @@ impl App {
         self.saves.running.push(Running {
             id,
             path: path.clone(),
+            text: Arc::clone(&text),
             seconds: 0,
             next: None,
         });
@@ -129,6 +138,11 @@ impl App {
     pub(super) fn was_saved(&mut self, id: SaveId, outcome: SaveOutcome) -> Vec<Effect> {
         let place = self.saves.running.iter().position(|save| save.id == id);
         let ended = place.map(|place| self.saves.running.remove(place));
+        // What the file holds from now on.
+        let written = match &outcome {
+            SaveOutcome::Saved { text, .. } => Some(Arc::clone(text)),
+            SaveOutcome::ChangedOnDisk | SaveOutcome::Failed(_) => None,
+        };
         let mut effects = self.take_outcome(id, outcome);
         if let Some(Running {
             path,
@@ -136,10 +150,9 @@ impl App {
             ..
         }) = ended
         {
-            let guard = match next.guard {
-                // The file holds what was saved just now.
-                Guard::Holding(_) => Guard::Holding(Arc::clone(self.document.saved())),
-                guard => guard,
+            let guard = match (next.guard, written) {
+                (Guard::Holding(_) | Guard::Absent, Some(text)) => Guard::Holding(text),
+                (guard, _) => guard,
             };
             effects.extend(self.start_save(next.id, path, next.text, guard));
         }
@@ -164,6 +177,7 @@ impl App {
                 let mut effects = Vec::new();
                 if self.path.as_ref() != Some(&path) {
                     self.path = Some(path);
+                    self.pending.place = None;
                     effects.extend(self.watch());
                     // Files are looked for from another folder now.
                     self.relower();

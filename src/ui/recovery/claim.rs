@@ -2,10 +2,12 @@
 
 use std::fs::File;
 use std::io;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::folder::Folder;
 use super::identity::Identity;
+use crate::file::{Lock, lock};
 
 /// A journal's file, locked.
 #[derive(Debug)]
@@ -23,13 +25,14 @@ impl Claim {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(error),
                 Ok(file) => {
+                    let claim = Self {
+                        folder: Arc::clone(folder),
+                        name,
+                        file,
+                    };
                     // A process that looks for journals may have taken it for one left behind.
-                    if lock(&file) && is_named(&file)? {
-                        return Ok(Self {
-                            folder: Arc::clone(folder),
-                            name,
-                            file,
-                        });
+                    if lock(&claim.file) != Lock::Busy && claim.is_there() {
+                        return Ok(claim);
                     }
                 }
             }
@@ -37,15 +40,30 @@ impl Claim {
         Err(io::Error::other("too many journals of the scene"))
     }
 
-    /// Claims a file that an earlier run left behind; `None` if there is none.
-    pub(super) fn take(folder: &Arc<Folder>, name: String) -> Option<Self> {
-        let file = folder.open(&name).ok()?;
-        // Once it is locked, no process gives its name to another file. It may have lost it before.
-        (lock(&file) && is_named(&file).ok()?).then(|| Self {
+    /// Claims a file that an earlier run left behind; `None` if there is none. An error if there is
+    /// one, but its run may go on: where files can't be locked, it can't be told.
+    pub(super) fn take(folder: &Arc<Folder>, name: String) -> io::Result<Option<Self>> {
+        let Ok(file) = folder.open(&name) else {
+            return Ok(None);
+        };
+        let claim = Self {
             folder: Arc::clone(folder),
             name,
             file,
-        })
+        };
+        match lock(&claim.file) {
+            // Once it is locked, nobody gives its name to another file. It may have lost it before.
+            Lock::Taken => Ok(claim.is_there().then_some(claim)),
+            Lock::Busy => Ok(None),
+            Lock::Unknown => {
+                let place = claim.place();
+                let reason = format!(
+                    "{} may belong to a window that is still open: its file system has no locks",
+                    place.display()
+                );
+                Err(io::Error::new(io::ErrorKind::Unsupported, reason))
+            }
+        }
     }
 
     /// Its name.
@@ -58,9 +76,14 @@ impl Claim {
         &self.file
     }
 
-    /// Whether the file can still be found by its name.
+    /// Where it is.
+    pub(super) fn place(&self) -> PathBuf {
+        self.folder.place(&self.name)
+    }
+
+    /// Whether the file still has its name in the folder.
     pub(super) fn is_there(&self) -> bool {
-        is_named(&self.file).unwrap_or(false)
+        self.folder.has(&self.name, &self.file).unwrap_or(false)
     }
 
     /// Puts another content in place of the file's: at every moment one of the two is there whole.
@@ -98,7 +121,7 @@ impl Claim {
     }
 
     /// Gives the file a name that it is not looked for under; where it is then.
-    pub(super) fn set_aside(&self) -> io::Result<std::path::PathBuf> {
+    pub(super) fn set_aside(&self) -> io::Result<PathBuf> {
         let name = format!("{}.damaged", self.name);
         self.folder.rename(&self.name, &name)?;
         Ok(self.folder.place(&name))
@@ -108,33 +131,4 @@ impl Claim {
 fn write(mut file: &File, content: &[u8]) -> io::Result<()> {
     io::Write::write_all(&mut file, content)?;
     file.sync_all()
-}
-
-/// Locks a file until it is closed; `false` if another run has the lock. Where files can't be locked,
-/// no run is known to go on.
-fn lock(file: &File) -> bool {
-    #[cfg(unix)]
-    {
-        use rustix::fs::{FlockOperation, flock};
-        use rustix::io::Errno;
-        flock(file, FlockOperation::NonBlockingLockExclusive) != Err(Errno::WOULDBLOCK)
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = file;
-        true
-    }
-}
-
-/// Whether a file has a name.
-fn is_named(file: &File) -> io::Result<bool> {
-    #[cfg(unix)]
-    {
-        Ok(std::os::unix::fs::MetadataExt::nlink(&file.metadata()?) != 0)
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = file;
-        Ok(true)
-    }
 }

@@ -1,8 +1,9 @@
 //! The folder of the journals, `halflight/recovery` in `$XDG_STATE_HOME` or in `~/.local/state`.
 //!
 //! It is held open and all names are looked up in it, so that another folder in its place changes
-//! nothing. It is used only where nobody else can write in it: whoever could might plant links and
-//! edits there.
+//! nothing. Neither it nor the one around it may be a link or be writable by others: whoever could
+//! write there might plant links and edits. Others may write in the state folder only as they may
+//! in `/tmp`, where nobody can move away what is not theirs.
 
 use std::env;
 use std::ffi::OsString;
@@ -15,8 +16,8 @@ use plain as system;
 #[cfg(unix)]
 use unix as system;
 
-/// The longest file that is read as a journal: a base, edits and what is not yet removed of them.
-const LIMIT: u64 = 3 * crate::file::MAX_BYTES;
+/// The folders below the state folder, each in the one before.
+const NAMES: [&str; 2] = ["halflight", "recovery"];
 
 /// The folder, held open.
 #[derive(Debug)]
@@ -29,11 +30,13 @@ pub(super) struct Folder {
 pub(crate) fn place() -> io::Result<PathBuf> {
     let state = state()?;
     Folder::find(&state)?;
-    Ok(path_in(&state.join("halflight")))
+    Ok(path_in(&state))
 }
 
-fn path_in(own: &Path) -> PathBuf {
-    own.join("recovery")
+fn path_in(state: &Path) -> PathBuf {
+    NAMES
+        .iter()
+        .fold(state.to_owned(), |path, name| path.join(name))
 }
 
 /// Where programs keep their state, by the environment.
@@ -56,34 +59,38 @@ fn state_by(set: impl Fn(&str) -> Option<OsString>) -> io::Result<PathBuf> {
 impl Folder {
     /// Opens the folder in the state folder; makes it where it is missing.
     pub(super) fn make(state: &Path) -> io::Result<Self> {
-        let own = state.join("halflight");
         let mut builder = DirBuilder::new();
         #[cfg(unix)]
         std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
         builder
             .recursive(true)
-            .create(&own)
-            .map_err(|error| at(&own, &error))?;
-        Self::open_in(&own, system::Missing::Made)
+            .create(state)
+            .map_err(|error| at(state, &error))?;
+        Self::open_in(state, system::Missing::Made)
     }
 
     /// Opens the folder in the state folder, if it is there.
     pub(super) fn find(state: &Path) -> io::Result<Option<Self>> {
-        match Self::open_in(&state.join("halflight"), system::Missing::Refused) {
+        match Self::open_in(state, system::Missing::Refused) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             opened => opened.map(Some),
         }
     }
 
-    fn open_in(own: &Path, missing: system::Missing) -> io::Result<Self> {
-        let path = path_in(own);
-        let held = system::Held::of(own, &path, missing)?;
+    fn open_in(state: &Path, missing: system::Missing) -> io::Result<Self> {
+        let held = system::Held::of(state, missing)?;
+        let path = path_in(state);
         Ok(Self { path, held })
     }
 
     /// Whether it still is where it was, and nobody else can write in it.
-    pub(super) fn check(&self) -> io::Result<()> {
-        self.held.check(&self.path)
+    pub(super) fn is_sound(&self) -> bool {
+        self.held.is_sound(&self.path).unwrap_or(false)
+    }
+
+    /// Whether a name in it is that of an open file.
+    pub(super) fn has(&self, name: &str, file: &File) -> io::Result<bool> {
+        self.held.has(&self.path, name, file)
     }
 
     /// Makes a file, to be written; there must be none of that name, nor a link.
@@ -96,7 +103,7 @@ impl Folder {
     pub(super) fn open(&self, name: &str) -> io::Result<File> {
         let file = self.held.open(&self.path, name)?;
         let metadata = file.metadata()?;
-        if !metadata.is_file() || LIMIT < metadata.len() || !system::is_own(&metadata) {
+        if !metadata.is_file() || !system::is_own(&metadata) {
             return Err(io::ErrorKind::InvalidInput.into());
         }
         Ok(file)
@@ -134,16 +141,16 @@ fn at(path: &Path, error: &io::Error) -> io::Error {
 mod unix {
     use std::fs::{File, Metadata};
     use std::io;
-    use std::os::fd::OwnedFd;
+    use std::os::fd::{AsFd, OwnedFd};
     use std::os::unix::fs::MetadataExt;
     use std::path::Path;
 
-    use rustix::fs::{AtFlags, CWD, Mode, OFlags, RawMode, Stat};
-    use rustix::fs::{fstat, fsync, mkdirat, openat, renameat, unlinkat};
+    use rustix::fs::{AtFlags, CWD, FileType, Mode, OFlags, RawMode, Stat};
+    use rustix::fs::{fstat, fsync, mkdirat, openat, renameat, statat, unlinkat};
     use rustix::io::Errno;
     use rustix::process::geteuid;
 
-    use super::at;
+    use super::{NAMES, at};
 
     /// What becomes of a folder that is missing.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -159,30 +166,37 @@ mod unix {
     pub(super) struct Held(OwnedFd);
 
     impl Held {
-        pub(super) fn of(own: &Path, path: &Path, missing: Missing) -> io::Result<Self> {
+        /// Opens the folder name by name, so that nothing can be put in the way meanwhile.
+        pub(super) fn of(state: &Path, missing: Missing) -> io::Result<Self> {
             let flags = OFlags::RDONLY | OFlags::DIRECTORY | OFlags::CLOEXEC;
-            let failed = |path| move |error: Errno| at(path, &error.into());
-            let outer = openat(CWD, own, flags, Mode::empty()).map_err(failed(own))?;
-            check(&fstat(&outer)?, own)?;
-            if missing == Missing::Made {
-                match mkdirat(&outer, "recovery", Mode::RWXU) {
-                    Ok(()) | Err(Errno::EXIST) => {}
-                    Err(error) => return Err(failed(path)(error)),
+            let opened = openat(CWD, state, flags, Mode::empty());
+            let mut folder = opened.map_err(|error| at(state, &error.into()))?;
+            check_around(&fstat(&folder)?, state)?;
+            let mut path = state.to_owned();
+            for name in NAMES {
+                path.push(name);
+                if missing == Missing::Made {
+                    match mkdirat(&folder, name, Mode::RWXU) {
+                        Ok(()) | Err(Errno::EXIST) => {}
+                        Err(error) => return Err(at(&path, &error.into())),
+                    }
                 }
+                let opened = openat(&folder, name, flags | OFlags::NOFOLLOW, Mode::empty());
+                folder = opened.map_err(|error| obstacle(&folder, name, &path, error))?;
+                check(&fstat(&folder)?, &path)?;
             }
-            let flags = flags | OFlags::NOFOLLOW;
-            let held = openat(&outer, "recovery", flags, Mode::empty()).map_err(failed(path))?;
-            let held = Self(held);
-            held.check(path)?;
-            Ok(held)
+            Ok(Self(folder))
         }
 
-        pub(super) fn check(&self, path: &Path) -> io::Result<()> {
-            let stat = fstat(&self.0)?;
-            if stat.st_nlink == 0 {
-                return Err(io::ErrorKind::NotFound.into());
-            }
-            check(&stat, path)
+        pub(super) fn is_sound(&self, path: &Path) -> io::Result<bool> {
+            let held = fstat(&self.0)?;
+            let found = statat(CWD, path, AtFlags::SYMLINK_NOFOLLOW)?;
+            Ok(is_same(&held, &found) && check(&held, path).is_ok())
+        }
+
+        pub(super) fn has(&self, _: &Path, name: &str, file: &File) -> io::Result<bool> {
+            let found = statat(&self.0, name, AtFlags::SYMLINK_NOFOLLOW)?;
+            Ok(is_same(&fstat(file)?, &found))
         }
 
         pub(super) fn create(&self, _: &Path, name: &str) -> io::Result<File> {
@@ -220,16 +234,57 @@ mod unix {
             && !Mode::from_raw_mode(metadata.mode() as RawMode).intersects(WRITABLE)
     }
 
+    fn is_same(one: &Stat, other: &Stat) -> bool {
+        (one.st_dev, one.st_ino) == (other.st_dev, other.st_ino)
+    }
+
+    /// Whether a folder is ours, and nobody else can write in it.
     fn check(stat: &Stat, path: &Path) -> io::Result<()> {
         let path = path.display();
-        let reason = if stat.st_uid != geteuid().as_raw() {
-            format!("{path} belongs to another user")
-        } else if Mode::from_raw_mode(stat.st_mode).intersects(WRITABLE) {
-            format!("{path} can be written by others: chmod go-w {path}")
-        } else {
-            return Ok(());
-        };
-        Err(io::Error::new(io::ErrorKind::PermissionDenied, reason))
+        if stat.st_uid != geteuid().as_raw() {
+            return Err(refusal(format!("{path} belongs to another user")));
+        }
+        if Mode::from_raw_mode(stat.st_mode).intersects(WRITABLE) {
+            let reason = format!("{path} is writable by others: chmod go-w {path}");
+            return Err(refusal(reason));
+        }
+        Ok(())
+    }
+
+    /// Whether nobody else can put another folder in the place of ours. A group may be allowed to
+    /// write: on many systems each user has one of their own.
+    fn check_around(stat: &Stat, path: &Path) -> io::Result<()> {
+        let path = path.display();
+        let mode = Mode::from_raw_mode(stat.st_mode);
+        if ![geteuid().as_raw(), 0].contains(&stat.st_uid) {
+            return Err(refusal(format!("{path} belongs to another user")));
+        }
+        if mode.contains(Mode::WOTH) && !mode.contains(Mode::SVTX) {
+            let reason = format!("{path} is writable by others: chmod o-w {path}");
+            return Err(refusal(reason));
+        }
+        Ok(())
+    }
+
+    /// Why a name can't be opened as a folder.
+    fn obstacle(folder: impl AsFd, name: &str, path: &Path, error: Errno) -> io::Error {
+        let found = statat(folder, name, AtFlags::SYMLINK_NOFOLLOW);
+        let kind = found.map(|stat| FileType::from_raw_mode(stat.st_mode));
+        let shown = path.display();
+        match kind {
+            Ok(FileType::Symlink) => refusal(format!(
+                "{shown} is a symbolic link, which is not followed: put a folder in its place"
+            )),
+            Ok(kind) if kind != FileType::Directory => io::Error::new(
+                io::ErrorKind::NotADirectory,
+                format!("{shown} is not a folder: move it away"),
+            ),
+            _ => at(path, &error.into()),
+        }
+    }
+
+    fn refusal(reason: String) -> io::Error {
+        io::Error::new(io::ErrorKind::PermissionDenied, reason)
     }
 }
 
@@ -251,16 +306,21 @@ mod plain {
     pub(super) struct Held;
 
     impl Held {
-        pub(super) fn of(_: &Path, path: &Path, missing: Missing) -> io::Result<Self> {
+        pub(super) fn of(state: &Path, missing: Missing) -> io::Result<Self> {
+            let path = super::path_in(state);
             if missing == Missing::Made {
-                fs::create_dir_all(path)?;
+                fs::create_dir_all(&path)?;
             }
-            Self.check(path)?;
+            fs::metadata(path)?;
             Ok(Self)
         }
 
-        pub(super) fn check(&self, path: &Path) -> io::Result<()> {
-            fs::metadata(path).map(drop)
+        pub(super) fn is_sound(&self, path: &Path) -> io::Result<bool> {
+            Ok(path.is_dir())
+        }
+
+        pub(super) fn has(&self, path: &Path, name: &str, _: &File) -> io::Result<bool> {
+            Ok(path.join(name).is_file())
         }
 
         pub(super) fn create(&self, path: &Path, name: &str) -> io::Result<File> {

@@ -52,11 +52,10 @@ impl Journal {
 
     /// Keeps a text in place of the last one. If that fails the last one is kept.
     pub(super) fn write(&mut self, edits: &Edits) -> io::Result<()> {
-        self.held.take_if(|held| !held.claim.is_there());
-        let of_scene =
-            |held: &&mut Held| held.scene == edits.scene && held.format == edits.known.format;
-        if let Some(held) = self.held.as_mut().filter(of_scene) {
-            held.folder.check()?;
+        let fits = |held: &&mut Held| {
+            held.scene == edits.scene && held.format == edits.known.format && held.is_found()
+        };
+        if let Some(held) = self.held.as_mut().filter(fits) {
             return held.write(edits);
         }
         let held = Held::new(&self.state, edits)?;
@@ -71,9 +70,9 @@ impl Journal {
         self.held.take().map_or(Ok(()), |held| held.claim.remove())
     }
 
-    /// Whether anything is kept.
+    /// Whether anything is kept where the next run looks for it.
     pub(super) fn is_kept(&self) -> bool {
-        self.held.is_some()
+        self.held.as_ref().is_some_and(Held::is_found)
     }
 }
 
@@ -97,6 +96,11 @@ impl Held {
             first,
             end: Some(content.len() as u64),
         })
+    }
+
+    /// Whether the next run would find the journal: it may have been removed, or moved away.
+    fn is_found(&self) -> bool {
+        self.folder.is_sound() && self.claim.is_there()
     }
 
     fn write(&mut self, edits: &Edits) -> io::Result<()> {

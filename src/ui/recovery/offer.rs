@@ -1,6 +1,7 @@
 //! What runs that are over have kept of a scene, and what taking it would make of the text.
 
-use std::io::{self, Read};
+use std::fmt::Display;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
@@ -10,9 +11,18 @@ use super::folder::{self, Folder};
 use super::identity::Identity;
 use super::record::{self, Content};
 use crate::document::{Merge, Side, differences};
+use crate::file;
 use crate::format::Format;
+use crate::memory::megabytes;
 use crate::text::{Edit, smallest_edit};
 use crate::ui::msg::Msg;
+
+/// A journal may be as long as this, whatever the scene's length.
+const ALWAYS: u64 = 64 << 20;
+
+/// How many times as long as the scene's text a journal may be: it holds the text that the edits
+/// started from, edits as long as the text, and one that makes them longer. Texts grow and shrink.
+const TIMES: u64 = 8;
 
 /// Whose edits are looked for.
 #[derive(Clone, Debug)]
@@ -99,30 +109,34 @@ pub(super) fn look_in(state: &Path, sought: &Sought) -> Found {
         Err(error) => {
             // Without a folder nothing is missed: that is reported once there is something to keep.
             if error.kind() == io::ErrorKind::PermissionDenied {
-                let complaint = format!("edits kept before are not offered: {error}");
-                found.complaints.push(complaint);
+                found.complain(error);
             }
             return found;
         }
     };
     let scene = Identity::of(sought.scene.as_deref(), sought.format);
-    let names = scene.names().filter(|name| !sought.put_off.contains(name));
-    let claims = names.filter_map(|name| Claim::take(&folder, name));
-    let dated = claims.map(|claim| {
-        (
-            claim.file().metadata().and_then(|m| m.modified()).ok(),
-            claim,
-        )
-    });
-    let mut dated: Vec<_> = dated.collect();
+    let mut dated = Vec::new();
+    for name in scene.names().filter(|name| !sought.put_off.contains(name)) {
+        match Claim::take(&folder, name) {
+            Ok(Some(claim)) => {
+                let modified = claim.file().metadata().and_then(|found| found.modified());
+                dated.push((modified.ok(), claim));
+            }
+            Ok(None) => {}
+            Err(error) => found.complain(error),
+        }
+    }
     dated.sort_by_key(|&(at, _)| at);
+    let limit = ALWAYS.max(TIMES * sought.text.len() as u64);
     while let Some((_, claim)) = dated.pop() {
-        let mut bytes = Vec::new();
-        let content = match claim.file().read_to_end(&mut bytes) {
-            Ok(_) => record::read(bytes, &scene),
-            Err(_) => Content::Foreign,
+        let bytes = match read(&claim, limit) {
+            Ok(bytes) => bytes,
+            Err(reason) => {
+                found.complain(reason);
+                continue;
+            }
         };
-        match content {
+        match record::read(bytes, &scene) {
             Content::Edits { base, text } => {
                 if let Some(offer) = Offer::new(&Arc::new(claim), sought, base, text) {
                     found.offer = Some(Box::new(offer));
@@ -135,14 +149,33 @@ pub(super) fn look_in(state: &Path, sought: &Sought) -> Found {
             Content::Foreign => {}
             Content::Damaged => {
                 let place = claim.set_aside();
-                let place = place.map(|place| format!("{} is damaged", place.display()));
-                found
-                    .complaints
-                    .extend(place.map(|it| format!("kept edits are not offered: {it}")));
+                if let Ok(place) = place {
+                    found.complain(format!("{} is damaged", place.display()));
+                }
             }
         }
     }
     found
+}
+
+/// All bytes of a journal, unless they are more than any journal of the scene has; then why not.
+fn read(claim: &Claim, limit: u64) -> Result<Vec<u8>, String> {
+    let place = claim.place();
+    let length = claim.file().metadata().map_or(0, |found| found.len());
+    if limit < length {
+        let (place, length, limit) = (place.display(), megabytes(length), megabytes(limit));
+        return Err(format!(
+            "{place} is {length} long, a journal of this scene at most {limit}"
+        ));
+    }
+    file::read_opened(claim.file(), &place, limit).map_err(|error| error.to_string())
+}
+
+impl Found {
+    fn complain(&mut self, reason: impl Display) {
+        let complaint = format!("unsaved edits of an earlier run are not offered: {reason}");
+        self.complaints.push(complaint);
+    }
 }
 
 impl Offer {

@@ -224,13 +224,35 @@ fn edits_are_appended_until_they_take_more_than_the_text() {
 
 #[test]
 fn a_journal_that_was_removed_is_created_again() {
-    let place = Place::new();
-    let mut journal = place.run();
-    place.keep(&mut journal, "1 2 4");
-    fs::remove_dir_all(&place.state).expect("it is there");
-    place.keep(&mut journal, "1 2 5");
-    drop(journal);
-    assert_eq!(place.offered().as_deref(), Some("1 2 5"));
+    type Remove = fn(&Place);
+    let removals: [(&str, Remove); 5] = [
+        ("all", |p| fs::remove_dir_all(&p.state).expect("there")),
+        ("file", |p| fs::remove_file(p.journal(0)).expect("there")),
+        ("name", |p| {
+            fs::rename(p.journal(0), p.recovery().join("moved")).expect("there");
+        }),
+        ("file moved", |p| {
+            fs::rename(p.journal(0), p.state.join("moved")).expect("there");
+        }),
+        ("folder moved", |p| {
+            fs::rename(p.recovery(), p.state.join("moved")).expect("there");
+        }),
+    ];
+    for (name, remove) in removals {
+        let place = Place::new();
+        let mut journal = place.run();
+        place.keep(&mut journal, "1 2 4");
+        assert!(journal.is_kept(), "{name}");
+        remove(&place);
+        assert!(!journal.is_kept(), "{name}");
+        // The same text, as at the end, or another one.
+        for text in ["1 2 4", "1 2 5"] {
+            place.keep(&mut journal, text);
+            assert!(journal.is_kept(), "{name}");
+        }
+        drop(journal);
+        assert_eq!(place.offered().as_deref(), Some("1 2 5"), "{name}");
+    }
 }
 
 /// Under its new name the scene has a journal of its own.
@@ -375,12 +397,26 @@ mod hostile {
                 "chmod go-w",
             ),
             (
+                "others may write in the state folder",
+                |p| allow(&p.state, 0o777),
+                "chmod o-w",
+            ),
+            (
                 "a link",
                 |p| {
                     fs::rename(p.recovery(), p.state.join("away")).expect("it is ours");
                     symlink(p.state.join("away"), p.recovery()).expect("it is ours");
                 },
-                "recovery",
+                "recovery is a symbolic link",
+            ),
+            (
+                "a link around it",
+                |p| {
+                    let own = p.state.join("halflight");
+                    fs::rename(&own, p.state.join("away")).expect("it is ours");
+                    symlink(p.state.join("away"), own).expect("it is ours");
+                },
+                "halflight is a symbolic link",
             ),
             (
                 "a file",
@@ -388,7 +424,7 @@ mod hostile {
                     fs::rename(p.recovery(), p.state.join("away")).expect("it is ours");
                     fs::write(p.recovery(), "").expect("it is ours");
                 },
-                "recovery",
+                "recovery is not a folder",
             ),
             (
                 "a pipe",
@@ -396,7 +432,7 @@ mod hostile {
                     fs::rename(p.recovery(), p.state.join("away")).expect("it is ours");
                     pipe(&p.recovery());
                 },
-                "recovery",
+                "recovery is not a folder",
             ),
             (
                 "a file around it",
@@ -405,7 +441,7 @@ mod hostile {
                         .expect("it is ours");
                     fs::write(p.state.join("halflight"), "").expect("it is ours");
                 },
-                "halflight",
+                "halflight is not a folder",
             ),
         ];
         for (name, prepare, words) in cases {
@@ -416,7 +452,7 @@ mod hostile {
             prepare(&place);
             let found = place.look(BASE);
             assert!(found.offer.is_none(), "{name}");
-            let is_said = *words == "chmod go-w";
+            let is_said = !words.ends_with("is not a folder");
             assert_eq!(found.complaints.len(), usize::from(is_said), "{name}");
             let edits = place.edits(&Arc::new(BASE.to_owned()), "1 2 5");
             let mut journal = place.run();
@@ -424,6 +460,16 @@ mod hostile {
             assert!(error.contains(words), "{name}: {error}");
             assert!(!journal.is_kept(), "{name}");
         }
+    }
+
+    /// Where everybody may write, but nobody can move what is another's away.
+    #[test]
+    fn a_shared_state_folder_like_that_for_temporary_files_will_do() {
+        let place = Place::new();
+        place.make();
+        allow(&place.state, 0o1777);
+        place.keep(&mut place.run(), "1 2 4");
+        assert_eq!(place.offered().as_deref(), Some("1 2 4"));
     }
 
     #[test]
@@ -460,10 +506,6 @@ mod hostile {
                 fs::write(at, "9 9 9").expect("free");
                 allow(at, 0o666);
             }),
-            ("a file beyond all limits", |_, at| {
-                let file = File::create(at).expect("free");
-                file.set_len(1 << 40).expect("a sparse file");
-            }),
         ];
         for (name, plant) in cases {
             let place = Place::new();
@@ -487,6 +529,64 @@ mod hostile {
             let others = fs::read_dir(place.victim.parent().expect("a folder")).expect(name);
             assert_eq!(others.count(), 1, "{name}");
             assert_eq!(fs::read_to_string(&place.victim).expect(name), "untouched");
+        }
+    }
+
+    #[test]
+    fn a_journal_longer_than_the_scene_can_have_is_left_unread() {
+        for (length, is_read) in [(1 << 20, true), (3 << 30, false), (1 << 40, false)] {
+            let place = Place::new();
+            place.make();
+            let journal = place.journal(0);
+            let file = File::create(&journal).expect("free");
+            file.set_len(length).expect("a sparse file");
+            let found = place.look(BASE);
+            assert!(found.offer.is_none(), "{length}");
+            let [complaint] = &found.complaints[..] else {
+                panic!("{length}: {:?}", found.complaints);
+            };
+            // What is read is not whole, and is set aside.
+            assert_eq!(journal.exists(), !is_read, "{length}");
+            let place_of = journal.display().to_string();
+            assert!(complaint.contains(&place_of), "{length}: {complaint}");
+            let limit = complaint.ends_with("a journal of this scene at most 68 MB");
+            assert_eq!(limit, !is_read, "{length}: {complaint}");
+            let mut journal = place.run();
+            place.keep(&mut journal, "1 2 4");
+            drop(journal);
+            assert!(place.look(BASE).offer.is_some(), "{length}");
+        }
+    }
+
+    /// As on network file systems without a lock daemon.
+    #[test]
+    fn where_files_cannot_be_locked_no_journal_counts_as_left_behind() {
+        use crate::file::faults::{Fault, during};
+        use rustix::io::Errno;
+        for error in [Errno::NOLCK, Errno::NOSYS] {
+            let place = Place::new();
+            let without_locks = |work: &mut dyn FnMut()| {
+                let ((), calls) = during(Fault::Ever(error), 0, work);
+                assert_eq!(calls.hit, Some("flock"), "{error}");
+            };
+            let mut journal = place.run();
+            without_locks(&mut || place.keep(&mut journal, "1 2 4"));
+            assert!(journal.is_kept());
+            without_locks(&mut || {
+                // An edit that the text has already would have the journal removed.
+                for text in [BASE, "1 2 4"] {
+                    let found = place.look(text);
+                    assert!(found.offer.is_none(), "{error}: {text}");
+                    let [complaint] = &found.complaints[..] else {
+                        panic!("{error}: {:?}", found.complaints);
+                    };
+                    let place_of = place.journal(0).display().to_string();
+                    assert!(complaint.contains(&place_of), "{complaint}");
+                }
+            });
+            assert!(journal.is_kept());
+            drop(journal);
+            assert_eq!(place.offered().as_deref(), Some("1 2 4"));
         }
     }
 
@@ -516,7 +616,9 @@ mod hostile {
         symlink(place.victim.parent().expect("a folder"), place.recovery()).expect("free");
         for (base, text) in [(BASE, "1 2 5"), ("1", "1 2 6")] {
             let edits = place.edits(&Arc::new(base.to_owned()), text);
-            journal.write(&edits).expect("it can be written");
+            let error = journal.write(&edits).expect_err("nobody would find it");
+            assert!(error.to_string().contains("symbolic link"), "{error}");
+            assert!(!journal.is_kept());
         }
         assert_eq!(fs::read_dir(place.recovery()).expect("a folder").count(), 1);
         assert_eq!(fs::read_dir(away).expect("a folder").count(), 1);

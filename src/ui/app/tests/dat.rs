@@ -191,7 +191,11 @@ fn pixels_that_were_square_stay_square() {
 #[test]
 fn a_scene_keeps_its_language() {
     let mut app = at(Node::View);
-    assert!(press(&mut app, ":w other.ray<Enter>").is_empty());
+    let effects = press(&mut app, ":w other.ray<Enter>");
+    assert!(
+        matches!(effects[..], [Effect::CheckPlace(_)]),
+        "{effects:?}"
+    );
     assert_eq!(words(&app), "other.ray: this scene's name ends in .dat");
     // The line waits with a name that will do.
     press(&mut app, "<Esc>:w mine<Enter>");

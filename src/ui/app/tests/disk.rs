@@ -1,5 +1,6 @@
 //! Reading again, saving, conflicts, quitting.
 
+use std::fs;
 use std::sync::Arc;
 
 use super::saving::saved;
@@ -8,6 +9,7 @@ use crate::document::Side;
 use crate::file::ReadError;
 use crate::scene;
 use crate::ui::msg::{Guard, SaveId, SaveOutcome, Timer};
+use crate::ui::reading::Place;
 
 #[test]
 fn a_save_may_only_replace_what_was_last_seen() {
@@ -197,11 +199,61 @@ fn a_file_equal_to_the_edits_counts_as_saved() {
     press(&mut app, "jl");
     outside(&mut app, &one);
     assert!(app.document.is_dirty());
-    assert!(
-        words(&app).starts_with("the file's changes are merged"),
-        "{}",
-        words(&app)
+    assert_eq!(
+        words(&app),
+        "the file's changes are merged with your edits: the picture stays the same; \
+         u undoes the merge"
     );
+    let other = one.replace("4 0 0", "5 0 0");
+    outside(&mut app, &other);
+    assert_eq!(
+        words(&app),
+        "the file's changes are merged with your edits: object 2 (sphere) centre x; \
+         u undoes the merge"
+    );
+}
+
+#[test]
+fn a_folder_that_was_moved_or_replaced_is_told_of() {
+    let directory = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| directory.path().join(name);
+    fs::create_dir(at("one")).expect("the folder is new");
+    fs::create_dir(at("two")).expect("the folder is new");
+    let file = |folder: &str| at(folder).join("scene.ray");
+    let place = |folder: &str| Place::of(&file(folder));
+    // The place with the path of one folder that is another one.
+    let of_other = |path: &str, folder: &str| {
+        let [path, other] = [place(path), place(folder)].map(|place| place.expect("there"));
+        Some(Place {
+            id: other.id,
+            ..path
+        })
+    };
+    let (one, two) = (at("one"), at("two"));
+    let moved = format!("the scene's folder was moved to {}", two.display());
+    let replaced = format!("another folder is at {} now", one.display());
+    let theirs = SCENE.replace("1.5", "1.7");
+    let news = "; read again: object 1 (sphere) radius";
+    for (then, text, expected) in [
+        (place("one"), SCENE, String::new()),
+        (None, SCENE, String::new()),
+        (of_other("two", "one"), SCENE, moved.clone()),
+        (of_other("two", "one"), &theirs, moved.clone()),
+        (of_other("one", "two"), SCENE, replaced.clone()),
+        (of_other("one", "two"), &theirs, format!("{replaced}{news}")),
+    ] {
+        let mut app = open(SCENE);
+        let mut read = |text: &str, place| {
+            app.message = None;
+            let reading = Reading::new(text.to_owned(), app.known()).expect("it fits");
+            let reading = Reading { place, ..reading };
+            app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(reading)));
+            words(&app).to_owned()
+        };
+        assert_eq!(read(SCENE, place("one")), "");
+        assert_eq!(read(text, then.clone()), expected);
+        assert_eq!(read(text, then), "", "said once");
+    }
 }
 
 /// A file is read after each save; the result, that nothing has changed, may arrive late.

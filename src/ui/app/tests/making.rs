@@ -162,7 +162,7 @@ fn an_export_writes_what_is_shown_and_reports_it() {
     press(&mut app, "1");
     let done = Arc::new(pictures::frame(size, vec![0; size.pixels()]));
     app.update(Msg::Frame(Target::Export, done));
-    app.update(Msg::Exported(*id, Ok(path)));
+    app.update(exported(*id, path, None));
     assert_eq!(
         words(&app),
         "wrote scene.depth.bmp: depth, 800×600, 1 spp, 0.0 s"

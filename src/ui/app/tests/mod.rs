@@ -7,7 +7,7 @@ mod editing;
 mod making;
 mod moving;
 mod opening;
-mod pictures;
+pub(in crate::ui) mod pictures;
 mod recovering;
 mod saving;
 mod xml;
@@ -17,9 +17,10 @@ use std::path::{Path, PathBuf};
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::*;
+use crate::file::Version;
 use crate::format::Format;
 use crate::render::Filter;
-use crate::ui::msg::{Effect, Msg};
+use crate::ui::msg::{Effect, ExportId, Exported, Msg};
 use crate::ui::reading::Reading;
 use crate::ui::terminal::Mouse;
 
@@ -151,6 +152,12 @@ fn outside(app: &mut App, text: &str) -> Vec<Effect> {
 fn read(app: &mut App, path: &str, text: &str) -> Vec<Effect> {
     let reading = Reading::new(text.to_owned(), app.known()).expect("it fits into memory");
     app.update(Msg::Read(PathBuf::from(path), Ok(reading)))
+}
+
+/// The news that a picture was written.
+fn exported(id: ExportId, path: impl Into<PathBuf>, version: Option<Version>) -> Msg {
+    let path = path.into();
+    Msg::Exported(id, Ok(Exported { path, version }))
 }
 
 fn wants(effects: &[Effect], wanted: fn(&Effect) -> bool) -> bool {

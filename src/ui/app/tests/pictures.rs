@@ -8,7 +8,7 @@ use crate::render::{Frame, Progress};
 use crate::scene::Size;
 use crate::ui::msg::{Existing, ExportId, Target, Timer};
 
-pub(super) fn frame(size: Size, objects: Vec<u32>) -> Frame {
+pub(in crate::ui) fn frame(size: Size, objects: Vec<u32>) -> Frame {
     Frame {
         generation: 1,
         size,
@@ -96,7 +96,7 @@ fn an_export_is_traced_written_and_reported() {
     assert!(
         matches!(&effects[..], [Effect::WriteImage(_, _, to), Effect::Stop(_), Effect::Later(..)] if to == destination)
     );
-    app.update(Msg::Exported(*id, Ok(path.clone())));
+    app.update(exported(*id, path, None));
     assert!(app.export.is_none());
     assert_eq!(words(&app), "wrote b c.png: 32×8, 2 spp, 0.0 s");
 }
@@ -149,21 +149,23 @@ fn no_object_is_outlined_by_another_one_s_number() {
 
 #[test]
 fn only_a_session_s_own_pictures_are_overwritten_unasked() {
+    let place = tempfile::tempdir().expect("a folder");
+    let written = Version::of(place.path()).expect("it is there");
     let existing = |app: &mut App, said: &str| {
         let effects = press(app, said);
         let Some(Effect::CheckTarget(id, destination)) = effects.first() else {
             panic!("{effects:?}");
         };
         let (id, destination) = (*id, destination.clone());
-        app.update(Msg::Exported(id, Ok(destination.path)));
+        app.update(exported(id, destination.path, Some(written)));
         destination.existing
     };
     let mut app = open(SCENE);
     assert_eq!(existing(&mut app, "b"), Existing::Kept);
-    assert_eq!(existing(&mut app, "b"), Existing::Overwritten);
+    assert_eq!(existing(&mut app, "b"), Existing::Own(written));
     let to_another = ":export a.bmp<Enter>";
     assert_eq!(existing(&mut app, to_another), Existing::Kept);
-    assert_eq!(existing(&mut app, to_another), Existing::Overwritten);
+    assert_eq!(existing(&mut app, to_another), Existing::Own(written));
     let by_force = ":export! c.bmp<Enter>";
     assert_eq!(existing(&mut app, by_force), Existing::Overwritten);
 }
@@ -183,7 +185,7 @@ fn pictures_of_a_text_with_errors_say_that_they_are_of_the_last_one_without() {
 
 #[test]
 fn a_file_written_after_its_export_was_cancelled_is_reported_and_stops_no_other() {
-    let late = |outcome: Result<PathBuf, String>| {
+    let late = |outcome: Msg| {
         let mut app = open(SCENE);
         press(&mut app, ":export a.bmp 32x8<Enter>");
         let size = Size {
@@ -195,13 +197,19 @@ fn a_file_written_after_its_export_was_cancelled_is_reported_and_stops_no_other(
         assert!(press(&mut app, "x").is_empty(), "no picture is traced");
         assert!(words(&app).contains("a.bmp is being written"));
         press(&mut app, ":export b.bmp<Enter>");
-        assert!(app.update(Msg::Exported(ExportId(1), outcome)).is_empty());
+        assert!(app.update(outcome).is_empty());
         let export = app.export.as_ref().expect("it goes on");
         assert_eq!(export.destination.path, PathBuf::from("b.bmp"));
         words(&app).to_owned()
     };
-    assert_eq!(late(Ok("a.bmp".into())), "wrote a.bmp anyway");
-    assert_eq!(late(Err("full".into())), "exporting to b.bmp");
+    assert_eq!(
+        late(exported(ExportId(1), "a.bmp", None)),
+        "wrote a.bmp anyway"
+    );
+    assert_eq!(
+        late(Msg::Exported(ExportId(1), Err("full".into()))),
+        "exporting to b.bmp"
+    );
 }
 
 #[test]
@@ -247,14 +255,10 @@ fn quitting_asks_about_an_export_and_can_wait_for_it() {
     }
     let mut app = open(SCENE);
     press(&mut app, "bqw");
-    assert!(quits(
-        &app.update(Msg::Exported(ExportId(1), Ok("a.bmp".into())))
-    ));
+    assert!(quits(&app.update(exported(ExportId(1), "a.bmp", None))));
     let mut app = open(SCENE);
     press(&mut app, "bqn");
-    assert!(!quits(
-        &app.update(Msg::Exported(ExportId(1), Ok("a.bmp".into())))
-    ));
+    assert!(!quits(&app.update(exported(ExportId(1), "a.bmp", None))));
     let mut app = open(SCENE);
     press(&mut app, "bqw");
     assert!(!quits(

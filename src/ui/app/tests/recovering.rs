@@ -27,7 +27,7 @@ fn elapse(app: &mut App) -> Vec<Effect> {
     app.update(Msg::Elapsed(Timer::Keep))
 }
 
-const IS_FULL: &str = "unsaved edits are not kept: it is full";
+const IS_FULL: &str = "unsaved edits can't be kept for recovery: it is full";
 
 fn fail(app: &mut App, revision: u64) -> Vec<Effect> {
     app.update(Msg::Kept(revision, Err("it is full".to_owned())))
@@ -106,6 +106,19 @@ fn edits_that_could_not_be_kept_are_tried_again() {
     let revision = ordered(&app.update(Msg::HangUp)).expect("it is tried again");
     app.update(Msg::Kept(revision, Ok(())));
     assert!(!app.fails_to_keep());
+}
+
+#[test]
+fn edits_are_written_down_once_more_at_the_end() {
+    for end in [Msg::HangUp, Msg::Terminate] {
+        let mut app = open(SCENE);
+        press(&mut app, "jjjel");
+        let revision = ordered(&elapse(&mut app)).expect("an edit");
+        app.update(Msg::Kept(revision, Ok(())));
+        assert!(elapse(&mut app).is_empty(), "they are kept");
+        // The journal may have been removed by somebody.
+        assert_eq!(ordered(&app.update(end)), Some(revision));
+    }
 }
 
 #[test]

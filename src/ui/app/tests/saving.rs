@@ -86,6 +86,73 @@ fn saves_of_one_file_wait_for_each_other() {
     assert!(wants(&effects, |effect| matches!(effect, Effect::Quit)));
 }
 
+/// What the file holds is known from the save before, whatever was saved elsewhere meanwhile.
+#[test]
+fn a_save_that_waited_may_replace_what_the_one_before_it_wrote() {
+    let failed = || SaveOutcome::Failed("full".to_owned());
+    let cases: [(&str, &str, &str, Option<SaveOutcome>); 4] = [
+        ("w", "w", "scene.ray", None),
+        ("w", "w", "scene.ray", Some(failed())),
+        (":w new.ray<Enter>", ":w new.ray<Enter>", "new.ray", None),
+        (":w! new.ray<Enter>", ":w new.ray<Enter>", "new.ray", None),
+    ];
+    for (first, second, path, outcome) in cases {
+        let mut app = open(SCENE);
+        press(&mut app, &format!("jjjel{first}"));
+        let written = app.document.shared_text();
+        press(&mut app, &format!("l{second}"));
+        press(&mut app, "l:w other.ray<Enter>");
+        let other = app.document.shared_text();
+        saved(&mut app, 3, "other.ray", &other);
+        let is_written = outcome.is_none();
+        let outcome = outcome.unwrap_or_else(|| SaveOutcome::Saved {
+            path: PathBuf::from(path),
+            text: Arc::clone(&written),
+        });
+        let effects = app.update(Msg::Saved(SaveId(1), outcome));
+        let held = if is_written {
+            written
+        } else {
+            Arc::new(SCENE.to_owned())
+        };
+        let expected = (2, path.to_owned(), Guard::Holding(held));
+        assert_eq!(saves(&effects), [expected], "{first} {second}");
+    }
+}
+
+/// The watcher may be faster than the save's own outcome.
+#[test]
+fn what_a_save_under_way_has_written_is_no_news() {
+    let mut app = open(SCENE);
+    // Notice of a change before the save.
+    let late = Reading::new(SCENE.replace("1.5", "1.7"), app.known()).expect("it fits");
+    press(&mut app, "jjjelw");
+    let mine = app.document.text().to_owned();
+    let said = words(&app).to_owned();
+    assert!(outside(&mut app, &mine).is_empty());
+    assert_eq!(words(&app), said);
+    assert!(app.document.is_dirty(), "the save has no outcome yet");
+    // What was compared with other texts is read again.
+    let effects = app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(late)));
+    assert!(wants(&effects, |effect| matches!(effect, Effect::Read(..))));
+    let early = Reading::new(mine.clone(), app.known()).expect("it fits");
+    let text = app.document.shared_text();
+    saved(&mut app, 1, "scene.ray", &text);
+    let effects = app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(early)));
+    assert!(wants(&effects, |effect| matches!(effect, Effect::Read(..))));
+    assert!(outside(&mut app, &mine).is_empty());
+    assert_eq!(words(&app), "wrote scene.ray");
+
+    // What others write meanwhile is.
+    press(&mut app, "lw");
+    outside(&mut app, &mine.replace("1.5", "1.7"));
+    assert!(
+        words(&app).starts_with("the file's changes are merged"),
+        "{}",
+        words(&app)
+    );
+}
+
 #[test]
 fn a_quit_waits_for_a_save_that_hangs_until_it_is_forced() {
     let quits = |effects: &[Effect]| wants(effects, |effect| matches!(effect, Effect::Quit));
@@ -154,6 +221,7 @@ fn the_backup_of_an_interrupted_save_is_named() {
     )]));
     assert_eq!(
         words(&app),
-        "a save of scene.ray was interrupted: .halflight-backup-1-2-scene.ray holds the previous content"
+        "the last save of scene.ray was interrupted: its previous content is in \
+         .halflight-backup-1-2-scene.ray"
     );
 }

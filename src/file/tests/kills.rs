@@ -1,0 +1,78 @@
+//! A process of its own is killed at every call of a write: what does the next one find?
+
+use std::os::unix::process::ExitStatusExt;
+use std::process::Command;
+
+use super::faults::{Case, MOST};
+use super::*;
+use crate::file::faults::{Fault, during};
+
+/// Lines: the call that a process is killed at, the file that it writes, the content.
+const ORDER: &str = "HALFLIGHT_TEST_KILL";
+
+/// What is run as a process of its own.
+#[test]
+#[ignore = "a part of another test"]
+fn killed() {
+    let Ok(order) = std::env::var(ORDER) else {
+        return;
+    };
+    let lines: Vec<_> = order.splitn(3, '\n').collect();
+    let [at, path, new] = lines[..] else {
+        panic!("{order}");
+    };
+    let at = at.parse().expect("a number");
+    let (outcome, _) = during(Fault::Kill, at, || replace_with(Path::new(path), new));
+    outcome.expect("nothing is wrong");
+}
+
+/// Writes a file in another process; whether that was killed.
+fn write_until(at: usize, case: &Case) -> bool {
+    let (path, new) = (case.path.display(), case.new);
+    let program = std::env::current_exe().expect("a program");
+    let output = Command::new(program)
+        .args(["--exact", "file::tests::kills::killed", "--ignored"])
+        .env(ORDER, format!("{at}\n{path}\n{new}"))
+        .output()
+        .expect("it starts");
+    let said = String::from_utf8_lossy(&output.stdout);
+    match output.status.signal() {
+        Some(signal) => assert_eq!(signal, 9, "{said}"),
+        None => assert!(
+            output.status.success() && said.contains("1 passed"),
+            "{said}"
+        ),
+    }
+    output.status.signal().is_some()
+}
+
+#[test]
+fn a_process_that_is_killed_costs_nothing() {
+    for number in 0..Case::all().len() {
+        let mut found_in_copies = 0;
+        let last = (0..MOST).find(|&at| {
+            let case = Case::all().swap_remove(number);
+            let was_killed = write_until(at, &case);
+            let found = fs::read_to_string(&case.path).ok();
+            let shown = format!("{} at {at}: {found:?}", case.name);
+            let is_whole = [case.old, Some(case.new)].contains(&found.as_deref());
+            let copies = backups(&case.path);
+            if !was_killed {
+                assert_eq!(found.as_deref(), Some(case.new), "{shown}");
+                assert_eq!(copies, [] as [PathBuf; 0], "{shown}");
+            }
+            for copy in &copies {
+                assert_eq!(Some(content(copy).as_str()), case.old, "{shown}");
+                found_in_copies += 1;
+            }
+            assert!(is_whole || copies.len() == 1, "{shown}: {copies:?}");
+            assert_eq!(case.left_behind(), [""; 0], "{shown}");
+            // What a copy holds is nobody else's to throw away.
+            assert_eq!(backups(&case.path), copies, "{shown}");
+            !was_killed
+        });
+        assert!(last.is_some_and(|last| 0 < last), "each call was hit");
+        let is_in_place = Case::all()[number].names.contains(&"t".to_owned());
+        assert_eq!(0 < found_in_copies, is_in_place, "only then a file is torn");
+    }
+}
