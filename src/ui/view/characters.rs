@@ -25,10 +25,6 @@ const GLYPHS: [(&str, [f32; 2]); 13] = [
     ("▄", [0.0, 1.0]),
 ];
 
-/// What lightness is raised to. Characters are coarse: in the midst of their ramp more of a picture
-/// is recognized than where its lightness is exact.
-const TONE: f32 = 0.75;
-
 /// How much of the difference from its neighbours a pixel's lightness is changed by.
 const SHARPNESS: f32 = 1.5;
 
@@ -54,11 +50,11 @@ struct Glyph {
 impl Characters {
     /// Prepares a picture.
     pub(super) fn of(shown: &Shown) -> Self {
+        let lights: [f32; 256] = std::array::from_fn(|value| light([value as u8; 3])[0]);
         let lightness = shown.pixels.iter().map(|&pixel| {
-            let [red, green, blue] = light(pixel);
+            let [red, green, blue] = pixel.map(|value| lights[usize::from(value)]);
             // Rec. 709.
-            let luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
-            luminance.powf(TONE / 3.0)
+            fourth_root(0.2126 * red + 0.7152 * green + 0.0722 * blue)
         });
         Self {
             lightness: lightness.collect(),
@@ -74,18 +70,21 @@ impl Characters {
     pub(super) fn at(&self, column: u32, row: u32) -> &'static str {
         let x = column as usize;
         let [upper, lower] = [2 * row, 2 * row + 1].map(|y| self.sharpened(x, y as usize));
-        let whole = f32::midpoint(upper.powi(3), lower.powi(3)).cbrt();
+        let whole = fourth_root(f32::midpoint(upper.powi(4), lower.powi(4)));
         // A cell is one step of the pattern: rows of cells, not of pixels, have thresholds.
         let threshold = dither::threshold(column, row) as f32 + 0.5;
         let noise = NOISE * (threshold / dither::STEPS as f32 - 0.5);
         let goal = [upper, lower, whole].map(|lightness| lightness + noise);
-        let error = |glyph: &Glyph| -> f32 {
+        let mut least = f32::INFINITY;
+        let mut closest = " ";
+        for glyph in &self.glyphs {
             let pairs = glyph.lightness.into_iter().zip(goal);
-            pairs.map(|(shown, goal)| (shown - goal).powi(2)).sum()
-        };
-        let closest = |one: &&Glyph, other: &&Glyph| error(one).total_cmp(&error(other));
-        let glyph = self.glyphs.iter().min_by(closest);
-        glyph.map_or(" ", |glyph| glyph.symbol)
+            let error: f32 = pairs.map(|(shown, goal)| (shown - goal).powi(2)).sum();
+            if error < least {
+                (least, closest) = (error, glyph.symbol);
+            }
+        }
+        closest
     }
 
     /// The lightness of a pixel, farther from its four neighbours' than it is; the picture goes on
@@ -110,6 +109,12 @@ impl Characters {
         let at = y.checked_mul(self.width)?.checked_add(x)?;
         inside.then(|| self.lightness.get(at).copied()).flatten()
     }
+}
+
+/// The lightness of light. Lightness is about its cube root; characters are coarse, and in the midst of
+/// their ramp more of a picture is recognized than where its lightness is exact.
+fn fourth_root(light: f32) -> f32 {
+    light.sqrt().sqrt()
 }
 
 #[cfg(test)]

@@ -154,9 +154,20 @@ fn slot(colour: [u8; 3]) -> (usize, [u8; 3]) {
 /// brings the light of those so far closest. Greys are mixed from greys.
 fn mix(colours: &[Fixed], taste: Taste, colour: [u8; 3]) -> Mix {
     let goal = oklab(light(colour));
-    let nearest = nearest(colours, goal);
+    let mut nearest = nearest(colours, goal);
+    let closest = nearest[0];
     let reach = (taste.reach * goal[0]).powi(2);
-    let mut parts = [nearest[0]; PARTS];
+    let mut kept = 0;
+    for at in 0..CANDIDATES {
+        let candidate = nearest[at];
+        let is_close = squared(candidate.lab, closest.lab, 1.0) <= reach;
+        if is_close && (candidate.is_grey || !is_grey(colour)) {
+            nearest[kept] = candidate;
+            kept += 1;
+        }
+    }
+    let candidates = &nearest[..kept];
+    let mut parts = [closest; PARTS];
     let mut sum = [0.0; 3];
     // In Bayer's pattern the neighbours of the brighter half of a mix are the darker half, so that
     // their mean step is twice the mean deviation from the median, or less than from any other part.
@@ -165,10 +176,9 @@ fn mix(colours: &[Fixed], taste: Taste, colour: [u8; 3]) -> Mix {
     for (count, part) in (1_u8..).zip(&mut parts) {
         let share = f32::from(count).recip();
         let mut least = f32::INFINITY;
-        for &candidate in &nearest {
-            let is_far = reach < squared(candidate.lab, nearest[0].lab, 1.0);
+        for &candidate in candidates {
             let deviation = (candidate.luma - first.unwrap_or(candidate.luma)).abs();
-            if is_far || room < deviation || is_grey(colour) && !candidate.is_grey {
+            if room < deviation {
                 continue;
             }
             let mean = std::array::from_fn(|at| (sum[at] + candidate.light[at]) * share);
