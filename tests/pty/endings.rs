@@ -60,6 +60,8 @@ fn memory_that_runs_out_gives_the_terminal_back() {
 fn assert_aborted(mut session: Session) {
     let status = session.end();
     session.assert_restored();
+    let screen = session.screen().contents();
+    assert!(screen.contains("halflight was aborted"), "{screen}");
     assert!(status.signal().is_some(), "{status:?}");
 }
 

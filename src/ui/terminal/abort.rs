@@ -7,17 +7,20 @@
 )]
 
 use std::io;
-use std::os::fd::OwnedFd;
 use std::sync::Arc;
 
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
-use rustix::termios::{OptionalActions, Termios, tcgetattr, tcsetattr};
+use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
 use signal_hook::SigId;
 use signal_hook::consts::SIGABRT;
 use signal_hook::low_level;
 
 use super::panics::{Shared, Tenure};
 use super::tty;
+
+/// Stands on the restored screen: what Rust prints before an abort is on the other one.
+const WORDS: &[u8] = b"halflight was aborted, most likely because memory ran out; \
+    unsaved edits that were kept are offered at the next start\r\n";
 
 /// How long a terminal that takes no bytes is waited for.
 const PATIENCE: Timespec = Timespec {
@@ -37,7 +40,9 @@ impl Abort {
         let modes = tcgetattr(&terminal)?;
         let restore = move || {
             if shared.tenure_amid_signal() == Tenure::Ours {
-                give_back(&terminal, &modes, leave.as_bytes());
+                write(leave.as_bytes());
+                write(WORDS);
+                let _ = tcsetattr(&terminal, OptionalActions::Now, &modes);
             }
             // The process ends as it would without this handler.
             let _ = low_level::emulate_default_handler(SIGABRT);
@@ -55,7 +60,7 @@ impl Drop for Abort {
     }
 }
 
-fn give_back(terminal: &OwnedFd, modes: &Termios, mut bytes: &[u8]) {
+fn write(mut bytes: &[u8]) {
     let output = rustix::stdio::stdout();
     while !bytes.is_empty() {
         let mut ready = [PollFd::new(&output, PollFlags::OUT)];
@@ -67,5 +72,4 @@ fn give_back(terminal: &OwnedFd, modes: &Termios, mut bytes: &[u8]) {
             _ => break,
         }
     }
-    let _ = tcsetattr(terminal, OptionalActions::Now, modes);
 }
