@@ -5,6 +5,7 @@ mod progress;
 mod render;
 mod report;
 mod stdout;
+mod threads;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -12,7 +13,6 @@ use std::path::{Path, PathBuf};
 use crate::assets::{self, Assets, NoFolder, Wanted};
 use crate::file::{self, ReadError};
 use crate::format::{self, Format, Tree, UnknownLanguage};
-use crate::memory::{self, WithoutThreads};
 use crate::render::Refusal;
 use crate::scene::{self, Images, Lowered, Meshes, Node, Origins, Scene};
 use crate::text::{Diagnostic, Findings, Span, counted, visible};
@@ -170,7 +170,7 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
         check_beginning(path, format, &beginning, warnings)?;
     }
     if LARGE < path.metadata().map_or(0, |metadata| metadata.len()) {
-        memory::start_threads(WithoutThreads::DoneByCaller).map_err(ReadError::from)?;
+        threads::settle();
     }
     let text = file::read_text(path)?;
     for copy in file::backups(path) {
@@ -235,8 +235,7 @@ fn mean(
     let mut files = lowered.origins.files(text, tree);
     let mut wanted = Wanted::new(path, &files);
     if !files.is_empty() {
-        // A long file among them is refused where there are none.
-        let _ = memory::start_threads(WithoutThreads::DoneByCaller);
+        threads::settle();
     }
     let mut loaded = assets.read(&wanted);
     if !wanted.meshes.is_empty() {

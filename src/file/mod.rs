@@ -18,7 +18,7 @@ use std::fs::{File, FileType, OpenOptions};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use crate::memory::{self, Need, NoThreads, OutOfMemory, WithoutThreads};
+use crate::memory::{self, Need, NoThreads, OutOfMemory};
 use crate::text::{Position, Span};
 
 pub use backup::{backups, interruption};
@@ -286,7 +286,7 @@ pub(crate) fn read_opened(file: &File, path: &Path, limit: u64) -> Result<Vec<u8
         reason,
     })?;
     if WITHOUT_THREADS < length {
-        memory::start_threads(WithoutThreads::Refused)?;
+        memory::start_threads()?;
     }
     read_open(file, limit).map_err(|source| match source.kind() {
         io::ErrorKind::FileTooLarge => ReadError::TooLong {

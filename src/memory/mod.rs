@@ -15,7 +15,7 @@ mod threads;
 use std::fmt;
 
 pub use available::{available, limits};
-pub use threads::{NoThreads, WithoutThreads, pool, start_threads};
+pub use threads::{NoThreads, start_threads, threads};
 
 /// Work that needs less is not checked: asking the system takes longer, and other allocations are as
 /// likely to fail.

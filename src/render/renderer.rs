@@ -6,7 +6,7 @@ use std::sync::mpsc::{self, Sender};
 use std::sync::{Arc, Weak};
 use std::thread::JoinHandle;
 
-use rayon::ThreadPool;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::film::{Film, NoMemory};
 use super::frame::{Frame, Job};
@@ -15,6 +15,7 @@ use super::shared::Shared;
 use super::worker::{self, Order};
 use crate::memory::{self, OutOfMemory};
 use crate::scene::{Scene, Size};
+use crate::text::counted;
 
 /// How many threads trace, and how they stand beside other work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,10 +34,11 @@ pub enum Refusal {
     /// The worker has ended by a panic; what its `wake` owned is dropped.
     #[error("the renderer has stopped")]
     Ended,
-    /// The system gives the worker no thread; what its `wake` owned is dropped. With fewer than asked
-    /// for it works.
-    #[error("cannot start a thread for rendering: {reason}")]
+    /// The system does not give the worker its threads; what its `wake` owned is dropped.
+    #[error("can't start {}: {reason}; --threads N sets how many", counted(*count, "thread"))]
     Threads {
+        /// How many trace.
+        count: usize,
         /// What the system said.
         reason: String,
     },
@@ -80,10 +82,11 @@ impl Renderer {
     /// refused.
     pub fn new(threads: Threads, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let shared = Arc::new(Shared::default());
+        let count = threads.count();
         let worker = Worker::start(threads, Arc::clone(&shared), wake);
         Self {
             shared,
-            worker: worker.map_err(|reason| Refusal::Threads { reason }),
+            worker: worker.map_err(|reason| Refusal::Threads { count, reason }),
             accepted: RefCell::default(),
         }
     }
@@ -132,10 +135,11 @@ impl Worker {
         shared: Arc<Shared>,
         wake: impl Fn() + Send + Sync + 'static,
     ) -> Result<Self, String> {
+        let pool = pool(threads).map_err(|error| error.to_string())?;
         let (orders, inbox) = mpsc::channel();
         let thread = std::thread::Builder::new()
             .name("renderer".to_owned())
-            .spawn(move || worker::run(&inbox, &shared, &wake, &pool(threads)))
+            .spawn(move || worker::run(&inbox, &shared, &wake, &pool))
             .map_err(|error| error.to_string())?;
         Ok(Self { orders, thread })
     }
@@ -151,14 +155,12 @@ impl Threads {
     }
 }
 
-fn pool(threads: Threads) -> ThreadPool {
-    memory::pool(
-        threads.count(),
-        match threads {
-            Threads::Background(_) => lower_priority,
-            Threads::Preview | Threads::Exactly(_) => || (),
-        },
-    )
+fn pool(threads: Threads) -> Result<ThreadPool, rayon::ThreadPoolBuildError> {
+    let builder = ThreadPoolBuilder::new().num_threads(memory::threads(threads.count()));
+    match threads {
+        Threads::Background(_) => builder.start_handler(|_| lower_priority()).build(),
+        Threads::Preview | Threads::Exactly(_) => builder.build(),
+    }
 }
 
 /// Lets everything else go first: on Linux a thread has a priority of its own.

@@ -198,7 +198,8 @@ fn follow(
     // An edit may lower a large scene on the threads that all share, and would wait there.
     let pool = LazyCell::new(|| {
         let cores = thread::available_parallelism().map_or(1, usize::from);
-        memory::pool(cores, || ())
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(memory::threads(cores));
+        pool.build()
     });
     while let Ok(first) = inbox.recv() {
         let mut orders = vec![first];
@@ -213,7 +214,10 @@ fn follow(
                 if text.len() < LARGE {
                     return Reading::new(text, known);
                 }
-                pool.install(|| Reading::new(text, known))
+                match &*pool {
+                    Ok(pool) => pool.install(|| Reading::new(text, known)),
+                    Err(_) => Reading::new(text, known),
+                }
             };
             let reading = read.and_then(|text| {
                 let place = Place::of(&path);
