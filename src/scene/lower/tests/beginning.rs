@@ -92,6 +92,7 @@ fn a_beginning_without_hope_says_so() {
     let nested = "<a>".repeat(200_000);
     let blank = " \n".repeat(5000);
     let comments = "// \n".repeat(5000);
+    let cut = format!("{comments}/");
     let long = "a".repeat(70_000);
     let numbers = "0.25 1 -3.5 12.125 7 0.5\n".repeat(5000);
     let lights = format!("0 0 0 2 {}", "1 ".repeat(5000));
@@ -101,6 +102,8 @@ fn a_beginning_without_hope_says_so() {
     );
     let cases: &[(Format, &str, Option<&str>)] = &[
         (Ray, &blank, Some("the first 10000 bytes hold no scene")),
+        (Xml, &blank, Some("the first 10000 bytes hold no scene")),
+        (Ray, &cut, Some("the first 20001 bytes hold no scene")),
         (Dat, &comments, Some("the first 20000 bytes hold no scene")),
         (
             Ray,
