@@ -15,7 +15,6 @@ use super::shared::Shared;
 use super::worker::{self, Order};
 use crate::memory::{self, OutOfMemory};
 use crate::scene::{Scene, Size};
-use crate::text::counted;
 
 /// How many threads trace, and how they stand beside other work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +34,7 @@ pub enum Refusal {
     #[error("the renderer has stopped")]
     Ended,
     /// The system does not give the worker its threads; what its `wake` owned is dropped.
-    #[error("can't start {}: {reason}; --threads N sets how many", counted(*count, "thread"))]
+    #[error("can't start the rendering threads ({count}): {reason}; --threads N sets how many")]
     Threads {
         /// How many trace.
         count: usize,

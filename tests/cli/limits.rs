@@ -34,7 +34,7 @@ fn threads_that_cannot_start_are_an_error() {
     let place = Place::new();
     let (code, stderr) = without_threads(&place, "render ball.ray -o a.ppm --threads 3");
     assert_eq!(code, Some(1), "{stderr}");
-    let first = "error: can't start 3 threads: ";
+    let first = "error: can't start the rendering threads (3): ";
     assert!(stderr.starts_with(first), "{stderr}");
     assert!(
         stderr.ends_with("; --threads N sets how many\n"),
