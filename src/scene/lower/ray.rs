@@ -34,9 +34,23 @@ pub(super) fn lower_in_order(text: &str, tree: &ray::Tree) -> Lowered {
 
 /// The errors of a text that begins with these tokens, whatever follows them.
 pub(super) fn errors_of_beginning(text: &str, tree: &ray::Tree) -> Findings {
+    /// No word of the language is longer.
+    const LONGEST_WORD: usize = 1 << 10;
     let mut tokens = tree.tokens.all();
-    // It may be cut.
-    tokens.pop();
+    // The last one may be cut, but a long one of letters is wrong whatever follows.
+    let is_hopeless = |last: &mut Span| {
+        LONGEST_WORD < last.len() && last.of(text).starts_with(|c: char| c.is_ascii_alphabetic())
+    };
+    if tokens.pop_if(|last| !is_hopeless(last)).is_none()
+        && let Some(&last) = tokens.last()
+    {
+        let mut report = Findings::default();
+        report.error(|| {
+            let message = format!("a word of more than {LONGEST_WORD} bytes");
+            Diagnostic::error(last, message, "a number or the type of an object")
+        });
+        return report;
+    }
     let mut reader = Reader::new(text, &tokens, Findings::default());
     reader.is_beginning = true;
     reader.read();

@@ -28,19 +28,6 @@ const NAMED: usize = 8;
 /// The errors of a text that begins with these records, whatever follows them.
 pub(super) fn errors_of_beginning(text: &str, tree: &Tree) -> Findings {
     let mut reader = Reader::new(text, tree);
-    let first = |record: usize| tree.tokens_of(record).first().copied();
-    let mut heads = (0..tree.records.len()).filter_map(first);
-    let is_known = |head: Span| RECORDS.iter().any(|(word, _)| *word == head.of(text));
-    if let Some(head) = first(0)
-        && !heads.any(is_known)
-    {
-        reader.report.error(|| {
-            let lines = tree.records.len();
-            let message = format!("none of the first {lines} lines holds a known record");
-            Diagnostic::error(head, message, known_records())
-        });
-        return reader.report;
-    }
     // The last one may be cut.
     for record in 0..tree.records.len().saturating_sub(1) {
         reader.record(record);
