@@ -44,9 +44,9 @@ pub(super) struct Content {
 #[derive(Debug)]
 pub(super) struct Stream {
     pub(super) file: File,
-    /// What stands for its bytes.
+    /// A hash of its bytes.
     pub(super) print: u64,
-    /// Where it was, if not where it was looked for first.
+    /// Where it was found, if not at the first place.
     pub(super) elsewhere: Option<PathBuf>,
 }
 
@@ -269,7 +269,7 @@ fn hash(value: impl Hash) -> u64 {
     hasher.finish()
 }
 
-/// What stands for bytes.
+/// A hash of bytes.
 fn print(bytes: &[u8]) -> u64 {
     let parts: Vec<u64> = if bytes.len() <= PART {
         vec![hash(bytes)]
@@ -279,7 +279,7 @@ fn print(bytes: &[u8]) -> u64 {
     hash(parts)
 }
 
-/// What stands for the bytes of a file of this length. Leaves it at its beginning.
+/// A hash of the bytes of a file of this length. Leaves it at its beginning.
 #[cfg(unix)]
 fn print_of_file(file: &File, length: u64) -> Result<u64, Failure> {
     use std::os::unix::fs::FileExt;
@@ -300,7 +300,7 @@ fn print_of_file(file: &File, length: u64) -> Result<u64, Failure> {
     Ok(hash(parts?))
 }
 
-/// What stands for the bytes of a file of this length. Leaves it at its beginning.
+/// A hash of the bytes of a file of this length. Leaves it at its beginning.
 #[cfg(not(unix))]
 fn print_of_file(mut file: &File, length: u64) -> Result<u64, Failure> {
     use std::io::{Read, Seek};

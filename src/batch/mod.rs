@@ -199,8 +199,8 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
     })
 }
 
-/// Finds out whether a long scene is worth reading, which it is not where its beginning has errors.
-/// They are printed.
+/// Checks the beginning of a long scene, so that the rest is not read if that can't help. Prints the
+/// errors.
 fn check_beginning(
     path: &Path,
     format: Format,

@@ -30,10 +30,10 @@ pub use version::{FileId, Version};
 /// The longest file that is read, in bytes: positions in a text are 32-bit numbers.
 pub const MAX_BYTES: u64 = u32::MAX as u64;
 
-/// Longer files have a beginning that is worth a look before the rest: see [`read_beginning`].
+/// Of longer files the beginning is checked before the rest is read: see [`read_beginning`].
 pub const LONG: u64 = 16 << 20;
 
-/// The most bytes of a beginning. To understand so many takes a few milliseconds.
+/// The most bytes of a beginning. They are parsed within a few milliseconds.
 const BEGINNING: usize = 1 << 20;
 
 /// The most bytes that are kept of a line that is not UTF-8, from the first wrong one on.

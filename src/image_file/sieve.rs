@@ -1,5 +1,5 @@
-//! What of a picture file its pixels are made of. Profiles, comments, thumbnails and the like may be of
-//! any size, and decoders keep what they are given.
+//! Strips picture files of what their pixels do not need. Profiles, comments, thumbnails and the like may
+//! be of any size, and decoders keep what they are given.
 
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 
@@ -13,10 +13,10 @@ const JPEG_BYTES: u64 = 8;
 /// The most bytes of a JPEG besides: tables, and what takes more than its pixels in a small picture.
 const JPEG_TABLES: u64 = 1 << 20;
 
-/// The chunks of a PNG that say its pixels.
+/// The chunks of a PNG that define its pixels.
 const PNG_CHUNKS: [&[u8; 4]; 5] = [b"IHDR", b"PLTE", b"tRNS", b"IDAT", b"IEND"];
 
-/// The longest of them, but for the pixels themselves: a palette.
+/// The length of the longest of them apart from the pixels: a palette.
 const PNG_LONGEST: u32 = 3 * 256;
 
 /// A file without what its pixels do not need. It can't be sought in.

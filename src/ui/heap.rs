@@ -3,12 +3,12 @@
 //! glibc keeps what is freed: for each thread an arena of its own, and in each of them all below a
 //! threshold that follows the largest buffer ever freed. Frames are made by one thread and freed by
 //! another, in other sizes after each resize, so that within minutes four fifths of the heap are
-//! holes. So large buffers are mapped, each by itself, and the rest is trimmed at rest: after a
-//! quarter of an hour of edits the process held 16 MB instead of 33.
+//! holes. Large buffers therefore get mappings of their own, and the rest is trimmed when idle: after
+//! a quarter of an hour of edits the process held 16 MB instead of 33.
 
 use std::thread;
 
-/// Has buffers the size of frames go back to the system when they are freed.
+/// Makes buffers as large as frames go back to the system as soon as they are freed.
 pub(crate) fn map_large() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     glibc::mallopt(glibc::M_MMAP_THRESHOLD, MAPPED);
@@ -22,7 +22,8 @@ pub(crate) fn trim() {
         .spawn(trim_now);
 }
 
-/// The least bytes of a buffer that is mapped by itself: where glibc starts, and stays if it is set.
+/// The size in bytes from which a buffer is mapped by itself: glibc's initial threshold, which no
+/// longer adapts once it is set.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 const MAPPED: std::ffi::c_int = 128 << 10;
 

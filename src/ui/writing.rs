@@ -80,7 +80,7 @@ impl Writers {
         })
     }
 
-    /// Says why no scene can be written there, if so: [`Msg::Failed`].
+    /// Reports why a scene can't be written there, if it can't: [`Msg::Failed`].
     pub(super) fn check_place(&self, path: PathBuf) -> Result<(), String> {
         let panicked = Msg::Failed(format!("{}: can't be examined", path.display()));
         self.start("check", None, panicked, move || {
@@ -315,16 +315,21 @@ mod tests {
         }
     }
 
+    /// A destination unrelated to any scene.
+    fn destination(path: &Path, existing: Existing) -> Destination {
+        Destination {
+            path: path.to_owned(),
+            existing,
+            scene: None,
+            named: Vec::new(),
+        }
+    }
+
     #[test]
     fn a_picture_that_others_wrote_is_kept() {
         let place = tempfile::tempdir().expect("a folder");
         let path = place.path().join("a.bmp");
-        let to = |existing| Destination {
-            path: path.clone(),
-            existing,
-            scene: None,
-            named: Vec::new(),
-        };
+        let to = |existing| destination(&path, existing);
         assert_eq!(check_target(&to(Existing::Kept)), Ok(()));
         std::fs::write(&path, "").expect("the folder is new");
         let refused = check_target(&to(Existing::Kept)).expect_err("it exists");
@@ -346,12 +351,7 @@ mod tests {
     fn a_picture_that_others_changed_after_its_export_is_kept() {
         let place = tempfile::tempdir().expect("a folder");
         let path = place.path().join("a.bmp");
-        let to = |existing| Destination {
-            path: path.clone(),
-            existing,
-            scene: None,
-            named: Vec::new(),
-        };
+        let to = |existing| destination(&path, existing);
         let size = Size {
             width: 1,
             height: 1,

@@ -61,7 +61,7 @@ fn assert_aborted(mut session: Session) {
     let status = session.end();
     session.assert_restored();
     let screen = session.screen().contents();
-    assert!(screen.contains("halflight was aborted"), "{screen}");
+    assert!(screen.contains("halflight aborted"), "{screen}");
     assert!(status.signal().is_some(), "{status:?}");
 }
 

@@ -1,4 +1,4 @@
-//! A process of its own is killed at every call of a write: what does the next one find?
+//! Writes in a process that is killed at each of their system calls in turn.
 
 use std::os::unix::process::ExitStatusExt;
 use std::process::Command;
@@ -10,44 +10,45 @@ use crate::file::faults::{Fault, during};
 /// Lines: the call that a process is killed at, the file that it writes, the content.
 const ORDER: &str = "HALFLIGHT_TEST_KILL";
 
-/// What is run as a process of its own.
-#[test]
-#[ignore = "a part of another test"]
-fn killed() {
-    let Ok(order) = std::env::var(ORDER) else {
-        return;
-    };
+/// The test below, which the other process runs with an order.
+const TEST: &str = "file::tests::kills::a_killed_process_leaves_the_old_or_the_new_content";
+
+/// Carries out an order: the part of the process that is killed.
+fn obey(order: &str) {
     let lines: Vec<_> = order.splitn(3, '\n').collect();
     let [at, path, new] = lines[..] else {
         panic!("{order}");
     };
     let at = at.parse().expect("a number");
     let (outcome, _) = during(Fault::Kill, at, || replace_with(Path::new(path), new));
-    outcome.expect("nothing is wrong");
+    outcome.expect("no fault but the kill");
 }
 
-/// Writes a file in another process; whether that was killed.
+/// Writes a file in another process; returns whether that was killed.
 fn write_until(at: usize, case: &Case) -> bool {
     let (path, new) = (case.path.display(), case.new);
     let program = std::env::current_exe().expect("a program");
     let output = Command::new(program)
-        .args(["--exact", "file::tests::kills::killed", "--ignored"])
+        .args(["--exact", TEST])
         .env(ORDER, format!("{at}\n{path}\n{new}"))
         .output()
         .expect("it starts");
-    let said = String::from_utf8_lossy(&output.stdout);
+    let report = String::from_utf8_lossy(&output.stdout);
     match output.status.signal() {
-        Some(signal) => assert_eq!(signal, 9, "{said}"),
+        Some(signal) => assert_eq!(signal, 9, "{report}"),
         None => assert!(
-            output.status.success() && said.contains("1 passed"),
-            "{said}"
+            output.status.success() && report.contains("1 passed"),
+            "{report}"
         ),
     }
     output.status.signal().is_some()
 }
 
 #[test]
-fn a_process_that_is_killed_costs_nothing() {
+fn a_killed_process_leaves_the_old_or_the_new_content() {
+    if let Ok(order) = std::env::var(ORDER) {
+        return obey(&order);
+    }
     for number in 0..Case::all().len() {
         let mut found_in_copies = 0;
         let last = (0..MOST).find(|&at| {
@@ -67,7 +68,7 @@ fn a_process_that_is_killed_costs_nothing() {
             }
             assert!(is_whole || copies.len() == 1, "{shown}: {copies:?}");
             assert_eq!(case.left_behind(), [""; 0], "{shown}");
-            // What a copy holds is nobody else's to throw away.
+            // Later writes in the folder leave copies alone.
             assert_eq!(backups(&case.path), copies, "{shown}");
             !was_killed
         });

@@ -37,7 +37,7 @@ pub(super) fn errors_of_beginning(text: &str, tree: &ray::Tree) -> Findings {
     /// No word of the language is longer.
     const LONGEST_WORD: usize = 1 << 10;
     let mut tokens = tree.tokens.all();
-    // The last one may be cut, but a long one of letters is wrong whatever follows.
+    // The last one may be cut; a long one that begins with a letter is wrong whatever follows.
     let is_hopeless = |last: &mut Span| {
         LONGEST_WORD < last.len() && last.of(text).starts_with(|c: char| c.is_ascii_alphabetic())
     };

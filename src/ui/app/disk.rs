@@ -22,10 +22,10 @@ const QUIET: Duration = Duration::from_millis(100);
 /// Others move the old file away before the new one is there.
 const GONE: Duration = Duration::from_millis(500);
 
-/// What is said of a text that came in, in order: how it came, what it has changed, the rest.
+/// The message about a text read from the file, in parts.
 struct Words {
     came: &'static str,
-    /// In place of what it has changed, if that is nothing but comments and spacing.
+    /// Stands for what has changed where only comments and spacing have.
     same: &'static str,
     end: &'static str,
 }

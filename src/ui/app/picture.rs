@@ -31,7 +31,7 @@ pub struct Picture {
     left: usize,
     /// The object whose outline the target has.
     marked: Option<u32>,
-    /// The cells in which the outline changes. They go before the others, as they answer a key.
+    /// The cells in which the outline changes. They are sent first: they answer a key.
     outline: VecDeque<usize>,
 }
 
@@ -152,7 +152,7 @@ impl Picture {
 
     /// Brings cells of the newest frame to the screen, with the outline of the object `marked`,
     /// until `budget` bytes are used up; goes on next time where it stopped. With `usize::MAX` the
-    /// whole frame. What changes in the outline goes first.
+    /// whole frame. Changes of the outline go first.
     /// Over a limited link pixels of an unfinished frame that are almost right are left alone; a
     /// finished one is shown exactly.
     pub fn advance(&mut self, size: Size, marked: Option<u32>, budget: usize) {

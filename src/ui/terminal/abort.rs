@@ -18,9 +18,9 @@ use signal_hook::low_level;
 use super::panics::{Shared, Tenure};
 use super::tty;
 
-/// Stands on the restored screen: what Rust prints before an abort is on the other one.
-const WORDS: &[u8] = b"halflight was aborted, most likely because memory ran out; \
-    unsaved edits that were kept are offered at the next start\r\n";
+/// Printed on the restored screen: what Rust prints before an abort goes to the alternate one.
+const WORDS: &[u8] = b"halflight aborted, most likely because memory ran out; \
+    the next start offers to restore unsaved edits\r\n";
 
 /// How long a terminal that takes no bytes is waited for.
 const PATIENCE: Timespec = Timespec {

@@ -150,8 +150,8 @@ fn slot(colour: [u8; 3]) -> (usize, [u8; 3]) {
     )
 }
 
-/// A mix whose light is close to a colour's and whose parts are. Each part in turn is the one that
-/// brings the light of those so far closest. Greys are mixed from greys.
+/// A mix whose light as a whole, and whose every part, is close to a colour. Each part in turn is the
+/// one that brings the light of those so far closest. Greys are mixed from greys.
 fn mix(colours: &[Fixed], taste: Taste, colour: [u8; 3]) -> Mix {
     let goal = oklab(light(colour));
     let mut nearest = nearest(colours, goal);

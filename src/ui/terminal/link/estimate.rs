@@ -38,8 +38,8 @@ const INTERVAL: Duration = Duration::from_secs(2);
 /// The least time between questions behind what is too little to measure, before it has settled.
 const UNSETTLED_INTERVAL: Duration = Duration::from_millis(500);
 
-/// The most that the rate grows by one burst: a round trip that was taken too long, as while
-/// everything starts, makes a line look endless.
+/// The most that one burst may multiply the rate by: an overestimated round trip, as during startup,
+/// makes any line look infinitely fast.
 const GROWTH: f64 = 4.0;
 
 /// How long a reply is waited for.
@@ -95,7 +95,7 @@ enum Kind {
     Bare,
     /// Behind a burst.
     Burst,
-    /// Behind bytes too few to measure: only a late reply says something.
+    /// Behind too few bytes to measure: only a late reply means anything.
     Check,
 }
 
@@ -195,7 +195,7 @@ impl Estimate {
                 } else if kind == Kind::Burst {
                     self.judge(question, on_line);
                 } else if self.stage == Stage::Raised {
-                    // What there is to send piles nothing up.
+                    // Nothing piles up at the present load.
                     self.stage = Stage::Settled;
                 }
             }
@@ -241,8 +241,8 @@ impl Estimate {
         };
     }
 
-    /// Takes a reply that came late: the line is given what it has delivered since the reply before,
-    /// and is measured anew when it is empty.
+    /// Handles a late reply: lowers the rate to what was delivered since the previous one, and has the
+    /// line measured again once it is empty.
     fn slow_down(&mut self, question: Question, at: Instant) {
         let delivered = self.acknowledged.map_or(0.0, |(before, sent)| {
             let time = at.saturating_duration_since(before).max(RESOLUTION);
@@ -256,13 +256,13 @@ impl Estimate {
         self.stage = Stage::Empty;
     }
 
-    /// Whether the line takes long enough for what is on it to measure its rate.
+    /// Whether enough bytes are on the line to measure its rate.
     fn is_telling(&self, now: Instant) -> bool {
         TELLING <= self.time_for(self.queue_at(now))
     }
 
-    /// Whether it is time to see that nothing piles up, which needs no burst: at a rate taken too
-    /// high none may ever be long enough.
+    /// Whether to check that nothing piles up. That needs no burst: if the rate is overestimated, none
+    /// may ever be long enough to measure.
     fn wants_check(&self, now: Instant) -> bool {
         let interval = match self.stage {
             Stage::Settled => INTERVAL,

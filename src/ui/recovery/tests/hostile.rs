@@ -1,0 +1,264 @@
+//! Folders and files that others have put where journals go.
+
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::process::Command;
+
+use super::*;
+
+fn allow(path: &Path, mode: u32) {
+    fs::set_permissions(path, fs::Permissions::from_mode(mode)).expect("it is ours");
+}
+
+fn pipe(path: &Path) {
+    let made = Command::new("mkfifo").arg(path).status();
+    assert!(made.expect("every system has it").success());
+}
+
+/// Folders in which nothing is kept, and nothing is read.
+#[test]
+fn folders_that_are_refused() {
+    type Prepare = fn(&Place);
+    let cases: &[(&str, Prepare, &str)] = &[
+        (
+            "a group may write",
+            |p| allow(&p.recovery(), 0o770),
+            "chmod go-w",
+        ),
+        (
+            "others may write",
+            |p| allow(&p.recovery(), 0o1777),
+            "chmod go-w",
+        ),
+        (
+            "others may write around it",
+            |p| {
+                allow(&p.state.join("halflight"), 0o757);
+            },
+            "chmod go-w",
+        ),
+        (
+            "others may write in the state folder",
+            |p| allow(&p.state, 0o777),
+            "chmod o-w",
+        ),
+        (
+            "a link",
+            |p| {
+                fs::rename(p.recovery(), p.state.join("away")).expect("it is ours");
+                symlink(p.state.join("away"), p.recovery()).expect("it is ours");
+            },
+            "recovery is a symbolic link",
+        ),
+        (
+            "a link around it",
+            |p| {
+                let own = p.state.join("halflight");
+                fs::rename(&own, p.state.join("away")).expect("it is ours");
+                symlink(p.state.join("away"), own).expect("it is ours");
+            },
+            "halflight is a symbolic link",
+        ),
+        (
+            "a file",
+            |p| {
+                fs::rename(p.recovery(), p.state.join("away")).expect("it is ours");
+                fs::write(p.recovery(), "").expect("it is ours");
+            },
+            "recovery is not a folder",
+        ),
+        (
+            "a pipe",
+            |p| {
+                fs::rename(p.recovery(), p.state.join("away")).expect("it is ours");
+                pipe(&p.recovery());
+            },
+            "recovery is not a folder",
+        ),
+        (
+            "a file around it",
+            |p| {
+                fs::rename(p.state.join("halflight"), p.state.join("away")).expect("it is ours");
+                fs::write(p.state.join("halflight"), "").expect("it is ours");
+            },
+            "halflight is not a folder",
+        ),
+    ];
+    for (name, prepare, words) in cases {
+        let place = Place::new();
+        let mut journal = place.run();
+        place.keep(&mut journal, "1 2 4");
+        drop(journal);
+        prepare(&place);
+        let found = place.look(BASE);
+        assert!(found.offer.is_none(), "{name}");
+        let is_said = !words.ends_with("is not a folder");
+        assert_eq!(found.complaints.len(), usize::from(is_said), "{name}");
+        let edits = place.edits(&Arc::new(BASE.to_owned()), "1 2 5");
+        let mut journal = place.run();
+        let error = journal.write(&edits).expect_err(name).to_string();
+        assert!(error.contains(words), "{name}: {error}");
+        assert!(!journal.is_kept(), "{name}");
+    }
+}
+
+/// Where everybody may write, but nobody can move what is another's away.
+#[test]
+fn a_shared_state_folder_like_that_for_temporary_files_will_do() {
+    let place = Place::new();
+    place.make();
+    allow(&place.state, 0o1777);
+    place.keep(&mut place.run(), "1 2 4");
+    assert_eq!(place.offered().as_deref(), Some("1 2 4"));
+}
+
+#[test]
+fn a_folder_of_another_user_is_refused() {
+    use rustix::fs::{Uid, chown};
+    let place = Place::new();
+    place.make();
+    // Only root can give a folder away.
+    if chown(place.recovery(), Some(Uid::from_raw(1)), None).is_ok() {
+        let edits = place.edits(&Arc::default(), "1");
+        let error = place.run().write(&edits).expect_err("it is not ours");
+        assert!(error.to_string().contains("another user"), "{error}");
+    }
+}
+
+/// What another user may have left in the folder before it was ours alone: none of it is followed,
+/// waited for or written to.
+#[test]
+fn files_that_are_not_followed() {
+    type Plant = fn(&Place, &Path);
+    let cases: &[(&str, Plant)] = &[
+        ("a link", |place, at| {
+            symlink(&place.victim, at).expect("free");
+        }),
+        ("a link to nothing", |place, at| {
+            symlink(place.victim.with_extension("new"), at).expect("free");
+        }),
+        ("a link to a device", |_, at| {
+            symlink("/dev/zero", at).expect("free");
+        }),
+        ("a pipe", |_, at| pipe(at)),
+        ("a folder", |_, at| fs::create_dir(at).expect("free")),
+        ("a file that others may write", |_, at| {
+            fs::write(at, "9 9 9").expect("free");
+            allow(at, 0o666);
+        }),
+    ];
+    for (name, plant) in cases {
+        let place = Place::new();
+        place.make();
+        plant(&place, &place.journal(0));
+        assert_eq!(place.offered(), None, "{name}");
+        let mut journal = place.run();
+        place.keep(&mut journal, "1 2 4");
+        let mode = fs::metadata(place.journal(1))
+            .expect(name)
+            .permissions()
+            .mode();
+        assert_eq!(mode & 0o777, 0o600, "{name}");
+        let folder = fs::metadata(place.recovery())
+            .expect(name)
+            .permissions()
+            .mode();
+        assert_eq!(folder & 0o777, 0o700, "{name}");
+        drop(journal);
+        assert_eq!(place.offered().as_deref(), Some("1 2 4"), "{name}");
+        let others = fs::read_dir(place.victim.parent().expect("a folder")).expect(name);
+        assert_eq!(others.count(), 1, "{name}");
+        assert_eq!(fs::read_to_string(&place.victim).expect(name), "untouched");
+    }
+}
+
+#[test]
+fn a_journal_longer_than_the_scene_can_have_is_left_unread() {
+    for (length, is_read) in [(1 << 20, true), (3 << 30, false), (1 << 40, false)] {
+        let place = Place::new();
+        place.make();
+        let journal = place.journal(0);
+        let file = File::create(&journal).expect("free");
+        file.set_len(length).expect("a sparse file");
+        let found = place.look(BASE);
+        assert!(found.offer.is_none(), "{length}");
+        let [complaint] = &found.complaints[..] else {
+            panic!("{length}: {:?}", found.complaints);
+        };
+        // What is read is not whole, and is set aside.
+        assert_eq!(journal.exists(), !is_read, "{length}");
+        let place_of = journal.display().to_string();
+        assert!(complaint.contains(&place_of), "{length}: {complaint}");
+        let limit = complaint.ends_with("a journal of this scene at most 68 MB");
+        assert_eq!(limit, !is_read, "{length}: {complaint}");
+        let mut journal = place.run();
+        place.keep(&mut journal, "1 2 4");
+        drop(journal);
+        assert!(place.look(BASE).offer.is_some(), "{length}");
+    }
+}
+
+/// As on network file systems without a lock daemon.
+#[test]
+fn where_files_cannot_be_locked_no_journal_counts_as_left_behind() {
+    use crate::file::faults::{Fault, during};
+    use rustix::io::Errno;
+    for error in [Errno::NOLCK, Errno::NOSYS] {
+        let place = Place::new();
+        let without_locks = |work: &mut dyn FnMut()| {
+            let ((), calls) = during(Fault::Ever(error), 0, work);
+            assert_eq!(calls.hit, Some("flock"), "{error}");
+        };
+        let mut journal = place.run();
+        without_locks(&mut || place.keep(&mut journal, "1 2 4"));
+        assert!(journal.is_kept());
+        without_locks(&mut || {
+            // An edit that the text has already would have the journal removed.
+            for text in [BASE, "1 2 4"] {
+                let found = place.look(text);
+                assert!(found.offer.is_none(), "{error}: {text}");
+                let [complaint] = &found.complaints[..] else {
+                    panic!("{error}: {:?}", found.complaints);
+                };
+                let place_of = place.journal(0).display().to_string();
+                assert!(complaint.contains(&place_of), "{complaint}");
+            }
+        });
+        assert!(journal.is_kept());
+        drop(journal);
+        assert_eq!(place.offered().as_deref(), Some("1 2 4"));
+    }
+}
+
+#[test]
+fn what_replaces_a_journal_follows_no_link() {
+    let place = Place::new();
+    let mut journal = place.run();
+    place.keep(&mut journal, "1 2 4");
+    let new = place.journal(0).with_extension("ray.new");
+    symlink(&place.victim, new).expect("free");
+    let edits = place.edits(&Arc::new("1".to_owned()), "1 2 5");
+    journal.write(&edits).expect("it can be written");
+    assert_eq!(
+        fs::read_to_string(&place.victim).expect("a text"),
+        "untouched"
+    );
+    assert_eq!(place.names().len(), 1);
+}
+
+#[test]
+fn a_folder_put_in_place_of_the_one_held_is_not_written_to() {
+    let place = Place::new();
+    let mut journal = place.run();
+    place.keep(&mut journal, "1 2 4");
+    let away = place.state.join("away");
+    fs::rename(place.recovery(), &away).expect("it is ours");
+    symlink(place.victim.parent().expect("a folder"), place.recovery()).expect("free");
+    for (base, text) in [(BASE, "1 2 5"), ("1", "1 2 6")] {
+        let edits = place.edits(&Arc::new(base.to_owned()), text);
+        let error = journal.write(&edits).expect_err("nobody would find it");
+        assert!(error.to_string().contains("symbolic link"), "{error}");
+        assert!(!journal.is_kept());
+    }
+    assert_eq!(fs::read_dir(place.recovery()).expect("a folder").count(), 1);
+    assert_eq!(fs::read_dir(away).expect("a folder").count(), 1);
+}
