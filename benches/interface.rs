@@ -25,9 +25,9 @@ use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use halflight::format::{self, Format};
+use halflight::language::{Language, Source};
 use halflight::render::{DEFAULT_DEPTH, Filter, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::{Images, Integrator, Meshes, Scene, Transfer, lower};
+use halflight::scene::{Images, Integrator, Meshes, Scene, Transfer};
 use halflight::ui::view::layout::Zoom;
 
 use desk::{Desk, Drawn, TERMINAL, difference, picture_cells};
@@ -416,12 +416,9 @@ fn edit_light(desk: &mut Desk) {
 }
 
 fn scene(text: &str) -> Arc<Scene> {
-    let tree = format::parse(Format::Ray, text);
-    Arc::new(
-        lower(text, &tree, &Meshes::default())
-            .scene
-            .expect("a scene without errors"),
-    )
+    let mut source = Source::new(Language::Ray, Arc::new(text.to_owned()));
+    let lowered = source.lower(&Meshes::default()).expect("there is memory");
+    Arc::new(lowered.scene.expect("a scene without errors"))
 }
 
 /// A renderer at work on all cores, and what tells of its frames.

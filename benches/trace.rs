@@ -16,13 +16,13 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use halflight::accel::Bvh;
-use halflight::format::{self, Format};
 use halflight::geometry::{Aabb, Affine, Instance, Mesh, Shape};
+use halflight::language::{self, FileKind, Language};
 use halflight::obj;
 use halflight::render::{DEFAULT_DEPTH, Filter, Frame, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::{
-    Camera, FileKind, Focus, Images, Integrator, Lens, Light, Material, Meshes, Object, Phong, Rgb,
-    Scene, Setting, Shadows, Size, Source, Transfer, lower,
+    Camera, Focus, Images, Integrator, Lens, Light, Material, Meshes, Object, Phong, Rgb, Scene,
+    Setting, Shadows, Size, Source, Transfer,
 };
 
 /// Runs of everything that is timed; the median is printed.
@@ -57,9 +57,9 @@ fn main() {
         "Mray/s 1",
         format!("Mray/s {cores}")
     );
-    for (name, format, text) in measured() {
+    for (name, language, text) in measured() {
         if wanted.is_empty() || wanted.iter().any(|part| name.contains(part.as_str())) {
-            row(&name, format, &text(), cores);
+            row(&name, language, &text(), cores);
         }
     }
     let name = "mesh of 1,000,000";
@@ -71,16 +71,16 @@ fn main() {
 type Text = Box<dyn Fn() -> String>;
 
 /// The scenes by name, with their language: the project's own and the generated ones.
-fn measured() -> Vec<(String, Format, Text)> {
+fn measured() -> Vec<(String, Language, Text)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let entries = std::fs::read_dir(folder).expect("the scenes are there");
     let mut own: Vec<_> = entries
         .map(|entry| entry.expect("a scene").path())
         .collect();
     own.sort();
-    let mut measured: Vec<(String, Format, Text)> = Vec::new();
+    let mut measured: Vec<(String, Language, Text)> = Vec::new();
     for path in own {
-        let Ok(format) = Format::of_path(&path) else {
+        let Ok(language) = Language::of_path(&path) else {
             continue;
         };
         let name = path
@@ -90,49 +90,50 @@ fn measured() -> Vec<(String, Format, Text)> {
             .into_owned();
         measured.push((
             name,
-            format,
+            language,
             Box::new(move || std::fs::read_to_string(&path).expect("a scene")),
         ));
     }
-    let generated: [(&str, Format, Text); 3] = [
+    let generated: [(&str, Language, Text); 3] = [
         (
             "flake of 7,381",
-            Format::Ray,
+            Language::Ray,
             Box::new(|| scenes::sphereflake(4)),
         ),
         (
             "1,000,000 spheres",
-            Format::Ray,
+            Language::Ray,
             Box::new(|| scenes::random_spheres(1_000_000, 1)),
         ),
         (
             "200 CSG trees",
-            Format::Dat,
+            Language::Dat,
             Box::new(|| scenes::set_operations(200)),
         ),
     ];
     let generated = generated.into_iter();
-    measured.extend(generated.map(|(name, format, text)| (name.to_owned(), format, text)));
+    measured.extend(generated.map(|(name, language, text)| (name.to_owned(), language, text)));
     measured
 }
 
-fn row(name: &str, format: Format, text: &str, cores: usize) {
-    let (parse, tree) = median(|| format::parse(format, text));
-    let files = lower(text, &tree, &Meshes::default())
-        .origins
-        .files(text, &tree);
+fn row(name: &str, language: Language, text: &str, cores: usize) {
+    let text = Arc::new(text.to_owned());
+    let (parse, mut source) = median(|| language::Source::new(language, Arc::clone(&text)));
+    let mut lower = || source.lower(&Meshes::default()).expect("there is memory");
+    let (lowering, lowered) = median(&mut lower);
+    drop(lowered);
+    let files = source.files();
     if files.iter().any(|file| file.kind == FileKind::Mesh) {
         println!("{name:<20} its meshes are not read here: see the one below");
         return;
     }
-    let (lowering, lowered) = median(|| lower(text, &tree, &Meshes::default()));
-    drop((tree, lowered));
+    drop(source);
 
     // What an open document costs beside its text: tokens, origins, scene and acceleration tree.
     let before = resident();
-    let tree = format::parse(format, text);
-    let mut lowered = lower(text, &tree, &Meshes::default());
-    let scene = Arc::new(lowered.scene.take().expect("a scene without errors"));
+    let mut source = language::Source::new(language, text);
+    let lowered = source.lower(&Meshes::default()).expect("there is memory");
+    let scene = Arc::new(lowered.scene.expect("a scene without errors"));
     let boxes: Vec<Aabb> = scene
         .objects
         .iter()
@@ -141,7 +142,7 @@ fn row(name: &str, format: Format, text: &str, cores: usize) {
     let (build, bvh) = median(|| Bvh::build(&boxes, || false).expect("nothing cancels"));
     drop(boxes);
     let bytes = resident().saturating_sub(before) / scene.objects.len();
-    drop((tree, lowered, bvh));
+    drop((source, bvh));
 
     let (alone, frame) = traced(&scene, 1);
     let (together, _) = traced(&scene, cores);

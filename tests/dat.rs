@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::{Arc, mpsc};
 
-use halflight::format::{self, Format};
+use halflight::language::{Language, Source};
 use halflight::render::{DEFAULT_DEPTH, Filter, Frame, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::{Image, Images, Integrator, Meshes, Scene, Size, Transfer, lower};
+use halflight::scene::{Image, Images, Integrator, Meshes, Scene, Size, Transfer};
 
 /// A scene whose lengths are all `s` times as large: squares of lengths and what is counted in
 /// their reciprocals follow.
@@ -87,7 +87,9 @@ fn everything(s: f64, camera: &str) -> String {
 }
 
 fn meaning(text: &str) -> Arc<Scene> {
-    let lowered = lower(text, &format::parse(Format::Dat, text), &Meshes::default());
+    let lowered = Source::new(Language::Dat, Arc::new(text.to_owned()))
+        .lower(&Meshes::default())
+        .expect("there is memory");
     let said = &lowered.diagnostics;
     assert!(
         said.iter()
@@ -172,11 +174,9 @@ fn the_course_s_own_files_are_read_whole() {
     for name in ["model1", "model2", "model3", "simple", "sphereTest"] {
         let path = folder.join("bu").join(name).with_extension("dat");
         let text = std::fs::read_to_string(path).expect("the course's files are there");
-        let lowered = lower(
-            &text,
-            &format::parse(Format::Dat, &text),
-            &Meshes::default(),
-        );
+        let lowered = Source::new(Language::Dat, Arc::new(text.to_owned()))
+            .lower(&Meshes::default())
+            .expect("there is memory");
         let said = &lowered.diagnostics;
         let scene = lowered.scene.unwrap_or_else(|| panic!("{name}: {said:?}"));
         let lines: Vec<Vec<&str>> = text

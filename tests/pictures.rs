@@ -5,11 +5,11 @@ use std::sync::{Arc, mpsc};
 
 use halflight::assets::{Assets, Loaded, Wanted};
 use halflight::document::Document;
-use halflight::format::{self, Format};
 use halflight::image_file::ImageFormat;
+use halflight::language::table::{Field, Kind, Range};
+use halflight::language::{Language, Lowered, NamedFile, Node, Source};
 use halflight::render::{Filter, Frame, Frames, Job, Renderer, Settings, Threads, default_depth};
-use halflight::scene::fields::{Field, Kind, Range};
-use halflight::scene::{Images, Integrator, Lowered, Meshes, Node, Scene, Size, lower};
+use halflight::scene::{Images, Integrator, Meshes, Scene, Size};
 use halflight::text::{Edit, parse_number};
 
 /// Size of the pictures beside the scenes, and their samples a pixel: the README's command.
@@ -79,14 +79,14 @@ fn the_course_s_own_copies_mean_the_same() {
 /// One of the project's scenes.
 struct Own {
     path: PathBuf,
-    format: Format,
+    language: Language,
     text: String,
 }
 
 impl Own {
     fn read(path: PathBuf) -> Self {
         Self {
-            format: Format::of_path(&path).expect("a scene"),
+            language: Language::of_path(&path).expect("a scene"),
             text: std::fs::read_to_string(&path).expect("scenes are readable"),
             path,
         }
@@ -94,16 +94,19 @@ impl Own {
 
     /// The scene and the pictures of its textures.
     fn meaning(&self) -> (Arc<Scene>, Images) {
-        let tree = format::parse(self.format, &self.text);
-        let files = |lowered: &Lowered| lowered.origins.files(&self.text, &tree);
+        let mut source = Source::new(self.language, Arc::new(self.text.clone()));
+        let mut lower = |loaded: &Loaded| -> (Lowered, Vec<NamedFile>) {
+            let lowered = source.lower(&loaded.meshes).expect("there is memory");
+            (lowered, source.files())
+        };
         let mut assets = Assets::new(&[]);
         // What meshes name is known once they are read.
         let mut loaded = Loaded::default();
-        let mut lowered = lower(&self.text, &tree, &loaded.meshes);
+        let (mut lowered, mut files) = lower(&loaded);
         for _ in 0..2 {
-            loaded = assets.read(&Wanted::new(&self.path, &files(&lowered)));
+            loaded = assets.read(&Wanted::new(&self.path, &files));
             assert!(loaded.troubles.is_empty(), "{:?}", loaded.troubles);
-            lowered = lower(&self.text, &tree, &loaded.meshes);
+            (lowered, files) = lower(&loaded);
         }
         assert_eq!(*lowered.diagnostics, [], "{}", self.path.display());
         let scene = lowered.scene.expect("there are no errors");
@@ -112,21 +115,21 @@ impl Own {
 
     /// The same scene, 2 to this power times as large.
     fn scaled(&self, exponent: i32) -> Self {
-        let mut document = Document::new(self.format, self.text.clone());
-        let lowered = lower(&self.text, document.tree(), &Meshes::default());
-        let origins = lowered.origins;
-        let is_xml = self.format == Format::Xml;
+        let mut document = Document::new(self.language, self.text.clone());
+        let lowered = document.lower(&Meshes::default()).expect("there is memory");
+        let source = document.source();
+        let is_xml = self.language == Language::Xml;
         // Balls of light have so much light for so much surface.
         let integrator = lowered.scene.map(|scene| scene.setting.integrator);
         let shines = integrator == Some(Integrator::Path);
         let mut edits = Vec::new();
-        for node in origins.nodes().iter() {
+        for node in source.nodes().iter() {
             if is_xml && matches!(node, Node::Object(_)) {
                 continue;
             }
             // Maps of textures are in a space of their own.
             let is_map = |key| is_xml && matches!(node, Node::Material(_)) && key != "absorption";
-            for placed in origins.fields(document.tree(), node) {
+            for placed in source.fields(node) {
                 if is_map(placed.field.key) {
                     continue;
                 }
@@ -154,7 +157,7 @@ impl Own {
                 text.to_owned()
             },
             path: self.path.clone(),
-            format: self.format,
+            language: self.language,
         }
     }
 }
@@ -234,7 +237,7 @@ fn scenes() -> Vec<Own> {
     let mut paths: Vec<_> = entries
         .map(|entry| entry.expect("a scene").path())
         .collect();
-    paths.retain(|path| Format::of_path(path).is_ok());
+    paths.retain(|path| Language::of_path(path).is_ok());
     paths.sort();
     assert!(7 < paths.len());
     paths.into_iter().map(Own::read).collect()

@@ -6,19 +6,19 @@ use std::process::Command;
 use std::sync::{Arc, mpsc};
 
 use halflight::assets::{Assets, Wanted};
-use halflight::format::{self, Format};
+use halflight::language::table::Kind;
+use halflight::language::{Language, Lowered, Node, Placed, Source};
 use halflight::render::{DEFAULT_DEPTH, Filter, Frames, Job, Renderer, Settings, Threads};
-use halflight::scene::fields::Kind;
-use halflight::scene::{Images, Integrator, Lowered, Meshes, Node, Placed, Scene, Transfer, lower};
+use halflight::scene::{Images, Integrator, Meshes, Scene, Transfer};
 use halflight::text::apply;
 use tempfile::TempDir;
 
 const EXAMPLE: &str = include_str!("../scenes/spheres.xml");
 
-fn read(text: &str) -> (format::Tree, Lowered) {
-    let tree = format::parse(Format::Xml, text);
-    let lowered = lower(text, &tree, &Meshes::default());
-    (tree, lowered)
+fn read(text: &str) -> (Source, Lowered) {
+    let mut source = Source::new(Language::Xml, Arc::new(text.to_owned()));
+    let lowered = source.lower(&Meshes::default()).expect("there is memory");
+    (source, lowered)
 }
 
 /// Whether the ray through the centre of a pixel meets a sphere of the example; `None` where that
@@ -102,11 +102,11 @@ fn the_course_s_own_files_are_read_listed_and_edited() {
     for path in paths.filter(|path| path.extension().is_some_and(|extension| extension == "xml")) {
         let name = path.display().to_string();
         let text = fs::read_to_string(&path).expect("scenes are readable");
-        let (tree, lowered) = read(&text);
-        let files = lowered.origins.files(&text, &tree);
+        let (mut source, _) = read(&text);
+        let files = source.files();
         let loaded = Assets::new(&[]).read(&Wanted::new(&path, &files));
         assert!(loaded.troubles.is_empty(), "{name}: {:?}", loaded.troubles);
-        let lowered = lower(&text, &tree, &loaded.meshes);
+        let lowered = source.lower(&loaded.meshes).expect("there is memory");
         let said: Vec<_> = lowered
             .diagnostics
             .iter()
@@ -115,7 +115,7 @@ fn the_course_s_own_files_are_read_listed_and_edited() {
         let scene: Scene = lowered.scene.unwrap_or_else(|| panic!("{name}: {said:?}"));
         assert!(said.is_empty(), "{name}: {said:?}");
         let objects = text.matches("<object").count();
-        let nodes = lowered.origins.nodes();
+        let nodes = source.nodes();
         let listed = nodes
             .iter()
             .filter(|node| matches!(node, Node::Object(_)))
@@ -126,18 +126,13 @@ fn the_course_s_own_files_are_read_listed_and_edited() {
         for node in nodes.iter() {
             // Another type has other fields.
             let is_free = |placed: &Placed| !matches!(placed.field.kind, Kind::Choice(_));
-            for placed in lowered
-                .origins
-                .fields(&tree, node)
-                .into_iter()
-                .filter(is_free)
-            {
+            for placed in source.fields(node).into_iter().filter(is_free) {
                 for component in 0..placed.spans.len() {
-                    let edits = placed.edits(&text, &tree, &[(component, "7".to_owned())]);
+                    let edits = placed.edits(&*source, &[(component, "7".to_owned())]);
                     let mut edited = text.clone();
                     let undo = apply(&mut edited, &edits);
-                    let (tree, after) = read(&edited);
-                    let fields = after.origins.fields(&tree, node);
+                    let (after, _) = read(&edited);
+                    let fields = after.fields(node);
                     let says = |at: usize| {
                         let field = fields
                             .iter()

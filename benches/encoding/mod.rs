@@ -7,7 +7,7 @@ use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
 use crossterm::event::{KeyCode, KeyEvent};
-use halflight::format::Format;
+use halflight::language::Language;
 use halflight::render::{Filter, Frame, Job, Renderer, Threads};
 use halflight::ui::app::{App, Opening, OpeningText, Quality};
 use halflight::ui::msg::{Effect, Msg, Target};
@@ -53,7 +53,7 @@ pub(crate) fn noise(scene: &str, (columns, rows): (u16, u16), turns: usize) -> E
 pub(crate) fn opened(scene: &str, terminal: (u16, u16)) -> (App, Job) {
     let (mut app, mut effects) = App::open(Opening {
         path: Some(PathBuf::from("scene.ray")),
-        format: Format::Ray,
+        language: Language::Ray,
         text: OpeningText::Known(scene.to_owned()),
         quality: Quality {
             spp: 1,

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use halflight::format::Format;
+use halflight::language::Language;
 use halflight::scene::Size;
 
 use crate::SCRATCH;
@@ -75,7 +75,7 @@ pub(crate) fn all(folder: Option<&Path>) -> Vec<Case> {
     let entries = std::fs::read_dir(own_folder()).expect("the scenes are there");
     let mut own: Vec<_> = entries
         .map(|entry| entry.expect("a scene").path())
-        .filter(|path| Format::of_path(path).is_ok())
+        .filter(|path| Language::of_path(path).is_ok())
         .collect();
     own.sort();
     cases.extend(own.into_iter().map(|path| {

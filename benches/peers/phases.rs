@@ -8,10 +8,10 @@ use std::sync::mpsc::{self, Receiver};
 use std::time::{Duration, Instant};
 
 use halflight::assets::{Assets, Wanted};
-use halflight::format::{self, Format, Tree};
 use halflight::geometry::Shape;
+use halflight::language::{FileKind, Language, Source};
 use halflight::render::{Filter, Frame, Frames, Job, Renderer, Settings, Threads, default_depth};
-use halflight::scene::{Camera, FileKind, Images, Lowered, Meshes, Object, Scene, Size, lower};
+use halflight::scene::{Camera, Images, Meshes, Object, Scene, Size};
 
 use crate::cases::Case;
 use crate::programs::{kilobytes, median};
@@ -115,12 +115,12 @@ pub(crate) fn tell(arguments: &[String]) {
 }
 
 fn of(path: &Path, spp: u32, depth: Option<u32>) -> Phases {
-    let format = Format::of_path(path).expect("a scene by its name");
+    let language = Language::of_path(path).expect("a scene by its name");
     let text = std::fs::read_to_string(path).expect("a scene");
 
     // First of all: later the system does not know what of the memory is free.
     let before = resident();
-    let opened = Opened::new(path, format, &text);
+    let opened = Opened::new(path, language, &text);
     let stage = Stage::new(depth);
     stage.build(&opened);
     let open = resident().saturating_sub(before);
@@ -134,7 +134,7 @@ fn of(path: &Path, spp: u32, depth: Option<u32>) -> Phases {
         if long && 3 <= run {
             break;
         }
-        let opened = Opened::new(path, format, &text);
+        let opened = Opened::new(path, language, &text);
         let stage = Stage::new(depth);
         let build = stage.build(&opened);
         let (render, frame) = stage.trace(&opened.scene, &opened.images, WHOLE, spp);
@@ -165,8 +165,7 @@ fn of(path: &Path, spp: u32, depth: Option<u32>) -> Phases {
 /// A scene as far as it is understood, and what that took.
 struct Opened {
     /// Kept as long as the scene, as an open document does.
-    _tree: Tree,
-    _lowered: Lowered,
+    _source: Source,
     scene: Arc<Scene>,
     images: Images,
     parse: Duration,
@@ -174,30 +173,33 @@ struct Opened {
 }
 
 impl Opened {
-    fn new(path: &Path, format: Format, text: &str) -> Self {
-        let (mut parse, tree) = timed(|| format::parse(format, text));
-        let (mut lowering, mut lowered) = timed(|| lower(text, &tree, &Meshes::default()));
+    fn new(path: &Path, language: Language, text: &str) -> Self {
+        let text = Arc::new(text.to_owned());
+        let (mut parse, mut source) = timed(|| Source::new(language, text));
+        let lower = |source: &mut Source, meshes: &Meshes| {
+            timed(|| source.lower(meshes).expect("there is memory"))
+        };
+        let (mut lowering, mut lowered) = lower(&mut source, &Meshes::default());
         let mut assets = Assets::new(&[]);
-        let mut read = |lowered: &Lowered| {
-            let files = lowered.origins.files(text, &tree);
+        let mut read = |source: &Source| {
+            let files = source.files();
             let (time, loaded) = timed(|| assets.read(&Wanted::new(path, &files)));
             parse += time;
             (files, loaded)
         };
-        let (files, mut loaded) = read(&lowered);
+        let (files, mut loaded) = read(&source);
         if files.iter().any(|file| file.kind == FileKind::Mesh) {
-            (lowering, lowered) = timed(|| lower(text, &tree, &loaded.meshes));
+            (lowering, lowered) = lower(&mut source, &loaded.meshes);
             // Meshes may name pictures, which are known once they are read.
-            loaded = read(&lowered).1;
+            loaded = read(&source).1;
         }
-        let scene = lowered.scene.take().expect("a scene without errors");
+        let scene = lowered.scene.expect("a scene without errors");
         Self {
             scene: Arc::new(scene),
             images: loaded.images,
             parse,
             lower: lowering,
-            _tree: tree,
-            _lowered: lowered,
+            _source: source,
         }
     }
 
@@ -228,8 +230,8 @@ impl Stage {
             woken,
             depth,
         };
-        let tree = format::parse(Format::Ray, SPHERE);
-        let lowered = lower(SPHERE, &tree, &Meshes::default());
+        let mut source = Source::new(Language::Ray, Arc::new(SPHERE.to_owned()));
+        let lowered = source.lower(&Meshes::default()).expect("there is memory");
         let scene = lowered.scene.expect("a scene without errors");
         stage.trace(&Arc::new(scene), &Images::default(), PIXEL, 1);
         stage

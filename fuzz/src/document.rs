@@ -1,10 +1,8 @@
 //! Texts under edit: fields set, undone and redone, and changes from two sides merged.
 
 use halflight::document::{Document, Merge, Side};
-use halflight::format::{Format, parse};
-use halflight::scene::{
-    Before, Lowered, Meshes, Node, Visibility, lower_again, view_edits, visibility_edits,
-};
+use halflight::language::{Before, Language, Lowered, Node, Source, Visibility};
+use halflight::scene::Meshes;
 use halflight::text::{Edit, smallest_edit};
 
 use super::scene::{check, read};
@@ -34,14 +32,19 @@ pub fn edits(input: &[u8]) {
     let Some((&first, text)) = text.split_first() else {
         return;
     };
-    let format = Format::ALL[usize::from(first) % 3];
+    let language = Language::ALL[usize::from(first) % 3];
     let original = String::from_utf8_lossy(text).into_owned();
-    let (_, mut lowered) = read(format, &original);
-    let mut document = Document::new(format, original.clone());
+    let mut document = Document::new(language, original.clone());
+    let mut lowered = document.lower(&Meshes::default()).expect("there is memory");
     for step in steps.chunks_exact(3).take(64) {
         let before = document.text().to_owned();
         perform(&mut document, &lowered, [step[0], step[1], step[2]]);
-        lowered = followed(&document, &before, &lowered);
+        lowered = if step[0] % 8 == 2 {
+            // Things stand where they stood, but what was known is of the text rejected.
+            document.lower(&Meshes::default()).expect("there is memory")
+        } else {
+            followed(&mut document, &before, &lowered)
+        };
     }
     while document.redo().is_some() {}
     let edited = document.text().to_owned();
@@ -53,9 +56,8 @@ pub fn edits(input: &[u8]) {
 
 /// One step: what is done, to which of the things or fields, and with which value.
 fn perform(document: &mut Document, lowered: &Lowered, [what, which, value]: [u8; 3]) {
-    let (text, tree) = (document.text(), document.tree());
-    let origins = &lowered.origins;
-    let nodes = origins.nodes();
+    let source = document.source();
+    let nodes = source.nodes();
     let node = nodes.get(usize::from(which) % nodes.len().max(1));
     match (what % 8, node, &lowered.scene) {
         (0, ..) => drop(document.undo()),
@@ -64,7 +66,7 @@ fn perform(document: &mut Document, lowered: &Lowered, [what, which, value]: [u8
         (3, ..) => document.end_step(),
         (4, Some(Node::Object(object)), _) => {
             let wanted = [Visibility::Shown, Visibility::Hidden][usize::from(value % 2)];
-            if let Ok(edits) = visibility_edits(text, tree, origins, object, wanted) {
+            if let Ok(edits) = source.visibility_edits(object, wanted) {
                 document.edit(&edits);
             }
         }
@@ -72,10 +74,11 @@ fn perform(document: &mut Document, lowered: &Lowered, [what, which, value]: [u8
             let mut camera = scene.camera;
             camera.eye.x += f64::from(value) - 100.0;
             camera.size.width = camera.size.width.saturating_add(u32::from(which));
-            document.edit(&view_edits(text, tree, origins, &scene.camera, &camera));
+            let edits = source.view_edits(&scene.camera, &camera);
+            document.edit(&edits);
         }
         (_, Some(node), _) => {
-            let placed = origins.fields(tree, node);
+            let placed = source.fields(node);
             let fields = placed.iter().flat_map(|placed| {
                 let components = 0..placed.spans.len();
                 components.map(move |component| (placed, component))
@@ -86,7 +89,7 @@ fn perform(document: &mut Document, lowered: &Lowered, [what, which, value]: [u8
                 return;
             };
             let literal = LITERALS[usize::from(what / 8) % LITERALS.len()];
-            let edits = placed.edits(text, tree, &[(*component, literal.to_owned())]);
+            let edits = placed.edits(&**source, &[(*component, literal.to_owned())]);
             if let (6, [Edit { span, text }]) = (what % 8, &edits[..]) {
                 document.set(*span, text);
             } else {
@@ -98,24 +101,30 @@ fn perform(document: &mut Document, lowered: &Lowered, [what, which, value]: [u8
 }
 
 /// What a document means after a step, found in both ways: anew, and from what it meant before.
-fn followed(document: &Document, before: &str, was: &Lowered) -> Lowered {
-    let (text, tree) = (document.text(), document.tree());
-    let leaves = parse(document.format(), text).leaves();
-    assert!(tree.leaves() == leaves, "the tree follows the text");
-    let (_, lowered) = read(document.format(), text);
-    if let (Some(scene), Some(Edit { span, text: put })) = (&was.scene, smallest_edit(before, text))
-    {
-        let known = Before {
-            scene,
-            origins: &was.origins,
-            diagnostics: &was.diagnostics,
-        };
-        let changed = Edit { span, text: put }.placed();
-        let again = lower_again(text, tree, &Meshes::default(), known, [span, changed]);
-        check(text, tree, &again);
-        assert!(again.scene == lowered.scene && again.diagnostics == lowered.diagnostics);
-    }
-    lowered
+fn followed(document: &mut Document, before: &str, was: &Lowered) -> Lowered {
+    let meshes = Meshes::default();
+    let fresh = Source::new(document.language(), document.shared_text());
+    let (source, text) = (document.source(), document.text());
+    assert!(
+        source.leaves() == fresh.leaves(),
+        "the tree follows the text"
+    );
+    let (_, lowered) = read(document.language(), text);
+    let edit = smallest_edit(before, text);
+    let again = match (&was.scene, edit) {
+        (Some(scene), Some(edit)) => {
+            let known = Before {
+                scene,
+                diagnostics: &was.diagnostics,
+            };
+            document.lower_again(&meshes, known, [edit.span, edit.placed()])
+        }
+        _ => document.lower(&meshes),
+    };
+    let again = again.expect("there is memory");
+    check(document.source(), &again);
+    assert!(again.scene == lowered.scene && again.diagnostics == lowered.diagnostics);
+    again
 }
 
 /// Merges two texts with their ancestor: the first byte says the language, bytes of 0 stand between
@@ -124,7 +133,7 @@ pub fn merge(input: &[u8]) {
     let Some((&first, rest)) = input.split_first() else {
         return;
     };
-    let format = Format::ALL[usize::from(first) % 3];
+    let language = Language::ALL[usize::from(first) % 3];
     let [base, mine, theirs] = super::parts(rest).map(|part| String::from_utf8_lossy(part));
     let one_sided = if base == mine || mine == theirs {
         Some(&theirs)
@@ -133,21 +142,21 @@ pub fn merge(input: &[u8]) {
     } else {
         None
     };
-    let mut document = Document::new(format, base.clone().into_owned());
+    let mut document = Document::new(language, base.clone().into_owned());
     let edits: Vec<_> = smallest_edit(&base, &mine).into_iter().collect();
     document.edit(&edits);
     document.end_step();
     assert_eq!(document.text(), mine);
     match document
         .snapshot()
-        .merge(Document::new(format, theirs.clone().into_owned()))
+        .merge(Document::new(language, theirs.clone().into_owned()))
     {
         Ok(merged) => {
             drop(document.take(merged));
             assert!(one_sided.is_none_or(|text| document.text() == text));
-            let leaves = parse(format, document.text()).leaves();
+            let fresh = Source::new(language, document.shared_text());
             assert!(
-                document.tree().leaves() == leaves,
+                document.source().leaves() == fresh.leaves(),
                 "the tree is that of the text"
             );
             if base == mine || document.text() == mine {

@@ -12,8 +12,9 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use crate::language::{FileKind, NamedFile};
 use crate::obj;
-use crate::scene::{FileKind, Image, Images, Meshes, NamedFile};
+use crate::scene::{Image, Images, Meshes};
 
 use gate::{Content, Gate, Stream};
 use meshes::KnownMesh;

@@ -8,8 +8,8 @@ use std::path::PathBuf;
 use super::LIMITS;
 use crate::file::{ReadError, directory_of};
 use crate::image_file::{Unreadable, known_extensions};
+use crate::language::{FileKind, NamedFile};
 use crate::memory::OutOfMemory;
-use crate::scene::{FileKind, NamedFile};
 use crate::text::{Diagnostic, Findings};
 
 /// What is wrong with pictures, by name.

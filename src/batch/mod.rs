@@ -9,12 +9,16 @@ mod threads;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::assets::{self, Assets, NoFolder, Wanted};
 use crate::file::{self, ReadError};
-use crate::format::{self, Format, Tree, UnknownLanguage};
+use crate::language::{
+    self, Language, Lowered, Node, Source, UnknownLanguage, errors_of_beginning,
+};
+use crate::memory::OutOfMemory;
 use crate::render::Refusal;
-use crate::scene::{self, Images, Lowered, Meshes, Node, Origins, Scene};
+use crate::scene::{Images, Meshes, Scene};
 use crate::text::{Diagnostic, Findings, Span, counted, visible};
 
 pub use render::{Output, Render, render};
@@ -151,9 +155,8 @@ struct Loaded {
     images: Images,
     /// Where the files stand that it names.
     files: Vec<PathBuf>,
-    text: String,
-    /// Nobody asks them any more, but a large scene's take long to free.
-    syntax: (Tree, Origins),
+    /// Of a large scene it takes long to free.
+    source: Source,
     /// Where the text says the picture's size, if it does.
     size: Option<Span>,
     errors: usize,
@@ -162,12 +165,12 @@ struct Loaded {
 
 /// Reads a scene with the files it names, from `folders` too, and prints what is wrong with it.
 fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, Error> {
-    let format = Format::of_path(path).map_err(|unknown| {
+    let language = Language::of_path(path).map_err(|unknown| {
         // What can't be opened is no scene under any name.
         file::open(path).map_or_else(Error::from, |_| unknown.into())
     })?;
     if let Some(beginning) = file::read_beginning(path)? {
-        check_beginning(path, format, &beginning, warnings)?;
+        check_beginning(path, language, &beginning, warnings)?;
     }
     if LARGE < path.metadata().map_or(0, |metadata| metadata.len()) {
         threads::settle();
@@ -180,22 +183,20 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
         path: path.to_owned(),
         reason,
     };
-    format::fits(format, &text, 0).map_err(no_memory)?;
-    let tree = format::parse(format, &text);
-    scene::fits(&text, &tree).map_err(no_memory)?;
-    let (lowered, images, files) = mean(path, &text, &tree, folders);
+    language::fits(language, &text, 0).map_err(no_memory)?;
+    let mut source = Source::new(language, Arc::new(text));
+    let (lowered, images, files) = mean(path, &mut source, folders).map_err(no_memory)?;
     let findings = warnings.judge(lowered.diagnostics);
-    print_all_findings(path, &text, &findings);
+    print_all_findings(path, source.text(), &findings);
     let (errors, warnings) = (findings.errors(), findings.warnings());
     Ok(Loaded {
-        size: size_place(&lowered.origins, &tree),
+        size: size_place(&source),
         scene: lowered.scene.filter(|_| errors == 0),
         images,
         files,
-        text,
         errors,
         warnings,
-        syntax: (tree, lowered.origins),
+        source,
     })
 }
 
@@ -203,11 +204,11 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
 /// errors.
 fn check_beginning(
     path: &Path,
-    format: Format,
+    language: Language,
     beginning: &str,
     warnings: Warnings,
 ) -> Result<(), Error> {
-    let findings = scene::errors_of_beginning(format, beginning);
+    let findings = errors_of_beginning(language, beginning);
     if findings.errors() == 0 {
         return Ok(());
     }
@@ -226,22 +227,21 @@ fn check_beginning(
 /// elsewhere than by their names.
 fn mean(
     path: &Path,
-    text: &str,
-    tree: &Tree,
+    source: &mut Source,
     folders: &[PathBuf],
-) -> (Lowered, Images, Vec<PathBuf>) {
+) -> Result<(Lowered, Images, Vec<PathBuf>), OutOfMemory> {
     let mut assets = Assets::new(folders);
-    let mut lowered = scene::lower(text, tree, &Meshes::default());
-    let mut files = lowered.origins.files(text, tree);
+    let mut lowered = source.lower(&Meshes::default())?;
+    let mut files = source.files();
     let mut wanted = Wanted::new(path, &files);
     if !files.is_empty() {
         threads::settle();
     }
     let mut loaded = assets.read(&wanted);
     if !wanted.meshes.is_empty() {
-        lowered = scene::lower(text, tree, &loaded.meshes);
+        lowered = source.lower(&loaded.meshes)?;
         // Meshes may name pictures.
-        files = lowered.origins.files(text, tree);
+        files = source.files();
         let named = wanted;
         wanted = Wanted::new(path, &files);
         if wanted != named {
@@ -252,12 +252,12 @@ fn mean(
     for (name, place) in &loaded.elsewhere {
         tell("note", &format!("{name} is read from {}", place.display()));
     }
-    (lowered, loaded.images, loaded.files)
+    Ok((lowered, loaded.images, loaded.files))
 }
 
 /// Where a text says the picture's size, if it does.
-fn size_place(origins: &Origins, tree: &Tree) -> Option<Span> {
-    let view = origins.fields(tree, Node::View);
+fn size_place(source: &Source) -> Option<Span> {
+    let view = source.fields(Node::View);
     let said = view.iter().filter(|placed| placed.is_said());
     let sizes = said.filter(|placed| placed.field.kind.is_size());
     sizes

@@ -81,7 +81,7 @@ fn make(work: &Render) -> Result<(), Error> {
         let message = format!("view size {reason}");
         let wrong = Diagnostic::error(place, message, "a smaller size")
             .with_hint("or say another one: --size WxH");
-        print_findings(&work.scene, &loaded.text, &[wrong]);
+        print_findings(&work.scene, loaded.source.text(), &[wrong]);
         return Err(Error::Invalid { errors: 1 });
     }
     let (wake, woken) = mpsc::channel();
@@ -93,7 +93,7 @@ fn make(work: &Render) -> Result<(), Error> {
     });
     renderer.restart(job(work, scene, loaded.images, size))?;
     // Giving back a text of 85 MB takes 10 ms, its syntax nearly as much; the worker has begun.
-    drop((loaded.text, loaded.syntax));
+    drop(loaded.source);
     let frame = last(&renderer, &woken)?;
     if 0 < frame.progress.over_budget {
         let samples = counted(frame.progress.over_budget as usize, "sample");

@@ -5,11 +5,12 @@
 //! hunks, for a needless question is better than a silently wrong merge.
 
 use std::ops::{Index, Range};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use similar::{Algorithm, DiffOp, capture_diff_deadline};
 
-use crate::format::{self, Format};
+use crate::language::{Language, Source};
 use crate::text::Span;
 
 /// How long the search for a short difference may go on; what is left then counts as one hunk. In
@@ -29,8 +30,8 @@ pub(super) struct Chunks<'t> {
 
 impl<'t> Chunks<'t> {
     /// Chops a text.
-    pub(super) fn of(format: Format, text: &'t str) -> Self {
-        let leaves = format::parse(format, text).leaves();
+    pub(super) fn of(language: Language, text: &'t str) -> Self {
+        let leaves = Source::new(language, Arc::new(text.to_owned())).leaves();
         let mut bounds = Vec::with_capacity(2 * leaves.len() + 2);
         bounds.push(0);
         let ends = leaves.iter().flat_map(|leaf| [leaf.start(), leaf.end()]);

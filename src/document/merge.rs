@@ -10,8 +10,9 @@ use std::sync::Arc;
 use super::Document;
 use super::hunks::{Chunks, Hunk, hunks};
 use super::windows::{Change, Window, widening, windows};
-use crate::format::Format;
-use crate::text::{self, Edit, Span};
+use crate::language::Language;
+use crate::text;
+use crate::text::{Edit, Span};
 
 /// One of the two texts that changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,14 +85,14 @@ impl Conflict {
 impl Merge {
     /// Merges the changes of two texts against their common ancestor.
     pub fn new(
-        format: Format,
+        language: Language,
         base: &Arc<String>,
         mine: &Arc<String>,
         theirs: &Arc<String>,
     ) -> Self {
         let changes = [mine, theirs].map(|other| Change::between(base, other));
-        let (pieces, conflicts) = widening(format, |margin| {
-            settle(format, [base, mine, theirs], changes, margin)
+        let (pieces, conflicts) = widening(language, |margin| {
+            settle(language, [base, mine, theirs], changes, margin)
         });
         Self {
             conflicts,
@@ -104,7 +105,7 @@ impl Merge {
 
     /// Whether the text under edit still is the one that it started from.
     pub fn is_of(&self, document: &Document) -> bool {
-        Arc::ptr_eq(&self.mine, &document.text)
+        Arc::ptr_eq(&self.mine, document.source.text())
     }
 
     /// The merged text under the decisions made so far.
@@ -123,8 +124,8 @@ impl Merge {
 
     /// The same merge for a text under edit that has gone on; conflicts that are still the same
     /// keep their decisions.
-    pub(super) fn onto(self, format: Format, mine: &Arc<String>) -> Self {
-        let mut merge = Self::new(format, &self.base, mine, &self.theirs);
+    pub(super) fn onto(self, language: Language, mine: &Arc<String>) -> Self {
+        let mut merge = Self::new(language, &self.base, mine, &self.theirs);
         let mut earlier = self.conflicts.into_iter().peekable();
         for conflict in &mut merge.conflicts {
             while earlier
@@ -144,7 +145,7 @@ impl Merge {
 /// What to change in mine and what is to be decided, by the lines around the changes of both texts:
 /// the ancestor's, mine and theirs. `None` where a margin of so many bytes is too narrow to tell.
 fn settle(
-    format: Format,
+    language: Language,
     [base, mine, theirs]: [&str; 3],
     changes: [Option<Change>; 2],
     margin: usize,
@@ -152,11 +153,11 @@ fn settle(
     let (mut pieces, mut conflicts) = (Vec::new(), Vec::new());
     for window in windows(base, changes[0], changes[1], margin) {
         let sides = Sides {
-            base: Chunks::of(format, window.base.of(base)),
-            mine: Chunks::of(format, window.mine.of(mine)),
-            theirs: Chunks::of(format, window.theirs.of(theirs)),
+            base: Chunks::of(language, window.base.of(base)),
+            mine: Chunks::of(language, window.mine.of(mine)),
+            theirs: Chunks::of(language, window.theirs.of(theirs)),
         };
-        let (settled, open) = sides.merge(format, window)?;
+        let (settled, open) = sides.merge(language, window)?;
         let later = |piece| match piece {
             Piece::Theirs(edit) => Piece::Theirs(Edit {
                 span: edit.span.later(window.mine.start()),
@@ -205,7 +206,7 @@ struct Sides<'t> {
 impl Sides<'_> {
     /// What to change in mine and what is to be decided; `None` if they are too narrow a window to
     /// tell.
-    fn merge(&self, format: Format, window: Window) -> Option<(Vec<Piece>, Vec<Conflict>)> {
+    fn merge(&self, language: Language, window: Window) -> Option<(Vec<Piece>, Vec<Conflict>)> {
         let mine = hunks(&self.base, &self.mine);
         let theirs = hunks(&self.base, &self.theirs);
         if [&mine, &theirs]
@@ -221,7 +222,7 @@ impl Sides<'_> {
         let holds = [Side::Mine, Side::Theirs].into_iter().all(|side| {
             let mut text = self.mine.text().to_owned();
             text::apply(&mut text, &edits(&pieces, &conflicts, |_| side));
-            Chunks::of(format, &text)
+            Chunks::of(language, &text)
                 .iter()
                 .eq(self.outcome(&regions, side))
         });

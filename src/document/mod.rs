@@ -16,17 +16,16 @@ pub use windows::differences;
 
 use std::sync::Arc;
 
-use crate::format::{self, Format, Tree};
-use crate::text::{self, Edit, Span};
+use crate::language::{Before, Language, Lowered, Source};
+use crate::memory::OutOfMemory;
+use crate::scene::Meshes;
+use crate::text::{Edit, Span, cover};
 use history::History;
 
 /// A scene's text under edit.
 #[derive(Clone, Debug)]
 pub struct Document {
-    format: Format,
-    /// Where others hold it, it is copied before it changes.
-    text: Arc<String>,
-    tree: Tree,
+    source: Source,
     saved: Arc<String>,
     /// Whether the two differ: asked with every key, and in a text of 85 MB an answer of 10 ms.
     is_dirty: bool,
@@ -48,13 +47,10 @@ pub enum Adopted {
 
 impl Document {
     /// A document whose saved text is `text`.
-    pub fn new(format: Format, text: String) -> Self {
-        let tree = format::parse(format, &text);
+    pub fn new(language: Language, text: String) -> Self {
         Self {
-            format,
             saved: Arc::new(text.clone()),
-            text: Arc::new(text),
-            tree,
+            source: Source::new(language, Arc::new(text)),
             is_dirty: false,
             revision: 0,
             history: History::default(),
@@ -62,23 +58,38 @@ impl Document {
     }
 
     /// Its language.
-    pub fn format(&self) -> Format {
-        self.format
+    pub fn language(&self) -> Language {
+        self.source.language()
+    }
+
+    /// The text with its tree, and where its things stand as of the last lowering.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// Finds the meaning of the text: [`Answers::lower`].
+    pub fn lower(&mut self, meshes: &Meshes) -> Result<Lowered, OutOfMemory> {
+        self.source.lower(meshes)
+    }
+
+    /// Finds it after an edit: [`Answers::lower_again`].
+    pub fn lower_again(
+        &mut self,
+        meshes: &Meshes,
+        before: Before<'_>,
+        spans: [Span; 2],
+    ) -> Result<Lowered, OutOfMemory> {
+        self.source.lower_again(meshes, before, spans)
     }
 
     /// The text.
     pub fn text(&self) -> &str {
-        &self.text
+        self.source.text()
     }
 
     /// The text, for others to hold while this one is edited on.
     pub fn shared_text(&self) -> Arc<String> {
-        Arc::clone(&self.text)
-    }
-
-    /// The tree of the text.
-    pub fn tree(&self) -> &Tree {
-        &self.tree
+        Arc::clone(self.source.text())
     }
 
     /// The text last saved or loaded: the ancestor of the next merge.
@@ -101,7 +112,7 @@ impl Document {
     /// [`Document::end_step`] or another operation; a run that ends where it began is no step.
     /// The same literal again changes nothing.
     pub fn set(&mut self, span: Span, literal: &str) {
-        if span.of(&self.text) == literal {
+        if span.of(self.text()) == literal {
             self.history.record_nothing();
             return;
         }
@@ -118,7 +129,7 @@ impl Document {
     pub fn edit(&mut self, edits: &[Edit]) {
         let edits: Vec<_> = edits
             .iter()
-            .filter(|edit| edit.span.of(&self.text) != edit.text)
+            .filter(|edit| edit.span.of(self.source.text()) != edit.text)
             .cloned()
             .collect();
         if edits.is_empty() {
@@ -136,10 +147,11 @@ impl Document {
 
     /// Takes back the last `set` or `edit` call (one call, even inside a merged step) as if it had
     /// never been made: for a value that turns out to be refused. What it made impossible to redo
-    /// can be redone again. Does nothing if undo, redo or a text from outside came after the call.
+    /// can be redone again, and things stand where they stood. Does nothing if undo, redo or a text from outside came after the call.
     pub fn reject(&mut self) {
         if let Some(inverse) = self.history.take_back() {
             self.change(&inverse);
+            self.source.restore();
         }
     }
 
@@ -172,9 +184,9 @@ impl Document {
     /// What a text from outside is merged with, elsewhere; copies nothing.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
-            format: self.format,
+            language: self.language(),
             saved: Arc::clone(&self.saved),
-            edited: self.is_dirty.then(|| Arc::clone(&self.text)),
+            edited: self.is_dirty.then(|| self.shared_text()),
         }
     }
 
@@ -207,8 +219,8 @@ impl Document {
         if merge.base != self.saved {
             return Adopted::OutOfDate;
         }
-        if merge.mine != self.text {
-            merge = merge.onto(self.format, &self.text);
+        if merge.mine != *self.source.text() {
+            merge = merge.onto(self.language(), self.source.text());
             if merge.conflicts.iter().any(|c| c.decision.is_none()) {
                 return Adopted::Conflict(merge);
             }
@@ -223,7 +235,7 @@ impl Document {
     /// text saved stays the same. Unlike for [`Document::adopt`], the text from outside is the edited
     /// one.
     pub fn restore(&mut self, merge: &Merge) -> Adopted {
-        if merge.mine != self.text {
+        if merge.mine != *self.source.text() {
             return Adopted::OutOfDate;
         }
         self.edit(&merge.edits());
@@ -232,23 +244,15 @@ impl Document {
     }
 
     fn set_saved(&mut self, text: Arc<String>) {
-        self.is_dirty = self.text != text;
+        self.is_dirty = *self.source.text() != text;
         self.saved = text;
     }
 
     /// Changes text and tree; the edits that lead back.
     fn change(&mut self, edits: &[Edit]) -> Vec<Edit> {
-        let inverse = text::apply(Arc::make_mut(&mut self.text), edits);
-        let old = cover(edits).unwrap_or_default();
-        let changed = cover(&inverse).unwrap_or_default();
-        self.tree.follow(&self.text, old, changed);
-        self.is_dirty = self.text != self.saved;
+        let inverse = self.source.change(edits);
+        self.is_dirty = *self.source.text() != self.saved;
         self.revision += 1;
         inverse
     }
-}
-
-/// The smallest span that covers all of the edits' spans.
-fn cover(edits: &[Edit]) -> Option<Span> {
-    edits.iter().map(|edit| edit.span).reduce(Span::to)
 }

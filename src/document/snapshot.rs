@@ -3,14 +3,15 @@
 use std::sync::Arc;
 
 use super::{Document, Merge};
-use crate::format::Format;
-use crate::text::{self, Edit, smallest_edit};
+use crate::language::Language;
+use crate::text;
+use crate::text::{Edit, smallest_edit};
 
 /// A document at one moment, as far as a text from outside is compared with it.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
     /// Its language.
-    pub format: Format,
+    pub language: Language,
     /// The text last saved or loaded.
     pub saved: Arc<String>,
     /// The text under edit, if it is another one.
@@ -30,7 +31,7 @@ impl Snapshot {
     /// Whether a document still is as it was.
     pub fn is_of(&self, document: &Document) -> bool {
         let is_text = match &self.edited {
-            Some(edited) => Arc::ptr_eq(edited, &document.text),
+            Some(edited) => Arc::ptr_eq(edited, document.source.text()),
             None => !document.is_dirty,
         };
         is_text && Arc::ptr_eq(&self.saved, &document.saved)
@@ -43,14 +44,19 @@ impl Snapshot {
 
     /// Merges a text from outside with the unsaved edits; or what is to be decided first.
     pub fn merge(&self, theirs: Document) -> Result<Merged, Merge> {
-        let merge = Merge::new(self.format, &self.saved, self.text(), &theirs.text);
+        let merge = Merge::new(
+            self.language,
+            &self.saved,
+            self.text(),
+            theirs.source.text(),
+        );
         if !merge.conflicts.is_empty() {
             return Err(merge);
         }
         let mut text = String::clone(self.text());
         let back = text::apply(&mut text, &merge.edits());
         let mut document = theirs;
-        if let Some(edit) = smallest_edit(&document.text, &text) {
+        if let Some(edit) = smallest_edit(document.text(), &text) {
             document.change(&[edit]);
         }
         Ok(Merged { document, back })

@@ -4,19 +4,19 @@ use proptest::sample::{Index, select};
 use super::*;
 
 fn document(text: &str) -> Document {
-    Document::new(Format::Ray, text.to_owned())
+    Document::new(Language::Ray, text.to_owned())
 }
 
 /// Sets the leaf of an index; whatever happens, the tree must fit the text.
 fn set(document: &mut Document, leaf: usize, literal: &str) {
-    let span = document.tree().leaves()[leaf];
+    let span = document.source().leaves()[leaf];
     document.set(span, literal);
 }
 
 #[track_caller]
 fn check_tree(document: &Document) {
-    let fresh = format::parse(document.format(), document.text());
-    assert_eq!(document.tree().leaves(), fresh.leaves());
+    let fresh = Source::new(document.language(), document.shared_text());
+    assert_eq!(document.source().leaves(), fresh.leaves());
 }
 
 /// Takes a text from outside; or the merge whose conflicts are to be decided.
@@ -255,13 +255,13 @@ proptest! {
 
     #[test]
     fn edits_change_their_span_and_undo_restores_every_byte(
-        format in select(&Format::ALL),
+        language in select(&Language::ALL),
         text in scene(),
         edits in prop::collection::vec((any::<Index>(), "-?[0-9]{1,4}(\\.5)?", 0..8), 100),
     ) {
-        let mut doc = Document::new(format, text.clone());
+        let mut doc = Document::new(language, text.clone());
         for (leaf, literal, then) in edits {
-            let leaves = doc.tree().leaves();
+            let leaves = doc.source().leaves();
             let span = leaves[leaf.index(leaves.len())];
             let before = doc.text().to_owned();
             doc.set(span, &literal);

@@ -2,8 +2,9 @@
 //! million objects has tens of millions of those.
 
 use super::hunks::{Chunks, Hunk, hunks};
-use crate::format::Format;
-use crate::text::{self, Span};
+use crate::language::Language;
+use crate::text;
+use crate::text::Span;
 
 /// At first, a window has this many bytes on either side of a difference.
 const MARGIN: usize = 1024;
@@ -71,8 +72,8 @@ impl Change {
 }
 
 /// What `work` finds in the narrowest windows wide enough, which it is handed the margins of.
-pub(super) fn widening<T>(format: Format, work: impl Fn(usize) -> Option<T>) -> T {
-    let mut margin = if format.leaves_keep_to_lines() {
+pub(super) fn widening<T>(language: Language, work: impl Fn(usize) -> Option<T>) -> T {
+    let mut margin = if language.leaves_keep_to_lines() {
         MARGIN
     } else {
         usize::MAX
@@ -118,13 +119,13 @@ fn lines_around(text: &str, span: Span, margin: usize) -> Span {
 }
 
 /// How many places of another text differ from one: leaves, or runs of them.
-pub fn differences(format: Format, text: &str, other: &str) -> usize {
+pub fn differences(language: Language, text: &str, other: &str) -> usize {
     let change = Change::between(text, other);
-    widening(format, |margin| {
+    widening(language, |margin| {
         let mut count = 0;
         for window in windows(text, None, change, margin) {
-            let base = Chunks::of(format, window.base.of(text));
-            let hunks = hunks(&base, &Chunks::of(format, window.theirs.of(other)));
+            let base = Chunks::of(language, window.base.of(text));
+            let hunks = hunks(&base, &Chunks::of(language, window.theirs.of(other)));
             if window.is_narrow(&base, &hunks) {
                 return None;
             }
@@ -190,8 +191,8 @@ mod tests {
                 let change = Change::between(&base, &other);
                 let windows = windows(&base, None, change, margin);
                 let [window] = windows[..] else { return Some(Vec::new()) };
-                let chunks = Chunks::of(Format::Ray, window.base.of(&base));
-                let others = Chunks::of(Format::Ray, window.theirs.of(&other));
+                let chunks = Chunks::of(Language::Ray, window.base.of(&base));
+                let others = Chunks::of(Language::Ray, window.theirs.of(&other));
                 let hunks = hunks(&chunks, &others);
                 let bytes = |hunk: &Hunk| [
                     chunks.span(&hunk.base).later(window.base.start()),

@@ -1,36 +1,21 @@
-//! What a scene means: plain comparable data, and how each language's tree is lowered to it.
-//!
-//! [`fields`] is the one table of what can be said about a thing; lowering reads its grammar from
-//! it, the editor its types, ranges and steps, the help its words. Scene values hold no spans:
-//! [`Origins`] sits beside a scene and says where in the text each field stands.
+//! What a scene is: plain comparable data, in no language.
 
-pub mod fields;
-mod lower;
 mod mesh;
-mod objects;
-mod origins;
-mod placed;
+pub(crate) mod objects;
 mod surface;
 mod texture;
-mod view;
-mod visibility;
 
 use glam::DVec3;
 
 use crate::geometry::{Aabb, Hit, Shape};
 
-pub use lower::{Before, Lowered, errors_of_beginning, fits, lower, lower_again};
 pub use mesh::{Meshes, NoMesh, beside};
 pub use objects::Objects;
-pub use origins::{FileKind, NamedFile, Node, Nodes, Origins};
-pub use placed::{Placed, Unsaid};
 pub use surface::{
     Finish, Gloss, Integrator, MappedPattern, MappedTexture, Material, Phong, Setting, Textured,
     Tinted, Transfer, Utah,
 };
 pub use texture::{Image, Images, Pattern, Texture};
-pub use view::{view_edits, view_literals, view_saying};
-pub use visibility::{Visibility, visibility_edits};
 
 /// A linear colour: red, green, blue, unclamped.
 pub type Rgb = DVec3;
@@ -62,7 +47,7 @@ impl Scene {
 }
 
 /// The tight box around objects, but for those without bounds.
-fn bounds<'o>(objects: impl Iterator<Item = &'o Object>) -> Aabb {
+pub(crate) fn bounds<'o>(objects: impl Iterator<Item = &'o Object>) -> Aabb {
     objects
         .map(|object| object.shape.bounds())
         .filter(|bounds| bounds.is_bounded())

@@ -10,7 +10,7 @@ use super::Object;
 
 /// How many objects a block holds. Lowering reads each block of a `.ray` text without knowing of
 /// those before it, so that equal materials of different blocks are not one.
-pub(in crate::scene) const BLOCK: usize = 1024;
+pub(crate) const BLOCK: usize = 1024;
 
 /// A list of objects. Copies share their blocks until one of them is changed.
 #[derive(Clone, Debug, Default)]
@@ -21,7 +21,7 @@ pub struct Objects {
 
 impl Objects {
     /// Objects in blocks, all full but the last, which is not empty.
-    pub(in crate::scene) fn of_blocks(blocks: Vec<Arc<[Object]>>) -> Self {
+    pub(crate) fn of_blocks(blocks: Vec<Arc<[Object]>>) -> Self {
         debug_assert!(
             blocks
                 .iter()
@@ -37,7 +37,7 @@ impl Objects {
     }
 
     /// The blocks.
-    pub(in crate::scene) fn blocks(&self) -> &[Arc<[Object]>] {
+    pub(crate) fn blocks(&self) -> &[Arc<[Object]>] {
         &self.blocks
     }
 

@@ -22,6 +22,11 @@ impl Edit {
     }
 }
 
+/// The smallest span that covers all of the edits' spans.
+pub fn cover(edits: &[Edit]) -> Option<Span> {
+    edits.iter().map(|edit| edit.span).reduce(Span::to)
+}
+
 /// Applies edits, sorted and disjoint, all given in positions of the text before; returns the
 /// edits that undo them, in positions of the text after.
 pub fn apply(text: &mut String, edits: &[Edit]) -> Vec<Edit> {

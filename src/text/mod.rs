@@ -13,7 +13,7 @@ mod visible;
 
 pub use counted::counted;
 pub use diagnostic::{Diagnostic, Severity};
-pub use edit::{Edit, apply, difference, smallest_edit};
+pub use edit::{Edit, apply, cover, difference, smallest_edit};
 pub use findings::Findings;
 pub use lines::{is_line_end, is_one_line_end, line_end, line_start, next_line};
 pub use number::{

@@ -12,7 +12,8 @@ use super::recovery;
 use super::terminal::interview::{self, Answers};
 use super::terminal::{Budget, Choice, ColourDepth, query, tmux};
 use crate::assets::Assets;
-use crate::memory::{self, Available};
+use crate::memory;
+use crate::memory::Available;
 use crate::text::{counted, visible};
 
 /// Synchronized output.

@@ -4,8 +4,8 @@ mod help;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
+use super::app::{App, Dialog, Mode, Stride};
 use crate::render::Aov;
-use crate::ui::app::{App, Dialog, Mode, Stride};
 
 pub use help::{HelpLine, help, hints};
 

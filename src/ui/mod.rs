@@ -33,8 +33,9 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::assets::{NoFolder, check_folders};
-use crate::file::{self, ReadError};
-use crate::format::{Format, UnknownLanguage};
+use crate::file;
+use crate::file::ReadError;
+use crate::language::{Language, UnknownLanguage};
 use crate::render::{DEFAULT_SPP, Filter};
 use crate::scene::Integrator;
 use crate::watch::Method;
@@ -157,7 +158,7 @@ pub enum Error {
 /// scene's file are returned before the terminal is touched; the file is read beside the interface.
 pub fn run(options: &Options) -> Result<Ending, Error> {
     heap::map_large();
-    let (path, format, text) = find_scene(options.scene.as_deref())?;
+    let (path, language, text) = find_scene(options.scene.as_deref())?;
     check_folders(&options.assets)?;
     if env::var_os("TERM").is_some_and(|term| term == "dumb") {
         return Err(Error::DumbTerminal);
@@ -165,7 +166,7 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
     let size = terminal::size();
     let opening = Opening {
         path,
-        format,
+        language,
         text,
         quality: Quality {
             spp: options.spp.unwrap_or(DEFAULT_SPP),
@@ -181,14 +182,14 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
 }
 
 /// The scene to open: its path, unless it is the built-in one, its language and its text.
-fn find_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Format, OpeningText), Error> {
+fn find_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Language, OpeningText), Error> {
     let path = named.unwrap_or_else(|| Path::new(DEFAULT_SCENE));
     if path.is_dir() {
         return Err(Error::Folder {
             path: path.to_owned(),
         });
     }
-    let format = Format::of_path(path).map_err(|unknown| {
+    let language = Language::of_path(path).map_err(|unknown| {
         if path.exists() {
             return unknown.into();
         }
@@ -197,10 +198,12 @@ fn find_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Format, OpeningT
         }
     })?;
     match file::scene_length(path) {
-        Ok(bytes) => Ok((Some(path.to_owned()), format, OpeningText::Unread(bytes))),
-        Err(ReadError::NotFound { .. }) if named.is_none() => {
-            Ok((None, format, OpeningText::Known(EMBEDDED_SCENE.to_owned())))
-        }
+        Ok(bytes) => Ok((Some(path.to_owned()), language, OpeningText::Unread(bytes))),
+        Err(ReadError::NotFound { .. }) if named.is_none() => Ok((
+            None,
+            language,
+            OpeningText::Known(EMBEDDED_SCENE.to_owned()),
+        )),
         Err(error) => Err(error.into()),
     }
 }

@@ -7,13 +7,13 @@ use std::time::Duration;
 
 use crossterm::event::{KeyEvent, MouseEvent};
 
+use super::reading::{Known, Reading};
+use super::recovery::{Claim, Found, Sought};
+use super::terminal::{ColourDepth, Mouse};
 use crate::assets::{Loaded, Wanted};
 use crate::document::Snapshot;
 use crate::file::{ReadError, Version};
 use crate::render::{Frame, Job};
-use crate::ui::reading::{Known, Reading};
-use crate::ui::recovery::{Claim, Found, Sought};
-use crate::ui::terminal::{ColourDepth, Mouse};
 
 /// Which picture a frame belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,10 +10,13 @@ use std::thread;
 
 use super::msg::Msg;
 use crate::document::{Document, Merge, Merged, Snapshot};
-use crate::file::{self, FileId, ReadError};
-use crate::format;
-use crate::memory::{self, OutOfMemory};
-use crate::scene::{self, Lowered, Meshes};
+use crate::file;
+use crate::file::{FileId, ReadError};
+use crate::language;
+use crate::language::Lowered;
+use crate::memory;
+use crate::memory::OutOfMemory;
+use crate::scene::Meshes;
 use crate::text::{Edit, Findings, smallest_edit};
 use crate::watch::{Method, Watcher};
 
@@ -103,10 +106,9 @@ impl News {
     fn new(text: String, known: &Known) -> Result<Self, OutOfMemory> {
         let before = &known.scene;
         // A document keeps the text that was saved beside the one under edit.
-        format::fits(before.format, &text, text.len())?;
-        let document = Document::new(before.format, text);
-        scene::fits(document.text(), document.tree())?;
-        let lowered = scene::lower(document.text(), document.tree(), &known.meshes);
+        language::fits(before.language, &text, text.len())?;
+        let mut document = Document::new(before.language, text);
+        let lowered = document.lower(&known.meshes)?;
         let edit = |text: &str| smallest_edit(before.text(), text);
         if before.edited.is_none() {
             let edit = edit(document.text());
@@ -115,14 +117,12 @@ impl News {
         if lowered.scene.is_none() {
             return Ok(Self::Broken(document.shared_text(), lowered.diagnostics));
         }
-        let merged = match before.merge(document) {
+        let mut merged = match before.merge(document) {
             Ok(merged) => merged,
             Err(merge) => return Ok(Self::Conflict(merge)),
         };
-        let (text, tree) = (merged.document.text(), merged.document.tree());
-        scene::fits(text, tree)?;
-        let lowered = scene::lower(text, tree, &known.meshes);
-        let edit = edit(text);
+        let lowered = merged.document.lower(&known.meshes)?;
+        let edit = edit(merged.document.text());
         Ok(Self::Merged(merged, Meaning { lowered, edit }))
     }
 
@@ -268,12 +268,12 @@ fn watch(
 mod tests {
     use super::*;
     use crate::document::Document;
-    use crate::format::Format;
+    use crate::language::Language;
     use std::cell::{Cell, RefCell};
 
     fn order(name: &str) -> Order {
         let known = Known {
-            scene: Document::new(Format::Ray, String::new()).snapshot(),
+            scene: Document::new(Language::Ray, String::new()).snapshot(),
             saving: None,
             meshes: Meshes::default(),
         };

@@ -11,7 +11,8 @@ use std::time::Instant;
 
 use super::effects::Event;
 use super::msg::{Destination, Existing, ExportId, Exported, Guard, Msg, SaveId, SaveOutcome};
-use crate::file::{self, ReadError, Version};
+use crate::file;
+use crate::file::{ReadError, Version};
 use crate::image_file;
 use crate::render::Frame;
 

@@ -4,7 +4,7 @@ use super::*;
 
 fn merge(base: &str, mine: &str, theirs: &str) -> Merge {
     let [base, mine, theirs] = [base, mine, theirs].map(|text| Arc::new(text.to_owned()));
-    Merge::new(Format::Ray, &base, &mine, &theirs)
+    Merge::new(Language::Ray, &base, &mine, &theirs)
 }
 
 /// The merged text with each conflict written out as `{base|mine|theirs}`.
@@ -149,7 +149,7 @@ fn decisions_survive_further_edits() {
     for conflict in &mut first.conflicts {
         conflict.decision = Some(Side::Theirs);
     }
-    let second = first.onto(Format::Ray, &Arc::new("4 0 6".to_owned()));
+    let second = first.onto(Language::Ray, &Arc::new("4 0 6".to_owned()));
     let decisions: Vec<_> = second.conflicts.iter().map(|c| c.decision).collect();
     assert_eq!(decisions, [Some(Side::Theirs), None, Some(Side::Theirs)]);
 }
@@ -222,7 +222,7 @@ proptest! {
     // What changed is merged by the lines around it, if they are enough to tell, as by all lines.
     #[test]
     fn windows_merge_as_the_whole(
-        format in prop::sample::select(vec![Format::Ray, Format::Dat]),
+        language in prop::sample::select(vec![Language::Ray, Language::Dat]),
         end in prop::sample::select(vec!["\n", "\r\n"]),
         mark in prop::sample::select(vec!["", "\u{FEFF}"]),
         [head, middle, tail] in [rows(9), rows(30), rows(9)],
@@ -238,9 +238,9 @@ proptest! {
         let theirs = text(&first[2], &second[1]);
         let texts = [&base[..], &mine, &theirs];
         let changes = [&mine, &theirs].map(|other| Change::between(&base, other));
-        let whole = settle(format, texts, changes, usize::MAX);
+        let whole = settle(language, texts, changes, usize::MAX);
         prop_assert!(whole.is_some());
-        let part = settle(format, texts, changes, margin);
+        let part = settle(language, texts, changes, margin);
         prop_assert!(part.is_none() || part == whole, "{part:?}, not {whole:?}, of {texts:?}");
     }
 

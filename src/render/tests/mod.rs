@@ -28,11 +28,11 @@ use super::touched::Touched;
 use super::tracer::Tracer;
 use super::world::World;
 use super::{Filter, Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
-use crate::format::{self, Format};
 use crate::geometry::{Affine, Cone, Cuboid, Ellipsoid, Ray, Shape, Sphere};
+use crate::language::{Language, Source};
 use crate::scene::{
     Camera, Focus, Images, Integrator, Lens, Light, Material, Meshes, Object, Phong, Rgb, Scene,
-    Setting, Size, Transfer, lower,
+    Setting, Size, Transfer,
 };
 
 impl<C: Fn() -> bool> Tracer<'_, C> {
@@ -135,11 +135,8 @@ fn xml(scene: &str) -> Scene {
 /// A scene of `.xml` with its camera.
 fn xml_seen_by(camera: &str, scene: &str) -> Scene {
     let text = format!("<xml><scene>{scene}</scene>{camera}</xml>");
-    let lowered = lower(
-        &text,
-        &format::parse(Format::Xml, &text),
-        &Meshes::default(),
-    );
+    let mut source = Source::new(Language::Xml, Arc::new(text.clone()));
+    let lowered = source.lower(&Meshes::default()).expect("there is memory");
     let findings = lowered.diagnostics;
     lowered
         .scene

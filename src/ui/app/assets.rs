@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use super::App;
-use crate::assets::{self, Loaded, Troubles, Wanted};
+use crate::assets;
+use crate::assets::{Loaded, Troubles, Wanted};
 use crate::scene::{Images, Meshes};
 use crate::text::{Findings, counted};
 use crate::ui::msg::Effect;
@@ -37,8 +38,7 @@ impl App {
 
     /// Adds what is wrong with the files that a text without errors names, and wants them.
     pub(super) fn with_files(&mut self, found: Findings) -> Findings {
-        let (text, tree) = (self.document.text(), self.document.tree());
-        let files = self.origins.files(text, tree);
+        let files = self.source().files();
         if found.errors() == 0 {
             let wanted = self.path.as_ref().filter(|_| !files.is_empty());
             self.want(wanted.map(|path| Wanted::new(path, &files)));

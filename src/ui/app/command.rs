@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::{App, Disk, Help, PromptKind};
-use crate::format::Format;
 use crate::image_file::ImageFormat;
+use crate::language::Language;
 use crate::render::MAX_SPP;
 use crate::scene::{Camera, Size};
 use crate::text::slips;
@@ -223,9 +223,9 @@ impl App {
     }
 
     fn write(&mut self, file: Option<PathBuf>, force: Force) -> Vec<Effect> {
-        let own = self.document.format();
+        let own = self.document.language();
         if let Some(path) = &file
-            && Format::of_path(path) != Ok(own)
+            && Language::of_path(path) != Ok(own)
         {
             let extension = own.extension();
             let name = path.with_extension(extension);

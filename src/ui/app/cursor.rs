@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::App;
-use crate::scene::Placed;
+use crate::language::Placed;
 use crate::text::{Edit, Span};
 
 /// Where the cursor was before a text came from outside.
@@ -42,7 +42,7 @@ impl App {
                 (span.end() <= edit.span.start()).then_some(span)
             }
         });
-        let node = moved.and_then(|span| self.origins.node_at(self.document.tree(), span));
+        let node = moved.and_then(|span| self.source().node_at(span));
         let component = self.component;
         if let Some(node) = node
             && node != self.selected

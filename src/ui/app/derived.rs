@@ -3,9 +3,11 @@
 use ratatui::layout::Rect;
 
 use super::picture::Picture;
-use super::{App, Disk, FieldRow, Mode, Outline, Source, Stride};
-use crate::scene::fields::Field;
-use crate::scene::{self, Camera, Node, Nodes, Placed, Size};
+use super::{App, Disk, FieldRow, Mode, Outline, Provenance, Stride};
+use crate::language::Placed;
+use crate::language::table::Field;
+use crate::language::{Node, Nodes, Source};
+use crate::scene::{Camera, Size};
 use crate::text::Findings;
 use crate::ui::view::layout::{Areas, Zoom, arrange, raster};
 
@@ -116,7 +118,7 @@ impl App {
     pub fn marked_object(&self) -> Option<u32> {
         let marks = self.mode == Mode::Select && self.outline == Outline::Marked;
         match self.selected {
-            Node::Object(index) if marks && self.error_count() == 0 => self.origins.drawn(index),
+            Node::Object(index) if marks && self.error_count() == 0 => self.source().drawn(index),
             _ => None,
         }
     }
@@ -134,9 +136,14 @@ impl App {
         )
     }
 
+    /// The text as it stands, and where its things stand in it.
+    pub fn source(&self) -> &Source {
+        self.document.source()
+    }
+
     /// The things of the text as it stands: the list's rows.
     pub fn nodes(&self) -> Nodes {
-        self.origins.nodes()
+        self.source().nodes()
     }
 
     /// The list's row of a node; the nearest one if the text no longer has it.
@@ -157,14 +164,14 @@ impl App {
 
     /// The fields of the selected thing and where they stand in the text.
     pub(super) fn placed(&self) -> Vec<Placed> {
-        self.origins.fields(self.document.tree(), self.selected)
+        self.source().fields(self.selected)
     }
 
     /// What the selected object combines, in order, each with how deep it lies below it: the first
     /// ones, if they are many. Nothing where it is no combination.
     pub fn parts(&self) -> Vec<(usize, Node)> {
         match self.selected {
-            Node::Object(object) => self.origins.parts(object, 1 + MOST_PARTS).split_off(1),
+            Node::Object(object) => self.source().parts(object, 1 + MOST_PARTS).split_off(1),
             _ => Vec::new(),
         }
     }
@@ -180,13 +187,13 @@ impl App {
     }
 
     fn field_row(&self, index: usize, placed: &Placed) -> FieldRow {
-        let (text, tree) = (self.document.text(), self.document.tree());
+        let source = self.source();
         let said = (0..).zip(&placed.spans).map(|(component, span)| {
-            let said = || tree.said(text, *span).to_owned();
+            let said = || source.said(*span).to_owned();
             let default = placed.default_of(component);
             default.map_or_else(
-                || (said(), Source::Text),
-                |default| (default.to_owned(), Source::Default),
+                || (said(), Provenance::Text),
+                |default| (default.to_owned(), Provenance::Default),
             )
         });
         let (said, sources): (Vec<_>, Vec<_>) = said.unzip();
@@ -196,20 +203,20 @@ impl App {
             sources: vec![source; placed.field.kind.components()],
         };
         let shown = |camera: &Camera| -> Vec<String> {
-            let literals = scene::view_literals(&self.origins, camera);
+            let literals = self.source().view_literals(camera);
             literals.into_iter().nth(index).unwrap_or_default()
         };
         let scene = self.scene.as_ref();
         if let (Node::View, Some(view), Some(scene)) = (self.selected, &self.view, scene)
             && shown(view) != shown(&scene.camera)
         {
-            return row(shown(view), Source::WorkingView);
+            return row(shown(view), Provenance::WorkingView);
         }
         match scene {
-            Some(scene) if said.is_empty() => row(shown(&scene.camera), Source::Default),
+            Some(scene) if said.is_empty() => row(shown(&scene.camera), Provenance::Default),
             None if said.is_empty() => row(
                 vec!["?".to_owned(); placed.field.kind.components()],
-                Source::Default,
+                Provenance::Default,
             ),
             _ => FieldRow {
                 field: placed.field,

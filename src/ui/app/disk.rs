@@ -10,8 +10,9 @@ use super::cursor::Held;
 use super::model::{Outside, Reader, Settle};
 use super::{App, Broken, Dialog, Disk, PromptKind};
 use crate::document::Adopted;
-use crate::file::{self, ReadError};
-use crate::scene::Lowered;
+use crate::file;
+use crate::file::ReadError;
+use crate::language::Lowered;
 use crate::text::{Edit, Findings, Position, smallest_edit};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Guard, Timer};
@@ -211,8 +212,7 @@ impl App {
                 return Vec::new();
             }
         };
-        let origins = std::mem::take(&mut self.origins);
-        let former = (document, origins, self.scene.clone());
+        let former = (document, self.scene.clone());
         self.show_reload(&held, meaning.edit.as_ref(), meaning.lowered, &words);
         vec![Effect::Free(Arc::new(former))]
     }
@@ -345,7 +345,8 @@ impl App {
             Adopted::Taken => {
                 self.disk = Disk::Known;
                 let edit = smallest_edit(&held.text, self.document.text());
-                self.show_reload(&held, edit.as_ref(), self.lowered(), &ADOPTED);
+                let lowered = self.lowered();
+                self.show_reload(&held, edit.as_ref(), lowered, &ADOPTED);
             }
             Adopted::OutOfDate => self.warn("the file was saved since: nothing is merged"),
         }
@@ -369,8 +370,7 @@ impl App {
             None if self.disk == Disk::Broken => diagnostics.iter().find(|d| d.is_error()),
             None => None,
         };
-        let tree = self.document.tree();
-        let span = error.map_or_else(|| self.origins.span(tree, self.selected), |d| d.span);
+        let span = error.map_or_else(|| self.source().span(self.selected), |d| d.span);
         let line = Position::of(text, span.start()).line;
         vec![Effect::OpenEditor { path, line }]
     }

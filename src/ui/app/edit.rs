@@ -1,42 +1,44 @@
 //! Changing fields: every change is an edit of the text, and one that makes an error is refused.
 
 use super::{App, Mode};
-use crate::scene::fields::Field;
-use crate::scene::{self, Before, Camera, Lowered, Node, Visibility};
+use crate::language::Node;
+use crate::language::table::Field;
+use crate::language::{Before, Lowered, Visibility};
+use crate::scene::Camera;
 use crate::text::{Diagnostic, Edit, Span};
 
 impl App {
     /// Reads the text's meaning again.
     pub(super) fn relower(&mut self) {
-        self.install(self.lowered());
+        let lowered = self.lowered();
+        self.install(lowered);
     }
 
     /// What the text means after an edit, of which `changed` is what it put in the place of the bytes
     /// `old`. What is known of the text is what it meant before.
-    fn lowered_again(&self, old: Span, changed: Span) -> Lowered {
-        let Some(scene) = self.scene.as_ref().filter(|_| self.error_count() == 0) else {
+    fn lowered_again(&mut self, old: Span, changed: Span) -> Lowered {
+        let sound = self.error_count() == 0;
+        let Some(scene) = self.scene.as_ref().filter(|_| sound) else {
             return self.lowered();
         };
         let before = Before {
             scene,
-            origins: &self.origins,
             diagnostics: &self.diagnostics,
         };
-        let (text, tree) = (self.document.text(), self.document.tree());
-        scene::lower_again(text, tree, &self.meshes, before, [old, changed])
+        let lowered = self
+            .document
+            .lower_again(&self.meshes, before, [old, changed]);
+        lowered.unwrap_or_else(|refused| Lowered::refused(&refused))
     }
 
     /// What the text means; nothing but an error where there is no memory for it.
-    pub(super) fn lowered(&self) -> Lowered {
-        let (text, tree) = (self.document.text(), self.document.tree());
-        match scene::fits(text, tree) {
-            Ok(()) => scene::lower(text, tree, &self.meshes),
-            Err(refused) => Lowered::refused(tree, &refused),
-        }
+    pub(super) fn lowered(&mut self) -> Lowered {
+        let lowered = self.document.lower(&self.meshes);
+        lowered.unwrap_or_else(|refused| Lowered::refused(&refused))
     }
 
+    /// Takes what the text means now.
     pub(super) fn install(&mut self, lowered: Lowered) {
-        self.origins = lowered.origins;
         self.diagnostics = self.with_files(lowered.diagnostics);
         // A scene that lacks a mesh may yet have an error.
         if let Some(scene) = lowered.scene.filter(|_| !self.lacks_meshes()) {
@@ -82,7 +84,7 @@ impl App {
     /// Makes edits, unless they leave more errors than there were or one where they were made:
     /// that one comes back, and the text is as before.
     pub(super) fn try_edits(&mut self, edits: &[Edit]) -> Result<(), Diagnostic> {
-        let said = self.said_view_parts(&self.origins);
+        let said = self.said_view_parts();
         let errors = self.error_count();
         match edits {
             [edit] if !edit.span.is_empty() => self.document.set(edit.span, &edit.text),
@@ -100,7 +102,7 @@ impl App {
             refused = found.first_error();
         }
         // What is wrong in a view comment is a warning, but the whole view goes with it.
-        if refused.is_none() && self.said_view_parts(&lowered.origins) < said {
+        if refused.is_none() && self.said_view_parts() < said {
             refused = found.iter().find(touches).or_else(|| found.first());
         }
         if let Some(refused) = refused.cloned() {
@@ -111,8 +113,8 @@ impl App {
         Ok(())
     }
 
-    fn said_view_parts(&self, origins: &scene::Origins) -> usize {
-        let fields = origins.fields(self.document.tree(), Node::View);
+    fn said_view_parts(&self) -> usize {
+        let fields = self.source().fields(Node::View);
         fields.iter().filter(|part| part.is_said()).count()
     }
 
@@ -122,14 +124,15 @@ impl App {
         let Some(placed) = placed.get(self.field) else {
             return Ok(());
         };
-        let is_camera = self.scene.as_ref().is_some_and(|scene| {
-            self.field < scene::view_literals(&self.origins, &scene.camera).len()
-        });
+        let is_camera = self
+            .scene
+            .as_ref()
+            .is_some_and(|scene| self.field < self.source().view_literals(&scene.camera).len());
         let works = self.view.is_some() && is_camera && !placed.field.kind.is_size();
         if self.selected == Node::View && (works || placed.spans.is_empty()) {
             return self.assign_view(placed.field, values);
         }
-        let edits = placed.edits(self.document.text(), self.document.tree(), values);
+        let edits = placed.edits(&**self.source(), values);
         self.try_edits(&edits)
     }
 
@@ -149,7 +152,9 @@ impl App {
         let mut camera = camera;
         for (component, literal) in values {
             let place = (self.field, *component);
-            camera = scene::view_saying(&self.origins, &camera, place, literal)
+            camera = self
+                .source()
+                .view_saying(&camera, place, literal)
                 .map_err(|limits| refuse(&format!("must be {limits}")))?;
         }
         if camera.eye == camera.target {
@@ -168,8 +173,7 @@ impl App {
         camera: &Camera,
         before: &Camera,
     ) -> Result<(), Diagnostic> {
-        let (text, tree) = (self.document.text(), self.document.tree());
-        let edits = scene::view_edits(text, tree, &self.origins, before, camera);
+        let edits = self.source().view_edits(before, camera);
         self.try_edits(&edits)
     }
 
@@ -179,12 +183,11 @@ impl App {
             self.fail("only objects are shown or hidden");
             return;
         };
-        let (wanted, done) = match self.origins.drawn(object) {
+        let (wanted, done) = match self.source().drawn(object) {
             Some(_) => (Visibility::Hidden, "hidden"),
             None => (Visibility::Shown, "shown"),
         };
-        let (text, tree) = (self.document.text(), self.document.tree());
-        let edits = scene::visibility_edits(text, tree, &self.origins, object, wanted);
+        let edits = self.source().visibility_edits(object, wanted);
         self.document.end_step();
         let outcome = edits.map_err(str::to_owned).and_then(|edits| {
             let refused = self.try_edits(&edits);
@@ -192,7 +195,7 @@ impl App {
         });
         self.document.end_step();
         match outcome {
-            Ok(()) => self.say(format!("{} is {done}", self.origins.name(self.selected))),
+            Ok(()) => self.say(format!("{} is {done}", self.source().name(self.selected))),
             Err(reason) => self.fail(reason),
         }
     }
@@ -219,8 +222,9 @@ impl App {
         // As much is behind the change as was before it.
         let behind = self.document.text().len() - span.end();
         let old = Span::new(span.start(), length - behind);
-        self.install(self.lowered_again(old, span));
-        if let Some(node) = self.origins.node_at(self.document.tree(), span)
+        let lowered = self.lowered_again(old, span);
+        self.install(lowered);
+        if let Some(node) = self.source().node_at(span)
             && node != self.selected
         {
             self.select(node);

@@ -1,8 +1,9 @@
 //! Moving cursors: through the list, the fields, the help, the errors; searching and picking.
 
 use super::{App, Dialog, Mode};
-use crate::scene::Node;
-use crate::ui::keymap::{self, Context};
+use crate::language::Node;
+use crate::ui::keymap;
+use crate::ui::keymap::Context;
 use crate::ui::view::layout;
 
 impl App {
@@ -130,9 +131,8 @@ impl App {
 
     /// Whether a thing's name or comment holds a word in lower case.
     fn is_called(&self, node: Node, word: &str) -> bool {
-        let (text, tree) = (self.document.text(), self.document.tree());
         let holds = |said: &str| said.to_lowercase().contains(word);
-        holds(&self.origins.name(node)) || self.origins.comment(text, tree, node).is_some_and(holds)
+        holds(&self.source().name(node)) || self.source().comment(node).is_some_and(holds)
     }
 
     pub(super) fn toggle_errors(&mut self) {
@@ -158,7 +158,7 @@ impl App {
         let Some(span) = self.diagnostics.get(at).map(|diagnostic| diagnostic.span) else {
             return;
         };
-        match self.origins.node_at(self.document.tree(), span) {
+        match self.source().node_at(span) {
             Some(node) => {
                 self.errors = None;
                 self.select(node);
@@ -213,7 +213,7 @@ impl App {
             return Err("the picture is not of the changed scene yet");
         }
         let object = self.picture().shown.object_at(x, y);
-        Ok(object.map(|object| Node::Object(self.origins.object(object))))
+        Ok(object.map(|object| Node::Object(self.source().object(object))))
     }
 
     /// Selects what lies under a pixel of the picture on screen, and has then done with picking.

@@ -1,6 +1,6 @@
 //! Numbers and words as people type, paste and nudge them.
 
-use crate::scene::fields::Kind;
+use crate::language::table::Kind;
 use crate::text::{decimals, parse_number, spell_like, without_suffix};
 
 /// The literal after adding `change`, a multiple of `step`, spelled like the old one. It has the

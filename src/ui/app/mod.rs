@@ -33,7 +33,7 @@ use std::time::Duration;
 
 pub use model::{
     App, Broken, Dialog, Disk, Export, FieldRow, Help, HelpFocus, Message, Mode, Outline, Outside,
-    Prompt, PromptKind, Quality, Source, Stage, Stride, Typing,
+    Prompt, PromptKind, Provenance, Quality, Stage, Stride, Typing,
 };
 pub use opening::{Opening, OpeningText, Unread};
 pub use picture::{Picture, Shown};

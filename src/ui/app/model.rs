@@ -13,9 +13,10 @@ use super::picture::Picture;
 use super::saving::Saves;
 use crate::document::{Document, Merge, Side};
 use crate::file::{ReadError, Version};
+use crate::language::Node;
+use crate::language::table::Field;
 use crate::render::{Aov, Filter, Progress};
-use crate::scene::fields::Field;
-use crate::scene::{Camera, Images, Integrator, Meshes, Node, Origins, Scene, Size};
+use crate::scene::{Camera, Images, Integrator, Meshes, Scene, Size};
 use crate::text::{Diagnostic, Findings, Severity};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Destination, ExportId};
@@ -50,8 +51,6 @@ pub struct App {
     pub unread: Option<Unread>,
     /// Why it could not be read: the program ends.
     pub unreadable: Option<ReadError>,
-    /// Where in the text as it stands each thing is.
-    pub origins: Origins,
     /// What is wrong with the text as it stands.
     pub diagnostics: Findings,
     /// The scene of the last text that had no errors: what the pictures show.
@@ -316,19 +315,19 @@ pub struct FieldRow {
     /// One literal a component.
     pub literals: Vec<String>,
     /// Where each of them comes from.
-    pub sources: Vec<Source>,
+    pub sources: Vec<Provenance>,
 }
 
 impl FieldRow {
     /// Whether all its literals come from there.
-    pub fn is_all(&self, source: Source) -> bool {
+    pub fn is_all(&self, source: Provenance) -> bool {
         self.sources.iter().all(|&of| of == source)
     }
 }
 
 /// Where a literal of a field comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Source {
+pub enum Provenance {
     /// It stands in the text.
     Text,
     /// The text does not say it.

@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::App;
-use crate::scene::{Camera, Lens, Node};
+use crate::language::Node;
+use crate::scene::{Camera, Lens};
 
 /// How far one step orbits, in degrees.
 const ORBIT: f64 = 5.0;
@@ -110,7 +111,7 @@ impl App {
         };
         let bounds = match self.selected {
             Node::Object(index) => {
-                let drawn = self.origins.drawn(index);
+                let drawn = self.source().drawn(index);
                 let object = drawn.and_then(|at| scene.objects.get(at as usize));
                 let bounds = object.map(|object| object.shape.bounds());
                 bounds.filter(|bounds| bounds.is_bounded() && !bounds.is_empty())

@@ -8,8 +8,10 @@ use super::saving::Saves;
 use super::{App, Disk, Mode, Outline, Picture, Quality, Stride};
 use crate::document::Document;
 use crate::file::ReadError;
-use crate::format::Format;
-use crate::scene::{self, Images, Lowered, Meshes, Node};
+use crate::language::Language;
+use crate::language::Lowered;
+use crate::language::Node;
+use crate::scene::{Images, Meshes};
 use crate::text::{Findings, Severity};
 use crate::ui::msg::Effect;
 use crate::ui::reading::{News, Reading};
@@ -22,7 +24,7 @@ pub struct Opening {
     /// Where the scene is read from; `None` for the embedded one.
     pub path: Option<PathBuf>,
     /// Its language.
-    pub format: Format,
+    pub language: Language,
     /// Its text.
     pub text: OpeningText,
     /// How pictures are traced.
@@ -53,20 +55,18 @@ impl App {
     /// The interface as it opens, and what is to be done first.
     pub fn open(opening: Opening) -> (Self, Vec<Effect>) {
         let (document, unread) = match opening.text {
-            OpeningText::Known(text) => (Document::new(opening.format, text), None),
+            OpeningText::Known(text) => (Document::new(opening.language, text), None),
             OpeningText::Unread(bytes) => {
                 let unread = Unread { bytes };
-                (Document::new(opening.format, String::new()), Some(unread))
+                (Document::new(opening.language, String::new()), Some(unread))
             }
         };
         let meshes = Meshes::default();
-        let lowered = scene::lower(document.text(), document.tree(), &meshes);
         let mut app = Self {
             path: opening.path,
             document,
             unread,
             unreadable: None,
-            origins: scene::Origins::default(),
             diagnostics: Findings::default(),
             scene: None,
             images: Images::default(),
@@ -104,9 +104,8 @@ impl App {
             pending: Pending::default(),
         };
         let mut effects = app.watch();
-        if app.is_opening() {
-            app.origins = lowered.origins;
-        } else {
+        let lowered = app.lowered();
+        if !app.is_opening() {
             effects.push(app.begin(lowered));
             effects.extend(app.follow());
         }

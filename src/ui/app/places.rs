@@ -1,8 +1,8 @@
 //! What a place of the text is called.
 
 use super::App;
-use crate::format::Tree;
-use crate::scene::{Node, Origins};
+use crate::language::Node;
+use crate::language::Source;
 use crate::text::{Position, Span};
 
 /// How many things are named before they are only counted.
@@ -12,7 +12,7 @@ impl App {
     /// What a place of the text is called: `object 4 (sphere) centre x`, or the things that it
     /// covers; `None` where none is.
     pub fn place_name(&self, span: Span) -> Option<String> {
-        name_of(&self.origins, self.document.tree(), span)
+        name_of(self.source(), span)
     }
 
     /// Says how many errors a text has and where the first one is.
@@ -27,34 +27,34 @@ impl App {
 }
 
 /// What a place of any text is called.
-pub(super) fn name_of(origins: &Origins, tree: &Tree, span: Span) -> Option<String> {
+pub(super) fn name_of(source: &Source, span: Span) -> Option<String> {
     // Its comment may stand inside another node's text.
-    let view = origins.span(tree, Node::View);
+    let view = source.span(Node::View);
     if view.start() <= span.start() && span.end() <= view.end() && !view.is_empty() {
-        return Some(name_in(origins, tree, Node::View, span));
+        return Some(name_in(source, Node::View, span));
     }
-    let touched = origins.nodes_in(tree, span);
+    let touched = source.nodes_in(span);
     match touched.as_slice() {
         [] => {
-            let node = origins.node_at(tree, span)?;
-            Some(name_in(origins, tree, node, span))
+            let node = source.node_at(span)?;
+            Some(name_in(source, node, span))
         }
-        [node] => Some(name_in(origins, tree, *node, span)),
+        [node] => Some(name_in(source, *node, span)),
         [first, .., last] if NAMED < touched.len() => Some(format!(
             "{} things, {} to {}",
             touched.len(),
-            origins.name(*first),
-            origins.name(*last)
+            source.name(*first),
+            source.name(*last)
         )),
         several => {
-            let names: Vec<_> = several.iter().map(|&node| origins.name(node)).collect();
+            let names: Vec<_> = several.iter().map(|&node| source.name(node)).collect();
             Some(names.join(", "))
         }
     }
 }
 
 /// A node's name, with the field and the component where the span overlaps just one.
-fn name_in(origins: &Origins, tree: &Tree, node: Node, span: Span) -> String {
+fn name_in(source: &Source, node: Node, span: Span) -> String {
     let overlaps = |place: &Span| {
         if span.is_empty() {
             place.touches(span)
@@ -62,8 +62,8 @@ fn name_in(origins: &Origins, tree: &Tree, node: Node, span: Span) -> String {
             place.start() < span.end() && span.start() < place.end()
         }
     };
-    let name = origins.name(node);
-    let fields = origins.fields(tree, node);
+    let name = source.name(node);
+    let fields = source.fields(node);
     let mut touched = fields
         .iter()
         .filter(|placed| placed.spans.iter().any(overlaps));
@@ -87,7 +87,10 @@ fn name_in(origins: &Origins, tree: &Tree, node: Node, span: Span) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::{Format, parse};
+    use std::sync::Arc;
+
+    use crate::language::Language;
+    use crate::scene::Meshes;
 
     #[test]
     fn places_are_called_by_what_stands_there() {
@@ -99,8 +102,8 @@ sphere 0 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1
 sphere 1 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1
 sphere 2 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1
 ";
-        let tree = parse(Format::Ray, text);
-        let lowered = crate::scene::lower(text, &tree, &crate::scene::Meshes::default());
+        let mut source = Source::new(Language::Ray, Arc::new(text.to_owned()));
+        source.lower(&Meshes::default()).expect("there is memory");
         let at = |part: &str| text.find(part).expect("a part of the text");
         for (from, until, name) in [
             (0, 2, "ambient colour red"),
@@ -116,7 +119,7 @@ sphere 2 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1
             (0, text.len(), "5 things, ambient to object 3 (sphere)"),
         ] {
             let span = Span::new(from, until);
-            let found = name_of(&lowered.origins, &tree, span);
+            let found = name_of(&source, span);
             assert_eq!(found.as_deref(), Some(name), "{from}..{until}");
         }
     }

@@ -13,7 +13,7 @@ impl App {
     pub(super) fn look_for_kept(&self) -> Effect {
         Effect::LookForKept(Sought {
             scene: self.path.clone(),
-            format: self.document.format(),
+            language: self.document.language(),
             text: self.document.shared_text(),
             put_off: self.pending.put_off.clone(),
         })

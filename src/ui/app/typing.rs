@@ -4,7 +4,7 @@ use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
 use super::{App, Mode, Stride, Typing, line, literals};
-use crate::scene::fields::{Field, Kind, place_of};
+use crate::language::table::{Field, Kind, place_of};
 use crate::text::{Diagnostic, Span};
 
 impl App {
@@ -35,13 +35,12 @@ impl App {
                 literals::next(words, word, steps)
             }
             Kind::Reference(category) => {
-                let known = self.origins.identities(self.selected, category);
+                let known = self.source().identities(self.selected, category);
                 let known: Vec<_> = known.iter().map(i64::to_string).collect();
                 literals::next(&known, &literal, steps)
             }
             Kind::Name(category) => {
-                let (text, tree) = (self.document.text(), self.document.tree());
-                let known = self.origins.names(text, tree, category);
+                let known = self.source().names(category);
                 literals::next(&known, &literal, steps)
             }
             _ => literals::nudged(&literal, f64::from(steps) * step, step),

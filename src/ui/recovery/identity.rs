@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::record::fnv1a;
-use crate::format::Format;
+use crate::language::Language;
 
 /// The stem of the journals of the scene without a file.
 const NAMELESS: &str = "unsaved";
@@ -26,8 +26,8 @@ pub(super) struct Identity {
 
 impl Identity {
     /// The scene at a path, or the one without a file.
-    pub(super) fn of(scene: Option<&Path>, format: Format) -> Self {
-        let extension = format.extension();
+    pub(super) fn of(scene: Option<&Path>, language: Language) -> Self {
+        let extension = language.extension();
         let Some(path) = scene.map(canonical) else {
             return Self {
                 stem: NAMELESS.to_owned(),
@@ -73,12 +73,12 @@ mod tests {
 
     #[test]
     fn scenes_are_distinguished_by_path_and_language() {
-        let of = |path: &str, format| Identity::of(Some(Path::new(path)), format);
+        let of = |path: &str, language| Identity::of(Some(Path::new(path)), language);
         let names = [
-            of("/a/scene.ray", Format::Ray),
-            of("/b/scene.ray", Format::Ray),
-            of("/b/scene.ray", Format::Dat),
-            Identity::of(None, Format::Ray),
+            of("/a/scene.ray", Language::Ray),
+            of("/b/scene.ray", Language::Ray),
+            of("/b/scene.ray", Language::Dat),
+            Identity::of(None, Language::Ray),
         ];
         let first = names.each_ref().map(|name| name.names().next());
         for (at, name) in first.iter().enumerate() {
@@ -97,7 +97,7 @@ mod tests {
         fs::write(at("b.ray"), "").expect("the folder is new");
         std::os::unix::fs::symlink("../b.ray", at("x/link.ray")).expect("the folder is new");
         std::os::unix::fs::symlink("x", at("y")).expect("the folder is new");
-        let of = |name: &str| Identity::of(Some(&at(name)), Format::Ray);
+        let of = |name: &str| Identity::of(Some(&at(name)), Language::Ray);
         for name in ["x/../b.ray", "./b.ray", "x/link.ray", "y/link.ray"] {
             assert_eq!(of(name), of("b.ray"), "{name}");
         }

@@ -9,7 +9,7 @@ use super::folder::Folder;
 use super::identity::Identity;
 use super::record;
 use crate::document::Snapshot;
-use crate::format::Format;
+use crate::language::Language;
 
 /// Edits that are out of date may take as many bytes as the text, or as this.
 const WASTE: u64 = 1 << 20;
@@ -35,7 +35,7 @@ struct Held {
     folder: Arc<Folder>,
     claim: Claim,
     scene: Option<PathBuf>,
-    format: Format,
+    language: Language,
     identity: Identity,
     base: Arc<String>,
     /// Where the first edit begins.
@@ -53,7 +53,7 @@ impl Journal {
     /// Keeps a text in place of the last one. If that fails the last one is kept.
     pub(super) fn write(&mut self, edits: &Edits) -> io::Result<()> {
         let fits = |held: &&mut Held| {
-            held.scene == edits.scene && held.format == edits.known.format && held.is_found()
+            held.scene == edits.scene && held.language == edits.known.language && held.is_found()
         };
         if let Some(held) = self.held.as_mut().filter(fits) {
             return held.write(edits);
@@ -79,7 +79,7 @@ impl Journal {
 impl Held {
     fn new(state: &Path, edits: &Edits) -> io::Result<Self> {
         let folder = Arc::new(Folder::make(state)?);
-        let identity = Identity::of(edits.scene.as_deref(), edits.known.format);
+        let identity = Identity::of(edits.scene.as_deref(), edits.known.language);
         let (content, first) = content(&identity, edits);
         let claim = Claim::new(&folder, &identity)?;
         if let Err(error) = claim.fill(&content) {
@@ -90,7 +90,7 @@ impl Held {
             folder,
             claim,
             scene: edits.scene.clone(),
-            format: edits.known.format,
+            language: edits.known.language,
             identity,
             base: Arc::clone(&edits.known.saved),
             first,

@@ -158,12 +158,12 @@ fn next(inbox: &Receiver<Order>, waiting: &mut VecDeque<Order>) -> Option<Order>
 mod tests {
     use super::*;
     use crate::document::Document;
-    use crate::format::Format;
+    use crate::language::Language;
 
     #[test]
     fn of_texts_that_wait_only_the_last_is_kept() {
         let keep = |revision| {
-            let known = Document::new(Format::Ray, String::new()).snapshot();
+            let known = Document::new(Language::Ray, String::new()).snapshot();
             let edits = Edits { scene: None, known };
             Order::Keep(revision, edits)
         };

@@ -12,7 +12,7 @@ use super::identity::Identity;
 use super::record::{self, Content};
 use crate::document::{Merge, Side, differences};
 use crate::file;
-use crate::format::Format;
+use crate::language::Language;
 use crate::memory::megabytes;
 use crate::text::{Edit, smallest_edit};
 use crate::ui::msg::Msg;
@@ -30,7 +30,7 @@ pub struct Sought {
     /// The scene; `None` is the one without a file.
     pub scene: Option<PathBuf>,
     /// Its language.
-    pub format: Format,
+    pub language: Language,
     /// The text that they would be taken into.
     pub text: Arc<String>,
     /// The names of journals that are not to be offered again.
@@ -114,7 +114,7 @@ pub(super) fn look_in(state: &Path, sought: &Sought) -> Found {
             return found;
         }
     };
-    let scene = Identity::of(sought.scene.as_deref(), sought.format);
+    let scene = Identity::of(sought.scene.as_deref(), sought.language);
     let mut dated = Vec::new();
     for name in scene.names().filter(|name| !sought.put_off.contains(name)) {
         match Claim::take(&folder, name) {
@@ -187,10 +187,10 @@ impl Offer {
         base: Option<String>,
         kept: String,
     ) -> Option<Self> {
-        let (format, text) = (sought.format, &sought.text);
+        let (language, text) = (sought.language, &sought.text);
         let (way, since, taken) = match base {
             Some(base) if base != **text => {
-                let merge = Merge::new(format, &Arc::new(base), text, &Arc::new(kept));
+                let merge = Merge::new(language, &Arc::new(base), text, &Arc::new(kept));
                 let mut decided = merge.clone();
                 for conflict in &mut decided.conflicts {
                     conflict.decision = Some(Side::Theirs);
@@ -211,7 +211,7 @@ impl Offer {
             claim: Arc::clone(claim),
             text: Arc::clone(text),
             way,
-            places: differences(format, text, &taken),
+            places: differences(language, text, &taken),
             since,
         })
     }

@@ -167,7 +167,7 @@ mod tests {
     use super::*;
     use std::path::Path;
 
-    use crate::format::Format;
+    use crate::language::Language;
 
     #[test]
     fn the_hash_is_the_published_one() {
@@ -182,7 +182,7 @@ mod tests {
     }
 
     fn scene(name: &str) -> Identity {
-        Identity::of(Some(Path::new(name)), Format::Ray)
+        Identity::of(Some(Path::new(name)), Language::Ray)
     }
 
     fn edits(base: &str, text: &str) -> Content {

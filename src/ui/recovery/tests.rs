@@ -17,16 +17,21 @@ use super::journal::{Edits, Journal};
 use super::offer::look_in;
 use super::{Found, Offer, Sought};
 use crate::document::{Document, Snapshot};
-use crate::format::Format;
+use crate::language::Language;
 
 /// Edits offered for a text, of a journal that is gone.
-pub(crate) fn offer(format: Format, text: &Arc<String>, base: Option<&str>, kept: &str) -> Offer {
+pub(crate) fn offer(
+    language: Language,
+    text: &Arc<String>,
+    base: Option<&str>,
+    kept: &str,
+) -> Offer {
     let place = Place::new();
     let folder = Arc::new(Folder::make(&place.state).expect("a folder"));
-    let claim = Claim::new(&folder, &Identity::of(None, format)).expect("it is empty");
+    let claim = Claim::new(&folder, &Identity::of(None, language)).expect("it is empty");
     let sought = Sought {
         scene: None,
-        format,
+        language,
         text: Arc::clone(text),
         put_off: Vec::new(),
     };
@@ -71,7 +76,7 @@ impl Place {
 
     /// The path of the scene's first journal, or of another one.
     fn journal(&self, number: usize) -> PathBuf {
-        let scene = Identity::of(Some(&self.scene()), Format::Ray);
+        let scene = Identity::of(Some(&self.scene()), Language::Ray);
         let name = scene.names().nth(number).expect("a few");
         self.recovery().join(name)
     }
@@ -95,7 +100,7 @@ impl Place {
     fn look(&self, text: &str) -> Found {
         let sought = Sought {
             scene: Some(self.scene()),
-            format: Format::Ray,
+            language: Language::Ray,
             text: Arc::new(text.to_owned()),
             put_off: Vec::new(),
         };
@@ -106,7 +111,7 @@ impl Place {
     fn offered(&self) -> Option<String> {
         let found = self.look(BASE);
         assert_eq!(found.complaints, [] as [String; 0]);
-        let mut document = Document::new(Format::Ray, BASE.to_owned());
+        let mut document = Document::new(Language::Ray, BASE.to_owned());
         found.offer.map(|offer| {
             match offer.way {
                 super::Way::Edit(edit) => document.edit(&[edit]),
@@ -129,7 +134,7 @@ impl Place {
 
 fn known(base: &Arc<String>, text: &str) -> Snapshot {
     Snapshot {
-        format: Format::Ray,
+        language: Language::Ray,
         saved: Arc::clone(base),
         edited: Some(Arc::new(text.to_owned())),
     }
@@ -187,7 +192,7 @@ fn several_journals_are_offered_newest_first() {
         file.and_then(|file| file.set_modified(at)).expect("ours");
     }
     let mut text = BASE.to_owned();
-    let mut document = Document::new(Format::Ray, text.clone());
+    let mut document = Document::new(Language::Ray, text.clone());
     let mut taken = Vec::new();
     while let Some(offer) = place.look(&text).offer {
         match offer.way {
@@ -318,7 +323,7 @@ fn files_in_place_of_journals() {
         (
             "of another scene",
             |_, base, text| {
-                let other = Identity::of(Some(Path::new("/other.ray")), Format::Ray);
+                let other = Identity::of(Some(Path::new("/other.ray")), Language::Ray);
                 [
                     super::record::head(&other, base),
                     super::record::edit(base, text),
@@ -337,7 +342,7 @@ fn files_in_place_of_journals() {
     ];
     for (name, write, offered, left) in cases {
         let place = Place::new();
-        let scene = Identity::of(Some(&place.scene()), Format::Ray);
+        let scene = Identity::of(Some(&place.scene()), Language::Ray);
         place.make();
         fs::write(place.journal(0), write(&scene, BASE, "1 2 4")).expect("the folder is ours");
         let found = place.look(BASE);

@@ -8,11 +8,12 @@ use ratatui::widgets::{Clear, Widget};
 use super::layout;
 use super::row::{self, Row};
 use super::theme;
-use crate::scene::fields::Kind;
-use crate::scene::fields::dat::OPERATIONS;
-use crate::scene::{Node, Rgb};
+use crate::language::Node;
+use crate::language::dat::table::OPERATIONS;
+use crate::language::table::Kind;
+use crate::scene::Rgb;
 use crate::text::{counted, parse_number, without_suffix};
-use crate::ui::app::{App, FieldRow, Mode, Source, Stride, Typing};
+use crate::ui::app::{App, FieldRow, Mode, Provenance, Stride, Typing};
 
 /// Draws the fields.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -22,7 +23,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         Stride::Plain => None,
         Stride::Coarse => Some("step × 10".to_owned()),
     };
-    let name = app.origins.name(app.selected);
+    let name = app.source().name(app.selected);
     row::title(
         &name,
         &stride.or_else(|| users(app)).unwrap_or_default(),
@@ -57,7 +58,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
 
 /// How many objects change with the selected thing, if it is one that objects share.
 fn users(app: &App) -> Option<String> {
-    let objects = counted(app.origins.users(app.selected), "object");
+    let objects = counted(app.source().users(app.selected), "object");
     match app.selected {
         Node::Material(_) => Some(format!("colours {objects}")),
         Node::Texture(_) => Some(format!("on {objects}")),
@@ -67,13 +68,13 @@ fn users(app: &App) -> Option<String> {
 
 /// The name of a part of a combined object; of a combination, with its operation.
 fn part_name(app: &App, part: Node) -> String {
-    let fields = app.origins.fields(app.document.tree(), part);
+    let fields = app.source().fields(part);
     let operation = fields.first().filter(|placed| {
         let is_operation = placed.field.kind == Kind::Choice(OPERATIONS);
         is_operation && !placed.spans.is_empty()
     });
     let operation = operation.map(|placed| placed.spans[0].of(app.document.text()));
-    [&app.origins.name(part), operation.unwrap_or_default()].join(" ")
+    [&app.source().name(part), operation.unwrap_or_default()].join(" ")
 }
 
 /// Draws a field: its name and its literals in columns, the one under the cursor marked.
@@ -85,16 +86,16 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
     row.put_in(field.field.key, row.room().saturating_sub(2), selected);
     row.skip_to(name.right().saturating_sub(2));
     match swatch(field) {
-        _ if field.is_all(Source::WorkingView) => row.put("*", theme::WARNING),
+        _ if field.is_all(Provenance::WorkingView) => row.put("*", theme::WARNING),
         Some(colour) => row.put("●", theme::swatch(colour)),
         None => row.put(" ", Style::new()),
     };
     let literals = field.literals.iter().zip(&field.sources);
     for (component, ((literal, source), column)) in literals.zip(&columns).enumerate() {
         let style = match source {
-            Source::Text => Style::new(),
-            Source::Default => theme::DIM,
-            Source::WorkingView => theme::WARNING,
+            Provenance::Text => Style::new(),
+            Provenance::Default => theme::DIM,
+            Provenance::WorkingView => theme::WARNING,
         };
         let mut row = Row::new(buffer, *column, 0);
         // The last cell keeps a gap to the next number.
@@ -104,7 +105,7 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
         } else {
             row.put_in(literal, room, style);
         }
-        if *source == Source::Default && "  (default)".len() < row.room() {
+        if *source == Provenance::Default && "  (default)".len() < row.room() {
             row.put("  (default)", style);
         }
     }
@@ -160,9 +161,11 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     say(&format!("{what}{nudge}"), Style::new());
     say(field.field.doc, theme::DIM);
     match field.sources.get(app.component) {
-        Some(Source::Default) => say("Not in the text: this is the default.", theme::DIM),
-        Some(Source::WorkingView) => say("The working view differs from the text.", theme::WARNING),
-        Some(Source::Text) | None => {}
+        Some(Provenance::Default) => say("Not in the text: this is the default.", theme::DIM),
+        Some(Provenance::WorkingView) => {
+            say("The working view differs from the text.", theme::WARNING)
+        }
+        Some(Provenance::Text) | None => {}
     }
     for (index, (line, style)) in lines.iter().enumerate() {
         Row::new(buffer, area, index as u16)

@@ -11,7 +11,8 @@ use super::row::Row;
 use super::theme;
 use crate::text::counted;
 use crate::ui::app::{App, HelpFocus};
-use crate::ui::keymap::{self, HelpLine};
+use crate::ui::keymap;
+use crate::ui::keymap::HelpLine;
 
 /// Draws the help page, if it is open.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {

@@ -7,7 +7,8 @@ use ratatui::style::{Modifier, Style};
 use super::layout;
 use super::row::{Row, shorten, title, visible};
 use super::theme;
-use crate::scene::{Node, Rgb};
+use crate::language::Node;
+use crate::scene::Rgb;
 use crate::ui::app::{App, Mode};
 
 /// The least room for a comment, in columns.
@@ -32,7 +33,6 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let rows = usize::from(lines.height);
     let top = app.list_top.min(count.saturating_sub(rows));
     let marked = marked(app);
-    let tree = app.document.tree();
     let shown = (top..count).take(rows);
     let shown = shown.filter_map(|row| Some((row, nodes.get(row)?)));
     for (line, (index, node)) in shown.enumerate() {
@@ -40,7 +40,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         let is_drawn = match node {
             // A group is as much there as what is in it.
             Node::Object(index) => {
-                app.origins.drawn(index).is_some() || app.origins.is_group(index)
+                app.source().drawn(index).is_some() || app.source().is_group(index)
             }
             _ => true,
         };
@@ -63,7 +63,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         let mark = marked.iter().find(|(at, _)| *at == node);
         let end = if mark.is_some() { "! " } else { "" };
         let room = row.room().saturating_sub(end.len());
-        let comment = app.origins.comment(app.document.text(), tree, node);
+        let comment = app.source().comment(node);
         let comment = comment.filter(|_| name.len() + 2 + COMMENT <= room);
         row.put_in(&name, room, style);
         let room = room.saturating_sub(name.len());
@@ -77,17 +77,16 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
 /// A thing's name, two columns further in for each thing that it is in: never so far that nothing
 /// is left to read.
 fn indented(app: &App, node: Node, width: usize) -> String {
-    let indent = (2 * app.origins.depth(node)).min(width / 3);
-    format!("{:indent$}{}", "", app.origins.name(node))
+    let indent = (2 * app.source().depth(node)).min(width / 3);
+    format!("{:indent$}{}", "", app.source().name(node))
 }
 
 /// Things that diagnostics are about, with the style of the gravest.
 fn marked(app: &App) -> Vec<(Node, Style)> {
-    let tree = app.document.tree();
     let mut marked: Vec<_> = app
         .diagnostics
         .iter()
-        .filter_map(|d| Some((app.origins.node_at(tree, d.span)?, d.severity)))
+        .filter_map(|d| Some((app.source().node_at(d.span)?, d.severity)))
         .collect();
     marked.sort_by_key(|&(_, severity)| std::cmp::Reverse(severity));
     marked
@@ -107,8 +106,8 @@ fn swatch(app: &App, node: Node) -> Option<Rgb> {
         Node::Light(index) => Some(scene.lights.get(index)?.colour),
         Node::Material(index) => Some(scene.materials.get(index)?.colour()),
         Node::Object(index) => {
-            let material = app.origins.material(index).or_else(|| {
-                let drawn = app.origins.drawn(index)?;
+            let material = app.source().material(index).or_else(|| {
+                let drawn = app.source().drawn(index)?;
                 Some(scene.objects.get(drawn as usize)?.material as usize)
             });
             Some(scene.materials.get(material?)?.colour())
@@ -118,13 +117,13 @@ fn swatch(app: &App, node: Node) -> Option<Rgb> {
 
 #[cfg(test)]
 mod tests {
-    use crate::format::Format;
+    use crate::language::Language;
     use crate::ui::view::tests::{app, app_of, drawn, retype};
 
     #[test]
     fn what_is_in_a_thing_is_listed_further_in() {
         let app = app_of(
-            Format::Xml,
+            Language::Xml,
             "<xml><scene><object name='all'><object type='sphere' name='ball'/></object>
             </scene><camera><position z='9'/></camera></xml>",
         );

@@ -27,8 +27,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 
-use crate::ui::app::App;
-use crate::ui::terminal::ColourDepth;
+use super::app::App;
+use super::terminal::ColourDepth;
 use layout::LEAST;
 use palette::Palette;
 

@@ -75,7 +75,7 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
         cell.set_style(theme::chip(Style::new()));
     }
     let name = match app.node_under(u32::from(column), 2 * u32::from(row)) {
-        Ok(Some(node)) => app.origins.name(node),
+        Ok(Some(node)) => app.source().name(node),
         Ok(None) => "nothing".to_owned(),
         Err(reason) => reason.to_owned(),
     };

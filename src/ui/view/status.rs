@@ -14,7 +14,8 @@ use crate::render::Progress;
 use crate::scene::Integrator;
 use crate::text::{counted, percentage};
 use crate::ui::app::{App, Disk, Mode, Prompt, PromptKind};
-use crate::ui::keymap::{self, Context};
+use crate::ui::keymap;
+use crate::ui::keymap::Context;
 
 /// Draws the line being typed, or else the keys that mean something now, as many as fit.
 pub(crate) fn render_hint(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -270,7 +271,7 @@ fn duration(time: Duration) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::format::Format;
+    use crate::language::Language;
     use crate::render::Aov;
     use crate::ui::app::Message;
     use crate::ui::view::tests::{app, app_of, drawn, retype};
@@ -313,7 +314,7 @@ mod tests {
         app.aov = Some(Aov::Depth);
         assert_eq!(said(&app), ["depth"]);
         let paths = "<xml><scene/><camera gamma='sRGB'/></xml>";
-        assert_eq!(said(&app_of(Format::Xml, paths)), ["path"]);
+        assert_eq!(said(&app_of(Language::Xml, paths)), ["path"]);
     }
 
     #[test]

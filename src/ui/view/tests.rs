@@ -12,9 +12,10 @@ use tui_input::Input;
 use super::layout::Zoom;
 use super::{Glyphs, Inks, draw};
 use crate::document::{Document, Merge, Side};
-use crate::format::Format;
+use crate::language::Language;
+use crate::language::Node;
 use crate::render::{Filter, Frame, NO_OBJECT, Progress};
-use crate::scene::{Node, Size, lower};
+use crate::scene::Size;
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
     App, Dialog, Disk, Export, Help, HelpFocus, Message, Mode, Opening, OpeningText, Outside,
@@ -38,14 +39,14 @@ box 0 0 0  1 0 0  0 1 0  0 0 1  1 1 1
 
 /// The interface with [`SCENE`] opened and its view selected.
 pub(super) fn app() -> App {
-    app_of(Format::Ray, SCENE)
+    app_of(Language::Ray, SCENE)
 }
 
 /// The interface with a scene opened and its view selected.
-pub(super) fn app_of(format: Format, text: &str) -> App {
+pub(super) fn app_of(language: Language, text: &str) -> App {
     let (mut app, _) = App::open(Opening {
-        format,
-        path: Some(PathBuf::from("somewhere/test").with_extension(format.extension())),
+        language,
+        path: Some(PathBuf::from("somewhere/test").with_extension(language.extension())),
         text: OpeningText::Known(text.to_owned()),
         quality: Quality {
             spp: 16,
@@ -67,14 +68,13 @@ pub(super) fn retype(app: &mut App, old: &str, new: &str) {
         span: Span::new(at, at + old.len()),
         text: new.to_owned(),
     }]);
-    let lowered = lower(app.document.text(), app.document.tree(), &app.meshes);
-    app.origins = lowered.origins;
+    let lowered = app.document.lower(&app.meshes).expect("there is memory");
     app.diagnostics = lowered.diagnostics;
 }
 
 /// What is to be decided between the text and another one from outside.
 pub(super) fn conflict(app: &App, theirs: &str) -> Merge {
-    let theirs = Document::new(app.document.format(), theirs.to_owned());
+    let theirs = Document::new(app.document.language(), theirs.to_owned());
     let merged = app.document.snapshot().merge(theirs);
     merged.expect_err("both changed the same place")
 }
@@ -186,7 +186,7 @@ const STATES: &[(&str, Change)] = &[
     ("recover", |app| {
         let text = app.document.shared_text();
         let kept = SCENE.replace(" 0.25 ", " 0.75 ");
-        let offer = offer(app.document.format(), &text, Some(""), &kept);
+        let offer = offer(app.document.language(), &text, Some(""), &kept);
         app.dialog = Some(Dialog::Recover(Box::new(offer)));
     }),
     ("conflict", |app| {
@@ -291,7 +291,7 @@ fn the_places_that_kept_edits_change_are_counted() {
     let shown = |change: fn(&str) -> String| {
         let mut app = app();
         let text = app.document.shared_text();
-        let offer = offer(Format::Ray, &text, Some(SCENE), &change(SCENE));
+        let offer = offer(Language::Ray, &text, Some(SCENE), &change(SCENE));
         app.dialog = Some(Dialog::Recover(Box::new(offer)));
         let lines = screen(&mut app, 100, 30);
         let words: Vec<_> = lines.iter().flat_map(|line| line.split('│')).collect();
@@ -353,7 +353,7 @@ fn a_picture_of_another_size_fills_its_place() {
 #[test]
 fn a_text_that_is_no_xml_is_drawn() {
     for text in ["", "<xml>", "<scene/>"] {
-        let mut app = app_of(Format::Xml, text);
+        let mut app = app_of(Language::Xml, text);
         for (width, height) in [(80, 24), (40, 12), (9, 3), (1, 1)] {
             let lines = screen(&mut app, width, height);
             assert_eq!(lines.len(), usize::from(height));

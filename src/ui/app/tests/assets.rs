@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use super::*;
 use crate::assets::{Assets, Loaded, Wanted};
+use crate::language::Node;
 use crate::obj;
-use crate::scene::{Image, NoMesh, Node, Size};
+use crate::scene::{Image, NoMesh, Size};
 
 const TEXTURED: &str = "\
 camera perspective 0 0 8  0 0 0  0 1 0  1 0 100

@@ -1,7 +1,7 @@
 //! What `.dat` has and `.ray` has not: words and references in fields, objects that are hidden.
 
 use super::*;
-use crate::scene::Node;
+use crate::language::Node;
 
 /// Two materials, and three objects of which one combines the others.
 pub(super) const SCENE: &str = "\
@@ -128,15 +128,15 @@ fn objects_are_hidden_and_shown_by_the_render_record() {
     assert_eq!(changed(Node::Object(3), " "), ["render 1 ID 3"]);
     assert_eq!(changed(Node::Object(0), " "), ["render 3 ID 1 ID 3 ID 4"]);
     let mut app = at(Node::Object(3));
-    assert_eq!(app.origins.drawn(3), Some(1));
+    assert_eq!(app.source().drawn(3), Some(1));
     press(&mut app, " ");
     assert_eq!(
-        (app.origins.drawn(3), words(&app)),
+        (app.source().drawn(3), words(&app)),
         (None, "object 4 (sphere) is hidden")
     );
     assert_eq!(app.scene.as_ref().map(|scene| scene.objects.len()), Some(1));
     press(&mut app, " ");
-    assert_eq!(app.origins.drawn(3), Some(1));
+    assert_eq!(app.source().drawn(3), Some(1));
     press(&mut app, " ");
     app.select(Node::Object(2));
     press(&mut app, " ");

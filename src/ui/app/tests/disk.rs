@@ -7,7 +7,6 @@ use super::saving::saved;
 use super::*;
 use crate::document::Side;
 use crate::file::ReadError;
-use crate::scene;
 use crate::ui::msg::{Guard, SaveId, SaveOutcome, Timer};
 use crate::ui::reading::Place;
 
@@ -168,11 +167,8 @@ fn changes_of_different_places_are_merged_as_one_step() {
     outside(&mut app, &SCENE.replace("1.5", "1.7"));
     assert_eq!(changed_lines(&app), ["0.1 0 0", "1.7 // the radius"]);
     assert!(app.dialog.is_none() && app.document.is_dirty());
-    let (text, tree) = (app.document.text(), app.document.tree());
-    assert_eq!(
-        app.scene.as_deref(),
-        scene::lower(text, tree, &app.meshes).scene.as_ref()
-    );
+    let lowered = app.lowered();
+    assert_eq!(app.scene.as_deref(), lowered.scene.as_ref());
     press(&mut app, "u");
     assert_eq!(changed_lines(&app), ["0.1 0 0"]);
 }

@@ -1,7 +1,7 @@
 //! Nudging, typing, pasting, undoing.
 
 use super::*;
-use crate::scene::Node;
+use crate::language::Node;
 
 #[test]
 fn nudges_have_the_size_that_was_asked_for() {

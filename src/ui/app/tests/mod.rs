@@ -18,7 +18,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::*;
 use crate::file::Version;
-use crate::format::Format;
+use crate::language::Language;
 use crate::render::Filter;
 use crate::ui::msg::{Effect, ExportId, Exported, Msg};
 use crate::ui::reading::Reading;
@@ -64,7 +64,7 @@ fn opened_as(name: &str, text: &str) -> (App, Vec<Effect>) {
 fn opening_as(name: &str, text: String) -> Opening {
     Opening {
         path: Some(PathBuf::from(name)),
-        format: Format::of_path(Path::new(name)).expect("a scene's name"),
+        language: Language::of_path(Path::new(name)).expect("a scene's name"),
         text: OpeningText::Known(text),
         quality: Quality {
             spp: 4,

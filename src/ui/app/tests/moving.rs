@@ -6,8 +6,9 @@ use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
 
 use super::pictures::frame;
 use super::*;
+use crate::language::Node;
 use crate::render::NO_OBJECT;
-use crate::scene::{Lens, Node, Size};
+use crate::scene::{Lens, Size};
 use crate::ui::msg::{Target, Timer};
 
 #[test]

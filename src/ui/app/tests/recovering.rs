@@ -173,7 +173,7 @@ fn edits_made_while_the_scene_was_saved_are_kept_at_once() {
 /// An offer of edits that started from one text for the one under edit.
 fn kept(app: &App, base: Option<&str>, text: &str) -> Offer {
     offer(
-        app.document.format(),
+        app.document.language(),
         &app.document.shared_text(),
         base,
         text,

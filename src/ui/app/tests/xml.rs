@@ -1,8 +1,8 @@
 //! What `.xml` has and the others have not: components that the text does not say.
 
 use super::*;
-use crate::scene::Node;
-use crate::ui::app::Source;
+use crate::language::Node;
+use crate::ui::app::Provenance;
 
 const SCENE: &str = r#"<xml>
   <scene>
@@ -47,7 +47,7 @@ fn defaults_are_shown_and_written_when_typed() {
     let scale = rows.iter().find(|row| row.field.key == "scale");
     let scale = scale.expect("it is scaled");
     assert_eq!(scale.literals, ["1", "1", "1", "2"]);
-    let [unsaid, said] = [Source::Default, Source::Text];
+    let [unsaid, said] = [Provenance::Default, Provenance::Text];
     assert_eq!(scale.sources, [unsaid, unsaid, unsaid, said]);
     let ball = |keys: &str| changed(Node::Object(1), keys);
     assert_eq!(

@@ -1,0 +1,59 @@
+//! What all languages ask of a camera.
+
+use glam::DVec3;
+
+use super::table::Range;
+use crate::geometry::{Aabb, normalise};
+use crate::scene::Camera;
+use crate::text::{Diagnostic, Findings, Span};
+
+/// Where the text says a camera, or what stands for a place where it does not.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Places {
+    pub(super) eye: Span,
+    pub(super) target: Span,
+    pub(super) up: Span,
+    pub(super) whole: Span,
+    /// How to say a camera in this language.
+    pub(super) remedy: &'static str,
+}
+
+/// The centre of the box, and the eye from which, on the given side of it, a sphere around the box
+/// fills the angle of view, in degrees. Of an empty box, a box of size 1 around the origin.
+pub(super) fn default_eye_and_target(bounds: Aabb, fov: f64, side: DVec3) -> (DVec3, DVec3) {
+    let (centre, radius) = if bounds.is_empty() {
+        (DVec3::ZERO, 0.5 * 3.0_f64.sqrt())
+    } else {
+        (bounds.centre(), bounds.half_diagonal())
+    };
+    let distance = radius / libm::sin((0.5 * fov).to_radians());
+    (centre + distance * side.normalize(), centre)
+}
+
+/// Reports a camera that looks nowhere, and one that looks along its `up`.
+pub(super) fn check(camera: &Camera, places: &Places, report: &mut Findings) {
+    if !camera.eye.is_finite() || !camera.target.is_finite() {
+        report.error(|| {
+            let message = "view: the scene is too large for a default view";
+            Diagnostic::error(places.whole, message, Range::Any.words()).with_hint(places.remedy)
+        });
+        return;
+    }
+    // Halves, because the difference of two large numbers may overflow.
+    let Some(forward) = normalise(0.5 * camera.target - 0.5 * camera.eye) else {
+        report.error(|| {
+            let message = "view target: is where the eye is";
+            let place = places.eye.to(places.target);
+            Diagnostic::error(place, message, "a point other than the eye")
+        });
+        return;
+    };
+    let sine = normalise(camera.up).map_or(0.0, |up| forward.cross(up).length());
+    if sine < Camera::LEAST_SINE {
+        report.warning(|| {
+            let message = "view up: is the direction of view";
+            Diagnostic::warning(places.up, message, "a direction across the view")
+                .with_hint("the world axis most across the view stands in for it")
+        });
+    }
+}

@@ -1,0 +1,308 @@
+//! The grammar of `.dat`: records as the table of fields lists them, one a line. A record that
+//! makes no sense costs itself only.
+
+mod camera;
+mod line;
+mod objects;
+mod shapes;
+mod surfaces;
+
+use std::cell::OnceCell;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+use super::origins::{Origins, VIEW};
+use super::table::{Heads, RECORDS, RecordKind, TextureKind, UseKind};
+use super::tree::Tree;
+use crate::geometry::{Operation, Shape};
+use crate::language::Lowered;
+use crate::language::report::{nearest_word, quoted};
+use crate::language::table::Category;
+use crate::scene::{Light, Material, Phong, Rgb, Scene, Setting, Source, Texture};
+use crate::text::{Diagnostic, Findings, Position, Span};
+use line::Line;
+
+/// Numbers of things that a message lists at most.
+const NAMED: usize = 8;
+
+/// The errors of a text that begins with these records, whatever follows them.
+pub(super) fn errors_of_beginning(text: &str, tree: &Tree) -> Findings {
+    let mut reader = Reader::new(text, tree);
+    // The last one may be cut.
+    for record in 0..tree.records.len().saturating_sub(1) {
+        reader.record(record);
+    }
+    reader.report
+}
+
+/// Reads a scene.
+pub(super) fn lower(text: &str, tree: &Tree) -> (Origins, Lowered) {
+    let mut reader = Reader::new(text, tree);
+    for record in 0..tree.records.len() {
+        reader.record(record);
+    }
+    let objects = reader.drawn();
+    let camera = reader.camera(&objects);
+    let ambient = |light: &Light| match light.source {
+        Source::Everywhere => light.colour,
+        Source::Point { .. } | Source::Distant(_) => Rgb::ZERO,
+    };
+    let scene = (reader.report.errors() == 0).then(|| Scene {
+        camera,
+        ambient: reader.lights.iter().map(ambient).sum(),
+        lights: reader.lights,
+        materials: reader.materials.into_iter().map(Material::Phong).collect(),
+        textures: reader.textures,
+        objects: objects.into_iter().collect(),
+        setting: Setting::default(),
+    });
+    let lowered = Lowered {
+        scene,
+        diagnostics: reader.report.sorted(),
+    };
+    (reader.origins, lowered)
+}
+
+/// An object of the text.
+enum Solid {
+    /// A shape of its own.
+    Shape(Shape),
+    /// Others combined; its operands are the origin's.
+    Combined(Operation),
+    /// An object with errors: something is known by its number all the same.
+    Faulty,
+}
+
+/// What was read so far.
+struct Reader<'a> {
+    text: &'a str,
+    tree: &'a Tree,
+    report: Findings,
+    origins: Origins,
+    camera: camera::Said,
+    /// Of all records, those with errors included: their indices are the origins'.
+    lights: Vec<Light>,
+    materials: Vec<Phong>,
+    textures: Vec<Texture>,
+    solids: Vec<Solid>,
+    /// The index of each thing that is known by a number.
+    ids: HashMap<(Category, i64), usize>,
+    /// The smallest of these numbers in each category, in order: at most [`NAMED`].
+    smallest: [Vec<i64>; 4],
+    /// The last record of each such thing, looked for once a message asks for it.
+    definitions: OnceCell<HashMap<(Category, i64), usize>>,
+    /// What was done to each material, by its index: the place in the origins.
+    used: HashMap<(usize, UseKind), usize>,
+    /// What the last `render` draws.
+    drawn: Drawn,
+}
+
+/// Which objects are drawn.
+enum Drawn {
+    /// Those that are no operands, for want of a record.
+    Results,
+    /// All of them; where the text says so.
+    All(Span),
+    /// Those with these numbers.
+    Listed(Vec<(i64, Span)>),
+}
+
+impl<'a> Reader<'a> {
+    fn new(text: &'a str, tree: &'a Tree) -> Self {
+        Self {
+            text,
+            tree,
+            report: Findings::default(),
+            origins: Origins::default(),
+            camera: camera::Said::default(),
+            lights: Vec::new(),
+            materials: Vec::new(),
+            textures: Vec::new(),
+            solids: Vec::new(),
+            ids: HashMap::new(),
+            smallest: Default::default(),
+            definitions: OnceCell::new(),
+            used: HashMap::new(),
+            drawn: Drawn::Results,
+        }
+    }
+}
+
+impl Reader<'_> {
+    fn record(&mut self, record: usize) {
+        let tokens = self.tree.tokens_of(record);
+        let Some(kind) = self.kind(tokens) else {
+            return;
+        };
+        if let Some(at) = VIEW.iter().position(|&view| view == kind) {
+            let before = self.origins.view[at].replace(record);
+            self.warn_of_repetition(before, tokens[0]);
+        }
+        match kind {
+            RecordKind::Camera | RecordKind::Resolution | RecordKind::Viewport => {
+                self.view_record(kind, tokens);
+            }
+            RecordKind::Light => self.light(record, tokens),
+            RecordKind::Material => self.material(record, tokens),
+            RecordKind::Object(kind) => self.object(record, kind, tokens),
+            RecordKind::Texture(kind) => self.texture(record, kind, tokens),
+            RecordKind::Use(kind) => self.texture_use(record, kind, tokens),
+            RecordKind::Render => {
+                let before = self.origins.render.replace(record);
+                self.warn_of_repetition(before, tokens[0]);
+                self.render_list(tokens);
+            }
+        }
+    }
+
+    /// Which record the first words say; `None`, with a message, if none.
+    fn kind(&mut self, tokens: &[Span]) -> Option<RecordKind> {
+        let first = *tokens.first()?;
+        let word = first.of(self.text);
+        let Some((_, heads)) = RECORDS.iter().find(|(known, _)| *known == word) else {
+            self.report.warning(|| unknown_record(first, word));
+            return None;
+        };
+        let known = match heads {
+            Heads::One(RecordKind::Texture(_)) => {
+                // The pattern follows the number: texture ID n image.
+                let is_image = tokens.get(3).is_some_and(|at| at.of(self.text) == "image");
+                let kind = if is_image {
+                    TextureKind::Image
+                } else {
+                    TextureKind::Checker
+                };
+                return Some(RecordKind::Texture(kind));
+            }
+            Heads::One(kind) => return Some(*kind),
+            Heads::Two(known) => *known,
+        };
+        let second = tokens.get(1).copied();
+        let word = second.map_or("", |at| at.of(self.text));
+        if let Some((_, kind)) = known.iter().find(|(known, _)| *known == word) {
+            return Some(*kind);
+        }
+        let words: Vec<_> = known.iter().map(|(word, _)| *word).collect();
+        let place = second.unwrap_or_else(|| Span::at(first.end()));
+        self.report.error(|| {
+            let first = first.of(self.text);
+            let message = match second {
+                Some(_) => format!("{first}: unknown kind {}", quoted(word)),
+                None => format!("{first}: the line ends where its kind is due"),
+            };
+            let diagnostic = Diagnostic::error(place, message, words.join(", "));
+            let near = words.iter().find(|known| known.eq_ignore_ascii_case(word));
+            match near
+                .copied()
+                .or_else(|| nearest_word(word, words.iter().copied()))
+            {
+                Some(near) => diagnostic.with_hint(format!("did you mean `{near}`?")),
+                None => diagnostic,
+            }
+        });
+        None
+    }
+
+    fn warn_of_repetition(&mut self, before: Option<usize>, word: Span) {
+        let Some(before) = before else {
+            return;
+        };
+        self.report.warning(|| {
+            let line = Position::of(self.text, self.tree.span_of(before).start()).line;
+            let message = format!("{}: said in line {line} already", word.of(self.text));
+            Diagnostic::warning(word, message, "one record of this kind")
+                .with_hint("the last one counts")
+        });
+    }
+
+    /// The number by which a record is known, in `line`; warns of one that is taken, whose record
+    /// is dropped then. `None` if it is, or is no number.
+    fn know(&mut self, category: Category, line: &Line<'_>, index: usize) -> Option<i64> {
+        let (id, span) = line.id?;
+        match self.ids.entry((category, id)) {
+            Entry::Vacant(entry) => {
+                entry.insert(index);
+                let smallest = &mut self.smallest[category as usize];
+                let at = smallest.partition_point(|&known| known < id);
+                if at < NAMED {
+                    smallest.truncate(NAMED - 1);
+                    smallest.insert(at, id);
+                }
+                Some(id)
+            }
+            Entry::Occupied(_) => {
+                self.report.warning(|| {
+                    let word = category.word();
+                    let message = format!("{word} {id}: defined above already");
+                    Diagnostic::warning(span, message, "a number of its own")
+                        .with_hint("this record is dropped")
+                });
+                None
+            }
+        }
+    }
+
+    /// The thing that a reference names; `None`, and an error, if there is none above.
+    fn known(&mut self, category: Category, reference: Option<(i64, Span)>) -> Option<usize> {
+        let (id, span) = reference?;
+        let found = self.ids.get(&(category, id)).copied();
+        if found.is_none() {
+            let (text, tree) = (self.text, self.tree);
+            let definitions = &self.definitions;
+            self.report.error(|| {
+                let all = definitions.get_or_init(|| definitions_of(text, tree));
+                let below = all.get(&(category, id));
+                let below = below.filter(|&&record| tree.records_at(span).end <= record);
+                let word = category.word();
+                let message = format!("there is no {word} {id} above");
+                let expected = "the ID of one defined before";
+                let shown = self.smallest[category as usize].iter();
+                let shown: Vec<_> = shown.map(ToString::to_string).collect();
+                let hint = match shown.len() {
+                    _ if below.is_some() => {
+                        format!("{word} {id} is defined below: it must come first")
+                    }
+                    0 => format!("no {word} is defined yet: it must come first"),
+                    _ => format!("defined so far: {}", shown.join(", ")),
+                };
+                Diagnostic::error(span, message, expected).with_hint(hint)
+            });
+        }
+        found
+    }
+}
+
+/// The last record that begins as if it defined each thing.
+fn definitions_of(text: &str, tree: &Tree) -> HashMap<(Category, i64), usize> {
+    let definition = |record: usize| {
+        let tokens = tree.tokens_of(record);
+        let said = |at: usize| tokens.get(at).map(|token| token.of(text));
+        let (category, place) = match said(0)? {
+            "light" => (Category::Light, 2),
+            "mat" => (Category::Material, 2),
+            "texture" => (Category::Texture, 2),
+            "obj" => (Category::Object, 3),
+            _ => return None,
+        };
+        Some(((category, said(place)?.parse().ok()?), record))
+    };
+    (0..tree.records.len()).filter_map(definition).collect()
+}
+
+/// The words that records begin with.
+fn known_records() -> String {
+    let words: Vec<_> = RECORDS.iter().map(|(word, _)| *word).collect();
+    words.join(", ")
+}
+
+fn unknown_record(span: Span, word: &str) -> Diagnostic {
+    let known = || RECORDS.iter().map(|(word, _)| *word);
+    let expected = known_records();
+    let message = format!("unknown record {}: the line is skipped", quoted(word));
+    let diagnostic = Diagnostic::warning(span, message, expected);
+    let same = known().find(|known| known.eq_ignore_ascii_case(word));
+    match same.or_else(|| nearest_word(word, known())) {
+        Some(near) => diagnostic.with_hint(format!("did you mean `{near}`?")),
+        None => diagnostic.with_hint("`//` or `#` begins a comment line"),
+    }
+}

@@ -1,0 +1,391 @@
+//! Objects, how they are combined, and which of them are drawn.
+
+use std::collections::HashSet;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::{Drawn, Reader, Solid, shapes};
+use crate::geometry::Node as CsgNode;
+use crate::geometry::{Csg, Operation, Quadric, Shape};
+use crate::language::dat::origins::ObjectPlace;
+use crate::language::dat::table::{HALF_SPACE, ObjectKind, RecordKind};
+use crate::language::record::{Gathered, what};
+use crate::language::report::Name;
+use crate::language::report::{no_number, number, quoted};
+use crate::language::table::{Category, Range, numbers};
+use crate::scene::Object;
+use crate::text::{Diagnostic, Severity, Span, counted};
+
+use super::line::Line;
+
+/// All combined objects that are drawn have at most this many parts together, so that a chain of
+/// them, each drawn as well, can't take all memory.
+const MOST_PARTS: usize = 1 << 20;
+
+/// Operands that a message names at most.
+const NAMED: usize = 8;
+
+/// Objects that a message lists at most.
+const LISTED: usize = 64;
+
+/// The operations in the order of the words for them.
+const OPERATIONS: [Operation; 3] = [
+    Operation::Union,
+    Operation::Intersection,
+    Operation::Difference,
+];
+
+/// How many things there are where more or fewer are due: `1 cut follows`.
+fn following(count: usize, what: &str) -> String {
+    let verb = if count == 1 { "follows" } else { "follow" };
+    format!("{} {verb}", counted(count, what))
+}
+
+impl<'a> Reader<'a> {
+    pub(super) fn object(&mut self, record: usize, kind: ObjectKind, tokens: &'a [Span]) {
+        let errors = self.report.errors();
+        let call = |id| Name::Known("object", id, kind.keyword());
+        let mut line = self.line(RecordKind::Object(kind), tokens, call);
+        let fields = RecordKind::Object(kind).fields();
+        line.as_record().check_frame(fields, &mut self.report);
+        let cuts = match kind {
+            ObjectKind::Quadric if line.is_complete => self.cuts(&mut line),
+            _ => Vec::new(),
+        };
+        self.surplus(&line);
+        let mut named = line.references.clone().into_iter();
+        let (mut material, mut operands) = (None, None);
+        if kind == ObjectKind::Csg {
+            let mut operand = || self.known(Category::Object, named.next().flatten());
+            let (first, second) = (operand(), operand());
+            operands = first.zip(second).map(|(first, second)| [first, second]);
+        } else {
+            material = self.known(Category::Material, named.next().flatten());
+        }
+        let Some(id) = self.know(Category::Object, &line, self.solids.len()) else {
+            return;
+        };
+        let said = line.gather().filter(|_| errors == self.report.errors());
+        let solid = said.and_then(|said| self.solid(kind, &said, &cuts, &line));
+        self.solids.push(solid.unwrap_or(Solid::Faulty));
+        self.origins.objects.push(ObjectPlace {
+            record,
+            kind,
+            id,
+            operands,
+            material,
+            cuts: cuts.len(),
+        });
+    }
+
+    fn solid(
+        &mut self,
+        kind: ObjectKind,
+        said: &Gathered,
+        cuts: &[(DVec3, f64)],
+        line: &Line<'_>,
+    ) -> Option<Solid> {
+        let shape = match kind {
+            ObjectKind::Csg => return Some(Solid::Combined(OPERATIONS[said.choices[0] % 3])),
+            ObjectKind::Sphere => Some(shapes::sphere(said)),
+            ObjectKind::Ellipsoid => shapes::ellipsoid(said),
+            ObjectKind::Cylinder => shapes::cylinder(said),
+            ObjectKind::Box => shapes::cuboid(said),
+            ObjectKind::Quadric => Some(self.quadric(said, cuts, line)),
+        };
+        if shape.is_none() {
+            // What follows the material.
+            let span = line.spans[1].to(line.spans[line.spans.len() - 1]);
+            self.report.error(|| {
+                let message = format!("{}: too large, too small or too far away", line.name);
+                Diagnostic::error(span, message, "sizes and places that numbers can hold")
+            });
+        }
+        shape.map(Solid::Shape)
+    }
+
+    fn quadric(&mut self, said: &Gathered, cuts: &[(DVec3, f64)], line: &Line<'_>) -> Shape {
+        let quadric = Quadric::new(said.numbers, cuts);
+        let span = line.spans[1].to(line.spans[line.spans.len() - 1]);
+        if quadric.is_empty() {
+            self.report.warning(|| {
+                let message = format!("{}: no point is inside", line.name);
+                Diagnostic::warning(span, message, "coefficients that leave an inside")
+                    .with_hint("inside is where the sum is 0 or less")
+            });
+        } else if quadric.has_lost_its_shape() {
+            self.report.warning(|| {
+                let message = format!("{}: too far from 0 0 0 for its size", line.name);
+                Diagnostic::warning(span, message, "a quadric nearer to 0 0 0")
+                    .with_hint("numbers of 16 digits no longer hold its shape")
+            });
+        }
+        Shape::Quadric(Box::new(quadric))
+    }
+
+    /// The half-spaces after a quadric's coefficients: how many, then each. Where their number is
+    /// wrong, the line is not complete.
+    fn cuts(&mut self, line: &mut Line<'a>) -> Vec<(DVec3, f64)> {
+        line.is_complete = false;
+        let Some((&token, after)) = line.rest.split_first() else {
+            let end = line.spans.last().map_or(0, |span| span.end());
+            let name = line.name;
+            self.report.error(|| {
+                let message = format!("{name}: the line ends where the number of cuts is due");
+                Diagnostic::error(Span::at(end), message, "a whole number, 0 for no cuts")
+            });
+            return Vec::new();
+        };
+        let name = line.name;
+        let Some((count, _)) = self.identity(token, || format!("{name} number of cuts")) else {
+            return Vec::new();
+        };
+        let each = numbers(&[*HALF_SPACE]);
+        line.rest = after;
+        let have = line.rest.len() / each;
+        let most = Quadric::MOST_HALF_SPACES;
+        let fits = usize::try_from(count).is_ok_and(|count| count <= have && count <= most);
+        if !fits {
+            self.report.error(|| {
+                let said = quoted(token.of(self.text));
+                let (message, expected) = if have < most {
+                    let follow = following(have, "cut");
+                    let message = format!("{name}: says {said} cuts, but {follow}");
+                    (message, "as many as there are".to_owned())
+                } else {
+                    (
+                        format!("{name}: says {said} cuts"),
+                        format!("{most} at most"),
+                    )
+                };
+                Diagnostic::error(token, message, expected)
+                    .with_hint("a cut takes 4 numbers: normal x y z, distance d")
+            });
+            return Vec::new();
+        }
+        let (cuts, rest) = line.rest.split_at(count as usize * each);
+        line.rest = rest;
+        line.is_complete = true;
+        cuts.chunks_exact(each)
+            .filter_map(|cut| self.cut(name, cut))
+            .collect()
+    }
+
+    fn cut(&mut self, name: Name, tokens: &[Span]) -> Option<(DVec3, f64)> {
+        let mut values = [f64::NAN; 4];
+        let components = HALF_SPACE.kind.component_names();
+        for ((value, token), component) in values.iter_mut().zip(tokens).zip(components) {
+            let word = token.of(self.text);
+            let what = || what(name, HALF_SPACE, component);
+            match number(*token, word, &mut self.report, what) {
+                Ok(number) => *value = number,
+                Err(error) => self.report.error(|| {
+                    let expected = Range::Any.words();
+                    no_number(Severity::Error, *token, word, &what(), &expected, error)
+                }),
+            }
+        }
+        let [x, y, z, distance] = values;
+        let normal = DVec3::new(x, y, z);
+        if normal == DVec3::ZERO {
+            self.report.error(|| {
+                let message = format!("{name} cut: its normal must not be zero");
+                Diagnostic::error(tokens[0].to(tokens[2]), message, "a direction")
+            });
+            return None;
+        }
+        (!normal.is_nan() && !distance.is_nan()).then_some((normal, distance))
+    }
+
+    /// Reads which objects are drawn: `render N ID i …`.
+    pub(super) fn render_list(&mut self, tokens: &'a [Span]) {
+        self.drawn = Drawn::Results;
+        let name = Name::Record("render");
+        let Some((&token, mut rest)) = tokens[1..].split_first() else {
+            self.report.error(|| {
+                let message = "render: the line ends where the number of objects is due";
+                let end = Span::at(tokens[0].end());
+                Diagnostic::error(end, message, "a whole number, 0 for all objects")
+            });
+            return;
+        };
+        let count = self.identity(token, || "render: the number of objects".to_owned());
+        let Some(count) = count.map(|(count, _)| count) else {
+            return;
+        };
+        if count < 0 {
+            self.report.error(|| {
+                let message = "render: the number of objects must be 0 or more";
+                Diagnostic::error(token, message, "a whole number, 0 for all objects")
+            });
+        }
+        let mut ids = Vec::new();
+        while (ids.len() as i64) < count {
+            let [word, id, after @ ..] = rest else {
+                break;
+            };
+            if word.of(self.text) != "ID" {
+                self.report.error(|| {
+                    let said = quoted(word.of(self.text));
+                    let message = format!("render: `ID` is due, not {said}");
+                    Diagnostic::error(*word, message, "`ID`")
+                });
+                return;
+            }
+            let Some(id) = self.identity(*id, || "render ID".to_owned()) else {
+                return;
+            };
+            ids.push(id);
+            rest = after;
+        }
+        if (ids.len() as i64) < count {
+            self.report.error(|| {
+                let said = quoted(token.of(self.text));
+                let follow = following(ids.len(), "object");
+                let message = format!("render: says {said}, but {follow} in the line");
+                Diagnostic::error(token, message, "as many as there are")
+                    .with_hint("each object is `ID` and its number")
+            });
+            return;
+        }
+        self.left_over(name, rest);
+        self.drawn = if count == 0 {
+            Drawn::All(token)
+        } else {
+            Drawn::Listed(ids)
+        };
+    }
+
+    /// The objects that are drawn, in file order.
+    pub(super) fn drawn(&mut self) -> Vec<Object> {
+        let mut drawn: Vec<usize> = match std::mem::replace(&mut self.drawn, Drawn::Results) {
+            Drawn::Listed(listed) => listed
+                .into_iter()
+                .filter_map(|id| self.known(Category::Object, Some(id)))
+                .collect(),
+            Drawn::All(token) => {
+                let [operands, results] = self.operands_and_results();
+                self.warn_of_operands(token, &operands, &results);
+                (0..self.solids.len()).collect()
+            }
+            Drawn::Results => {
+                let [_, results] = self.operands_and_results();
+                results
+            }
+        };
+        drawn.sort_unstable();
+        drawn.dedup();
+        // Where there are errors, an object may be what they are about.
+        if self.solids.is_empty() && self.report.errors() == 0 {
+            self.report.warning(|| {
+                Diagnostic::warning(Span::at(0), "no object is defined", "an `obj` record")
+            });
+        }
+        let mut left = MOST_PARTS;
+        let mut objects = Vec::with_capacity(drawn.len());
+        for &object in &drawn {
+            if self.report.errors() == 0 {
+                objects.extend(self.build(object, &mut left));
+            }
+        }
+        self.origins.drawn = drawn;
+        objects
+    }
+
+    /// The objects that CSG combines, and all others.
+    fn operands_and_results(&self) -> [Vec<usize>; 2] {
+        let combined = self.origins.objects.iter();
+        let combined: HashSet<_> = combined.filter_map(|at| at.operands).flatten().collect();
+        let (operands, results) =
+            (0..self.solids.len()).partition(|object| combined.contains(object));
+        [operands, results]
+    }
+
+    /// Warns of operands that are drawn beside what is made of them.
+    fn warn_of_operands(&mut self, token: Span, operands: &[usize], results: &[usize]) {
+        if operands.is_empty() {
+            return;
+        }
+        let ids = |objects: &[usize], most: usize| {
+            let ids = objects.iter().take(most);
+            let ids: Vec<_> = ids
+                .map(|&object| format!("ID {}", self.origins.objects[object].id))
+                .collect();
+            ids.join(" ")
+        };
+        self.report.warning(|| {
+            let more = match operands.len().saturating_sub(NAMED) {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            let named = ids(operands, NAMED);
+            let message = format!("render: 0 also draws the operands of CSG: {named}{more}");
+            let hint = if results.len() <= LISTED {
+                let listed = ids(results, LISTED);
+                format!("only the results: render {} {listed}", results.len())
+            } else {
+                "without a `render` record only the results are drawn".to_owned()
+            };
+            Diagnostic::warning(token, message, "a list of objects").with_hint(hint)
+        });
+    }
+
+    /// An object made ready to be drawn. `left` is how many parts combined objects may still have.
+    fn build(&mut self, object: usize, left: &mut usize) -> Option<Object> {
+        let place = self.origins.objects[object];
+        let material = place.material.unwrap_or(0) as u32;
+        let shape = match &self.solids[object] {
+            Solid::Shape(shape) => shape.clone(),
+            Solid::Faulty => return None,
+            Solid::Combined(_) => {
+                let nodes = self.nodes(object, *left);
+                *left -= nodes.len().min(*left);
+                if *left == 0 {
+                    let span = self.tree.span_of(place.record);
+                    self.report.error(|| {
+                        let message = format!("object {} (CSG): too many parts", place.id);
+                        let expected = format!("{MOST_PARTS} parts in all that is drawn");
+                        Diagnostic::error(span, message, expected)
+                    });
+                    return None;
+                }
+                Shape::Csg(Arc::new(Csg::new(nodes)))
+            }
+        };
+        Some(Object { shape, material })
+    }
+
+    /// The parts of a combined object, operands before what they are part of, each once; at most
+    /// about `limit`.
+    fn nodes(&self, object: usize, limit: usize) -> Vec<CsgNode> {
+        let operands = |object: usize| self.origins.objects[object].operands.into_iter().flatten();
+        let mut reached = HashSet::from([object]);
+        let mut pending = vec![object];
+        while let Some(object) = pending.pop()
+            && reached.len() <= limit
+        {
+            pending.extend(operands(object).filter(|&operand| reached.insert(operand)));
+        }
+        let mut reached: Vec<_> = reached.into_iter().collect();
+        // Operands are defined first.
+        reached.sort_unstable();
+        let place = |object: usize| reached.binary_search(&object).map_or(0, |at| at as u32);
+        let node = |&object: &usize| match &self.solids[object] {
+            Solid::Shape(shape) => Some(CsgNode::Leaf {
+                shape: shape.clone(),
+                tag: self.origins.objects[object].material.unwrap_or(0) as u32,
+            }),
+            Solid::Combined(operation) => {
+                let [first, second] = self.origins.objects[object].operands?;
+                Some(CsgNode::Operation {
+                    operation: *operation,
+                    first: place(first),
+                    second: place(second),
+                })
+            }
+            Solid::Faulty => None,
+        };
+        reached.iter().filter_map(node).collect()
+    }
+}

@@ -1,0 +1,51 @@
+//! What `.dat` texts mean, as data.
+
+mod cameras;
+mod errors;
+mod limits;
+mod meaning;
+mod pictures;
+mod properties;
+mod solids;
+mod views;
+
+use crate::language::tests::{read_as, shown};
+use crate::language::{Language, Lowered, Source};
+use crate::scene::{Material, Meshes, Phong, Scene};
+
+/// The three records of a view, on three lines.
+const VIEW: &str = "camera perspective 0 0 5  0 0 0  0 1 0  1 0 100
+resolution 0.01 0.01
+viewport 80 60
+";
+
+/// The numbers of a material.
+const MAT: &str = "1 1 1  0.1 0.8 0.1 5  0 0 1";
+
+/// A text in which `VIEW` stands for the records above, `MAT` for a material, its ID first,
+/// `BALL` for a sphere up to its radius and `AXES` for the directions of a right-handed frame.
+fn spelled(text: &str) -> String {
+    text.replace("VIEW\n", VIEW)
+        .replace("MAT", MAT)
+        .replace("BALL", "mat ID 0  0 0 0")
+        .replace("AXES", "1 0 0  0 1 0  0 0 1")
+}
+
+/// The one kind of material that the language has.
+fn phong(material: &Material) -> &Phong {
+    match material {
+        Material::Phong(phong) => phong,
+        _ => panic!("no other kind is in this language"),
+    }
+}
+
+fn read(text: &str) -> (Source, Lowered) {
+    read_as(Language::Dat, text, &Meshes::default())
+}
+
+/// The meaning of a text that must be free of errors and warnings.
+fn scene(text: &str) -> Scene {
+    let (_, lowered) = read(text);
+    assert_eq!(shown(text, &lowered), [""; 0], "{text}");
+    lowered.scene.expect("there are no errors")
+}

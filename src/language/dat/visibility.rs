@@ -1,0 +1,137 @@
+//! Which objects are drawn, as edits of the text: the `render` record of `.dat`, which lists them.
+
+use super::origins::Origins;
+use super::tree::Tree;
+use crate::language::Visibility;
+use crate::language::view::line_ending;
+use crate::text::{Edit, Span};
+
+/// The edits after which the text shows or hides an object, by index, and does with all others as
+/// before.
+///
+/// # Errors
+///
+/// Why no text can say that.
+pub(super) fn edits(
+    text: &str,
+    tree: &Tree,
+    origins: &Origins,
+    object: usize,
+    wanted: Visibility,
+) -> Result<Vec<Edit>, &'static str> {
+    let mut drawn = origins.drawn.clone();
+    match (drawn.binary_search(&object), wanted) {
+        (Err(place), Visibility::Shown) => drawn.insert(place, object),
+        (Ok(place), Visibility::Hidden) => drop(drawn.remove(place)),
+        _ => return Ok(Vec::new()),
+    }
+    if drawn.is_empty() {
+        return Err("the last object that is drawn can't be hidden");
+    }
+    let edit = |span, text| Edit { span, text };
+    let id = |object: usize| origins.objects.get(object).map(|at| at.id);
+    let listed = || {
+        let entries = drawn
+            .iter()
+            .filter_map(|&object| Some(format!("ID {}", id(object)?)));
+        let words: Vec<_> = std::iter::once(drawn.len().to_string())
+            .chain(entries)
+            .collect();
+        words.join(" ")
+    };
+    let tokens = origins.render.map(|record| tree.tokens_of(record));
+    let Some([_, count, entries @ ..]) = tokens else {
+        let ending = line_ending(text);
+        let record = format!("render {}", listed());
+        let line = if text.is_empty() || text.ends_with(['\n', '\r']) {
+            format!("{record}{ending}")
+        } else {
+            format!("{ending}{record}")
+        };
+        return Ok(vec![edit(Span::at(text.len()), line)]);
+    };
+    let entries: Vec<_> = entries.chunks_exact(2).collect();
+    let number = count.of(text).parse().unwrap_or(0).min(entries.len());
+    let entries = &entries[..number];
+    let Some(last) = entries.last() else {
+        return Ok(vec![edit(*count, listed())]);
+    };
+    if wanted == Visibility::Shown {
+        let entry = format!(" ID {}", id(object).unwrap_or_default());
+        return Ok(vec![
+            edit(*count, (number + 1).to_string()),
+            edit(Span::at(last[1].end()), entry),
+        ]);
+    }
+    // Each goes with the white space before it.
+    let before = std::iter::once(*count).chain(entries.iter().map(|entry| entry[1]));
+    let hidden: Vec<_> = before
+        .zip(entries)
+        .filter(|(_, entry)| entry[1].of(text).parse().ok() == id(object))
+        .map(|(before, entry)| edit(Span::new(before.end(), entry[1].end()), String::new()))
+        .collect();
+    let left = (number - hidden.len()).to_string();
+    Ok(std::iter::once(edit(*count, left)).chain(hidden).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::Language;
+    use crate::language::tests::read_as;
+    use crate::scene::Meshes;
+    use crate::text::apply;
+
+    /// Three balls and what the first two have in common; the objects' lines end as said.
+    fn scene(render: &str) -> String {
+        format!(
+            "mat ID 1 1 1 1 .1 .5 .4 9 0 0 1\n\
+             obj sphere ID 4 mat ID 1 0 0 0 1\n\
+             obj sphere ID 5 mat ID 1 1 0 0 1\n\
+             obj sphere ID 6 mat ID 1 5 0 0 1\n\
+             obj CSG ID 9 intersection ID 4 ID 5\n{render}"
+        )
+    }
+
+    fn changed(text: &str, id: i64, wanted: Visibility) -> Result<String, &'static str> {
+        let (source, _) = read_as(Language::Dat, text, &Meshes::default());
+        let object = [4, 5, 6, 9].iter().position(|&known| known == id);
+        let object = object.expect("one of the objects");
+        let edits = source.visibility_edits(object, wanted)?;
+        let mut changed = text.to_owned();
+        apply(&mut changed, &edits);
+        Ok(changed)
+    }
+
+    #[test]
+    fn the_list_of_what_is_drawn_says_it() {
+        use Visibility::{Hidden, Shown};
+        for (before, id, wanted, after) in [
+            ("", 6, Hidden, "render 1 ID 9\n"),
+            ("", 4, Shown, "render 3 ID 4 ID 6 ID 9\n"),
+            ("", 6, Shown, ""),
+            ("# end", 6, Hidden, "# end\nrender 1 ID 9"),
+            ("# end\r", 6, Hidden, "# end\rrender 1 ID 9\n"),
+            ("render 0 \t\n", 6, Hidden, "render 3 ID 4 ID 5 ID 9 \t\n"),
+            ("render 0\n", 4, Shown, "render 0\n"),
+            ("render 2  ID 9\tID 6\r\n", 9, Hidden, "render 1\tID 6\r\n"),
+            ("render 2  ID 9\tID 6\n", 6, Hidden, "render 1  ID 9\n"),
+            (
+                "render 2  ID 9\tID 6\n",
+                5,
+                Shown,
+                "render 3  ID 9\tID 6 ID 5\n",
+            ),
+            ("render 3 ID 6 ID 9 ID 6\n", 6, Hidden, "render 1 ID 9\n"),
+        ] {
+            let changed = changed(&scene(before), id, wanted);
+            assert_eq!(changed, Ok(scene(after)), "{before:?} {id} {wanted:?}");
+        }
+    }
+
+    #[test]
+    fn something_stays_in_the_picture() {
+        let one = scene("render 1 ID 6\n");
+        assert!(changed(&one, 6, Visibility::Hidden).is_err());
+    }
+}

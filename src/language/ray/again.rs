@@ -1,0 +1,155 @@
+//! What a long `.ray` text means after the edit of a number of an object, from what it meant before:
+//! only that object's block is read. Where anything else may have changed, nothing comes of it.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::blocks::{Block, block};
+use super::origins::{Origins, ViewPlace};
+use super::tree::Tree;
+use super::view_comment::says_place;
+use crate::language::node::Node;
+use crate::language::{Before, Lowered};
+use crate::scene::objects::BLOCK;
+use crate::scene::{Object, Objects, Scene};
+use crate::text::{Diagnostic, Findings, Span};
+
+/// Reads a text after an edit, of which `changed` is what it put in the place of the bytes `old`.
+pub(super) fn lower(
+    text: &str,
+    tree: &Tree,
+    origins: &Origins,
+    before: &Before<'_>,
+    [old, changed]: [Span; 2],
+) -> Option<(Origins, Lowered)> {
+    // With the same tokens but for one, which is plain, all others are what they were.
+    let is_same = origins.tokens == tree.tokens.len() && origins.comments == tree.comments.len();
+    let is_plain = |byte: u8| byte.is_ascii_digit() || b"+-.eE".contains(&byte);
+    if !is_same || changed.is_empty() || !changed.of(text).bytes().all(is_plain) {
+        return None;
+    }
+    let token = tree
+        .tokens
+        .partition_point(|token| token.end() < changed.end());
+    if tree.tokens.get(token) != Some(changed) {
+        return None;
+    }
+    let Some(Node::Object(object)) = origins.node_of_token(token) else {
+        return None;
+    };
+    // Other views follow from all objects.
+    if !origins.view.is_some_and(|view| says_place(&view.parts)) {
+        return None;
+    }
+    let first = object - object % BLOCK;
+    let of_block = |at: usize| origins.objects.get(at).map(|place| place.token as usize);
+    let end = of_block(first + BLOCK).unwrap_or(tree.tokens.len());
+    let spans = tree.tokens.range(of_block(first)?..end);
+    let Block {
+        materials,
+        objects,
+        report,
+    } = block(text, &spans, first)?;
+    let moved = Moved { old, changed };
+    let lowered = Lowered {
+        diagnostics: findings(before.diagnostics, &moved, &spans, report)?,
+        scene: Some(scene(before.scene, first, objects, materials)),
+    };
+    let origins = Origins {
+        view: origins.view.map(|view| moved.view(&view)),
+        objects: Arc::clone(&origins.objects),
+        ..*origins
+    };
+    Some((origins, lowered))
+}
+
+/// Where things stand after an edit.
+struct Moved {
+    old: Span,
+    changed: Span,
+}
+
+impl Moved {
+    fn place(&self, place: usize) -> usize {
+        if place < self.old.end() {
+            place
+        } else {
+            place - self.old.end() + self.changed.end()
+        }
+    }
+
+    fn span(&self, span: Span) -> Span {
+        Span::new(self.place(span.start()), self.place(span.end()))
+    }
+
+    fn view(&self, view: &ViewPlace) -> ViewPlace {
+        ViewPlace {
+            comment: self.span(view.comment),
+            parts: view
+                .parts
+                .map(|part| part.map(|spans| spans.map(|span| self.span(span)))),
+        }
+    }
+}
+
+/// What is wrong after an edit; `None` if some of it was or would be left out.
+fn findings(before: &Findings, moved: &Moved, block: &[Span], found: Findings) -> Option<Findings> {
+    if before.errors() != 0 || before.len() != before.warnings() {
+        return None;
+    }
+    let mut report = Findings::default();
+    for diagnostic in before.iter() {
+        let span = moved.span(diagnostic.span);
+        // What is told of a block's objects is told at one of its tokens.
+        let of_block = block.binary_search_by_key(&span.start(), |token| token.start());
+        if of_block.is_err() {
+            report.warning(|| Diagnostic {
+                span,
+                ..diagnostic.clone()
+            });
+        }
+    }
+    report.append(found);
+    (report.len() == report.warnings()).then(|| report.sorted())
+}
+
+/// A scene with a block of objects that is another one.
+fn scene(
+    before: &Scene,
+    first: usize,
+    objects: Vec<Object>,
+    materials: Vec<crate::scene::Material>,
+) -> Scene {
+    let index = |object: usize| before.objects.get(object).map(|object| object.material);
+    let base = index(first).unwrap_or_default();
+    let next = first + objects.len();
+    let end = index(next).map_or(before.materials.len(), |index| index as usize);
+    let more = materials.len() as i32 - (end as i32 - base as i32);
+    let mut blocks = before.objects.blocks().to_vec();
+    let based = objects.into_iter().map(|object| Object {
+        material: base + object.material,
+        ..object
+    });
+    blocks[first / BLOCK] = based.collect();
+    let after = &mut blocks[first / BLOCK + 1..];
+    // Small scenes do without threads.
+    if more != 0 && !after.is_empty() {
+        after.par_iter_mut().for_each(|block| {
+            for object in Arc::make_mut(block) {
+                object.material = object.material.wrapping_add_signed(more);
+            }
+        });
+    }
+    let mut scene = Scene {
+        camera: before.camera,
+        ambient: before.ambient,
+        lights: before.lights.clone(),
+        materials: before.materials.clone(),
+        textures: before.textures.clone(),
+        objects: Objects::of_blocks(blocks),
+        setting: before.setting.clone(),
+    };
+    scene.materials.splice(base as usize..end, materials);
+    scene
+}

@@ -1,0 +1,38 @@
+//! What `.ray` texts mean, as data.
+
+mod blocks;
+mod errors;
+mod meaning;
+pub(in crate::language) mod properties;
+mod views;
+
+use crate::language::tests::{read_as, shown};
+use crate::language::{Language, Lowered, Source};
+use crate::scene::{Meshes, Scene};
+
+/// Ambient light and one light.
+const HEAD: &str = "1 1 1  1  0 5 5  1 1 1";
+
+/// The material's numbers.
+const MAT: &str = "0.1 0.1 0.1  0.5 0.5 0.5  0.2 0.2 0.2  5 0 0 1";
+
+/// The directions of a right-handed frame.
+const AXES: &str = "1 0 0  0 1 0  0 0 1";
+
+/// A text in which `HEAD`, `MAT` and `AXES` stand for the numbers above.
+fn spelled(text: &str) -> String {
+    text.replace("HEAD", HEAD)
+        .replace("MAT", MAT)
+        .replace("AXES", AXES)
+}
+
+fn read(text: &str) -> (Source, Lowered) {
+    read_as(Language::Ray, text, &Meshes::default())
+}
+
+/// The meaning of a text that must be free of errors.
+fn scene(text: &str) -> Scene {
+    let (_, lowered) = read(text);
+    let said = shown(text, &lowered);
+    lowered.scene.unwrap_or_else(|| panic!("{text}\n{said:#?}"))
+}

@@ -1,0 +1,158 @@
+//! Long texts mean the same however they are read.
+
+use std::sync::Arc;
+
+use proptest::prelude::*;
+
+use crate::language::ray::lower::lower_in_order;
+use crate::language::ray::{self, again};
+use crate::language::{Answers, Before, Lowered};
+use crate::scene::objects::BLOCK;
+use crate::scene::{Meshes, Scene};
+use crate::text::{Edit, Span};
+
+/// A text of so many objects in colours in turn, one in so many with something to be warned of.
+fn text(objects: usize, declared: usize, warned: usize) -> String {
+    let frame = "1 2 3  1 0 0  0 1 0  0 0 1  4 5 6";
+    let mut text = format!("1 1 1  1  0 5 5  1 1 1  {declared}\n");
+    for number in 0..objects {
+        let shape = match number % 7 {
+            0 => format!("box {frame}"),
+            _ if number % warned == 3 => format!("Cone {frame}"),
+            _ => format!("sphere {number} 2 3 0.5"),
+        };
+        let red = f64::from(number as u32 / 3 * 7 % 40) / 39.0;
+        let object = format!("{shape}  {red} 0 0  0 1 0  0 0 1  20 0 0 1 // {number}\n");
+        text.push_str(&object);
+    }
+    text
+}
+
+/// A text and what it means.
+pub(super) fn read(text: &str) -> (ray::Source, Lowered) {
+    let mut source = ray::parse(Arc::new(text.to_owned()));
+    let lowered = source.lower(&Meshes::default()).expect("there is memory");
+    (source, lowered)
+}
+
+/// Puts something in the place of some bytes; returns these and what stands there then.
+fn put(source: &mut ray::Source, old: Span, literal: &str) -> [Span; 2] {
+    let edit = Edit {
+        span: old,
+        text: literal.to_owned(),
+    };
+    let changed = edit.placed();
+    source.change(&[edit]);
+    [old, changed]
+}
+
+fn before(lowered: &Lowered) -> Option<Before<'_>> {
+    Some(Before {
+        scene: lowered.scene.as_ref()?,
+        diagnostics: &lowered.diagnostics,
+    })
+}
+
+fn parts<'l>(source: &ray::Source, lowered: &'l Lowered) -> (&'l Option<Scene>, String) {
+    let rest = format!("{:?} {:?}", lowered.diagnostics, source.origins);
+    (&lowered.scene, rest)
+}
+
+#[test]
+fn a_number_of_an_object_is_read_with_its_block_alone() {
+    let text = text(2 * BLOCK + 9, 2 * BLOCK + 9, 400);
+    let (mut source, mut lowered) = read(&format!("// view: eye 0 0 9 target 0 0 0\n{text}"));
+    for (number, literal) in [(900, "0.25"), (30_000, "1e-1"), (500, "+7")] {
+        let is_number = |token: &Span| token.of(&source.text).starts_with('0');
+        let spans = source.tree.tokens.range(number..number + 40);
+        let old = spans.into_iter().find(is_number).expect("a number");
+        let spans = put(&mut source, old, literal);
+        let known = before(&lowered).expect("a scene without errors");
+        let again = again::lower(&source.text, &source.tree, &source.origins, &known, spans);
+        let (origins, again) = again.expect("nothing else has changed");
+        source.place(origins);
+        let (fresh, expected) = read(&source.text);
+        assert_eq!(parts(&source, &again), parts(&fresh, &expected));
+        lowered = again;
+    }
+}
+
+#[test]
+fn an_edit_of_a_shape_copies_its_block_alone() {
+    let text = text(3 * BLOCK, 3 * BLOCK, 400);
+    let (mut source, lowered) = read(&format!("// view: eye 0 0 9 target 0 0 0\n{text}"));
+    let sphere = format!("sphere {} 2 3 0.5", BLOCK + 6);
+    let at = source.text.find(&sphere).expect("it is there") + sphere.len();
+    let spans = put(&mut source, Span::new(at - 3, at), "0.75");
+    let known = before(&lowered).expect("a scene without errors");
+    let again = source.lower_again(&Meshes::default(), known, spans);
+    let before = known.scene.objects.clone();
+    let after = again
+        .expect("there is memory")
+        .scene
+        .expect("no errors")
+        .objects;
+    let blocks = before.blocks().iter().zip(after.blocks());
+    let shared: Vec<_> = blocks.map(|(one, other)| Arc::ptr_eq(one, other)).collect();
+    assert_eq!(shared, [true, false, true]);
+    let other = before.differences(&after, |one, other| one != other);
+    assert_eq!(other.collect::<Vec<_>>(), [BLOCK + 6]);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn edits_mean_what_their_texts_do(
+        view in prop_oneof![
+            4 => Just("// view: eye 0 0 9 target 0 0 0 fov 40\n"),
+            1 => Just("// view: eye 0 0 9\n"),
+        ],
+        behind in prop_oneof![Just(""), Just("// view: up 0 0 1\n"), Just("left over")],
+        edits in prop::collection::vec(
+            (
+                any::<prop::sample::Index>(),
+                prop_oneof![
+                    8 => "[0-9]{0,2}\\.[0-9]", 2 => "-[0-9]", 1 => "[ /x]{0,2}1", 1 => "sphere|1 2|",
+                ],
+            ),
+            1..12,
+        ),
+    ) {
+        let (mut source, mut lowered) =
+            read(&format!("{view}{}{behind}", text(BLOCK + 70, BLOCK + 70, 400)));
+        for (place, literal) in edits {
+            let token = place.index(source.tree.tokens.len());
+            let old = source.tree.tokens.get(token).expect("a token");
+            let spans = put(&mut source, old, &literal);
+            let (fresh, expected) = read(&source.text);
+            lowered = match before(&lowered) {
+                Some(known) => source.lower_again(&Meshes::default(), known, spans),
+                None => source.lower(&Meshes::default()),
+            }
+            .expect("there is memory");
+            prop_assert_eq!(parts(&source, &lowered), parts(&fresh, &expected));
+        }
+    }
+
+    #[test]
+    fn blocks_mean_what_the_whole_does(
+        more in 0usize..400,
+        miscounted in prop_oneof![4 => Just(0), 1 => Just(1)],
+        change in prop_oneof![
+            Just(""), Just(" "), Just("sphere"), Just(" 1 "), Just("spere 1"), Just("nought"), Just("//"),
+            Just("// view: eye 0 0 9 target 0 0 0\n"), Just("\u{A0}"), Just("-"),
+        ],
+        removed in 0usize..9,
+        place: prop::sample::Index,
+    ) {
+        let mut text = text(2 * BLOCK + more, 2 * BLOCK + more + miscounted, 7);
+        let at = place.index(text.len() - 9);
+        text.replace_range(at..at + removed, change);
+        let (source, lowered) = read(&text);
+        let (origins, expected) = lower_in_order(&text, &source.tree);
+        prop_assert_eq!(lowered.scene, expected.scene);
+        prop_assert_eq!(&lowered.diagnostics, &expected.diagnostics);
+        prop_assert_eq!(format!("{:?}", source.origins), format!("{origins:?}"));
+    }
+}

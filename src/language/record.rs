@@ -1,0 +1,333 @@
+//! A run of numbers that the table of fields gives a meaning: checked against its ranges, then
+//! sorted into points, directions, colours and plain numbers.
+
+use glam::{DMat3, DVec3};
+
+use super::report::Name;
+use super::table::{Field, Kind};
+use crate::geometry::{FLATTEST, normalise};
+use crate::scene::{Phong, Rgb};
+use crate::text::{Diagnostic, Findings, Span, concise};
+
+/// How far a direction's length may be off 1, and the dot product of two of them off 0.
+const UNIT_TOLERANCE: f64 = 1e-3;
+
+/// The numbers of one thing, as far as the text gives them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Record<'a> {
+    /// The thing.
+    pub(super) name: Name,
+    /// Its numbers; NaN where a token could not be read.
+    pub(super) values: &'a [f64],
+    /// The token of each number.
+    pub(super) spans: &'a [Span],
+}
+
+/// The numbers of one field of a record.
+struct Part<'a> {
+    field: &'static Field,
+    values: &'a [f64],
+    spans: &'a [Span],
+}
+
+impl<'a> Record<'a> {
+    /// The fields that are complete, with their numbers.
+    fn parts(self, fields: impl Iterator<Item = &'static Field>) -> impl Iterator<Item = Part<'a>> {
+        let mut at = 0;
+        fields.map_while(move |field| {
+            let range = at..at + field.kind.components();
+            at = range.end;
+            Some(Part {
+                field,
+                values: self.values.get(range.clone())?,
+                spans: self.spans.get(range)?,
+            })
+        })
+    }
+
+    /// The first `count` numbers and the rest, as records of their own.
+    pub(super) fn split_at(self, count: usize) -> (Self, Self) {
+        let (values, spans) = (self.values.split_at(count), self.spans.split_at(count));
+        let part = |values, spans| Self {
+            name: self.name,
+            values,
+            spans,
+        };
+        (part(values.0, spans.0), part(values.1, spans.1))
+    }
+
+    /// Reports numbers outside of their ranges and directions that are none.
+    pub(super) fn check(self, fields: impl Iterator<Item = &'static Field>, report: &mut Findings) {
+        for part in self.parts(fields) {
+            match part.field.kind {
+                Kind::Direction | Kind::Axis => self.check_direction(&part, report),
+                // These were judged when they were read.
+                Kind::Choice(_) | Kind::Reference(_) | Kind::Word => {}
+                _ => self.check_numbers(&part, report),
+            }
+        }
+    }
+
+    fn check_numbers(self, part: &Part, report: &mut Findings) {
+        let field = part.field;
+        if let Some([least, greatest]) = field.usual.ends()
+            && part
+                .values
+                .iter()
+                .all(|&value| least <= value && value <= greatest)
+        {
+            return;
+        }
+        let names = field.kind.component_names();
+        for ((&value, &span), component) in part.values.iter().zip(part.spans).zip(names) {
+            if value.is_nan() || field.usual.contains(value) {
+                continue;
+            }
+            // Spelled out only for a message that is kept.
+            let what = || what(self.name, field, component);
+            if field.allowed.contains(value) {
+                report.warning(|| {
+                    let message = format!(
+                        "{}: {} is not {}",
+                        what(),
+                        concise(value),
+                        field.usual.limits()
+                    );
+                    Diagnostic::warning(span, message, field.usual.words())
+                        .with_hint(reading(field))
+                });
+            } else {
+                report.error(|| {
+                    let message = format!("{}: must be {}", what(), field.allowed.limits());
+                    Diagnostic::error(span, message, field.allowed.words())
+                });
+            }
+        }
+    }
+
+    fn check_direction(self, part: &Part, report: &mut Findings) {
+        let vector = DVec3::from_slice(part.values);
+        if vector.is_nan() {
+            return;
+        }
+        let span = part.spans[0].to(part.spans[2]);
+        let what = || what(self.name, part.field, "");
+        // Scaled, so that no square overflows.
+        let largest = vector.abs().max_element();
+        let length = largest * (vector / largest).length();
+        if normalise(vector).is_none() {
+            report.error(|| {
+                let message = format!("{}: must not be zero", what());
+                Diagnostic::error(span, message, "a direction of unit length")
+            });
+        } else if UNIT_TOLERANCE < (length - 1.0).abs() {
+            report.warning(|| {
+                let message = format!("{}: has length {}, not 1", what(), rounded(length));
+                let hint = match part.field.kind {
+                    Kind::Axis => "it is used as given: the width is counted in lengths of it",
+                    _ => "it is normalised; sizes have fields of their own",
+                };
+                Diagnostic::warning(span, message, "a direction of unit length").with_hint(hint)
+            });
+        }
+    }
+
+    /// Reports directions that are not those of a right-handed, right-angled frame.
+    pub(super) fn check_frame(
+        self,
+        fields: impl Iterator<Item = &'static Field>,
+        report: &mut Findings,
+    ) {
+        let Some(frame) = self.frame(fields) else {
+            return;
+        };
+        let determinant = determinant(&frame);
+        if determinant.is_some_and(|det| det.abs() < FLATTEST) {
+            report.error(|| flat(self.name, &frame));
+            return;
+        }
+        let [a, b, c] = &frame;
+        for (first, second) in [(a, b), (a, c), (b, c)] {
+            self.check_angle(first, second, report);
+        }
+        if determinant.is_some_and(|det| det < 0.0) {
+            report.warning(|| {
+                let cross = format!("{} × {}", a.key, b.key);
+                let message = format!("{} {}: points against {cross}", self.name, c.key);
+                Diagnostic::warning(c.span, message, format!("the direction {cross}"))
+                    .with_hint("the left-handed frame is used as given")
+            });
+        }
+    }
+
+    fn check_angle(self, first: &Axis, second: &Axis, report: &mut Findings) {
+        let dot = match (first.direction, second.direction) {
+            (Some(first), Some(second)) => first.dot(second),
+            _ => return,
+        };
+        if UNIT_TOLERANCE < dot.abs() {
+            report.warning(|| {
+                let message = format!(
+                    "{} {}: not at a right angle to {} (dot product {})",
+                    self.name,
+                    second.key,
+                    first.key,
+                    rounded(dot)
+                );
+                let expected = format!("a direction at 90° to {}", first.key);
+                Diagnostic::warning(second.span, message, expected)
+                    .with_hint("the skewed frame is used as given")
+            });
+        }
+    }
+
+    /// The three directions of a shape that has them all.
+    fn frame(self, fields: impl Iterator<Item = &'static Field>) -> Option<[Axis; 3]> {
+        let mut axes = self
+            .parts(fields)
+            .filter(|part| matches!(part.field.kind, Kind::Direction | Kind::Axis))
+            .map(|part| Axis {
+                key: part.field.key,
+                direction: normalise(DVec3::from_slice(part.values)),
+                span: part.spans[0].to(part.spans[2]),
+            });
+        Some([axes.next()?, axes.next()?, axes.next()?])
+    }
+
+    /// The numbers by what they are; complete and readable, or fewer come out.
+    pub(super) fn gather(self, fields: impl Iterator<Item = &'static Field>) -> Gathered {
+        let mut gathered = Gathered::default();
+        let (mut points, mut directions, mut colours, mut numbers, mut choices) = (0, 0, 0, 0, 0);
+        for Part { field, values, .. } in self.parts(fields) {
+            match field.kind {
+                Kind::Point => {
+                    gathered.points[points] = DVec3::from_slice(values);
+                    points += 1;
+                }
+                Kind::Direction | Kind::Axis => {
+                    gathered.directions[directions] = DVec3::from_slice(values);
+                    directions += 1;
+                }
+                Kind::Colour => {
+                    gathered.colours[colours] = DVec3::from_slice(values);
+                    colours += 1;
+                }
+                Kind::Number => {
+                    gathered.numbers[numbers] = values[0];
+                    numbers += 1;
+                }
+                Kind::Pixels | Kind::Pair => gathered.pair = [values[0], values[1]],
+                Kind::Choice(_) => {
+                    gathered.choices[choices] = values[0] as usize;
+                    choices += 1;
+                }
+                // What they name is looked up where they are read; cuts are read by themselves, and
+                // the rest is in no record.
+                Kind::Reference(_)
+                | Kind::Name(_)
+                | Kind::Word
+                | Kind::HalfSpace
+                | Kind::Side
+                | Kind::ScaledVector
+                | Kind::ScaledColour
+                | Kind::Rotation => {}
+            }
+        }
+        gathered
+    }
+}
+
+/// The numbers of a record by what they are, each in the table's order.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Gathered {
+    pub(super) points: [DVec3; 3],
+    pub(super) directions: [DVec3; 3],
+    pub(super) colours: [Rgb; 3],
+    pub(super) numbers: [f64; 10],
+    /// Of each choice the place of the word.
+    pub(super) choices: [usize; 2],
+    pub(super) pair: [f64; 2],
+}
+
+impl Gathered {
+    /// The material these numbers describe.
+    pub(super) fn material(&self) -> Phong {
+        let [ambient, diffuse, specular] = self.colours;
+        let [exponent, reflection, transmission, index, ..] = self.numbers;
+        Phong {
+            ambient,
+            diffuse,
+            specular,
+            exponent,
+            reflection,
+            transmission,
+            index,
+            ..Phong::default()
+        }
+    }
+}
+
+/// A direction of a frame; `None` if it is zero or unreadable.
+struct Axis {
+    key: &'static str,
+    direction: Option<DVec3>,
+    span: Span,
+}
+
+/// The determinant of the unit directions, if all three could be read.
+fn determinant([a, b, c]: &[Axis; 3]) -> Option<f64> {
+    Some(DMat3::from_cols(a.direction?, b.direction?, c.direction?).determinant())
+}
+
+/// The error for directions that span no volume, at the first that lies along another one, or
+/// else at the third.
+fn flat(name: Name, [a, b, c]: &[Axis; 3]) -> Diagnostic {
+    let parallel = |first: &Axis, second: &Axis| {
+        let across = first
+            .direction
+            .zip(second.direction)
+            .map(|(u, v)| u.cross(v));
+        across.is_some_and(|across| across.length() < FLATTEST)
+    };
+    let pair = [(a, b), (a, c), (b, c)]
+        .into_iter()
+        .find(|(first, second)| parallel(first, second));
+    match pair {
+        Some((first, second)) => Diagnostic::error(
+            second.span,
+            format!("{name} {}: is parallel to {}", second.key, first.key),
+            format!("a direction at 90° to {}", first.key),
+        ),
+        None => Diagnostic::error(
+            c.span,
+            format!("{name} {}: lies in the plane of the other two", c.key),
+            "a direction out of their plane",
+        ),
+    }
+}
+
+/// A field's component as messages name it: `object 2 (box) corner x`.
+pub(super) fn what(name: Name, field: &Field, component: &str) -> String {
+    let space = if component.is_empty() { "" } else { " " };
+    match name {
+        // The record is its only field.
+        Name::Record(word) if word == field.key => format!("{word}{space}{component}"),
+        _ => format!("{name} {}{space}{component}", field.key),
+    }
+}
+
+/// A value as messages tell it that was computed and not read: four digits of it.
+fn rounded(value: f64) -> String {
+    match format!("{value:.3e}").parse() {
+        Ok(rounded) if f64::is_finite(rounded) => concise(rounded),
+        _ => "beyond all numbers".to_owned(),
+    }
+}
+
+/// What becomes of a value outside of its usual range.
+fn reading(field: &Field) -> String {
+    match field.reads_as {
+        Some(value) => format!("it reads as {value}"),
+        None => "it is used as given".to_owned(),
+    }
+}

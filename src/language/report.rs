@@ -1,0 +1,190 @@
+//! The words that the diagnostics of lowering share.
+
+use std::fmt;
+
+use crate::text::{
+    Diagnostic, Findings, NumberError, Severity, Span, parse_number, slips, without_suffix,
+};
+
+/// A token as messages show it: in backticks, cut short, unprintable characters escaped.
+pub(super) fn quoted(token: &str) -> String {
+    const SHOWN: usize = 24;
+    let mut shown: String = token
+        .chars()
+        .take(SHOWN)
+        .flat_map(char::escape_debug)
+        .collect();
+    if token.chars().nth(SHOWN).is_some() {
+        shown.push('…');
+    }
+    format!("`{shown}`")
+}
+
+/// Reads a number that may have a fraction. An `f` at its end is ignored, with a warning; `what`
+/// names the field.
+pub(super) fn number(
+    span: Span,
+    token: &str,
+    report: &mut Findings,
+    what: impl FnOnce() -> String,
+) -> Result<f64, NumberError> {
+    let read = parse_number(token);
+    let Some(plain) = read.err().and_then(|_| without_suffix(token)) else {
+        return read;
+    };
+    let value = parse_number(plain)?;
+    report.warning(|| {
+        let said = quoted(token);
+        let message = format!("{}: the `f` at the end of {said} is ignored", what());
+        let expected = format!("a number without it: {}", quoted(plain).trim_matches('`'));
+        Diagnostic::warning(span, message, expected)
+            .with_hint("other readers of the format may refuse it")
+    });
+    Ok(value)
+}
+
+/// The diagnostic for a token that stands where a number is due. `what` names the field.
+pub(super) fn no_number(
+    severity: Severity,
+    span: Span,
+    token: &str,
+    what: &str,
+    expected: &str,
+    error: NumberError,
+) -> Diagnostic {
+    let said = quoted(token);
+    let message = match error {
+        NumberError::NotANumber => format!("{what}: {said} is no number"),
+        NumberError::Overflow => format!("{what}: {said} is too large for any number"),
+    };
+    Diagnostic {
+        severity,
+        hint: number_hint(token, error),
+        ..Diagnostic::error(span, message, expected)
+    }
+}
+
+/// What was probably meant by a token that is no number.
+fn number_hint(token: &str, error: NumberError) -> Option<String> {
+    const LONGEST: usize = 64;
+    if LONGEST < token.len() {
+        return None;
+    }
+    if error == NumberError::Overflow {
+        return Some("numbers go up to about 1.8e308".to_owned());
+    }
+    if let Some(plain) = without_suffix(token) {
+        return Some(format!("write {plain}"));
+    }
+    let reads = |text: &str| parse_number(text).is_ok();
+    let unsigned = token.trim_start_matches(['+', '-']);
+    let unhexed = unsigned
+        .strip_prefix("0x")
+        .or_else(|| unsigned.strip_prefix("0X"));
+    if let Some(digits) = unhexed
+        && let Ok(value) = u64::from_str_radix(digits, 16)
+    {
+        let sign = if token.starts_with('-') { "-" } else { "" };
+        return Some(format!("numbers are decimal: write {sign}{value}"));
+    }
+    if token.matches(',').count() == 1 && reads(&token.replace(',', ".")) && !token.ends_with(',') {
+        let pointed = token.replace(',', ".");
+        return Some(format!("decimals follow a point: write {pointed}"));
+    }
+    if token.contains(',') && token.split(',').all(|part| part.is_empty() || reads(part)) {
+        return Some("numbers are separated by white space, without commas".to_owned());
+    }
+    let plain = token.replace(['−', '–', '—'], "-");
+    if plain != token && reads(&plain) {
+        return Some(format!("the minus sign is `-`: write {plain}"));
+    }
+    let word = unsigned.to_ascii_lowercase();
+    if matches!(word.as_str(), "nan" | "inf" | "infinity") {
+        return Some("numbers are finite".to_owned());
+    }
+    None
+}
+
+/// The known word that a word is most like, if a slip or two of the hand lie between them.
+pub(super) fn nearest_word(
+    word: &str,
+    known: impl Iterator<Item = &'static str>,
+) -> Option<&'static str> {
+    const LONGEST: usize = 16;
+    if LONGEST < word.len() || !word.is_ascii() {
+        return None;
+    }
+    known
+        .map(|known| (slips(word, known), known))
+        .filter(|&(slips, known)| {
+            // In a short word two slips leave nothing to know it by.
+            let allowed = if known.len() < 5 { 1 } else { 2 };
+            slips <= allowed
+        })
+        .min_by_key(|&(slips, _)| slips)
+        .map(|(_, known)| known)
+}
+
+/// A node's name, spelled out only where a message needs it.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Name {
+    View,
+    Ambient,
+    Light(usize),
+    /// By index, and of what kind.
+    Object(usize, &'static str),
+    /// Something known by a number: what it is, its number, and of what kind.
+    Known(&'static str, i64, &'static str),
+    /// A record without a number.
+    Record(&'static str),
+}
+
+impl fmt::Display for Name {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::View => f.write_str("view"),
+            Self::Ambient => f.write_str("ambient"),
+            Self::Light(index) => write!(f, "light {}", index + 1),
+            Self::Object(index, kind) => write!(f, "object {} ({kind})", index + 1),
+            Self::Known(word, id, "") => write!(f, "{word} {id}"),
+            Self::Known(word, id, kind) => write!(f, "{word} {id} ({kind})"),
+            Self::Record(word) => f.write_str(word),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_gone_wrong_gets_the_way_out() {
+        for (token, hint) in [
+            ("1,5", Some("write 1.5")),
+            ("1,2,3", Some("without commas")),
+            ("1,", Some("without commas")),
+            ("-0x10", Some("write -16")),
+            ("−3", Some("write -3")),
+            ("3f", Some("write 3")),
+            ("NaN", Some("finite")),
+            ("1e999", Some("1.8e308")),
+            ("abc", None),
+            ("0x", None),
+            ("0xffffffffffffffffffffffff", None),
+        ] {
+            let error = parse_number(token).expect_err("no number");
+            let said = number_hint(token, error);
+            match hint {
+                Some(part) => assert!(said.is_some_and(|said| said.contains(part)), "{token}"),
+                None => assert_eq!(said, None, "{token}"),
+            }
+        }
+    }
+
+    #[test]
+    fn tokens_are_shown_short_and_printable() {
+        assert_eq!(quoted("ab"), "`ab`");
+        assert_eq!(quoted("a\u{1b}[2J"), "`a\\u{1b}[2J`");
+        assert_eq!(quoted(&"é".repeat(25)), format!("`{}…`", "é".repeat(24)));
+    }
+}

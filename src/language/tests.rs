@@ -1,0 +1,77 @@
+//! What texts mean in every language, as data.
+
+mod beginning;
+mod line_ends;
+
+use std::sync::Arc;
+
+use super::{Language, Lowered, Source};
+use crate::scene::Meshes;
+use crate::text::{Diagnostic, Position, Span};
+
+/// A text and what it means.
+pub(super) fn read_as(language: Language, text: &str, meshes: &Meshes) -> (Source, Lowered) {
+    let mut source = Source::new(language, Arc::new(text.to_owned()));
+    let lowered = source.lower(meshes).expect("there is memory for it");
+    (source, lowered)
+}
+
+/// The diagnostics as lines: `2:7 error: object 1 (sphere) radius: must be greater than 0`.
+pub(super) fn shown(text: &str, lowered: &Lowered) -> Vec<String> {
+    let line = |diagnostic: &Diagnostic| {
+        let Position { line, column } = Position::of(text, diagnostic.span.start());
+        let severity = if diagnostic.is_error() {
+            "error"
+        } else {
+            "warning"
+        };
+        format!("{line}:{column} {severity}: {}", diagnostic.message)
+    };
+    lowered.diagnostics.iter().map(line).collect()
+}
+
+/// Steele, Lea and Flood's `SplitMix64`: enough randomness for tests, the same everywhere.
+pub(super) struct Random(pub(super) u64);
+
+impl Random {
+    pub(super) fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    pub(super) fn below(&mut self, bound: usize) -> usize {
+        (self.next() % bound as u64) as usize
+    }
+
+    pub(super) fn pick<'a, T: ?Sized>(&mut self, from: &[&'a T]) -> &'a T {
+        from[self.below(from.len())]
+    }
+}
+
+/// Takes away, doubles or replaces one of a text's leaves, or all from it on; `words` stand in.
+pub(super) fn damage(text: &mut String, leaves: &[Span], words: &[&str], random: &mut Random) {
+    if leaves.is_empty() {
+        text.push_str(random.pick(words));
+        return;
+    }
+    let span = leaves[random.below(leaves.len())];
+    let replacement = match random.below(5) {
+        0 => String::new(),
+        1 => format!("{0} {0}", span.of(text)),
+        2 => leaves[random.below(leaves.len())].of(text).to_owned(),
+        3 => random.pick(words).to_owned(),
+        _ => {
+            let bytes: Vec<u8> = (0..6).map(|_| random.next() as u8).collect();
+            String::from_utf8_lossy(&bytes).into_owned()
+        }
+    };
+    let end = if random.below(20) == 0 {
+        text.len()
+    } else {
+        span.end()
+    };
+    text.replace_range(span.start()..end, &replacement);
+}

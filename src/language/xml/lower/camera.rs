@@ -1,0 +1,115 @@
+//! The camera, and what stands around everything.
+
+use super::Reader;
+use crate::language::camera::{Places, check};
+use crate::language::report::quoted;
+use crate::language::xml::table::{
+    BACKGROUND, CAMERA, ENVIRONMENT, FOCAL_DISTANCE, FOV, HEIGHT, LENS, POSITION, TARGET, UP, WIDTH,
+};
+use crate::scene::{Camera, Focus, Integrator, Lens, Size, Transfer};
+use crate::text::{Diagnostic, Span, parse_number, without_suffix};
+
+impl Reader<'_> {
+    /// The camera: what its element says, and defaults for what is missing.
+    pub(super) fn camera(&mut self) -> Camera {
+        let camera = self.origins.camera;
+        let root = self
+            .origins
+            .root
+            .map_or_else(Span::default, |root| self.place(root));
+        let whole = camera.map_or(root, |camera| self.place(camera));
+        if camera.is_none() {
+            let hint = "it stands at the origin and looks along −z";
+            self.warn(
+                root,
+                || "camera: there is no such element".to_owned(),
+                "`<camera>` in `<xml>`",
+                hint,
+            );
+        }
+        if let Some(camera) = camera {
+            self.gamma(camera);
+        }
+        let vectors = [POSITION, TARGET, UP];
+        self.origins.factors = vectors.map(|at| {
+            let element = self.element_of(camera, &CAMERA[at])?;
+            let said = self.origins.value(self.tree, element, "value")?;
+            // What is no number is told where it is read.
+            let word = said.said(self.text).trim();
+            Some(parse_number(without_suffix(word).unwrap_or(word)).unwrap_or(1.0))
+        });
+        let [eye, target, up] = vectors.map(|at| self.vector(camera, &CAMERA[at]));
+        let numbers = [FOV, FOCAL_DISTANCE, LENS, WIDTH, HEIGHT];
+        let [fov, distance, lens_radius, width, height] =
+            numbers.map(|at| self.number(camera, &CAMERA[at]));
+        let seen = Camera {
+            eye,
+            target,
+            up,
+            lens: Lens::Perspective(fov),
+            pixel_aspect: 1.0,
+            depths: Camera::ALL_DEPTHS,
+            focus: Focus {
+                distance,
+                lens_radius,
+            },
+            size: Size {
+                width: width as u32,
+                height: height as u32,
+            },
+        };
+        let place = |at: usize| {
+            let element = self.element_of(camera, &CAMERA[at]);
+            element.map_or(whole, |element| self.attributes_span(element))
+        };
+        let places = Places {
+            eye: place(POSITION),
+            target: place(TARGET),
+            up: place(UP),
+            whole,
+            remedy: "say where it stands and what it looks at: <position/>, <target/>",
+        };
+        // What is no number was reported.
+        if !(eye.is_nan() || target.is_nan() || up.is_nan()) {
+            check(&seen, &places, &mut self.report);
+        }
+        seen
+    }
+
+    fn gamma(&mut self, camera: usize) {
+        let Some(said) = self.origins.value(self.tree, camera, "gamma") else {
+            return;
+        };
+        let word = said.said(self.text);
+        if word.eq_ignore_ascii_case("sRGB") {
+            self.origins.is_srgb = true;
+            self.setting.integrator = Integrator::Path;
+            self.setting.transfer = Transfer::Srgb;
+        } else if !word.eq_ignore_ascii_case("linear") {
+            let message = || format!("camera gamma: {} is not known", quoted(word));
+            self.warn(said.value, message, "sRGB or linear", "it counts as linear");
+        }
+    }
+
+    /// Background and environment.
+    pub(super) fn surroundings(&mut self) {
+        let scene = self.origins.scene;
+        let Some(scene) = scene else {
+            let root = self
+                .origins
+                .root
+                .map_or_else(Span::default, |root| self.place(root));
+            self.report.warning(|| {
+                let message = "scene: there is no such element";
+                Diagnostic::warning(root, message, "`<scene>` in `<xml>`")
+            });
+            return;
+        };
+        if let Some(element) = self.element_of(Some(scene), &BACKGROUND) {
+            self.setting.background = self.tinted_in(element, &BACKGROUND);
+        }
+        if let Some(element) = self.element_of(Some(scene), &ENVIRONMENT) {
+            self.setting.environment = self.tinted_in(element, &ENVIRONMENT);
+        }
+    }
+}

@@ -1,0 +1,192 @@
+//! Objects: where they are, after all the transforms around them, and what they are made of.
+
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::Reader;
+use crate::geometry::{Affine, Ellipsoid, Plane, Shape, Sphere, normalise};
+use crate::language::report::quoted;
+use crate::language::xml::origins::Role;
+use crate::language::xml::table::ObjectKind;
+use crate::scene::{Material, Object, Rgb};
+use crate::text::Diagnostic;
+
+/// Where an object is; `None` where that was reported already.
+type Frame = Option<DAffine3>;
+
+impl Reader<'_> {
+    /// Lowers all objects, those in others after them.
+    pub(super) fn place_objects(&mut self) {
+        let mut frames: Vec<Frame> = Vec::with_capacity(self.origins.objects.len());
+        for index in 0..self.origins.objects.len() {
+            let element = self.origins.objects[index].element as usize;
+            let parent = self.tree.elements[element].parent;
+            let outer = match parent.map(|parent| self.origins.roles[parent as usize]) {
+                Some(Role::Object(outer)) => frames[outer as usize],
+                _ => Some(DAffine3::IDENTITY),
+            };
+            let errors = self.report.errors();
+            let own = self.transform_of(element).unwrap_or(DAffine3::IDENTITY);
+            let is_sound = errors == self.report.errors();
+            let frame = outer.filter(|_| is_sound).map(|outer| outer * own);
+            frames.push(frame);
+            let material = self.material_of(element);
+            self.origins.dressed.push(material);
+            let shaped = match self.origins.objects[index].kind {
+                ObjectKind::Group => None,
+                ObjectKind::Obj => self.mesh(index, frame, material),
+                kind => frame
+                    .and_then(|frame| self.shape(kind, element, frame))
+                    .map(|shape| (shape, material.unwrap_or_else(|| self.white()))),
+            };
+            if let Some((shape, material)) = shaped {
+                self.origins.drawn.push(index);
+                self.objects.push(Object {
+                    shape,
+                    material: material as u32,
+                });
+            }
+        }
+    }
+
+    /// All transforms of an element together, the first one acting first; `None` if there are none.
+    pub(super) fn transform_of(&mut self, element: usize) -> Option<DAffine3> {
+        let mut all: Option<DAffine3> = None;
+        let tree = self.tree;
+        for child in tree.children(element) {
+            let Role::Transform(parameter) = self.origins.roles[child] else {
+                continue;
+            };
+            let one = match parameter.element {
+                "scale" => {
+                    let scale = self.vector_in(child, parameter);
+                    if scale.to_array().contains(&0.0) {
+                        self.flat(child);
+                    }
+                    DAffine3::from_scale(scale)
+                }
+                "rotate" => {
+                    let (axis, angle) = self.rotation_in(child, parameter);
+                    self.rotation(child, axis, angle)
+                }
+                _ => DAffine3::from_translation(self.vector_in(child, parameter)),
+            };
+            all = Some(all.map_or(one, |before| one * before));
+        }
+        all
+    }
+
+    fn flat(&mut self, element: usize) {
+        let (name, span) = (self.called(element), self.attributes_span(element));
+        self.report.error(|| {
+            let message = format!("{name}: must not be 0 along any axis");
+            Diagnostic::error(span, message, "numbers other than 0")
+                .with_hint("what is flat may be scaled by a small number, or be a plane")
+        });
+    }
+
+    /// A turn about an axis, right-handed, by degrees.
+    fn rotation(&mut self, element: usize, axis: DVec3, angle: f64) -> DAffine3 {
+        let Some(axis) = normalise(axis) else {
+            if axis == DVec3::ZERO {
+                let (name, span) = (self.called(element), self.attributes_span(element));
+                let message = || format!("{name}: the axis is zero");
+                self.warn(span, message, "an axis: x, y, z", "nothing is turned");
+            }
+            return DAffine3::IDENTITY;
+        };
+        let (sin, cos) = sine_and_cosine(angle);
+        // Rodrigues' formula, one column for each axis of the world.
+        let turned = |v: DVec3| cos * v + sin * axis.cross(v) + (1.0 - cos) * axis.dot(v) * axis;
+        DAffine3::from_mat3(DMat3::from_cols(
+            turned(DVec3::X),
+            turned(DVec3::Y),
+            turned(DVec3::Z),
+        ))
+    }
+
+    /// The index of the material of what has none.
+    pub(super) fn white(&mut self) -> usize {
+        *self.white.get_or_insert_with(|| {
+            self.materials.push(Material::Flat(Rgb::ONE));
+            self.materials.len() - 1
+        })
+    }
+
+    /// What a sphere or a plane is where it is; `None`, with an error, where it has no volume.
+    fn shape(&mut self, kind: ObjectKind, element: usize, frame: DAffine3) -> Option<Shape> {
+        let columns = [frame.x_axis, frame.y_axis, frame.z_axis];
+        if kind == ObjectKind::Sphere
+            && let Some(radius) = scaling(columns)
+            && frame.translation.is_finite()
+        {
+            return Some(Shape::Sphere(Sphere {
+                centre: frame.translation,
+                radius,
+            }));
+        }
+        let affine = self.affine(element, frame)?;
+        Some(match kind {
+            ObjectKind::Plane => Shape::Plane(Box::new(Plane(affine))),
+            _ => Shape::Ellipsoid(Box::new(Ellipsoid(affine))),
+        })
+    }
+
+    /// What an object's transforms are together; `None`, with an error, if they can't be undone.
+    pub(super) fn affine(&mut self, element: usize, frame: DAffine3) -> Option<Affine> {
+        let columns = [frame.x_axis, frame.y_axis, frame.z_axis];
+        let affine = Affine::of_matrix(columns, frame.translation);
+        if affine.is_none() {
+            self.no_volume(element);
+        }
+        affine
+    }
+
+    pub(super) fn no_volume(&mut self, element: usize) {
+        let name = self.called(element);
+        self.error(
+            self.tree.elements[element].name,
+            || format!("{name}: its transforms leave it no volume, or no place"),
+            "transforms that can be undone",
+        );
+    }
+
+    /// The index of an object's material.
+    fn material_of(&mut self, element: usize) -> Option<usize> {
+        let said = self.word(element, "material")?;
+        let found = self.named.get(said).copied();
+        if found.is_none() {
+            let span = self
+                .origins
+                .value(self.tree, element, "material")
+                .map(|at| at.value);
+            let message = || format!("material: there is none called {}", quoted(said));
+            let hint = "the object is white, whatever light there is";
+            self.warn(
+                span.unwrap_or_default(),
+                message,
+                "the name of a material",
+                hint,
+            );
+        }
+        found
+    }
+}
+
+/// How many times as large a matrix makes everything, if that is all that it does.
+fn scaling([x, y, z]: [DVec3; 3]) -> Option<f64> {
+    let size = x.x;
+    let is_all = x == size * DVec3::X && y == size * DVec3::Y && z == size * DVec3::Z;
+    (is_all && 0.0 < size && size.is_finite()).then_some(size)
+}
+
+/// Sine and cosine of an angle in degrees: of quarter turns without rounding.
+fn sine_and_cosine(angle: f64) -> (f64, f64) {
+    let turned = angle % 360.0;
+    match turned {
+        0.0 => (0.0, 1.0),
+        90.0 | -270.0 => (1.0, 0.0),
+        180.0 | -180.0 => (0.0, -1.0),
+        270.0 | -90.0 => (-1.0, 0.0),
+        _ => libm::sincos(turned.to_radians()),
+    }
+}

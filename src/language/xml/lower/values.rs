@@ -1,0 +1,212 @@
+//! Attributes as numbers, vectors, colours and words.
+
+use glam::DVec3;
+
+use super::Reader;
+use crate::language::report::{no_number, number};
+use crate::language::table::{Field, Kind};
+use crate::language::xml::table::{Parameter, Reading};
+use crate::text::{Diagnostic, Findings, Severity, Span, concise, is_integer, parse_number};
+
+impl<'a> Reader<'a> {
+    /// What an element is called in messages: its node, and its own name if it is not that.
+    pub(super) fn called(&self, element: usize) -> String {
+        let name = self.name(element);
+        let node = self.origins.node_of(element);
+        match node {
+            None => name.to_owned(),
+            Some(node) if self.origins.owners[element] as usize == element => {
+                self.origins.name(node)
+            }
+            Some(node) => format!("{} {name}", self.origins.name(node)),
+        }
+    }
+
+    /// A word that an element says; `None` where it says nothing.
+    pub(super) fn word(&self, element: usize, word: &str) -> Option<&'a str> {
+        let at = self.origins.attribute(self.tree, element, word)?;
+        let said = self.tree.attributes[at].said(self.text);
+        (!said.is_empty()).then_some(said)
+    }
+
+    /// What the number of an attribute is called in messages.
+    fn what(&self, element: usize, attribute: usize) -> String {
+        let called = self.called(element);
+        match self.tree.attributes[attribute].name.of(self.text) {
+            "value" => called,
+            name => format!("{called} {name}"),
+        }
+    }
+
+    /// The number that an attribute says, checked; NaN, with an error, where it is none.
+    fn number_at(&mut self, element: usize, attribute: usize, field: &Field) -> f64 {
+        let span = self.tree.attributes[attribute].value;
+        let word = self.tree.attributes[attribute].said(self.text).trim();
+        let read = if field.kind.is_size() {
+            parse_number(word)
+        } else {
+            let mut read_over = Findings::default();
+            let what = || self.what(element, attribute);
+            let read = number(span, word, &mut read_over, what);
+            self.report.append(read_over);
+            read
+        };
+        let what = || self.what(element, attribute);
+        let value = match read {
+            Ok(value) => value,
+            Err(error) => {
+                let (what, expected) = (what(), field.allowed.words());
+                self.report
+                    .error(|| no_number(Severity::Error, span, word, &what, &expected, error));
+                return f64::NAN;
+            }
+        };
+        let is_side = field.kind == Kind::Side;
+        let fits = !is_side || (is_integer(word) && value <= f64::from(u32::MAX));
+        if !field.allowed.contains(value) || !fits {
+            let limits = if is_side && f64::from(u32::MAX) < value {
+                format!("{} at most", u32::MAX)
+            } else {
+                field.allowed.limits()
+            };
+            let message = format!("{}: must be {limits}", what());
+            self.error(span, || message, &field.allowed.words());
+            return f64::NAN;
+        }
+        if !field.usual.contains(value) {
+            let message = format!(
+                "{}: {} is not {}",
+                what(),
+                concise(value),
+                field.usual.limits()
+            );
+            self.warn(
+                span,
+                || message,
+                &field.usual.words(),
+                "it is used as given",
+            );
+        }
+        value
+    }
+
+    /// A number of an element, or what stands for it.
+    fn number_or(
+        &mut self,
+        element: usize,
+        attribute: &str,
+        field: &Field,
+        otherwise: &str,
+    ) -> f64 {
+        match self.origins.attribute(self.tree, element, attribute) {
+            Some(at) => self.number_at(element, at, field),
+            None => plain(otherwise),
+        }
+    }
+
+    /// A number in an element, or what stands for it.
+    pub(super) fn number(&mut self, holder: Option<usize>, parameter: &'static Parameter) -> f64 {
+        match self.element_of(holder, parameter) {
+            Some(element) => self.number_in(element, parameter),
+            None => plain(parameter.missing[0]),
+        }
+    }
+
+    /// The number that an element says.
+    pub(super) fn number_in(&mut self, element: usize, parameter: &'static Parameter) -> f64 {
+        self.number_or(element, "value", &parameter.field, parameter.inside)
+    }
+
+    /// A vector or colour in an element, or what stands for it.
+    pub(super) fn vector(&mut self, holder: Option<usize>, parameter: &'static Parameter) -> DVec3 {
+        match self.element_of(holder, parameter) {
+            Some(element) => self.vector_in(element, parameter),
+            None => DVec3::from_array([0, 1, 2].map(|at| plain(parameter.missing[at]))),
+        }
+    }
+
+    /// The vector or colour that an element says.
+    pub(super) fn vector_in(&mut self, element: usize, parameter: &'static Parameter) -> DVec3 {
+        let names = parameter.reading.attributes();
+        let field = &parameter.field;
+        let [x, y, z] =
+            [0, 1, 2].map(|at| self.number_or(element, names[at], field, parameter.inside));
+        let vector = DVec3::new(x, y, z);
+        if parameter.reading == Reading::Rotation {
+            return vector;
+        }
+        let product = self.number_or(element, "value", field, "1") * vector;
+        if !product.is_nan() && !product.is_finite() {
+            let name = self.called(element);
+            let message = || format!("{name}: too large for any number");
+            self.error(self.place(element), message, "numbers up to about 1.8e308");
+        }
+        product
+    }
+
+    /// The axis and the angle in degrees that a rotation says.
+    pub(super) fn rotation_in(
+        &mut self,
+        element: usize,
+        parameter: &'static Parameter,
+    ) -> (DVec3, f64) {
+        let axis = self.vector_in(element, parameter);
+        let has_angle = self
+            .origins
+            .attribute(self.tree, element, "angle")
+            .is_some();
+        let angle = if has_angle { "angle" } else { "value" };
+        let angle = self.number_or(element, angle, &parameter.field, "0");
+        (axis, angle)
+    }
+
+    /// A number beside those of an element.
+    pub(super) fn extra(
+        &mut self,
+        element: usize,
+        parameter: &'static Parameter,
+        attribute: &str,
+    ) -> f64 {
+        let extra = parameter
+            .extras
+            .iter()
+            .find(|extra| extra.attribute == attribute);
+        let Some(extra) = extra else {
+            return 0.0;
+        };
+        let missing = extra.missing(self.origins.is_srgb);
+        self.number_or(element, attribute, &extra.field, missing)
+    }
+
+    /// The element that says a parameter of another one.
+    pub(super) fn element_of(
+        &self,
+        holder: Option<usize>,
+        parameter: &'static Parameter,
+    ) -> Option<usize> {
+        self.origins.parameter(self.tree, holder?, parameter)
+    }
+
+    /// All attributes of an element, or its name if it has none.
+    pub(super) fn attributes_span(&self, element: usize) -> Span {
+        let own = &self.tree.attributes[self.tree.elements[element].attributes()];
+        match own {
+            [] => self.place(element),
+            [first, .., last] => first.name.to(last.value),
+            [only] => only.name.to(only.value),
+        }
+    }
+
+    /// Reports a direction that is none.
+    pub(super) fn zero(&mut self, element: usize) {
+        let name = self.called(element);
+        let span = self.attributes_span(element);
+        self.report
+            .error(|| Diagnostic::error(span, format!("{name}: must not be zero"), "a direction"));
+    }
+}
+
+/// A number of the table of fields.
+fn plain(literal: &str) -> f64 {
+    literal.parse().unwrap_or(f64::NAN)
+}

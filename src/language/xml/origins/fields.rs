@@ -1,0 +1,271 @@
+//! The fields of each node, with where they stand or would.
+
+use super::insert;
+use super::{Origins, Role};
+use crate::language::node::Node;
+use crate::language::placed::{Insertion, Placed, Unsaid, Unwritten};
+use crate::language::table::Field;
+use crate::language::xml::table::{
+    BACKGROUND, CAMERA, CHECKER, ENVIRONMENT, GAMMA, LIGHT_WORDS, MATERIAL_WORDS, OBJECT,
+    Parameter, Reading, TEXTURE, Texturing, Word,
+};
+use crate::language::xml::tree::Tree;
+use crate::text::Span;
+
+/// More rows than this no one reads.
+const MOST_ROWS: usize = 256;
+
+/// The fields of a node.
+pub(super) fn of(origins: &Origins, tree: &Tree, node: Node) -> Vec<Placed> {
+    let mut rows = Rows {
+        origins,
+        tree,
+        placed: Vec::new(),
+    };
+    match node {
+        Node::View => {
+            for parameter in &CAMERA {
+                rows.parameter(Holder::camera(origins), parameter);
+            }
+            if let Some(camera) = origins.camera {
+                rows.word(camera, &GAMMA);
+            }
+        }
+        Node::Background => rows.parameter(origins.scene.map(Holder::There), &BACKGROUND),
+        Node::Environment => rows.parameter(origins.scene.map(Holder::There), &ENVIRONMENT),
+        Node::Light(index) => {
+            if let Some(light) = origins.lights.get(index) {
+                rows.thing(
+                    light.element as usize,
+                    &LIGHT_WORDS,
+                    light.kind.parameters(),
+                );
+            }
+        }
+        Node::Material(index) => {
+            if let Some(material) = origins.materials.get(index) {
+                let parameters = material.kind.parameters();
+                rows.thing(material.element as usize, &MATERIAL_WORDS, parameters);
+            }
+        }
+        Node::Object(index) => {
+            if let Some(object) = origins.objects.get(index) {
+                rows.thing(object.element as usize, &OBJECT, &[]);
+                rows.transforms(object.element as usize);
+            }
+        }
+        Node::Ambient | Node::Texture(_) => {}
+    }
+    rows.placed
+}
+
+/// What a parameter is in.
+#[derive(Clone, Copy)]
+enum Holder {
+    There(usize),
+    /// In the element there, but that is missing: its tags.
+    Missing(usize, &'static str, &'static str),
+}
+
+impl Holder {
+    fn camera(origins: &Origins) -> Option<Self> {
+        match (origins.camera, origins.root) {
+            (Some(camera), _) => Some(Self::There(camera)),
+            (None, Some(root)) => Some(Self::Missing(root, "<camera>", "</camera>")),
+            (None, None) => None,
+        }
+    }
+}
+
+struct Rows<'a> {
+    origins: &'a Origins,
+    tree: &'a Tree,
+    placed: Vec<Placed>,
+}
+
+impl Rows<'_> {
+    fn thing(&mut self, element: usize, words: &'static [Word], parameters: &'static [Parameter]) {
+        for word in words {
+            self.word(element, word);
+        }
+        for parameter in parameters {
+            self.parameter(Some(Holder::There(element)), parameter);
+        }
+    }
+
+    /// A word that is an attribute.
+    fn word(&mut self, element: usize, word: &'static Word) {
+        let field = &word.field;
+        if let Some(said) = self.origins.value(self.tree, element, field.key) {
+            self.placed.push(Placed::said(field, vec![said.value]));
+            return;
+        }
+        let insertion = insert::attribute(self.tree, element);
+        self.placed.push(Placed {
+            field,
+            spans: vec![insertion.span],
+            unsaid: Some(Box::new(Unsaid {
+                literals: vec![Some(word.missing)],
+                attributes: vec![Unwritten {
+                    component: Some(0),
+                    name: field.key,
+                    literal: word.missing,
+                    goes_along: false,
+                }],
+                element: None,
+                insertion,
+            })),
+        });
+    }
+
+    fn parameter(&mut self, holder: Option<Holder>, parameter: &'static Parameter) {
+        let Some(holder) = holder else { return };
+        let element = match holder {
+            Holder::There(holder) => self.origins.parameter(self.tree, holder, parameter),
+            Holder::Missing(..) => None,
+        };
+        match element {
+            Some(element) => self.said(element, parameter),
+            None => self.missing(holder, parameter),
+        }
+    }
+
+    /// A parameter whose element is there, and its textures.
+    fn said(&mut self, element: usize, parameter: &'static Parameter) {
+        let mut pending = vec![(element, parameter)];
+        while let Some((element, parameter)) = pending.pop() {
+            if MOST_ROWS < self.placed.len() {
+                return;
+            }
+            self.numbers(element, parameter);
+            for extra in parameter.extras {
+                let insertion = insert::attribute(self.tree, element);
+                let said = self.origins.attribute(self.tree, element, extra.attribute);
+                let missing = extra.missing(self.origins.is_srgb);
+                let attribute = (extra.attribute, said, missing);
+                self.attributes(&extra.field, &[attribute], &insertion);
+            }
+            let Some(texture) = self.texture(element, parameter) else {
+                continue;
+            };
+            self.placed.push(Placed::said(&TEXTURE, vec![texture]));
+            self.transforms(element);
+            let colours = CHECKER.iter().rev();
+            pending.extend(colours.filter_map(|colour| {
+                let said = self.origins.parameter(self.tree, element, colour)?;
+                Some((said, colour))
+            }));
+        }
+    }
+
+    /// Where a parameter says its texture.
+    fn texture(&self, element: usize, parameter: &Parameter) -> Option<Span> {
+        let may = parameter.texture == Texturing::Yes;
+        let said = self
+            .origins
+            .value(self.tree, element, "texture")
+            .filter(|_| may);
+        said.map(|said| said.value)
+    }
+
+    fn transforms(&mut self, holder: usize) {
+        for child in self.tree.children(holder) {
+            if MOST_ROWS < self.placed.len() {
+                return;
+            }
+            if let Some(Role::Transform(parameter)) = self.origins.roles.get(child) {
+                self.numbers(child, parameter);
+            }
+        }
+    }
+
+    /// The numbers of an element that is there.
+    fn numbers(&mut self, element: usize, parameter: &'static Parameter) {
+        let find = |name: &str| self.origins.attribute(self.tree, element, name);
+        let names = parameter.reading.attributes();
+        let mut attributes: Vec<_> = names
+            .iter()
+            .map(|&name| (name, find(name), parameter.inside(name)))
+            .collect();
+        let mut field = &parameter.field;
+        match parameter.reading {
+            // It says the angle where `angle` does not.
+            Reading::Rotation if attributes[3].1.is_none() => attributes[3].1 = find("value"),
+            Reading::Vector | Reading::Colour if attributes[3].1.is_none() => {
+                attributes.truncate(3);
+            }
+            Reading::Vector | Reading::Colour => field = &parameter.scaled,
+            Reading::Number | Reading::Rotation => {}
+        }
+        self.attributes(field, &attributes, &insert::attribute(self.tree, element));
+    }
+
+    /// A field whose components are attributes of one element: their names, where they are, and
+    /// what stands for them.
+    fn attributes(
+        &mut self,
+        field: &'static Field,
+        attributes: &[(&'static str, Option<usize>, &'static str)],
+        insertion: &Insertion,
+    ) {
+        let place = |&(_, said, _): &(_, Option<usize>, _)| {
+            said.map_or(insertion.span, |at| self.tree.attributes[at].value)
+        };
+        let spans = attributes.iter().map(place).collect();
+        let is_said = attributes.iter().all(|(_, said, _)| said.is_some());
+        let unsaid = || {
+            let missing = attributes.iter().enumerate();
+            let missing = missing.filter(|(_, (_, said, _))| said.is_none());
+            Box::new(Unsaid {
+                literals: attributes
+                    .iter()
+                    .map(|&(_, said, literal)| said.is_none().then_some(literal))
+                    .collect(),
+                attributes: missing
+                    .map(|(component, &(name, _, literal))| Unwritten {
+                        component: Some(component),
+                        name,
+                        literal,
+                        goes_along: false,
+                    })
+                    .collect(),
+                element: None,
+                insertion: insertion.clone(),
+            })
+        };
+        self.placed.push(Placed {
+            field,
+            spans,
+            unsaid: (!is_said).then(unsaid),
+        });
+    }
+
+    /// A parameter whose element is not there.
+    fn missing(&mut self, holder: Holder, parameter: &'static Parameter) {
+        let insertion = match holder {
+            Holder::There(holder) => insert::child(self.tree, holder),
+            Holder::Missing(outer, open, close) => {
+                insert::grandchild(self.tree, outer, open, close)
+            }
+        };
+        let names = parameter.reading.attributes();
+        let attributes = names.iter().zip(parameter.missing).enumerate();
+        self.placed.push(Placed {
+            field: &parameter.field,
+            spans: vec![Span::at(insertion.span.start()); parameter.missing.len()],
+            unsaid: Some(Box::new(Unsaid {
+                literals: parameter.missing.iter().copied().map(Some).collect(),
+                attributes: attributes
+                    .map(|(component, (&name, &literal))| Unwritten {
+                        component: Some(component),
+                        name,
+                        literal,
+                        goes_along: literal != parameter.inside,
+                    })
+                    .collect(),
+                element: Some(parameter.element),
+                insertion,
+            })),
+        });
+    }
+}

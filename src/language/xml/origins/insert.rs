@@ -1,0 +1,92 @@
+//! Where in a `.xml` text something that is missing goes.
+
+use crate::language::placed::{Insertion, Piece};
+use crate::language::xml::tree::Tree;
+use crate::text::Span;
+
+/// Where one more attribute of an element goes.
+pub(super) fn attribute(tree: &Tree, element: usize) -> Insertion {
+    let end = tree.elements[element].attributes_end as usize;
+    Insertion {
+        span: Span::at(end),
+        before: Vec::new(),
+        between: Vec::new(),
+        after: Vec::new(),
+    }
+}
+
+/// Where one more element in another one goes: after the last, indented like that, or else two
+/// blanks more than what it is in.
+pub(super) fn child(tree: &Tree, parent: usize) -> Insertion {
+    let own = &tree.elements[parent];
+    if let Some(last) = tree.children(parent).last() {
+        let last = &tree.elements[last];
+        let before = vec![Piece::Copy(last.lead)];
+        return Insertion {
+            span: Span::at(last.whole.end()),
+            between: before.clone(),
+            before,
+            after: Vec::new(),
+        };
+    }
+    let mut between = vec![Piece::Copy(own.lead)];
+    if !own.lead.is_empty() {
+        between.push(Piece::Words("  "));
+    }
+    if own.is_empty_tag() {
+        let mut before = vec![Piece::Words(">")];
+        before.extend(&between);
+        return Insertion {
+            span: Span::new(own.attributes_end as usize, own.tag.end()),
+            before,
+            between,
+            after: vec![
+                Piece::Copy(own.lead),
+                Piece::Words("</"),
+                Piece::Copy(own.name),
+                Piece::Words(">"),
+            ],
+        };
+    }
+    let is_empty = own.close as usize == own.tag.end();
+    Insertion {
+        span: Span::at(own.tag.end()),
+        before: between.clone(),
+        between,
+        after: is_empty
+            .then_some(Piece::Copy(own.lead))
+            .into_iter()
+            .collect(),
+    }
+}
+
+/// Where an element goes inside of one that is missing itself.
+pub(super) fn grandchild(
+    tree: &Tree,
+    grandparent: usize,
+    open: &'static str,
+    close: &'static str,
+) -> Insertion {
+    let outer = child(tree, grandparent);
+    let lead = outer.between.clone();
+    let is_indented = tree.elements[grandparent].depth > 0
+        || lead
+            .iter()
+            .any(|piece| matches!(piece, Piece::Copy(span) if !span.is_empty()));
+    let mut between = lead.clone();
+    if is_indented {
+        between.push(Piece::Words("  "));
+    }
+    let mut before = outer.before;
+    before.push(Piece::Words(open));
+    before.extend(&between);
+    let mut after = lead;
+    after.push(Piece::Words(close));
+    after.extend(outer.after);
+    Insertion {
+        span: outer.span,
+        before,
+        between,
+        after,
+    }
+}

@@ -1,0 +1,429 @@
+use glam::{DAffine3, DMat3, DVec2, DVec3};
+
+use super::{EXAMPLE, around, read, scene};
+use crate::geometry::{Aabb, Ray, Shape, Sphere};
+use crate::language::node::Node;
+use crate::scene::{
+    Camera, Falloff, Finish, Focus, Gloss, Integrator, Lens, Light, MappedPattern, Material, Rgb,
+    Shadows, Size, Source, Textured, Tinted, Transfer,
+};
+
+fn sphere(centre: [f64; 3], radius: f64) -> Shape {
+    Shape::Sphere(Sphere {
+        centre: centre.into(),
+        radius,
+    })
+}
+
+fn plain(colour: Rgb) -> Tinted {
+    Tinted {
+        colour,
+        texture: None,
+    }
+}
+
+/// The box of the only object.
+fn bounds(object: &str) -> Aabb {
+    scene(&around(object)).bounds()
+}
+
+fn close(a: DVec3, b: [f64; 3]) -> bool {
+    (a - DVec3::from_array(b)).abs().max_element() < 1e-12
+}
+
+#[test]
+fn the_example_is_three_white_spheres() {
+    let scene = scene(EXAMPLE);
+    let shapes: Vec<_> = scene
+        .objects
+        .iter()
+        .map(|object| object.shape.clone())
+        .collect();
+    let expected = [
+        sphere([0.0, 50.0, -25.0], 25.0),
+        sphere([0.0, 50.0, 5.1], 5.0),
+        sphere([0.0, 50.0, 11.1], 1.0),
+    ];
+    assert_eq!(shapes, expected);
+    assert_eq!(scene.materials, [Material::Flat(Rgb::ONE)]);
+    let camera = Camera {
+        eye: DVec3::ZERO,
+        target: DVec3::new(0.0, 20.0, 0.0),
+        up: DVec3::Z,
+        lens: Lens::Perspective(40.0),
+        pixel_aspect: 1.0,
+        depths: Camera::ALL_DEPTHS,
+        focus: Focus::PINHOLE,
+        size: Size {
+            width: 800,
+            height: 600,
+        },
+    };
+    assert_eq!(scene.camera, camera);
+    let (source, lowered) = read(EXAMPLE);
+    assert!(lowered.diagnostics.is_empty(), "{:?}", lowered.diagnostics);
+    let nodes = source.nodes();
+    let listed: Vec<_> = nodes
+        .iter()
+        .map(|node| (source.depth(node), source.name(node)))
+        .collect();
+    let expected = [
+        (0, "view"),
+        (0, "background"),
+        (0, "environment"),
+        (0, "sphere1 (sphere)"),
+        (0, "sphere2 (sphere)"),
+        (1, "sphere3 (sphere)"),
+    ];
+    assert_eq!(
+        listed,
+        expected.map(|(depth, name)| (depth, name.to_owned()))
+    );
+}
+
+#[test]
+fn a_missing_camera_stands_at_the_origin() {
+    let camera = scene("<xml><scene/></xml>").camera;
+    let size = Size {
+        width: 200,
+        height: 150,
+    };
+    assert_eq!(
+        (camera.eye, camera.target, camera.up),
+        (DVec3::ZERO, -DVec3::Z, DVec3::Y)
+    );
+    assert_eq!((camera.lens, camera.size), (Lens::Perspective(40.0), size));
+    let camera = scene("<xml><scene/><camera><target x='1' value='2'/><up z='1'/><focaldist value='7'/></camera></xml>").camera;
+    assert_eq!((camera.target, camera.up), (2.0 * DVec3::X, DVec3::Z));
+    assert_eq!(camera.focus.distance, 7.0);
+}
+
+#[test]
+fn the_transform_that_is_listed_first_acts_first() {
+    for (transforms, centre, half) in [
+        (
+            "<scale value='2'/><translate x='3'/>",
+            [3.0, 0.0, 0.0],
+            [2.0; 3],
+        ),
+        (
+            "<translate x='3'/><scale value='2'/>",
+            [6.0, 0.0, 0.0],
+            [2.0; 3],
+        ),
+        ("<scale x='2' value='3'/>", [0.0; 3], [6.0, 3.0, 3.0]),
+        ("<scale y='-2'/>", [0.0; 3], [1.0, 2.0, 1.0]),
+        (
+            "<translate x='1'/><rotate z='1' angle='90'/>",
+            [0.0, 1.0, 0.0],
+            [1.0; 3],
+        ),
+        (
+            "<translate x='1'/><rotate z='5' value='-90'/>",
+            [0.0, -1.0, 0.0],
+            [1.0; 3],
+        ),
+        (
+            "<translate y='1'/><rotate x='1' angle='180' value='9'/>",
+            [0.0, -1.0, 0.0],
+            [1.0; 3],
+        ),
+        (
+            "<translate z='1'/><rotate y='1' angle='30'/>",
+            [0.5, 0.0, 3f64.sqrt() / 2.0],
+            [1.0; 3],
+        ),
+        (
+            "<translate x='1' y='1' z='1'/><rotate x='1' y='1' z='1' angle='77'/>",
+            [1.0; 3],
+            [1.0; 3],
+        ),
+        (
+            "<translate x='1'/><rotate angle='90'/>",
+            [1.0, 0.0, 0.0],
+            [1.0; 3],
+        ),
+        ("<TRANSLATE x='1'/><Scale/>", [1.0, 0.0, 0.0], [1.0; 3]),
+    ] {
+        let bounds = bounds(&format!("<object type='Sphere'>{transforms}</object>"));
+        assert!(close(bounds.centre(), centre), "{transforms}: {bounds:?}");
+        assert!(close(0.5 * bounds.size(), half), "{transforms}: {bounds:?}");
+    }
+}
+
+#[test]
+fn what_is_in_an_object_moves_with_it_wherever_it_stands() {
+    let inner = "<object type='sphere'><translate x='1'/></object>";
+    for object in [
+        format!("<object><scale value='2'/><translate y='3'/>{inner}</object>"),
+        format!("<object>{inner}<scale value='2'/><translate y='3'/></object>"),
+        format!("<object type='nonsense'><scale value='2'/>{inner}<translate y='3'/></object>"),
+        format!("<object><translate y='3'/><object><scale value='2'/>{inner}</object></object>"),
+    ] {
+        let scene = scene(&around(&object));
+        assert_eq!(scene.objects.len(), 1);
+        assert_eq!(
+            scene.objects[0].shape,
+            sphere([2.0, 3.0, 0.0], 2.0),
+            "{object}"
+        );
+    }
+}
+
+#[test]
+fn a_plane_is_a_square_with_a_front() {
+    let scene = scene(&around(
+        "<object type='plane'><scale value='2'/><rotate x='1' angle='90'/><translate y='3'/></object>",
+    ));
+    let shape = &scene.objects[0].shape;
+    assert_eq!(shape.bounds().size(), DVec3::new(4.0, 0.0, 4.0));
+    let ray = Ray {
+        origin: DVec3::new(1.0, 0.0, 0.5),
+        direction: DVec3::Y,
+    };
+    let hit = shape.hit(&ray, 9.0).expect("the ray meets the square");
+    assert_eq!(hit.t, 3.0);
+    assert_eq!(shape.surface(&ray, hit).normal, -DVec3::Y);
+}
+
+#[test]
+fn materials_are_read_whole() {
+    let scene = scene(&around(
+        "<object type='sphere' material='b'/>
+         <object><object type='plane' material='a'/></object>
+         <material name='a'/>
+         <material type='PHONG' name='b'><Diffuse r='.1' g='.2' value='2'/><specular value='0'/>
+           <glossiness/><reflection g='0' glossiness='.25'/><refraction value='.5' index='1.52'/>
+           <absorption r='.01' g='0' b='0'/><emission value='3'/></material>
+         <material type='microfacet' name='c'><color b='0'/><roughness value='.3'/><metallic value='1'/>
+           <ior value='2'/><transmittance value='.5'/></material>",
+    ));
+    assert_eq!(
+        scene
+            .objects
+            .iter()
+            .map(|object| object.material)
+            .collect::<Vec<_>>(),
+        [1, 0]
+    );
+    let [Material::Utah(a), Material::Utah(b), Material::Utah(c)] = &scene.materials[..] else {
+        panic!("{:?}", scene.materials);
+    };
+    let gloss = |diffuse, specular, glossiness| Gloss {
+        diffuse: plain(diffuse),
+        specular: plain(specular),
+        glossiness: Textured {
+            value: glossiness,
+            texture: None,
+        },
+    };
+    let defaults = gloss(Rgb::splat(0.5), Rgb::splat(0.7), 20.0);
+    assert_eq!(a.finish, Finish::Blinn(defaults));
+    assert_eq!(
+        (a.reflection, a.refraction, a.index),
+        (Tinted::default(), Tinted::default(), 1.0)
+    );
+    let finish = gloss(Rgb::new(0.2, 0.4, 2.0), Rgb::ZERO, 1.0);
+    assert_eq!(b.finish, Finish::Phong(finish));
+    assert_eq!(
+        (b.reflection, b.reflection_spread),
+        (plain(Rgb::new(1.0, 0.0, 1.0)), 0.25)
+    );
+    assert_eq!(
+        (b.refraction, b.refraction_spread),
+        (plain(Rgb::splat(0.5)), 0.0)
+    );
+    assert_eq!((b.index, b.absorption), (1.52, Rgb::new(0.01, 0.0, 0.0)));
+    assert_eq!(b.emission, plain(Rgb::splat(3.0)));
+    let number = |value| Textured {
+        value,
+        texture: None,
+    };
+    let finish = Finish::Microfacet {
+        colour: plain(Rgb::new(1.0, 1.0, 0.0)),
+        roughness: number(0.3),
+        metallic: number(1.0),
+    };
+    assert_eq!((&c.finish, c.index), (&finish, 2.0));
+    assert_eq!(c.refraction, plain(Rgb::splat(0.5)));
+}
+
+#[test]
+fn gamma_asks_for_paths_and_another_default_index() {
+    let text = "<xml><scene><material><refraction/></material></scene><camera gamma='srgb'/></xml>";
+    let scene = scene(text);
+    assert_eq!(
+        (scene.setting.integrator, scene.setting.transfer),
+        (Integrator::Path, Transfer::Srgb)
+    );
+    let [Material::Utah(glass)] = &scene.materials[..] else {
+        panic!("{:?}", scene.materials);
+    };
+    assert_eq!((glass.index, glass.refraction), (1.5, plain(Rgb::ONE)));
+}
+
+#[test]
+fn lights_shine_from_where_they_say() {
+    let scene = scene(&around(
+        "<light type='ambient' name='a'><intensity value='.25'/></light>
+         <light type='AMBIENT'><intensity r='.5' g='0' b='0'/></light>
+         <light type='direct'><intensity/><direction x='2'/></light>
+         <light type='direct'/>
+         <light type='point'><intensity value='3'/><position y='4'/><size value='.5'/><attenuation value='2'/></light>
+         <light type='spot'/><light/>",
+    ));
+    assert_eq!(scene.ambient, Rgb::new(0.75, 0.25, 0.25));
+    let light = |source, colour, radius| Light {
+        source,
+        colour,
+        shadows: Shadows::Cast,
+        radius,
+    };
+    let point = Source::Point {
+        position: DVec3::new(0.0, 4.0, 0.0),
+        falloff: Falloff {
+            radial: [0.0, 0.0, 4.0],
+            spot: None,
+        },
+    };
+    let expected = [
+        light(Source::Everywhere, Rgb::splat(0.25), 0.0),
+        light(Source::Everywhere, Rgb::new(0.5, 0.0, 0.0), 0.0),
+        light(Source::Distant(-DVec3::X), Rgb::ONE, 0.0),
+        light(Source::Distant(-DVec3::Z), Rgb::ZERO, 0.0),
+        light(point, Rgb::splat(3.0), 0.5),
+    ];
+    assert_eq!(scene.lights, expected);
+}
+
+#[test]
+fn textures_hold_textures_in_their_squares() {
+    let text = around(
+        "<background texture='clouds.ppm'><scale y='.5'/><translate y='-1'/></background>
+         <environment value='.5' texture='checkerboard'>
+           <color1 r='.25' texture='checkerboard'><color2 texture='maps/a&amp;b.png'/><scale value='2'/></color1>
+         </environment>",
+    );
+    let (source, lowered) = read(&text);
+    let setting = lowered.scene.expect("there are no errors").setting;
+    assert_eq!(
+        setting.background,
+        Tinted {
+            colour: Rgb::ONE,
+            texture: Some(0)
+        }
+    );
+    assert_eq!(
+        setting.environment,
+        Tinted {
+            colour: Rgb::splat(0.5),
+            texture: Some(1)
+        }
+    );
+    let patterns: Vec<_> = setting
+        .textures
+        .iter()
+        .map(|texture| texture.pattern.clone())
+        .collect();
+    let tinted = |colour, texture| Tinted { colour, texture };
+    let outer = [
+        tinted(Rgb::new(0.25, 1.0, 1.0), Some(2)),
+        tinted(Rgb::ONE, None),
+    ];
+    let inner = [tinted(Rgb::ZERO, None), tinted(Rgb::ONE, Some(3))];
+    let expected = [
+        MappedPattern::Image("clouds.ppm".to_owned()),
+        MappedPattern::Checkerboard(outer),
+        MappedPattern::Checkerboard(inner),
+        MappedPattern::Image("maps/a&b.png".to_owned()),
+    ];
+    assert_eq!(patterns, expected);
+    let forward = DAffine3::from_mat3_translation(
+        DMat3::from_diagonal(DVec3::new(1.0, 0.5, 1.0)),
+        DVec3::new(0.0, -1.0, 0.0),
+    );
+    assert_eq!(setting.textures[0].inverse, forward.inverse());
+    let place = setting.textures[2]
+        .inverse
+        .transform_point3(DVec2::new(0.5, 1.0).extend(0.0));
+    assert_eq!(place, DVec3::new(0.25, 0.5, 0.0));
+    let files = source.files();
+    let files: Vec<_> = files
+        .iter()
+        .map(|file| (file.path.as_str(), file.what.as_str()))
+        .collect();
+    assert_eq!(
+        files,
+        [
+            ("clouds.ppm", "background texture"),
+            ("maps/a&b.png", "environment color2 texture")
+        ]
+    );
+}
+
+#[test]
+fn things_are_found_by_place_and_called_by_comments() {
+    let text = around(
+        "\n<!-- one -->\n<object name='a'><object type='sphere'><!-- two --> <scale value='2'/></object></object>\n\
+         <material name='m'><diffuse r='.5'/></material>",
+    );
+    let (source, _) = read(&text);
+    for (part, node) in [
+        ("'5'", Node::View),
+        ("'a'", Node::Object(0)),
+        ("'2'", Node::Object(1)),
+        ("'.5'", Node::Material(0)),
+    ] {
+        let at = text.find(part).expect("a part of the text");
+        let span = crate::text::Span::new(at, at + part.len());
+        assert_eq!(source.node_at(span), Some(node), "{part}");
+        assert_eq!(source.nodes_in(span), [node], "{part}");
+    }
+    assert_eq!(source.comment(Node::Object(0)), Some("one"));
+    assert_eq!(source.comment(Node::Object(1)), Some("two"));
+    assert_eq!(source.comment(Node::Material(0)), None);
+}
+
+#[test]
+fn a_hundred_thousand_levels_are_lowered() {
+    let levels = 100_000;
+    let nested = |open: &str, close: &str| around(&(open.repeat(levels) + &close.repeat(levels)));
+    let deep = scene(&nested(
+        "<object type='sphere'><translate x='1'/>",
+        "</object>",
+    ));
+    assert_eq!(deep.objects[levels - 1].shape, sphere([1e5, 0.0, 0.0], 1.0));
+    let text = nested("<color1 texture='checkerboard'>", "</color1>");
+    let text = text.replacen("<color1", "<background", 1);
+    let last = text.rfind("</color1>").expect("it is closed");
+    let text = format!("{}</background>{}", &text[..last], &text[last + 9..]);
+    let (source, lowered) = read(&text);
+    let rows = source.fields(Node::Background);
+    assert!((200..300).contains(&rows.len()), "{}", rows.len());
+    assert_eq!(
+        lowered.scene.map(|scene| scene.setting.textures.len()),
+        Some(levels)
+    );
+    let (source, lowered) = read(&nested("<nonsense>", "</nonsense>"));
+    let whole = crate::text::Span::new(0, 10_000_000);
+    assert_eq!(lowered.diagnostics.warnings(), 1);
+    assert_eq!(source.nodes_in(whole), [Node::View]);
+}
+
+#[test]
+fn names_are_told_short_and_printable() {
+    let long = "n".repeat(60);
+    let text = around(&format!(
+        "<object name='a&#10;b&#x202e;'/><object name='{long}'/>"
+    ));
+    let (source, _) = read(&text);
+    let name = |at| source.name(Node::Object(at));
+    assert_eq!(name(0), "a\\nb\\u{202e} (group)");
+    assert_eq!(name(1), format!("{}… (group)", "n".repeat(48)));
+}
+
+#[test]
+fn lines_may_end_in_cr_alone() {
+    let (_, lowered) = read(&EXAMPLE.replace('\n', "\r"));
+    assert!(lowered.diagnostics.is_empty() && lowered.scene.is_some());
+}

@@ -1,0 +1,335 @@
+//! Objects of type `obj`.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+
+use super::{around, read_with, shown};
+use crate::geometry::{Instance, Ray, Shape};
+use crate::language::FileKind;
+use crate::language::node::Node;
+use crate::obj;
+use crate::scene::{
+    Finish, Gloss, MappedPattern, MappedTexture, Material, Meshes, NoMesh, Object, Rgb, Scene,
+    Textured, Tinted, Utah,
+};
+
+const CORNERS: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+/// The mesh of a text, whose libraries all hold the same, under a name.
+fn meshes(name: &str, mesh: &str, library: &str) -> Meshes {
+    let read = obj::read(mesh.as_bytes(), |_| Ok::<_, String>(library));
+    let model = read.unwrap_or_else(|errors| panic!("{mesh}: {errors:?}"));
+    [(name.to_owned(), Ok(Arc::new(model)))]
+        .into_iter()
+        .collect()
+}
+
+/// A triangle of material `a` and one without.
+fn two_faces(library: &str) -> Meshes {
+    let mesh = format!("mtllib a.mtl\n{CORNERS}f 1 2 3\nusemtl a\nf 1 3 2\n");
+    meshes("a.obj", &mesh, library)
+}
+
+fn scene(text: &str, meshes: &Meshes) -> Scene {
+    let (_, lowered) = read_with(text, meshes);
+    let said = shown(text, &lowered);
+    lowered.scene.unwrap_or_else(|| panic!("{text}\n{said:#?}"))
+}
+
+fn instance(object: &Object) -> &Instance {
+    match &object.shape {
+        Shape::Mesh(instance) => instance,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn tags(object: &Object) -> Vec<Option<u32>> {
+    instance(object).tags().collect()
+}
+
+fn plain(colour: [f64; 3]) -> Tinted {
+    Tinted {
+        colour: colour.into(),
+        texture: None,
+    }
+}
+
+/// What a library that says nothing means.
+fn silent() -> Utah {
+    let gloss = Gloss {
+        diffuse: plain([1.0; 3]),
+        specular: plain([0.0; 3]),
+        glossiness: Textured::default(),
+    };
+    Utah {
+        finish: Finish::Blinn(gloss),
+        reflection: plain([0.0; 3]),
+        reflection_spread: 0.0,
+        refraction: plain([0.0; 3]),
+        refraction_spread: 0.0,
+        index: 1.0,
+        absorption: Rgb::ZERO,
+        emission: plain([0.0; 3]),
+    }
+}
+
+#[test]
+fn materials_come_from_the_library() {
+    let shiny = |diffuse, specular, glossiness| Utah {
+        finish: Finish::Blinn(Gloss {
+            diffuse: plain(diffuse),
+            specular: plain(specular),
+            glossiness: Textured {
+                value: glossiness,
+                texture: None,
+            },
+        }),
+        ..silent()
+    };
+    let specular = [0.2, 0.4, 0.6];
+    let mirror = |utah: Utah| Utah {
+        reflection: plain(specular),
+        ..utah
+    };
+    let of_specular = || shiny([1.0; 3], specular, 0.0);
+    for (said, expected) in [
+        ("", silent()),
+        ("Kd .1 .2 .3", shiny([0.1, 0.2, 0.3], [0.0; 3], 0.0)),
+        ("Ks .5\nNs 7", shiny([1.0; 3], [0.5; 3], 7.0)),
+        ("Ns -7", silent()),
+        (
+            "Ni 1.5",
+            Utah {
+                index: 1.5,
+                ..silent()
+            },
+        ),
+        ("illum 0\nKs .2 .4 .6\nTf 0.5", of_specular()),
+        ("illum 1\nKs .2 .4 .6", of_specular()),
+        ("illum 2\nKs .2 .4 .6", of_specular()),
+        ("illum 3\nKs .2 .4 .6", mirror(of_specular())),
+        ("illum 4\nKs .2 .4 .6\nTf 0.5", mirror(of_specular())),
+        ("illum 5\nKs .2 .4 .6\nTf 0.5", mirror(of_specular())),
+        (
+            "illum 6\nKs .2 .4 .6",
+            Utah {
+                refraction: plain([1.0; 3]),
+                ..mirror(of_specular())
+            },
+        ),
+        (
+            "illum 7\nKs .2 .4 .6\nTf 0 .5 1\nNi 1.3",
+            Utah {
+                refraction: plain([1.0, 0.5, 0.0]),
+                index: 1.3,
+                ..mirror(of_specular())
+            },
+        ),
+        ("illum 8\nKs .2 .4 .6", of_specular()),
+        ("illum 10\nKs .2 .4 .6", of_specular()),
+    ] {
+        let meshes = two_faces(&format!("newmtl a\n{said}\n"));
+        let scene = scene(&around("<object type='obj' name='a.obj'/>"), &meshes);
+        let expected = [Material::Flat(Rgb::ONE), Material::Utah(Box::new(expected))];
+        assert_eq!(scene.materials, expected, "{said}");
+        assert_eq!(tags(&scene.objects[0]), [Some(0), Some(1)]);
+    }
+}
+
+/// A picture's name is relative to the library, whose name is relative to the mesh.
+#[test]
+fn pictures_are_looked_for_from_the_library() {
+    let mesh = format!("mtllib ../skins/a.mtl\n{CORNERS}usemtl a\nf 1 2 3\n");
+    let library = "newmtl a\nmap_Kd wood/oak.png\nmap_Ks ../shine.png\n";
+    let meshes = meshes("meshes/a.obj", &mesh, library);
+    let text = around("<object type='obj' name='meshes/a.obj'/>");
+    let meaning = scene(&text, &meshes);
+    let keys = [
+        "meshes/../skins/wood/oak.png",
+        "meshes/../skins/../shine.png",
+    ];
+    let textures = keys.map(|key| MappedTexture {
+        inverse: DAffine3::IDENTITY,
+        pattern: MappedPattern::Image(key.to_owned()),
+    });
+    assert_eq!(meaning.setting.textures, textures);
+    let tinted = |colour, texture| Tinted {
+        texture: Some(texture),
+        ..plain(colour)
+    };
+    let Material::Utah(utah) = &meaning.materials[1] else {
+        panic!("{:?}", meaning.materials);
+    };
+    let gloss = Gloss {
+        diffuse: tinted([1.0; 3], 0),
+        specular: tinted([0.0; 3], 1),
+        glossiness: Textured::default(),
+    };
+    assert_eq!(utah.finish, Finish::Blinn(gloss));
+
+    let (source, _) = read_with(&text, &meshes);
+    let files = source.files();
+    let files = files.iter().map(|file| {
+        let said = file.span.of(&text);
+        (file.kind, file.path.as_str(), file.what.as_str(), said)
+    });
+    let object = "meshes/a.obj (obj)";
+    let maps = [
+        format!("{object} map_Kd {}", keys[0]),
+        format!("{object} map_Ks {}", keys[1]),
+    ];
+    let name = "meshes/a.obj";
+    let expected = [
+        (FileKind::Mesh, name, object, name),
+        (FileKind::Picture, keys[0], maps[0].as_str(), name),
+        (FileKind::Picture, keys[1], maps[1].as_str(), name),
+    ];
+    assert_eq!(files.collect::<Vec<_>>(), expected);
+}
+
+#[test]
+fn an_objects_own_material_is_that_of_all_faces() {
+    let library = "newmtl a\nmap_Kd none.png\n";
+    let own = "<material name='m'/>";
+    for (object, materials, material, warnings) in [
+        ("material='m'", 1, 0, 0),
+        // What is asked for but is not there is white.
+        ("material='n'", 2, 1, 1),
+    ] {
+        let text = around(&format!("<object type='obj' name='a.obj' {object}/>{own}"));
+        let meshes = two_faces(library);
+        let scene = scene(&text, &meshes);
+        assert_eq!(scene.materials.len(), materials, "{object}");
+        assert_eq!(scene.objects[0].material, material, "{object}");
+        assert_eq!(tags(&scene.objects[0]), [None, None], "{object}");
+        assert!(scene.setting.textures.is_empty());
+        let (_, lowered) = read_with(&text, &meshes);
+        let is_about_names = |found: &&crate::text::Diagnostic| found.message.contains("`n`");
+        let found = lowered.diagnostics.iter().filter(is_about_names).count();
+        assert_eq!(found, warnings);
+    }
+}
+
+#[test]
+fn instances_share_the_mesh_and_its_materials() {
+    let text = around(
+        "<object type='obj' name='a.obj'/>
+         <object name='group'><translate x='2'/><object type='obj' name='a.obj'/></object>
+         <object type='obj' name='a.obj' material='m'/><object type='sphere'/>
+         <material name='m'/>",
+    );
+    let meshes = two_faces("newmtl a\nKd 1 0 0\n");
+    let model = meshes
+        .get("a.obj")
+        .and_then(Result::ok)
+        .expect("it is read");
+    let (source, lowered) = read_with(&text, &meshes);
+    let scene = lowered.scene.expect("there are no errors");
+    for object in scene.objects.iter().take(3) {
+        assert!(Arc::ptr_eq(instance(object).mesh(), &model.mesh));
+    }
+    // The text's own, white, the library's.
+    assert_eq!(scene.materials.len(), 3);
+    assert_eq!(tags(&scene.objects[1]), [Some(1), Some(2)]);
+    assert_eq!(tags(&scene.objects[0]), tags(&scene.objects[1]));
+    assert_eq!(scene.objects[1].shape.bounds().min, 2.0 * DVec3::X);
+    // Only the text's own are listed.
+    let materials = source.nodes().iter();
+    let materials = materials.filter(|node| matches!(node, Node::Material(_)));
+    assert_eq!(materials.collect::<Vec<_>>(), [Node::Material(0)]);
+    assert_eq!(source.material(0), None);
+}
+
+#[test]
+fn what_is_not_read_yet_is_not_drawn() {
+    let text = around("<object type='sphere'/><object type='obj' name='a.obj'/>");
+    let (source, lowered) = read_with(&text, &Meshes::default());
+    assert_eq!(*lowered.diagnostics, []);
+    assert_eq!(source.drawn(1), None);
+    assert_eq!(lowered.scene.expect("no errors").objects.len(), 1);
+}
+
+#[test]
+fn what_cannot_be_read_is_an_error_at_every_name() {
+    let fault = NoMesh {
+        reasons: vec!["one thing".to_owned(), "another".to_owned()],
+        hint: Some("do this".to_owned()),
+    };
+    let meshes = [("a.obj".to_owned(), Err(fault))].into_iter().collect();
+    let text = "<xml>\n<scene>\n<object type='obj' name='a.obj'/>\n\
+                <object type='obj' name='a.obj' material='m'/>\n<material name='m'/>\n</scene>\n</xml>";
+    let (_, lowered) = read_with(text, &meshes);
+    assert!(lowered.scene.is_none());
+    let errors = lowered.diagnostics.iter().filter(|found| found.is_error());
+    assert!(errors.clone().all(|error| {
+        error.span.of(text) == "a.obj" && error.hint.as_deref() == Some("do this")
+    }));
+    let shown = shown(text, &lowered);
+    let shown: Vec<_> = shown.iter().filter(|line| line.contains("error")).collect();
+    assert_eq!(
+        shown,
+        [
+            "3:26 error: a.obj (obj): one thing",
+            "3:26 error: a.obj (obj): another",
+            "4:26 error: a.obj (obj): one thing",
+            "4:26 error: a.obj (obj): another",
+        ]
+    );
+}
+
+#[test]
+fn what_is_doubtful_in_a_file_is_told_where_it_is_named_first() {
+    let mesh = format!("curv 0 1\nmtllib a.mtl\n{CORNERS}usemtl a\nf 1 2 3\n");
+    let meshes = meshes("a.obj", &mesh, "newmtl a\nKd red\n");
+    let object = "<object type='obj' name='a.obj'/>";
+    let dressed = "<object type='obj' name='a.obj' material='m'/><material name='m'/>";
+    let said = |text: &str| {
+        let (_, lowered) = read_with(&around(text), &meshes);
+        assert!(lowered.scene.is_some(), "{text}");
+        let found = lowered
+            .diagnostics
+            .iter()
+            .map(|found| found.message.clone());
+        found.collect::<Vec<_>>()
+    };
+    let line = "a.obj (obj): line 1, column 1: `curv` is not drawn";
+    let library = "a.obj (obj): a.mtl: line 2, column 4: Kd: `red` is no number";
+    assert_eq!(said(&format!("{object}{object}")), [line, library]);
+    // A library that is not used may be as it likes.
+    assert_eq!(said(dressed), [line]);
+    let scene = scene(&around(object), &meshes);
+    assert_eq!(scene.materials, [Material::Flat(Rgb::ONE)]);
+}
+
+/// The triangle lies in the plane x + z = 0, which scaled by 2 along x is x + 2z = 0; its corners'
+/// normals (.6, 0, .8) become (.3, 0, .8), and a length of √.73 is taken from them.
+#[test]
+fn normals_go_by_the_inverse_transpose() {
+    let mesh = "v 0 0 0\nv 1 0 -1\nv 0 1 0\nvn .6 0 .8\nf 1//1 2//1 3//1\n";
+    let meshes = meshes("a.obj", mesh, "");
+    let object = "<object type='obj' name='a.obj'><scale x='2'/></object>";
+    let scene = scene(&around(object), &meshes);
+    let shape = &scene.objects[0].shape;
+    let ray = Ray {
+        origin: DVec3::new(0.4, 0.2, 5.0),
+        direction: DVec3::NEG_Z,
+    };
+    let hit = shape.hit(&ray, f64::INFINITY).expect("it is there");
+    let surface = shape.surface(&ray, hit);
+    assert!((hit.t - 5.2).abs() < 1e-12);
+    let normal = DVec3::new(1.0, 0.0, 2.0) / 5.0_f64.sqrt();
+    assert!(surface.normal.distance(normal) < 1e-12, "{surface:?}");
+    let shading = DVec3::new(0.3, 0.0, 0.8) / 0.73_f64.sqrt();
+    assert!(surface.shading.distance(shading) < 1e-12, "{surface:?}");
+}
+
+#[test]
+fn a_mesh_that_no_number_reaches_is_an_error() {
+    let meshes = meshes("a.obj", "v 0 0 0\nv 1e200 0 0\nv 0 1e200 0\nf 1 2 3\n", "");
+    let text = around("<object type='obj' name='a.obj'><scale value='1e200'/></object>");
+    let (_, lowered) = read_with(&text, &meshes);
+    let error = "a.obj (obj): its transforms leave it no volume, or no place";
+    assert_eq!(lowered.diagnostics[0].message, error);
+    assert!(lowered.scene.is_none());
+}

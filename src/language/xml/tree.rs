@@ -1,0 +1,368 @@
+//! The `.xml` language: elements with attributes, one inside the other.
+//!
+//! The tree is flat, in document order, and every walk over it is a loop: a text may nest elements
+//! a hundred thousand deep.
+
+mod fault;
+mod scan;
+#[cfg(test)]
+mod tests;
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use roxmltree::{Document, Error, Node, NodeType, ParsingOptions};
+
+use crate::language::white_space;
+use crate::text::{Diagnostic, Span};
+
+/// The elements and comments of a text, each in order.
+#[derive(Clone, Debug, Default)]
+pub struct Tree {
+    /// Elements, in the order of their start tags: each stands before what is in it.
+    pub elements: Vec<Element>,
+    /// The attributes of all elements.
+    pub attributes: Vec<Attribute>,
+    /// Comments, with their marks.
+    pub comments: Vec<Span>,
+    /// Text between tags, without the white space around it, and the element that it is in.
+    pub words: Vec<(Span, u32)>,
+    /// Why the text is no XML; there are no elements then.
+    pub fault: Option<Diagnostic>,
+    /// What is one leaf although it may hold white space: values, comments, instructions.
+    whole: Vec<Span>,
+    /// How long the text is.
+    end: usize,
+    /// The white space between leaves where it is not known what they are.
+    gaps: Vec<Span>,
+}
+
+/// An element.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Element {
+    /// Its name in the start tag.
+    pub name: Span,
+    /// The start tag.
+    pub tag: Span,
+    /// From the start tag to the end tag.
+    pub whole: Span,
+    /// Where one more attribute goes.
+    pub attributes_end: u32,
+    /// Where the end tag begins; the end of the start tag if that ends the element.
+    pub close: u32,
+    /// The line end before the element and the white space that indents it; empty if anything else
+    /// stands before it in its line.
+    pub lead: Span,
+    /// The element that it is in.
+    pub parent: Option<u32>,
+    /// How many elements it is in.
+    pub depth: u32,
+    /// Index after that of the last element in it.
+    pub end: u32,
+    first_attribute: u32,
+    end_attribute: u32,
+}
+
+/// An attribute.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Attribute {
+    /// Its name.
+    pub name: Span,
+    /// What stands between the quotes.
+    pub value: Span,
+    /// What that says, where references or line ends make it another text.
+    said: Option<Box<str>>,
+}
+
+impl Element {
+    /// Whether its start tag is all of it.
+    pub fn is_empty_tag(&self) -> bool {
+        self.tag == self.whole
+    }
+
+    /// The indices of its attributes.
+    pub fn attributes(&self) -> Range<usize> {
+        self.first_attribute as usize..self.end_attribute as usize
+    }
+}
+
+impl Attribute {
+    /// Its value, with references resolved.
+    pub fn said<'t>(&'t self, text: &'t str) -> &'t str {
+        self.said.as_deref().unwrap_or_else(|| self.value.of(text))
+    }
+}
+
+impl Tree {
+    /// The elements right inside another one, in order.
+    pub fn children(&self, parent: usize) -> impl Iterator<Item = usize> + '_ {
+        let end = self.elements.get(parent).map_or(0, |element| element.end);
+        let mut next = parent + 1;
+        std::iter::from_fn(move || {
+            let child = (next < end as usize).then_some(next)?;
+            next = self.elements[child].end as usize;
+            Some(child)
+        })
+    }
+
+    /// The first attribute of an element with a name.
+    pub fn attribute(&self, text: &str, element: usize, name: &str) -> Option<&Attribute> {
+        let own = self
+            .attributes
+            .get(self.elements.get(element)?.attributes());
+        let mut own = own.unwrap_or_default().iter();
+        own.find(|attribute| attribute.name.of(text) == name)
+    }
+
+    /// What the value that stands at a span says.
+    pub fn said<'t>(&'t self, text: &'t str, value: Span) -> &'t str {
+        let at = self
+            .attributes
+            .binary_search_by_key(&value.start(), |attribute| attribute.value.start());
+        match at {
+            Ok(at) => self.attributes[at].said(text),
+            Err(_) => value.of(text),
+        }
+    }
+
+    /// The innermost element whose text holds `span`.
+    pub fn element_at(&self, span: Span) -> Option<usize> {
+        let holds = |element: &Element| {
+            element.whole.start() <= span.start() && span.end() <= element.whole.end()
+        };
+        let after = self
+            .elements
+            .partition_point(|element| element.whole.start() <= span.start());
+        let mut at = after.checked_sub(1)?;
+        while !holds(&self.elements[at]) {
+            at = self.elements[at].parent? as usize;
+        }
+        Some(at)
+    }
+
+    /// The leaves: tags, parts of tags and words, but values, comments and instructions whole.
+    pub(super) fn leaves(&self) -> Vec<Span> {
+        let mut leaves = Vec::new();
+        let mut start = 0;
+        let mut close = |start: usize, end: usize| {
+            if start < end {
+                leaves.push(Span::new(start, end));
+            }
+        };
+        let mut gaps = self.gaps.iter().copied().peekable();
+        for whole in self.whole.iter().copied().chain([Span::at(self.end)]) {
+            while let Some(gap) = gaps.next_if(|gap| gap.start() < whole.start()) {
+                close(start, gap.start());
+                start = gap.end();
+            }
+            // White space inside is its own.
+            while gaps.next_if(|gap| gap.start() < whole.end()).is_some() {}
+            close(start, whole.start());
+            close(whole.start(), whole.end());
+            start = whole.end();
+        }
+        leaves
+    }
+}
+
+/// Reads elements and comments. Document type declarations, and with them entities, are refused.
+pub(super) fn parse(text: &str) -> Tree {
+    let mut tree = Tree {
+        end: text.len(),
+        gaps: gaps(text),
+        ..Tree::default()
+    };
+    let scan = scan::scan(text);
+    if let Some(refused) = scan.refused {
+        tree.fault = Some(refused);
+        return tree;
+    }
+    match document(text) {
+        Ok(document) => tree.fill(text, &document),
+        Err(error) => tree.fault = Some(fault::told(text, &error, scan.unclosed)),
+    }
+    tree
+}
+
+/// Why no text that begins like this is XML, if that can be told.
+pub(super) fn fault_of_beginning(text: &str) -> Option<Diagnostic> {
+    /// An error this near to the end may be one of where the text is cut: longer than any reference
+    /// and any mark that begins a comment or the like.
+    const NEAR: usize = 64;
+    let scan = scan::scan(text);
+    if scan.refused.is_some() {
+        return scan.refused;
+    }
+    match document(text) {
+        // What follows may close what is open.
+        Ok(_) | Err(Error::NoRootNode | Error::UnclosedRootNode | Error::UnexpectedEndOfStream) => {
+            None
+        }
+        Err(error) => {
+            let fault = fault::told(text, &error, None);
+            (fault.span.start() + NEAR < text.len()).then_some(fault)
+        }
+    }
+}
+
+fn document(text: &str) -> Result<Document<'_>, Error> {
+    let options = ParsingOptions {
+        allow_dtd: false,
+        ..ParsingOptions::default()
+    };
+    Document::parse_with_options(text, options)
+}
+
+/// The quote that ends a value.
+pub(super) fn quote(text: &str, value: Span) -> char {
+    if text[value.end()..].starts_with('\'') {
+        '\''
+    } else {
+        '"'
+    }
+}
+
+/// What stands between two of `quote` to say `value`.
+pub(in crate::language) fn spelled(value: &str, quote: char) -> Cow<'_, str> {
+    let special = |c: char| c == quote || matches!(c, '&' | '<' | '\t' | '\n' | '\r');
+    if !value.contains(special) {
+        return Cow::Borrowed(value);
+    }
+    let mut spelled = String::with_capacity(value.len() + 8);
+    for c in value.chars() {
+        match c {
+            '&' => spelled.push_str("&amp;"),
+            '<' => spelled.push_str("&lt;"),
+            '"' if c == quote => spelled.push_str("&quot;"),
+            '\'' if c == quote => spelled.push_str("&apos;"),
+            // As themselves they would be read as blanks.
+            '\t' => spelled.push_str("&#9;"),
+            '\n' => spelled.push_str("&#10;"),
+            '\r' => spelled.push_str("&#13;"),
+            c => spelled.push(c),
+        }
+    }
+    Cow::Owned(spelled)
+}
+
+impl Tree {
+    fn fill(&mut self, text: &str, document: &Document<'_>) {
+        let mut open: Vec<(roxmltree::NodeId, u32)> = Vec::new();
+        for node in document.descendants() {
+            let range = node.range();
+            // What was open and holds this no longer is closed.
+            while let Some(&(id, element)) = open.last() {
+                if node.parent().is_some_and(|parent| parent.id() == id) {
+                    break;
+                }
+                self.elements[element as usize].end = self.elements.len() as u32;
+                open.pop();
+            }
+            let parent = open.last().map(|&(_, element)| element);
+            match node.node_type() {
+                NodeType::Root => {}
+                NodeType::Element => {
+                    open.push((node.id(), self.elements.len() as u32));
+                    self.add(text, &node, parent);
+                }
+                NodeType::Comment => {
+                    let span = Span::new(range.start, range.end);
+                    self.comments.push(span);
+                    self.whole.push(span);
+                }
+                NodeType::PI => self.whole.push(Span::new(range.start, range.end)),
+                NodeType::Text => {
+                    let said = &text[range.clone()];
+                    let start = range.start + said.len() - said.trim_start().len();
+                    let said = said.trim();
+                    if let Some(parent) = parent.filter(|_| !said.is_empty()) {
+                        let span = Span::new(start, start + said.len());
+                        self.words.push((span, parent));
+                    }
+                }
+            }
+        }
+        for (_, element) in open {
+            self.elements[element as usize].end = self.elements.len() as u32;
+        }
+    }
+
+    fn add(&mut self, text: &str, node: &Node<'_, '_>, parent: Option<u32>) {
+        let range = node.range();
+        let name_start = range.start + 1;
+        let name_len = text[name_start..].find([' ', '\t', '\r', '\n', '/', '>']);
+        let name_end = name_start + name_len.unwrap_or_default();
+        let first_attribute = self.attributes.len() as u32;
+        let mut attributes_end = name_end;
+        for attribute in node.attributes() {
+            let range = attribute.range();
+            // Not by the lengths that the parser keeps, for it counts only so far.
+            let written = &text[range.clone()];
+            let name = written.find([' ', '\t', '\r', '\n', '=']).unwrap_or(0);
+            let quote = written.find(['"', '\'']).unwrap_or(0);
+            let value = Span::new(range.start + quote + 1, range.end - 1);
+            let is_plain = attribute.value() == value.of(text);
+            self.attributes.push(Attribute {
+                name: Span::new(range.start, range.start + name),
+                value,
+                said: (!is_plain).then(|| attribute.value().into()),
+            });
+            if !value.is_empty() {
+                self.whole.push(value);
+            }
+            attributes_end = range.end;
+        }
+        // Declared names of name spaces are none of the attributes.
+        let tag_end = scan::tag_end(text, attributes_end);
+        let inner = text[name_end..tag_end].trim_end_matches('>');
+        let inner = inner.strip_suffix('/').unwrap_or(inner).trim_end();
+        let is_empty = tag_end == range.end;
+        let close = if is_empty {
+            tag_end
+        } else {
+            range.start + text[range.clone()].rfind("</").unwrap_or_default()
+        };
+        self.elements.push(Element {
+            name: Span::new(name_start, name_end),
+            tag: Span::new(range.start, tag_end),
+            whole: Span::new(range.start, range.end),
+            attributes_end: (name_end + inner.len()) as u32,
+            close: close as u32,
+            lead: lead(text, range.start),
+            parent,
+            depth: parent.map_or(0, |parent| self.elements[parent as usize].depth + 1),
+            end: 0,
+            first_attribute,
+            end_attribute: self.attributes.len() as u32,
+        });
+    }
+}
+
+/// The line end before a place and what indents it, if nothing else stands between.
+fn lead(text: &str, at: usize) -> Span {
+    let before = text[..at].trim_end_matches([' ', '\t']);
+    let line = match before.strip_suffix('\n') {
+        Some(line) => Some(line.trim_end_matches('\r')),
+        None => before.strip_suffix('\r'),
+    };
+    line.map_or_else(|| Span::at(at), |line| Span::new(line.len(), at))
+}
+
+/// The runs of white space in a text.
+fn gaps(text: &str) -> Vec<Span> {
+    let bytes = text.as_bytes();
+    let mut gaps: Vec<Span> = Vec::new();
+    let mut at = 0;
+    while at < bytes.len() {
+        let Some(width) = white_space(&bytes[at..]) else {
+            at += 1;
+            continue;
+        };
+        match gaps.last_mut() {
+            Some(gap) if gap.end() == at => *gap = Span::new(gap.start(), at + width),
+            _ => gaps.push(Span::new(at, at + width)),
+        }
+        at += width;
+    }
+    gaps
+}
