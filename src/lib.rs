@@ -24,11 +24,11 @@
 //! |---|---|---|
 //! | [`memory`] | what the process may still use, and whether work fits | what it is for |
 //! | [`text`] | spans, edits, numbers and diagnostics: positions and changes in text | any language |
-//! | [`format`](mod@format) | text ⇄ tree, one language a file: tokens, records, elements | what a scene is |
-//! | [`document`] | sole owner of text, tree, undo and the saved text | scenes, files |
 //! | [`geometry`] | rays against shapes in `f64`, one shape a file | lights, materials, text |
 //! | [`obj`] | bytes of `.obj` and `.mtl` → meshes | files, scenes |
-//! | [`scene`] | plain comparable data, the table of fields, tree → scene | threads, pixels |
+//! | [`scene`] | plain comparable data | languages, threads, pixels |
+//! | [`language`] | scenes as text, a folder for each language: tree, table of fields, scene, places, edits | files, undo |
+//! | [`document`] | sole owner of a source, its undo and the saved text | languages by name, files |
 //! | [`accel`] | boxes against rays | what the boxes hold |
 //! | [`render`] | pixels from a scene: worker, integrator, film, tone | documents, files, terminals |
 //! | [`file`](mod@file) | reading scenes and replacing files whole | what the bytes mean |
@@ -45,7 +45,7 @@
 //!
 //! - Parsing never fails: it gives a tree and diagnostics. A scene that does not lower keeps the
 //!   last good picture.
-//! - Scene values hold no spans; [`scene::Origins`] sits beside the scene.
+//! - Scene values hold no spans: where each field stands is known to the [`language::Source`].
 //! - Every sample is a pure function of (scene, settings, pixel, sample index), and sums are added
 //!   in a fixed order: any thread count and any cancellation history gives the same bits.
 //! - `ui` changes documents, never scenes. `App::update` is a pure step that returns effects;

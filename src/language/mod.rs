@@ -7,10 +7,10 @@
 
 mod beginning;
 mod camera;
-pub mod dat;
+mod dat;
 mod node;
 mod placed;
-pub mod ray;
+mod ray;
 mod record;
 mod report;
 mod room;
@@ -19,7 +19,7 @@ pub mod table;
 mod tests;
 mod view;
 mod written;
-pub mod xml;
+mod xml;
 
 use std::borrow::Cow;
 use std::fmt::Debug;
@@ -272,6 +272,12 @@ pub trait Answers: Debug {
     fn parts(&self, object: usize, limit: usize) -> Vec<(usize, Node)> {
         let _ = limit;
         vec![(0, Node::Object(object))]
+    }
+
+    /// The word by which an object combines others: `union`. `None` if it is no combination.
+    fn operation(&self, object: usize) -> Option<&str> {
+        let _ = object;
+        None
     }
 
     /// The object of the scene that an object of the text is; `None` if it is not drawn.

@@ -3,7 +3,7 @@
 mod lower;
 mod origins;
 mod room;
-pub mod table;
+mod table;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -96,6 +96,11 @@ impl Answers for Source {
 
     fn parts(&self, object: usize, limit: usize) -> Vec<(usize, Node)> {
         self.origins.parts(object, limit)
+    }
+
+    fn operation(&self, object: usize) -> Option<&str> {
+        let word = self.origins.operation(&self.tree, object)?;
+        Some(word.of(&self.text))
     }
 
     fn drawn(&self, object: usize) -> Option<u32> {

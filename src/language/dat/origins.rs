@@ -167,6 +167,14 @@ impl Origins {
         parts
     }
 
+    /// The word by which an object combines others.
+    pub(super) fn operation(&self, tree: &Tree, object: usize) -> Option<Span> {
+        let kind = self.objects.get(object)?.kind;
+        let fields = self.fields(tree, Node::Object(object));
+        let word = fields.first().filter(|_| kind == ObjectKind::Csg)?;
+        word.spans.first().copied()
+    }
+
     pub(super) fn identities(&self, node: Node, category: Category) -> Vec<i64> {
         let records = self.records(node).map(|(record, _)| record);
         let Some(record) = records.max() else {

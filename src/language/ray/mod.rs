@@ -7,7 +7,7 @@ mod lower;
 mod objects;
 mod origins;
 mod room;
-pub mod table;
+mod table;
 #[cfg(test)]
 mod tests;
 mod tree;

@@ -3,7 +3,7 @@
 mod lower;
 mod origins;
 mod room;
-pub mod table;
+mod table;
 #[cfg(test)]
 mod tests;
 mod tree;

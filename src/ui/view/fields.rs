@@ -9,7 +9,6 @@ use super::layout;
 use super::row::{self, Row};
 use super::theme;
 use crate::language::Node;
-use crate::language::dat::table::OPERATIONS;
 use crate::language::table::Kind;
 use crate::scene::Rgb;
 use crate::text::{counted, parse_number, without_suffix};
@@ -68,13 +67,12 @@ fn users(app: &App) -> Option<String> {
 
 /// The name of a part of a combined object; of a combination, with its operation.
 fn part_name(app: &App, part: Node) -> String {
-    let fields = app.source().fields(part);
-    let operation = fields.first().filter(|placed| {
-        let is_operation = placed.field.kind == Kind::Choice(OPERATIONS);
-        is_operation && !placed.spans.is_empty()
-    });
-    let operation = operation.map(|placed| placed.spans[0].of(app.document.text()));
-    [&app.source().name(part), operation.unwrap_or_default()].join(" ")
+    let name = app.source().name(part);
+    let operation = match part {
+        Node::Object(object) => app.source().operation(object),
+        _ => None,
+    };
+    [&name, operation.unwrap_or_default()].join(" ")
 }
 
 /// Draws a field: its name and its literals in columns, the one under the cursor marked.
