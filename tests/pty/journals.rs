@@ -206,6 +206,39 @@ fn the_last_intact_edits_of_a_damaged_journal_are_offered() {
 }
 
 #[test]
+fn edits_of_a_file_that_is_gone_are_offered() {
+    let place = Place::new();
+    crash_with_edits(&place);
+    fs::remove_file(place.at("balls.ray")).expect("it is there");
+    let mut session = place.start(&["balls.ray"], WIDE);
+    session.wait_for(QUESTION);
+    session.wait_for("no such file");
+    session.send("r");
+    session.wait_for("restored");
+    session.send("w");
+    session.wait_for("wrote balls.ray");
+    quit(session);
+    assert_eq!(place.read("balls.ray"), edited());
+    assert_eq!(place.kept_texts(), [] as [String; 0]);
+}
+
+#[test]
+fn what_stands_in_the_way_of_a_scene_hides_no_edits_of_it() {
+    let place = Place::new();
+    crash_with_edits(&place);
+    fs::remove_file(place.at("balls.ray")).expect("it is there");
+    fs::create_dir(place.at("balls.ray")).expect("the name is free");
+    let mut session = place.start(&["balls.ray"], WIDE);
+    assert_eq!(session.end().exit_code(), 66);
+    let text = session.text();
+    assert!(
+        text.contains("note: unsaved edits of it are kept in"),
+        "{text}"
+    );
+    assert_eq!(place.kept_texts(), [edited()]);
+}
+
+#[test]
 fn edits_that_can_t_be_kept_are_reported_as_lost_at_the_end() {
     let place = Place::new();
     place.write(".local", "in the way");

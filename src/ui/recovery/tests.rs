@@ -316,6 +316,28 @@ fn a_journal_that_somebody_changed_is_written_anew() {
     }
 }
 
+#[test]
+fn edits_of_a_file_that_is_gone_are_found() {
+    let place = Place::new();
+    let base = || super::missing::base_in(&place.state, &place.scene(), Format::Ray);
+    let note = |is_missing| super::missing::note_in(&place.state, &place.scene(), is_missing);
+    assert_eq!((base(), note(false)), (None, None));
+    let mut journal = place.run();
+    place.keep(&mut journal, "1 2 4");
+    fs::remove_file(place.scene()).expect("it is there");
+    assert_eq!((base(), note(false)), (None, None), "their run goes on");
+    drop(journal);
+    assert_eq!(base().as_deref(), Some(BASE));
+    let named = |said: &Option<String>| {
+        let journal = place.journal(0).display().to_string();
+        said.as_ref().is_some_and(|said| said.contains(&journal))
+    };
+    assert!(named(&note(false)));
+    fs::write(place.journal(0), "damaged").expect("it is ours");
+    assert_eq!(base(), None);
+    assert!(named(&note(true)));
+}
+
 /// A journal in parts: the head with the base, and edits.
 pub(super) fn parts(scene: &Identity, base: &str, texts: &[&str]) -> Vec<Vec<u8>> {
     let (head, seal) = record::head(scene, base);
