@@ -41,6 +41,9 @@ fn interface(options: &ui::Options) -> u8 {
     let outcome = ui::run(options);
     if let Err(error) = &outcome {
         complain(&error.to_string());
+        if let Some(note) = ui::note(options, error) {
+            tell("note", &note);
+        }
     }
     cli::interface_exit_code(&outcome)
 }
@@ -65,5 +68,10 @@ fn print(stop: &Stop) -> u8 {
 }
 
 fn complain(message: &str) {
-    let _ = writeln!(io::stderr(), "error: {}", halflight::text::visible(message));
+    tell("error", message);
+}
+
+fn tell(kind: &str, message: &str) {
+    let message = halflight::text::visible(message);
+    let _ = writeln!(io::stderr(), "{kind}: {message}");
 }

@@ -24,6 +24,7 @@ use crate::text::{Position, Span};
 pub use backup::{backups, interruption};
 pub(crate) use lock::{Lock, lock};
 pub use replace::{deliver, replace};
+pub(crate) use target::end_of_links;
 pub use target::{check_replaceable, check_target, directory_of};
 pub use version::{FileId, Version};
 

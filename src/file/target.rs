@@ -96,7 +96,7 @@ pub fn check_replaceable(path: &Path) -> io::Result<()> {
 }
 
 /// Where a chain of links that leads to no file ends.
-fn end_of_links(path: &Path) -> io::Result<PathBuf> {
+pub(crate) fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     if path.file_name().is_none() {
         return Err(io::ErrorKind::NotFound.into());
     }

@@ -34,7 +34,7 @@ use std::time::Duration;
 
 use crate::assets::{NoFolder, check_folders};
 use crate::file::{self, ReadError};
-use crate::format::{Format, UnknownLanguage};
+use crate::format::{self, Format, UnknownLanguage};
 use crate::render::{DEFAULT_SPP, Filter};
 use crate::scene::Integrator;
 use crate::watch::Method;
@@ -196,11 +196,33 @@ fn find_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Format, OpeningT
             path: path.to_owned(),
         }
     })?;
-    match file::scene_length(path) {
-        Ok(bytes) => Ok((Some(path.to_owned()), format, OpeningText::Unread(bytes))),
-        Err(ReadError::NotFound { .. }) if named.is_none() => {
-            Ok((None, format, OpeningText::Known(EMBEDDED_SCENE.to_owned())))
-        }
-        Err(error) => Err(error.into()),
+    let error = match file::scene_length(path) {
+        Ok(bytes) => return Ok((Some(path.to_owned()), format, OpeningText::Unread(bytes))),
+        Err(error) => error,
+    };
+    let is_missing = matches!(error, ReadError::NotFound { .. });
+    let kept = || recovery::base_of(path, format).filter(|text| fits(format, text));
+    if let Some(text) = is_missing.then(kept).flatten() {
+        return Ok((Some(path.to_owned()), format, OpeningText::Kept(text)));
+    }
+    if is_missing && named.is_none() {
+        let text = EMBEDDED_SCENE.to_owned();
+        return Ok((None, format, OpeningText::Known(text)));
+    }
+    Err(error.into())
+}
+
+fn fits(format: Format, text: &str) -> bool {
+    format::fits(format, text, text.len()).is_ok()
+}
+
+/// What is to be said besides an error: that edits are kept of the scene that can't be opened.
+pub fn note(options: &Options, error: &Error) -> Option<String> {
+    let path = options.scene.as_deref();
+    let path = path.unwrap_or_else(|| Path::new(DEFAULT_SCENE));
+    match error {
+        Error::Read(error) => recovery::note(path, matches!(error, ReadError::NotFound { .. })),
+        Error::Folder { .. } => recovery::note(path, false),
+        _ => None,
     }
 }

@@ -373,6 +373,6 @@ fn an_interrupted_save_is_reported() {
     let place = Place::new();
     place.write(".halflight-backup-0-00c0ffee-balls.ray", "old");
     let mut session = place.start(&["balls.ray"], WIDE);
-    session.wait_for("the last save of balls.ray was interrupted");
+    session.wait_for("a save of balls.ray was interrupted");
     quit(session);
 }

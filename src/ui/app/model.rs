@@ -360,6 +360,8 @@ pub(super) struct Pending {
     pub(super) offer: Option<Box<Offer>>,
     /// The journals that the user decides about another time.
     pub(super) put_off: Vec<String>,
+    /// What was said to be wrong with journals.
+    pub(super) complaints: Vec<String>,
     /// The export that was begun last.
     pub(super) export: ExportId,
     /// The pictures written so far, by their paths: as long as they are unchanged they may be

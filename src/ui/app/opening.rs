@@ -40,6 +40,8 @@ pub enum OpeningText {
     Known(String),
     /// It is yet to be read from a file of so many bytes.
     Unread(u64),
+    /// It is what the file held that is missing now, as edits of it that are kept tell.
+    Kept(String),
 }
 
 /// A scene that is being read for the first time.
@@ -52,8 +54,14 @@ pub struct Unread {
 impl App {
     /// The interface as it opens, and what is to be done first.
     pub fn open(opening: Opening) -> (Self, Vec<Effect>) {
+        let disk = match opening.text {
+            OpeningText::Kept(_) => Disk::Missing,
+            OpeningText::Known(_) | OpeningText::Unread(_) => Disk::Known,
+        };
         let (document, unread) = match opening.text {
-            OpeningText::Known(text) => (Document::new(opening.format, text), None),
+            OpeningText::Known(text) | OpeningText::Kept(text) => {
+                (Document::new(opening.format, text), None)
+            }
             OpeningText::Unread(bytes) => {
                 let unread = Unread { bytes };
                 (Document::new(opening.format, String::new()), Some(unread))
@@ -89,7 +97,7 @@ impl App {
             help: None,
             errors: None,
             message: None,
-            disk: Disk::default(),
+            disk,
             broken: None,
             outline: Outline::default(),
             cross: (0, 0),

@@ -21,7 +21,8 @@ use crate::ui::app::{
     Prompt, PromptKind, Quality, Stage, Typing,
 };
 use crate::ui::msg::{Destination, Existing, ExportId};
-use crate::ui::recovery::tests::offer;
+use crate::ui::recovery::Offer;
+use crate::ui::recovery::tests::{damaged, offer};
 use crate::ui::terminal::Mouse;
 
 pub(super) const SCENE: &str = "\
@@ -186,7 +187,7 @@ const STATES: &[(&str, Change)] = &[
     ("recover", |app| {
         let text = app.document.shared_text();
         let kept = SCENE.replace(" 0.25 ", " 0.75 ");
-        let offer = offer(app.document.format(), &text, Some(""), &kept);
+        let offer = offer(app.document.format(), &text, SCENE, &kept);
         app.dialog = Some(Dialog::Recover(Box::new(offer)));
     }),
     ("conflict", |app| {
@@ -288,10 +289,10 @@ fn a_screen_that_is_too_small_says_so() {
 
 #[test]
 fn the_places_that_kept_edits_change_are_counted() {
-    let shown = |change: fn(&str) -> String| {
+    let shown = |change: fn(&str) -> String, follow: fn(Offer) -> Offer| {
         let mut app = app();
         let text = app.document.shared_text();
-        let offer = offer(Format::Ray, &text, Some(SCENE), &change(SCENE));
+        let offer = follow(offer(Format::Ray, &text, SCENE, &change(SCENE)));
         app.dialog = Some(Dialog::Recover(Box::new(offer)));
         let lines = screen(&mut app, 100, 30);
         let words: Vec<_> = lines.iter().flat_map(|line| line.split('│')).collect();
@@ -301,10 +302,15 @@ fn the_places_that_kept_edits_change_are_counted() {
             .collect::<Vec<_>>()
             .join(" ")
     };
-    let one = shown(|text| text.replacen(" 0.25 ", " 0.5 ", 1));
+    let one = shown(|text| text.replacen(" 0.25 ", " 0.5 ", 1), |offer| offer);
     assert!(one.contains("1 place differs from the file"), "{one}");
-    let two = shown(|text| text.replacen(" 0.25 ", " 0.5 ", 1).replacen('1', "2", 1));
-    assert!(two.contains("2 places differ from the file"), "{two}");
+    assert!(!one.contains("damaged"), "{one}");
+    let two = |text: &str| text.replacen(" 0.25 ", " 0.5 ", 1).replacen('1', "2", 1);
+    let two = shown(two, damaged);
+    assert!(
+        two.contains("2 places differ from the file. Part of their journal is damaged"),
+        "{two}"
+    );
 }
 
 #[test]

@@ -100,6 +100,19 @@ fn a_scene_that_cannot_be_read_ends_it() {
 }
 
 #[test]
+fn a_scene_whose_file_is_gone_is_written_again() {
+    let mut opening = opening_as("scene.ray", String::new());
+    opening.text = OpeningText::Kept(SCENE.to_owned());
+    let (mut app, effects) = App::open(opening);
+    let looks = |effect: &Effect| matches!(effect, Effect::LookForKept(_));
+    assert!(wants(&effects, looks));
+    assert_eq!((app.disk, app.document.text()), (Disk::Missing, SCENE));
+    let effects = press(&mut app, "w");
+    let saves = |effect: &Effect| matches!(effect, Effect::Save { text, .. } if **text == SCENE);
+    assert!(wants(&effects, saves), "{effects:?}");
+}
+
+#[test]
 fn kept_edits_are_looked_for_once_the_scene_is_there() {
     let looks = |effects: &[Effect]| {
         wants(

@@ -221,7 +221,7 @@ fn the_backup_of_an_interrupted_save_is_named() {
     )]));
     assert_eq!(
         words(&app),
-        "the last save of scene.ray was interrupted: its previous content is in \
-         .halflight-backup-1-2-scene.ray"
+        "a save of scene.ray was interrupted: the content before it is in \
+         .halflight-backup-1-2-scene.ray; delete that if you do not need it"
     );
 }
