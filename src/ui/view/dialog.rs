@@ -52,8 +52,8 @@ fn offered(app: &App, offer: &Offer) -> String {
         (Since::Unknown, _) => format!(" If the {text} has changed since, that is undone."),
     };
     format!(
-        "Edits of an earlier run of {} were never saved: {places} {differ} from the {text}.{since} \
-         Take them?",
+        "{} has unsaved edits from an earlier run: {places} {differ} from the {text}.{since} Take \
+         them?",
         app.file_name(),
     )
 }
