@@ -89,6 +89,7 @@ impl App {
             help: None,
             errors: None,
             message: None,
+            past_message: None,
             disk: Disk::default(),
             broken: None,
             outline: Outline::default(),
