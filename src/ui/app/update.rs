@@ -53,7 +53,7 @@ impl App {
             Msg::Suspend => return vec![Effect::Suspend],
             Msg::Continued => return vec![Effect::TakeTerminal],
             Msg::Interrupt => return self.interrupt(),
-            Msg::Terminate | Msg::HangUp => return self.quit_keeping_edits(),
+            Msg::Terminate { .. } | Msg::HangUp => return self.quit_keeping_edits(),
             Msg::FewColours(depth) => self.suggest(depth.cure()),
             Msg::Failed(reason) => self.fail_too(&reason),
         }
