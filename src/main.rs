@@ -1,11 +1,12 @@
 //! Halflight: edit a scene, see it, make a picture of it.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, Write};
 use std::process::ExitCode;
 #[cfg(unix)]
 use std::sync::Arc;
 
 use halflight::cli::{self, Command, Stop};
+use halflight::text::{visible, without_codes};
 use halflight::{batch, ui};
 
 fn main() -> ExitCode {
@@ -32,12 +33,6 @@ fn outlive_size_limits() {
 }
 
 fn interface(options: &ui::Options) -> u8 {
-    if !io::stdout().is_terminal() {
-        complain(
-            "the interface needs a terminal; to make a picture: halflight render SCENE -o FILE",
-        );
-        return cli::USAGE;
-    }
     let outcome = ui::run(options);
     if let Err(error) = &outcome {
         complain(&error.to_string());
@@ -72,6 +67,5 @@ fn complain(message: &str) {
 }
 
 fn tell(kind: &str, message: &str) {
-    let message = halflight::text::visible(message);
-    let _ = writeln!(io::stderr(), "{kind}: {message}");
+    let _ = writeln!(io::stderr(), "{kind}: {}", visible(&without_codes(message)));
 }

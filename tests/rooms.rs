@@ -82,6 +82,7 @@ const DEPENDENCIES: &[(&str, &str)] = &[
     ("rustix", "*"),
     ("shlex", "ui"),
     ("signal_hook", "ui"),
+    ("signal_hook_registry", "ui"),
     ("similar", "document"),
     ("smallvec", "geometry"),
     ("sobol_burley", "render"),

@@ -25,7 +25,7 @@ pub use backup::{backups, interruption};
 pub(crate) use lock::{Lock, lock};
 pub use replace::{deliver, replace};
 pub(crate) use target::end_of_links;
-pub use target::{check_replaceable, check_target, directory_of};
+pub use target::{check_replaceable, check_target, directory_of, no_such_folder};
 pub use version::{FileId, Version};
 
 /// The longest file that is read, in bytes: positions in a text are 32-bit numbers.
@@ -198,9 +198,9 @@ fn binary_start(file: &File) -> Option<usize> {
     Some(line_of(&start[..first_zero(start)?]))
 }
 
-/// The first zero of bytes that are no text; none where there are so few that each is worth a message.
+/// The first zero of bytes that are not text; none where there are so few that each is worth a message.
 fn first_zero(bytes: &[u8]) -> Option<usize> {
-    // Four times as fast as counting, and texts have none.
+    // Texts have none, and that is told faster than a number.
     if !bytes.contains(&0) {
         return None;
     }

@@ -28,7 +28,7 @@ pub mod view;
 mod writing;
 
 use std::env;
-use std::io;
+use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -54,7 +54,7 @@ pub struct Options {
     pub scene: Option<PathBuf>,
     /// Compare the file's content at this interval instead of waiting for the system's notices.
     pub poll: Option<Duration>,
-    /// Bytes a second that may be sent to the terminal; 0 is no limit.
+    /// Bytes a second that may be sent to the terminal; 0 means no limit.
     pub bandwidth: Option<u32>,
     /// The colours to use.
     pub colour: Choice,
@@ -109,8 +109,11 @@ pub enum Ending {
     Quit,
     /// It was interrupted from outside.
     Interrupted,
-    /// It was asked from outside to end.
-    Terminated,
+    /// Another signal asked it to end.
+    Terminated {
+        /// The signal's number.
+        signal: u8,
+    },
     /// The terminal is gone.
     HungUp,
 }
@@ -121,7 +124,7 @@ pub enum Error {
     /// The scene can't be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// A file that is no scene by its name.
+    /// A file that is not a scene by its name.
     #[error(transparent)]
     UnknownLanguage(#[from] UnknownLanguage),
     /// A folder to read from can't be read.
@@ -142,6 +145,9 @@ pub enum Error {
         /// The argument.
         path: PathBuf,
     },
+    /// Standard output goes elsewhere.
+    #[error("the interface needs a terminal; to make a picture: halflight render SCENE -o FILE")]
+    NoTerminal,
     /// A terminal that cannot place text.
     #[error(
         "TERM=dumb: the interface needs a terminal that can move its cursor; if this one can, set \
@@ -159,6 +165,9 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
     heap::map_large();
     let (path, format, text) = find_scene(options.scene.as_deref())?;
     check_folders(&options.assets)?;
+    if !io::stdout().is_terminal() {
+        return Err(Error::NoTerminal);
+    }
     if env::var_os("TERM").is_some_and(|term| term == "dumb") {
         return Err(Error::DumbTerminal);
     }

@@ -31,6 +31,19 @@ fn a_scene_that_cannot_be_read_ends_with_66() {
 }
 
 #[test]
+fn the_interface_says_what_is_wrong_with_a_scene_before_it_asks_for_a_terminal() {
+    let place = Place::new();
+    place.write("a.ray", "");
+    for (name, code, message) in [
+        ("none.ray", 66, "none.ray: no such file"),
+        ("a.ray", 2, "the interface needs a terminal"),
+    ] {
+        let stderr = place.stderr(name, code);
+        assert!(stderr.contains(message), "{stderr}");
+    }
+}
+
+#[test]
 fn a_file_that_is_not_a_scene_ends_with_65() {
     let place = Place::new();
     place.write("latin.ray", b"1 1 1\n// \xE9\n");

@@ -3,7 +3,7 @@
 
 use super::*;
 
-const QUESTION: &str = "Edits of an earlier run of";
+const QUESTION: &str = "unsaved edits from an earlier run";
 
 /// Makes the green ball's radius another one, as another editor does while the program is not there.
 fn change_green(place: &Place, radius: &str) {

@@ -139,7 +139,7 @@ impl Origins {
     }
 
     /// What an object is made of: itself, then the objects it combines, each with how deep it lies
-    /// below the first. At most `limit` of them; one alone if it is no combination.
+    /// below the first. At most `limit` of them; one alone if it is not a combination.
     pub fn parts(&self, object: usize, limit: usize) -> Vec<(usize, Node)> {
         match self {
             Self::Ray(_) | Self::Xml(_) => vec![(0, Node::Object(object))],

@@ -97,6 +97,8 @@ pub struct App {
     pub errors: Option<usize>,
     /// The last thing worth saying.
     pub message: Option<Message>,
+    /// What was shown before a key took it away.
+    pub past_message: Option<Message>,
     /// How the file on disk stands to the text.
     pub disk: Disk,
     /// What is wrong with the file on disk while it is [`Disk::Broken`].

@@ -97,6 +97,7 @@ impl App {
             help: None,
             errors: None,
             message: None,
+            past_message: None,
             disk,
             broken: None,
             outline: Outline::default(),

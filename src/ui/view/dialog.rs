@@ -57,8 +57,8 @@ fn offered(app: &App, offer: &Offer) -> String {
         ""
     };
     format!(
-        "Edits of an earlier run of {} were never saved: {places} {differ} from the {text}.{since}\
-         {damage} Take them?",
+        "{} has unsaved edits from an earlier run: {places} {differ} from the {text}.{since}{damage} \
+         Take them?",
         app.file_name(),
     )
 }

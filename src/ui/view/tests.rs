@@ -288,6 +288,29 @@ fn a_screen_that_is_too_small_says_so() {
 }
 
 #[test]
+fn a_message_longer_than_the_status_line_is_shown_whole() {
+    let name = "n".repeat(255);
+    for text in [
+        "the file's changes are merged with your edits: sphere 1 radius; u undoes the merge",
+        "unsaved edits can't be kept for recovery: /home/somebody/.local/state/halflight/recovery: \
+         others may write there; chmod go-w /home/somebody/.local/state/halflight/recovery",
+        &format!("{name}.ray: File name too long"),
+    ] {
+        for width in [20, 40, 80, 150] {
+            let mut app = app();
+            app.message = Some(Message {
+                severity: Some(Severity::Error),
+                text: text.to_owned(),
+            });
+            let lines = screen(&mut app, width, 24);
+            let shown: String = lines.concat().split_whitespace().collect();
+            let words: String = text.split_whitespace().collect();
+            assert!(shown.contains(&words), "{}", lines.join("\n"));
+        }
+    }
+}
+
+#[test]
 fn the_places_that_kept_edits_change_are_counted() {
     let shown = |change: fn(&str) -> String, follow: fn(Offer) -> Offer| {
         let mut app = app();
@@ -357,7 +380,7 @@ fn a_picture_of_another_size_fills_its_place() {
 }
 
 #[test]
-fn a_text_that_is_no_xml_is_drawn() {
+fn a_text_that_is_not_xml_is_drawn() {
     for text in ["", "<xml>", "<scene/>"] {
         let mut app = app_of(Format::Xml, text);
         for (width, height) in [(80, 24), (40, 12), (9, 3), (1, 1)] {

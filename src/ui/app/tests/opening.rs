@@ -83,7 +83,7 @@ fn help_and_the_way_out_need_no_scene() {
         let effects = press(&mut app, said);
         assert!(matches!(effects[..], [Effect::Quit]), "{said}: {effects:?}");
     }
-    for msg in [Msg::Terminate, Msg::HangUp] {
+    for msg in [Msg::Terminate { signal: 15 }, Msg::HangUp] {
         let (mut app, _) = opening();
         assert!(matches!(app.update(msg)[..], [Effect::Quit]));
     }

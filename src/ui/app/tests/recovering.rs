@@ -110,7 +110,7 @@ fn edits_that_could_not_be_kept_are_tried_again() {
 
 #[test]
 fn edits_are_written_down_once_more_at_the_end() {
-    for end in [Msg::HangUp, Msg::Terminate] {
+    for end in [Msg::HangUp, Msg::Terminate { signal: 15 }] {
         let mut app = open(SCENE);
         press(&mut app, "jjjel");
         let revision = ordered(&elapse(&mut app)).expect("an edit");
