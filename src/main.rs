@@ -1,11 +1,12 @@
 //! Halflight: edit a scene, see it, make a picture of it.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, Write};
 use std::process::ExitCode;
 #[cfg(unix)]
 use std::sync::Arc;
 
 use halflight::cli::{self, Command, Stop};
+use halflight::text::{visible, without_codes};
 use halflight::{batch, ui};
 
 fn main() -> ExitCode {
@@ -32,15 +33,12 @@ fn outlive_size_limits() {
 }
 
 fn interface(options: &ui::Options) -> u8 {
-    if !io::stdout().is_terminal() {
-        complain(
-            "the interface needs a terminal; to make a picture: halflight render SCENE -o FILE",
-        );
-        return cli::USAGE;
-    }
     let outcome = ui::run(options);
     if let Err(error) = &outcome {
         complain(&error.to_string());
+        if let Some(note) = ui::note(options, error) {
+            tell("note", &note);
+        }
     }
     cli::interface_exit_code(&outcome)
 }
@@ -65,5 +63,9 @@ fn print(stop: &Stop) -> u8 {
 }
 
 fn complain(message: &str) {
-    let _ = writeln!(io::stderr(), "error: {}", halflight::text::visible(message));
+    tell("error", message);
+}
+
+fn tell(kind: &str, message: &str) {
+    let _ = writeln!(io::stderr(), "{kind}: {}", visible(&without_codes(message)));
 }

@@ -283,7 +283,7 @@ impl Names {
         if event.need_rescan() {
             return Meaning::Directory;
         }
-        // Reading is no change; our own reading must not make us read again.
+        // Reading is not a change; our own reading must not make us read again.
         let written = EventKind::Access(AccessKind::Close(AccessMode::Write));
         if event.kind.is_access() && event.kind != written {
             return Meaning::Nothing;

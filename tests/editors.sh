@@ -18,6 +18,9 @@ scene=$place/s.ray
 tmux=(tmux -L "halflight-editors-$$" -f /dev/null)
 failures=0
 
+# The server outlives the moments without a session.
+"${tmux[@]}" start-server ';' set-option -g exit-empty off
+
 finish() {
     "${tmux[@]}" kill-server 2>/dev/null || true
     rm -rf "$place"

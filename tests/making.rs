@@ -60,7 +60,7 @@ fn options_of_making_hold_for_every_language() {
             made("--integrator whitted --depth 8 --filter box") == plain,
             "{name}"
         );
-        // The ball shows ambient light alone, which paths drop and which is no colour of its own; or
+        // The ball shows ambient light alone, which paths drop and which is not a colour of its own; or
         // white, whatever light there is.
         let header = plain.len() - 3 * 40 * 30;
         let mut unlit = plain.clone();

@@ -20,7 +20,15 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("image_file", &["file", "render", "scene"]),
     (
         "assets",
-        &["file", "image_file", "language", "memory", "obj", "scene", "text"],
+        &[
+            "file",
+            "image_file",
+            "language",
+            "memory",
+            "obj",
+            "scene",
+            "text",
+        ],
     ),
     ("watch", &["file"]),
     (
@@ -82,6 +90,7 @@ const DEPENDENCIES: &[(&str, &str)] = &[
     ("rustix", "*"),
     ("shlex", "ui"),
     ("signal_hook", "ui"),
+    ("signal_hook_registry", "ui"),
     ("similar", "document"),
     ("smallvec", "geometry"),
     ("sobol_burley", "render"),

@@ -4,7 +4,7 @@ import asyncio, contextlib, fcntl, os, pty, re, signal, socket, struct, sys, ter
 
 PLACE, PORT, HALFLIGHT = (os.environ[name] for name in ("PLACE", "PORT", "HALFLIGHT"))
 COLUMNS, ROWS = 120, 40
-# Bytes a second and the round trip in milliseconds; 0 is no limit.
+# Bytes a second and the round trip in milliseconds; 0 means no limit.
 LINKS = [(0, 0), (1_000_000, 20), (128_000, 200), (40_000, 200), (40_000, 50)]
 KEYS = 25
 

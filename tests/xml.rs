@@ -268,5 +268,5 @@ fn a_mesh_that_cannot_be_read_is_an_error() {
     place.write("a.xml", &MESHED.replace("<target/>", "<target x='q'/>"));
     let stderr = place.stderr("check a.xml", 65);
     assert!(stderr.contains("no such file"), "{stderr}");
-    assert!(stderr.contains("`q` is no number"), "{stderr}");
+    assert!(stderr.contains("`q` is not a number"), "{stderr}");
 }

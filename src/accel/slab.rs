@@ -11,7 +11,7 @@
 //! "Robust BVH Ray Traversal", JCGT 2013) and by that number; [`MARGIN`] leaves room for the rounding
 //! of that. Distances may be negative: see [`REMOTE`].
 //!
-//! Along an axis where a distance might overflow, or the inverse is no normal number, a ray is taken
+//! Along an axis where a distance might overflow, or the inverse is not a normal number, a ray is taken
 //! to meet everything. A direction of 0 is well: its inverse is infinite.
 
 #![expect(

@@ -141,7 +141,7 @@ fn the_folder_that_helps_is_told() {
 }
 
 #[test]
-fn what_is_no_picture_is_told_as_what_it_is() {
+fn what_is_not_a_picture_is_told_as_what_it_is() {
     let place = Place::new();
     fs::create_dir(place.at("folder.png")).expect("a folder");
     let made = std::process::Command::new("mkfifo")
@@ -164,9 +164,9 @@ fn what_is_no_picture_is_told_as_what_it_is() {
         ("folder.png", "is a folder, not a file"),
         ("pipe.png", "is a pipe, not a file"),
         ("loop.png", "symbolic links"),
-        ("empty.png", "is no picture of a known format"),
-        ("text.png", "is no picture of a known format"),
-        ("half.ppm", "is no whole picture: "),
+        ("empty.png", "is not a picture of a known format"),
+        ("text.png", "is not a picture of a known format"),
+        ("half.ppm", "is not a whole picture: "),
         (
             "huge.ppm",
             "is 8193x8192: a texture has at most 67108864 pixels",

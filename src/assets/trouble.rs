@@ -10,7 +10,7 @@ use crate::file::{ReadError, directory_of};
 use crate::image_file::{Unreadable, known_extensions};
 use crate::language::{FileKind, NamedFile};
 use crate::memory::OutOfMemory;
-use crate::text::{Diagnostic, Findings};
+use crate::text::{Diagnostic, Findings, without_codes};
 
 /// What is wrong with pictures, by name.
 pub type Troubles = BTreeMap<String, Trouble>;
@@ -80,7 +80,7 @@ pub(super) enum Failure {
     /// With the places where it was looked for.
     #[error("no such file")]
     Missing(Vec<PathBuf>),
-    #[error("{0}")]
+    #[error("{}", without_codes(&.0.to_string()))]
     Io(io::Error),
     #[error("is {0}, not a file")]
     NotRegular(&'static str),

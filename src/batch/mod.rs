@@ -19,7 +19,7 @@ use crate::language::{
 use crate::memory::OutOfMemory;
 use crate::render::Refusal;
 use crate::scene::{Images, Meshes, Scene};
-use crate::text::{Diagnostic, Findings, Span, counted, visible};
+use crate::text::{Diagnostic, Findings, Span, counted, visible, without_codes};
 
 pub use render::{Output, Render, render};
 
@@ -32,7 +32,7 @@ pub enum Error {
     /// A folder to read from can't be read.
     #[error(transparent)]
     Assets(#[from] NoFolder),
-    /// A file that is no scene by its name.
+    /// A file that is not a scene by its name.
     #[error(transparent)]
     UnknownLanguage(#[from] UnknownLanguage),
     /// Scenes have errors, which were printed.
@@ -166,7 +166,7 @@ struct Loaded {
 /// Reads a scene with the files it names, from `folders` too, and prints what is wrong with it.
 fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, Error> {
     let language = Language::of_path(path).map_err(|unknown| {
-        // What can't be opened is no scene under any name.
+        // What can't be opened is not a scene under any name.
         file::open(path).map_or_else(Error::from, |_| unknown.into())
     })?;
     if let Some(beginning) = file::read_beginning(path)? {
@@ -307,7 +307,7 @@ fn tell_error(error: &Error) {
 
 /// Prints one line about the whole work: `error: no such file`.
 fn tell(kind: &str, message: &str) {
-    print(&format!("{kind}: {}", visible(message)));
+    print(&format!("{kind}: {}", visible(&without_codes(message))));
 }
 
 /// Prints lines to the error stream. There is nobody to tell if that fails.

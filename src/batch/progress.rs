@@ -36,7 +36,7 @@ impl ProgressLine {
             return;
         }
         self.last = Some(Instant::now());
-        // A progress line that can't be written is no loss.
+        // A progress line that can't be written is not a loss.
         let _ = write!(terminal, "\r{}\x1b[K", line(progress));
     }
 }

@@ -41,8 +41,8 @@ pub const NO_OUTPUT: u8 = 73;
 pub const HUNG_UP: u8 = 129;
 /// The interface was interrupted from outside: what shells report for `SIGINT`.
 pub const INTERRUPTED: u8 = 130;
-/// The interface was asked from outside to end: what shells report for `SIGTERM`.
-pub const TERMINATED: u8 = 143;
+/// Another signal asked the interface to end: with the signal's number added, what shells report for it.
+pub const SIGNALLED: u8 = 128;
 
 /// What the user wants done.
 #[derive(Clone, Debug)]
@@ -126,11 +126,11 @@ pub fn interface_exit_code(outcome: &Result<ui::Ending, ui::Error>) -> u8 {
         Ok(ui::Ending::Quit) => DONE,
         Ok(ui::Ending::HungUp) => HUNG_UP,
         Ok(ui::Ending::Interrupted) => INTERRUPTED,
-        Ok(ui::Ending::Terminated) => TERMINATED,
+        Ok(ui::Ending::Terminated { signal }) => SIGNALLED + signal,
         Err(ui::Error::Read(error)) => read_code(error),
         Err(ui::Error::UnknownLanguage(_)) => INVALID,
         Err(ui::Error::Folder { .. } | ui::Error::Assets(_)) => NO_INPUT,
-        Err(ui::Error::NoSuch { .. } | ui::Error::DumbTerminal) => USAGE,
+        Err(ui::Error::NoSuch { .. } | ui::Error::NoTerminal | ui::Error::DumbTerminal) => USAGE,
         Err(ui::Error::Terminal(_)) => FAILED,
     }
 }
@@ -189,7 +189,7 @@ files, not from standard input, pipes or devices.
 
 Exit codes: 0 success, 1 write or system error, 2 wrong arguments, 65 invalid scene, \
 66 scene not found or unreadable, 73 picture file cannot be created, 129 terminal gone, \
-130 interrupted, 143 terminated.";
+130 SIGINT, 143 SIGTERM, 128 + N another signal N. Ctrl-C quits the interface with 0, as q does.";
 
 #[derive(Debug, Subcommand)]
 enum Subcommands {
@@ -254,12 +254,18 @@ struct InterfaceArguments {
         default_missing_value = "500", value_parser = value_parser!(u64).range(10..=3_600_000)
     )]
     poll: Option<u64>,
-    /// Send the terminal at most so many kilobytes (1000 bytes) a second, up to 4000000; 0 is no
+    /// Send the terminal at most so many kilobytes (1000 bytes) a second, up to 4000000; 0 means no
     /// limit
     #[arg(long, value_name = "KB/s", value_parser = value_parser!(u32).range(..=4_000_000))]
     bandwidth: Option<u32>,
     /// Colours that the terminal is sent
-    #[arg(long, value_name = "COLOURS", value_enum, default_value_t)]
+    #[arg(
+        long,
+        alias = "colour",
+        value_name = "COLOURS",
+        value_enum,
+        default_value_t
+    )]
     color: ColourChoice,
     /// Leave the mouse to the terminal
     #[arg(long)]
@@ -344,7 +350,7 @@ struct RenderArguments {
     /// .jpeg, .exr, .hdr); - is standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Format of the picture, whatever the file's name [default for -o -: bmp]
+    /// Language of the picture, whatever the file's name [default for -o -: bmp]
     #[arg(long, value_name = "FORMAT", value_parser = format_names())]
     format: Option<ImageFormat>,
     /// Width and height in pixels, such as 800x600, at most 268435456 pixels in all (as 16384x16384)

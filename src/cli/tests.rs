@@ -57,6 +57,10 @@ fn options_reach_the_interface() {
         }
     );
     assert_eq!(interface("halflight --bandwidth 0 a").bandwidth, Some(0));
+    assert_eq!(
+        interface("halflight --colour mono a").colour,
+        Choice::Fixed(ColourDepth::Mono)
+    );
     assert_eq!(interface("halflight ./check").scene, Some("./check".into()));
 }
 
@@ -169,7 +173,7 @@ fn wrong_arguments_are_refused_with_a_reason() {
 }
 
 #[test]
-fn help_is_no_error() {
+fn help_is_not_an_error() {
     for line in ["halflight --help", "halflight render -h", "halflight -V"] {
         let stop = parsed(line).expect_err("help");
         assert_eq!(stop.code, DONE);

@@ -31,7 +31,7 @@ struct Call {
 
 impl History {
     /// Notes a replacement of one leaf by `literal`; joins the open step if that ended with the
-    /// same leaf. A run that comes back to where it began is no step.
+    /// same leaf. A run that comes back to where it began is not a step.
     pub(super) fn record_literal(&mut self, inverse: Edit, literal: &str) {
         let start = inverse.span.start();
         let before = Span::new(start, start + inverse.text.len());

@@ -109,7 +109,7 @@ impl Document {
 
     /// Replaces the text of one leaf of the tree as an undoable step. Consecutive calls on the same
     /// leaf (the span follows the literal's length) merge into one step until
-    /// [`Document::end_step`] or another operation; a run that ends where it began is no step.
+    /// [`Document::end_step`] or another operation; a run that ends where it began is not a step.
     /// The same literal again changes nothing.
     pub fn set(&mut self, span: Span, literal: &str) {
         if span.of(self.text()) == literal {
@@ -190,7 +190,7 @@ impl Document {
         }
     }
 
-    /// Becomes a text from outside where there are no unsaved edits; what it was before. That is no
+    /// Becomes a text from outside where there are no unsaved edits; what it was before. That is not an
     /// edit of this document's, and the history starts anew: undo must not lead back to what another
     /// program has replaced.
     #[must_use = "to free it may take long"]

@@ -75,7 +75,7 @@ fn consecutive_sets_of_one_leaf_are_one_step() {
 }
 
 #[test]
-fn what_changes_nothing_is_no_step() {
+fn what_changes_nothing_is_not_a_step() {
     let mut doc = document("1 2");
     set(&mut doc, 0, "1");
     doc.edit(&[]);

@@ -103,7 +103,11 @@ pub fn backups(path: &Path) -> Vec<PathBuf> {
 /// What is said of a copy that [`backups`] found of a file.
 pub fn interruption(name: impl Display, copy: &Path) -> String {
     let copy = copy.display();
-    format!("the last save of {name} was interrupted: its previous content is in {copy}")
+    // The copy outlives saves that are not interrupted: whether it is needed is not known here.
+    format!(
+        "a save of {name} was interrupted: the content before it is in {copy}; delete that if you \
+         do not need it"
+    )
 }
 
 /// Removes copies of what a file holds anyway.

@@ -24,7 +24,7 @@ pub(super) enum Target {
 impl Target {
     pub(super) fn of(path: &Path) -> io::Result<Self> {
         match fs::metadata(path) {
-            Ok(metadata) if metadata.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+            Ok(metadata) if metadata.is_dir() => Err(not_a_file("a folder")),
             Ok(metadata) if metadata.is_file() => {
                 let path = fs::canonicalize(path)?;
                 let mut options = OpenOptions::new();
@@ -68,7 +68,7 @@ pub fn check_target(path: &Path) -> io::Result<()> {
         Target::New(path) => {
             let directory = directory_of(&path);
             let found = fs::metadata(directory).map_err(|error| match error.kind() {
-                io::ErrorKind::NotFound => io::Error::new(error.kind(), "no such folder"),
+                io::ErrorKind::NotFound => no_such_folder(directory),
                 _ => error,
             })?;
             if !found.is_dir() {
@@ -86,6 +86,18 @@ pub fn check_target(path: &Path) -> io::Result<()> {
     }
 }
 
+/// That a folder in which something is to be written is not there.
+pub fn no_such_folder(folder: &Path) -> io::Error {
+    // Shells have taught that it is the home folder.
+    let is_home_meant = folder.as_os_str().as_encoded_bytes().starts_with(b"~");
+    let reason = if is_home_meant {
+        "no such folder; only shells expand ~"
+    } else {
+        "no such folder"
+    };
+    io::Error::new(io::ErrorKind::NotFound, reason)
+}
+
 /// Says what stands at `path` if [`replace`](super::replace()) can't write there: a folder, a pipe, a
 /// device, a file that may not be written.
 pub fn check_replaceable(path: &Path) -> io::Result<()> {
@@ -96,7 +108,7 @@ pub fn check_replaceable(path: &Path) -> io::Result<()> {
 }
 
 /// Where a chain of links that leads to no file ends.
-fn end_of_links(path: &Path) -> io::Result<PathBuf> {
+pub(crate) fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     if path.file_name().is_none() {
         return Err(io::ErrorKind::NotFound.into());
     }

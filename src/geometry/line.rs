@@ -250,7 +250,7 @@ pub(super) fn roots<N: Lanes>(a: N, b: N, c: N, root: N) -> [N; 2] {
 
 /// Where one coordinate of lines is in [0, 1]. `parts` are the surfaces at 0 and at 1.
 ///
-/// A coordinate that stays the same is inside for ever or never: 0 / 0 is no distance.
+/// A coordinate that stays the same is inside for ever or never: 0 / 0 is not a distance.
 #[inline(always)]
 pub(super) fn slab<N: Lanes>(origin: N, speed: N, parts: [u32; 2]) -> Option<Ends<N>> {
     let (zero, one) = (origin.all(0.0), origin.all(1.0));

@@ -208,7 +208,7 @@ impl Crossings {
         (enter.t <= exit.t).then_some(Self { enter, exit })
     }
 
-    /// The same crossings as seen from `start` farther back; `None` if a distance is no number.
+    /// The same crossings as seen from `start` farther back; `None` if a distance is not a number.
     #[inline]
     pub(super) fn later(mut self, start: f64) -> Option<Self> {
         self.enter.t += start;
@@ -256,7 +256,7 @@ impl Shape {
         }
     }
 
-    /// Adds the parts of the ray's line that are inside the solid; none for what is no solid.
+    /// Adds the parts of the ray's line that are inside the solid; none for what is not a solid.
     pub fn spans(&self, ray: &Ray, spans: &mut Spans) {
         match self {
             Self::Quadric(quadric) => spans.extend(quadric.crossings(ray).into_iter().flatten()),

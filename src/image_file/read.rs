@@ -24,14 +24,14 @@ const MAX_PREFACE: u64 = 16 << 20;
 /// Why a file is not a picture that can be used.
 #[derive(Debug, thiserror::Error)]
 pub enum Unreadable {
-    /// It is no picture of a known format.
-    #[error("is no picture of a known format")]
+    /// It is not a picture of a known format.
+    #[error("is not a picture of a known format")]
     Unknown,
     /// It uses a part of its format, which is named, that is not supported.
     #[error("is a {0} of an unsupported kind")]
     Unsupported(&'static str),
     /// It breaks off or contradicts itself: how.
-    #[error("is no whole picture: {0}")]
+    #[error("is not a whole picture: {0}")]
     Broken(String),
     /// The picture has more than [`MAX_TEXTURE_PIXELS`].
     #[error("is {width}x{height}: a texture has at most {MAX_TEXTURE_PIXELS} pixels (8192x8192)")]

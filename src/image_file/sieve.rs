@@ -215,7 +215,7 @@ impl Jpeg {
             return skip(source, length);
         }
         take(source, length, piece)?;
-        // A frame's precision, height and width; three others in its range are no frames.
+        // A frame's precision, height and width; three others in its range are not frames.
         if let (0xC0..=0xCF, [_, _, _, _, _, h1, h0, w1, w0, ..]) = (marker, &piece[..])
             && !matches!(marker, 0xC4 | 0xC8 | 0xCC)
         {

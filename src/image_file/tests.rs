@@ -439,7 +439,7 @@ fn a_jpeg_far_longer_than_its_pixels_is_refused() {
     for (head, more) in [(end, vec![1; 2 << 20]), (2, tables.repeat(40))] {
         let refused = decode(&bent(ImageFormat::Jpeg, head, &more)).expect_err("too long");
         let message = refused.to_string();
-        let expected = "is no whole picture: it has more than 10";
+        let expected = "is not a whole picture: it has more than 10";
         assert!(message.starts_with(expected), "{message}");
     }
 }
@@ -452,7 +452,7 @@ fn damage_is_told_without_the_decoders_words() {
         (ImageFormat::Bmp, "BMP"),
     ] {
         let bytes = encoded(format, &gradient());
-        let damaged = format!("is no whole picture: its {name} data is damaged");
+        let damaged = format!("is not a whole picture: its {name} data is damaged");
         let unsupported = format!("is a {name} of an unsupported kind");
         let mut found = 0;
         for at in 2..bytes.len().min(300) {

@@ -54,7 +54,7 @@ pub(super) fn no_number(
 ) -> Diagnostic {
     let said = quoted(token);
     let message = match error {
-        NumberError::NotANumber => format!("{what}: {said} is no number"),
+        NumberError::NotANumber => format!("{what}: {said} is not a number"),
         NumberError::Overflow => format!("{what}: {said} is too large for any number"),
     };
     Diagnostic {
@@ -64,7 +64,7 @@ pub(super) fn no_number(
     }
 }
 
-/// What was probably meant by a token that is no number.
+/// What was probably meant by a token that is not a number.
 fn number_hint(token: &str, error: NumberError) -> Option<String> {
     const LONGEST: usize = 64;
     if LONGEST < token.len() {

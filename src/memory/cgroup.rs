@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_known_of_what_is_no_list_of_groups() {
+    fn nothing_is_known_of_what_is_not_a_list_of_groups() {
         for groups in ["", "0\n", "::", "x:y\n", "0::/../../etc\n"] {
             assert_eq!(left_with(groups, &[]), [], "{groups:?}");
         }

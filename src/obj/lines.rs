@@ -97,7 +97,7 @@ impl Word<'_> {
         let number = str::from_utf8(self.text).map_err(|_| NumberError::NotANumber);
         match number.and_then(parse_number) {
             Ok(number) => Ok(number),
-            Err(NumberError::NotANumber) => Err(format!("`{}` is no number", self.shown())),
+            Err(NumberError::NotANumber) => Err(format!("`{}` is not a number", self.shown())),
             Err(NumberError::Overflow) => Err(format!("`{}` is too large", self.shown())),
         }
     }

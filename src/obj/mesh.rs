@@ -261,7 +261,7 @@ impl Reading {
             let index = match number {
                 None => {
                     return Err(fault(
-                        "is no corner: expected v, v/vt, v//vn or v/vt/vn".into(),
+                        "is not a corner: expected v, v/vt, v//vn or v/vt/vn".into(),
                     ));
                 }
                 Some(0) => return Err(fault("names number 0: the first is 1".into())),

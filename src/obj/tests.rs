@@ -201,15 +201,15 @@ fn doubtful_lines_are_warned_of() {
 fn malformed_lines_are_errors() {
     for (text, error) in [
         ("v 1 2", "line 5, column 6: v: expected 3 numbers, found 2"),
-        ("v 1 2 x", "line 5, column 7: v: `x` is no number"),
+        ("v 1 2 x", "line 5, column 7: v: `x` is not a number"),
         ("v 1 2 1e999", "line 5, column 7: v: `1e999` is too large"),
-        ("v nan 0 0", "line 5, column 3: v: `nan` is no number"),
+        ("v nan 0 0", "line 5, column 3: v: `nan` is not a number"),
         (
             "v 1 2 3 4 5 6 7 8",
             "line 5, column 17: v: expected at most 7 numbers",
         ),
         ("vt", "line 5, column 3: vt: expected 1 number, found 0"),
-        ("vt 0 q", "line 5, column 6: vt: `q` is no number"),
+        ("vt 0 q", "line 5, column 6: vt: `q` is not a number"),
         (
             "vn 0 1",
             "line 5, column 7: vn: expected 3 numbers, found 2",
@@ -244,11 +244,11 @@ fn malformed_lines_are_errors() {
         ),
         (
             "f 1 2.5 3",
-            "line 5, column 5: f: `2.5` is no corner: expected v, v/vt, v//vn or v/vt/vn",
+            "line 5, column 5: f: `2.5` is not a corner: expected v, v/vt, v//vn or v/vt/vn",
         ),
         (
             "f 1 /2 3",
-            "line 5, column 5: f: `/2` is no corner: expected v, v/vt, v//vn or v/vt/vn",
+            "line 5, column 5: f: `/2` is not a corner: expected v, v/vt, v//vn or v/vt/vn",
         ),
         (
             "f 1 2/1/1/1 3",
@@ -260,7 +260,7 @@ fn malformed_lines_are_errors() {
         ),
         (
             "f 1 9999999999999999999 3",
-            "line 5, column 5: f: `9999999999999999999` is no corner: expected v, v/vt, v//vn or v/vt/vn",
+            "line 5, column 5: f: `9999999999999999999` is not a corner: expected v, v/vt, v//vn or v/vt/vn",
         ),
         ("usemtl", "line 5, column 7: usemtl: the name is missing"),
         ("mtllib  ", "line 5, column 7: mtllib: the name is missing"),
@@ -299,7 +299,7 @@ fn malformed_libraries_define_nothing() {
         ),
         (
             "newmtl a\nNs high",
-            "x.mtl: line 2, column 4: Ns: `high` is no number",
+            "x.mtl: line 2, column 4: Ns: `high` is not a number",
         ),
         (
             "newmtl a\nNi",

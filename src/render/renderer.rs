@@ -165,7 +165,7 @@ fn pool(threads: Threads) -> Result<ThreadPool, rayon::ThreadPoolBuildError> {
 /// Lets everything else go first: on Linux a thread has a priority of its own.
 #[cfg(target_os = "linux")]
 fn lower_priority() {
-    // Refusal is no harm: the thread merely keeps its priority.
+    // Refusal does no harm: the thread merely keeps its priority.
     let _ = rustix::process::setpriority_process(Some(rustix::thread::gettid()), 10);
 }
 

@@ -10,7 +10,7 @@ use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, Vector, bits};
 use crate::geometry::{Hits, Rays, Shape, Sphere, sphere_hits};
 use crate::scene::Objects;
 
-/// Centres and radii by place; the radius is NaN where an object is no sphere, and after the last.
+/// Centres and radii by place; the radius is NaN where an object is not a sphere, and after the last.
 #[derive(Clone, Debug)]
 pub(crate) struct Spheres(Vec<[f64; 4]>);
 
@@ -39,7 +39,7 @@ impl Spheres {
     }
 
     /// Where a ray, the same in each lane, meets spheres of a run before a limit, and a bit for each
-    /// place of the run that is no sphere.
+    /// place of the run that is not a sphere.
     #[expect(
         clippy::inline_always,
         reason = "a caller compiled for wider vectors must take this with it"

@@ -164,11 +164,6 @@ fn opaque_meshes(scene: &Scene) -> Vec<bool> {
     opaque
 }
 
-/// Whether two scenes have the same shapes, so that one has the structures of the other.
-pub(super) fn has_shapes_of(a: &Arc<Scene>, b: &Arc<Scene>) -> bool {
-    changed_shapes(a, b).is_some_and(|changed| changed.is_empty())
-}
-
 /// The objects whose shapes are others; `None` where they are many, or not as many objects.
 fn changed_shapes(a: &Arc<Scene>, b: &Arc<Scene>) -> Option<Vec<u32>> {
     /// A tree can follow fewer.

@@ -72,7 +72,7 @@ impl fmt::Debug for Image {
 }
 
 /// The two neighbours of a place among `count` that repeat, and how far it is from the first to the
-/// second. A place that is no number is 0.
+/// second. A place that is not a number is 0.
 fn between(place: f64, count: u32) -> (u32, u32, f64) {
     let place = (place - place.floor()) * f64::from(count);
     let place = if place.is_finite() { place } else { 0.0 };

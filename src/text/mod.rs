@@ -1,5 +1,6 @@
 //! Positions and changes in text: spans, edits, numbers, diagnostics. Knows no language.
 
+mod codes;
 mod counted;
 mod diagnostic;
 mod edit;
@@ -11,6 +12,7 @@ mod slips;
 mod span;
 mod visible;
 
+pub use codes::without_codes;
 pub use counted::counted;
 pub use diagnostic::{Diagnostic, Severity};
 pub use edit::{Edit, apply, cover, difference, smallest_edit};

@@ -1,6 +1,6 @@
 //! Decimal numbers as scene files write them, read and written back in the same style.
 
-/// Why a token is no number.
+/// Why a token is not a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NumberError {
     /// Not of the form: optional sign, digits with optional fraction, optional exponent.

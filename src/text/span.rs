@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn a_byte_order_mark_is_no_character_of_its_line() {
+    fn a_byte_order_mark_is_not_a_character_of_its_line() {
         let text = "\u{FEFF}ab\n\u{FEFF}c";
         let columns = [0, 3, 4, 5, 9].map(|offset| Position::of(text, offset).column);
         assert_eq!(columns, [1, 1, 2, 3, 2]);

@@ -78,7 +78,7 @@ fn terminal(has_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> Ve
         .collect();
     let mut lines = vec![said.join(", ")];
     if !has_terminal {
-        lines.push("input or output is no terminal: nothing was asked".to_owned());
+        lines.push("input or output is not a terminal: nothing was asked".to_owned());
     }
     lines
 }

@@ -438,7 +438,7 @@ impl From<terminal::Event> for Event {
             E::Suspend => Msg::Suspend,
             E::Continue => Msg::Continued,
             E::HangUp => Msg::HangUp,
-            E::Terminate => Msg::Terminate,
+            E::Terminate { signal } => Msg::Terminate { signal },
             E::Interrupt => Msg::Interrupt,
         })
     }

@@ -97,6 +97,8 @@ pub enum Action {
     Editor,
     /// Opens or closes the list of errors.
     Errors,
+    /// Shows the last message again.
+    Message,
     /// Opens or closes the help page.
     Help,
     /// Gives the picture more of the screen, or less.
@@ -185,7 +187,7 @@ const VIEW: &[Context] = &[Context::In(View)];
 const EDIT: &[Context] = &[Context::In(Edit)];
 const LIST_AND_FIELDS: &[Context] = &[Context::In(Select), Context::In(Edit)];
 const TRACE: &[Context] = &[Context::In(Trace)];
-/// Where digits are no part of a number.
+/// Where digits are not part of a number.
 const PICTURES: &[Context] = &[Context::In(Select), Context::In(View), Context::In(Trace)];
 const PICK: &[Context] = &[Context::In(Pick)];
 const LISTS: &[Context] = &[
@@ -257,9 +259,9 @@ pub const TABLE: &[Binding] = &[
     bind(LONG_LISTS, &[key(PageDown)], A::Page(1), "a screenful down"),
     bind(LONG_LISTS, &[key(PageUp)], A::Page(-1), "a screenful up"),
     bind(SELECT, &[c('o')], A::Outline, "mark the selected object, or not"),
-    bind(SELECT, &[c('n')], A::SearchAgain(1), "next found"),
-    bind(SELECT, &[c('N')], A::SearchAgain(-1), "found before"),
-    bind(SELECT, &[key(BackTab)], A::Cycle(-1), "light or object before"),
+    bind(SELECT, &[c('n')], A::SearchAgain(1), "next match"),
+    bind(SELECT, &[c('N')], A::SearchAgain(-1), "previous match"),
+    bind(SELECT, &[key(BackTab)], A::Cycle(-1), "previous light or object"),
 
     bind(EDIT, &[c('l'), key(Right)], A::Nudge(1, Plain), "nudge up"),
     bind(EDIT, &[c('h'), key(Left)], A::Nudge(-1, Plain), "nudge down"),
@@ -271,7 +273,7 @@ pub const TABLE: &[Binding] = &[
     bind(EDIT, &[alt('h'), Chord(Left, ALT)], A::Nudge(-1, Fine), "nudge down a tenth"),
     bind(EDIT, &[c(',')], A::Stride(-1), "smaller steps"),
     bind(EDIT, &[c('.')], A::Stride(1), "larger steps"),
-    bind(EDIT, &[key(BackTab)], A::Component(-1), "number before"),
+    bind(EDIT, &[key(BackTab)], A::Component(-1), "previous number"),
 
     bind(VIEW, &[c('h'), key(Left)], A::Orbit(1, 0), "orbit left"),
     bind(VIEW, &[c('j'), key(Down)], A::Orbit(0, -1), "orbit down"),
@@ -302,7 +304,7 @@ pub const TABLE: &[Binding] = &[
     bind(&[Context::Conflict], &[c('M')], A::AllMine, "keep mine everywhere"),
     bind(&[Context::Conflict], &[c('T')], A::AllTheirs, "take the file's everywhere"),
     bind(&[Context::Conflict], &[key(Esc)], A::Back, "decide later"),
-    bind(&[Context::Quit], &[c('y')], A::Accept, "quit, losing this"),
+    bind(&[Context::Quit], &[c('y')], A::Accept, "quit anyway"),
     bind(&[Context::Quit], &[c('w')], A::Save, "save and quit"),
     bind(&[Context::Quit], &[c('n'), key(Esc)], A::Back, "stay"),
     bind(&[Context::Recover], &[c('r')], A::Accept, "take them"),
@@ -328,6 +330,7 @@ pub const TABLE: &[Binding] = &[
     bind(EVERYWHERE, &[c('u')], A::Undo, "undo"),
     bind(EVERYWHERE, &[ctrl('r')], A::Redo, "redo"),
     bind(EVERYWHERE, &[c('!')], A::Errors, "errors and warnings"),
+    bind(SCENELESS, &[c('M')], A::Message, "last message again"),
     bind(EVERYWHERE, &[c('E')], A::Editor, "open the editor at the selected thing"),
     bind(EVERYWHERE, &[c('z')], A::Zoom, "picture alone, or with panels"),
     bind(EVERYWHERE, &[c('P')], A::Integrator, "path tracing, or Whitted's rays"),

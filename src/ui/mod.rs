@@ -28,14 +28,13 @@ pub mod view;
 mod writing;
 
 use std::env;
-use std::io;
+use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::assets::{NoFolder, check_folders};
-use crate::file;
-use crate::file::ReadError;
-use crate::language::{Language, UnknownLanguage};
+use crate::file::{self, ReadError};
+use crate::language::{self, Language, UnknownLanguage};
 use crate::render::{DEFAULT_SPP, Filter};
 use crate::scene::Integrator;
 use crate::watch::Method;
@@ -55,7 +54,7 @@ pub struct Options {
     pub scene: Option<PathBuf>,
     /// Compare the file's content at this interval instead of waiting for the system's notices.
     pub poll: Option<Duration>,
-    /// Bytes a second that may be sent to the terminal; 0 is no limit.
+    /// Bytes a second that may be sent to the terminal; 0 means no limit.
     pub bandwidth: Option<u32>,
     /// The colours to use.
     pub colour: Choice,
@@ -110,8 +109,11 @@ pub enum Ending {
     Quit,
     /// It was interrupted from outside.
     Interrupted,
-    /// It was asked from outside to end.
-    Terminated,
+    /// Another signal asked it to end.
+    Terminated {
+        /// The signal's number.
+        signal: u8,
+    },
     /// The terminal is gone.
     HungUp,
 }
@@ -122,7 +124,7 @@ pub enum Error {
     /// The scene can't be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// A file that is no scene by its name.
+    /// A file that is not a scene by its name.
     #[error(transparent)]
     UnknownLanguage(#[from] UnknownLanguage),
     /// A folder to read from can't be read.
@@ -143,6 +145,9 @@ pub enum Error {
         /// The argument.
         path: PathBuf,
     },
+    /// Standard output goes elsewhere.
+    #[error("the interface needs a terminal; to make a picture: halflight render SCENE -o FILE")]
+    NoTerminal,
     /// A terminal that cannot place text.
     #[error(
         "TERM=dumb: the interface needs a terminal that can move its cursor; if this one can, set \
@@ -160,6 +165,9 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
     heap::map_large();
     let (path, language, text) = find_scene(options.scene.as_deref())?;
     check_folders(&options.assets)?;
+    if !io::stdout().is_terminal() {
+        return Err(Error::NoTerminal);
+    }
     if env::var_os("TERM").is_some_and(|term| term == "dumb") {
         return Err(Error::DumbTerminal);
     }
@@ -197,13 +205,33 @@ fn find_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Language, Openin
             path: path.to_owned(),
         }
     })?;
-    match file::scene_length(path) {
-        Ok(bytes) => Ok((Some(path.to_owned()), language, OpeningText::Unread(bytes))),
-        Err(ReadError::NotFound { .. }) if named.is_none() => Ok((
-            None,
-            language,
-            OpeningText::Known(EMBEDDED_SCENE.to_owned()),
-        )),
-        Err(error) => Err(error.into()),
+    let error = match file::scene_length(path) {
+        Ok(bytes) => return Ok((Some(path.to_owned()), language, OpeningText::Unread(bytes))),
+        Err(error) => error,
+    };
+    let is_missing = matches!(error, ReadError::NotFound { .. });
+    let kept = || recovery::base_of(path, language).filter(|text| fits(language, text));
+    if let Some(text) = is_missing.then(kept).flatten() {
+        return Ok((Some(path.to_owned()), language, OpeningText::Kept(text)));
+    }
+    if is_missing && named.is_none() {
+        let text = EMBEDDED_SCENE.to_owned();
+        return Ok((None, language, OpeningText::Known(text)));
+    }
+    Err(error.into())
+}
+
+fn fits(language: Language, text: &str) -> bool {
+    language::fits(language, text, text.len()).is_ok()
+}
+
+/// What is to be said besides an error: that edits are kept of the scene that can't be opened.
+pub fn note(options: &Options, error: &Error) -> Option<String> {
+    let path = options.scene.as_deref();
+    let path = path.unwrap_or_else(|| Path::new(DEFAULT_SCENE));
+    match error {
+        Error::Read(error) => recovery::note(path, matches!(error, ReadError::NotFound { .. })),
+        Error::Folder { .. } => recovery::note(path, false),
+        _ => None,
     }
 }

@@ -83,7 +83,10 @@ pub enum Msg {
     /// Someone outside interrupts the process.
     Interrupt,
     /// The process was asked to end.
-    Terminate,
+    Terminate {
+        /// The number of the signal that asked.
+        signal: u8,
+    },
     /// The terminal is gone.
     HangUp,
     /// The terminal shows fewer colours than pictures have, for all that is known; which.
@@ -225,7 +228,7 @@ pub struct Destination {
 pub struct Exported {
     /// Where.
     pub path: PathBuf,
-    /// The file as it was then; `None` for what is no file.
+    /// The file as it was then; `None` for what is not a file.
     pub version: Option<Version>,
 }
 

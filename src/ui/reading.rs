@@ -8,6 +8,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 
+use super::heap;
 use super::msg::Msg;
 use crate::document::{Document, Merge, Merged, Snapshot};
 use crate::file;
@@ -214,6 +215,7 @@ fn follow(
                 if text.len() < LARGE {
                     return Reading::new(text, known);
                 }
+                heap::keep_large();
                 match &*pool {
                     Ok(pool) => pool.install(|| Reading::new(text, known)),
                     Err(_) => Reading::new(text, known),

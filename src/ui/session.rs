@@ -1,8 +1,10 @@
 //! The loop: waits for events, takes steps, draws.
 
+use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::io;
 use std::mem;
+use std::path::Path;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
@@ -153,8 +155,8 @@ impl Session {
     /// Gives the terminal back, and prints there where unsaved edits went.
     fn close(mut self) -> Result<Ending, Error> {
         let unreadable = self.app.unreadable.take();
-        let path = self.app.path.as_ref();
-        let path = path.map_or_else(String::new, |path| format!(" {}", path.display()));
+        let path = self.app.path.as_deref();
+        let path = path.map_or_else(String::new, |path| format!(" {}", argument(path)));
         // The end of the process frees a large scene at once.
         mem::forget(self.app);
         let (terminal, files) = patience(self.ending);
@@ -166,7 +168,7 @@ impl Session {
             End::Lost(reason) => Some(format!("not all unsaved edits are kept: {reason}")),
         };
         if let Some(words) = words {
-            terminal::complain(text::visible(&words).into_owned());
+            terminal::complain(text::visible(&text::without_codes(&words)).into_owned());
         }
         unreadable.map_or(Ok(self.ending), |error| Err(error.into()))
     }
@@ -240,6 +242,8 @@ impl Session {
         }
         let effects = self.app.update(msg);
         self.perform(effects);
+        let are_kept = self.app.has_kept_edits();
+        self.world.terminal().note_kept_edits(are_kept);
     }
 
     fn perform(&mut self, effects: Vec<Effect>) {
@@ -249,7 +253,7 @@ impl Session {
                 effect,
                 Effect::OpenEditor { .. } | Effect::Suspend | Effect::TakeTerminal
             ) {
-                // How long another program has the terminal is no measure of the link.
+                // How long another program has the terminal says nothing of the link.
                 self.waiting = None;
             }
             if let Some(msg) = self.world.perform(effect) {
@@ -300,13 +304,24 @@ impl Session {
     }
 }
 
+/// A path as it is typed behind a command of a shell.
+fn argument(path: &Path) -> String {
+    let mut path = path.to_string_lossy();
+    if path.starts_with('-') {
+        path = format!("./{path}").into();
+    }
+    // Paths hold no zeros, which alone can't be quoted.
+    let quoted = shlex::try_quote(&path).unwrap_or(Cow::Borrowed(&path));
+    quoted.into_owned()
+}
+
 /// How long the terminal may take to be restored, and files to be written. A user who quits may sit
 /// at the far end of a slow link, but should not wait a second for a terminal that takes nothing;
 /// a file that is being saved gets longer. A terminal that hung up is not waited for.
 fn patience(ending: Ending) -> (Duration, Duration) {
     let (terminal, files) = match ending {
         Ending::Quit | Ending::Interrupted => (700, 2000),
-        Ending::Terminated => (400, 700),
+        Ending::Terminated { .. } => (400, 700),
         Ending::HungUp => (100, 700),
     };
     (
@@ -319,8 +334,26 @@ fn patience(ending: Ending) -> (Duration, Duration) {
 fn ending(msg: &Msg) -> Ending {
     match msg {
         Msg::Interrupt => Ending::Interrupted,
-        Msg::Terminate => Ending::Terminated,
+        Msg::Terminate { signal } => Ending::Terminated { signal: *signal },
         Msg::HangUp => Ending::HungUp,
         _ => Ending::Quit,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_is_quoted_for_a_shell() {
+        for (path, typed) in [
+            ("a/b.ray", "a/b.ray"),
+            ("my scene.ray", "'my scene.ray'"),
+            ("it's.ray", "\"it's.ray\""),
+            ("$(a).ray", "'$(a).ray'"),
+            ("-x.ray", "./-x.ray"),
+        ] {
+            assert_eq!(argument(Path::new(path)), typed);
+        }
     }
 }

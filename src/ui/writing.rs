@@ -149,7 +149,8 @@ impl Drop for Report {
 fn save(path: PathBuf, text: Arc<String>, guard: &Guard) -> SaveOutcome {
     let folder = file::directory_of(&path);
     if let Ok(false) = folder.try_exists() {
-        return SaveOutcome::Failed(format!("{}: no such folder", folder.display()));
+        let reason = file::no_such_folder(folder);
+        return SaveOutcome::Failed(format!("{}: {reason}", folder.display()));
     }
     let saved = file::replace(
         &path,
@@ -263,11 +264,16 @@ mod tests {
     #[test]
     fn a_scene_is_not_saved_in_a_folder_that_is_not_there() {
         let place = tempfile::tempdir().expect("a folder");
-        let path = place.path().join("none").join("x.ray");
-        let outcome = save(path, Arc::default(), &Guard::Absent);
-        assert!(
-            matches!(outcome, SaveOutcome::Failed(said) if said.ends_with("none: no such folder"))
-        );
+        for (path, reason) in [
+            (place.path().join("none/x.ray"), "none: no such folder"),
+            (
+                "~none/x.ray".into(),
+                "~none: no such folder; only shells expand ~",
+            ),
+        ] {
+            let outcome = save(path, Arc::default(), &Guard::Absent);
+            assert!(matches!(outcome, SaveOutcome::Failed(said) if said.ends_with(reason)));
+        }
     }
 
     #[test]

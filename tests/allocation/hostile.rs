@@ -78,7 +78,7 @@ fn cases() -> Vec<Case> {
         case(
             "nan.ray",
             "nan inf 1e999 1".to_owned(),
-            "`nan` is no number",
+            "`nan` is not a number",
             0,
         ),
         case(

@@ -31,6 +31,19 @@ fn a_scene_that_cannot_be_read_ends_with_66() {
 }
 
 #[test]
+fn the_interface_says_what_is_wrong_with_a_scene_before_it_asks_for_a_terminal() {
+    let place = Place::new();
+    place.write("a.ray", "");
+    for (name, code, message) in [
+        ("none.ray", 66, "none.ray: no such file"),
+        ("a.ray", 2, "the interface needs a terminal"),
+    ] {
+        let stderr = place.stderr(name, code);
+        assert!(stderr.contains(message), "{stderr}");
+    }
+}
+
+#[test]
 fn a_file_that_is_not_a_scene_ends_with_65() {
     let place = Place::new();
     place.write("latin.ray", b"1 1 1\n// \xE9\n");
@@ -138,10 +151,10 @@ fn the_backup_of_an_interrupted_save_is_named() {
     place.write(".halflight-backup-0-00c0ffee-ball.ray", "old");
     for line in ["check ball.ray", "render ball.ray -o a.bmp"] {
         let stderr = place.stderr(line, 0);
-        let words = "note: the last save of ball.ray was interrupted: its previous content is in ";
+        let words = "note: a save of ball.ray was interrupted: the content before it is in ";
         assert!(stderr.starts_with(words), "{stderr}");
         assert!(
-            stderr.contains(".halflight-backup-0-00c0ffee-ball.ray\n"),
+            stderr.contains(".halflight-backup-0-00c0ffee-ball.ray; delete that if"),
             "{stderr}"
         );
     }

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::*;
 
 #[test]
-fn a_reader_that_leaves_early_is_no_error() {
+fn a_reader_that_leaves_early_is_not_an_error() {
     let place = Place::new();
     let mut child = place
         .command("render ball.ray -o - --size 400x300 --spp 1")
@@ -65,7 +65,7 @@ fn a_closed_output_stream_is_an_error() {
 
 #[test]
 #[cfg(unix)]
-fn a_closed_error_stream_is_no_panic() {
+fn a_closed_error_stream_causes_no_panic() {
     let place = Place::new();
     let (reader, writer) = std::io::pipe().expect("a pipe");
     drop(reader);

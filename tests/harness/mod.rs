@@ -216,6 +216,13 @@ impl Session {
         self.output = listen(reader.expect("it can be read"), Arc::clone(&self.deaf));
     }
 
+    /// Reads what is left after [`Session::hang`] and the program's end.
+    #[allow(dead_code, reason = "not everybody's terminal hangs")]
+    pub(crate) fn read_the_rest(&mut self) {
+        self.read_again();
+        while self.read(WATCHDOG).is_some() {}
+    }
+
     /// Reads no more, as a terminal that hangs, until the program's output finds no room.
     #[allow(dead_code, reason = "not everybody's terminal hangs")]
     pub(crate) fn hang(&mut self) {

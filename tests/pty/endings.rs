@@ -23,21 +23,54 @@ fn ctrl_c_asks_before_edits_are_lost() {
 
 #[test]
 fn signals_end_it_with_their_codes() {
-    for (signal, code) in [(Signal::INT, 130), (Signal::TERM, 143), (Signal::HUP, 129)] {
+    for signal in [
+        Signal::INT,
+        Signal::TERM,
+        Signal::HUP,
+        Signal::QUIT,
+        Signal::ALARM,
+        Signal::PROF,
+        Signal::USR1,
+        Signal::USR2,
+        Signal::VTALARM,
+        Signal::XCPU,
+    ] {
         let place = Place::new();
         let session = place.open();
         kill(session.process_id(), signal);
-        assert_end(session, code);
+        assert_end(session, 128 + signal.as_raw().cast_unsigned());
         assert!(place.recovery_files().is_empty(), "{signal:?}");
     }
 }
 
 #[test]
 fn an_abort_gives_the_terminal_back() {
+    for (signal, words) in [
+        (Signal::ABORT, "halflight aborted"),
+        (Signal::FPE, "halflight was ended by SIGFPE"),
+        (Signal::ILL, "halflight was ended by SIGILL"),
+    ] {
+        let place = Place::new();
+        let session = place.open();
+        kill(session.process_id(), signal);
+        assert_aborted(session, words);
+    }
+}
+
+#[test]
+fn an_abort_tells_of_edits_that_are_kept() {
     let place = Place::new();
-    let session = place.open();
+    // Without trouble before it, nothing shows when edits are kept.
+    place.write(".local", "in the way");
+    let mut session = place.open_edited();
+    session.wait_for("[not kept]");
+    fs::remove_file(place.at(".local")).expect("it is there");
+    wait_until_gone(&mut session, "[not kept]");
     kill(session.process_id(), Signal::ABORT);
-    assert_aborted(session);
+    assert_aborted(
+        session,
+        "halflight aborted; unsaved edits are kept, the next run of the scene offers them",
+    );
 }
 
 #[cfg(target_os = "linux")]
@@ -54,14 +87,18 @@ fn memory_that_runs_out_gives_the_terminal_back() {
     prlimit(process, Resource::As, nothing).expect("a limit can be lowered");
     // Its cells take more memory than is left over.
     session.resize(2000, 250);
-    assert_aborted(session);
+    assert_aborted(session, "halflight aborted");
 }
 
-fn assert_aborted(mut session: Session) {
+/// Expects the death by a signal, and these words alone on a line of the restored screen.
+fn assert_aborted(mut session: Session, words: &str) {
     let status = session.end();
     session.assert_restored();
     let screen = session.screen().contents();
-    assert!(screen.contains("halflight aborted"), "{screen}");
+    assert!(
+        screen.lines().any(|line| line.trim_end() == words),
+        "{screen}"
+    );
     assert!(status.signal().is_some(), "{status:?}");
 }
 
@@ -83,7 +120,7 @@ fn unsaved_edits_outlive_the_process() {
         assert_eq!(mode & 0o777, 0o600);
 
         let mut session = place.start(&["balls.ray"], WIDE);
-        session.wait_for("Edits of an earlier run of balls.ray were never saved");
+        session.wait_for("balls.ray has unsaved edits from an earlier run");
         session.send("r");
         session.wait_for("balls.ray [+]");
         session.send("w");
@@ -124,8 +161,22 @@ fn a_terminal_that_nobody_reads_holds_up_no_ending() {
         end(&mut session);
         assert_eq!(session.end().exit_code(), code, "after {ending}");
         assert_eq!(place.kept_texts(), [edited()], "after {ending}");
-        assert!(!session.has_terminal() || session.has_settings_from_before());
+        if session.has_terminal() {
+            session.read_the_rest();
+            session.assert_restored();
+        }
     }
+}
+
+#[test]
+fn an_abort_gives_back_a_terminal_that_nobody_reads() {
+    let place = Place::new();
+    let mut session = place.open_edited();
+    session.hang();
+    kill(session.process_id(), Signal::ABORT);
+    session.end();
+    session.read_the_rest();
+    session.assert_restored();
 }
 
 #[test]
@@ -224,7 +275,7 @@ fn the_editor_gets_the_first_key_and_gives_the_screen_back() {
     assert!(session.has_settings_from_before());
     session.send(["qx", ENTER].concat());
     session.wait("it is back", |screen| picture(screen).len() == before.len());
-    session.wait_for("read again");
+    session.wait_for("reloaded");
     assert_eq!(place.read("line"), "qx");
     assert_eq!(place.read("balls.ray"), format!("{BALLS}// seen\n"));
     session.send("q");
@@ -313,7 +364,7 @@ fn a_pipe_is_refused_and_holds_up_no_save() {
     mknodat(CWD, place.at("pipe.ray"), FileType::Fifo, Mode::RWXU, 0).expect("a pipe");
     mknodat(CWD, place.at("pipe"), FileType::Fifo, Mode::RWXU, 0).expect("a pipe");
     session.send(":w! pipe\r");
-    session.wait_for("pipe: this scene's name ends in .ray; pipe: is a pipe, not a file");
+    session.wait_for("pipe: the name must end in .ray; pipe: is a pipe, not a file");
     session.send(ESC);
     wait_until_gone(&mut session, "w pipe.ray");
     session.send(":w! pipe.ray\r");
@@ -373,6 +424,6 @@ fn an_interrupted_save_is_reported() {
     let place = Place::new();
     place.write(".halflight-backup-0-00c0ffee-balls.ray", "old");
     let mut session = place.start(&["balls.ray"], WIDE);
-    session.wait_for("the last save of balls.ray was interrupted");
+    session.wait_for("a save of balls.ray was interrupted");
     quit(session);
 }

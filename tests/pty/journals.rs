@@ -3,7 +3,7 @@
 
 use super::*;
 
-const QUESTION: &str = "Edits of an earlier run of";
+const QUESTION: &str = "unsaved edits from an earlier run";
 
 /// Makes the green ball's radius another one, as another editor does while the program is not there.
 fn change_green(place: &Place, radius: &str) {
@@ -159,6 +159,83 @@ fn a_journal_that_somebody_removed_is_written_again_at_the_end() {
         session.end();
         assert_eq!(place.kept_texts(), [edited()]);
     }
+}
+
+#[test]
+fn a_journal_that_somebody_emptied_is_written_again_at_the_end() {
+    let place = Place::new();
+    let mut session = place.open_edited();
+    wait_until_kept(&place, &mut session, &edited());
+    for journal in place.recovery_files() {
+        fs::write(journal, "").expect("it is ours");
+    }
+    kill(session.process_id(), Signal::HUP);
+    session.end();
+    assert_eq!(place.kept_texts(), [edited()]);
+}
+
+#[test]
+fn the_last_intact_edits_of_a_damaged_journal_are_offered() {
+    let place = Place::new();
+    let mut session = place.open_edited();
+    let text = |radius| BALLS.replacen(".80", radius, 1);
+    wait_until_kept(&place, &mut session, &text("2"));
+    for radius in ["3", "4"] {
+        session.send([radius, ENTER].concat());
+        wait_until_kept(&place, &mut session, &text(radius));
+    }
+    kill(session.process_id(), Signal::KILL);
+    session.end();
+    let [journal] = &place.recovery_files()[..] else {
+        panic!("one journal");
+    };
+    let content = fs::read_to_string(journal).expect("a text");
+    fs::write(journal, content.replacen("0 0 3 ", "0 0 7 ", 1)).expect("it is ours");
+
+    let mut session = place.start(&["balls.ray"], WIDE);
+    session.wait_for(QUESTION);
+    session.wait_for("damaged: these are the last");
+    session.send("r");
+    session.wait_for("restored");
+    session.send("w");
+    session.wait_for("wrote balls.ray");
+    quit(session);
+    assert_eq!(place.read("balls.ray"), text("4"));
+    let aside = format!("{}.damaged", journal.display());
+    assert!(PathBuf::from(aside).exists());
+}
+
+#[test]
+fn edits_of_a_file_that_is_gone_are_offered() {
+    let place = Place::new();
+    crash_with_edits(&place);
+    fs::remove_file(place.at("balls.ray")).expect("it is there");
+    let mut session = place.start(&["balls.ray"], WIDE);
+    session.wait_for(QUESTION);
+    session.wait_for("no such file");
+    session.send("r");
+    session.wait_for("restored");
+    session.send("w");
+    session.wait_for("wrote balls.ray");
+    quit(session);
+    assert_eq!(place.read("balls.ray"), edited());
+    assert_eq!(place.kept_texts(), [] as [String; 0]);
+}
+
+#[test]
+fn what_stands_in_the_way_of_a_scene_hides_no_edits_of_it() {
+    let place = Place::new();
+    crash_with_edits(&place);
+    fs::remove_file(place.at("balls.ray")).expect("it is there");
+    fs::create_dir(place.at("balls.ray")).expect("the name is free");
+    let mut session = place.start(&["balls.ray"], WIDE);
+    assert_eq!(session.end().exit_code(), 66);
+    let text = session.text();
+    assert!(
+        text.contains("note: unsaved edits of it are kept in"),
+        "{text}"
+    );
+    assert_eq!(place.kept_texts(), [edited()]);
 }
 
 #[test]

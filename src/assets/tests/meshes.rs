@@ -91,7 +91,7 @@ fn a_mesh_that_cannot_be_read_is_told_with_its_reason() {
         (
             "bad.obj",
             &[
-                "line 2, column 7: v: `x` is no number",
+                "line 2, column 7: v: `x` is not a number",
                 "line 4, column 6: f: expected three corners or more, found 2 corners",
             ],
             None,
@@ -137,7 +137,7 @@ fn a_library_that_cannot_be_read_is_a_doubt() {
         ),
         (
             "bad.mtl",
-            "bad.mtl: line 2, column 4: Kd: `x` is no number".to_owned(),
+            "bad.mtl: line 2, column 4: Kd: `x` is not a number".to_owned(),
         ),
     ] {
         place.write("a.obj", TRIANGLE.replace("a.mtl", library));

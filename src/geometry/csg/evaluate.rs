@@ -147,7 +147,7 @@ fn narrowed<N: Lanes>(
     let far = far + rounding * far.abs();
     let stays = slowness.abs().equals(origin.all(f64::INFINITY));
     let outside = origin.below(min) | max.below(origin);
-    // What is no number narrows nothing.
+    // What is not a number narrows nothing.
     let low = N::select(low.below(near) & !stays, near, low);
     let high = N::select(far.below(high) & !stays, far, high);
     ([low, high], !(stays & outside))

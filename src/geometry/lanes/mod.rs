@@ -60,9 +60,9 @@ pub trait Lanes:
     /// The product with `factor`, plus `term`, rounded once.
     #[must_use]
     fn mul_add(self, factor: Self, term: Self) -> Self;
-    /// Whether this is below the other; not if either is no number.
+    /// Whether this is below the other; not if either is not a number.
     fn below(self, other: Self) -> Self::Mask;
-    /// Whether this is the other or below it; not if either is no number.
+    /// Whether this is the other or below it; not if either is not a number.
     fn up_to(self, other: Self) -> Self::Mask;
     /// Whether this equals the other.
     fn equals(self, other: Self) -> Self::Mask;

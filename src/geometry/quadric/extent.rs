@@ -270,7 +270,7 @@ impl Region<'_> {
 }
 
 /// The places where Σ sᵢ pᵢ² + 2 h · p + k = 0 is parallel to the planes on which g · p is constant,
-/// and the centre, if the function has one. Not all are real; those that are not are no numbers.
+/// and the centre, if the function has one. Not all are real; those that are not are not numbers.
 ///
 /// With a multiplier μ, pᵢ = (μ gᵢ − hᵢ) / sᵢ, and μ² = (h² + s S) / (g² + s R) for one of the axes,
 /// with the sums of the others S = Σ h²/s − k and R = Σ g²/s. That axis is the one which needs it:

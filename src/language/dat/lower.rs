@@ -99,7 +99,7 @@ struct Reader<'a> {
 
 /// Which objects are drawn.
 enum Drawn {
-    /// Those that are no operands, for want of a record.
+    /// Those that are not operands, for want of a record.
     Results,
     /// All of them; where the text says so.
     All(Span),
@@ -216,7 +216,7 @@ impl Reader<'_> {
     }
 
     /// The number by which a record is known, in `line`; warns of one that is taken, whose record
-    /// is dropped then. `None` if it is, or is no number.
+    /// is dropped then. `None` if it is, or is not a number.
     fn know(&mut self, category: Category, line: &Line<'_>, index: usize) -> Option<i64> {
         let (id, span) = line.id?;
         match self.ids.entry((category, id)) {

@@ -1,6 +1,6 @@
 //! The grammar of `.ray`: ambient light, lights, objects, as the table of fields lists them.
 //!
-//! After an error the reader goes on where the text makes sense again: after a token that is no
+//! After an error the reader goes on where the text makes sense again: after a token that is not a
 //! number at the next token, everywhere else at the next object keyword.
 
 use std::sync::Arc;
@@ -136,7 +136,7 @@ struct Run {
 pub(super) struct Reader<'a> {
     pub(super) text: &'a str,
     pub(super) tokens: &'a [Span],
-    /// Whether others follow that are not known: that the tokens end is no error then.
+    /// Whether others follow that are not known: that the tokens end is not an error then.
     pub(super) is_beginning: bool,
     /// Index of the next token.
     pub(super) at: usize,
@@ -284,7 +284,7 @@ impl<'a> Reader<'a> {
         });
     }
 
-    /// The tokens from here to the first object. A word that is no keyword counts as an object at
+    /// The tokens from here to the first object. A word that is not a keyword counts as an object at
     /// `due`, where one should begin; elsewhere it stands for a number.
     fn run(&self, due: Option<usize>) -> Run {
         let rest = &self.tokens[self.at..];

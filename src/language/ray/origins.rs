@@ -177,7 +177,7 @@ impl Origins {
         (self.lights.1 + each - position) / each
     }
 
-    /// The tokens that are a node's numbers; none for the view, whose numbers are no tokens.
+    /// The tokens that are a node's numbers; none for the view, whose numbers are not tokens.
     fn numbers(&self, tree: &Tree, node: Node) -> Vec<Span> {
         let (start, len) = match node {
             Node::View

@@ -99,7 +99,7 @@ fn a_beginning_without_hope_says_so() {
         (Dat, &long, None),
         (Ray, &long, Some("a word of more than 1024 bytes")),
         (Ray, &digits, None),
-        (Xml, &long, Some("this is no part of XML")),
+        (Xml, &long, Some("this is not part of XML")),
         (
             Ray,
             &numbers,

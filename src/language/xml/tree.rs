@@ -27,7 +27,7 @@ pub struct Tree {
     pub comments: Vec<Span>,
     /// Text between tags, without the white space around it, and the element that it is in.
     pub words: Vec<(Span, u32)>,
-    /// Why the text is no XML; there are no elements then.
+    /// Why the text is not XML; there are no elements then.
     pub fault: Option<Diagnostic>,
     /// What is one leaf although it may hold white space: values, comments, instructions.
     whole: Vec<Span>,

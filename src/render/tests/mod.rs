@@ -188,7 +188,7 @@ fn level(scene: Scene, depth: u32, ray: Ray) -> f64 {
     let radiance = look(scene, depth, ray).0.radiance;
     assert!(
         radiance.x == radiance.y && radiance.y == radiance.z,
-        "{radiance} is no grey"
+        "{radiance} is not grey"
     );
     radiance.x
 }

@@ -57,7 +57,7 @@ fn noise_is_the_same_number_for_any_threads() {
 }
 
 #[test]
-fn noise_is_not_told_of_one_sample_nor_of_what_is_no_light() {
+fn noise_is_not_told_of_one_sample_nor_of_what_is_not_light() {
     assert_eq!(traced(settings(40, 30, 1), 1).progress.noise, None);
     let albedo = Settings {
         aov: Some(Aov::Albedo),

@@ -120,7 +120,7 @@ impl App {
         } else if let Some(words) = found {
             self.say(words);
         } else if !is_first && (are_meshes_new || are_images_new) {
-            self.say("files read again");
+            self.say("files reloaded");
         }
     }
 
@@ -143,7 +143,7 @@ impl App {
     fn tell_of_files(&mut self) {
         let meshes = self.meshes.unreadable();
         match meshes + self.assets.troubles.len() {
-            0 => self.say("all files can be read again"),
+            0 => self.say("all files can be read now"),
             count => {
                 let words = format!("{} can't be read: ! shows why", counted(count, "file"));
                 if meshes == 0 {

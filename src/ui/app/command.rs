@@ -141,7 +141,7 @@ fn wrong_word(words: &[&str]) -> Option<String> {
     if numbers("") {
         Some(format!("{word}: samples a pixel are 1 to {MAX_SPP}"))
     } else if numbers("xX×*") {
-        Some(format!("`{word}` is no size: 800x600 is one"))
+        Some(format!("`{word}` is not a size such as 800x600"))
     } else if words.last().is_some_and(is_picture) || !words.iter().any(is_picture) {
         None
     } else {
@@ -155,9 +155,9 @@ fn unknown(name: &str) -> String {
         .min_by_key(|known| slips(name, known))
         .filter(|known| slips(name, known) <= 2);
     match nearest {
-        Some(nearest) => format!("{name} is no command; {nearest} is"),
+        Some(nearest) => format!("{name} is not a command; did you mean {nearest}?"),
         None => format!(
-            "{name} is no command; the commands are {}",
+            "{name} is not a command; the commands are {}",
             NAMES.join(", ")
         ),
     }
@@ -231,7 +231,7 @@ impl App {
             let name = path.with_extension(extension);
             self.open_prompt(PromptKind::Command, &format!("w {}", name.display()));
             let shown = path.display();
-            self.fail(format!("{shown}: this scene's name ends in .{extension}"));
+            self.fail(format!("{shown}: the name must end in .{extension}"));
             // What stands there may be no file at all.
             return vec![Effect::CheckPlace(path.clone())];
         }

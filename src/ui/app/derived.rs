@@ -168,7 +168,7 @@ impl App {
     }
 
     /// What the selected object combines, in order, each with how deep it lies below it: the first
-    /// ones, if they are many. Nothing where it is no combination.
+    /// ones, if they are many. Nothing where it is not a combination.
     pub fn parts(&self) -> Vec<(usize, Node)> {
         match self.selected {
             Node::Object(object) => self.source().parts(object, 1 + MOST_PARTS).split_off(1),

@@ -31,8 +31,8 @@ struct Words {
     end: &'static str,
 }
 
-const READ_AGAIN: Words = Words {
-    came: "read again",
+const RELOADED: Words = Words {
+    came: "reloaded",
     same: "the scene is unchanged",
     end: "",
 };
@@ -192,7 +192,7 @@ impl App {
         self.disk = Disk::Known;
         self.broken = None;
         let (document, meaning, words) = match *news {
-            News::Text(document, meaning) => (self.document.load(document), meaning, READ_AGAIN),
+            News::Text(document, meaning) => (self.document.load(document), meaning, RELOADED),
             News::Merged(merged, meaning) => {
                 let words = if merged.document.is_dirty() {
                     MERGED

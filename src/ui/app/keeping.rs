@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::App;
 use super::model::Await;
+use crate::text::without_codes;
 use crate::ui::msg::{Effect, Timer};
 
 /// How long an edit may go without being kept, and how often a held key is written down.
@@ -36,6 +37,12 @@ impl App {
             Some(kept) => kept == self.document.revision() && self.document.is_dirty(),
             None => !self.document.is_dirty(),
         }
+    }
+
+    /// Whether the journal holds the unsaved edits as they are.
+    pub fn has_kept_edits(&self) -> bool {
+        let kept = self.pending.keeping.revision;
+        kept == Some(self.document.revision()) && self.document.is_dirty()
     }
 
     /// Whether unsaved edits would be lost with the program though they should be kept by now.
@@ -121,5 +128,6 @@ impl App {
 
 /// The message about edits that can't be kept.
 fn words(reason: &str) -> String {
-    format!("unsaved edits can't be kept for recovery: {reason}")
+    let words = format!("unsaved edits can't be kept for recovery: {reason}");
+    without_codes(&words).into_owned()
 }

@@ -5,7 +5,7 @@ use crate::text::{decimals, parse_number, spell_like, without_suffix};
 
 /// The literal after adding `change`, a multiple of `step`, spelled like the old one. It has the
 /// decimals of the old number or of the step, whichever has more, so that no trace of binary
-/// fractions appears. `None` if it is no number.
+/// fractions appears. `None` if it is not a number.
 pub(super) fn nudged(literal: &str, change: f64, step: f64) -> Option<String> {
     let old = parse_number(plain(literal)).ok()?;
     let places = decimals(&old.to_string()).max(decimals(&step.to_string()));

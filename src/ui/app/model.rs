@@ -96,6 +96,8 @@ pub struct App {
     pub errors: Option<usize>,
     /// The last thing worth saying.
     pub message: Option<Message>,
+    /// What was shown before a key took it away.
+    pub past_message: Option<Message>,
     /// How the file on disk stands to the text.
     pub disk: Disk,
     /// What is wrong with the file on disk while it is [`Disk::Broken`].
@@ -359,6 +361,8 @@ pub(super) struct Pending {
     pub(super) offer: Option<Box<Offer>>,
     /// The journals that the user decides about another time.
     pub(super) put_off: Vec<String>,
+    /// What was said to be wrong with journals.
+    pub(super) complaints: Vec<String>,
     /// The export that was begun last.
     pub(super) export: ExportId,
     /// The pictures written so far, by their paths: as long as they are unchanged they may be

@@ -42,6 +42,8 @@ pub enum OpeningText {
     Known(String),
     /// It is yet to be read from a file of so many bytes.
     Unread(u64),
+    /// It is what the file held that is missing now, as edits of it that are kept tell.
+    Kept(String),
 }
 
 /// A scene that is being read for the first time.
@@ -54,8 +56,14 @@ pub struct Unread {
 impl App {
     /// The interface as it opens, and what is to be done first.
     pub fn open(opening: Opening) -> (Self, Vec<Effect>) {
+        let disk = match opening.text {
+            OpeningText::Kept(_) => Disk::Missing,
+            OpeningText::Known(_) | OpeningText::Unread(_) => Disk::Known,
+        };
         let (document, unread) = match opening.text {
-            OpeningText::Known(text) => (Document::new(opening.language, text), None),
+            OpeningText::Known(text) | OpeningText::Kept(text) => {
+                (Document::new(opening.language, text), None)
+            }
             OpeningText::Unread(bytes) => {
                 let unread = Unread { bytes };
                 (Document::new(opening.language, String::new()), Some(unread))
@@ -89,7 +97,8 @@ impl App {
             help: None,
             errors: None,
             message: None,
-            disk: Disk::default(),
+            past_message: None,
+            disk,
             broken: None,
             outline: Outline::default(),
             cross: (0, 0),

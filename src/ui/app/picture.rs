@@ -78,7 +78,7 @@ impl Shown {
         self.outline.get(at) == Some(&true)
     }
 
-    /// The outline of an object: its pixels with a neighbour that is not. The picture's edge is no
+    /// The outline of an object: its pixels with a neighbour that is not. The picture's edge is not a
     /// border: an object that goes on beyond it is not framed by it.
     fn outline_of(&self, object: u32) -> Vec<bool> {
         let Size { width, height } = self.size;

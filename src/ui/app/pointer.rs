@@ -56,7 +56,7 @@ impl App {
     }
 
     fn press(&mut self, at: (u16, u16)) -> Vec<Effect> {
-        self.message = None;
+        self.clear_message();
         self.typing = None;
         let areas = self.areas();
         if let Some(row) = list_row_at(areas.list, self.list_top, at.0, at.1) {

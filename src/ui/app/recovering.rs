@@ -20,8 +20,14 @@ impl App {
     }
 
     pub(super) fn found_kept(&mut self, found: Found) {
-        if let Some(complaint) = found.complaints.into_iter().next_back() {
-            self.warn(complaint);
+        let said = &mut self.pending.complaints;
+        let mut complaints = found.complaints;
+        complaints.retain(|complaint| !said.contains(complaint));
+        said.extend_from_slice(&complaints);
+        match (complaints.pop(), complaints.len()) {
+            (None, _) => {}
+            (Some(last), 0) => self.warn(last),
+            (Some(last), more) => self.warn(format!("{last}; and {more} more")),
         }
         if let Some(offer) = found.offer {
             self.pending.offer = Some(offer);
@@ -92,7 +98,7 @@ impl App {
     fn restored(&mut self, claim: Arc<Claim>, since: Since) -> Vec<Effect> {
         self.relower();
         self.say(match since {
-            Since::Same | Since::Unknown => "restored; u undoes",
+            Since::Same => "restored; u undoes",
             Since::Changed => "restored and merged with what has changed since; u undoes",
         });
         // Only once they are in this run's journal is the other one removed.

@@ -5,9 +5,8 @@ use tui_input::Input;
 
 use super::assets::STILL_READING;
 use super::{App, Help, HelpFocus, Message, Mode, Outline, Prompt, PromptKind, line};
-use crate::text::Severity;
-use crate::ui::keymap;
-use crate::ui::keymap::{Action, Context};
+use crate::text::{Severity, without_codes};
+use crate::ui::keymap::{self, Action, Context};
 use crate::ui::msg::{Effect, Msg, Timer};
 use crate::ui::terminal::Mouse;
 use crate::ui::view::layout::Zoom;
@@ -54,7 +53,7 @@ impl App {
             Msg::Suspend => return vec![Effect::Suspend],
             Msg::Continued => return vec![Effect::TakeTerminal],
             Msg::Interrupt => return self.interrupt(),
-            Msg::Terminate | Msg::HangUp => return self.quit_keeping_edits(),
+            Msg::Terminate { .. } | Msg::HangUp => return self.quit_keeping_edits(),
             Msg::FewColours(depth) => self.suggest(depth.cure()),
             Msg::Failed(reason) => self.fail_too(&reason),
         }
@@ -62,7 +61,7 @@ impl App {
     }
 
     fn key(&mut self, key: KeyEvent) -> Vec<Effect> {
-        self.message = None;
+        self.clear_message();
         let context = keymap::context(self);
         let action = keymap::action(context, key);
         let is_line = self.typing.is_some()
@@ -186,6 +185,7 @@ impl App {
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),
             Action::Errors => self.toggle_errors(),
+            Action::Message => self.show_past_message(),
             Action::Help => self.help = Some(Help::default()),
             Action::Zoom => self.toggle_zoom(),
             Action::Show(aov) => self.show(aov),
@@ -295,29 +295,24 @@ impl App {
     }
 
     /// Shows a message unless another one is shown already.
-    fn suggest(&mut self, text: String) {
+    fn suggest(&mut self, text: impl Into<String>) {
         if self.message.is_none() {
             self.say(text);
         }
     }
 
     pub(super) fn say(&mut self, text: impl Into<String>) {
-        self.message = Some(Message {
-            severity: None,
-            text: text.into(),
-        });
+        self.show_message(None, text);
     }
 
     pub(super) fn warn(&mut self, text: impl Into<String>) {
-        self.message = Some(Message {
-            severity: Some(Severity::Warning),
-            text: text.into(),
-        });
+        self.show_message(Some(Severity::Warning), text);
     }
 
     /// Says that something failed beside what may have failed before: of two errors the first one is
     /// usually the other's cause.
     fn fail_too(&mut self, text: &str) {
+        let text = &*without_codes(text);
         let before = self.message.as_ref();
         let before = before.filter(|before| before.severity == Some(Severity::Error));
         let both = before.map(|before| {
@@ -331,9 +326,23 @@ impl App {
     }
 
     pub(super) fn fail(&mut self, text: impl Into<String>) {
-        self.message = Some(Message {
-            severity: Some(Severity::Error),
-            text: text.into(),
-        });
+        self.show_message(Some(Severity::Error), text);
+    }
+
+    fn show_message(&mut self, severity: Option<Severity>, text: impl Into<String>) {
+        let text = without_codes(&text.into()).into_owned();
+        self.message = Some(Message { severity, text });
+    }
+
+    /// Takes the message off the screen; it can be asked for again.
+    pub(super) fn clear_message(&mut self) {
+        if let Some(message) = self.message.take() {
+            self.past_message = Some(message);
+        }
+    }
+
+    fn show_past_message(&mut self) {
+        self.message = self.past_message.take();
+        self.suggest("there was no message yet");
     }
 }

@@ -9,12 +9,17 @@ use super::folder::Folder;
 use super::identity::Identity;
 use crate::file::{Lock, lock};
 
+/// The most damaged journals of one name.
+const MOST_DAMAGED: u32 = 1000;
+
 /// A journal's file, locked.
 #[derive(Debug)]
 pub struct Claim {
     folder: Arc<Folder>,
     name: String,
     file: File,
+    /// Whether it may hold more than what can be read of it.
+    is_damaged: bool,
 }
 
 impl Claim {
@@ -29,6 +34,7 @@ impl Claim {
                         folder: Arc::clone(folder),
                         name,
                         file,
+                        is_damaged: false,
                     };
                     // A process that looks for journals may have taken it for one left behind.
                     if lock(&claim.file) != Lock::Busy && claim.is_there() {
@@ -41,15 +47,16 @@ impl Claim {
     }
 
     /// Claims a file that an earlier run left behind; `None` if there is none. An error if there is
-    /// one, but its run may go on: where files can't be locked, it can't be told.
+    /// something else, or its run may go on: where files can't be locked, it can't be told.
     pub(super) fn take(folder: &Arc<Folder>, name: String) -> io::Result<Option<Self>> {
-        let Ok(file) = folder.open(&name) else {
+        let Some(file) = folder.open(&name)? else {
             return Ok(None);
         };
         let claim = Self {
             folder: Arc::clone(folder),
             name,
             file,
+            is_damaged: false,
         };
         match lock(&claim.file) {
             // Once it is locked, nobody gives its name to another file. It may have lost it before.
@@ -86,6 +93,25 @@ impl Claim {
         self.folder.has(&self.name, &self.file).unwrap_or(false)
     }
 
+    /// Whether the file is as long as it was left, and still nobody else's.
+    pub(super) fn is_as_left(&self, length: u64) -> bool {
+        let found = self.file.metadata();
+        found.is_ok_and(|found| found.len() == length && Folder::refusal(&found).is_none())
+    }
+
+    /// The same, known to hold more than what can be read of it.
+    pub(super) fn damaged(self) -> Self {
+        Self {
+            is_damaged: true,
+            ..self
+        }
+    }
+
+    /// Whether it may hold more than what can be read of it.
+    pub(super) fn is_damaged(&self) -> bool {
+        self.is_damaged
+    }
+
     /// Puts another content in place of the file's: at every moment one of the two is there whole.
     pub(super) fn replace(&mut self, content: &[u8]) -> io::Result<()> {
         let name = format!("{}.new", self.name);
@@ -112,17 +138,29 @@ impl Claim {
         Ok(())
     }
 
-    /// Removes the file.
+    /// Removes the file, or sets it aside if it is damaged.
     pub(super) fn remove(&self) -> io::Result<()> {
         if self.is_there() {
-            self.folder.remove(&self.name)?;
+            if self.is_damaged {
+                self.set_aside()?;
+            } else {
+                self.folder.remove(&self.name)?;
+            }
         }
         Ok(())
     }
 
-    /// Gives the file a name that it is not looked for under; where it is then.
+    /// Gives the file a name that it is not looked for under, and nothing else has; where it is then.
     pub(super) fn set_aside(&self) -> io::Result<PathBuf> {
-        let name = format!("{}.damaged", self.name);
+        let name = |number: u32| match number {
+            1 => format!("{}.damaged", self.name),
+            _ => format!("{}.damaged-{number}", self.name),
+        };
+        // Only who has the claim gives out these names.
+        let free = (1..MOST_DAMAGED)
+            .map(name)
+            .find(|name| !self.folder.holds(name));
+        let name = free.ok_or(io::ErrorKind::AlreadyExists)?;
         self.folder.rename(&self.name, &name)?;
         Ok(self.folder.place(&name))
     }

@@ -7,7 +7,7 @@
 
 use std::env;
 use std::ffi::OsString;
-use std::fs::{DirBuilder, File};
+use std::fs::{DirBuilder, File, Metadata};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -18,6 +18,8 @@ use unix as system;
 
 /// The folders below the state folder, each in the one before.
 const NAMES: [&str; 2] = ["halflight", "recovery"];
+
+const NOT_REGULAR: &str = "is not a regular file";
 
 /// The folder, held open.
 #[derive(Debug)]
@@ -99,14 +101,37 @@ impl Folder {
         made.map_err(|error| at(&self.path, &error))
     }
 
-    /// Opens a file to read it, if it is a plain one of our own.
-    pub(super) fn open(&self, name: &str) -> io::Result<File> {
-        let file = self.held.open(&self.path, name)?;
-        let metadata = file.metadata()?;
-        if !metadata.is_file() || !system::is_own(&metadata) {
-            return Err(io::ErrorKind::InvalidInput.into());
+    /// Opens a file to read it, if there is one; an error if it is no regular one of our own.
+    pub(super) fn open(&self, name: &str) -> io::Result<Option<File>> {
+        let place = self.place(name);
+        let refused = |reason| {
+            let reason = format!("{} {reason}", place.display());
+            io::Error::new(io::ErrorKind::InvalidInput, reason)
+        };
+        let file = match self.held.open(&self.path, name) {
+            Ok(file) => file,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            // Such as a link, which is not followed.
+            Err(_) if place.symlink_metadata().is_ok_and(|found| !found.is_file()) => {
+                return Err(refused(NOT_REGULAR));
+            }
+            Err(error) => return Err(at(&place, &error)),
+        };
+        match Self::refusal(&file.metadata()?) {
+            Some(reason) => Err(refused(reason)),
+            None => Ok(Some(file)),
         }
-        Ok(file)
+    }
+
+    /// Why a file is not taken for one that we have written, in words that follow its name.
+    pub(super) fn refusal(metadata: &Metadata) -> Option<&'static str> {
+        let not_regular = Some(NOT_REGULAR).filter(|_| !metadata.is_file());
+        not_regular.or_else(|| system::suspicion(metadata))
+    }
+
+    /// Whether a name in it is taken, as far as that can be told.
+    pub(super) fn holds(&self, name: &str) -> bool {
+        self.place(name).symlink_metadata().is_ok()
     }
 
     /// Gives a file the name of another one, which is replaced.
@@ -228,10 +253,14 @@ mod unix {
         }
     }
 
-    /// Whether a file is ours, and nobody else can have written it.
-    pub(super) fn is_own(metadata: &Metadata) -> bool {
-        metadata.uid() == geteuid().as_raw()
-            && !Mode::from_raw_mode(metadata.mode() as RawMode).intersects(WRITABLE)
+    /// Why a file may be written by somebody else, in words that follow its name.
+    pub(super) fn suspicion(metadata: &Metadata) -> Option<&'static str> {
+        if metadata.uid() != geteuid().as_raw() {
+            return Some("belongs to another user");
+        }
+        let mode = Mode::from_raw_mode(metadata.mode() as RawMode);
+        mode.intersects(WRITABLE)
+            .then_some("may be written by others")
     }
 
     fn is_same(one: &Stat, other: &Stat) -> bool {
@@ -343,8 +372,8 @@ mod plain {
         pub(super) fn sync(&self) {}
     }
 
-    pub(super) fn is_own(_: &Metadata) -> bool {
-        true
+    pub(super) fn suspicion(_: &Metadata) -> Option<&'static str> {
+        None
     }
 }
 

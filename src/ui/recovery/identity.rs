@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::record::fnv1a;
+use crate::file;
 use crate::language::Language;
 
 /// The stem of the journals of the scene without a file.
@@ -55,6 +56,8 @@ impl Identity {
 /// The path without links, `.` and `..`, as far as it exists.
 fn canonical(path: &Path) -> PathBuf {
     let in_folder = || {
+        // A link may lead to a file that is gone.
+        let path = file::end_of_links(path).ok()?;
         let folder = path.parent()?;
         let folder = Some(folder).filter(|folder| !folder.as_os_str().is_empty());
         let folder = fs::canonicalize(folder.unwrap_or_else(|| Path::new("."))).ok()?;
@@ -104,5 +107,8 @@ mod tests {
         // A file that is not there yet, or no longer.
         assert_eq!(of("y/none.ray"), of("x/none.ray"));
         assert_ne!(of("none.ray"), of("x/none.ray"));
+        let before = of("b.ray");
+        fs::remove_file(at("b.ray")).expect("it is there");
+        assert_eq!(of("y/link.ray"), before);
     }
 }

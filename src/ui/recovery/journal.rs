@@ -38,6 +38,8 @@ struct Held {
     language: Language,
     identity: Identity,
     base: Arc<String>,
+    /// What edits are sealed with.
+    seal: u64,
     /// Where the first edit begins.
     first: u64,
     /// Where the last edit ends; `None` once it is not known what stands there.
@@ -72,7 +74,7 @@ impl Journal {
 
     /// Whether anything is kept where the next run looks for it.
     pub(super) fn is_kept(&self) -> bool {
-        self.held.as_ref().is_some_and(Held::is_found)
+        self.held.as_ref().is_some_and(Held::is_kept)
     }
 }
 
@@ -80,7 +82,11 @@ impl Held {
     fn new(state: &Path, edits: &Edits) -> io::Result<Self> {
         let folder = Arc::new(Folder::make(state)?);
         let identity = Identity::of(edits.scene.as_deref(), edits.known.language);
-        let (content, first) = content(&identity, edits);
+        let Beginning {
+            content,
+            first,
+            seal,
+        } = Beginning::new(&identity, edits);
         let claim = Claim::new(&folder, &identity)?;
         if let Err(error) = claim.fill(&content) {
             let _ = claim.remove();
@@ -93,6 +99,7 @@ impl Held {
             language: edits.known.language,
             identity,
             base: Arc::clone(&edits.known.saved),
+            seal,
             first,
             end: Some(content.len() as u64),
         })
@@ -103,18 +110,25 @@ impl Held {
         self.folder.is_sound() && self.claim.is_there()
     }
 
+    /// Whether the next run would find in it what was written last.
+    fn is_kept(&self) -> bool {
+        let is_as_left = |end| self.claim.is_as_left(end);
+        self.is_found() && self.end.is_some_and(is_as_left)
+    }
+
     fn write(&mut self, edits: &Edits) -> io::Result<()> {
         let Snapshot { saved, .. } = &edits.known;
         let is_base = Arc::ptr_eq(&self.base, saved) || self.base == *saved;
         let room = self.first + WASTE.max(edits.known.text().len() as u64);
-        match self.end.take().filter(|&end| is_base && end < room) {
+        let end = self.end.take();
+        match end.filter(|&end| is_base && end < room && self.claim.is_as_left(end)) {
             Some(end) => self.append(end, edits),
             None => self.replace(edits),
         }
     }
 
     fn append(&mut self, end: u64, edits: &Edits) -> io::Result<()> {
-        let edit = record::edit(&self.base, edits.known.text());
+        let edit = record::edit(self.seal, &self.base, edits.known.text());
         let mut file = self.claim.file();
         file.seek(SeekFrom::Start(end))?;
         file.write_all(&edit)?;
@@ -124,20 +138,38 @@ impl Held {
     }
 
     fn replace(&mut self, edits: &Edits) -> io::Result<()> {
-        let (content, first) = content(&self.identity, edits);
+        let Beginning {
+            content,
+            first,
+            seal,
+        } = Beginning::new(&self.identity, edits);
         self.claim.replace(&content)?;
         self.base = Arc::clone(&edits.known.saved);
-        self.first = first;
+        (self.seal, self.first) = (seal, first);
         self.end = Some(content.len() as u64);
         Ok(())
     }
 }
 
-/// A journal's whole content, and where its edit begins.
-fn content(scene: &Identity, edits: &Edits) -> (Vec<u8>, u64) {
-    let (base, text) = (&edits.known.saved, edits.known.text());
-    let mut content = record::head(scene, base);
-    let first = content.len() as u64;
-    content.extend(record::edit(base, text));
-    (content, first)
+/// A journal with one edit.
+struct Beginning {
+    content: Vec<u8>,
+    /// Where the edit begins.
+    first: u64,
+    /// What further ones are sealed with.
+    seal: u64,
+}
+
+impl Beginning {
+    fn new(scene: &Identity, edits: &Edits) -> Self {
+        let (base, text) = (&edits.known.saved, edits.known.text());
+        let (mut content, seal) = record::head(scene, base);
+        let first = content.len() as u64;
+        content.extend(record::edit(seal, base, text));
+        Self {
+            content,
+            first,
+            seal,
+        }
+    }
 }

@@ -7,7 +7,7 @@
 //!
 //! A journal holds the text that the edits started from as well as the edits, in the format that
 //! [`record`] describes. If the file holds something else when they are restored, both sets of
-//! changes are merged.
+//! changes are merged. If there is no file, the journal's text stands in for it.
 //!
 //! ```text
 //! App ──Effect──▶ Keeper, a thread ──▶ Journal ──▶ Claim ──▶ Folder
@@ -20,6 +20,7 @@ mod folder;
 mod identity;
 mod journal;
 mod keeper;
+mod missing;
 mod offer;
 mod record;
 #[cfg(test)]
@@ -29,5 +30,6 @@ pub use claim::Claim;
 pub(crate) use folder::place;
 pub(crate) use journal::Edits;
 pub(crate) use keeper::{End, Keeper, Order};
+pub(crate) use missing::{base_of, note};
 pub(crate) use offer::look_for;
 pub use offer::{Found, Offer, Since, Sought, Way};

@@ -77,8 +77,6 @@ pub enum Since {
     Same,
     /// It has changed.
     Changed,
-    /// The journal does not hold what it was.
-    Unknown,
 }
 
 /// Looks for kept edits on a thread of its own, which sends [`Msg::Recovered`] if there are any.
@@ -115,51 +113,53 @@ pub(super) fn look_in(state: &Path, sought: &Sought) -> Found {
         }
     };
     let scene = Identity::of(sought.scene.as_deref(), sought.language);
-    let mut dated = Vec::new();
-    for name in scene.names().filter(|name| !sought.put_off.contains(name)) {
-        match Claim::take(&folder, name) {
-            Ok(Some(claim)) => {
-                let modified = claim.file().metadata().and_then(|found| found.modified());
-                dated.push((modified.ok(), claim));
-            }
-            Ok(None) => {}
-            Err(error) => found.complain(error),
-        }
-    }
-    dated.sort_by_key(|&(at, _)| at);
-    let limit = ALWAYS.max(TIMES * sought.text.len() as u64);
-    while let Some((_, claim)) = dated.pop() {
-        let bytes = match read(&claim, limit) {
-            Ok(bytes) => bytes,
+    let names = scene.names().filter(|name| !sought.put_off.contains(name));
+    let mut claims = left_behind(&folder, names, |error| found.complain(error));
+    let limit = limit(sought.text.len());
+    while let Some(claim) = claims.pop() {
+        let content = match read(&claim, limit) {
+            Ok(bytes) => record::read(&bytes, &scene, &sought.text),
             Err(reason) => {
                 found.complain(reason);
                 continue;
             }
         };
-        match record::read(bytes, &scene) {
-            Content::Edits { base, text } => {
-                if let Some(offer) = Offer::new(&Arc::new(claim), sought, base, text) {
-                    found.offer = Some(Box::new(offer));
-                    return found;
-                }
-            }
-            Content::Empty => {
-                let _ = claim.remove();
-            }
-            Content::Foreign => {}
-            Content::Damaged => {
-                let place = claim.set_aside();
-                if let Ok(place) = place {
-                    found.complain(format!("{} is damaged", place.display()));
-                }
-            }
+        found.take(claim, content, sought);
+        if found.offer.is_some() {
+            break;
         }
     }
     found
 }
 
+/// The journals of these names whose runs are over, the newest one last.
+pub(super) fn left_behind(
+    folder: &Arc<Folder>,
+    names: impl Iterator<Item = String>,
+    mut complain: impl FnMut(io::Error),
+) -> Vec<Claim> {
+    let mut dated = Vec::new();
+    for name in names {
+        match Claim::take(folder, name) {
+            Ok(Some(claim)) => {
+                let modified = claim.file().metadata().and_then(|found| found.modified());
+                dated.push((modified.ok(), claim));
+            }
+            Ok(None) => {}
+            Err(error) => complain(error),
+        }
+    }
+    dated.sort_by_key(|&(at, _)| at);
+    dated.into_iter().map(|(_, claim)| claim).collect()
+}
+
+/// How long a journal of a scene may be whose text has so many bytes.
+pub(super) fn limit(length: usize) -> u64 {
+    ALWAYS.max(TIMES * length as u64)
+}
+
 /// All bytes of a journal, unless they are more than any journal of the scene has; then why not.
-fn read(claim: &Claim, limit: u64) -> Result<Vec<u8>, String> {
+pub(super) fn read(claim: &Claim, limit: u64) -> Result<Vec<u8>, String> {
     let place = claim.place();
     let length = claim.file().metadata().map_or(0, |found| found.len());
     if limit < length {
@@ -172,6 +172,46 @@ fn read(claim: &Claim, limit: u64) -> Result<Vec<u8>, String> {
 }
 
 impl Found {
+    /// Takes what a journal holds.
+    fn take(&mut self, claim: Claim, content: Content, sought: &Sought) {
+        let place = claim.place();
+        match content {
+            Content::Edits {
+                base,
+                text,
+                is_damaged,
+            } => {
+                let claim = if is_damaged { claim.damaged() } else { claim };
+                match Offer::new(Arc::new(claim), sought, base, text) {
+                    Ok(offer) => self.offer = Some(Box::new(offer)),
+                    Err(claim) if is_damaged => self.set_aside(&claim),
+                    Err(claim) => {
+                        let _ = claim.remove();
+                    }
+                }
+            }
+            Content::Empty => {
+                let _ = claim.remove();
+            }
+            Content::OfAnotherScene => {
+                self.complain(format!("{} is of another scene", place.display()));
+            }
+            Content::OfAnotherVersion => {
+                self.complain(format!(
+                    "{} is of another version of halflight",
+                    place.display()
+                ));
+            }
+            Content::Damaged => self.set_aside(&claim),
+        }
+    }
+
+    /// Says where a damaged journal is from now on.
+    fn set_aside(&mut self, claim: &Claim) {
+        let place = claim.set_aside().unwrap_or_else(|_| claim.place());
+        self.complain(format!("{} is damaged", place.display()));
+    }
+
     fn complain(&mut self, reason: impl Display) {
         let complaint = format!("unsaved edits of an earlier run are not offered: {reason}");
         self.complaints.push(complaint);
@@ -179,41 +219,40 @@ impl Found {
 }
 
 impl Offer {
-    /// What taking edits would make of the text; `None`, and they are forgotten, if it has them
-    /// already.
+    /// What taking edits would make of the text; the journal itself if the text has them already.
     pub(crate) fn new(
-        claim: &Arc<Claim>,
+        claim: Arc<Claim>,
         sought: &Sought,
-        base: Option<String>,
+        base: String,
         kept: String,
-    ) -> Option<Self> {
+    ) -> Result<Self, Arc<Claim>> {
         let (language, text) = (sought.language, &sought.text);
-        let (way, since, taken) = match base {
-            Some(base) if base != **text => {
-                let merge = Merge::new(language, &Arc::new(base), text, &Arc::new(kept));
-                let mut decided = merge.clone();
-                for conflict in &mut decided.conflicts {
-                    conflict.decision = Some(Side::Theirs);
-                }
-                (Some(Way::Merge(merge)), Since::Changed, decided.text())
+        let (way, since, taken) = if base == **text {
+            let edit = smallest_edit(text, &kept).map(Way::Edit);
+            (edit, Since::Same, kept)
+        } else {
+            let merge = Merge::new(language, &Arc::new(base), text, &Arc::new(kept));
+            let mut decided = merge.clone();
+            for conflict in &mut decided.conflicts {
+                conflict.decision = Some(Side::Theirs);
             }
-            base => {
-                let since = base.map_or(Since::Unknown, |_| Since::Same);
-                (smallest_edit(text, &kept).map(Way::Edit), since, kept)
-            }
+            (Some(Way::Merge(merge)), Since::Changed, decided.text())
         };
-        let way = way.filter(|_| taken != **text);
-        let Some(way) = way else {
-            let _ = claim.remove();
-            return None;
+        let Some(way) = way.filter(|_| taken != **text) else {
+            return Err(claim);
         };
-        Some(Self {
-            claim: Arc::clone(claim),
+        Ok(Self {
+            claim,
             text: Arc::clone(text),
             way,
             places: differences(language, text, &taken),
             since,
         })
+    }
+
+    /// Whether later edits may have been lost because the journal is damaged.
+    pub fn is_damaged(&self) -> bool {
+        self.claim.is_damaged()
     }
 
     /// How many places both the text and the kept edits have changed.

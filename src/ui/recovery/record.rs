@@ -1,32 +1,38 @@
 //! The format of journals.
 //!
 //! ```text
-//! halflight journal 2
+//! halflight journal 3
 //! scene /home/me/balls.ray
 //! language ray
-//! base 203 85944171f73967e8
+//! base 203 85944171f73967e8 2bc54c1ddd1a8a4d
 //! (203 bytes: the text last loaded or saved)
-//! edit 0 203 201 af63dc4c8601ec8c
+//! edit 0 203 201 af63dc4c8601ec8c cbf29ce484222325
 //! (201 bytes, in place of the 203 bytes of the base from byte 0 on)
 //! ```
 //!
-//! Edits are appended, and the last one that is complete counts: each of them leads from the base to
-//! a whole text. Of short texts an edit replaces everything, so that `tail` shows the text. The last
-//! number of a line is the checksum of what stands before it and of the bytes below it, for the base
-//! beginning with the first line. A path is written in ASCII with Rust's escapes; `-` is the scene
-//! without a file.
+//! Edits are appended, and the last one that is intact counts: each of them leads from the base to
+//! a whole text. Of short texts an edit replaces everything, so that `tail` shows the text. A path is
+//! written in ASCII with Rust's escapes; `-` is the scene without a file.
 //!
-//! A file that begins otherwise is a bare text, as version 0.1 kept it.
+//! A block's line ends with two checksums: that of the bytes below it, and that of the line itself,
+//! which begins with the lines above the base's line, and with its checksum for edits. So the next
+//! edit is found behind a damaged one, and no line of a scene's text is taken for one of the journal.
 
 use super::identity::Identity;
 use crate::text::{Edit, Span, smallest_edit};
 
 /// The words that every version's journals begin with.
 const FAMILY: &[u8] = b"halflight journal ";
-const MAGIC: &str = "halflight journal 2\n";
+const MAGIC: &str = "halflight journal 3\n";
+
+/// How the line of an edit begins.
+const EDIT: &str = "edit";
 
 /// Up to this many bytes a text is kept whole.
 const SHORT: usize = 1 << 16;
+
+/// No block's line is longer, in bytes.
+const LONGEST: usize = 128;
 
 /// What a file in the place of a journal holds.
 #[derive(Debug, PartialEq, Eq)]
@@ -35,31 +41,33 @@ pub(super) enum Content {
     Empty,
     /// Edits of this scene.
     Edits {
-        /// The text that the edits started from, unless the file is a bare text.
-        base: Option<String>,
+        /// The text that the edits started from.
+        base: String,
         /// The text under edit.
         text: String,
+        /// Whether another part of the journal is damaged, which may have held later edits.
+        is_damaged: bool,
     },
-    /// Edits of another scene, or in another version's format.
-    Foreign,
-    /// It is not whole.
+    /// A journal of another scene.
+    OfAnotherScene,
+    /// A journal in another version's format.
+    OfAnotherVersion,
+    /// No edits of it are intact.
     Damaged,
 }
 
-/// A journal without edits.
-pub(super) fn head(scene: &Identity, base: &str) -> Vec<u8> {
-    let head = head_lines(scene);
+/// A journal without edits, and what its edits are sealed with.
+pub(super) fn head(scene: &Identity, base: &str) -> (Vec<u8>, u64) {
+    let lines = head_lines(scene);
+    let mut bytes = Vec::with_capacity(lines.len() + base.len() + LONGEST);
+    bytes.extend_from_slice(lines.as_bytes());
     let line = format!("base {}", base.len());
-    let sum = checksum(&[head.as_bytes(), line.as_bytes(), base.as_bytes()]);
-    let mut bytes = Vec::with_capacity(head.len() + base.len() + 64);
-    for part in [&head, &line, &format!(" {sum:016x}\n"), base, "\n"] {
-        bytes.extend_from_slice(part.as_bytes());
-    }
-    bytes
+    let seal = put_block(&mut bytes, &line, lines.as_bytes(), base);
+    (bytes, seal)
 }
 
 /// The edit that leads from the base to another text.
-pub(super) fn edit(base: &str, text: &str) -> Vec<u8> {
+pub(super) fn edit(seal: u64, base: &str, text: &str) -> Vec<u8> {
     let whole = || Edit {
         span: Span::new(0, base.len()),
         text: text.to_owned(),
@@ -67,30 +75,74 @@ pub(super) fn edit(base: &str, text: &str) -> Vec<u8> {
     let edit = Some(text).filter(|text| SHORT < text.len());
     let edit = edit.and_then(|text| smallest_edit(base, text));
     let Edit { span, text } = edit.unwrap_or_else(whole);
-    let line = format!("edit {} {} {}", span.start(), span.len(), text.len());
-    let sum = checksum(&[line.as_bytes(), text.as_bytes()]);
-    format!("{line} {sum:016x}\n{text}\n").into_bytes()
+    let line = format!("{EDIT} {} {} {}", span.start(), span.len(), text.len());
+    let mut bytes = Vec::with_capacity(text.len() + LONGEST);
+    put_block(&mut bytes, &line, &seal.to_be_bytes(), &text);
+    bytes
 }
 
-/// What the bytes of a journal hold of a scene.
-pub(super) fn read(bytes: Vec<u8>, scene: &Identity) -> Content {
+/// Appends a block; returns the checksum of its line.
+fn put_block(bytes: &mut Vec<u8>, line: &str, seal: &[u8], text: &str) -> u64 {
+    let line = format!("{line} {:016x}", checksum(&[text.as_bytes()]));
+    let sum = checksum(&[seal, line.as_bytes()]);
+    for part in [&line, &format!(" {sum:016x}\n"), text, "\n"] {
+        bytes.extend_from_slice(part.as_bytes());
+    }
+    sum
+}
+
+/// What the bytes of a journal hold of a scene. Where the base is damaged, the scene's text stands in
+/// if it is the same.
+pub(super) fn read(bytes: &[u8], scene: &Identity, text: &str) -> Content {
     if bytes.is_empty() {
         return Content::Empty;
     }
-    if FAMILY.starts_with(&bytes) {
+    let lines = head_lines(scene);
+    let (head, rest) = bytes.split_at(lines.len().min(bytes.len()));
+    // The checksum tells what the lines above are to be, and so whether they are damaged.
+    let Some((line, below)) = Line::take(rest, "base", lines.as_bytes()) else {
+        return without_edits(bytes);
+    };
+    let [length] = line.numbers;
+    if below.len() <= length {
         return Content::Damaged;
     }
-    if !bytes.starts_with(FAMILY) {
-        // What a crash of the system leaves of a file is often all zeros.
-        let text = String::from_utf8(bytes).ok();
-        let text = text.filter(|text| !text.contains('\0'));
-        return text.map_or(Content::Damaged, |text| Content::Edits { base: None, text });
+    let (base, rest) = below.split_at(length);
+    let is_whole = line.is_of(base);
+    let base = match str::from_utf8(base) {
+        Ok(base) if is_whole => base,
+        _ if line.is_of(text.as_bytes()) => text,
+        _ => return Content::Damaged,
+    };
+    let edits = Edits::read(&rest[1..], line.sum);
+    let edited = edits.last.and_then(|last| last.applied_to(base));
+    edited.map_or(Content::Damaged, |text| Content::Edits {
+        base: base.to_owned(),
+        text,
+        is_damaged: edits.is_damaged || !is_whole || head != lines.as_bytes() || rest[0] != b'\n',
+    })
+}
+
+/// What a file is that holds no edits of the scene.
+fn without_edits(bytes: &[u8]) -> Content {
+    let Some(version) = bytes.strip_prefix(FAMILY) else {
+        return Content::Damaged;
+    };
+    if !bytes.starts_with(MAGIC.as_bytes()) {
+        let digits = version.iter().take_while(|byte| byte.is_ascii_digit());
+        let is_version = 0 < digits.clone().count() && version.get(digits.count()) == Some(&b'\n');
+        return if is_version {
+            Content::OfAnotherVersion
+        } else {
+            Content::Damaged
+        };
     }
-    let head = head_lines(scene);
-    match bytes.strip_prefix(head.as_bytes()) {
-        Some(rest) => read_blocks(rest, head.as_bytes()).unwrap_or(Content::Damaged),
-        None if head.as_bytes().starts_with(&bytes) => Content::Damaged,
-        None => Content::Foreign,
+    let lines = bytes.split_inclusive(|&byte| byte == b'\n');
+    let length = lines.take(3).map(<[u8]>::len).sum();
+    let (head, rest) = bytes.split_at(length);
+    match Line::<1>::take(rest, "base", head) {
+        Some(_) => Content::OfAnotherScene,
+        None => Content::Damaged,
     }
 }
 
@@ -101,52 +153,104 @@ fn head_lines(scene: &Identity) -> String {
     format!("{MAGIC}scene {label}\nlanguage {extension}\n")
 }
 
-fn read_blocks(mut rest: &[u8], head: &[u8]) -> Option<Content> {
-    let ([length], base) = block(&mut rest, "base", head)?;
-    debug_assert_eq!(length, base.len());
-    let mut last = None;
-    while let Some(([start, removed, _], text)) = block(&mut rest, "edit", &[]) {
-        last = Some((start, removed, text));
-    }
-    let (start, removed, text) = last?;
-    let end = start.checked_add(removed)?;
-    let (before, after) = (base.get(..start)?, base.get(end..)?);
-    Some(Content::Edits {
-        text: [before, text, after].concat(),
-        base: Some(base.to_owned()),
-    })
+/// The edits below a journal's base.
+#[derive(Default)]
+struct Edits<'b> {
+    /// The last one that is intact.
+    last: Option<Last<'b>>,
+    is_damaged: bool,
 }
 
-/// Takes a block: the numbers of its line, of which the last is its length, and its text. `None`
-/// unless it is whole.
-fn block<'b, const N: usize>(
-    rest: &mut &'b [u8],
-    name: &str,
-    before: &[u8],
-) -> Option<([usize; N], &'b str)> {
-    let line_end = rest.iter().position(|&byte| byte == b'\n')?;
-    let line = str::from_utf8(&rest[..line_end]).ok()?;
-    let (said, sum) = line.rsplit_once(' ')?;
-    let mut words = said.split(' ');
-    if words.next() != Some(name) {
-        return None;
+struct Last<'b> {
+    start: usize,
+    removed: usize,
+    text: &'b str,
+}
+
+impl<'b> Edits<'b> {
+    fn read(mut rest: &'b [u8], seal: u64) -> Self {
+        let mut edits = Self::default();
+        loop {
+            if let Some((line, below)) = Line::take(rest, EDIT, &seal.to_be_bytes()) {
+                let [start, removed, length] = line.numbers;
+                if below.len() <= length {
+                    // An append was cut off, as that of a process that is killed.
+                    return edits;
+                }
+                let (text, end) = below.split_at(length);
+                let whole = str::from_utf8(text).ok().filter(|_| line.is_of(text));
+                edits.is_damaged |= whole.is_none() || end[0] != b'\n';
+                let last = whole.map(|text| Last {
+                    start,
+                    removed,
+                    text,
+                });
+                edits.last = last.or(edits.last);
+                rest = &end[1..];
+            } else {
+                let next = rest.windows(EDIT.len()).skip(1);
+                let next = next.enumerate().find(|(_, name)| *name == EDIT.as_bytes());
+                // Of an append that was cut off there may be a piece of its line.
+                edits.is_damaged |= next.is_some() || rest.contains(&b'\n');
+                match next {
+                    Some((at, _)) => rest = &rest[at + 1..],
+                    None => return edits,
+                }
+            }
+        }
     }
-    let mut numbers = [0; N];
-    for number in &mut numbers {
-        *number = words.next()?.parse().ok()?;
+}
+
+impl Last<'_> {
+    fn applied_to(&self, base: &str) -> Option<String> {
+        let end = self.start.checked_add(self.removed)?;
+        let (before, after) = (base.get(..self.start)?, base.get(end..)?);
+        Some([before, self.text, after].concat())
     }
-    let below = &rest[line_end + 1..];
-    let length = *numbers.last()?;
-    if below.get(length) != Some(&b'\n') {
-        return None;
+}
+
+/// A block's line.
+struct Line<'b, const N: usize> {
+    /// The last one is the length of what is below.
+    numbers: [usize; N],
+    /// The checksum of what is below.
+    below: &'b str,
+    /// Its own checksum.
+    sum: u64,
+}
+
+impl<'b, const N: usize> Line<'b, N> {
+    /// Takes a line off the bytes, if they begin with one that is intact; returns what is below, too.
+    fn take(bytes: &'b [u8], name: &str, seal: &[u8]) -> Option<(Self, &'b [u8])> {
+        let start = &bytes[..LONGEST.min(bytes.len())];
+        let end = start.iter().position(|&byte| byte == b'\n')?;
+        let line = str::from_utf8(&bytes[..end]).ok()?;
+        let (said, sum) = line.rsplit_once(' ')?;
+        let mut words = said.split(' ');
+        if words.next() != Some(name) {
+            return None;
+        }
+        let found = checksum(&[seal, said.as_bytes()]);
+        if format!("{found:016x}") != sum {
+            return None;
+        }
+        let mut numbers = [0; N];
+        for number in &mut numbers {
+            *number = words.next()?.parse().ok()?;
+        }
+        let line = Self {
+            numbers,
+            below: words.next()?,
+            sum: found,
+        };
+        Some((line, &bytes[end + 1..]))
     }
-    let text = &below[..length];
-    let found = checksum(&[before, said.as_bytes(), text]);
-    if words.next().is_some() || format!("{found:016x}") != sum {
-        return None;
+
+    /// Whether these bytes are what was written below it.
+    fn is_of(&self, bytes: &[u8]) -> bool {
+        self.numbers.last() == Some(&bytes.len())
+            && format!("{:016x}", checksum(&[bytes])) == self.below
     }
-    *rest = &below[length + 1..];
-    Some((numbers, str::from_utf8(text).ok()?))
 }
 
 fn checksum(parts: &[&[u8]]) -> u64 {
@@ -164,10 +268,11 @@ pub(super) fn fnv1a<'b>(bytes: impl IntoIterator<Item = &'b u8>) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use std::path::Path;
 
+    use super::*;
     use crate::language::Language;
+    use crate::ui::recovery::tests::parts as journal;
 
     #[test]
     fn the_hash_is_the_published_one() {
@@ -185,10 +290,11 @@ mod tests {
         Identity::of(Some(Path::new(name)), Language::Ray)
     }
 
-    fn edits(base: &str, text: &str) -> Content {
+    fn edits(base: &str, text: &str, is_damaged: bool) -> Content {
         Content::Edits {
-            base: Some(base.to_owned()),
+            base: base.to_owned(),
             text: text.to_owned(),
+            is_damaged,
         }
     }
 
@@ -198,73 +304,111 @@ mod tests {
         let changed = long.replacen("é 1\né", "é 1\nè", 1);
         let a = scene("/a.ray");
         for (base, texts) in [
-            ("1 2", ["", "1 3", "edit 0 0 0 0\n"].as_slice()),
+            ("1 2", ["", "1 3", "edit 0 0 0 0 0\n"].as_slice()),
             ("", &["x\n"]),
             (&long, &[&changed, "1", &changed]),
         ] {
-            let mut bytes = head(&a, base);
-            for text in texts {
-                bytes.extend(edit(base, text));
-                assert_eq!(read(bytes.clone(), &a), edits(base, text));
+            let parts = journal(&a, base, texts);
+            for (number, text) in texts.iter().enumerate() {
+                let bytes = parts[..number + 2].concat();
+                assert_eq!(read(&bytes, &a, ""), edits(base, text, false));
             }
         }
-        let appended = edit(&long, &changed).len();
-        assert!(appended < 100, "{appended} bytes for one letter");
+        let appended = journal(&a, &long, &[&changed])[1].len();
+        assert!(appended < 120, "{appended} bytes for one letter");
     }
 
-    /// What a crash amid a write leaves, and what a bad disk does.
+    /// What a crash amid a write leaves.
     #[test]
-    fn what_is_not_whole_is_never_taken_for_edits() {
+    fn a_write_that_was_cut_off_is_no_damage() {
         let a = scene("/a.ray");
-        let start = head(&a, "base 1");
-        let first = [start.clone(), edit("base 1", "mine 1")].concat();
-        let all = [first.clone(), edit("base 1", "mine 2")].concat();
+        let parts = journal(&a, "base 1", &["mine 1", "mine\n2"]);
+        let (all, first) = (parts.concat(), parts[..2].concat());
         for cut in 0..all.len() {
             let expected = match cut {
                 0 => Content::Empty,
                 _ if cut < first.len() => Content::Damaged,
-                _ => edits("base 1", "mine 1"),
+                _ => edits("base 1", "mine 1", false),
             };
-            assert_eq!(read(all[..cut].to_vec(), &a), expected, "cut at {cut}");
+            assert_eq!(read(&all[..cut], &a, "base 1"), expected, "cut at {cut}");
         }
-        for at in 0..first.len() {
-            let mut flipped = first.clone();
-            flipped[at] ^= 1;
-            let found = read(flipped, &a);
-            let bare = matches!(&found, Content::Edits { base: None, .. }) && at < FAMILY.len();
-            let refused = matches!(found, Content::Damaged | Content::Foreign);
-            assert!(refused || bare, "byte {at}: {found:?}");
+    }
+
+    /// What a bad disk does.
+    #[test]
+    fn damage_costs_what_it_hits_and_no_more() {
+        let a = scene("/a.ray");
+        // In the second text stands what would be an edit of another journal.
+        let nested = journal(&a, "base 2", &["theirs"])[1].clone();
+        let nested = String::from_utf8(nested).expect("a text");
+        let parts = journal(&a, "base 1", &["mine 1", &nested, "mine\n3"]);
+        let whole = parts.concat();
+        let head = head_lines(&a).len();
+        let base = parts[0].len() - "base 1\n".len();
+        let last = whole.len() - parts[3].len();
+        for (at, bit) in (0..whole.len()).flat_map(|at| (0..8).map(move |bit| (at, bit))) {
+            let mut bytes = whole.clone();
+            bytes[at] ^= 1 << bit;
+            let expected = |scene: &str| match at {
+                _ if (head..base).contains(&at) => Content::Damaged,
+                _ if scene != "base 1" && (base..parts[0].len() - 1).contains(&at) => {
+                    Content::Damaged
+                }
+                _ if (last..whole.len() - 1).contains(&at) => edits("base 1", &nested, true),
+                _ => edits("base 1", "mine\n3", true),
+            };
+            for scene in ["base 1", "base 2"] {
+                let found = read(&bytes, &a, scene);
+                assert_eq!(found, expected(scene), "bit {bit} of byte {at}");
+            }
+        }
+        for part in 1..3 {
+            let mut parts = parts.clone();
+            parts[part].fill(0);
+            let expected = edits("base 1", "mine\n3", true);
+            assert_eq!(read(&parts.concat(), &a, ""), expected, "zeros");
         }
     }
 
     #[test]
     fn files_that_are_no_journals_of_the_scene_are_distinguished() {
         let a = scene("/a.ray");
-        let bare = |text: &str| Content::Edits {
-            base: None,
-            text: text.to_owned(),
-        };
-        let journal = |base: &str| [head(&a, base), edit(base, "2")].concat();
-        let of_b = [head(&scene("/b.ray"), "1"), edit("1", "2")].concat();
+        let of = |scene: &Identity, base: &str| journal(scene, base, &["2"]).concat();
         let longer =
-            "halflight journal 2\nscene /a.ray\nlanguage ray\nbase 9999999999999999999 0\n";
-        let lines = head_lines(&a);
+            "halflight journal 3\nscene /a.ray\nlanguage ray\nbase 9999999999999999999 0 0\n";
+        let (b, longest) = (scene("/b.ray"), scene("/b/c/a.ray"));
+        let alone = |base: &str| head(&a, base).0;
         for (bytes, expected) in [
             (b"".to_vec(), Content::Empty),
-            (b"1 2 3".to_vec(), bare("1 2 3")),
+            (b"1 2 3".to_vec(), Content::Damaged),
             (vec![0; 100], Content::Damaged),
             (vec![0xFF; 100], Content::Damaged),
-            (of_b, Content::Foreign),
-            (b"halflight journal 3\nscene ?".to_vec(), Content::Foreign),
+            (of(&b, "1"), Content::OfAnotherScene),
+            (of(&longest, "1"), Content::OfAnotherScene),
+            (
+                b"halflight journal 4\nscene ?".to_vec(),
+                Content::OfAnotherVersion,
+            ),
+            (
+                b"halflight journal 12\n".to_vec(),
+                Content::OfAnotherVersion,
+            ),
+            (b"halflight journal \n".to_vec(), Content::Damaged),
             (longer.into(), Content::Damaged),
-            (lines.into_bytes(), Content::Damaged),
-            (head(&a, "1"), Content::Damaged),
-            ([journal("1"), b"rest".to_vec()].concat(), edits("1", "2")),
-            ([journal("1"), journal("3")].concat(), edits("1", "2")),
-            ([head(&a, "1"), edit("12", "2")].concat(), Content::Damaged),
+            (head_lines(&a).into_bytes(), Content::Damaged),
+            (alone("1"), Content::Damaged),
+            (
+                [of(&a, "1"), b"rest".to_vec()].concat(),
+                edits("1", "2", false),
+            ),
+            ([of(&a, "1"), of(&a, "3")].concat(), edits("1", "2", true)),
+            (
+                [alone("1"), journal(&a, "12", &["2"])[1].clone()].concat(),
+                Content::Damaged,
+            ),
         ] {
             let said = String::from_utf8_lossy(&bytes).into_owned();
-            assert_eq!(read(bytes, &a), expected, "{said}");
+            assert_eq!(read(&bytes, &a, "1"), expected, "{said}");
         }
     }
 }

@@ -4,6 +4,7 @@
 mod hostile;
 
 use std::fs::{self, File};
+use std::iter;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
@@ -15,17 +16,12 @@ use super::folder::Folder;
 use super::identity::Identity;
 use super::journal::{Edits, Journal};
 use super::offer::look_in;
-use super::{Found, Offer, Sought};
+use super::{Found, Offer, Sought, record};
 use crate::document::{Document, Snapshot};
 use crate::language::Language;
 
 /// Edits offered for a text, of a journal that is gone.
-pub(crate) fn offer(
-    language: Language,
-    text: &Arc<String>,
-    base: Option<&str>,
-    kept: &str,
-) -> Offer {
+pub(crate) fn offer(language: Language, text: &Arc<String>, base: &str, kept: &str) -> Offer {
     let place = Place::new();
     let folder = Arc::new(Folder::make(&place.state).expect("a folder"));
     let claim = Claim::new(&folder, &Identity::of(None, language)).expect("it is empty");
@@ -35,8 +31,17 @@ pub(crate) fn offer(
         text: Arc::clone(text),
         put_off: Vec::new(),
     };
-    let base = base.map(str::to_owned);
-    Offer::new(&Arc::new(claim), &sought, base, kept.to_owned()).expect("the text lacks them")
+    let (base, kept) = (base.to_owned(), kept.to_owned());
+    Offer::new(Arc::new(claim), &sought, base, kept).expect("the text lacks them")
+}
+
+/// The same edits, of a journal that is damaged elsewhere.
+pub(crate) fn damaged(offer: Offer) -> Offer {
+    let claim = Arc::into_inner(offer.claim).expect("nobody else has it");
+    Offer {
+        claim: Arc::new(claim.damaged()),
+        ..offer
+    }
 }
 
 /// A state folder, and beside it a file that nobody may touch.
@@ -111,14 +116,7 @@ impl Place {
     fn offered(&self) -> Option<String> {
         let found = self.look(BASE);
         assert_eq!(found.complaints, [] as [String; 0]);
-        let mut document = Document::new(Language::Ray, BASE.to_owned());
-        found.offer.map(|offer| {
-            match offer.way {
-                super::Way::Edit(edit) => document.edit(&[edit]),
-                super::Way::Merge(merge) => drop(document.restore(&merge)),
-            }
-            document.text().to_owned()
-        })
+        taken(&found)
     }
 
     fn names(&self) -> Vec<String> {
@@ -130,6 +128,18 @@ impl Place {
         names.sort();
         names
     }
+}
+
+/// What [`BASE`] becomes with the edits that are offered.
+fn taken(found: &Found) -> Option<String> {
+    let mut document = Document::new(Language::Ray, BASE.to_owned());
+    found.offer.as_ref().map(|offer| {
+        match &offer.way {
+            super::Way::Edit(edit) => document.edit(std::slice::from_ref(edit)),
+            super::Way::Merge(merge) => drop(document.restore(merge)),
+        }
+        document.text().to_owned()
+    })
 }
 
 fn known(base: &Arc<String>, text: &str) -> Snapshot {
@@ -278,91 +288,215 @@ fn a_scene_saved_under_another_name_leaves_no_journal_behind() {
     assert!(names.len() == 1 && names[0].starts_with("b-"), "{names:?}");
 }
 
-/// Makes a file's content of a scene, a base and a text.
-type Write = fn(&Identity, &str, &str) -> Vec<u8>;
+#[test]
+fn a_journal_that_somebody_changed_is_written_anew() {
+    type Change = fn(&File);
+    let changes: &[(&str, Change)] = &[
+        ("emptied", |file| file.set_len(0).expect("it is ours")),
+        ("cut", |file| file.set_len(100).expect("it is ours")),
+        ("longer", |file| file.set_len(4096).expect("it is ours")),
+        #[cfg(unix)]
+        ("open to all", |file| {
+            let mode = std::os::unix::fs::PermissionsExt::from_mode(0o666);
+            file.set_permissions(mode).expect("it is ours");
+        }),
+    ];
+    for (name, change) in changes {
+        let place = Place::new();
+        let mut journal = place.run();
+        place.keep(&mut journal, "1 2 4");
+        let file = File::options().write(true).open(place.journal(0));
+        change(&file.expect("it is ours"));
+        assert!(!journal.is_kept(), "{name}");
+        place.keep(&mut journal, "1 2 4");
+        assert!(journal.is_kept(), "{name}");
+        drop(journal);
+        assert_eq!(place.offered().as_deref(), Some("1 2 4"), "{name}");
+        assert_eq!(place.names().len(), 1, "{name}");
+    }
+}
 
-/// What may stand in the place of a journal that earlier runs left behind.
+#[test]
+fn edits_of_a_file_that_is_gone_are_found() {
+    let place = Place::new();
+    let base = || super::missing::base_in(&place.state, &place.scene(), Language::Ray);
+    let note = |is_missing| super::missing::note_in(&place.state, &place.scene(), is_missing);
+    assert_eq!((base(), note(false)), (None, None));
+    let mut journal = place.run();
+    place.keep(&mut journal, "1 2 4");
+    fs::remove_file(place.scene()).expect("it is there");
+    assert_eq!((base(), note(false)), (None, None), "their run goes on");
+    drop(journal);
+    assert_eq!(base().as_deref(), Some(BASE));
+    let named = |said: &Option<String>| {
+        let journal = place.journal(0).display().to_string();
+        said.as_ref().is_some_and(|said| said.contains(&journal))
+    };
+    assert!(named(&note(false)));
+    fs::write(place.journal(0), "damaged").expect("it is ours");
+    assert_eq!(base(), None);
+    assert!(named(&note(true)));
+}
+
+/// A journal in parts: the head with the base, and edits.
+pub(super) fn parts(scene: &Identity, base: &str, texts: &[&str]) -> Vec<Vec<u8>> {
+    let (head, seal) = record::head(scene, base);
+    let edits = texts.iter().map(|text| record::edit(seal, base, text));
+    iter::once(head).chain(edits).collect()
+}
+
+/// Makes a file's content of a scene's journal, in parts, of two edits.
+type Write = fn(Vec<Vec<u8>>) -> Vec<u8>;
+
+/// A file in the place of a journal.
+struct Left {
+    name: &'static str,
+    write: Write,
+    offered: Option<&'static str>,
+    /// How a complaint ends.
+    said: Option<&'static str>,
+    /// How the file's name ends once its edits are declined; empty if it is gone.
+    name_ends: &'static str,
+}
+
+const LEFT: &[Left] = &[
+    Left {
+        name: "whole",
+        write: |parts| parts.concat(),
+        offered: Some("1 2 5"),
+        said: None,
+        name_ends: "",
+    },
+    Left {
+        name: "with a torn end",
+        write: |parts| [parts.concat(), b"edit 0 5".to_vec()].concat(),
+        offered: Some("1 2 5"),
+        said: None,
+        name_ends: "",
+    },
+    Left {
+        name: "with a damaged edit",
+        write: |mut parts| {
+            parts[1].fill(0);
+            parts.concat()
+        },
+        offered: Some("1 2 5"),
+        said: None,
+        name_ends: ".damaged",
+    },
+    Left {
+        name: "with a damaged end",
+        write: |mut parts| {
+            parts[2][0] = b'E';
+            parts.concat()
+        },
+        offered: Some("1 2 4"),
+        said: None,
+        name_ends: ".damaged",
+    },
+    Left {
+        name: "with a damaged head",
+        write: |mut parts| {
+            parts[0][b"halflight journal ".len()] ^= 1;
+            parts.concat()
+        },
+        offered: Some("1 2 5"),
+        said: None,
+        name_ends: ".damaged",
+    },
+    Left {
+        name: "torn before its first edit",
+        write: |parts| parts[0].clone(),
+        offered: None,
+        said: Some(".damaged is damaged"),
+        name_ends: ".damaged",
+    },
+    Left {
+        name: "zeros",
+        write: |_| vec![0; 4096],
+        offered: None,
+        said: Some(".damaged is damaged"),
+        name_ends: ".damaged",
+    },
+    Left {
+        name: "a scene",
+        write: |_| b"1 2 4".to_vec(),
+        offered: None,
+        said: Some(".damaged is damaged"),
+        name_ends: ".damaged",
+    },
+    Left {
+        name: "empty",
+        write: |_| Vec::new(),
+        offered: None,
+        said: None,
+        name_ends: "",
+    },
+    Left {
+        name: "of another scene",
+        write: |_| {
+            let other = Identity::of(Some(Path::new("/other.ray")), Language::Ray);
+            parts(&other, BASE, &["1 2 4"]).concat()
+        },
+        offered: None,
+        said: Some("-0.ray is of another scene"),
+        name_ends: "-0.ray",
+    },
+    Left {
+        name: "of another version",
+        write: |_| b"halflight journal 9\nx".to_vec(),
+        offered: None,
+        said: Some("-0.ray is of another version of halflight"),
+        name_ends: "-0.ray",
+    },
+];
+
 #[test]
 fn files_in_place_of_journals() {
-    let whole: Write = |scene, base, text| {
-        [
-            super::record::head(scene, base),
-            super::record::edit(base, text),
-        ]
-        .concat()
-    };
-    let cases: &[(&str, Write, Option<&str>, &str)] = &[
-        ("whole", whole, Some("1 2 4"), ".ray"),
-        (
-            "of an earlier version",
-            |_, _, text| text.into(),
-            Some("1 2 4"),
-            ".ray",
-        ),
-        (
-            "with a torn end",
-            |scene, base, text| {
-                let whole = [
-                    super::record::head(scene, base),
-                    super::record::edit(base, text),
-                ];
-                [whole.concat(), b"edit 0 5".to_vec()].concat()
-            },
-            Some("1 2 4"),
-            ".ray",
-        ),
-        (
-            "torn before its first edit",
-            |scene, base, _| super::record::head(scene, base),
-            None,
-            ".damaged",
-        ),
-        ("zeros", |_, _, _| vec![0; 4096], None, ".damaged"),
-        ("not text", |_, _, _| vec![0xFF; 10], None, ".damaged"),
-        ("empty", |_, _, _| Vec::new(), None, ""),
-        (
-            "of another scene",
-            |_, base, text| {
-                let other = Identity::of(Some(Path::new("/other.ray")), Language::Ray);
-                [
-                    super::record::head(&other, base),
-                    super::record::edit(base, text),
-                ]
-                .concat()
-            },
-            None,
-            ".ray",
-        ),
-        (
-            "of a later version",
-            |_, _, _| b"halflight journal 9\nx".to_vec(),
-            None,
-            ".ray",
-        ),
-    ];
-    for (name, write, offered, left) in cases {
+    for left in LEFT {
         let place = Place::new();
-        let scene = Identity::of(Some(&place.scene()), Language::Ray);
+        let name = left.name;
         place.make();
-        fs::write(place.journal(0), write(&scene, BASE, "1 2 4")).expect("the folder is ours");
+        let scene = Identity::of(Some(&place.scene()), Language::Ray);
+        let parts = parts(&scene, BASE, &["1 2 4", "1 2 5"]);
+        fs::write(place.journal(0), (left.write)(parts)).expect("the folder is ours");
         let found = place.look(BASE);
-        let is_damaged = *left == ".damaged";
-        assert_eq!(found.complaints.len(), usize::from(is_damaged), "{name}");
-        drop(found);
-        if !is_damaged {
-            assert_eq!(place.offered().as_deref(), *offered, "{name}");
+        let said = found.complaints.first();
+        assert_eq!(said.is_some(), left.said.is_some(), "{name}: {said:?}");
+        if let Some((said, expected)) = said.zip(left.said) {
+            assert!(said.ends_with(expected), "{name}: {said}");
+        }
+        assert_eq!(taken(&found).as_deref(), left.offered, "{name}");
+        if let Some(offer) = found.offer {
+            let is_damaged = left.name_ends == ".damaged";
+            assert_eq!(offer.is_damaged(), is_damaged, "{name}");
+            offer.claim.remove().expect("it is ours");
         }
         let names = place.names();
-        let expected = usize::from(!left.is_empty());
+        let expected = usize::from(!left.name_ends.is_empty());
         assert_eq!(names.len(), expected, "{name}: {names:?}");
-        assert!(
-            names.iter().all(|name| name.ends_with(left)),
-            "{name}: {names:?}"
-        );
-        assert_eq!(
-            place.look(BASE).complaints,
-            [] as [String; 0],
-            "{name}: reported once"
-        );
+        let is_expected = |name: &String| name.ends_with(left.name_ends);
+        assert!(names.iter().all(is_expected), "{name}: {names:?}");
+    }
+}
+
+/// What is lost of a journal must be said even if the rest is in the file.
+#[test]
+fn a_damaged_journal_is_reported_and_outlives_the_next_one() {
+    let place = Place::new();
+    place.make();
+    let scene = Identity::of(Some(&place.scene()), Language::Ray);
+    let mut parts = parts(&scene, BASE, &["1 2 4", "1 2 5"]);
+    parts[2][0] = b'E';
+    for names in 1..4 {
+        fs::write(place.journal(0), parts.concat()).expect("the folder is ours");
+        let found = place.look("1 2 4");
+        assert!(found.offer.is_none());
+        let [said] = &found.complaints[..] else {
+            panic!("{:?}", found.complaints);
+        };
+        assert!(said.ends_with("is damaged"), "{said}");
+        assert_eq!(place.names().len(), names);
+        assert_eq!(place.look("1 2 4").complaints, [] as [String; 0]);
     }
 }

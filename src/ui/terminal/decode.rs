@@ -253,7 +253,7 @@ fn control_sequence(bytes: &[u8]) -> Token {
     let parameters = &body[..end];
     match body[end] {
         b'M' if parameters.is_empty() => {
-            // A mouse report of the old form: three more bytes that are no keys.
+            // A mouse report of the old form: three more bytes that are not keys.
             if bytes.len() < length + 3 {
                 Token::Unfinished
             } else {

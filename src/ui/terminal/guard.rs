@@ -11,7 +11,7 @@ use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
 
 #[cfg(unix)]
-use super::abort::Abort;
+use super::abort;
 use super::backend::AnsiBackend;
 use super::colour::ColourDepth;
 use super::output::Output;
@@ -53,8 +53,6 @@ pub struct Terminal {
     screen: ratatui::Terminal<AnsiBackend>,
     shared: Arc<Shared>,
     mouse: Mouse,
-    #[cfg(unix)]
-    _abort: Abort,
 }
 
 impl Terminal {
@@ -69,10 +67,10 @@ impl Terminal {
         let backend = AnsiBackend::new(colours, tty::size());
         let Ok(screen) = ratatui::Terminal::new(backend);
         let shared = Shared::install(output, restore);
+        #[cfg(unix)]
+        abort::install(&shared, LEAVE)?;
         let mut terminal = Self {
             screen,
-            #[cfg(unix)]
-            _abort: Abort::install(Arc::clone(&shared), LEAVE)?,
             shared,
             mouse,
         };
@@ -178,6 +176,12 @@ impl Terminal {
             return Ok(());
         }
         self.shared.output().send(mouse_sequence(mouse).as_bytes())
+    }
+
+    /// Notes whether unsaved edits as they are now would outlive the process, to be said if it is
+    /// aborted.
+    pub fn note_kept_edits(&self, are_kept: bool) {
+        self.shared.note_kept_edits(are_kept);
     }
 
     /// Returns the panics of other threads since the last call, fit to be shown.

@@ -37,7 +37,7 @@ const BYTE: i128 = 1_000_000_000;
 /// What pictures are held to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Budget {
-    /// So many bytes a second; 0 is no limit.
+    /// So many bytes a second; 0 means no limit.
     Fixed(u32),
     /// What the line turns out to take, as at the other end of a network.
     Measured,
@@ -48,7 +48,7 @@ pub enum Budget {
 impl Budget {
     /// What suits the line that these variables of the environment describe.
     ///
-    /// Multiplexers reply for themselves, so replies are no measure of the line behind them.
+    /// Multiplexers reply for themselves, so replies say nothing of the line behind them.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Self {
         let set = |name: &str| variable(name).is_some_and(|value| !value.is_empty());
         let is_remote = set("SSH_CONNECTION") || set("SSH_TTY");

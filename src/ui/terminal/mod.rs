@@ -64,7 +64,10 @@ pub enum Event {
     /// The terminal is gone: 500 ms remain to save what must survive.
     HangUp,
     /// The system asks the process to end, as by `kill`.
-    Terminate,
+    Terminate {
+        /// The number of the signal.
+        signal: u8,
+    },
     /// The process is interrupted from outside; Ctrl-C on the keyboard is a key.
     Interrupt,
 }

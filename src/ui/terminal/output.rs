@@ -5,14 +5,18 @@
 //! thread, which costs a healthy terminal no detour; the rest is left to this one.
 
 use std::io;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::tty::{Line, Taken};
 
 /// The most that is written in one call to the system.
 const PIECE: usize = 1 << 16;
+
+/// How long the thread may take to write the last bytes after room was made for them.
+const LAST_PATIENCE: Duration = Duration::from_millis(100);
 
 /// The terminal's output, shared by the interface and the panic hook.
 #[derive(Debug)]
@@ -25,6 +29,8 @@ struct Shared {
     line: Line,
     queue: Mutex<Queue>,
     changed: Condvar,
+    /// Whether the thread is to write no more.
+    is_silent: AtomicBool,
 }
 
 #[derive(Debug, Default)]
@@ -49,6 +55,7 @@ impl Output {
             line,
             queue: Mutex::default(),
             changed: Condvar::new(),
+            is_silent: AtomicBool::new(false),
         });
         let theirs = Arc::clone(&shared);
         thread::Builder::new()
@@ -89,8 +96,17 @@ impl Output {
         self.shared.is_clear()
     }
 
+    /// Has the thread write no more, for a signal handler, which writes the last bytes itself.
+    #[cfg(unix)]
+    pub(super) fn fall_silent(&self) {
+        self.shared.is_silent.store(true, Ordering::SeqCst);
+    }
+
     /// Sends bytes instead of those that are still to be sent, and waits for the terminal to take
     /// them, until `deadline` at most.
+    ///
+    /// A terminal that has taken nothing by then may be read later, when nobody is left to write:
+    /// what the system holds for it makes room for these bytes.
     pub(super) fn send_last(&self, bytes: &[u8], deadline: Instant) -> io::Result<()> {
         {
             let mut queue = self.shared.lock();
@@ -98,6 +114,17 @@ impl Output {
             queue.edition += 1;
         }
         self.send(bytes)?;
+        self.wait(deadline).or_else(|error| {
+            if error.kind() != io::ErrorKind::TimedOut {
+                return Err(error);
+            }
+            self.shared.line.discard();
+            self.wait(Instant::now() + LAST_PATIENCE)
+        })
+    }
+
+    /// Waits until the terminal has taken everything.
+    fn wait(&self, deadline: Instant) -> io::Result<()> {
         let mut queue = self.shared.lock();
         while !queue.is_clear() {
             let time = deadline.saturating_duration_since(Instant::now());
@@ -144,7 +171,12 @@ impl Shared {
         let edition = queue.edition;
         queue.writing = true;
         drop(queue);
-        let written = self.line.write(&piece);
+        let is_silent = || self.is_silent.load(Ordering::SeqCst);
+        let is_wanted = || !is_silent() && self.lock().edition == edition;
+        let written = self.line.write(&piece, is_wanted);
+        if is_silent() {
+            return false;
+        }
         let mut queue = self.lock();
         queue.writing = false;
         match written {

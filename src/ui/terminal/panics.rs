@@ -7,6 +7,7 @@ use std::backtrace::{Backtrace, BacktraceStatus};
 use std::panic::{self, PanicHookInfo};
 #[cfg(unix)]
 use std::sync::TryLockError;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::thread::{self, ThreadId};
 
@@ -25,12 +26,13 @@ pub(super) enum Tenure {
     GivenBack,
 }
 
-/// What the guard of the terminal shares with the panic hook.
+/// What the guard of the terminal shares with the panic hook and the handler of aborts.
 #[derive(Debug)]
 pub(super) struct Shared {
     interface: ThreadId,
     output: Output,
     tenure: Mutex<Tenure>,
+    are_edits_kept: AtomicBool,
     panics: Mutex<Vec<String>>,
 }
 
@@ -41,6 +43,7 @@ impl Shared {
             interface: thread::current().id(),
             output,
             tenure: Mutex::new(Tenure::GivenBack),
+            are_edits_kept: AtomicBool::new(false),
             panics: Mutex::new(Vec::new()),
         });
         let previous = panic::take_hook();
@@ -72,6 +75,16 @@ impl Shared {
             Err(TryLockError::Poisoned(tenure)) => *tenure.into_inner(),
             Err(TryLockError::WouldBlock) => Tenure::Ours,
         }
+    }
+
+    /// Whether unsaved edits as they are would outlive the process, for a signal handler.
+    #[cfg(unix)]
+    pub(super) fn are_edits_kept(&self) -> bool {
+        self.are_edits_kept.load(Ordering::Relaxed)
+    }
+
+    pub(super) fn note_kept_edits(&self, are_kept: bool) {
+        self.are_edits_kept.store(are_kept, Ordering::Relaxed);
     }
 
     /// Returns the panics of other threads since the last call.

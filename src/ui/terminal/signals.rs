@@ -15,7 +15,10 @@ use rustix::process::{
     Pid, Signal, getpgrp, getpid, getppid, getsid, kill_current_process_group, kill_process,
 };
 use signal_hook::SigId;
-use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGTSTP, SIGWINCH};
+use signal_hook::consts::{
+    SIGALRM, SIGCONT, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGTERM, SIGTSTP, SIGUSR1, SIGUSR2,
+    SIGVTALRM, SIGWINCH, SIGXCPU,
+};
 use signal_hook::low_level::{self, pipe};
 
 use super::panics::Tenure;
@@ -31,7 +34,12 @@ const HUNG_UP: i32 = 128 + SIGHUP;
 const LENT: u8 = b'l';
 const OURS: u8 = b'o';
 
-const WATCHED: [i32; 7] = [SIGHUP, SIGTERM, SIGQUIT, SIGINT, SIGTSTP, SIGCONT, SIGWINCH];
+/// Those with a meaning of their own, and all others that would end the process and leave the terminal
+/// as it is.
+const WATCHED: [i32; 13] = [
+    SIGHUP, SIGTERM, SIGQUIT, SIGINT, SIGTSTP, SIGCONT, SIGWINCH, SIGALRM, SIGPROF, SIGUSR1,
+    SIGUSR2, SIGVTALRM, SIGXCPU,
+];
 
 /// Reports signals and a terminal that is gone to the interface, until it is dropped.
 ///
@@ -232,7 +240,9 @@ fn report(signal: i32, whose: Tenure, line: &mut Line, send: &impl Fn(Event)) {
         SIGTSTP => send(Event::Suspend),
         SIGCONT => send(Event::Continue),
         SIGINT => send(Event::Interrupt),
-        _ => send(Event::Terminate),
+        _ => send(Event::Terminate {
+            signal: signal as u8,
+        }),
     }
 }
 

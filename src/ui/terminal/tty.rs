@@ -108,8 +108,9 @@ impl Line {
         }
     }
 
-    /// Waits until some of the bytes can be written, and writes those; returns their number.
-    pub(super) fn write(&self, bytes: &[u8]) -> io::Result<usize> {
+    /// Waits until some of the bytes can be written, and writes those if they are still wanted;
+    /// returns their number.
+    pub(super) fn write(&self, bytes: &[u8], is_wanted: impl Fn() -> bool) -> io::Result<usize> {
         use rustix::event::{PollFd, PollFlags, poll};
         use rustix::io::Errno;
 
@@ -122,6 +123,9 @@ impl Line {
                 Ok(_) | Err(Errno::INTR) => {}
                 Err(error) => return Err(error.into()),
             }
+            if !is_wanted() {
+                return Ok(0);
+            }
             match rustix::io::write(&self.file, bytes) {
                 Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
                 Ok(count) => return Ok(count),
@@ -129,6 +133,14 @@ impl Line {
                 Err(error) => return Err(error.into()),
             }
         }
+    }
+
+    /// Drops what was written and not yet read, as far as the system still holds it.
+    pub(super) fn discard(&self) {
+        use rustix::termios::{QueueSelector, tcflush};
+
+        // What is not a terminal keeps what it has.
+        let _ = tcflush(&self.file, QueueSelector::OFlush);
     }
 }
 
@@ -156,7 +168,9 @@ impl Line {
         Ok(Taken::Nothing)
     }
 
-    pub(super) fn write(&self, bytes: &[u8]) -> io::Result<usize> {
+    pub(super) fn discard(&self) {}
+
+    pub(super) fn write(&self, bytes: &[u8], _: impl Fn() -> bool) -> io::Result<usize> {
         let mut output = io::stdout().lock();
         output.write_all(bytes)?;
         output.flush()?;

@@ -11,7 +11,7 @@ use super::row::{Row, wrap};
 use super::theme;
 use crate::document::Merge;
 use crate::text::{Position, counted};
-use crate::ui::app::{App, Dialog, Outside};
+use crate::ui::app::{App, Dialog, Disk, Outside};
 use crate::ui::keymap;
 use crate::ui::recovery::{Offer, Since};
 
@@ -49,10 +49,15 @@ fn offered(app: &App, offer: &Offer) -> String {
             let both = counted(count, "place");
             format!(" The {text} has changed since, {both} in both: you will be asked.")
         }
-        (Since::Unknown, _) => format!(" If the {text} has changed since, that is undone."),
+    };
+    let damage = if offer.is_damaged() {
+        " Part of their journal is damaged: these are the last that are intact. It is set aside, not \
+         deleted."
+    } else {
+        ""
     };
     format!(
-        "Edits of an earlier run of {} were never saved: {places} {differ} from the {text}.{since} \
+        "{} has unsaved edits from an earlier run: {places} {differ} from the {text}.{since}{damage} \
          Take them?",
         app.file_name(),
     )
@@ -60,7 +65,7 @@ fn offered(app: &App, offer: &Offer) -> String {
 
 /// What the text is that kept edits are merged with.
 fn text_name(app: &App) -> &'static str {
-    if app.document.is_dirty() {
+    if app.document.is_dirty() || app.disk == Disk::Missing {
         "text"
     } else {
         "file"

@@ -12,6 +12,7 @@ mod fields;
 mod help;
 pub mod layout;
 mod list;
+mod message;
 mod oklab;
 mod palette;
 mod picture;
@@ -128,6 +129,9 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let bars = areas.hint.height + areas.status.height;
     let (body, _) = layout::split_bottom(area, bars);
     help::render(app, body, buffer);
+    if let Some(message) = status::long_message(app, inks.glyphs, areas.status.width) {
+        message::render(message, body, buffer);
+    }
     dialog::render(app, body, buffer);
 }
 

@@ -71,7 +71,7 @@ struct Taste {
 pub(super) struct Palette {
     colours: Vec<Fixed>,
     taste: Taste,
-    /// One for each box of colours, then one for each grey: the ramp's are no multiples of
+    /// One for each box of colours, then one for each grey: the ramp's are not multiples of
     /// [`STEP`].
     mixes: Vec<Option<Mix>>,
 }

@@ -126,21 +126,38 @@ pub(crate) fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut columns = 0;
     for word in text.split_whitespace() {
-        let word = shorten(word, width);
         let wide = word.width();
         match lines.last_mut() {
             Some(line) if columns + 1 + wide <= width => {
                 line.push(' ');
-                line.push_str(&word);
+                line.push_str(word);
                 columns += 1 + wide;
             }
             _ => {
-                lines.push(word.into_owned());
-                columns = wide;
+                lines.extend(pieces(word, width));
+                columns = lines.last().map_or(0, |line| line.width());
             }
         }
     }
     lines
+}
+
+/// A word in pieces of at most `width` cells, but of one character at least.
+fn pieces(word: &str, width: usize) -> Vec<String> {
+    let mut pieces = vec![String::new()];
+    let mut columns = 0;
+    for c in word.chars() {
+        let wide = c.width().unwrap_or(0);
+        if 0 < columns && width < columns + wide {
+            pieces.push(String::new());
+            columns = 0;
+        }
+        if let Some(piece) = pieces.last_mut() {
+            piece.push(c);
+        }
+        columns += wide;
+    }
+    pieces
 }
 
 /// The text with control and other invisible characters as visible escapes.
@@ -238,7 +255,11 @@ mod tests {
             wrap("one two  three", 7),
             ["one two".to_owned(), "three".to_owned()]
         );
-        assert_eq!(wrap("extraordinary", 5), ["extr…".to_owned()]);
+        assert_eq!(
+            wrap("an extraordinary 界界", 5),
+            ["an", "extra", "ordin", "ary", "界界"]
+        );
+        assert_eq!(wrap("界a", 1), ["界", "a"]);
         assert!(wrap(" ", 5).is_empty());
     }
 

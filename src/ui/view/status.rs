@@ -8,14 +8,13 @@ use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
 use super::Glyphs;
-use super::row::Row;
+use super::row::{Row, visible};
 use super::theme;
 use crate::render::Progress;
 use crate::scene::Integrator;
 use crate::text::{counted, percentage};
-use crate::ui::app::{App, Disk, Mode, Prompt, PromptKind};
-use crate::ui::keymap;
-use crate::ui::keymap::Context;
+use crate::ui::app::{App, Disk, Message, Mode, Prompt, PromptKind};
+use crate::ui::keymap::{self, Context};
 
 /// Draws the line being typed, or else the keys that mean something now, as many as fit.
 pub(crate) fn render_hint(app: &App, area: Rect, buffer: &mut Buffer) {
@@ -63,10 +62,20 @@ struct Segment {
     style: Style,
 }
 
-/// Draws how things stand: what matters least is left out where there is no room.
+/// The message, where the line has no room for all of it.
+pub(crate) fn long_message(app: &App, glyphs: Glyphs, width: u16) -> Option<&Message> {
+    let message = app.message.as_ref()?;
+    is_message_long(&segments(app, glyphs), usize::from(width)).then_some(message)
+}
+
+/// Draws how things stand: what matters least is left out where there is no room, and a message that
+/// would be cut short.
 pub(crate) fn render(app: &App, glyphs: Glyphs, area: Rect, buffer: &mut Buffer) {
-    let segments = segments(app, glyphs);
+    let mut segments = segments(app, glyphs);
     let mut row = Row::new(buffer, area, 0);
+    if is_message_long(&segments, row.room()) {
+        segments.retain(|segment| segment.rank != MESSAGE);
+    }
     let fitting = fitting(&segments, row.room());
     for (index, segment) in fitting.iter().enumerate() {
         if 0 < index {
@@ -82,7 +91,14 @@ pub(crate) fn render(app: &App, glyphs: Glyphs, area: Rect, buffer: &mut Buffer)
     }
 }
 
-/// The segments that fit, in their order; a message may be shortened.
+/// Whether the message would be cut short behind what is more important.
+fn is_message_long(segments: &[Segment], room: usize) -> bool {
+    let ranked = segments.iter().filter(|segment| segment.rank <= MESSAGE);
+    let widths = ranked.map(|segment| segment.text.width() + GAP);
+    segments.iter().any(|segment| segment.rank == MESSAGE) && room + GAP < widths.sum()
+}
+
+/// The segments that fit, in their order; what matters most may be shortened.
 fn fitting(segments: &[Segment], room: usize) -> Vec<&Segment> {
     let mut ranked: Vec<usize> = (0..segments.len()).collect();
     ranked.sort_by_key(|&at| segments[at].rank);
@@ -91,7 +107,7 @@ fn fitting(segments: &[Segment], room: usize) -> Vec<&Segment> {
         .into_iter()
         .filter(|&at| {
             let width = segments[at].text.width() + GAP;
-            // Of a mode or a message, a part is better than nothing.
+            // Of what matters most, a part is better than nothing.
             let fits = width <= left || segments[at].rank <= MESSAGE && 2 * GAP < left;
             left -= if fits { width.min(left) } else { 0 };
             fits
@@ -146,7 +162,7 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
     }
     if let Some(message) = &app.message {
         let style = theme::severity(message.severity);
-        say(MESSAGE, message.text.clone(), style);
+        say(MESSAGE, visible(&message.text).into_owned(), style);
     }
     all
 }
@@ -294,10 +310,10 @@ mod tests {
             " SELECT  test.ray [+]  took the file's changes"
         );
         assert_eq!(line(&app, 40), " SELECT  [+]  took the file's changes");
-        assert_eq!(line(&app, 25), " SELECT  [+]  took the f…");
+        assert_eq!(line(&app, 25), " SELECT  test.ray [+]");
         assert_eq!(line(&app, 5), " SEL…");
         app.disk = Disk::Broken;
-        assert_eq!(line(&app, 40), " SELECT  [+]  [errors on disk]  took th…");
+        assert_eq!(line(&app, 40), " SELECT  [+]  [errors on disk]");
     }
 
     #[test]

@@ -22,7 +22,8 @@ use crate::ui::app::{
     Prompt, PromptKind, Quality, Stage, Typing,
 };
 use crate::ui::msg::{Destination, Existing, ExportId};
-use crate::ui::recovery::tests::offer;
+use crate::ui::recovery::Offer;
+use crate::ui::recovery::tests::{damaged, offer};
 use crate::ui::terminal::Mouse;
 
 pub(super) const SCENE: &str = "\
@@ -186,7 +187,7 @@ const STATES: &[(&str, Change)] = &[
     ("recover", |app| {
         let text = app.document.shared_text();
         let kept = SCENE.replace(" 0.25 ", " 0.75 ");
-        let offer = offer(app.document.language(), &text, Some(""), &kept);
+        let offer = offer(app.document.language(), &text, SCENE, &kept);
         app.dialog = Some(Dialog::Recover(Box::new(offer)));
     }),
     ("conflict", |app| {
@@ -287,11 +288,34 @@ fn a_screen_that_is_too_small_says_so() {
 }
 
 #[test]
+fn a_message_longer_than_the_status_line_is_shown_whole() {
+    let name = "n".repeat(255);
+    for text in [
+        "the file's changes are merged with your edits: sphere 1 radius; u undoes the merge",
+        "unsaved edits can't be kept for recovery: /home/somebody/.local/state/halflight/recovery: \
+         others may write there; chmod go-w /home/somebody/.local/state/halflight/recovery",
+        &format!("{name}.ray: File name too long"),
+    ] {
+        for width in [20, 40, 80, 150] {
+            let mut app = app();
+            app.message = Some(Message {
+                severity: Some(Severity::Error),
+                text: text.to_owned(),
+            });
+            let lines = screen(&mut app, width, 24);
+            let shown: String = lines.concat().split_whitespace().collect();
+            let words: String = text.split_whitespace().collect();
+            assert!(shown.contains(&words), "{}", lines.join("\n"));
+        }
+    }
+}
+
+#[test]
 fn the_places_that_kept_edits_change_are_counted() {
-    let shown = |change: fn(&str) -> String| {
+    let shown = |change: fn(&str) -> String, follow: fn(Offer) -> Offer| {
         let mut app = app();
         let text = app.document.shared_text();
-        let offer = offer(Language::Ray, &text, Some(SCENE), &change(SCENE));
+        let offer = follow(offer(Language::Ray, &text, SCENE, &change(SCENE)));
         app.dialog = Some(Dialog::Recover(Box::new(offer)));
         let lines = screen(&mut app, 100, 30);
         let words: Vec<_> = lines.iter().flat_map(|line| line.split('│')).collect();
@@ -301,10 +325,15 @@ fn the_places_that_kept_edits_change_are_counted() {
             .collect::<Vec<_>>()
             .join(" ")
     };
-    let one = shown(|text| text.replacen(" 0.25 ", " 0.5 ", 1));
+    let one = shown(|text| text.replacen(" 0.25 ", " 0.5 ", 1), |offer| offer);
     assert!(one.contains("1 place differs from the file"), "{one}");
-    let two = shown(|text| text.replacen(" 0.25 ", " 0.5 ", 1).replacen('1', "2", 1));
-    assert!(two.contains("2 places differ from the file"), "{two}");
+    assert!(!one.contains("damaged"), "{one}");
+    let two = |text: &str| text.replacen(" 0.25 ", " 0.5 ", 1).replacen('1', "2", 1);
+    let two = shown(two, damaged);
+    assert!(
+        two.contains("2 places differ from the file. Part of their journal is damaged"),
+        "{two}"
+    );
 }
 
 #[test]
@@ -351,7 +380,7 @@ fn a_picture_of_another_size_fills_its_place() {
 }
 
 #[test]
-fn a_text_that_is_no_xml_is_drawn() {
+fn a_text_that_is_not_xml_is_drawn() {
     for text in ["", "<xml>", "<scene/>"] {
         let mut app = app_of(Language::Xml, text);
         for (width, height) in [(80, 24), (40, 12), (9, 3), (1, 1)] {

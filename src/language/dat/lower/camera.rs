@@ -203,7 +203,7 @@ fn height_of(bounds: Aabb) -> f64 {
 fn missing(word: &str) -> Diagnostic {
     let otherwise = match word {
         "camera" => "a view of the whole scene stands in",
-        "resolution" => "it is such that the whole is seen",
+        "resolution" => "the picture shows the whole scene",
         _ => "the picture has 800 × 600 pixels",
     };
     let message = format!("{word}: there is no such record");

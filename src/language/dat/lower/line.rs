@@ -18,7 +18,7 @@ pub(super) struct Line<'a> {
     pub(super) references: Vec<Option<(i64, Span)>>,
     /// A word of the user's own.
     pub(super) word: Option<Span>,
-    /// The numbers of its fields: NaN for what is no number.
+    /// The numbers of its fields: NaN for what is not a number.
     values: Vec<f64>,
     /// The token of each.
     pub(super) spans: Vec<Span>,

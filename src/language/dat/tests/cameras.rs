@@ -262,7 +262,7 @@ fn the_text_says_the_camera_after_its_edits() {
     }
 }
 
-/// The lines that are no records of a view.
+/// The lines that are not records of a view.
 fn without_view(text: &str) -> Vec<&str> {
     let is_other = |line: &&str| {
         let word = line.split_whitespace().next();

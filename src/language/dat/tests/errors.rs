@@ -43,23 +43,23 @@ fn check_under(records: &[&str]) {
 #[test]
 fn numbers_are_decimal_and_finite() {
     check_under(&[
-        "obj sphere ID 1 mat ID 0  0 0 0  1,5\n#~ 34 error: object 1 (sphere) radius: `1,5` is no number",
-        "obj sphere ID 1 mat ID 0  0 x 0  1\n#~ 29 error: object 1 (sphere) centre y: `x` is no number",
-        "obj sphere ID 1 mat ID 0  0 0 0  0x10\n#~ 34 error: object 1 (sphere) radius: `0x10` is no number",
+        "obj sphere ID 1 mat ID 0  0 0 0  1,5\n#~ 34 error: object 1 (sphere) radius: `1,5` is not a number",
+        "obj sphere ID 1 mat ID 0  0 x 0  1\n#~ 29 error: object 1 (sphere) centre y: `x` is not a number",
+        "obj sphere ID 1 mat ID 0  0 0 0  0x10\n#~ 34 error: object 1 (sphere) radius: `0x10` is not a number",
         "obj sphere ID 1 mat ID 0  0 0 0  1e999\n#~ 34 error: object 1 (sphere) radius: `1e999` is too large",
-        "obj sphere ID 1 mat ID 0  0 0 0  inf\n#~ 34 error: object 1 (sphere) radius: `inf` is no number",
-        "obj sphere ID 1 mat ID 0  0 nan 0  1\n#~ 29 error: object 1 (sphere) centre y: `nan` is no number",
-        "mat ID 1 é 1 1  0.1 0.8 0.1 5  0 0 1\n#~ 10 error: material 1 RGB red: `é` is no number",
-        "light ID 1 inf 0 0 0 0 0 -1 1 b 1 1 0 0 0 shadow_on\n#~ 31 error: light 1 colour green: `b` is no number",
-        "texture ID 1 checker 1 a 1 1 1 0 0 0\n#~ 24 error: texture 1 repeat up: `a` is no number",
+        "obj sphere ID 1 mat ID 0  0 0 0  inf\n#~ 34 error: object 1 (sphere) radius: `inf` is not a number",
+        "obj sphere ID 1 mat ID 0  0 nan 0  1\n#~ 29 error: object 1 (sphere) centre y: `nan` is not a number",
+        "mat ID 1 é 1 1  0.1 0.8 0.1 5  0 0 1\n#~ 10 error: material 1 RGB red: `é` is not a number",
+        "light ID 1 inf 0 0 0 0 0 -1 1 b 1 1 0 0 0 shadow_on\n#~ 31 error: light 1 colour green: `b` is not a number",
+        "texture ID 1 checker 1 a 1 1 1 0 0 0\n#~ 24 error: texture 1 repeat up: `a` is not a number",
         "obj sphere ID 1 mat ID 0  +.5 -5. 1e-3  2.5E+1",
         "obj sphere ID 1 mat ID 0  0 0 0  0.01f\n#~ 34 warning: object 1 (sphere) radius: the `f` at the end of `0.01f` is ignored",
-        "obj sphere ID 1 mat ID 0  0 0 0  1ff\n#~ 34 error: object 1 (sphere) radius: `1ff` is no number",
+        "obj sphere ID 1 mat ID 0  0 0 0  1ff\n#~ 34 error: object 1 (sphere) radius: `1ff` is not a number",
         "obj quadric ID 1 mat ID 0  1 0 0 0 1 0 0 1 0 -1F  1 0 0 1f 2\n#~ 46 warning: object 1 (quadric) J: the `f` at the end of `-1F` is\n#~ 57 warning: object 1 (quadric) cut z: the `f` at the end of `1f` is ignored",
         "obj quadric ID 1 mat ID 0  1 0 0 0 1 0 0 1 0 -1  0f\n#~ 50 error: object 1 (quadric) number of cuts: must be a whole number, not `0f`",
         "obj sphere ID 1f mat ID 0  0 0 0  1\n#~ 15 error: obj ID: must be a whole number, not `1f`",
         "render 0f\n#~ 8 error: render: the number of objects: must be a whole number, not `0f`",
-        "viewport 8f 6\n#~ 1 warning: viewport: said in line 3 already\n#~ 10 error: viewport width: `8f` is no number",
+        "viewport 8f 6\n#~ 1 warning: viewport: said in line 3 already\n#~ 10 error: viewport width: `8f` is not a number",
     ]);
 }
 
@@ -74,8 +74,8 @@ resolution -1 0
 viewport 80 6.5
         #~ 13 error: viewport height: must be a whole number, 1 or more
 mat ID 0 1 1 x  0.1 0.8 0.1 5  0 0 y
-        #~ 14 error: material 0 RGB blue: `x` is no number
-        #~ 36 error: material 0 ior: `y` is no number
+        #~ 14 error: material 0 RGB blue: `x` is not a number
+        #~ 36 error: material 0 ior: `y` is not a number
 obj sphere ID 1 mat ID 0  0 0 0  -1
         #~ 34 error: object 1 (sphere) radius: must be greater than 0
 obj ball ID 2 mat ID 0  0 0 0  1
@@ -84,10 +84,10 @@ obj sphere ID 3 mat ID 8  0 0 0
         #~ 24 error: there is no material 8 above
         #~ 32 error: object 3 (sphere): the line ends where radius is due; 1 more token
 obj quadric ID 4 mat ID 0  1 0 0 0 1 0 0 1 0 z  2  0 0 0 1  a 1 b 2
-        #~ 46 error: object 4 (quadric) J: `z` is no number
+        #~ 46 error: object 4 (quadric) J: `z` is not a number
         #~ 52 error: object 4 (quadric) cut: its normal must not be zero
-        #~ 61 error: object 4 (quadric) cut x: `a` is no number
-        #~ 65 error: object 4 (quadric) cut z: `b` is no number
+        #~ 61 error: object 4 (quadric) cut x: `a` is not a number
+        #~ 65 error: object 4 (quadric) cut z: `b` is not a number
 render 1 ID 9
         #~ 13 error: there is no object 9 above",
     );
@@ -293,7 +293,7 @@ fn ids_name_one_thing_each() {
         "use colour ID 1 mat ID 0\n#~ 15 error: there is no texture 1 above\ntexture ID 1 checker 1 1 1 1 1 0 0 0",
         "light ID 1 inf 0 0 1 0 0 0 1 1 1 1 0 0 0 shadow_on\nlight ID 1 inf 0 0 1 0 0 0 1 1 1 1 0 0 0 shadow_on\n#~ 10 warning: light 1: defined above already",
         // What has errors is known all the same: no error follows from another.
-        "obj sphere ID 1 BALL x\n#~ 33 error: object 1 (sphere) radius: `x` is no number\nobj CSG ID 2 union ID 0 ID 1\nrender 2 ID 1 ID 2",
+        "obj sphere ID 1 BALL x\n#~ 33 error: object 1 (sphere) radius: `x` is not a number\nobj CSG ID 2 union ID 0 ID 1\nrender 2 ID 1 ID 2",
     ]);
 }
 

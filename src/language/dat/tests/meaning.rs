@@ -79,7 +79,7 @@ fn lights() {
             from([0., 0., 8.], [0., 1., 0.], Some((DVec3::NEG_Y, 7.0))),
             Shadows::Cast,
         ),
-        // An exponent of 0 is no spot light.
+        // An exponent of 0 is not a spot light.
         (
             "pnt 0 0 8  0 -3 0  4 5 6  0 1 0  0 shadow_on",
             from([0., 0., 8.], [0., 1., 0.], None),
@@ -141,7 +141,7 @@ fn ambient_light_adds_up() {
 
 /// A negative exponent reads as 0: no falloff, behind the light as before it.
 #[test]
-fn a_negative_exponent_is_no_spot_light() {
+fn a_negative_exponent_is_not_a_spot_light() {
     let text = spelled(
         "VIEW\nmat ID 0 MAT\nobj sphere ID 0 BALL 1\nlight ID 0 pnt 0 0 8  0 -3 0  1 1 1  1 0 0  -2 shadow_on",
     );
@@ -406,7 +406,7 @@ render 1 ID 9",
     assert_eq!((drawn, source.object(0)), ([None, None, Some(0)], 2));
 }
 
-/// What follows the half-spaces that the number before them counts is no field.
+/// What follows the half-spaces that the number before them counts is not a field.
 #[test]
 fn a_quadric_has_the_fields_that_count() {
     let record = "obj quadric ID 1 mat ID 0  1 0 0 0 1 0 0 1 0 -1";

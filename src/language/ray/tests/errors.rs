@@ -34,19 +34,19 @@ fn check(case: &str) {
 #[test]
 fn numbers_are_decimal_and_finite() {
     for case in [
-        "HEAD 1 sphere 0 0 0\n1,5 //~ 1 error: object 1 (sphere) radius: `1,5` is no number\nMAT",
-        "HEAD 1 sphere 0\nabc //~ 1 error: object 1 (sphere) centre y: `abc` is no number\n0 1 MAT",
-        "HEAD 1 sphere 0 0 0\n0x10 //~ 1 error: object 1 (sphere) radius: `0x10` is no number\nMAT",
+        "HEAD 1 sphere 0 0 0\n1,5 //~ 1 error: object 1 (sphere) radius: `1,5` is not a number\nMAT",
+        "HEAD 1 sphere 0\nabc //~ 1 error: object 1 (sphere) centre y: `abc` is not a number\n0 1 MAT",
+        "HEAD 1 sphere 0 0 0\n0x10 //~ 1 error: object 1 (sphere) radius: `0x10` is not a number\nMAT",
         "HEAD 1 sphere 0 0 0\n1e999 //~ 1 error: object 1 (sphere) radius: `1e999` is too large\nMAT",
-        "HEAD 1 sphere 0 0 0\n inf //~ 2 error: object 1 (sphere) radius: `inf` is no number\nMAT",
-        "HEAD 1 sphere 0 0 0\n nan //~ 2 error: object 1 (sphere) radius: `nan` is no number\nMAT",
-        "1 é 1 //~ 3 error: ambient colour green: `é` is no number\n1 0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
-        "1 1 1 1 0\n5,0 //~ 1 error: light 1 position y: `5,0` is no number\n5 1 1 1 1 sphere 0 0 0 1 MAT",
-        "1 1 1 1 0 5 5 1\nx //~ 1 error: light 1 colour green: `x` is no number\n1 1 sphere 0 0 0 1 MAT",
+        "HEAD 1 sphere 0 0 0\n inf //~ 2 error: object 1 (sphere) radius: `inf` is not a number\nMAT",
+        "HEAD 1 sphere 0 0 0\n nan //~ 2 error: object 1 (sphere) radius: `nan` is not a number\nMAT",
+        "1 é 1 //~ 3 error: ambient colour green: `é` is not a number\n1 0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
+        "1 1 1 1 0\n5,0 //~ 1 error: light 1 position y: `5,0` is not a number\n5 1 1 1 1 sphere 0 0 0 1 MAT",
+        "1 1 1 1 0 5 5 1\nx //~ 1 error: light 1 colour green: `x` is not a number\n1 1 sphere 0 0 0 1 MAT",
         "HEAD 1 sphere 0 0 0 +.5e-3 MAT",
         "HEAD 1 sphere 0 0 0\n0.01f //~ 1 warning: object 1 (sphere) radius: the `f` at the end of `0.01f` is\nMAT",
         "HEAD 1 sphere 0 0 0\n-1F //~ 1 warning: object 1 (sphere) radius: the `f` at //~ 1 error: object 1 (sphere) radius: must\nMAT",
-        "HEAD\n1f //~ 1 error: nObjects: `1f` is no number\nsphere 0 0 0 1 MAT",
+        "HEAD\n1f //~ 1 error: nObjects: `1f` is not a number\nsphere 0 0 0 1 MAT",
     ] {
         check(case);
     }
@@ -55,7 +55,7 @@ fn numbers_are_decimal_and_finite() {
 #[test]
 fn errors_that_can_be_told_apart_are_told_at_once() {
     check(
-        "1 1 x //~ 5 error: ambient colour blue: `x` is no number
+        "1 1 x //~ 5 error: ambient colour blue: `x` is not a number
 1  0 5 5  1 1 1
 2
 sphere 0 0 0
@@ -66,7 +66,7 @@ box 0 0 0
 0 1 0  0 0 1  1 1
 0 //~ 1 error: object 2 (box) height: must be greater than 0
 0.1 0.1 0.1  0.5 0.5
-y //~ 1 error: object 2 (box) kd blue: `y` is no number
+y //~ 1 error: object 2 (box) kd blue: `y` is not a number
 0.2 0.2 0.2  5 0 0 1",
     );
 }
@@ -115,7 +115,7 @@ fn directions_are_of_unit_length_and_at_right_angles() {
         "HEAD 1 box 0 0 0 1 0 0 0 1 0\n0 1 0 //~ 1 error: object 1 (box) vh: is parallel to vw\n1 1 1 MAT",
         "HEAD 1 box 0 0 0 1 0 0 0 1 0\n.6 .8 0 //~ 1 error: object 1 (box) vh: lies in the plane of the other two\n1 1 1 MAT",
         // A direction that cannot be read leaves the other two to be compared.
-        "HEAD 1 box 0 0 0\n1 x 0 //~ 3 error: object 1 (box) vl y: `x` is no number\n0 1 0\n0 .6 .8 //~ 1 warning: object 1 (box) vh: not at a right angle to vw\n1 1 1 MAT",
+        "HEAD 1 box 0 0 0\n1 x 0 //~ 3 error: object 1 (box) vl y: `x` is not a number\n0 1 0\n0 .6 .8 //~ 1 warning: object 1 (box) vh: not at a right angle to vw\n1 1 1 MAT",
     ] {
         check(case);
     }
@@ -184,7 +184,7 @@ fn the_number_of_objects_is_that_of_the_objects() {
         "1 1 1\n1. //~ 1 error: nLights: must be a whole number, 1 or more, not `1.`\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
         "// view: size 80 6e1 //~ 18 warning: view size height: must be a whole number, 1 or more\nHEAD 1 sphere 0 0 0 1 MAT",
         "HEAD\n-1 //~ 1 error: nObjects: must be\nsphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius: must be\nMAT",
-        "HEAD\nmany //~ 1 error: nObjects: `many` is no number\nsphere 0 0 0 1 MAT",
+        "HEAD\nmany //~ 1 error: nObjects: `many` is not a number\nsphere 0 0 0 1 MAT",
         "HEAD\n99999999999999999999999 //~ 1 error: nObjects: says `99999999999999999999999`, but the text ends after\nsphere 0 0 0 1 MAT",
         "HEAD\nsphere //~ 1 error: nObjects: missing before `sphere`\n0 0 0 1 MAT",
         "HEAD //~ 23 error: nObjects: missing, the text ends here",
@@ -206,7 +206,7 @@ fn the_number_of_lights_is_that_of_the_lights() {
         "1 1 1\n1 //~ 1 error: nLights: says `1`, but the text has 2 lights before `sphere`\n0 5 5 1 1 1  3 5 5 1 1 1  1 sphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius\nMAT",
         "1 1 1\n2 //~ 1 error: nLights: says `2`, but the text has 1 light and 2 numbers before the text ends\n0 5 5 1 1 1 1 2",
         "1 1 1\n0 //~ 1 error: nLights: must be a whole number, 1 or more, not `0`\n0 5 5 1 1 1 1 sphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius\nMAT",
-        "1 1 1\nabc //~ 1 error: nLights: `abc` is no number\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
+        "1 1 1\nabc //~ 1 error: nLights: `abc` is not a number\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
         "1 1 1\n2.5 //~ 1 error: nLights: must be\n0 5 5 1 1 1 0 5 sphere 0 0 0 1 MAT",
         "1 1 1\nsphere //~ 1 error: nLights: missing before `sphere`\n0 0 0 1 MAT",
         "1 1 1 //~ 6 error: nLights: missing, the text ends here",

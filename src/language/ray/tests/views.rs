@@ -56,7 +56,8 @@ fn an_f_behind_a_number_is_read_over_in_a_comment_that_counts() {
         ["1:24 warning: view up z: missing; the whole comment is ignored"]
     );
     let (_, said) = seen("// view: size 8f 6");
-    let ignored = "1:15 warning: view size width: `8f` is no number; the whole comment is ignored";
+    let ignored =
+        "1:15 warning: view size width: `8f` is not a number; the whole comment is ignored";
     assert_eq!(said, [ignored]);
 }
 
@@ -171,7 +172,7 @@ fn a_malformed_view_is_ignored_whole_with_a_warning() {
         ("// view: eye 1 fov 30", "1:16 warning: view eye y: missing"),
         (
             "// view: eye 1 2 x",
-            "1:18 warning: view eye z: `x` is no number",
+            "1:18 warning: view eye z: `x` is not a number",
         ),
         (
             "// view: eye 1 2 1e999",

@@ -34,7 +34,7 @@ impl Reader<'_> {
         self.origins.factors = vectors.map(|at| {
             let element = self.element_of(camera, &CAMERA[at])?;
             let said = self.origins.value(self.tree, element, "value")?;
-            // What is no number is told where it is read.
+            // What is not a number is told where it is read.
             let word = said.said(self.text).trim();
             Some(parse_number(without_suffix(word).unwrap_or(word)).unwrap_or(1.0))
         });
@@ -69,7 +69,7 @@ impl Reader<'_> {
             whole,
             remedy: "say where it stands and what it looks at: <position/>, <target/>",
         };
-        // What is no number was reported.
+        // What is not a number was reported.
         if !(eye.is_nan() || target.is_nan() || up.is_nan()) {
             check(&seen, &places, &mut self.report);
         }

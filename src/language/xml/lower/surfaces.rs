@@ -116,7 +116,7 @@ impl Reader<'_> {
         if let Some(direction) = normalise(direction) {
             return -direction;
         }
-        // What is no number was reported.
+        // What is not a number was reported.
         if let Some(said) = self
             .element_of(Some(element), parameter)
             .filter(|_| direction == DVec3::ZERO)

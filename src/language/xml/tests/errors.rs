@@ -28,11 +28,11 @@ fn each_mistake_is_told_in_words() {
         ),
         (
             "<object type='sphere'><scale x='wide'/></object>",
-            "error: object 1 (sphere) scale x: `wide` is no number",
+            "error: object 1 (sphere) scale x: `wide` is not a number",
         ),
         (
             "<object type='sphere' name='b'><scale y=''/></object>",
-            "error: b (sphere) scale y: `` is no number",
+            "error: b (sphere) scale y: `` is not a number",
         ),
         (
             "<object type='sphere'><scale value='0'/></object>",
@@ -56,7 +56,7 @@ fn each_mistake_is_told_in_words() {
         ),
         (
             "<object type='sphere'><rotate x='1' y='1,5'/></object>",
-            "error: object 1 (sphere) rotate y: `1,5` is no number",
+            "error: object 1 (sphere) rotate y: `1,5` is not a number",
         ),
         (
             "<object type='spere'/>",
@@ -234,7 +234,7 @@ fn all_that_is_wrong_is_told_at_once_at_its_place() {
         <camera><fov value='0'/><position z='1'/></camera>\n</xml>\n";
     let (_, lowered) = read(text);
     let expected = [
-        "4:14 error: object 1 (sphere) scale x: `a` is no number",
+        "4:14 error: object 1 (sphere) scale x: `a` is not a number",
         "5:5 warning: `turn`: not known in `object`",
         "8:15 error: light 1 (direct) direction: must not be zero",
         "11:22 error: view fov: must be greater than 0 and less than 180",

@@ -294,7 +294,7 @@ fn what_is_doubtful_in_a_file_is_told_where_it_is_named_first() {
         found.collect::<Vec<_>>()
     };
     let line = "a.obj (obj): line 1, column 1: `curv` is not drawn";
-    let library = "a.obj (obj): a.mtl: line 2, column 4: Kd: `red` is no number";
+    let library = "a.obj (obj): a.mtl: line 2, column 4: Kd: `red` is not a number";
     assert_eq!(said(&format!("{object}{object}")), [line, library]);
     // A library that is not used may be as it likes.
     assert_eq!(said(dressed), [line]);

@@ -1,4 +1,4 @@
-//! Why a text is no XML, in words.
+//! Why a text is not XML, in words.
 
 use roxmltree::{Error, TextPos};
 
@@ -49,7 +49,7 @@ pub(super) fn told(text: &str, error: &Error, unclosed: Option<Span>) -> Diagnos
         },
         Error::NonXmlChar(c, _) => Diagnostic::error(
             here,
-            format!("{c:?} is no character of XML"),
+            format!("{c:?} is not a character of XML"),
             "a printable character",
         ),
         Error::InvalidChar(expected, ..) => {
@@ -90,10 +90,10 @@ pub(super) fn told(text: &str, error: &Error, unclosed: Option<Span>) -> Diagnos
             "an element",
         ),
         Error::UnknownToken(_) => {
-            Diagnostic::error(here, "this is no part of XML", "an element or a comment")
+            Diagnostic::error(here, "this is not part of XML", "an element or a comment")
                 .with_hint("nothing but comments stands before and after the outermost element")
         }
-        _ => Diagnostic::error(here, format!("this is no XML: {error}"), "well-formed XML"),
+        _ => Diagnostic::error(here, format!("this is not XML: {error}"), "well-formed XML"),
     }
 }
 

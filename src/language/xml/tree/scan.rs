@@ -3,14 +3,14 @@
 
 use crate::text::{Diagnostic, Span};
 
-/// More attributes than this in one tag are no scene's, and comparing each with all others takes
+/// More attributes than this in one tag are not a scene's, and comparing each with all others takes
 /// its time.
 const MOST_ATTRIBUTES: usize = 1000;
 
 /// The same of declared name spaces, which each element inherits from the one around it.
 const MOST_NAME_SPACES: usize = 64;
 
-/// Elements inside one another beyond this are no scene's.
+/// Elements inside one another beyond this are not a scene's.
 const MOST_LEVELS: usize = 1 << 17;
 
 /// What the look finds.
@@ -21,7 +21,7 @@ pub(super) struct Scan {
     pub(super) unclosed: Option<Span>,
 }
 
-/// Looks at a text. What is no XML at all it passes by.
+/// Looks at a text. What is not XML at all it passes by.
 pub(super) fn scan(text: &str) -> Scan {
     let mut open: Vec<Span> = Vec::new();
     let refuse = |refused| Scan {

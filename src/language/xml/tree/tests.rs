@@ -156,7 +156,7 @@ fn elements_are_found_by_place() {
 }
 
 #[test]
-fn what_is_no_xml_is_told_at_its_place() {
+fn what_is_not_xml_is_told_at_its_place() {
     for (text, line, column, excerpt, message) in [
         ("", 1, 1, "", "there is no element"),
         ("\u{FEFF}\r\n <é", 2, 2, "<é", "the text ends inside `<é>`"),
@@ -188,11 +188,11 @@ fn what_is_no_xml_is_told_at_its_place() {
             "b:c",
             "the prefix `b` is not declared",
         ),
-        ("<a/>\n<b/>", 2, 1, "<", "this is no part of XML"),
-        ("<a/>\nb", 2, 1, "b", "this is no part of XML"),
+        ("<a/>\n<b/>", 2, 1, "<", "this is not part of XML"),
+        ("<a/>\nb", 2, 1, "b", "this is not part of XML"),
     ] {
         let tree = parse(text);
-        let fault = tree.fault.as_ref().expect("the text is no XML");
+        let fault = tree.fault.as_ref().expect("the text is not XML");
         let at = Position::of(text, fault.span.start());
         let found = (
             at.line,

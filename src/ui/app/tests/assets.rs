@@ -87,7 +87,7 @@ fn a_picture_is_traced_once_its_textures_are_there() {
     assert!(!traces(&same));
     let other = app.update(Msg::AssetsRead(skin, loaded("skin.ppm", [8; 3])));
     assert!(traces(&other));
-    assert_eq!(words(&app), "files read again");
+    assert_eq!(words(&app), "files reloaded");
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn what_is_wrong_with_a_file_is_a_warning_at_its_name() {
 
     app.update(Msg::AssetsRead(skin, loaded("skin.ppm", [9; 3])));
     assert_eq!(said(&app), None);
-    assert_eq!(words(&app), "all files can be read again");
+    assert_eq!(words(&app), "all files can be read now");
 }
 
 const MESHED: &str = "<xml><scene>
@@ -188,7 +188,7 @@ fn triangle(size: &str, library: &str) -> Loaded {
 
 fn broken() -> Loaded {
     let fault = NoMesh {
-        reasons: vec!["line 2, column 3: v: `x` is no number".to_owned()],
+        reasons: vec!["line 2, column 3: v: `x` is not a number".to_owned()],
         hint: None,
     };
     Loaded {
@@ -232,7 +232,7 @@ fn a_mesh_arrives_later_and_the_picture_follows_its_file() {
     ] {
         let effects = app.update(Msg::AssetsRead(wanted_mesh(&[]), other));
         assert_eq!(traced_objects(&effects), Some(2));
-        assert_eq!(words(&app), "files read again");
+        assert_eq!(words(&app), "files reloaded");
     }
 
     // What was lowered with other meshes than there are now is read again.
@@ -243,7 +243,7 @@ fn a_mesh_arrives_later_and_the_picture_follows_its_file() {
     // Another one: the picture waits for it, but the text has changed already.
     let effects = read(&mut app, "none/scene.xml", &more);
     assert!(!traces(&effects) && app.awaits_assets());
-    assert_eq!(words(&app), "read again: b.obj (obj)");
+    assert_eq!(words(&app), "reloaded: b.obj (obj)");
 }
 
 #[test]
@@ -261,7 +261,7 @@ fn a_broken_mesh_is_an_error_and_the_picture_is_kept() {
     let (text, found) = app.wrong();
     let error = found.first_error().expect("it is reported");
     assert_eq!(error.span.of(text), "a.obj");
-    let message = "a.obj (obj): line 2, column 3: v: `x` is no number";
+    let message = "a.obj (obj): line 2, column 3: v: `x` is not a number";
     assert_eq!(error.message, message);
     // Its file goes on being watched; what else is edited meanwhile is taken.
     assert_eq!(
@@ -278,7 +278,7 @@ fn a_broken_mesh_is_an_error_and_the_picture_is_kept() {
         triangle("3", "newmtl a\n"),
     ));
     assert_eq!(traced_objects(&effects), Some(2));
-    assert_eq!(words(&app), "all files can be read again");
+    assert_eq!(words(&app), "all files can be read now");
     assert_eq!(app.error_count(), 0);
 }
 
@@ -328,7 +328,7 @@ fn where_a_file_was_found_is_reported_once() {
     };
     for (colour, place, said) in [
         (1, "/a/skin.ppm", "skin.ppm is read from /a/skin.ppm"),
-        (2, "/a/skin.ppm", "files read again"),
+        (2, "/a/skin.ppm", "files reloaded"),
         (3, "/b/skin.ppm", "skin.ppm is read from /b/skin.ppm"),
     ] {
         app.update(Msg::AssetsRead(wanted(&["skin.ppm"]), found(colour, place)));

@@ -61,7 +61,7 @@ fn a_choice_is_nudged_and_typed() {
         .typing
         .as_ref()
         .and_then(|typing| typing.refused.clone());
-    let refused = refused.expect("sun is no source");
+    let refused = refused.expect("sun is not a source");
     assert!(
         refused.expected.contains("pnt or inf or amb"),
         "{refused:?}"
@@ -196,7 +196,7 @@ fn a_scene_keeps_its_language() {
         matches!(effects[..], [Effect::CheckPlace(_)]),
         "{effects:?}"
     );
-    assert_eq!(words(&app), "other.ray: this scene's name ends in .dat");
+    assert_eq!(words(&app), "other.ray: the name must end in .dat");
     // The line waits with a name that will do.
     press(&mut app, "<Esc>:w mine<Enter>");
     let line = app.prompt.as_ref().map(|prompt| prompt.input.value());

@@ -229,7 +229,7 @@ fn a_folder_that_was_moved_or_replaced_is_told_of() {
     let moved = format!("the scene's folder was moved to {}", two.display());
     let replaced = format!("another folder is at {} now", one.display());
     let theirs = SCENE.replace("1.5", "1.7");
-    let news = "; read again: object 1 (sphere) radius";
+    let news = "; reloaded: object 1 (sphere) radius";
     for (then, text, expected) in [
         (place("one"), SCENE, String::new()),
         (None, SCENE, String::new()),
@@ -512,10 +512,10 @@ fn a_reload_names_what_differs_from_the_last_good_text() {
     broken(&mut app, "x");
     broken(&mut app, "x y");
     outside(&mut app, SCENE);
-    assert_eq!(words(&app), "read again: the scene is unchanged");
+    assert_eq!(words(&app), "reloaded: the scene is unchanged");
     broken(&mut app, "x");
     outside(&mut app, &SCENE.replace("1.5", "1.7"));
-    assert_eq!(words(&app), "read again: object 1 (sphere) radius");
+    assert_eq!(words(&app), "reloaded: object 1 (sphere) radius");
 }
 
 #[test]

@@ -158,7 +158,7 @@ fn an_export_writes_what_is_shown_and_reports_it() {
     assert_eq!(words(&app), "exporting depth to scene.depth.bmp");
     let path = destination.path.clone();
     let size = job.settings.size;
-    // What is shown meanwhile is no matter.
+    // What is shown meanwhile does not matter.
     press(&mut app, "1");
     let done = Arc::new(pictures::frame(size, vec![0; size.pixels()]));
     app.update(Msg::Frame(Target::Export, done));

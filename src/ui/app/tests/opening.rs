@@ -83,7 +83,7 @@ fn help_and_the_way_out_need_no_scene() {
         let effects = press(&mut app, said);
         assert!(matches!(effects[..], [Effect::Quit]), "{said}: {effects:?}");
     }
-    for msg in [Msg::Terminate, Msg::HangUp] {
+    for msg in [Msg::Terminate { signal: 15 }, Msg::HangUp] {
         let (mut app, _) = opening();
         assert!(matches!(app.update(msg)[..], [Effect::Quit]));
     }
@@ -97,6 +97,19 @@ fn a_scene_that_cannot_be_read_ends_it() {
     let effects = app.update(Msg::Read(path, Err(error)));
     assert!(matches!(effects[..], [Effect::Quit]));
     assert!(matches!(app.unreadable, Some(ReadError::NotFound { .. })));
+}
+
+#[test]
+fn a_scene_whose_file_is_gone_is_written_again() {
+    let mut opening = opening_as("scene.ray", String::new());
+    opening.text = OpeningText::Kept(SCENE.to_owned());
+    let (mut app, effects) = App::open(opening);
+    let looks = |effect: &Effect| matches!(effect, Effect::LookForKept(_));
+    assert!(wants(&effects, looks));
+    assert_eq!((app.disk, app.document.text()), (Disk::Missing, SCENE));
+    let effects = press(&mut app, "w");
+    let saves = |effect: &Effect| matches!(effect, Effect::Save { text, .. } if **text == SCENE);
+    assert!(wants(&effects, saves), "{effects:?}");
 }
 
 #[test]

@@ -54,14 +54,14 @@ fn exports_are_refused_before_anything_is_traced() {
         (":export a.bmp 70000<Enter>", "samples"),
         (
             ":export a.bmp 10x<Enter>",
-            "`10x` is no size: 800x600 is one",
+            "`10x` is not a size such as 800x600",
         ),
-        (":export a.bmp 10x 4<Enter>", "`10x` is no size"),
-        (":export 10x<Enter>", "`10x` is no size"),
+        (":export a.bmp 10x 4<Enter>", "`10x` is not a size"),
+        (":export 10x<Enter>", "`10x` is not a size"),
         (":export a.bmp 99999999999<Enter>", "99999999999: samples"),
         (":export a.bmp fine<Enter>", "`fine` is neither"),
         (":export cancel<Enter>", "nothing is running"),
-        (":expoort<Enter>", "export is"),
+        (":expoort<Enter>", "did you mean export?"),
     ] {
         let mut app = open(SCENE);
         let effects = press(&mut app, said);

@@ -110,7 +110,7 @@ fn edits_that_could_not_be_kept_are_tried_again() {
 
 #[test]
 fn edits_are_written_down_once_more_at_the_end() {
-    for end in [Msg::HangUp, Msg::Terminate] {
+    for end in [Msg::HangUp, Msg::Terminate { signal: 15 }] {
         let mut app = open(SCENE);
         press(&mut app, "jjjel");
         let revision = ordered(&elapse(&mut app)).expect("an edit");
@@ -171,7 +171,7 @@ fn edits_made_while_the_scene_was_saved_are_kept_at_once() {
 }
 
 /// An offer of edits that started from one text for the one under edit.
-fn kept(app: &App, base: Option<&str>, text: &str) -> Offer {
+fn kept(app: &App, base: &str, text: &str) -> Offer {
     offer(
         app.document.language(),
         &app.document.shared_text(),
@@ -199,27 +199,25 @@ fn looks(effects: &[Effect]) -> bool {
 
 #[test]
 fn kept_edits_can_be_restored_and_undone() {
-    for base in [Some(SCENE), None] {
-        let mut app = open(SCENE);
-        let mine = variant("1.7", "0");
-        let offer = kept(&app, base, &mine);
-        app.update(recovered(offer));
-        press(&mut app, "j");
-        assert_eq!(words(&app), "the question comes first: r, d, Esc");
-        let effects = press(&mut app, "r");
-        // The old journal goes once the new one is there; others may be left.
-        let adopted = |effect: &Effect| matches!(effect, Effect::AdoptKept(_));
-        assert!(wants(&effects, adopted) && ordered(&effects).is_some() && looks(&effects));
-        assert_eq!(app.document.text(), mine);
-        press(&mut app, "u");
-        assert_eq!(app.document.text(), SCENE);
-    }
+    let mut app = open(SCENE);
+    let mine = variant("1.7", "0");
+    let offer = kept(&app, SCENE, &mine);
+    app.update(recovered(offer));
+    press(&mut app, "j");
+    assert_eq!(words(&app), "the question comes first: r, d, Esc");
+    let effects = press(&mut app, "r");
+    // The old journal goes once the new one is there; others may be left.
+    let adopted = |effect: &Effect| matches!(effect, Effect::AdoptKept(_));
+    assert!(wants(&effects, adopted) && ordered(&effects).is_some() && looks(&effects));
+    assert_eq!(app.document.text(), mine);
+    press(&mut app, "u");
+    assert_eq!(app.document.text(), SCENE);
 }
 
 #[test]
 fn kept_edits_can_be_thrown_away() {
     let mut app = open(SCENE);
-    let offer = kept(&app, Some(SCENE), &variant("1.7", "0"));
+    let offer = kept(&app, SCENE, &variant("1.7", "0"));
     app.update(recovered(offer));
     let effects = press(&mut app, "d");
     let dropped = |effect: &Effect| matches!(effect, Effect::DropKept(_));
@@ -230,7 +228,7 @@ fn kept_edits_can_be_thrown_away() {
 #[test]
 fn kept_edits_put_off_are_left_alone() {
     let mut app = open(SCENE);
-    let offer = kept(&app, Some(SCENE), &variant("1.7", "0"));
+    let offer = kept(&app, SCENE, &variant("1.7", "0"));
     let name = offer.claim.name().to_owned();
     app.update(recovered(offer));
     let mut effects = press(&mut app, "<Esc>");
@@ -251,7 +249,7 @@ fn kept_edits_put_off_are_left_alone() {
 fn a_file_that_has_changed_since_is_merged_with_kept_edits() {
     let theirs = variant("1.5", "9");
     let mut app = open(&theirs);
-    let offer = kept(&app, Some(SCENE), &variant("1.7", "0"));
+    let offer = kept(&app, SCENE, &variant("1.7", "0"));
     assert_eq!((offer.places, offer.conflicts()), (1, 0));
     app.update(recovered(offer));
     press(&mut app, "r");
@@ -283,7 +281,7 @@ fn kept_edits_that_the_file_contradicts_are_asked_about() {
         ("r<Esc>", &theirs),
     ] {
         let mut app = open(&theirs);
-        let offer = kept(&app, Some(SCENE), &variant("1.7", "0"));
+        let offer = kept(&app, SCENE, &variant("1.7", "0"));
         assert_eq!(offer.conflicts(), 1);
         app.update(recovered(offer));
         let effects = press(&mut app, keys);
@@ -307,7 +305,7 @@ fn kept_edits_that_the_file_contradicts_are_asked_about() {
 fn an_offer_follows_the_file() {
     for keys in ["", "r"] {
         let mut app = open(&variant("1.9", "9"));
-        let late = kept(&app, Some(SCENE), &variant("1.7", "0"));
+        let late = kept(&app, SCENE, &variant("1.7", "0"));
         app.update(recovered(late.clone()));
         press(&mut app, keys);
         let effects = outside(&mut app, &variant("1.6", "9"));
@@ -321,7 +319,7 @@ fn an_offer_follows_the_file() {
 fn one_question_is_asked_at_a_time() {
     let mut app = open(SCENE);
     press(&mut app, "jjjelq");
-    let offer = kept(&app, Some(SCENE), &variant("1.7", "0"));
+    let offer = kept(&app, SCENE, &variant("1.7", "0"));
     app.update(recovered(offer));
     assert!(matches!(app.dialog, Some(Dialog::Quit)));
     press(&mut app, "n");
@@ -337,9 +335,20 @@ fn one_question_is_asked_at_a_time() {
 #[test]
 fn complaints_about_kept_edits_are_shown() {
     let mut app = open(SCENE);
-    app.update(Msg::Recovered(Found {
-        offer: None,
-        complaints: vec!["it is damaged".to_owned()],
-    }));
-    assert_eq!(words(&app), "it is damaged");
+    let mut complain = |complaints: &[&str]| {
+        app.message = None;
+        app.update(Msg::Recovered(Found {
+            offer: None,
+            complaints: complaints.iter().map(ToString::to_string).collect(),
+        }));
+        app.message.as_ref().map(|message| message.text.clone())
+    };
+    for (complaints, said) in [
+        (["a is damaged"].as_slice(), Some("a is damaged")),
+        (&["a is damaged"], None),
+        (&["a is damaged", "b is a pipe"], Some("b is a pipe")),
+        (&["c", "d", "e"], Some("e; and 2 more")),
+    ] {
+        assert_eq!(complain(complaints).as_deref(), said);
+    }
 }

@@ -210,6 +210,20 @@ fn what_fails_besides_a_save_does_not_hide_why_the_save_failed() {
 }
 
 #[test]
+fn a_message_that_a_key_took_away_can_be_seen_again() {
+    let mut app = open(SCENE);
+    press(&mut app, "M");
+    assert_eq!(words(&app), "there was no message yet");
+    app.update(Msg::Failed("a: Permission denied (os error 13)".to_owned()));
+    for keys in ["M", "jM", "jkM"] {
+        press(&mut app, keys);
+        assert_eq!(words(&app), "a: Permission denied", "{keys}");
+    }
+    press(&mut app, "j");
+    assert_eq!(words(&app), "");
+}
+
+#[test]
 fn the_backup_of_an_interrupted_save_is_named() {
     let (mut app, effects) = opened(SCENE);
     assert!(wants(&effects, |effect| matches!(
@@ -221,7 +235,7 @@ fn the_backup_of_an_interrupted_save_is_named() {
     )]));
     assert_eq!(
         words(&app),
-        "the last save of scene.ray was interrupted: its previous content is in \
-         .halflight-backup-1-2-scene.ray"
+        "a save of scene.ray was interrupted: the content before it is in \
+         .halflight-backup-1-2-scene.ray; delete that if you do not need it"
     );
 }

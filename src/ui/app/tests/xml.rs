@@ -116,9 +116,9 @@ fn what_is_pasted_on_a_missing_colour_is_written_at_once() {
     assert_eq!(app.document.text(), SCENE);
 }
 
-/// A text that is no XML has nothing to list, and no key makes anything of it.
+/// A text that is not XML has nothing to list, and no key makes anything of it.
 #[test]
-fn a_text_that_is_no_xml_is_survived() {
+fn a_text_that_is_not_xml_is_survived() {
     for text in ["", "<xml>", "<xml><scene></xml>", "<scene/>"] {
         let mut app = opened_as("scene.xml", text).0;
         assert!(app.nodes().is_empty() && 0 < app.error_count(), "{text}");

@@ -146,11 +146,23 @@ fn files_that_are_not_followed() {
             allow(at, 0o666);
         }),
     ];
+    let is_refused = |found: &Found| {
+        let [said] = &found.complaints[..] else {
+            panic!("{:?}", found.complaints);
+        };
+        [
+            "-0.ray is not a regular file",
+            "-0.ray may be written by others",
+        ]
+        .iter()
+        .any(|reason| said.ends_with(reason))
+    };
     for (name, plant) in cases {
         let place = Place::new();
         place.make();
         plant(&place, &place.journal(0));
-        assert_eq!(place.offered(), None, "{name}");
+        let found = place.look(BASE);
+        assert!(found.offer.is_none() && is_refused(&found), "{name}");
         let mut journal = place.run();
         place.keep(&mut journal, "1 2 4");
         let mode = fs::metadata(place.journal(1))
@@ -164,7 +176,9 @@ fn files_that_are_not_followed() {
             .mode();
         assert_eq!(folder & 0o777, 0o700, "{name}");
         drop(journal);
-        assert_eq!(place.offered().as_deref(), Some("1 2 4"), "{name}");
+        let found = place.look(BASE);
+        assert!(is_refused(&found), "{name}");
+        assert_eq!(taken(&found).as_deref(), Some("1 2 4"), "{name}");
         let others = fs::read_dir(place.victim.parent().expect("a folder")).expect(name);
         assert_eq!(others.count(), 1, "{name}");
         assert_eq!(fs::read_to_string(&place.victim).expect(name), "untouched");

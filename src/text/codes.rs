@@ -1,0 +1,48 @@
+//! The numbers of errors in messages.
+
+use std::borrow::Cow;
+
+/// What the standard library puts behind the words of the system, with a number and a parenthesis.
+const CODE: &str = " (os error ";
+
+/// A message without the numbers of the system's errors, which say what the words before them do:
+/// `Permission denied (os error 13)`.
+pub fn without_codes(message: &str) -> Cow<'_, str> {
+    let mut kept = String::new();
+    let mut rest = message;
+    while let Some((before, code)) = rest.split_once(CODE) {
+        let after = code.trim_start_matches(|c: char| c.is_ascii_digit());
+        match after.strip_prefix(')') {
+            Some(after) if after.len() + 1 < code.len() => {
+                kept.push_str(before);
+                rest = after;
+            }
+            _ => break,
+        }
+    }
+    if rest.len() == message.len() {
+        return Cow::Borrowed(message);
+    }
+    Cow::Owned(kept + rest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_numbers_of_errors_are_left_out() {
+        for (message, shown) in [
+            ("a.ray: gone", "a.ray: gone"),
+            ("a: Permission denied (os error 13)", "a: Permission denied"),
+            (
+                "a: No such file (os error 2); b: Busy (os error 16): try again",
+                "a: No such file; b: Busy: try again",
+            ),
+            ("a (os error ).ray", "a (os error ).ray"),
+            ("a (os error 2", "a (os error 2"),
+        ] {
+            assert_eq!(without_codes(message), shown);
+        }
+    }
+}

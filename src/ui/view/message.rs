@@ -1,0 +1,23 @@
+//! A message that the status line has no room for: all of it, on the lines above the keys.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::widgets::{Clear, Widget};
+
+use super::row::{Row, title, visible, wrap};
+use super::{layout, theme};
+use crate::ui::app::Message;
+
+/// Draws a message at the bottom of `area`, as far as it fits there.
+pub(crate) fn render(message: &Message, area: Rect, buffer: &mut Buffer) {
+    let text = visible(&message.text);
+    let lines = wrap(&text, usize::from(area.width.saturating_sub(2)));
+    let height = u16::try_from(lines.len() + 1).unwrap_or(u16::MAX);
+    let (_, panel) = layout::split_bottom(area, height.min(area.height));
+    Clear.render(panel.intersection(buffer.area), buffer);
+    title("", "", None, panel, buffer);
+    let style = theme::severity(message.severity);
+    for (index, line) in (1..panel.height).zip(&lines) {
+        Row::new(buffer, panel, index).skip(1).put(line, style);
+    }
+}
