@@ -26,7 +26,7 @@ use tree::Tree;
 pub(super) use room::bytes;
 
 /// A `.dat` text.
-pub type Source = Written<Tree, Origins>;
+pub(super) type Source = Written<Tree, Origins>;
 
 /// Parses a text.
 pub(super) fn parse(text: Arc<String>) -> Source {

@@ -14,60 +14,60 @@ use crate::text::{Span, is_one_line_end};
 #[derive(Clone, Debug, Default)]
 pub struct Origins {
     /// The records that say the view: camera, resolution, viewport.
-    pub(in crate::language) view: [Option<usize>; 3],
-    pub(in crate::language) lights: Vec<Place>,
-    pub(in crate::language) materials: Vec<Place>,
-    pub(in crate::language) textures: Vec<Place>,
-    pub(in crate::language) objects: Vec<ObjectPlace>,
+    pub(super) view: [Option<usize>; 3],
+    pub(super) lights: Vec<Place>,
+    pub(super) materials: Vec<Place>,
+    pub(super) textures: Vec<Place>,
+    pub(super) objects: Vec<ObjectPlace>,
     /// What textures do to materials, each place once.
-    pub(in crate::language) uses: Vec<UsePlace>,
+    pub(super) uses: Vec<UsePlace>,
     /// The record that lists what is drawn.
-    pub(in crate::language) render: Option<usize>,
+    pub(super) render: Option<usize>,
     /// The objects that are drawn, ascending: those of the scene.
-    pub(in crate::language) drawn: Vec<usize>,
+    pub(super) drawn: Vec<usize>,
     /// World units per pixel, across and up, as said or by default.
-    pub(in crate::language) resolution: [f64; 2],
+    pub(super) resolution: [f64; 2],
     /// From the eye to the image plane, as said or by default.
-    pub(in crate::language) focal: f64,
+    pub(super) focal: f64,
 }
 
 /// Where a light, a material or a texture stands.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::language) struct Place {
+pub(super) struct Place {
     /// Index of its record.
-    pub(in crate::language) record: usize,
-    pub(in crate::language) kind: RecordKind,
-    pub(in crate::language) id: i64,
+    pub(super) record: usize,
+    pub(super) kind: RecordKind,
+    pub(super) id: i64,
 }
 
 /// Where an object stands.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::language) struct ObjectPlace {
+pub(super) struct ObjectPlace {
     /// Index of its record.
-    pub(in crate::language) record: usize,
-    pub(in crate::language) kind: ObjectKind,
-    pub(in crate::language) id: i64,
+    pub(super) record: usize,
+    pub(super) kind: ObjectKind,
+    pub(super) id: i64,
     /// The objects it combines, by index, which are below its own.
-    pub(in crate::language) operands: Option<[usize; 2]>,
+    pub(super) operands: Option<[usize; 2]>,
     /// Its material, by index.
-    pub(in crate::language) material: Option<usize>,
+    pub(super) material: Option<usize>,
     /// How many half-spaces cut it.
-    pub(in crate::language) cuts: usize,
+    pub(super) cuts: usize,
 }
 
 /// A record that says what a texture does to a material.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::language) struct UsePlace {
-    pub(in crate::language) record: usize,
-    pub(in crate::language) kind: RecordKind,
+pub(super) struct UsePlace {
+    pub(super) record: usize,
+    pub(super) kind: RecordKind,
     /// By index.
-    pub(in crate::language) material: usize,
+    pub(super) material: usize,
     /// By index.
-    pub(in crate::language) texture: usize,
+    pub(super) texture: usize,
 }
 
 /// The kinds of record that say the view, in the order of [`Origins::view`].
-pub(in crate::language) const VIEW: [RecordKind; 3] = [
+pub(super) const VIEW: [RecordKind; 3] = [
     RecordKind::Camera,
     RecordKind::Resolution,
     RecordKind::Viewport,

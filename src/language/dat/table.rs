@@ -4,7 +4,7 @@ use crate::language::table::{Category, Field, Kind, Range};
 
 /// What stands at a place of a record, after the words that say which record it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Part {
+pub(super) enum Part {
     /// Just this word.
     Word(&'static str),
     /// The number by which other records know this one.
@@ -15,7 +15,7 @@ pub enum Part {
 
 impl Part {
     /// How many tokens it takes.
-    pub const fn tokens(&self) -> usize {
+    pub(super) const fn tokens(&self) -> usize {
         match self {
             Self::Word(_) | Self::Id => 1,
             Self::Field(field) => field.kind.components(),
@@ -25,7 +25,7 @@ impl Part {
 
 /// The kinds of record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum RecordKind {
+pub(super) enum RecordKind {
     /// Where the camera stands and how it sees.
     Camera,
     /// World units per pixel.
@@ -48,7 +48,7 @@ pub enum RecordKind {
 
 /// The kinds of object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ObjectKind {
+pub(super) enum ObjectKind {
     /// A sphere.
     Sphere,
     /// An ellipsoid along the axes of the world.
@@ -65,7 +65,7 @@ pub enum ObjectKind {
 
 /// The kinds of texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum TextureKind {
+pub(super) enum TextureKind {
     /// Two colours in squares.
     Checker,
     /// A picture from a file.
@@ -74,7 +74,7 @@ pub enum TextureKind {
 
 /// What a texture is used for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum UseKind {
+pub(super) enum UseKind {
     /// Its colour multiplies the material's.
     Colour,
     /// Its brightness is a height.
@@ -83,7 +83,7 @@ pub enum UseKind {
 
 /// The words that may follow the first word of a record.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Heads {
+pub(super) enum Heads {
     /// The first word says it all.
     One(RecordKind),
     /// The second word says which kind it is.
@@ -91,7 +91,7 @@ pub enum Heads {
 }
 
 /// The words that a record may begin with.
-pub const RECORDS: &[(&str, Heads)] = &[
+pub(super) const RECORDS: &[(&str, Heads)] = &[
     ("camera", Heads::One(RecordKind::Camera)),
     ("resolution", Heads::One(RecordKind::Resolution)),
     ("viewport", Heads::One(RecordKind::Viewport)),
@@ -122,17 +122,17 @@ const OBJECTS: &[(&str, RecordKind)] = &[
 ];
 
 /// The words by which a record says how the camera sees.
-pub const PROJECTIONS: &[&str] = &["perspective", "orthographic"];
+pub(super) const PROJECTIONS: &[&str] = &["perspective", "orthographic"];
 /// The words by which a light says what it is.
-pub const SOURCES: &[&str] = &["pnt", "inf", "amb"];
+pub(super) const SOURCES: &[&str] = &["pnt", "inf", "amb"];
 /// The words by which a light says whether it casts shadows.
-pub const SHADOWS: &[&str] = &["shadow_on", "shadow_off"];
+pub(super) const SHADOWS: &[&str] = &["shadow_on", "shadow_off"];
 /// The words by which an object says how two others are combined.
-pub const OPERATIONS: &[&str] = &["union", "intersection", "difference"];
+pub(super) const OPERATIONS: &[&str] = &["union", "intersection", "difference"];
 
 impl ObjectKind {
     /// The word after `obj`.
-    pub fn keyword(self) -> &'static str {
+    pub(super) fn keyword(self) -> &'static str {
         OBJECTS
             .iter()
             .find(|(_, kind)| *kind == RecordKind::Object(self))
@@ -143,7 +143,7 @@ impl ObjectKind {
 impl RecordKind {
     /// What follows the words that begin the record. A quadric's half-spaces and the objects that
     /// `render` lists come on top: as many as the text says.
-    pub const fn parts(self) -> &'static [Part] {
+    pub(super) const fn parts(self) -> &'static [Part] {
         match self {
             Self::Camera => CAMERA,
             Self::Resolution => RESOLUTION,
@@ -165,7 +165,7 @@ impl RecordKind {
     }
 
     /// How many words say which record it is.
-    pub const fn heads(self) -> usize {
+    pub(super) const fn heads(self) -> usize {
         match self {
             Self::Object(_) | Self::Use(_) => 2,
             _ => 1,
@@ -173,7 +173,7 @@ impl RecordKind {
     }
 
     /// Its fields, in the order of the text.
-    pub fn fields(self) -> impl Iterator<Item = &'static Field> + Clone {
+    pub(super) fn fields(self) -> impl Iterator<Item = &'static Field> + Clone {
         self.parts().iter().filter_map(|part| match part {
             Part::Field(field) => Some(field),
             Part::Word(_) | Part::Id => None,
@@ -462,7 +462,7 @@ const QUADRIC: &[Part] = &[
 ];
 
 /// A face that cuts a quadric.
-pub const HALF_SPACE: &Field = &Field {
+pub(super) const HALF_SPACE: &Field = &Field {
     kind: Kind::HalfSpace,
     ..Field::point(
         "cut",

@@ -28,7 +28,7 @@ use tree::Tree;
 pub(super) use room::bytes;
 
 /// A `.ray` text.
-pub type Source = Written<Tree, Origins>;
+pub(super) type Source = Written<Tree, Origins>;
 
 /// Parses a text.
 pub(super) fn parse(text: Arc<String>) -> Source {

@@ -17,35 +17,35 @@ use crate::text::Span;
 /// was made from.
 #[derive(Clone, Debug, Default)]
 pub struct Origins {
-    pub(in crate::language) view: Option<ViewPlace>,
+    pub(super) view: Option<ViewPlace>,
     /// How many of the first tokens are ambient light's numbers.
-    pub(in crate::language) ambient: usize,
+    pub(super) ambient: usize,
     /// The first token of the lights, and how many of their numbers follow.
-    pub(in crate::language) lights: (usize, usize),
-    pub(in crate::language) objects: Arc<Vec<ObjectPlace>>,
+    pub(super) lights: (usize, usize),
+    pub(super) objects: Arc<Vec<ObjectPlace>>,
     /// How many tokens and comments the text has.
-    pub(in crate::language) tokens: usize,
-    pub(in crate::language) comments: usize,
+    pub(super) tokens: usize,
+    pub(super) comments: usize,
 }
 
 /// Where a view comment's parts stand.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::language) struct ViewPlace {
+pub(super) struct ViewPlace {
     /// The whole comment.
-    pub(in crate::language) comment: Span,
+    pub(super) comment: Span,
     /// In the order of [`VIEW`]: as many spans as the field has components, or `None` if missing.
-    pub(in crate::language) parts: [Option<[Span; 3]>; VIEW.len()],
+    pub(super) parts: [Option<[Span; 3]>; VIEW.len()],
 }
 
 /// Where an object stands.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::language) struct ObjectPlace {
+pub(super) struct ObjectPlace {
     /// Index of the token that is its keyword.
-    pub(in crate::language) token: u32,
+    pub(super) token: u32,
     /// What it is.
-    pub(in crate::language) kind: ShapeKind,
+    pub(super) kind: ShapeKind,
     /// How many numbers follow the keyword: fewer than its kind takes where the text breaks off.
-    pub(in crate::language) numbers: u8,
+    pub(super) numbers: u8,
 }
 
 impl Origins {
@@ -73,7 +73,7 @@ impl Origins {
     }
 
     /// What an object is called.
-    pub(in crate::language) fn object_name(&self, index: usize) -> String {
+    pub(super) fn object_name(&self, index: usize) -> String {
         match self.objects.get(index) {
             Some(object) => Name::Object(index, object.kind.keyword()).to_string(),
             None => format!("object {}", index + 1),
@@ -211,7 +211,7 @@ impl Origins {
     }
 
     /// The node a token belongs to; counts and surplus tokens belong to none.
-    pub(in crate::language) fn node_of_token(&self, token: usize) -> Option<Node> {
+    pub(super) fn node_of_token(&self, token: usize) -> Option<Node> {
         if token < self.ambient {
             return Some(Node::Ambient);
         }

@@ -3,7 +3,7 @@
 use crate::language::table::{Field, Kind, Range, numbers};
 
 /// The camera, as a view comment holds it.
-pub const VIEW: &[Field; 5] = &[
+pub(super) const VIEW: &[Field; 5] = &[
     Field::point("eye", "Where the camera stands."),
     Field::point("target", "The point the camera looks at."),
     Field::direction("up", "Which way is up in the picture; of any length."),
@@ -26,19 +26,19 @@ pub const VIEW: &[Field; 5] = &[
 ];
 
 /// Ambient light.
-pub const AMBIENT: &[Field; 1] = &[Field::colour(
+pub(super) const AMBIENT: &[Field; 1] = &[Field::colour(
     "colour",
     "The light that reaches every surface from everywhere.",
 )];
 
 /// A light.
-pub const LIGHT: &[Field; 2] = &[
+pub(super) const LIGHT: &[Field; 2] = &[
     Field::point("position", "Where the light stands."),
     Field::colour("colour", "What the light sends, at any distance."),
 ];
 
 /// What every object is made of; follows its shape's fields.
-pub const MATERIAL: &[Field; 7] = &[
+pub(super) const MATERIAL: &[Field; 7] = &[
     Field::coefficients(
         "ka",
         "Ambient coefficient: share of ambient light sent back.",
@@ -123,7 +123,7 @@ const CONE: &[Field; 7] = &[
 
 /// The kinds of object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ShapeKind {
+pub(super) enum ShapeKind {
     /// A sphere.
     Sphere,
     /// An ellipsoid with any three axes.
@@ -138,7 +138,7 @@ pub enum ShapeKind {
 
 impl ShapeKind {
     /// All of them.
-    pub const ALL: [Self; 5] = [
+    pub(super) const ALL: [Self; 5] = [
         Self::Sphere,
         Self::Ellipsoid,
         Self::Box,
@@ -147,7 +147,7 @@ impl ShapeKind {
     ];
 
     /// The word that begins such an object.
-    pub const fn keyword(self) -> &'static str {
+    pub(super) const fn keyword(self) -> &'static str {
         match self {
             Self::Sphere => "sphere",
             Self::Ellipsoid => "ellipsoid",
@@ -158,14 +158,14 @@ impl ShapeKind {
     }
 
     /// The kind a word names, in any case.
-    pub fn of_word(word: &str) -> Option<Self> {
+    pub(super) fn of_word(word: &str) -> Option<Self> {
         Self::ALL
             .into_iter()
             .find(|kind| kind.keyword().eq_ignore_ascii_case(word))
     }
 
     /// The fields of its shape, in the order of the text.
-    pub const fn geometry(self) -> &'static [Field] {
+    pub(super) const fn geometry(self) -> &'static [Field] {
         match self {
             Self::Sphere => SPHERE,
             Self::Ellipsoid => ELLIPSOID,
@@ -176,12 +176,12 @@ impl ShapeKind {
     }
 
     /// All fields of such an object, in the order of the text: its shape's, then its material's.
-    pub fn fields(self) -> impl Iterator<Item = &'static Field> + Clone {
+    pub(super) fn fields(self) -> impl Iterator<Item = &'static Field> + Clone {
         self.geometry().iter().chain(MATERIAL)
     }
 
     /// How many numbers follow its keyword.
-    pub const fn numbers(self) -> usize {
+    pub(super) const fn numbers(self) -> usize {
         numbers(self.geometry()) + numbers(MATERIAL)
     }
 }

@@ -27,7 +27,7 @@ pub(super) use room::bytes;
 pub(super) use tree::spelled;
 
 /// A `.xml` text.
-pub type Source = Written<Tree, Origins>;
+pub(super) type Source = Written<Tree, Origins>;
 
 /// Parses a text.
 pub(super) fn parse(text: Arc<String>) -> Source {

@@ -18,53 +18,53 @@ use crate::text::{Span, is_one_line_end, visible};
 #[derive(Clone, Debug, Default)]
 pub struct Origins {
     /// What each element is.
-    pub(in crate::language) roles: Vec<Role>,
+    pub(super) roles: Vec<Role>,
     /// The element whose node each element belongs to, and 0 where it belongs to none.
-    pub(in crate::language) owners: Vec<u32>,
+    pub(super) owners: Vec<u32>,
     /// What each attribute is: its place in [`WORDS`], or [`NO_WORD`].
-    pub(in crate::language) words: Vec<u8>,
-    pub(in crate::language) root: Option<usize>,
-    pub(in crate::language) scene: Option<usize>,
-    pub(in crate::language) camera: Option<usize>,
-    pub(in crate::language) lights: Vec<Place<LightKind>>,
-    pub(in crate::language) materials: Vec<Place<MaterialKind>>,
-    pub(in crate::language) objects: Vec<Place<ObjectKind>>,
+    pub(super) words: Vec<u8>,
+    pub(super) root: Option<usize>,
+    pub(super) scene: Option<usize>,
+    pub(super) camera: Option<usize>,
+    pub(super) lights: Vec<Place<LightKind>>,
+    pub(super) materials: Vec<Place<MaterialKind>>,
+    pub(super) objects: Vec<Place<ObjectKind>>,
     /// The material of each object, by index.
-    pub(in crate::language) dressed: Vec<Option<usize>>,
+    pub(super) dressed: Vec<Option<usize>>,
     /// The objects that are drawn, ascending: those of the scene.
-    pub(in crate::language) drawn: Vec<usize>,
+    pub(super) drawn: Vec<usize>,
     /// The attributes that name other files.
-    pub(in crate::language) files: Vec<NamedPlace>,
+    pub(super) files: Vec<NamedPlace>,
     /// Whether the scene is meant for path tracing.
-    pub(in crate::language) is_srgb: bool,
+    pub(super) is_srgb: bool,
     /// What multiplies the camera's vectors.
-    pub(in crate::language) factors: [Option<f64>; 3],
+    pub(super) factors: [Option<f64>; 3],
 }
 
 /// Where a light, a material or an object stands.
 #[derive(Clone, Debug)]
-pub(in crate::language) struct Place<Kind> {
+pub(super) struct Place<Kind> {
     /// Index of its element.
-    pub(in crate::language) element: u32,
-    pub(in crate::language) kind: Kind,
+    pub(super) element: u32,
+    pub(super) kind: Kind,
     /// What the text calls it.
-    pub(in crate::language) name: Option<Box<str>>,
+    pub(super) name: Option<Box<str>>,
     /// How many objects it is in.
-    pub(in crate::language) depth: u32,
+    pub(super) depth: u32,
 }
 
 /// An attribute that names a file.
 #[derive(Clone, Debug)]
-pub(in crate::language) struct NamedPlace {
+pub(super) struct NamedPlace {
     /// Whose it is.
-    pub(in crate::language) element: usize,
-    pub(in crate::language) attribute: usize,
-    pub(in crate::language) what: What,
+    pub(super) element: usize,
+    pub(super) attribute: usize,
+    pub(super) what: What,
 }
 
 /// What a file is that an attribute names.
 #[derive(Clone, Debug)]
-pub(in crate::language) enum What {
+pub(super) enum What {
     /// The picture of a texture.
     Texture,
     /// A mesh.
@@ -75,7 +75,7 @@ pub(in crate::language) enum What {
 
 /// What an element is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::language) enum Role {
+pub(super) enum Role {
     /// Nothing that counts.
     Skipped,
     Root,
@@ -94,7 +94,7 @@ pub(in crate::language) enum Role {
 }
 
 /// The attributes that mean something.
-pub(in crate::language) const WORDS: [&str; 15] = [
+pub(super) const WORDS: [&str; 15] = [
     "x",
     "y",
     "z",
@@ -113,7 +113,7 @@ pub(in crate::language) const WORDS: [&str; 15] = [
 ];
 
 /// An attribute that means nothing.
-pub(in crate::language) const NO_WORD: u8 = u8::MAX;
+pub(super) const NO_WORD: u8 = u8::MAX;
 
 impl Origins {
     pub(super) fn nodes(&self) -> Nodes {
@@ -127,7 +127,7 @@ impl Origins {
         }
     }
 
-    pub(in crate::language) fn name(&self, node: Node) -> String {
+    pub(super) fn name(&self, node: Node) -> String {
         match node {
             Node::View => "view".to_owned(),
             Node::Ambient => "ambient".to_owned(),
@@ -262,19 +262,14 @@ impl Origins {
     }
 
     /// The attribute of an element that is one of [`WORDS`].
-    pub(in crate::language) fn attribute(
-        &self,
-        tree: &Tree,
-        element: usize,
-        word: &str,
-    ) -> Option<usize> {
+    pub(super) fn attribute(&self, tree: &Tree, element: usize, word: &str) -> Option<usize> {
         let word = WORDS.iter().position(|known| *known == word)? as u8;
         let mut own = tree.elements.get(element)?.attributes();
         own.find(|&at| self.words.get(at) == Some(&word))
     }
 
     /// The value of an attribute.
-    pub(in crate::language) fn value<'t>(
+    pub(super) fn value<'t>(
         &self,
         tree: &'t Tree,
         element: usize,
@@ -284,7 +279,7 @@ impl Origins {
     }
 
     /// The element in another one that says a parameter.
-    pub(in crate::language) fn parameter(
+    pub(super) fn parameter(
         &self,
         tree: &Tree,
         holder: usize,
@@ -310,7 +305,7 @@ impl Origins {
     }
 
     /// The node that an element belongs to.
-    pub(in crate::language) fn node_of(&self, element: usize) -> Option<Node> {
+    pub(super) fn node_of(&self, element: usize) -> Option<Node> {
         let owner = *self.owners.get(element)?;
         Some(match self.roles.get(owner as usize)? {
             Role::Camera => Node::View,

@@ -4,11 +4,11 @@
 mod kinds;
 
 use crate::language::table::{Category, Field, Kind, Range};
-pub use kinds::{LightKind, MaterialKind, ObjectKind};
+pub(super) use kinds::{LightKind, MaterialKind, ObjectKind};
 
 /// An element that says something of the one around it.
 #[derive(Debug, PartialEq)]
-pub struct Parameter {
+pub(super) struct Parameter {
     /// Its name.
     pub element: &'static str,
     /// How its attributes are read.
@@ -29,7 +29,7 @@ pub struct Parameter {
 
 /// How the attributes of an element are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reading {
+pub(super) enum Reading {
     /// x, y, z, times `value`.
     Vector,
     /// r, g, b, times `value`.
@@ -42,7 +42,7 @@ pub enum Reading {
 
 /// A number beside those of an element.
 #[derive(Debug, PartialEq)]
-pub struct Extra {
+pub(super) struct Extra {
     /// The attribute.
     pub attribute: &'static str,
     /// What it reads as if it is missing.
@@ -55,7 +55,7 @@ pub struct Extra {
 
 impl Extra {
     /// What it reads as if it is missing.
-    pub fn missing(&self, is_srgb: bool) -> &'static str {
+    pub(super) fn missing(&self, is_srgb: bool) -> &'static str {
         if is_srgb {
             self.missing_srgb
         } else {
@@ -66,7 +66,7 @@ impl Extra {
 
 /// An attribute that is a word.
 #[derive(Debug, PartialEq)]
-pub struct Word {
+pub(super) struct Word {
     /// Its field; the key is the attribute's name.
     pub field: Field,
     /// What stands for it if it is missing.
@@ -75,7 +75,7 @@ pub struct Word {
 
 /// Whether an element may have a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Texturing {
+pub(super) enum Texturing {
     /// It may not.
     No,
     /// It may.
@@ -85,21 +85,12 @@ pub enum Texturing {
 impl Reading {
     /// The attributes, in order; the last of a vector and a colour is what the others are
     /// multiplied by.
-    pub const fn attributes(self) -> &'static [&'static str] {
+    pub(super) const fn attributes(self) -> &'static [&'static str] {
         match self {
             Self::Vector => &["x", "y", "z", "value"],
             Self::Colour => &["r", "g", "b", "value"],
             Self::Number => &["value"],
             Self::Rotation => &["x", "y", "z", "angle"],
-        }
-    }
-
-    /// How many of them stand for themselves.
-    pub const fn components(self) -> usize {
-        match self {
-            Self::Vector | Self::Colour => 3,
-            Self::Number => 1,
-            Self::Rotation => 4,
         }
     }
 }
@@ -176,7 +167,7 @@ impl Parameter {
     }
 
     /// What one of its attributes reads as if it is missing in the element.
-    pub fn inside(&self, attribute: &str) -> &'static str {
+    pub(super) fn inside(&self, attribute: &str) -> &'static str {
         match (self.reading, attribute) {
             (Reading::Vector | Reading::Colour, "value") => "1",
             _ => self.inside,
@@ -207,7 +198,7 @@ const fn at_least_0(key: &'static str, step: f64, doc: &'static str) -> Field {
 }
 
 /// What a camera has.
-pub static CAMERA: [Parameter; 8] = [
+pub(super) static CAMERA: [Parameter; 8] = [
     Parameter::vector("position", ZERO, "Where the camera stands."),
     Parameter::vector("target", &["0", "0", "-1"], "The point it looks at."),
     Parameter::vector("up", &["0", "1", "0"], "Which way is up in the picture."),
@@ -242,7 +233,7 @@ pub static CAMERA: [Parameter; 8] = [
 ];
 
 /// The camera's attribute.
-pub static GAMMA: Word = word(
+pub(super) static GAMMA: Word = word(
     "gamma",
     Kind::Choice(&["linear", "sRGB"]),
     "linear",
@@ -250,24 +241,24 @@ pub static GAMMA: Word = word(
 );
 
 /// Places in [`CAMERA`].
-pub const POSITION: usize = 0;
+pub(super) const POSITION: usize = 0;
 /// Of what the camera looks at.
-pub const TARGET: usize = 1;
+pub(super) const TARGET: usize = 1;
 /// Of the direction up.
-pub const UP: usize = 2;
+pub(super) const UP: usize = 2;
 /// Of the angle of view.
-pub const FOV: usize = 3;
+pub(super) const FOV: usize = 3;
 /// Of the distance that is sharp.
-pub const FOCAL_DISTANCE: usize = 4;
+pub(super) const FOCAL_DISTANCE: usize = 4;
 /// Of the radius of the lens.
-pub const LENS: usize = 5;
+pub(super) const LENS: usize = 5;
 /// Of the picture's width.
-pub const WIDTH: usize = 6;
+pub(super) const WIDTH: usize = 6;
 /// Of its height.
-pub const HEIGHT: usize = 7;
+pub(super) const HEIGHT: usize = 7;
 
 /// What misses everything, seen by the camera.
-pub static BACKGROUND: Parameter = Parameter::colour(
+pub(super) static BACKGROUND: Parameter = Parameter::colour(
     "background",
     ZERO,
     "What the camera sees behind everything.",
@@ -275,7 +266,7 @@ pub static BACKGROUND: Parameter = Parameter::colour(
 .textured();
 
 /// What misses everything, seen otherwise.
-pub static ENVIRONMENT: Parameter = Parameter::colour(
+pub(super) static ENVIRONMENT: Parameter = Parameter::colour(
     "environment",
     ZERO,
     "What mirrors and glass see behind everything.",
@@ -283,7 +274,7 @@ pub static ENVIRONMENT: Parameter = Parameter::colour(
 .textured();
 
 /// How something is moved; what is listed first acts first.
-pub static TRANSFORMS: [Parameter; 3] = [
+pub(super) static TRANSFORMS: [Parameter; 3] = [
     Parameter {
         inside: "1",
         ..Parameter::vector(
@@ -304,7 +295,7 @@ pub static TRANSFORMS: [Parameter; 3] = [
 ];
 
 /// What a checkerboard has beside transforms.
-pub static CHECKER: [Parameter; 2] = [
+pub(super) static CHECKER: [Parameter; 2] = [
     Parameter::colour("color1", ZERO, "The squares at uv 0, 0.").textured(),
     Parameter::colour("color2", ONE, "The other squares.").textured(),
 ];
@@ -348,7 +339,7 @@ const EMISSION: Parameter =
     Parameter::colour("emission", ZERO, "What shines by itself.").textured();
 
 /// What a blinn or phong material has.
-pub static MATERIAL: [Parameter; 7] = [
+pub(super) static MATERIAL: [Parameter; 7] = [
     Parameter::colour("diffuse", HALF, "The colour of light sent back evenly.").textured(),
     Parameter::colour(
         "specular",
@@ -374,7 +365,7 @@ pub static MATERIAL: [Parameter; 7] = [
 ];
 
 /// What a microfacet material has.
-pub static MICROFACET: [Parameter; 7] = [
+pub(super) static MICROFACET: [Parameter; 7] = [
     Parameter::colour("color", HALF, "Its colour.").textured(),
     Parameter::number(
         Field::number(
@@ -409,10 +400,10 @@ const INTENSITY: Parameter =
     Parameter::colour("intensity", ZERO, "How bright it is, and in which colour.");
 
 /// What an ambient light has.
-pub static AMBIENT: [Parameter; 1] = [INTENSITY];
+pub(super) static AMBIENT: [Parameter; 1] = [INTENSITY];
 
 /// What a direct light has.
-pub static DIRECT: [Parameter; 2] = [
+pub(super) static DIRECT: [Parameter; 2] = [
     INTENSITY,
     Parameter::vector(
         "direction",
@@ -422,7 +413,7 @@ pub static DIRECT: [Parameter; 2] = [
 ];
 
 /// What a point light has.
-pub static POINT: [Parameter; 4] = [
+pub(super) static POINT: [Parameter; 4] = [
     INTENSITY,
     Parameter::vector("position", ZERO, "Where it stands."),
     Parameter::number(
@@ -440,7 +431,7 @@ pub static POINT: [Parameter; 4] = [
 ];
 
 /// The attributes of an object.
-pub static OBJECT: [Word; 3] = [
+pub(super) static OBJECT: [Word; 3] = [
     word(
         "type",
         Kind::Choice(ObjectKind::TYPES),
@@ -462,7 +453,7 @@ pub static OBJECT: [Word; 3] = [
 ];
 
 /// The attributes of a material.
-pub static MATERIAL_WORDS: [Word; 2] = [
+pub(super) static MATERIAL_WORDS: [Word; 2] = [
     word(
         "type",
         Kind::Choice(MaterialKind::TYPES),
@@ -473,7 +464,7 @@ pub static MATERIAL_WORDS: [Word; 2] = [
 ];
 
 /// The attributes of a light.
-pub static LIGHT_WORDS: [Word; 2] = [
+pub(super) static LIGHT_WORDS: [Word; 2] = [
     word(
         "type",
         Kind::Choice(LightKind::TYPES),
@@ -484,7 +475,7 @@ pub static LIGHT_WORDS: [Word; 2] = [
 ];
 
 /// What a texture is: `checkerboard`, or a file.
-pub static TEXTURE: Field = word(
+pub(super) static TEXTURE: Field = word(
     "texture",
     Kind::Word,
     "none",

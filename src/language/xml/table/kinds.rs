@@ -4,7 +4,7 @@ use super::{AMBIENT, DIRECT, MATERIAL, MICROFACET, POINT, Parameter};
 
 /// What an object is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ObjectKind {
+pub(in crate::language::xml) enum ObjectKind {
     /// A ball of radius 1.
     Sphere,
     /// A square from −1 to 1.
@@ -17,7 +17,7 @@ pub enum ObjectKind {
 
 /// How a material is shaded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MaterialKind {
+pub(in crate::language::xml) enum MaterialKind {
     /// A highlight around the normal.
     Blinn,
     /// A highlight around the mirrored direction.
@@ -28,7 +28,7 @@ pub enum MaterialKind {
 
 /// Where light comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LightKind {
+pub(in crate::language::xml) enum LightKind {
     /// Everywhere.
     Ambient,
     /// One direction.
@@ -39,16 +39,16 @@ pub enum LightKind {
 
 impl ObjectKind {
     /// What `type` says; a group has none.
-    pub const TYPES: &'static [&'static str] = &["sphere", "plane", "obj"];
+    pub(in crate::language::xml) const TYPES: &'static [&'static str] = &["sphere", "plane", "obj"];
 
     /// The kind of a type, in any case.
-    pub fn of(word: &str) -> Option<Self> {
+    pub(in crate::language::xml) fn of(word: &str) -> Option<Self> {
         let kinds = [Self::Sphere, Self::Plane, Self::Obj];
         Some(kinds[place(Self::TYPES, word)?])
     }
 
     /// What it is called.
-    pub const fn word(self) -> &'static str {
+    pub(in crate::language::xml) const fn word(self) -> &'static str {
         match self {
             Self::Sphere => "sphere",
             Self::Plane => "plane",
@@ -60,21 +60,22 @@ impl ObjectKind {
 
 impl MaterialKind {
     /// What `type` says.
-    pub const TYPES: &'static [&'static str] = &["blinn", "phong", "microfacet"];
+    pub(in crate::language::xml) const TYPES: &'static [&'static str] =
+        &["blinn", "phong", "microfacet"];
 
     /// The kind of a type, in any case.
-    pub fn of(word: &str) -> Option<Self> {
+    pub(in crate::language::xml) fn of(word: &str) -> Option<Self> {
         let kinds = [Self::Blinn, Self::Phong, Self::Microfacet];
         Some(kinds[place(Self::TYPES, word)?])
     }
 
     /// What it is called.
-    pub const fn word(self) -> &'static str {
+    pub(in crate::language::xml) const fn word(self) -> &'static str {
         Self::TYPES[self as usize]
     }
 
     /// What it has.
-    pub fn parameters(self) -> &'static [Parameter] {
+    pub(in crate::language::xml) fn parameters(self) -> &'static [Parameter] {
         match self {
             Self::Blinn | Self::Phong => &MATERIAL,
             Self::Microfacet => &MICROFACET,
@@ -84,21 +85,22 @@ impl MaterialKind {
 
 impl LightKind {
     /// What `type` says.
-    pub const TYPES: &'static [&'static str] = &["ambient", "direct", "point"];
+    pub(in crate::language::xml) const TYPES: &'static [&'static str] =
+        &["ambient", "direct", "point"];
 
     /// The kind of a type, in any case.
-    pub fn of(word: &str) -> Option<Self> {
+    pub(in crate::language::xml) fn of(word: &str) -> Option<Self> {
         let kinds = [Self::Ambient, Self::Direct, Self::Point];
         Some(kinds[place(Self::TYPES, word)?])
     }
 
     /// What it is called.
-    pub const fn word(self) -> &'static str {
+    pub(in crate::language::xml) const fn word(self) -> &'static str {
         Self::TYPES[self as usize]
     }
 
     /// What it has.
-    pub fn parameters(self) -> &'static [Parameter] {
+    pub(in crate::language::xml) fn parameters(self) -> &'static [Parameter] {
         match self {
             Self::Ambient => &AMBIENT,
             Self::Direct => &DIRECT,
