@@ -166,7 +166,7 @@ fn scaled_scenes_give_the_same_picture() {
 
 /// The course's files, by a reader of lines of their own.
 #[test]
-fn the_course_s_own_files_are_read_whole() {
+fn the_courses_own_files_are_read_whole() {
     let Some(folder) = std::env::var_os("HALFLIGHT_EXTRA_SCENES").map(PathBuf::from) else {
         println!("HALFLIGHT_EXTRA_SCENES names no folder: the course's files are not tested");
         return;

@@ -64,7 +64,7 @@ fn scaled_scenes_give_the_same_picture() {
 
 /// The example as it comes from the course's page, with no-break spaces, is the same scene.
 #[test]
-fn the_course_s_own_copies_mean_the_same() {
+fn the_courses_own_copies_mean_the_same() {
     let Some(folder) = std::env::var_os("HALFLIGHT_EXTRA_SCENES").map(PathBuf::from) else {
         println!("HALFLIGHT_EXTRA_SCENES names no folder: the course's files are not tested");
         return;

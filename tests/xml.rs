@@ -91,7 +91,7 @@ fn the_example_is_white_on_black() {
 
 /// What the files of the course say is understood, and edits of every field leave all else alone.
 #[test]
-fn the_course_s_own_files_are_read_listed_and_edited() {
+fn the_courses_own_files_are_read_listed_and_edited() {
     let Some(folder) = std::env::var_os("HALFLIGHT_EXTRA_SCENES").map(PathBuf::from) else {
         println!("HALFLIGHT_EXTRA_SCENES names no folder: the course's files are not tested");
         return;

@@ -223,7 +223,7 @@ fn a_file_that_is_being_written_keeps_its_last_picture() {
 }
 
 #[test]
-fn what_takes_a_picture_s_place_does_not_take_the_picture() {
+fn what_takes_a_pictures_place_does_not_take_the_picture() {
     let place = Place::new();
     place.write("a.ppm", ppm(RED));
     let wanted = place.wanted(&["a.ppm"]);

@@ -65,7 +65,7 @@ fn options_reach_the_interface() {
 }
 
 #[test]
-fn a_picture_s_format_is_its_extension_unless_given() {
+fn a_pictures_format_is_its_extension_unless_given() {
     let cases = [
         ("halflight render a -o b.PNG", ImageFormat::Png),
         ("halflight render a -o b.png --format ppm", ImageFormat::Ppm),

@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn windows_follow_the_text_s_own_line_ends() {
+    fn windows_follow_the_texts_own_line_ends() {
         for end in ["\r", "\r\n", "\r\r\n"] {
             let text = |middle: &str| ["aa", middle, "cc", ""].join(end);
             let (base, other) = (text("bb"), text("b"));

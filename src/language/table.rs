@@ -1,8 +1,8 @@
-//! The one table of fields: what can be said of each thing, in which order, within which range; one
-//! language a file.
+//! What the tables of fields are made of: kinds, ranges, steps and units.
 //!
-//! Lowering reads its grammar from these tables, the editor its names, ranges and steps: there is
-//! no second list of what an object holds. The table knows neither text nor values.
+//! Each language has one table of what can be said of each thing, in which order, within which range.
+//! Lowering reads its grammar from it, the editor its names, ranges and steps: there is no second list
+//! of what an object holds. A table knows neither text nor values.
 
 /// What a field's numbers are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

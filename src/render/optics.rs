@@ -168,7 +168,7 @@ mod tests {
     /// By hand: ((1 − 1.5) / 2.5)² = .04; at 60° 0.04 + 0.96 / 32 = .07. Leaving glass at an angle
     /// whose sine is ⅓ the ray is in air at 30°: 1 − cos 30° = 0.133975, to the fifth 4.316e-5.
     #[test]
-    fn schlick_s_values_known_on_paper() {
+    fn schlicks_values_known_on_paper() {
         let from_air = |cosine| fresnel(1.0, cosine, 1.5, 0.9);
         for (cosine, share) in [(1.0, 0.04), (0.5, 0.07), (0.0, 1.0)] {
             assert!((from_air(cosine) - share).abs() < 1e-15, "{cosine}");

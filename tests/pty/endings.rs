@@ -286,7 +286,7 @@ fn the_editor_gets_the_first_key_and_gives_the_screen_back() {
 /// A stop from within the editor stops both, as the shell waits for both; an interrupt is for the
 /// editor alone.
 #[test]
-fn signals_of_the_keyboard_are_the_editor_s_while_it_runs() {
+fn signals_of_the_keyboard_are_the_editors_while_it_runs() {
     let place = Place::new();
     let editor = [
         "trap '' INT QUIT",

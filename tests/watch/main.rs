@@ -198,7 +198,7 @@ const SAVES: &[&[Step]] = &[
 ];
 
 #[test]
-fn every_editor_s_save_is_noticed_again_and_again() {
+fn every_editors_save_is_noticed_again_and_again() {
     for steps in SAVES {
         let mut watched = Watched::new("s.ray", Method::Native, &[Save("s.ray", "old")]);
         watched.expect(steps, "new");
@@ -208,7 +208,7 @@ fn every_editor_s_save_is_noticed_again_and_again() {
 }
 
 #[test]
-fn polling_notices_every_editor_s_save() {
+fn polling_notices_every_editors_save() {
     for steps in SAVES {
         let mut watched = Watched::new("s.ray", POLL, &[Save("s.ray", "old")]);
         watched.expect(steps, "new");

@@ -285,7 +285,7 @@ fn light_goes_from_one_surface_to_another() {
 /// Where every bounce is mirrored or goes straight to a light, paths bring what Whitted's rays do,
 /// ambient light apart; a matt surface must not see itself again.
 #[test]
-fn paths_are_whitted_s_rays_where_nothing_scatters() {
+fn paths_are_whitteds_rays_where_nothing_scatters() {
     let glassy = |glass: &str| {
         xml(&format!(
             "<object type='sphere' material='glass'/>

@@ -286,7 +286,7 @@ fn long_lists_of_operands_are_cut_short() {
 }
 
 #[test]
-fn the_course_s_word_for_an_intersection_is_read_without_a_warning() {
+fn the_courses_word_for_an_intersection_is_read_without_a_warning() {
     let with = |word: &str| {
         let objects = "mat ID 0 MAT\nobj sphere ID 1 BALL 1\nobj sphere ID 2 BALL 2\n";
         scene(&spelled(&format!(

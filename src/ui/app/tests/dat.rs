@@ -69,7 +69,7 @@ fn a_choice_is_nudged_and_typed() {
 }
 
 #[test]
-fn the_course_s_word_for_an_intersection_is_known_and_kept() {
+fn the_courses_word_for_an_intersection_is_known_and_kept() {
     let combined = |word: &str| format!("obj CSG ID 3 {word} ID 1 ID 2");
     let scene = SCENE.replace(&combined("difference"), &combined("intersect"));
     for (said, word) in [

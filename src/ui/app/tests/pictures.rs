@@ -130,7 +130,7 @@ fn the_full_size_trace_goes_on_behind_until_the_scene_changes() {
 
 /// The picture on screen is outlined by the numbers that its objects had.
 #[test]
-fn no_object_is_outlined_by_another_one_s_number() {
+fn no_object_is_outlined_by_another_ones_number() {
     let mut app = open(SCENE);
     let size = Size {
         width: 4,
@@ -148,7 +148,7 @@ fn no_object_is_outlined_by_another_one_s_number() {
 }
 
 #[test]
-fn only_a_session_s_own_pictures_are_overwritten_unasked() {
+fn only_a_sessions_own_pictures_are_overwritten_unasked() {
     let place = tempfile::tempdir().expect("a folder");
     let written = Version::of(place.path()).expect("it is there");
     let existing = |app: &mut App, said: &str| {
