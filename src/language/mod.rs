@@ -5,7 +5,6 @@
 //! of one language together. The rest of the program asks it by the questions of [`Answers`], and never
 //! learns which language it is.
 
-mod beginning;
 mod camera;
 mod dat;
 mod node;
@@ -30,50 +29,118 @@ use std::sync::Arc;
 use crate::memory::OutOfMemory;
 use crate::scene::{Camera, Meshes, Scene};
 use crate::text::{Diagnostic, Edit, Findings, Span};
+use room::Counts;
 use table::Category;
 
-pub use beginning::errors_of_beginning;
 pub use node::{FileKind, NamedFile, Node, Nodes};
 pub use placed::{Placed, Unsaid};
 pub use room::fits;
 
-/// The languages Halflight reads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Language {
+/// Declares the languages, one a line: by its folder, which is also the extension of its files' names.
+/// A folder provides `Source`, `parse`, `errors_of_beginning`, `tree_bytes` and `LEAVES_KEEP_TO_LINES`.
+macro_rules! languages {
+    ($($(#[$doc:meta])* $name:ident in $folder:ident,)+) => {
+        /// The languages Halflight reads.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Language {
+            $($(#[$doc])* $name,)+
+        }
+
+        impl Language {
+            /// All of them.
+            pub const ALL: [Self; [$(stringify!($name)),+].len()] = [$(Self::$name),+];
+
+            /// The extension of its files' names.
+            pub const fn extension(self) -> &'static str {
+                match self {
+                    $(Self::$name => stringify!($folder),)+
+                }
+            }
+
+            /// Whether no leaf crosses the end of a line, and each line is read alike wherever it
+            /// stands.
+            pub const fn leaves_keep_to_lines(self) -> bool {
+                match self {
+                    $(Self::$name => $folder::LEAVES_KEEP_TO_LINES,)+
+                }
+            }
+
+            /// About how many bytes a tree of so many leaves takes while it is made. Lists that grow
+            /// have up to twice the room they need.
+            fn tree_bytes(self, counts: &Counts) -> u64 {
+                match self {
+                    $(Self::$name => $folder::tree_bytes(counts),)+
+                }
+            }
+        }
+
+        /// The errors of every text that begins like this, with the warnings so far; none where what
+        /// follows may make a scene of it.
+        pub fn errors_of_beginning(language: Language, beginning: &str) -> Findings {
+            let findings = match language {
+                $(Language::$name => $folder::errors_of_beginning(beginning),)+
+            };
+            findings.sorted()
+        }
+
+        /// A scene's text, its tree, and where its things stand, in one language.
+        #[derive(Clone, Debug)]
+        pub enum Source {
+            $($(#[$doc])* $name($folder::Source),)+
+        }
+
+        impl Source {
+            /// Parses a text. Never fails: whatever stands in the text has a place in the tree. Its
+            /// things have places once it is lowered.
+            pub fn new(language: Language, text: Arc<String>) -> Self {
+                match language {
+                    $(Language::$name => Self::$name($folder::parse(text)),)+
+                }
+            }
+
+            /// The language.
+            pub fn language(&self) -> Language {
+                match self {
+                    $(Self::$name(_) => Language::$name,)+
+                }
+            }
+        }
+
+        impl Deref for Source {
+            type Target = dyn Answers;
+
+            fn deref(&self) -> &Self::Target {
+                match self {
+                    $(Self::$name(source) => source,)+
+                }
+            }
+        }
+
+        impl DerefMut for Source {
+            fn deref_mut(&mut self) -> &mut Self::Target {
+                match self {
+                    $(Self::$name(source) => source,)+
+                }
+            }
+        }
+    };
+}
+
+languages! {
     /// Rice University's `.ray`: a stream of tokens.
-    Ray,
+    Ray in ray,
     /// Boston University's `.dat`: one record a line.
-    Dat,
+    Dat in dat,
     /// The University of Utah's `.xml`: elements with attributes.
-    Xml,
+    Xml in xml,
 }
 
 /// A file whose name does not say which language it is written in.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{path}: not a scene: scenes end in .ray, .dat or .xml", path = .0.display())]
+#[error("{path}: not a scene: scenes end in {}", extensions(), path = .0.display())]
 pub struct UnknownLanguage(pub PathBuf);
 
 impl Language {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Ray, Self::Dat, Self::Xml];
-
-    /// The extension of its files' names.
-    pub const fn extension(self) -> &'static str {
-        match self {
-            Self::Ray => "ray",
-            Self::Dat => "dat",
-            Self::Xml => "xml",
-        }
-    }
-
-    /// Whether no leaf crosses the end of a line, and each line is read alike wherever it stands.
-    pub const fn leaves_keep_to_lines(self) -> bool {
-        match self {
-            Self::Ray | Self::Dat => true,
-            Self::Xml => false,
-        }
-    }
-
     /// The language that a file name's extension says, in any case.
     pub fn of_path(path: &Path) -> Result<Self, UnknownLanguage> {
         let extension = path.extension().unwrap_or_default();
@@ -83,57 +150,12 @@ impl Language {
     }
 }
 
-/// A scene's text, its tree, and where its things stand, in one language.
-#[derive(Clone, Debug)]
-pub enum Source {
-    /// In `.ray`.
-    Ray(ray::Source),
-    /// In `.dat`.
-    Dat(dat::Source),
-    /// In `.xml`.
-    Xml(xml::Source),
-}
-
-impl Source {
-    /// Parses a text. Never fails: whatever stands in the text has a place in the tree. Its things have
-    /// places once it is lowered.
-    pub fn new(language: Language, text: Arc<String>) -> Self {
-        match language {
-            Language::Ray => Self::Ray(ray::parse(text)),
-            Language::Dat => Self::Dat(dat::parse(text)),
-            Language::Xml => Self::Xml(xml::parse(text)),
-        }
-    }
-
-    /// The language.
-    pub fn language(&self) -> Language {
-        match self {
-            Self::Ray(_) => Language::Ray,
-            Self::Dat(_) => Language::Dat,
-            Self::Xml(_) => Language::Xml,
-        }
-    }
-}
-
-impl Deref for Source {
-    type Target = dyn Answers;
-
-    fn deref(&self) -> &Self::Target {
-        match self {
-            Self::Ray(source) => source,
-            Self::Dat(source) => source,
-            Self::Xml(source) => source,
-        }
-    }
-}
-
-impl DerefMut for Source {
-    fn deref_mut(&mut self) -> &mut Self::Target {
-        match self {
-            Self::Ray(source) => source,
-            Self::Dat(source) => source,
-            Self::Xml(source) => source,
-        }
+/// The extensions of all languages, as a sentence lists them.
+fn extensions() -> String {
+    let extensions = Language::ALL.map(|language| format!(".{}", language.extension()));
+    match &extensions[..] {
+        [others @ .., last] => format!("{} or {last}", others.join(", ")),
+        [] => String::new(),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{Language, dat, ray, xml};
+use super::Language;
 use crate::memory::{self, Need, OutOfMemory, megabytes};
 
 /// Bytes that are counted at once.
@@ -26,21 +26,13 @@ pub(super) struct Counts {
 /// Refuses a text whose tree does not fit into memory beside as many bytes of something else.
 pub fn fits(language: Language, text: &str, beside: usize) -> Result<(), OutOfMemory> {
     let beside = beside as u64;
-    let most = bytes(language, &Counts::most(text.len() as u64));
+    let most = language.tree_bytes(&Counts::most(text.len() as u64));
     memory::check(most.saturating_add(beside), || Need {
         what: format!("{} of text", megabytes(text.len() as u64)),
-        bytes: bytes(language, &Counts::of(text)).saturating_add(beside),
+        bytes: language
+            .tree_bytes(&Counts::of(text))
+            .saturating_add(beside),
     })
-}
-
-/// About what a tree of so many leaves takes while it is made. Lists that grow have up to twice the
-/// room they need.
-fn bytes(language: Language, counts: &Counts) -> u64 {
-    match language {
-        Language::Ray => ray::bytes(counts),
-        Language::Dat => dat::bytes(counts),
-        Language::Xml => xml::bytes(counts),
-    }
 }
 
 /// What so many things of a size take.
@@ -121,9 +113,9 @@ mod tests {
             .flat_map(|language| texts.map(|text| (language, text)))
         {
             let text = text.repeat(1000);
-            let most = bytes(*language, &Counts::most(text.len() as u64));
+            let most = language.tree_bytes(&Counts::most(text.len() as u64));
             assert!(
-                bytes(*language, &Counts::of(&text)) <= most,
+                language.tree_bytes(&Counts::of(&text)) <= most,
                 "{language:?} {text:.9}"
             );
         }

@@ -11,7 +11,7 @@ use crate::text::{Span, counted};
 const RECORD: usize = 2 * size_of::<Shape>() + 2 * size_of::<Affine>() + size_of::<Material>();
 
 /// About how many bytes a tree of so many leaves takes while it is made.
-pub(in crate::language) fn bytes(counts: &Counts) -> u64 {
+pub(in crate::language) fn tree_bytes(counts: &Counts) -> u64 {
     each(counts.tokens, 2 * size_of::<Span>())
         + each(counts.lines, 2 * size_of::<Record>())
         + each(counts.comments, 2 * size_of::<Span>())

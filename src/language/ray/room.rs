@@ -23,7 +23,7 @@ const OBJECT: usize =
 const SAMPLED: usize = 8;
 
 /// About how many bytes a tree of so many leaves takes while it is made.
-pub(in crate::language) fn bytes(counts: &Counts) -> u64 {
+pub(in crate::language) fn tree_bytes(counts: &Counts) -> u64 {
     each(counts.tokens, 3)
         + each(counts.words, 16)
         + each(counts.comments, 2 * size_of::<Comment>())

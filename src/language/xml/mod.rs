@@ -23,11 +23,14 @@ use crate::text::{Edit, Findings, Span};
 use origins::Origins;
 use tree::Tree;
 
-pub(super) use room::bytes;
+pub(super) use room::tree_bytes;
 pub(super) use tree::spelled;
 
 /// A `.xml` text.
 pub(super) type Source = Written<Tree, Origins>;
+
+/// Whether no leaf crosses the end of a line.
+pub(super) const LEAVES_KEEP_TO_LINES: bool = false;
 
 /// Parses a text.
 pub(super) fn parse(text: Arc<String>) -> Source {

@@ -17,7 +17,7 @@ const ATTRIBUTE: usize = 64;
 const ELEMENT: usize = 2 * size_of::<Object>() + size_of::<Affine>() + size_of::<Utah>() / 2;
 
 /// About how many bytes a tree of so many leaves takes while it is made.
-pub(in crate::language) fn bytes(counts: &Counts) -> u64 {
+pub(in crate::language) fn tree_bytes(counts: &Counts) -> u64 {
     each(counts.openings, NODE + 2 * size_of::<Element>())
         + each(counts.equals, ATTRIBUTE + 2 * size_of::<Attribute>())
         + each(counts.tokens, 2 * size_of::<Span>())
