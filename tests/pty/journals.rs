@@ -194,7 +194,7 @@ fn the_last_intact_edits_of_a_damaged_journal_are_offered() {
 
     let mut session = place.start(&["balls.ray"], WIDE);
     session.wait_for(QUESTION);
-    session.wait_for("damaged: these are the last");
+    session.wait_for("journal is damaged");
     session.send("r");
     session.wait_for("restored");
     session.send("w");
