@@ -174,7 +174,7 @@ fn the_courses_own_files_are_read_whole() {
     for name in ["model1", "model2", "model3", "simple", "sphereTest"] {
         let path = folder.join("bu").join(name).with_extension("dat");
         let text = std::fs::read_to_string(path).expect("the course's files are there");
-        let lowered = Source::new(Language::Dat, Arc::new(text.to_owned()))
+        let lowered = Source::new(Language::Dat, Arc::new(text.clone()))
             .lower(&Meshes::default())
             .expect("there is memory");
         let said = &lowered.diagnostics;

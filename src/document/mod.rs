@@ -67,12 +67,12 @@ impl Document {
         &self.source
     }
 
-    /// Finds the meaning of the text: [`Answers::lower`].
+    /// Finds the meaning of the text: [`Answers::lower`](crate::language::Answers::lower).
     pub fn lower(&mut self, meshes: &Meshes) -> Result<Lowered, OutOfMemory> {
         self.source.lower(meshes)
     }
 
-    /// Finds it after an edit: [`Answers::lower_again`].
+    /// Finds it after an edit: [`Answers::lower_again`](crate::language::Answers::lower_again).
     pub fn lower_again(
         &mut self,
         meshes: &Meshes,

@@ -86,7 +86,7 @@ macro_rules! languages {
         /// A scene's text, its tree, and where its things stand, in one language.
         #[derive(Clone, Debug)]
         pub enum Source {
-            $($(#[$doc])* $name($folder::Source),)+
+            $($(#[$doc])* $name(Box<$folder::Source>),)+
         }
 
         impl Source {
@@ -94,7 +94,7 @@ macro_rules! languages {
             /// things have places once it is lowered.
             pub fn new(language: Language, text: Arc<String>) -> Self {
                 match language {
-                    $(Language::$name => Self::$name($folder::parse(text)),)+
+                    $(Language::$name => Self::$name(Box::new($folder::parse(text))),)+
                 }
             }
 
@@ -111,7 +111,7 @@ macro_rules! languages {
 
             fn deref(&self) -> &Self::Target {
                 match self {
-                    $(Self::$name(source) => source,)+
+                    $(Self::$name(source) => &**source,)+
                 }
             }
         }
@@ -119,7 +119,7 @@ macro_rules! languages {
         impl DerefMut for Source {
             fn deref_mut(&mut self) -> &mut Self::Target {
                 match self {
-                    $(Self::$name(source) => source,)+
+                    $(Self::$name(source) => &mut **source,)+
                 }
             }
         }

@@ -161,7 +161,7 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     match field.sources.get(app.component) {
         Some(Provenance::Default) => say("Not in the text: this is the default.", theme::DIM),
         Some(Provenance::WorkingView) => {
-            say("The working view differs from the text.", theme::WARNING)
+            say("The working view differs from the text.", theme::WARNING);
         }
         Some(Provenance::Text) | None => {}
     }
