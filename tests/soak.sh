@@ -36,6 +36,7 @@ def main(arguments):
     binary = os.path.abspath(arguments[0])
     minutes = float(arguments[1]) if 1 < len(arguments) else 60.0
     output = os.path.abspath(arguments[2]) if 2 < len(arguments) else os.getcwd()
+    os.makedirs(output, exist_ok=True)
     place = tempfile.mkdtemp(prefix="halflight-soak-")
     try:
         with open(os.path.join(output, "soak.tsv"), "w") as table:
