@@ -350,7 +350,7 @@ struct RenderArguments {
     /// .jpeg, .exr, .hdr); - is standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Language of the picture, whatever the file's name [default for -o -: bmp]
+    /// Format of the picture, whatever the file's name [default for -o -: bmp]
     #[arg(long, value_name = "FORMAT", value_parser = format_names())]
     format: Option<ImageFormat>,
     /// Width and height in pixels, such as 800x600, at most 268435456 pixels in all (as 16384x16384)
