@@ -1,13 +1,13 @@
-//! How far pictures in few colours are from what they show, beside chafa's.
+//! The error of pictures in few colours, compared with chafa.
 //!
-//! `cargo bench --bench colours` prints a table: for each scene and depth the error of a pixel, the
-//! error of the mean light of 2×2 pixels, both as mean distances in `OkLab` times 1000, and the mean
-//! step in luma between neighbours in flat areas, of 255; for ours also how long drawing takes, the
-//! first time and again, in milliseconds. Without chafa only our own rows. The
-//! pictures are those in `scenes`; sixteen colours are taken for xterm's. Without colours the error
-//! is that from the picture in greys, and a character is taken for the light of what it fills.
+//! `cargo bench --bench colours` prints a table. For each scene and depth it has the error of a
+//! pixel and of the mean light of 2×2 pixels, both as mean distances in `OkLab` times 1000, and the
+//! mean step in luma, of 255, between neighbours in flat areas; for Halflight also the time of the
+//! first and of later drawings in milliseconds. Without chafa only our own rows are printed. The
+//! pictures are those in `scenes`; the 16 colours are xterm's. Without colours the error is that to
+//! the greyscale picture, and a character emits light in proportion to its filled area.
 //!
-//! `cargo bench --bench colours -- DIR` leaves the pictures in a folder as well, to be looked at.
+//! `cargo bench --bench colours -- DIR` also writes the pictures to a folder.
 
 #[allow(dead_code, reason = "shared with the other bench")]
 mod encoding;
@@ -30,14 +30,14 @@ use vt100::{Cell, Color, Parser, Screen};
 
 const SCENES: [&str; 5] = ["default", "courtyard", "glass", "mirrors", "still-life"];
 
-/// The depths, as chafa calls them.
+/// The colour depths with chafa's names.
 const DEPTHS: [(ColourDepth, &str); 3] = [
     (ColourDepth::Palette256, "256"),
     (ColourDepth::Palette16, "16"),
     (ColourDepth::Mono, "none"),
 ];
 
-/// The terminal, in cells.
+/// Columns and rows of the terminal.
 const TERMINAL: (u16, u16) = (160, 62);
 
 fn main() {
@@ -48,7 +48,7 @@ fn main() {
         for (depth, name) in DEPTHS {
             let (picture, ours, [first, again]) = ours(scene, depth);
             let theirs = chafa(&picture, name);
-            let wanted = match depth {
+            let reference = match depth {
                 ColourDepth::Mono => greys(&picture),
                 _ => picture,
             };
@@ -58,30 +58,30 @@ fn main() {
                 let Some(quarters) = quarters else {
                     continue;
                 };
-                let [pixel, block, flat] = errors(&wanted, &quarters);
+                let [pixel, block, flat] = errors(&reference, &quarters);
                 println!("{scene:13} {name:8} {by:6} {pixel:6.1} {block:6.1} {flat:6.1}{times}");
                 if let Some(folder) = &folder {
                     let path = folder.join(format!("{scene}-{name}-{by}.ppm"));
-                    write(&path, 2 * wanted.size.width, &quarters);
+                    write(&path, 2 * reference.size.width, &quarters);
                 }
             }
         }
     }
 }
 
-/// Writes a picture in rows of so many pixels.
+/// Writes a picture with rows of `width` pixels.
 fn write(path: &Path, width: u32, pixels: &[[u8; 3]]) {
     let height = pixels.len() / width as usize;
     let mut file = format!("P6\n{width} {height}\n255\n").into_bytes();
     file.extend(pixels.iter().flatten());
-    fs::write(path, file).expect("a folder that can be written to");
+    fs::write(path, file).expect("the folder is writable");
 }
 
-/// A picture, the colours that it is drawn in, four of each cell, two above two, and how long drawing
-/// it takes in milliseconds, at first and again.
+/// Returns a picture, the colours it is drawn in, 2×2 per cell, and the milliseconds that the first
+/// and later drawings take.
 fn ours(scene: &str, depth: ColourDepth) -> (Shown, Vec<[u8; 3]>, [f64; 2]) {
     let (mut app, _) = encoding::opened(include_str!("../scenes/default.ray"), TERMINAL);
-    let (cells, size) = app.raster().expect("there is room");
+    let (cells, size) = app.raster().expect("the picture has cells");
     let picture = read(scene).resampled(size);
     let frame = Frame {
         generation: 1,
@@ -123,7 +123,7 @@ fn ours(scene: &str, depth: ColourDepth) -> (Shown, Vec<[u8; 3]>, [f64; 2]) {
     (picture, quarters, [first, again])
 }
 
-/// What chafa makes of a picture, if it is installed.
+/// The colours of a picture drawn by chafa, if it is installed.
 fn chafa(picture: &Shown, colours: &str) -> Option<Vec<[u8; 3]>> {
     let Size { width, height } = picture.size;
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("colours.ppm");
@@ -141,10 +141,10 @@ fn chafa(picture: &Shown, colours: &str) -> Option<Vec<[u8; 3]>> {
     Some(quarters(parser.screen(), (0, 0), picture.size))
 }
 
-/// One of our pictures, as it was traced.
+/// Reads the rendered picture of a scene.
 fn read(scene: &str) -> Shown {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{scene}.bmp"));
-    let bytes = fs::read(path).expect("the scene's picture");
+    let bytes = fs::read(path).expect("the scene has a picture");
     let number = |at: usize| {
         let bytes = bytes[at..at + 4].try_into().expect("four bytes");
         u32::from_le_bytes(bytes)
@@ -152,7 +152,7 @@ fn read(scene: &str) -> Shown {
     let (start, width, height) = (number(10) as usize, number(18), number(22));
     let size = Size { width, height };
     let stride = (3 * width as usize).next_multiple_of(4);
-    // The lowest row comes first, and blue before red.
+    // Rows are stored bottom-up, pixels as BGR.
     let pixels = bytes[start..].chunks(stride).take(height as usize).rev();
     let pixels = pixels.flat_map(|row| row.chunks_exact(3).take(width as usize));
     Shown {
@@ -168,7 +168,7 @@ fn parser((columns, rows): (u16, u16)) -> Parser {
     Parser::new(cells(rows), cells(columns), 0)
 }
 
-/// The colours of the quarters of a picture's cells: as many rows as it has, of twice its columns.
+/// The colours of the quarters of a picture's cells: its number of rows, and twice its columns.
 fn quarters(screen: &Screen, (left, top): (u16, u16), size: Size) -> Vec<[u8; 3]> {
     let quarter = |x: u32, y: u32| {
         let cell = screen.cell(top + y as u16 / 2, left + x as u16 / 2);
@@ -187,8 +187,8 @@ fn quarters(screen: &Screen, (left, top): (u16, u16), size: Size) -> Vec<[u8; 3]
     (0..size.height).flat_map(row).collect()
 }
 
-/// How much of its upper and lower half a character fills in common fonts (`DejaVu` Sans Mono, Noto
-/// Sans Mono) on average.
+/// The filled share of a character's upper and lower half, averaged over common fonts (`DejaVu`
+/// Sans Mono, Noto Sans Mono).
 fn filled(symbol: &str) -> [f64; 2] {
     match symbol {
         "" | " " => [0.0, 0.0],
@@ -202,11 +202,11 @@ fn filled(symbol: &str) -> [f64; 2] {
         "▒" => [0.5, 0.5],
         "▓" => [0.75, 0.75],
         "█" => [1.0, 1.0],
-        _ => panic!("{symbol:?} is in no picture"),
+        _ => panic!("unexpected character {symbol:?}"),
     }
 }
 
-/// The colour of light from two.
+/// Mixes two colours in linear light.
 fn between(behind: [u8; 3], front: [u8; 3], share: f64) -> [u8; 3] {
     let (behind, front) = (light(behind), light(front));
     std::array::from_fn(|at| {
@@ -220,7 +220,7 @@ fn between(behind: [u8; 3], front: [u8; 3], share: f64) -> [u8; 3] {
     })
 }
 
-/// A picture in greys of the same luminance.
+/// Converts a picture to greys of the same luminance.
 fn greys(picture: &Shown) -> Shown {
     let grey = |&pixel: &[u8; 3]| {
         let [red, green, blue] = light(pixel);
@@ -243,7 +243,7 @@ fn colour(cell: &Cell, in_front: bool) -> [u8; 3] {
     }
 }
 
-/// The palette as xterm has it.
+/// A colour of xterm's palette.
 fn of_palette(index: u8) -> [u8; 3] {
     match index {
         4 => [0, 0, 238],
@@ -262,10 +262,10 @@ fn of_palette(index: u8) -> [u8; 3] {
     }
 }
 
-/// The error of a pixel and of a mean of 2×2, and the step in flat areas.
+/// The errors of pixels and of 2×2 means, and the step in flat areas.
 fn errors(picture: &Shown, quarters: &[[u8; 3]]) -> [f64; 3] {
     let (width, height) = (picture.size.width as usize, picture.size.height as usize);
-    let wanted = |x: usize, y: usize| picture.pixels[y * width + x];
+    let reference = |x: usize, y: usize| picture.pixels[y * width + x];
     let shown = |x: usize, y: usize| {
         let at = 2 * (y * width + x);
         [quarters[at], quarters[at + 1]]
@@ -274,20 +274,20 @@ fn errors(picture: &Shown, quarters: &[[u8; 3]]) -> [f64; 3] {
     for y in 0..height {
         for x in 0..width {
             for half in shown(x, y) {
-                pixel.add(distance(light(wanted(x, y)), light(half)));
+                pixel.add(distance(light(reference(x, y)), light(half)));
             }
             for (x2, y2) in [(x + 1, y), (x, y + 1)] {
                 let is_flat = |one: [u8; 3], other: [u8; 3]| {
                     one.iter().zip(other).all(|(a, b)| a.abs_diff(b) <= 1)
                 };
-                if x2 < width && y2 < height && is_flat(wanted(x, y), wanted(x2, y2)) {
+                if x2 < width && y2 < height && is_flat(reference(x, y), reference(x2, y2)) {
                     flat.add((luma(shown(x, y)[0]) - luma(shown(x2, y2)[0])).abs());
                 }
             }
             if x + 1 < width && y + 1 < height {
-                let places = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
-                let whole = mean(places.map(|(x, y)| light(wanted(x, y))));
-                let drawn = mean(places.map(|(x, y)| mean(shown(x, y).map(light))));
+                let points = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
+                let whole = mean(points.map(|(x, y)| light(reference(x, y))));
+                let drawn = mean(points.map(|(x, y)| mean(shown(x, y).map(light))));
                 block.add(distance(whole, drawn));
             }
         }
@@ -331,7 +331,7 @@ fn light(colour: [u8; 3]) -> [f64; 3] {
     })
 }
 
-/// The distance of two colours of light in `OkLab`.
+/// The distance of two linear colours in `OkLab`.
 fn distance(one: [f64; 3], other: [f64; 3]) -> f64 {
     let (one, other) = (oklab(one), oklab(other));
     let squares = one.iter().zip(other).map(|(a, b)| (a - b).powi(2));

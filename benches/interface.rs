@@ -1,16 +1,15 @@
-//! How quick the program is in the hand: a table of what was measured at its terminal, beside what
-//! is to be reached.
+//! The responsiveness of the interface, measured at its terminal: a table with targets.
 //!
-//! `cargo bench --bench interface` prints it; with words after `--` only the parts with one of them
-//! in their name. Times are from the key, the file or the start to the last byte of the frame that
-//! shows what came of it.
+//! `cargo bench --bench interface` prints it; words after `--` select parts by name. Times are from
+//! the key, the saved file or the start to the last byte of the frame that shows the result.
 
 mod desk;
 mod encoding;
+mod figures;
 #[allow(
     dead_code,
     unreachable_pub,
-    reason = "shared with tests, which ask other things of it"
+    reason = "shared with tests, which use other parts"
 )]
 #[path = "../tests/harness/mod.rs"]
 mod harness;
@@ -28,18 +27,17 @@ use std::time::{Duration, Instant};
 use halflight::language::{Language, Source};
 use halflight::render::{DEFAULT_DEPTH, Filter, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::{Images, Integrator, Meshes, Scene, Transfer};
-use halflight::ui::view::layout::Zoom;
+use halflight::ui::layout::Zoom;
 
 use desk::{Desk, Drawn, TERMINAL, difference, picture_cells};
+use figures::{SECOND, each, first, row, times_row};
 
-/// What a shell at the other end of a network is told.
+/// The environment of a shell over SSH.
 const SSH: &[(&str, &str)] = &[("SSH_CONNECTION", "192.0.2.1 50000 192.0.2.2 22")];
 
-const SECOND: Duration = Duration::from_secs(1);
-
 fn main() {
-    // Cargo passes `--bench`; anything else is part of a name.
-    let wanted: Vec<String> = std::env::args()
+    // Cargo passes `--bench`; other arguments are parts of names.
+    let selected: Vec<String> = std::env::args()
         .skip(1)
         .filter(|a| !a.starts_with("--"))
         .collect();
@@ -64,7 +62,7 @@ fn main() {
         ("scenes", own_and_course_scenes),
     ];
     for (name, measure) in parts {
-        if wanted.is_empty() || wanted.iter().any(|part| name.contains(part.as_str())) {
+        if selected.is_empty() || selected.iter().any(|part| name.contains(part.as_str())) {
             measure();
         }
     }
@@ -99,7 +97,7 @@ fn edit() {
     }
     times_row("nudge to changed field", &answered, "p95 <= 16, max 33");
     times_row("nudge to changed picture", &pictured, "p95 <= 50");
-    times_row("  from there to a finer one", &sharp, "-");
+    times_row("  then to a finer picture", &sharp, "-");
     let (pressed, drawn) = desk.answer("L");
     let rested: Vec<_> = drawn
         .last()
@@ -109,8 +107,8 @@ fn edit() {
     times_row("nudge to rest (64 spp)", &rested, "-");
 }
 
-/// Keys while a picture is traced at its full size on all cores, of S1 too if `HALFLIGHT_BENCH` names
-/// a folder with it.
+/// Keys while a picture is traced at full size on all cores; also of S1 if the folder in
+/// `HALFLIGHT_BENCH` has it.
 fn keys_while_tracing() {
     keys_over(
         "key to list, tracing",
@@ -132,7 +130,7 @@ fn keys_over(name: &str, scene: &str) {
         desk.record(pressed + SECOND / 2);
     }
     desk.look();
-    // Down and up again, never against an end of the list, where a key changes nothing.
+    // Down and up, never beyond an end of the list, where a key changes nothing.
     let keys = [["j"; 9], ["k"; 9]].concat().repeat(6);
     let pressed = desk.press_all(keys, Duration::from_millis(41));
     desk.record(Instant::now() + Duration::from_millis(200));
@@ -150,21 +148,21 @@ fn save() {
     let good = std::fs::read_to_string(&path).expect("the scene");
     let mut put = |text: &str| {
         let new = path.with_extension("new");
-        std::fs::write(&new, text).expect("the folder takes a file");
+        std::fs::write(&new, text).expect("the folder is writable");
         let at = Instant::now();
         std::fs::rename(&new, &path).expect("the file is replaced");
         (at, desk.settle())
     };
     let moved = |turn| good.replace("5 7.5 4.5", &format!("{} 7.5 4.5", 3 + turn % 2));
-    let (mut pictured, mut told, mut kept) = (Vec::new(), Vec::new(), 0);
+    let (mut pictured, mut reported, mut kept) = (Vec::new(), Vec::new(), 0);
     for turn in 0..50 {
         let (at, drawn) = put(&moved(turn));
         pictured.extend(first(&drawn, at, Drawn::is_new_picture));
     }
     for turn in 0..20 {
         let (at, drawn) = put(&good.replace("7.5 4.5", &format!("7.5 x{turn}")));
-        let is_told = |drawn: &Drawn| drawn.text.contains("STALE");
-        told.extend(first(&drawn, at, is_told));
+        let is_reported = |drawn: &Drawn| drawn.text.contains("STALE");
+        reported.extend(first(&drawn, at, is_reported));
         // The half above the errors.
         let half = |drawn: &Drawn| drawn.pixels[..drawn.pixels.len() / 2].to_vec();
         let dark = vec![[0; 3]; picture_cells(Zoom::Panels).area() as usize];
@@ -176,7 +174,7 @@ fn save() {
         put(&moved(turn));
     }
     times_row("save to changed picture", &pictured, "p95 <= 60");
-    times_row("broken save to errors", &told, "p95 <= 150");
+    times_row("broken save to errors", &reported, "p95 <= 150");
     row("  picture kept", &format!("{kept} of 20"), "20 of 20");
 }
 
@@ -215,7 +213,7 @@ fn cancel() {
         thread::sleep(Duration::from_millis(wait));
         Some(drop_time(renderer))
     });
-    times_row("  while building for them", &building, "<= 10");
+    times_row("  while building", &building, "<= 10");
 }
 
 fn held() {
@@ -224,7 +222,7 @@ fn held() {
         let mut desk = Desk::at_rest(&[], &[]);
         edit_light(&mut desk);
         let original = desk.look().pop().expect("the fields are shown").pixels;
-        // Forty steps up, forty down, and so on, so that the last one is far from the first.
+        // Forty steps up, forty down, and so on, so that the last value is far from the first.
         let keys = (0..count).map(|at| if at % 80 < 40 { "l" } else { "h" });
         let pressed = desk.press_all(keys, apart);
         let undone = desk.press("u");
@@ -246,9 +244,9 @@ fn held() {
             least,
         );
         let sparse = least_in_a_second(&moments, undone - begun);
-        row("  least in a second", &sparse.to_string(), ">= 25");
+        row("  minimum in a second", &sparse.to_string(), ">= 25");
         times_row(
-            "  undo to its picture",
+            "  undo to picture",
             &last.into_iter().collect::<Vec<_>>(),
             "<= 50",
         );
@@ -264,17 +262,13 @@ fn bytes() {
     let each = alone as f64 / f64::from(picture_cells(Zoom::Picture).area());
     row(
         "picture alone, bytes",
-        &format!("{alone}, {each:.1} a cell"),
-        "<= 37 a cell",
+        &format!("{alone}, {each:.1} per cell"),
+        "<= 37 per cell",
     );
     desk.answer("z");
     desk.answer("o");
     let (_, drawn) = desk.answer("j");
-    row(
-        "next in the list, bytes",
-        &total(&drawn).to_string(),
-        "<= 2048",
-    );
+    row("next object, bytes", &total(&drawn).to_string(), "<= 2048");
     desk.answer("k");
     edit_light(&mut desk);
     let (mut fields, mut first, mut refined) = (Vec::new(), Vec::new(), Vec::new());
@@ -290,22 +284,25 @@ fn bytes() {
         &spread(&mut fields),
         "<= 2048",
     );
-    row("its first picture, bytes", &spread(&mut first), "-");
+    row("first picture, bytes", &spread(&mut first), "-");
     let most = format!("p50 <= {}", whole * 6 / 10);
     row("refined pictures, bytes", &spread(&mut refined), &most);
 }
 
-/// The way of a picture that fills the screen from a frame to bytes.
+/// Encoding a full-screen picture from frame to bytes.
 fn encode() {
     let scene = include_str!("../scenes/default.ray");
-    // The ratio of the screen's pixels, so that all of it but the status line is picture.
+    // The aspect ratio of the screen, so that the picture fills it except for the status line.
     let scene = scene.replace("size 400 300", "size 1600 784");
     for (name, encoded) in [
-        ("frame to bytes", encoding::by_turns(&scene, TERMINAL, 200)),
-        ("  of noise", encoding::noise(&scene, TERMINAL, 200)),
+        (
+            "frame to bytes",
+            encoding::alternating(&scene, TERMINAL, 200),
+        ),
+        ("  noise", encoding::noise(&scene, TERMINAL, 200)),
     ] {
         times_row(name, &encoded.times, "p50 <= 2");
-        row("  its bytes", &encoded.bytes.to_string(), "-");
+        row("  bytes", &encoded.bytes.to_string(), "-");
     }
 }
 
@@ -328,7 +325,7 @@ fn link() {
     );
 }
 
-/// A mesh of a million triangles, from a file of its own.
+/// A mesh of a million triangles in an `.obj` file.
 fn mesh() {
     let ball = meshes::bumpy_ball(1_000_000);
     let open = || {
@@ -347,7 +344,7 @@ fn mesh() {
     times_row("mesh: start to first picture", &times, "p50 <= 1500");
     let mut desk = open().0;
     desk.record(Instant::now() + 4 * SECOND);
-    // The material, and its colour below its type and name.
+    // The material, and its colour, below its type and name.
     for key in ["gg", "j", "j", "j", "j", "j", "e", "j", "j"] {
         desk.press(key);
         desk.record(Instant::now() + Duration::from_millis(50));
@@ -363,8 +360,8 @@ fn mesh() {
     times_row("mesh: nudge to changed picture", &pictured, "p95 <= 50");
 }
 
-/// Scenes of `.xml`, ours and those of the course if `HALFLIGHT_EXTRA_SCENES` names their folder:
-/// the first picture, and that of a camera that is moved.
+/// `.xml` scenes, our own and those of the course if `HALFLIGHT_EXTRA_SCENES` names their folder:
+/// the first picture, and a changed camera.
 fn own_and_course_scenes() {
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let mut scenes: Vec<_> = ["carousel.xml", "courtyard.xml", "lamp.xml"]
@@ -406,7 +403,7 @@ fn own_and_course_scenes() {
     }
 }
 
-/// Puts the cursor on the first number of the first light.
+/// Moves the cursor to the first number of the first light.
 fn edit_light(desk: &mut Desk) {
     for key in ["gg", "j", "j", "e"] {
         desk.press(key);
@@ -421,7 +418,7 @@ fn scene(text: &str) -> Arc<Scene> {
     Arc::new(lowered.scene.expect("a scene without errors"))
 }
 
-/// A renderer at work on all cores, and what tells of its frames.
+/// A renderer at work on all cores, and the receiver of its wake-ups.
 fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
     let (wake, woken) = mpsc::channel();
     let cores = thread::available_parallelism().map_or(1, usize::from);
@@ -455,29 +452,12 @@ fn drop_time(renderer: Renderer) -> Duration {
     begun.elapsed()
 }
 
-/// The times of several runs. Those in which nothing came are missing.
+/// The times of several runs, without those that had no result.
 fn repeat(count: usize, mut run: impl FnMut() -> Option<Duration>) -> Vec<Duration> {
     (0..count).filter_map(|_| run()).collect()
 }
 
-/// The time from a moment to the first frame after it that is as asked.
-fn first(drawn: &[Drawn], from: Instant, holds: impl Fn(&Drawn) -> bool) -> Option<Duration> {
-    let after = drawn.iter().filter(|drawn| from < drawn.at);
-    after
-        .filter(|drawn| holds(drawn))
-        .map(|drawn| drawn.at - from)
-        .next()
-}
-
-/// The time from each key to the first frame after it that is as asked.
-fn each(drawn: &[Drawn], pressed: &[Instant], holds: impl Fn(&Drawn) -> bool) -> Vec<Duration> {
-    pressed
-        .iter()
-        .filter_map(|&key| first(drawn, key, &holds))
-        .collect()
-}
-
-/// The least number of moments in any second before `end`.
+/// The minimum number of moments in any second before `end`.
 fn least_in_a_second(moments: &[Duration], end: Duration) -> usize {
     let starts = [Duration::ZERO].into_iter().chain(moments.iter().copied());
     let whole = starts.filter(|&start| start + SECOND <= end);
@@ -508,22 +488,8 @@ fn rate_rows(name: &str, drawn: &[Drawn], begun: Instant) {
         .map(|drawn| in_a_second(drawn.at))
         .max()
         .unwrap_or(0);
-    let said = format!("mean {mean:.0}, most in a second {most}");
-    row(&format!("{name}, KB/s"), &said, "mean <= 128");
-}
-
-fn times_row(name: &str, times: &[Duration], target: &str) {
-    let mut times: Vec<_> = times.iter().map(|time| time.as_secs_f64() * 1e3).collect();
-    times.sort_by(f64::total_cmp);
-    let at = |share: f64| times.get(((times.len() as f64 * share).ceil() as usize).max(1) - 1);
-    let said =
-        [at(0.5), at(0.95), at(1.0)].map(|t| t.map_or_else(|| "-".into(), |t| format!("{t:.1}")));
-    let [p50, p95, most] = said;
-    let said = format!(
-        "p50 {p50:>6}  p95 {p95:>6}  max {most:>6}  n {}",
-        times.len()
-    );
-    row(&format!("{name}, ms"), &said, target);
+    let text = format!("mean {mean:.0}, max in a second {most}");
+    row(&format!("{name}, KB/s"), &text, "mean <= 128");
 }
 
 fn spread(counts: &mut [usize]) -> String {
@@ -532,12 +498,8 @@ fn spread(counts: &mut [usize]) -> String {
     format!("p50 {middle}  max {}", counts.last().copied().unwrap_or(0))
 }
 
-fn row(name: &str, said: &str, target: &str) {
-    println!("{name:<32} {said:<46} {target}");
-}
-
-/// The machine's load over the last minute, which says what the figures are worth.
+/// The machine's load over the last minute, an indication of how reliable the figures are.
 fn load() -> String {
-    let said = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
-    said.split(' ').next().unwrap_or("?").to_owned()
+    let text = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
+    text.split(' ').next().unwrap_or("?").to_owned()
 }

@@ -1,8 +1,7 @@
-//! How fast scenes are read, made ready and traced: a table, from one run of each on all cores and
-//! the median of several.
+//! Reading, building and tracing scenes: a table of medians.
 //!
-//! `cargo bench --bench trace` prints it; `cargo bench --bench trace -- flake` only the scenes with
-//! that in their name. A mesh of a million triangles has a table of its own.
+//! `cargo bench --bench trace` prints it; `cargo bench --bench trace -- flake` selects scenes by
+//! name. A mesh of a million triangles has its own table.
 
 #[allow(dead_code, reason = "shared with the other benches")]
 mod meshes;
@@ -21,22 +20,22 @@ use halflight::language::{self, FileKind, Language};
 use halflight::obj;
 use halflight::render::{DEFAULT_DEPTH, Filter, Frame, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::{
-    Camera, Focus, Images, Integrator, Lens, Light, Material, Meshes, Object, Phong, Rgb, Scene,
-    Setting, Shadows, Size, Source, Transfer,
+    Camera, Emitter, Focus, Images, Integrator, Lens, Light, Material, Meshes, Object, Rgb, Scene,
+    Setting, Size, Transfer,
 };
 
-/// Runs of everything that is timed; the median is printed.
+/// The number of timed runs; the median is printed.
 const RUNS: usize = 5;
 
-/// Pixels traced, one sample each.
+/// The size of the pictures, traced with one sample per pixel.
 const SIZE: Size = Size {
     width: 640,
     height: 480,
 };
 
 fn main() {
-    // Cargo passes `--bench`; anything else is part of a name.
-    let wanted: Vec<String> = std::env::args()
+    // Cargo passes `--bench`; other arguments are parts of names.
+    let selected: Vec<String> = std::env::args()
         .skip(1)
         .filter(|a| !a.starts_with("--"))
         .collect();
@@ -58,22 +57,22 @@ fn main() {
         format!("Mray/s {cores}")
     );
     for (name, language, text) in measured() {
-        if wanted.is_empty() || wanted.iter().any(|part| name.contains(part.as_str())) {
+        if selected.is_empty() || selected.iter().any(|part| name.contains(part.as_str())) {
             row(&name, language, &text(), cores);
         }
     }
     let name = "mesh of 1,000,000";
-    if wanted.is_empty() || wanted.iter().any(|part| name.contains(part.as_str())) {
+    if selected.is_empty() || selected.iter().any(|part| name.contains(part.as_str())) {
         mesh(name, cores);
     }
 }
 
 type Text = Box<dyn Fn() -> String>;
 
-/// The scenes by name, with their language: the project's own and the generated ones.
+/// The name, language and text of all scenes: the project's own and the generated ones.
 fn measured() -> Vec<(String, Language, Text)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
-    let entries = std::fs::read_dir(folder).expect("the scenes are there");
+    let entries = std::fs::read_dir(folder).expect("the project has scenes");
     let mut own: Vec<_> = entries
         .map(|entry| entry.expect("a scene").path())
         .collect();
@@ -124,12 +123,12 @@ fn row(name: &str, language: Language, text: &str, cores: usize) {
     drop(lowered);
     let files = source.files();
     if files.iter().any(|file| file.kind == FileKind::Mesh) {
-        println!("{name:<20} its meshes are not read here: see the one below");
+        println!("{name:<20} skipped: meshes are measured below");
         return;
     }
     drop(source);
 
-    // What an open document costs beside its text: tokens, origins, scene and acceleration tree.
+    // The memory of an open document besides its text: tokens, origins, scene and bvh.
     let before = resident();
     let mut source = language::Source::new(language, text);
     let lowered = source.lower(&Meshes::default()).expect("there is memory");
@@ -153,7 +152,7 @@ fn row(name: &str, language: Language, text: &str, cores: usize) {
         milliseconds(parse),
         milliseconds(lowering),
         milliseconds(build),
-        // Below that, a page more or less says nothing about objects.
+        // For fewer objects the size of a page dominates.
         if scene.objects.len() < 1000 {
             "-".into()
         } else {
@@ -164,11 +163,12 @@ fn row(name: &str, language: Language, text: &str, cores: usize) {
     );
 }
 
-/// A mesh of a million triangles: read, made ready, seen, and seen with a shadow ray for each point
+/// A mesh of a million triangles: read, built, traced, and traced with a shadow ray for each point
 /// that faces the light.
 fn mesh(name: &str, cores: usize) {
     let text = meshes::bumpy_ball(1_000_000);
-    let read = || obj::read(text.as_bytes(), |_| Ok::<_, String>(Vec::new())).expect("it is sound");
+    let read =
+        || obj::read(text.as_bytes(), |_| Ok::<_, String>(Vec::new())).expect("a valid mesh");
     let structure = |mesh: &Mesh| {
         let triangles = 0..mesh.len() as u32;
         let boxes: Vec<_> = triangles
@@ -176,7 +176,7 @@ fn mesh(name: &str, cores: usize) {
             .collect();
         Bvh::build(&boxes, || false).expect("nothing cancels")
     };
-    // First of all: later the system does not know what of it is free.
+    // First, as freed memory may later stay resident.
     let before = resident();
     let mesh = read().mesh;
     let bvh = structure(&mesh);
@@ -185,8 +185,8 @@ fn mesh(name: &str, cores: usize) {
     let (read, _) = median(read);
     let (build, _) = median(|| structure(&mesh));
     println!(
-        "\n{name}: .obj of {} MB read in {} ms, structure built in {} ms, \
-         {bytes} bytes a triangle with it",
+        "\n{name}: .obj of {} MB read in {} ms, bvh built in {} ms, \
+        {bytes} bytes per triangle with the bvh",
         text.len() / 1_000_000,
         milliseconds(read),
         milliseconds(build),
@@ -196,10 +196,8 @@ fn mesh(name: &str, cores: usize) {
     let [dark, lit] = [
         &[][..],
         &[Light {
-            source: Source::Distant(DVec3::new(0.6, 0.0, 0.8)),
-            colour: Rgb::ONE,
-            radius: 0.0,
-            shadows: Shadows::Cast,
+            emitter: Emitter::Distant(DVec3::new(0.6, 0.0, 0.8)),
+            ..Light::point(DVec3::ZERO, Rgb::ONE)
         }],
     ]
     .map(|lights| Arc::new(portrait(shape.clone(), lights)));
@@ -216,11 +214,11 @@ fn mesh(name: &str, cores: usize) {
     }
 }
 
-/// One white matte shape that fills the picture.
+/// A scene of one white matte shape that fills the picture.
 fn portrait(shape: Shape, lights: &[Light]) -> Scene {
-    let material = Phong {
+    let material = Material {
         diffuse: Rgb::ONE,
-        ..Phong::default()
+        ..Material::BLACK
     };
     Scene {
         camera: Camera {
@@ -235,14 +233,14 @@ fn portrait(shape: Shape, lights: &[Light]) -> Scene {
         },
         ambient: Rgb::ONE,
         lights: lights.to_vec(),
-        materials: vec![Material::Phong(material)],
+        materials: vec![material],
         textures: Vec::new(),
         objects: [Object { shape, material: 0 }].into_iter().collect(),
         setting: Setting::default(),
     }
 }
 
-/// The median time of tracing a scene on so many threads, and the frame.
+/// The median time of tracing a scene on `threads` threads, and the frame.
 fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
     let (wake, woken) = mpsc::channel();
     let renderer = Renderer::new(Threads::Exactly(threads), move || {
@@ -277,12 +275,12 @@ fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
             }
         }
     };
-    // The first one builds the tree.
+    // The first run builds the tree.
     trace();
     median(trace)
 }
 
-/// The median time of several runs, and what the last one gave.
+/// The median time of several runs, and the result of the last.
 fn median<T>(mut run: impl FnMut() -> T) -> (Duration, T) {
     let mut times = [Duration::ZERO; RUNS];
     let mut last = None;
@@ -300,7 +298,7 @@ fn milliseconds(time: Duration) -> String {
     format!("{:.2}", time.as_secs_f64() * 1e3)
 }
 
-/// Memory of this process that is in use, in bytes; 0 where the system does not say so.
+/// The resident memory of this process, in bytes; 0 if unknown.
 fn resident() -> usize {
     let status = std::fs::read_to_string("/proc/self/statm").unwrap_or_default();
     let pages = status

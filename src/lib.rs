@@ -2,9 +2,9 @@
 //!
 //! # The one idea
 //!
-//! The text is the truth. A scene is a text file; the tree is a view of the text, the scene a
-//! meaning of the tree, the picture a consequence of the scene. Every change, from any side, is
-//! an edit of text and flows one way:
+//! The text is the single source of truth. A scene is a text file; the tree, the scene and the
+//! picture are derived from it. Every change, wherever it comes from, is an edit of the text and
+//! flows one way:
 //!
 //! ```text
 //! text ─parse─▶ tree ─lower─▶ scene ─build─▶ world ─trace─▶ film ─tone─▶ frame ─draw─▶ cells
@@ -12,48 +12,49 @@
 //!   └───────── edit (span, text) ◀── action ◀── key, mouse, paste ◀─────────────────┘
 //! ```
 //!
-//! Files that the text names come in beside it, as values: meshes at `lower`, pictures at `build`.
-//! They may name others, which are read as if the text did.
+//! Files that the text names enter as values: meshes at `lower`, pictures at `build`. Files that
+//! those name in turn are treated as if the text named them.
 //!
-//! The one override outside the text is the working view: orbiting moves it in memory until the
-//! user saves it, which is an edit like any other.
+//! The only state outside the text is the working view: orbiting moves it in memory until the user
+//! saves it, which is an edit like any other.
 //!
 //! # The rooms, in reading order
 //!
-//! | room | what it is for | what it must not know |
+//! | room | purpose | must not know |
 //! |---|---|---|
-//! | [`memory`] | what the process may still use, and whether work fits | what it is for |
-//! | [`text`] | spans, edits, numbers and diagnostics: positions and changes in text | any language |
-//! | [`geometry`] | rays against shapes in `f64`, one shape a file | lights, materials, text |
-//! | [`obj`] | bytes of `.obj` and `.mtl` → meshes | files, scenes |
-//! | [`scene`] | plain comparable data | languages, threads, pixels |
-//! | [`language`] | scenes as text, a folder for each language: tree, table of fields, scene, places, edits | files, undo |
-//! | [`document`] | sole owner of a source, its undo and the saved text | languages by name, files |
-//! | [`accel`] | boxes against rays | what the boxes hold |
-//! | [`render`] | pixels from a scene: worker, integrator, film, tone | documents, files, terminals |
-//! | [`file`](mod@file) | reading scenes and replacing files whole | what the bytes mean |
-//! | [`image_file`] | picture files: frames written, textures read | what is in a scene |
-//! | [`assets`] | the pictures and meshes that scenes name, as shared values | what they are for |
-//! | [`watch`] | paths that change on disk | what is in them |
-//! | [`ui`] | the terminal: the only room that knows ratatui and crossterm | how pixels come about |
+//! | [`memory`] | memory available to the process, and whether work fits | what the memory is for |
+//! | [`text`] | spans, edits, numbers and diagnostics | any language |
+//! | [`geometry`] | ray–shape intersection in `f64`, one module per shape | lights, materials, text |
+//! | [`obj`] | parses `.obj` and `.mtl` into meshes | files, scenes |
+//! | [`scene`] | the scene as plain, comparable data | languages, threads, pixels |
+//! | [`language`] | one folder per scene language: tree, table of fields, lowering, origins, edits | files, undo |
+//! | [`document`] | sole owner of a source, its undo history and its saved text | individual languages, files |
+//! | [`accel`] | bounding volume hierarchies | what the boxes contain |
+//! | [`render`] | renders scenes: worker, integrators, film, tone mapping | documents, files, terminals |
+//! | [`file`](mod@file) | reads scenes and replaces files atomically | what the bytes mean |
+//! | [`image_file`] | picture files: writes frames, reads textures | what is in a scene |
+//! | [`assets`] | reads the pictures and meshes that scenes name | what they are used for |
+//! | [`watch`] | reports changes of paths on disk | what the files contain |
+//! | [`ui`] | the terminal: the only room that knows ratatui and crossterm | how pixels are computed |
 //! | [`batch`] | headless work: check, render | terminals |
-//! | [`cli`] | arguments and exit codes | work |
+//! | [`cli`] | arguments and exit codes | how the work is done |
 //!
-//! Arrows between rooms are held by `tests/rooms.rs`.
+//! `tests/rooms` enforces the dependencies between rooms and lists the only permitted cycles of files.
 //!
 //! # Invariants
 //!
-//! - Parsing never fails: it gives a tree and diagnostics. A scene that does not lower keeps the
-//!   last good picture.
-//! - Scene values hold no spans: where each field stands is known to the [`language::Source`].
+//! - Parsing never fails: it returns a tree and diagnostics. If a scene does not lower, the last
+//!   good picture stays.
+//! - Scenes contain no spans: [`language::Source`] knows the position of each field in the text.
 //! - Every sample is a pure function of (scene, settings, pixel, sample index), and sums are added
-//!   in a fixed order: any thread count and any cancellation history gives the same bits.
+//!   in a fixed order: the result is identical bit for bit, regardless of the number of threads and
+//!   of cancelled renders.
 //! - `ui` changes documents, never scenes. `App::update` is a pure step that returns effects;
 //!   drawing never locks.
-//! - What threads share is a message, with few exceptions: a renderer's newest generation and its
-//!   frame slot; and in [`ui::terminal`] the bytes on their way to the terminal and who has it, which
-//!   a panic hook must be able to change, the messages that it leaves, and the number of replies that
-//!   are awaited.
+//! - Threads communicate by messages. The exceptions are a renderer's newest generation and frame
+//!   slot; and in [`ui::terminal`] the count of expected replies, and what a panic hook or signal
+//!   handler must reach: the queued output, the owner of the terminal, the panics of other threads
+//!   and whether unsaved edits are stored.
 
 pub mod accel;
 pub mod assets;

@@ -1,4 +1,4 @@
-//! Halflight: edit a scene, see it, make a picture of it.
+//! Halflight: edit a scene, see it traced, render it.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -11,7 +11,7 @@ use halflight::{batch, ui};
 
 fn main() -> ExitCode {
     #[cfg(unix)]
-    outlive_size_limits();
+    survive_file_size_limit();
     ExitCode::from(match cli::parse(std::env::args_os()) {
         Ok(Command::Interface(options)) => interface(&options),
         Ok(Command::Render(work)) => cli::exit_code(&batch::render(&work)),
@@ -24,48 +24,48 @@ fn main() -> ExitCode {
     })
 }
 
-/// Makes a write beyond the limit on the sizes of files an error as others are. By default it ends
-/// the process, which would leave a temporary file behind.
+/// Makes a write beyond the file size limit an ordinary error. By default it kills the process,
+/// which would leave a temporary file behind.
 #[cfg(unix)]
-fn outlive_size_limits() {
-    // Without the handler the default is left.
+fn survive_file_size_limit() {
+    // If this fails, the default remains.
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
 }
 
 fn interface(options: &ui::Options) -> u8 {
     let outcome = ui::run(options);
     if let Err(error) = &outcome {
-        complain(&error.to_string());
+        report_error(&error.to_string());
         if let Some(note) = ui::note(options, error) {
-            tell("note", &note);
+            report("note", &note);
         }
     }
     cli::interface_exit_code(&outcome)
 }
 
-/// Prints a text that was asked for to the output stream, any other to the error stream.
+/// Prints a requested text to standard output, any other to standard error.
 fn print(stop: &Stop) -> u8 {
     let text = stop.text.as_bytes();
     if stop.code != cli::DONE {
-        // Nobody is left to be told if the stream is closed.
+        // A failure cannot be reported anywhere.
         let _ = io::stderr().write_all(text);
         return stop.code;
     }
     let mut stdout = io::stdout();
     match stdout.write_all(text).and_then(|()| stdout.flush()) {
-        // A reader that leaves early has what it wanted.
+        // A reader that closes the pipe early has what it wanted.
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            complain(&format!("standard output: {error}"));
+            report_error(&format!("standard output: {error}"));
             cli::FAILED
         }
         _ => cli::DONE,
     }
 }
 
-fn complain(message: &str) {
-    tell("error", message);
+fn report_error(message: &str) {
+    report("error", message);
 }
 
-fn tell(kind: &str, message: &str) {
+fn report(kind: &str, message: &str) {
     let _ = writeln!(io::stderr(), "{kind}: {}", visible(&without_codes(message)));
 }

@@ -1,9 +1,9 @@
-//! Tells when one of some files may have changed on disk. Knows nothing of what is in them.
+//! Notifies when one of several files may have changed on disk. Independent of their content.
 //!
 //! Editors save in many ways: in place, by moving the old file away, by renaming a new one over
-//! it. A notice bound to the file itself is lost with the old file, so directories are watched and
-//! notices picked by name. Folders and links on the way come and go just so: every directory that
-//! the system looks into to find the file is watched, from the root on.
+//! it. A watch on the file itself is lost with the old file, so directories are watched and notices
+//! filtered by name. Folders and links on the path come and go likewise: every directory that the
+//! system visits to find the file is watched, starting at the root.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::{OsStr, OsString};
@@ -20,36 +20,36 @@ use notify::{Event, EventKind, RecommendedWatcher, RecursiveMode, Watcher as _};
 
 use crate::file;
 
-/// Links followed before a chain of them counts as endless.
+/// The number of symbolic links followed before a chain counts as endless.
 const MAX_LINKS: usize = 40;
 
-/// Bytes of a file that polling compares: of longer ones, which only meshes are, a change of length
-/// or at the beginning is noticed.
+/// How many bytes of a file polling compares. In longer files, which only meshes are, it detects
+/// changes of the length or of this beginning.
 const COMPARED: u64 = 1 << 28;
 
-/// Watches paths until it is dropped.
+/// Watches paths until dropped.
 #[derive(Debug)]
 pub struct Watcher {
     inbox: Sender<Notice>,
     thread: Option<JoinHandle<()>>,
 }
 
-/// How changes are noticed.
+/// How changes are detected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// The system's own notices.
+    /// By notifications of the system.
     Native,
-    /// Comparing contents at this interval: for network file systems, which send no notices.
+    /// By comparing contents at this interval, for network file systems without notifications.
     Poll(Duration),
 }
 
 impl Watcher {
-    /// Calls `changed` from another thread whenever something happened to a file under `paths`, to
-    /// the name itself or to what a symbolic link there leads to. What happened, and to which, is
-    /// for the caller to see: it compares contents. Reading a file is nothing that happens to it.
+    /// Calls `changed` from another thread whenever a file at one of `paths` may have changed: the
+    /// name itself or the target of a symbolic link. The caller finds out which, and how, by
+    /// comparing contents. Reading a file is not a change.
     ///
-    /// Changes made after this returns are noticed; more calls than changes may come. The folders
-    /// and links on the way to a path need not be there, and may be replaced.
+    /// All changes after this returns are noticed; there may be more calls than changes. Folders
+    /// and links on the way to a path need not exist, and may be replaced.
     pub fn new(
         paths: &[PathBuf],
         method: Method,
@@ -77,7 +77,7 @@ impl Watcher {
 
 impl Drop for Watcher {
     fn drop(&mut self) {
-        // An error means that the thread is gone already; so does one from joining it.
+        // An error of either call means that the thread has ended already.
         let _ = self.inbox.send(Notice::Stop);
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
@@ -85,27 +85,27 @@ impl Drop for Watcher {
     }
 }
 
-/// What the watching thread is told.
+/// A message to the watching thread.
 enum Notice {
     System(notify::Result<Event>),
     Stop,
 }
 
-/// What an event means for the watched paths.
+/// The meaning of an event for the watched paths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Meaning {
     Nothing,
     /// A file may have changed.
     File,
-    /// A directory on the way to one came or went: watches on it may be dead.
+    /// A directory on the way to a file appeared or disappeared: its watch may be dead.
     Directory,
 }
 
-/// The names that lead to the files, and the system's watches on the directories that hold them.
+/// The names on the paths to the files, and the system's watches on the directories they are in.
 struct Places {
-    /// As they were given. A relative one leads elsewhere once the current directory is moved.
+    /// The paths as given. A relative one changes its meaning if the current directory is moved.
     paths: Vec<PathBuf>,
-    /// Where they were last.
+    /// The last absolute paths.
     absolute: Vec<PathBuf>,
     system: RecommendedWatcher,
     names: Names,
@@ -135,27 +135,27 @@ impl Places {
         while let Ok(Notice::System(event)) = notices.recv() {
             let meaning = self.names.meaning(event);
             if meaning != Meaning::Nothing {
-                // Watches first: what happens after the reader has looked must not be missed.
-                // Directories that can't be watched now are tried again at the next notice.
+                // Watches first, so that no change after the caller has looked is missed.
+                // Directories that cannot be watched now are tried again at the next notice.
                 let _ = self.renew(meaning);
                 changed();
             }
         }
     }
 
-    /// Finds the ways to the files anew and watches the directories on them. It is an error if a
-    /// file's own can't be watched; some of those above never can.
+    /// Resolves the paths again and watches the directories on them. Fails if a file's own
+    /// directory cannot be watched; some of those above it never can.
     fn renew(&mut self, mut meaning: Meaning) -> notify::Result<()> {
         loop {
             if meaning == Meaning::Directory {
-                // The same path may be another directory now.
+                // The same path may now be a different directory.
                 for directory in std::mem::take(&mut self.watched) {
                     let _ = self.system.unwatch(&directory);
                 }
             }
             self.names = self.look();
             let outcome = self.watch();
-            // What came before its directory was watched was not told.
+            // What appeared before its directory was watched caused no notice.
             if self.look() == self.names {
                 return outcome;
             }
@@ -163,10 +163,10 @@ impl Places {
         }
     }
 
-    /// Finds the names on the ways to the files as they are now.
+    /// Finds the current names on the paths to the files.
     fn look(&mut self) -> Names {
         for (path, absolute) in self.paths.iter().zip(&mut self.absolute) {
-            // A current directory that was removed has no path; where it was another one may come.
+            // A removed current directory has no path; a new one may appear at its old path.
             if let Ok(now) = std::path::absolute(path) {
                 *absolute = now;
             }
@@ -174,8 +174,8 @@ impl Places {
         Names::of(&self.absolute)
     }
 
-    /// Watches the directories that hold names, each after the one above it, which tells when it is
-    /// replaced from then on.
+    /// Watches the directories of the names, parents first: from then on a parent's watch reports
+    /// if the directory is replaced.
     fn watch(&mut self) -> notify::Result<()> {
         let holders = &self.names.holders;
         let system = &mut self.system;
@@ -205,28 +205,28 @@ impl Places {
     }
 }
 
-/// Which names matter on the ways to the files.
+/// The names on the paths to the files.
 #[derive(PartialEq, Eq)]
 struct Names {
-    /// The names by the directory that holds them, which is there and has no links on its way: the
-    /// system would take two paths of a directory for one watch.
+    /// The names by their directory, which exists and has a canonical path: the system would use a
+    /// single watch for two paths of the same directory.
     holders: BTreeMap<PathBuf, BTreeMap<OsString, Meaning>>,
 }
 
 impl Names {
-    /// The names on the ways to `paths`, as far as there are directories.
+    /// Finds the names on the way to `paths`, as far as the directories exist.
     fn of(paths: &[PathBuf]) -> Self {
         let mut names = Self {
             holders: BTreeMap::new(),
         };
         for path in paths {
-            names.add_way(path);
+            names.add_path(path);
         }
         names
     }
 
-    /// Goes to a file as the system does, name by name.
-    fn add_way(&mut self, path: &Path) {
+    /// Resolves a path like the system, name by name.
+    fn add_path(&mut self, path: &Path) {
         let mut directory = PathBuf::new();
         let mut ahead = path.to_owned();
         let mut links = 0;
@@ -259,7 +259,7 @@ impl Names {
                     rest
                 }
                 Component::CurDir => rest,
-                // Here an absolute path begins, perhaps a link's.
+                // The beginning of an absolute path, possibly of a link's target.
                 Component::RootDir | Component::Prefix(_) => {
                     directory.push(next);
                     rest
@@ -274,8 +274,8 @@ impl Names {
         *known = meaning.max(*known);
     }
 
-    /// Compares last names only: the system may spell a directory in another way than we do. Two
-    /// directories with a name in common cost a needless look at the file, no more.
+    /// The meaning of an event. Compares only the last component: the system may spell a directory
+    /// differently. If two directories have a name in common, the file is read needlessly, no more.
     fn meaning(&self, event: notify::Result<Event>) -> Meaning {
         let Ok(event) = event else {
             return Meaning::File;
@@ -283,7 +283,7 @@ impl Names {
         if event.need_rescan() {
             return Meaning::Directory;
         }
-        // Reading is not a change; our own reading must not make us read again.
+        // Reading is not a change: the program's own reading must not trigger another.
         let written = EventKind::Access(AccessKind::Close(AccessMode::Write));
         if event.kind.is_access() && event.kind != written {
             return Meaning::Nothing;
@@ -297,7 +297,7 @@ impl Names {
     }
 }
 
-/// Compares contents, not dates: those can stand still within a second, and go back.
+/// Compares contents, not times: these may have a resolution of a second, and be set back.
 fn poll(
     paths: &[PathBuf],
     first: Vec<Option<u64>>,
@@ -318,7 +318,7 @@ fn poll(
     }
 }
 
-/// Numbers that stand for files' contents; `None` for one that can't be read.
+/// Hashes of the files' contents; `None` for a file that cannot be read.
 fn fingerprints(paths: &[PathBuf]) -> Vec<Option<u64>> {
     paths.iter().map(|path| fingerprint(path)).collect()
 }

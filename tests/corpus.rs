@@ -1,4 +1,4 @@
-//! The inputs that fuzzing began with or found, once more: see `fuzz/README.md`.
+//! Replays the seeds and findings of fuzzing; see `fuzz/README.md`.
 
 #[path = "../fuzz/src/lib.rs"]
 pub mod targets;
@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 #[test]
-fn every_kept_input_keeps_the_promises() {
+fn every_kept_input_passes() {
     let corpora = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus");
     for (name, target) in targets::TARGETS {
         let folder = fs::read_dir(corpora.join(name)).expect("each target has a corpus");

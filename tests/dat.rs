@@ -1,4 +1,4 @@
-//! A scene in `.dat` with everything in it, from its text to its pixels.
+//! A `.dat` scene that uses all features, from text to pixels.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -8,8 +8,8 @@ use halflight::language::{Language, Source};
 use halflight::render::{DEFAULT_DEPTH, Filter, Frame, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::{Image, Images, Integrator, Meshes, Scene, Size, Transfer};
 
-/// A scene whose lengths are all `s` times as large: squares of lengths and what is counted in
-/// their reciprocals follow.
+/// A scene with all lengths multiplied by `s`; squares of lengths and values in reciprocal units
+/// are scaled accordingly.
 fn everything(s: f64, camera: &str) -> String {
     let lengths = |numbers: &[f64]| -> String {
         let scaled: Vec<_> = numbers.iter().map(|x| format!("{:e}", s * x)).collect();
@@ -140,7 +140,7 @@ fn trace(scene: &Arc<Scene>, threads: usize) -> Arc<Frame> {
     }
 }
 
-/// Nothing has a size of its own: what is 2ᵏ times as large is the same picture, to the bit.
+/// Nothing has an absolute size: a scene scaled by 2ᵏ gives the same picture, bit for bit.
 #[test]
 fn scaled_scenes_give_the_same_picture() {
     for camera in ["perspective", "orthographic"] {
@@ -164,9 +164,9 @@ fn scaled_scenes_give_the_same_picture() {
     }
 }
 
-/// The course's files, by a reader of lines of their own.
+/// The course's files, compared with an independent line reader.
 #[test]
-fn the_courses_own_files_are_read_whole() {
+fn the_courses_own_files_are_read_completely() {
     let Some(folder) = std::env::var_os("HALFLIGHT_EXTRA_SCENES").map(PathBuf::from) else {
         println!("HALFLIGHT_EXTRA_SCENES names no folder: the course's files are not tested");
         return;

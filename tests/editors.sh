@@ -1,24 +1,24 @@
 #!/usr/bin/env bash
-# Saves a scene with real editors while Halflight has it open, and looks whether the picture on
-# screen changes; then has Halflight open them on scenes whose names they could take for something
-# else. Needs tmux; editors that are not installed are skipped and named.
+# Saves a scene with real editors while Halflight has it open, and checks that the picture on
+# screen changes; then opens the editors from Halflight on scenes whose names they could
+# misinterpret. Needs tmux; editors that are not installed are reported and skipped.
 #
 #     tests/editors.sh target/release/halflight
 #
-# Each save changes ambient light from black to white or back, so that the ball in the middle of
-# the picture, lit by ambient light alone, appears or is gone.
+# Each save switches the ambient light between black and white, so that the ball in the middle of
+# the picture, lit only by it, appears or disappears.
 set -euo pipefail
 
 halflight=$(realpath "${1:?usage: tests/editors.sh path/to/halflight}")
 command -v tmux >/dev/null || { echo 'tmux is needed'; exit 1; }
 
-# Not in the directory for temporary files: vim saves in another way there.
+# Not in the system's temporary directory, where vim saves differently.
 place=$(mktemp -d "${PLACE:-$PWD}/editors-XXXXXX")
 scene=$place/s.ray
 tmux=(tmux -L "halflight-editors-$$" -f /dev/null)
 failures=0
 
-# The server outlives the moments without a session.
+# Keep the server running while there is no session.
 "${tmux[@]}" start-server ';' set-option -g exit-empty off
 
 finish() {
@@ -27,16 +27,16 @@ finish() {
 }
 trap finish EXIT
 
-# The scene with ambient light of $1.
+# Prints the scene with a red ambient light of $1.
 scene_with() {
     printf '%s 1 1\n1 0 9 0 0 0 0\n1 sphere 0 0 0 1\n1 1 1 0 0 0 0 0 0 1 0 0 1\n' "$1"
     echo '// view: eye 0 0 4 target 0 0 0 up 0 1 0 fov 40 size 80 60'
 }
 
-# What is on the screen, with its colours.
+# Prints the content of the screen with its colours.
 screen() { "${tmux[@]}" capture-pane -p -e -t halflight; }
 
-# Waits until the screen differs from $1 and has been the same twice.
+# Waits until the screen differs from $1 and is stable.
 changed_from() {
     local old=$1 now='' before
     for _ in {1..50}; do
@@ -48,7 +48,7 @@ changed_from() {
     return 1
 }
 
-# Waits until the scene holds what it is to hold.
+# Waits until the scene has the content of next.ray.
 saved() {
     for _ in {1..50}; do
         cmp -s "$scene" "$place/next.ray" && return 0
@@ -57,8 +57,8 @@ saved() {
     return 1
 }
 
-# Tries one editor: a name, the program it needs, a command that makes `s.ray` hold what
-# `next.ray` holds, in the scene's directory, and the keys to press in it, if it needs any.
+# Tests one editor: a name, the program it needs, a command that copies the content of `next.ray`
+# to `s.ray` in the scene's directory, and the keys to press in it, if any.
 try() {
     local name=$1 program=$2 command=$3 red old key
     if ! command -v "$program" >/dev/null; then
@@ -74,7 +74,7 @@ try() {
             "${tmux[@]}" send-keys -t editor "$key"
         done
         if ! saved; then
-            echo "BROKEN   $name did not save what it was to save"
+            echo "BROKEN   $name did not save the expected content"
             failures=$((failures + 1))
             cp "$place/next.ray" "$scene"
         elif changed_from "$old"; then
@@ -108,7 +108,7 @@ try 'rm, then cp' rm 'rm s.ray; sleep 1; cp next.ray s.ray'
 
 "${tmux[@]}" kill-session -t halflight
 
-# Names that editors run, or take for options, places, hosts, patterns and lines.
+# Names that editors might execute, or take for options, positions, hosts, patterns or lines.
 names=(
     '+sil !touch canary.ray' '+12.ray' '-c !touch canary.ray' '--cmd=!touch canary.ray'
     ':!touch canary.ray' '!touch canary.ray' '@a.ray' '|touch canary.ray' '~.ray' '~root.ray'
@@ -117,7 +117,7 @@ names=(
     'a:12:3:b.ray' 'ssh:localhost:a.ray' $'line\nbreak.ray' 'back\slash.ray'
 )
 
-# Waits until the interface has the screen.
+# Waits until the interface is on the screen.
 shown() {
     for _ in {1..100}; do
         [[ $(screen) == *SELECT* ]] && return 0
@@ -126,7 +126,7 @@ shown() {
     return 1
 }
 
-# Waits until another program has the screen.
+# Waits until the interface has left the screen.
 gone() {
     for _ in {1..100}; do
         [[ $(screen) != *SELECT* ]] && return 0
@@ -135,8 +135,8 @@ gone() {
     return 1
 }
 
-# Has an editor opened on each name: a name, the program it needs, the value of $EDITOR, and the
-# keys that write a line `// seen` above the cursor and leave.
+# Opens an editor on each of the names: its name, the program it needs, the value of $EDITOR, and
+# the keys that insert a line `// seen` above the cursor, save and quit.
 open_names() {
     local name=$1 program=$2 editor=$3 file key passed=0
     if ! command -v "$program" >/dev/null; then

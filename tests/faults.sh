@@ -1,23 +1,23 @@
 #!/bin/sh
-# Writes files while each system call of the writing in turn kills the process or fails.
+# Writes files while each system call of a write in turn kills the process or fails.
 #
 #     tests/faults.sh BINARY [FOLDER]
 #
-# needs strace, tmux and a folder on the file system to be tested (by default one for temporary
-# files; /dev/shm is another file system nearly everywhere). Headless: a new picture, one over an
-# existing picture, one over a hard link. Interface: a save over an existing scene, one through a hard
-# link, a picture exported over an existing one, and an edit that is never saved before the terminal
-# hangs up ("kept": its journal is the target). Of every case the k-th call of each kind is hit, for
-# each k until nothing is hit any more. strace can't shorten a write, only pretend to: short writes are
-# tested where the calls are made, in src/file/tests/faults.rs.
+# Needs strace, tmux and a folder on the file system to test (default: the temporary folder;
+# /dev/shm is a different file system nearly everywhere). Headless: a new picture, one over an
+# existing picture, one over a hard link. Interface: a save over an existing scene, a save through a
+# hard link, a picture exported over an existing one, and an edit that is not saved before the
+# terminal hangs up ("kept": it must be in the journal). In each case the fault is injected into the
+# k-th call of each kind, for every k until none is hit. strace cannot really shorten a write: short
+# writes are tested in src/file/tests/faults.rs.
 #
-# Then the target holds its old or its new bytes (else it is "torn", or "lost" where it is gone), but
-# for a save through a hard link, whose old bytes a copy named for the file may hold instead. An edit
-# that is not in a journal is "lost" unless the process was killed. After one more write in the folder
-# nothing else is left there, nor in that of the journals (else it is "left behind"). KINDS names the
-# cases to run, OUTCOMES what a call that is hit does, LIMIT the greatest k.
+# Afterwards the target must hold its old or its new bytes (otherwise it is "torn", or "lost" if it
+# does not exist); after a write through a hard link the old bytes may be in a backup copy instead.
+# An edit that is not in a journal is "lost" unless the process was killed. After one more write
+# nothing else may be left in the folder or among the journals (otherwise it is "left behind").
+# KINDS selects the cases, OUTCOMES the faults, LIMIT the greatest k.
 #
-# Prints a line a case and ends with 1 if anything was torn, lost or left behind.
+# Prints a line for each case; exits with 1 if anything was torn, lost or left behind.
 
 set -u
 binary=$(realpath "${1:?usage: tests/faults.sh BINARY [FOLDER]}")
@@ -35,7 +35,7 @@ scene() {
         '// view: eye 0 0 5 target 0 0 0 up 0 1 0 fov 40 size 64 48'
 }
 
-# Makes the folder of one run: scene, target, what the target holds before.
+# Creates the folder of one run: the scene, and the target with its old content.
 prepare() {
     rm -rf "$work" "$XDG_STATE_HOME"
     mkdir "$work"
@@ -73,7 +73,7 @@ run() {
         kept)
             keys '' Enter
             keys 'j2' Enter
-            # Edits are kept a second later, and once more at the end.
+            # Edits are written to the journal a second later, and again at the end.
             sleep 1.5
             tmux -L "faults$$" kill-server 2>/dev/null
             ;;
@@ -87,7 +87,7 @@ run() {
         ;;
     *)
         (cd "$work" && strace -f -qq -o "$folder/trace" "$@" \
-            "$binary" render a.ray -o t.png --spp 1 --threads 1; true) >"$folder/said" 2>&1
+            "$binary" render a.ray -o t.png --spp 1 --threads 1; true) >"$folder/log" 2>&1
         ;;
     esac
 }
@@ -99,13 +99,13 @@ keys() {
     sleep 0.2
 }
 
-# Judges what is there after a run.
+# Checks the state after a run.
 judge() {
     kind=$1
     journals=$XDG_STATE_HOME/halflight/recovery
     case $kind in
     kept)
-        # The scene stays as it is.
+        # The scene itself does not change.
         target=$work/a.ray old=$folder/a.old new=$folder/a.old
         case $outcome in
         *KILL*) ;;
@@ -132,7 +132,7 @@ judge() {
         left=$((left + 1))
     fi
     if [ "$kind" = kept ]; then
-        # The next run of the scene takes what is kept, and has nothing to keep any more.
+        # The next run offers the journal; discarding it must remove it.
         tmux -L "faults$$" new-session -d -x 100 -y 30 \
             "cd '$work' && echo \$\$ >'$folder/pid' && exec '$binary' --color 24 a.ray"
         keys 'd' ''
@@ -142,12 +142,12 @@ judge() {
     fi
 }
 
-# Hits every call of the kinds given.
+# Injects every fault into every call of one case.
 check() {
     kind=$1
     for outcome in $outcomes; do
         runs=0 torn=0 lost=0 left=0 copied=0
-        # The interface writes to its terminal most of all, and opens what it shows.
+        # Without write and openat, which the interface uses mostly for its terminal and for reading.
         case $kind in
         saved* | exported | kept) some="fsync rename,renameat,renameat2 link,linkat unlink,unlinkat fchmod,fchown ftruncate" ;;
         *) some=$calls ;;
@@ -161,7 +161,7 @@ check() {
                 runs=$((runs + 1))
                 judge "$kind"
                 if ! grep -q 'INJECTED\|killed by SIGKILL' "$folder/trace"; then
-                    # Nothing was hit: all must have come to its end.
+                    # No call was hit: the write must be complete.
                     cmp -s "$target" "$new" || lost=$((lost + 1))
                     break
                 fi

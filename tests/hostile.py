@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Checks and renders hostile files: how long each takes, how much memory at most, how it ends.
+"""Checks and renders hostile files, and measures time, peak memory and exit code.
 
-    tests/hostile.py BINARY [FOLDER]
+    tests/hostile.py BINARY [FOLDER [FILE...]]
 
-The first error of a file is due within 1 s and 256 MB beside the scene's own text, which is kept for
-the messages, and the pixels of its pictures. Files whose fault is at their end may take as long as
-reading them does, and five times their text. What is beyond that is marked with `!`, and the exit code
-is 1 then. Needs 6 GB in FOLDER (a new one below the temporary directory unless named).
+The first error of a file must appear within 1 s and take at most 256 MB in addition to the scene's
+text, which is kept for messages, and the pixels of its pictures. Files with an error at the end may
+take as long as reading them, and five times their length. Violations are marked with `!` and make
+the exit code 1. Needs 6 GB in FOLDER (default: a new one in the temporary directory). FILE limits the
+run to files of these names.
 """
 
 import os
@@ -27,11 +28,16 @@ TIMES_THE_TEXT = 5
 
 HEAD = b"0 0 0 1 0 0 0 1 1 1 "
 SPHERE = b"sphere 0.5 0.25 -3 1 0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n"
+# Names of the files that are tested; none: all.
+SELECTED = sys.argv[3:]
+
 NUMBERS = b"0.25 1 -3.5 12.125 7 0.5\n"
 
 
 def write(name, *parts):
-    """Writes a file of parts: bytes, or bytes and how often they are repeated."""
+    """Writes a selected file from parts: bytes, or pairs of bytes and a repeat count."""
+    if SELECTED and name not in SELECTED:
+        return name
     with open(name, "wb") as out:
         for part in parts:
             text, count = part if isinstance(part, tuple) else (part, 1)
@@ -44,19 +50,19 @@ def write(name, *parts):
 
 
 def filled(name, *parts):
-    """The same, with counts in bytes."""
+    """Like write, with counts in bytes."""
     return write(name, *((p[0], p[1] // len(p[0])) if isinstance(p, tuple) else p for p in parts))
 
 
-def apart(make):
-    """Makes a large file in a process of its own: what a child is said to use at most includes what its
-    parent used when it was started."""
+def in_child(make):
+    """Creates a large file in a child process: the peak memory reported for a process includes that
+    of its parent when it was started."""
     child = os.fork()
     if child == 0:
         make()
         os._exit(0)
     if os.waitpid(child, 0)[1] != 0:
-        sys.exit("a file can't be made")
+        sys.exit("cannot create a file")
 
 
 def chunk(kind, data):
@@ -74,7 +80,7 @@ def png(*chunks):
 
 
 def stored(size):
-    """A deflate stream of zeros that are not compressed."""
+    """A deflate stream of uncompressed zeros."""
     blocks = [b"\x78\x01"]
     for left in range(size, 0, -65535):
         length = min(left, 65535)
@@ -87,7 +93,7 @@ def bmp(side):
 
 
 def textured(name, picture):
-    """A scene with one picture, which may be text that is written to a file."""
+    """Writes a scene that uses one picture."""
     return write(name, b"mat ID 1 1 1 1 1 0 1 0 1 0 0 1\nobj sphere ID 1 mat ID 1 0 0 0 1\n"
                  b"texture ID 1 image 1 1 %s\nuse colour ID 1 mat ID 1\n" % picture.encode())
 
@@ -100,11 +106,11 @@ def laughs():
 
 
 def texts():
-    """Scenes that are wrong: what they are, and their names."""
+    """Malformed scenes: descriptions and file names."""
     yield "1 GB of zeros", write("zeros.ray", (b"\0", GB))
     yield "the same", write("zeros.dat", (b"\0", GB))
     yield "the same", write("zeros.xml", (b"\0", GB))
-    yield "1 GB of zeros behind text", write("late-zeros.ray", b"0 0 0\n" * 1000, (b"\0", GB))
+    yield "1 GB of zeros after text", write("late-zeros.ray", b"0 0 0\n" * 1000, (b"\0", GB))
     for end in ("ray", "dat", "xml"):
         yield "400 MB of `a`", filled("letters." + end, (b"a", 400 * MB))
         yield "400 MB of line ends", filled("ends." + end, (b"\n", 400 * MB))
@@ -113,41 +119,41 @@ def texts():
     yield "420 MB of numbers", filled("numbers.ray", (NUMBERS, 420 * MB))
     yield "the same", filled("numbers.dat", (NUMBERS, 420 * MB))
     yield "the same in one line", filled("line.dat", (b"1 ", 420 * MB))
-    yield "420 MB of numbers behind a head", filled("surplus.ray", HEAD + b"1 ", (b"1 ", 420 * MB))
+    yield "420 MB of numbers after a head", filled("surplus.ray", HEAD + b"1 ", (b"1 ", 420 * MB))
     yield "400 MB of words", filled("words.ray", HEAD + b"1 ", (b"a ", 400 * MB))
     yield "400 MB of comments", filled("comments.ray", (b"//\n", 400 * MB))
     yield "10000000 bad objects", write("bad.ray", HEAD + b"10000000\n", (b"spher 0 0 0 1 1\n", 10000000))
     yield "10000000 bad records", write("bad.dat", (b"obj spere 1 2 3\n", 10000000))
-    yield "as few as are read whole", write("few.ray", HEAD + b"1000000\n", (b"spher 0 0 0 1 1\n", 1000000))
+    yield "1000000, few enough to read all", write("few.ray", HEAD + b"1000000\n", (b"spher 0 0 0 1 1\n", 1000000))
     yield "the same", write("few.dat", (b"obj spere 1 2 3\n", 1000000))
-    yield "500000 names of nothing", write("names.dat", (b"obj sphere ID 1 mat ID 7 0 0 0 1\n", 500000))
-    yield "8000000 spheres, 1 said", write("spheres.ray", HEAD + b"1\n", (SPHERE, 8000000))
+    yield "500000 undefined materials", write("names.dat", (b"obj sphere ID 1 mat ID 7 0 0 0 1\n", 500000))
+    yield "8000000 spheres, 1 announced", write("spheres.ray", HEAD + b"1\n", (SPHERE, 8000000))
     yield "100000000 objects announced", write("objects.ray", HEAD + b"100000000")
     yield "100000000 lights announced", write("lights.ray", b"0 0 0 100000000")
-    yield "100000000 half-spaces", write("cuts.dat", b"mat ID 1 1 1 1 1 1 0 1 0 0 1\nobj quadric ID 1 mat ID 1 " + b"1 " * 10 + b"100000000")
-    yield "100000000 shown", write("shown.dat", b"render 100000000 ID 1")
+    yield "100000000 half-spaces announced", write("cuts.dat", b"mat ID 1 1 1 1 1 1 0 1 0 0 1\nobj quadric ID 1 mat ID 1 " + b"1 " * 10 + b"100000000")
+    yield "100000000 IDs announced", write("shown.dat", b"render 100000000 ID 1")
     yield "a number of 1000000 digits", write("digits.ray", b"0 0 ", (b"9", 1000000))
     yield "the same", write("digits.xml", b"<xml><scene/><camera><fov value='", (b"9", 1000000), b"'/></camera></xml>")
     yield "not UTF-8", write("bytes.ray", (b"\xff", MB))
-    yield "400 MB that are not UTF-8", write("late-bytes.ray", b"0 ", (b"\xff", 400 * MB))
+    yield "400 MB of invalid UTF-8", write("late-bytes.ray", b"0 ", (b"\xff", 400 * MB))
     yield "not numbers", write("nan.ray", b"nan inf 1e999 -0 0x1 1 1")
     yield "1000000 nested elements", write("deep.xml", b"<xml><scene>", (b"<object>", 1000000), (b"</object>", 1000000), b"</scene></xml>")
-    yield "1000000 that are never closed", write("open.xml", (b"<a>", 1000000))
+    yield "1000000 unclosed elements", write("open.xml", (b"<a>", 1000000))
     yield "a million attributes", write("attributes.xml", b"<xml ", (b"a='1' ", 1000000), b"/>")
     yield "an attribute twice", write("twice.xml", b"<xml a='1' a='2'/>")
     yield "entities of entities", write("laughs.xml", laughs())
-    yield "objects made of each other", write("cycle.dat", b"obj CSG ID 1 union ID 2 ID 2\nobj CSG ID 2 union ID 1 ID 1\nrender 1 ID 1\n")
+    yield "objects that contain each other", write("cycle.dat", b"obj CSG ID 1 union ID 2 ID 2\nobj CSG ID 2 union ID 1 ID 1\nrender 1 ID 1\n")
 
 
 def pictures():
-    """Scenes with a hostile picture, and how many bytes its pixels are."""
+    """Scenes with a hostile picture, with the size of its pixels in bytes."""
     def case(what, name, content, pixels=0):
-        apart(content)
+        in_child(content)
         scene = os.path.splitext(name)[0] + "-picture.dat"
         return what, textured(scene, name), pixels
 
     yield case("a PNG with a profile of 400 MB", "deflated.png", lambda: write("deflated.png", png(chunk(b"iCCP", b"p\0\0" + zlib.compress(bytes(400 * MB), 9)))))
-    yield case("the same, not compressed", "stored.png", lambda: write("stored.png", png(chunk(b"iCCP", b"p\0\0" + stored(400 * MB)))))
+    yield case("the same, uncompressed", "stored.png", lambda: write("stored.png", png(chunk(b"iCCP", b"p\0\0" + stored(400 * MB)))))
     yield case("a PNG with a text of 400 MB", "text.png", lambda: write("text.png", png(chunk(b"tEXt", b"k\0" + b"t" * (400 * MB)))))
     comment = b"\xff\xfe\xff\xff" + b"c" * 65533
     yield case("a JPEG of 393 MB of comments", "comments.jpg", lambda: write("comments.jpg", b"\xff\xd8", (comment, 6000), b"\xff\xd9"))
@@ -159,22 +165,23 @@ def pictures():
 
 
 def late():
-    """Scenes whose fault is at their end."""
+    """Scenes with an error at the end."""
     yield "420 MB of spheres, then a word", write("late.ray", HEAD + b"8600000\n", (SPHERE, 8600000), b"sphere x")
     yield "420 MB of lights, no objects", filled("late-lights.ray", b"0 0 0 36700000 ", (b"1 2 3 1 1 1\n", 420 * MB))
     yield "200 MB of records, then a word", write("late.dat", b"mat ID 1 1 1 1 1 1 0 1 0 0 1\n", (b"// obj\n", 30000000), b"obj x")
 
 
 def measured(arguments):
-    """Seconds, bytes resident at most, exit code and first line of a run."""
+    """Runs a program; returns seconds, CPU seconds, peak resident bytes, exit code and first message."""
     begun = time.monotonic()
     child = subprocess.Popen(arguments, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    told = child.stderr.read().decode(errors="replace")
+    output = child.stderr.read().decode(errors="replace")
     _, status, used = os.wait4(child.pid, 0)
     child.returncode = os.waitstatus_to_exitcode(status)
-    errors = [line for line in told.split("\n") if line.startswith(("error", "warning"))]
-    first = (errors or told.split("\n"))[0]
-    return time.monotonic() - begun, used.ru_maxrss * 1024, child.returncode, first
+    errors = [line for line in output.split("\n") if line.startswith(("error", "warning"))]
+    first = (errors or output.split("\n"))[0]
+    spent = used.ru_utime + used.ru_stime
+    return time.monotonic() - begun, spent, used.ru_maxrss * 1024, child.returncode, first
 
 
 def main():
@@ -182,16 +189,18 @@ def main():
     folder = tempfile.mkdtemp(dir=sys.argv[2] if 2 < len(sys.argv) else None)
     os.chdir(folder)
     beyond = []
-    print(f"{'':34}{'':8}{'file':>9}{'s':>8}{'MB beside':>11}  exit")
+    print(f"{'':34}{'':8}{'file':>9}{'s':>8}{'CPU s':>8}{'MB beside':>11}  exit")
 
     def test(what, scene, pixels=0, is_late=False):
+        if not os.path.exists(scene):
+            return
         size = os.stat(scene).st_size
-        # Read before: what is measured is the program, not the disk.
+        # Cached beforehand, to measure the program and not the disk.
         with open(scene, "rb") as text:
             while text.read(MB):
                 pass
         for command in (["check", scene], ["render", scene, "-o", "out.ppm", "--size", "4x3", "--spp", "1"]):
-            took, resident, code, first = measured([binary, *command])
+            took, spent, resident, code, first = measured([binary, *command])
             beside = max(0, resident - size - pixels)
             wrong = []
             if code not in (0, 65):
@@ -201,7 +210,7 @@ def main():
             if (TIMES_THE_TEXT * size if is_late else BESIDE) < beside:
                 wrong.append(f"{beside / 1e6:.0f} MB")
             mark = "!" if wrong else " "
-            print(f"{mark} {what:32}{command[0]:8}{size / 1e6:9.1f}{took:8.2f}{beside / 1e6:11.0f}  {code:4}  {first[:70]}", flush=True)
+            print(f"{mark} {what:32}{command[0]:8}{size / 1e6:9.1f}{took:8.2f}{spent:8.2f}{beside / 1e6:11.0f}  {code:4}  {first[:70]}", flush=True)
             beyond.extend(f"{command[0]} {scene}: {what}: {', '.join(wrong)}" for _ in wrong[:1])
         os.remove(scene)
 
@@ -215,7 +224,7 @@ def main():
     finally:
         shutil.rmtree(folder)
     for line in beyond:
-        print(f"beyond the bounds: {line}", file=sys.stderr)
+        print(f"exceeded: {line}", file=sys.stderr)
     return 1 if beyond else 0
 
 

@@ -1,4 +1,4 @@
-//! Options of how a picture is made, for every language.
+//! Rendering options, for every language.
 
 use std::fs;
 use std::process::{Command, Stdio};
@@ -36,7 +36,7 @@ render 0
 ];
 
 #[test]
-fn options_of_making_hold_for_every_language() {
+fn rendering_options_apply_to_every_language() {
     let place = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).expect("a directory");
     for (name, text) in BALLS {
         fs::write(place.path().join(name), text).expect("written");
@@ -60,8 +60,8 @@ fn options_of_making_hold_for_every_language() {
             made("--integrator whitted --depth 8 --filter box") == plain,
             "{name}"
         );
-        // The ball shows ambient light alone, which paths drop and which is not a colour of its own; or
-        // white, whatever light there is.
+        // The ball shows only ambient light, which path tracing drops and which is not part of its
+        // albedo; or it is white regardless of light.
         let header = plain.len() - 3 * 40 * 30;
         let mut unlit = plain.clone();
         if name != "ball.xml" {

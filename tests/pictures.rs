@@ -1,4 +1,4 @@
-//! The project's scenes and their pictures.
+//! The sample scenes and their pictures.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, mpsc};
@@ -12,18 +12,18 @@ use halflight::render::{Filter, Frame, Frames, Job, Renderer, Settings, Threads,
 use halflight::scene::{Images, Integrator, Meshes, Scene, Size};
 use halflight::text::{Edit, parse_number};
 
-/// Size of the pictures beside the scenes, and their samples a pixel: the README's command.
+/// Size of the pictures beside the scenes and their samples per pixel, as in `scenes/README.md`.
 const SIZE: Size = Size {
     width: 320,
     height: 240,
 };
 const SPP: u32 = 8;
 
-/// The same of those that are made by path tracing.
+/// Samples per pixel of path-traced pictures.
 const PATH_SPP: u32 = 64;
 
 #[test]
-fn the_pictures_beside_the_scenes_are_what_the_renderer_gives() {
+fn the_pictures_beside_the_scenes_match_the_renderer() {
     for own in scenes() {
         let (scene, images) = own.meaning();
         let spp = match scene.setting.integrator {
@@ -42,8 +42,7 @@ fn the_pictures_beside_the_scenes_are_what_the_renderer_gives() {
     }
 }
 
-/// Nothing in the tracer has a size of its own: a scene that is 2ᵏ times as large is the same
-/// picture, to the bit.
+/// The tracer has no absolute sizes: a scene scaled by 2ᵏ gives the same picture, bit for bit.
 #[test]
 fn scaled_scenes_give_the_same_picture() {
     let size = Size {
@@ -62,7 +61,7 @@ fn scaled_scenes_give_the_same_picture() {
     }
 }
 
-/// The example as it comes from the course's page, with no-break spaces, is the same scene.
+/// The example as copied from the course's page, with no-break spaces, is the same scene.
 #[test]
 fn the_courses_own_copies_mean_the_same() {
     let Some(folder) = std::env::var_os("HALFLIGHT_EXTRA_SCENES").map(PathBuf::from) else {
@@ -76,7 +75,7 @@ fn the_courses_own_copies_mean_the_same() {
     }
 }
 
-/// One of the project's scenes.
+/// One of the sample scenes.
 struct Own {
     path: PathBuf,
     language: Language,
@@ -100,7 +99,7 @@ impl Own {
             (lowered, source.files())
         };
         let mut assets = Assets::new(&[]);
-        // What meshes name is known once they are read.
+        // The files that meshes name are known once the meshes are read.
         let mut loaded = Loaded::default();
         let (mut lowered, mut files) = lower(&loaded);
         for _ in 0..2 {
@@ -113,13 +112,13 @@ impl Own {
         (Arc::new(scene), loaded.images)
     }
 
-    /// The same scene, 2 to this power times as large.
+    /// The same scene, scaled by 2 to this power.
     fn scaled(&self, exponent: i32) -> Self {
         let mut document = Document::new(self.language, self.text.clone());
         let lowered = document.lower(&Meshes::default()).expect("there is memory");
         let source = document.source();
         let is_xml = self.language == Language::Xml;
-        // Balls of light have so much light for so much surface.
+        // Under path tracing, the intensity of a light scales with its surface area.
         let integrator = lowered.scene.map(|scene| scene.setting.integrator);
         let shines = integrator == Some(Integrator::Path);
         let mut edits = Vec::new();
@@ -127,7 +126,7 @@ impl Own {
             if is_xml && matches!(node, Node::Object(_)) {
                 continue;
             }
-            // Maps of textures are in a space of their own.
+            // Texture transforms are in texture space.
             let is_map = |key| is_xml && matches!(node, Node::Material(_)) && key != "absorption";
             for placed in source.fields(node) {
                 if is_map(placed.field.key) {
@@ -162,8 +161,7 @@ impl Own {
     }
 }
 
-/// The text of a `.xml` scene with its outermost objects as many times as large, as the last thing
-/// that is done to them.
+/// Scales the outermost objects of a `.xml` scene, as their last transform.
 fn with_scaled_objects(text: &str, factor: f64) -> String {
     let scale = format!("<scale value='{factor:e}'/>");
     let mut scaled = String::new();
@@ -183,7 +181,7 @@ fn with_scaled_objects(text: &str, factor: f64) -> String {
     scaled
 }
 
-/// With which power of the scene's size a number grows. Directions, angles, colours: with none.
+/// The power of the scene's size by which a number scales; 0 for directions, angles and colours.
 fn length_power(field: &Field, component: usize) -> i32 {
     match (field.kind, field.key) {
         (Kind::Point, _)
@@ -192,7 +190,7 @@ fn length_power(field: &Field, component: usize) -> i32 {
         (Kind::Number, "a1" | "attenuation") => -1,
         (_, "absorption") => -i32::from(component < 3),
         (Kind::Number, "a2") => -2,
-        // They count in lengths of the axes.
+        // Numbers in units of the axes.
         (Kind::Number, _) => i32::from(field.allowed == Range::Positive),
         (Kind::Pair, key) => i32::from(key == "resolution"),
         (Kind::HalfSpace | Kind::ScaledVector, _) => i32::from(component == 3),

@@ -1,16 +1,17 @@
-"""The measuring half of slow-link.sh: a proxy with a rate and a delay, and a user behind it."""
+"""The measurements of slow-link.sh: a proxy with a rate and a delay, and a user behind it."""
 
 import asyncio, contextlib, fcntl, os, pty, re, signal, socket, struct, sys, termios, time
 
 PLACE, PORT, HALFLIGHT = (os.environ[name] for name in ("PLACE", "PORT", "HALFLIGHT"))
 COLUMNS, ROWS = 120, 40
-# Bytes a second and the round trip in milliseconds; 0 means no limit.
+# Bytes per second and the round trip in milliseconds; 0 means no limit.
 LINKS = [(0, 0), (1_000_000, 20), (128_000, 200), (40_000, 200), (40_000, 50)]
-KEYS = 25
+# Keys pressed while the picture rests, and while pictures flow.
+RESTING, FLOWING = 25, 60
 
 
 class Proxy:
-    """Passes bytes on at a rate, after a delay, from a bounded buffer."""
+    """Forwards bytes at a limited rate, with a delay, through a bounded buffer."""
 
     def __init__(self, rate, round_trip):
         self.rate, self.delay = rate, round_trip / 2000
@@ -29,7 +30,7 @@ class Proxy:
                 at, data = item
                 await asyncio.sleep(max(0, at - time.monotonic()))
                 writer.write(data)
-                # A far end that is gone takes nothing more.
+                # The other end may have closed the connection.
                 with contextlib.suppress(ConnectionError):
                     await writer.drain()
             writer.close()
@@ -41,7 +42,7 @@ class Proxy:
                 if self.rate:
                     free = max(free, time.monotonic()) + len(data) / self.rate
                     await line.put((free + self.delay, data))
-                    # The line is busy until then; more waits in the sockets' buffers.
+                    # The link is busy until then; further bytes wait in the sockets' buffers.
                     await asyncio.sleep(max(0, free - time.monotonic()))
                 else:
                     await line.put((time.monotonic() + self.delay, data))
@@ -52,10 +53,10 @@ class Proxy:
 
 
 class Screen:
-    """As much of a terminal as shows the colours of cells: moves, clears, colours, characters."""
+    """A minimal terminal that tracks the cells' colours: moves, clears, colours, characters."""
 
     def __init__(self):
-        # Where the selection is in the last frame that was complete.
+        # The cells of the selection in the last complete frame.
         self.selection = frozenset()
         self.cells, self.x, self.y = {}, 0, 0
         self.style = [None, None, False]
@@ -67,7 +68,7 @@ class Screen:
     )
 
     def feed(self, data):
-        """Takes bytes; returns how often the terminal was asked for its status."""
+        """Processes bytes; returns the number of status requests."""
         data, at, asked = self.rest + data, 0, 0
         while match := self.TOKEN.match(data, at):
             at = match.end()
@@ -84,12 +85,12 @@ class Screen:
         return asked
 
     def command(self, parameters, end):
-        # The end of synchronized output, when a terminal shows the frame.
+        # The end of synchronized output: a terminal shows the frame now.
         if parameters == b"?2026" and end == b"l":
             self.selection = frozenset(
                 at for at, cell in self.cells.items() if cell[0] == "▸" or (cell[3] and at[0] > 70)
             )
-        # Other private modes, and a colour that is only set to ask whether it was understood.
+        # Other private modes, and a colour set only to query whether it is supported.
         if parameters.startswith(b"?") or b":" in parameters:
             return 0
         numbers = [int(part or 0) for part in parameters.split(b";")]
@@ -124,7 +125,7 @@ class Screen:
                 self.style[100 <= number] = (number % 10 + 8,)
 
     def picture(self):
-        """The two halves of each cell of the picture."""
+        """The colours of both halves of each cell of the picture."""
         halves = {}
         for at, (character, fg, bg, reverse) in self.cells.items():
             if reverse:
@@ -136,7 +137,7 @@ class Screen:
 
 
 class Session:
-    """Halflight at the other end of a line."""
+    """Halflight at the other end of a link."""
 
     def __init__(self, port):
         command = (
@@ -158,7 +159,7 @@ class Session:
         os.set_blocking(self.line, False)
         self.screen = Screen()
         self.arrived, self.last, self.questions = 0, time.monotonic(), 0
-        self.came = asyncio.Event()
+        self.arrival = asyncio.Event()
         self.new = b""
         asyncio.get_running_loop().add_reader(self.line, self.read)
 
@@ -171,7 +172,7 @@ class Session:
             data = b""
         if not data:
             asyncio.get_running_loop().remove_reader(self.line)
-            self.came.set()
+            self.arrival.set()
             return
         asked = self.screen.feed(data)
         os.write(self.line, b"\x1b[0n" * asked)
@@ -179,33 +180,33 @@ class Session:
         self.arrived += len(data)
         self.new += data
         self.last = time.monotonic()
-        self.came.set()
+        self.arrival.set()
 
     async def until(self, holds, patience=30):
-        """Waits until something holds; when the bytes came that made it so."""
+        """Waits for a condition; returns when the bytes arrived that made it true."""
         end = time.monotonic() + patience
         while not holds():
-            self.came.clear()
+            self.arrival.clear()
             left = end - time.monotonic()
             if left <= 0:
                 return None
             try:
-                await asyncio.wait_for(self.came.wait(), left)
+                await asyncio.wait_for(self.arrival.wait(), left)
             except asyncio.TimeoutError:
                 return None
         return self.last
 
     async def rest(self, quiet=1.5):
-        """Waits until nothing comes for a while."""
+        """Waits until nothing arrives for a while."""
         while time.monotonic() - self.last < quiet:
             await asyncio.sleep(0.05)
 
     async def key(self, keys):
-        """Sends keys; how long until the frame is complete in which the selection has moved."""
+        """Sends keys; returns the time until a complete frame in which the selection has moved."""
         before, sent = self.screen.selection, time.monotonic()
         os.write(self.line, keys)
-        came = await self.until(lambda: self.screen.selection not in (before, frozenset()))
-        return (came or sent + 30) - sent
+        arrival = await self.until(lambda: self.screen.selection not in (before, frozenset()))
+        return (arrival or sent + 30) - sent
 
 
 def spread(times):
@@ -223,7 +224,7 @@ async def measure(rate, round_trip):
     first = await session.until(lambda: len(session.screen.picture()) > 400, 60)
     await session.rest()
     resting, costs = [], []
-    for turn in range(KEYS):
+    for turn in range(RESTING):
         key = b"j" if turn // 6 % 2 == 0 else b"k"
         before = session.arrived
         resting.append(await session.key(key))
@@ -232,8 +233,8 @@ async def measure(rate, round_trip):
     await session.rest()
     flowing, pictures, began = [], 0, time.monotonic()
     before = session.arrived
-    for turn in range(KEYS):
-        # Depth instead of light, and back: each is a whole picture.
+    for turn in range(FLOWING):
+        # Switch between depth and light: each time a complete picture is sent.
         os.write(session.line, b"21"[turn % 2 : turn % 2 + 1])
         await asyncio.sleep(0.15 + 0.017 * (turn % 13))
         flowing.append(await session.key(b"j" if turn // 6 % 2 == 0 else b"k"))
@@ -242,7 +243,7 @@ async def measure(rate, round_trip):
     await session.rest(2.5)
     settled = session.last - nudged
     result = session.screen.picture()
-    # Drawn anew, by nothing but itself.
+    # Redrawn completely.
     session.screen = Screen()
     os.write(session.line, b"\x0c")
     session.last = time.monotonic()
@@ -264,7 +265,7 @@ async def measure(rate, round_trip):
 
 
 def fail(loop, context):
-    """An error in a callback ends the measurement; a proxy that is stopped is none."""
+    """Ends the measurement on an error in a callback, except when a proxy is cancelled."""
     if isinstance(context.get("exception"), asyncio.CancelledError):
         return
     print(context["message"], repr(context.get("exception")), flush=True)
@@ -273,7 +274,7 @@ def fail(loop, context):
 
 async def main():
     asyncio.get_running_loop().set_exception_handler(fail)
-    print("                 |  j at rest, ms       |  j, pictures flow    |  bytes a j   |  KB/s  | picture, s    | asked")
+    print("                 |  j at rest, ms       |  j, pictures flow    |  bytes per j |  KB/s  | picture, s    | queries")
     print("link             |    p50    p95    max |    p50    p95    max |   p50    max | flowing| first settled |")
     wanted = sys.argv[1:]
     for rate, round_trip in LINKS:

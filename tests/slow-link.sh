@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Measures what keys wait for over SSH on slow lines: a real sshd on the loopback, and before it a
-# proxy that limits the rate and adds delay. Needs Debian's openssh-server, ssh and python3.
+# Measures the latency of keys over SSH on slow links: a real sshd on the loopback behind a proxy
+# that limits the rate and adds delay. Needs Debian's openssh-server, ssh and python3.
 #
 #     tests/slow-link.sh target/release/halflight [RATE...]
 #
-# TERM is what ssh hands on, and COLORTERM is not set. Prints a line for each link: how long a `j`
-# takes until the text that answers it has arrived, with pictures at rest and while they flow, what
-# a `j` costs in bytes, and whether the last picture on the screen is that of a line without limits.
+# TERM is passed by ssh, COLORTERM is not set. Prints a line for each link: the time from a `j` to
+# the complete frame that answers it, with pictures at rest and while they are sent, the bytes that
+# a `j` costs, and whether the final picture on the screen equals the one after a complete redraw.
 set -euo pipefail
 
 halflight=$(realpath "${1:?usage: tests/slow-link.sh path/to/halflight}")
@@ -40,7 +40,7 @@ PasswordAuthentication no
 PermitRootLogin prohibit-password
 AcceptEnv none
 END
-# Debian's sshd wants this folder where it runs as root.
+# Debian's sshd needs this folder when it runs as root.
 [ "$(id -u)" != 0 ] || mkdir -p /run/sshd
 "$sshd" -D -e -f "$place/config" 2>"$place/log" &
 daemon=$!

@@ -1,17 +1,16 @@
 #!/bin/sh
-# Drives the interface for an hour on a terminal of its own and measures what it costs.
+# Drives the interface on a pseudo-terminal for an hour and measures the resources it uses.
 #
 #     tests/soak.sh BINARY [MINUTES] [FOLDER]
 #
-# Keys, edits, undo and redo, orbits, resizes, full-size traces, exports, saves inside, and saves
-# outside: in place, by rename, and by removing and writing anew. Every two seconds the resident
-# memory, the descriptors and the threads are written to soak.tsv in FOLDER, by default the current
-# one, and at the end plotted to soak.svg. All else happens in a temporary folder.
+# Keys, edits, undo and redo, orbits, resizes, full-size traces, exports, saves from the interface,
+# and saves by other programs: in place, by rename, and by removing and recreating the file. Every
+# two seconds resident memory, descriptors and threads are recorded in soak.tsv in FOLDER (default:
+# the current one), and at the end plotted to soak.svg. Other files are in a temporary folder.
 #
-# The verdict is the slope of the resident memory after the warm-up: a straight line through the
-# medians of each minute from a third of the time on. 5 MB an hour and more fail, and so do more
-# descriptors or threads at the end than at the end of the warm-up, and a program that ends by itself
-# or does not quit on q. Needs Linux and python3.
+# Fails if resident memory grows by 5 MB an hour or more after the warm-up, a third of the time (a
+# line fitted to the medians of each minute); if there are more descriptors or threads at the end
+# than after the warm-up; or if the program ends by itself or fails to quit. Needs Linux and python3.
 exec python3 - "$@" <<'PYTHON'
 import fcntl, os, pty, random, select, shutil, signal, statistics, struct, sys, tempfile, termios, time
 
@@ -53,8 +52,8 @@ class Soak:
         self.place, self.table = place, table
         self.scene = os.path.join(place, "scene.ray")
         self.restore()
-        # How memory is allocated may be set from outside: MALLOC_ARENA_MAX=1.
-        environment = {name: said for name, said in os.environ.items() if name.startswith("MALLOC_")}
+        # The allocator can be configured from outside, e.g. with MALLOC_ARENA_MAX=1.
+        environment = {name: value for name, value in os.environ.items() if name.startswith("MALLOC_")}
         environment |= {
             "TERM": "xterm-256color",
             "COLORTERM": "truecolor",
@@ -74,7 +73,7 @@ class Soak:
         begin = time.monotonic()
         next_sample, steps = begin, 0
         try:
-            # One that starts slowly would take the first keys for its terminal's answers.
+            # A program that starts slowly would take the first keys for answers of the terminal.
             self.rest(1.0)
             while time.monotonic() < begin + seconds and not self.ended:
                 self.step()
@@ -85,7 +84,7 @@ class Soak:
             if self.ended:
                 self.failures.append("the program ended by itself")
             else:
-                self.leave()
+                self.quit()
         finally:
             self.kill()
         return self.samples, self.failures
@@ -94,13 +93,13 @@ class Soak:
         self.random.choices(
             [
                 self.edit, self.type_value, self.undo, self.look, self.move, self.save,
-                self.write_in_place, self.write_by_rename, self.write_anew, self.change_size,
+                self.write_in_place, self.write_by_rename, self.write_after_removing, self.change_size,
                 self.trace, self.export, self.pages, self.restore_both,
             ],
             [30, 5, 20, 12, 12, 5, 2, 3, 1, 3, 1, 1, 4, 1],
         )[0]()
 
-    # What a user does.
+    # Actions of the user.
 
     def edit(self):
         self.keys("\x1b", "\x1b", *("\t" * self.random.randint(1, 3)), "\r")
@@ -138,7 +137,7 @@ class Soak:
     def change_size(self):
         self.resize(*self.random.choice(SIZES))
 
-    # What another program does.
+    # Actions of other programs.
 
     def restore(self):
         with open(self.scene, "w") as file:
@@ -175,7 +174,7 @@ class Soak:
         os.replace(written, self.scene)
         self.decide()
 
-    def write_anew(self):
+    def write_after_removing(self):
         text = self.changed()
         try:
             os.unlink(self.scene)
@@ -187,12 +186,12 @@ class Soak:
         self.decide()
 
     def restore_both(self):
-        """Begins anew with the scene's first text."""
+        """Restores the original text of the scene, for the interface too."""
         self.restore()
         self.decide()
 
     def decide(self):
-        """Takes what the file holds where that is asked."""
+        """Takes the file's version if the interface asks."""
         self.rest(0.4)
         self.keys("T", "\r", "\x1b")
 
@@ -206,7 +205,7 @@ class Soak:
                 os.write(self.terminal, key.encode())
             except OSError:
                 self.ended = True
-            # An escape is one by itself only if nothing follows it at once.
+            # An escape counts as a key only if nothing follows it immediately.
             self.rest(KEY_EVERY * (2 if key == "\x1b" else 1))
 
     def rest(self, seconds):
@@ -226,13 +225,13 @@ class Soak:
         fcntl.ioctl(self.terminal, termios.TIOCSWINSZ, size)
         self.rest(0.1) if hasattr(self, "ended") else None
 
-    def leave(self):
+    def quit(self):
         self.keys("\x1b", "\x1b", *":q!\r")
         deadline = time.monotonic() + 5
         while not self.ended and time.monotonic() < deadline:
             self.rest(0.1)
         if not self.ended:
-            self.failures.append("it did not leave within 5 s of :q!")
+            self.failures.append("it did not quit within 5 s of :q!")
             return
         pid, status = os.waitpid(self.pid, 0)
         self.pid = None
@@ -268,7 +267,7 @@ def after_warm_up(samples):
 
 
 def slope(samples):
-    """Growth in MB an hour."""
+    """Growth in MB per hour."""
     minutes = {}
     for seconds, rss, *_ in samples:
         minutes.setdefault(int(seconds // 60), []).append(rss / 1024)
@@ -292,7 +291,7 @@ def verdict(samples, failures):
         failures.append(f"it grows by {growth:.1f} MB an hour")
     for at, name in [(3, "descriptors"), (4, "threads")]:
         third = max(1, len(rest) // 3)
-        # The least of a while: an export or a trace takes some and gives them back.
+        # The minimum over a while: an export or a trace uses more temporarily.
         before, after = (min(sample[at] for sample in part) for part in (rest[:third], rest[-third:]))
         if before < after:
             failures.append(f"{before} {name} after the warm-up, {after} at the end")

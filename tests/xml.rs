@@ -1,4 +1,4 @@
-//! `.xml` scenes from their text to their pixels, with the files they name, and the course's own.
+//! `.xml` scenes from text to pixels, including the files they name and the course's own scenes.
 
 use std::fs;
 use std::path::PathBuf;
@@ -21,7 +21,7 @@ fn read(text: &str) -> (Source, Lowered) {
     (source, lowered)
 }
 
-/// Whether the ray through the centre of a pixel meets a sphere of the example; `None` where that
+/// Whether the ray through the centre of a pixel intersects a sphere of the example; `None` if it
 /// is too close to call.
 fn covers(i: f64, j: f64, size: [f64; 2]) -> Option<bool> {
     let half = (20.0_f64).to_radians().tan();
@@ -89,7 +89,7 @@ fn the_example_is_white_on_black() {
     assert!(50_000 < white, "{white} pixels");
 }
 
-/// What the files of the course say is understood, and edits of every field leave all else alone.
+/// The course's files are fully understood, and an edit of any field changes nothing else.
 #[test]
 fn the_courses_own_files_are_read_listed_and_edited() {
     let Some(folder) = std::env::var_os("HALFLIGHT_EXTRA_SCENES").map(PathBuf::from) else {
@@ -159,14 +159,14 @@ fn the_courses_own_files_are_read_listed_and_edited() {
     assert!(10 < scenes, "{scenes} files");
 }
 
-/// A triangle that fills the middle of the picture, from a file, and nothing else.
+/// A triangle from a file that fills the middle of the picture, lit only by ambient light.
 const MESHED: &str = "<xml><scene><light type='ambient'><intensity value='1'/></light>
   <object type='obj' name='meshes/a.obj'/></scene>
   <camera><position z='5'/><target/><width value='40'/><height value='30'/></camera></xml>";
 
 const MESH: &str = "mtllib ../skins/a.mtl\nv -3 -3 0\nv 3 -3 0\nv 0 3 0\nusemtl a\nf 1 2 3\n";
 
-/// A directory with a scene in `a.xml`, and its mesh and that mesh's library in folders of their own.
+/// A directory with a scene in `a.xml`, and its mesh and the mesh's library in separate folders.
 struct Place {
     directory: TempDir,
 }
@@ -192,7 +192,7 @@ impl Place {
         fs::write(self.at(name), content).expect("written");
     }
 
-    /// Runs the program, expects an exit code, and returns what it wrote to the error stream.
+    /// Runs the program, asserts its exit code, and returns its standard error.
     fn stderr(&self, line: &str, code: i32) -> String {
         let output = Command::new(env!("CARGO_BIN_EXE_halflight"))
             .args(line.split_ascii_whitespace())
@@ -229,13 +229,14 @@ fn a_mesh_is_drawn_in_the_colours_of_its_library() {
     assert_eq!(place.middle(), [255; 3]);
 }
 
-/// What a library names is read from beside it, or missed where the scene names the mesh.
+/// Files that a library names are read from its folder; a missing one is reported where the scene
+/// names the mesh.
 #[test]
-fn the_pictures_of_a_library_are_read_from_beside_it() {
+fn the_pictures_of_a_library_are_read_from_its_folder() {
     let place = Place::new("newmtl a\nmap_Kd skin.ppm\n");
     let stderr = place.stderr("check a.xml", 0);
     let first = "warning: a.xml:2:28: meshes/a.obj (obj) map_Kd meshes/../skins/skin.ppm: \
-                 no such file; magenta stands for it\n";
+                 no such file; shown in magenta\n";
     assert!(stderr.starts_with(first), "{stderr}");
     place.write("skins/skin.ppm", "P3\n1 1\n255\n1 2 3\n");
     let stderr = place.stderr("check a.xml", 0);
@@ -243,7 +244,7 @@ fn the_pictures_of_a_library_are_read_from_beside_it() {
 }
 
 #[test]
-fn a_mesh_that_cannot_be_read_is_an_error() {
+fn an_unreadable_mesh_is_an_error() {
     let place = Place::new("newmtl a\n");
     let bad = MESH.replace("v 0 3 0", "v 0 3");
     for (content, reason) in [
@@ -264,7 +265,7 @@ fn a_mesh_that_cannot_be_read_is_an_error() {
         }
         assert!(!place.at("a.ppm").exists());
     }
-    // Whatever else is wrong.
+    // Also next to other errors.
     place.write("a.xml", &MESHED.replace("<target/>", "<target x='q'/>"));
     let stderr = place.stderr("check a.xml", 65);
     assert!(stderr.contains("no such file"), "{stderr}");

@@ -1,12 +1,12 @@
-//! The program on a terminal. What it writes is recorded with its time and looked at only when the
-//! program is at rest, so that looking takes no time from it.
+//! The program on a terminal. Its output is recorded with times and parsed only while the program
+//! is at rest, so that parsing does not slow it down.
 
 use std::path::Path;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
 use halflight::scene::Size;
-use halflight::ui::view::layout::{Areas, Zoom, arrange, raster};
+use halflight::ui::layout::{Areas, Zoom, arrange, raster};
 use ratatui::layout::Rect;
 use vt100::{Color, Screen};
 
@@ -15,7 +15,7 @@ use crate::harness::Session;
 /// Columns and rows of the terminal.
 pub(crate) const TERMINAL: (u16, u16) = (200, 50);
 
-/// The scene, and the size it gives its picture.
+/// The scene, and the size of its picture.
 const SCENE: &str = include_str!("../../scenes/default.ray");
 const OUTPUT: Size = Size {
     width: 400,
@@ -25,38 +25,38 @@ const OUTPUT: Size = Size {
 /// Longer than the time between two frames of a preview.
 const QUIET: Duration = Duration::from_millis(800);
 
-/// After this time a picture is nearly what it will be.
+/// After this time a picture hardly changes any more.
 const SETTLED: Duration = Duration::from_millis(800);
 
-/// A picture that changes more than this shows something new; a finer one of the same changes less
-/// once it has settled.
+/// A picture that changes more than this shows something new; refining a settled picture changes it
+/// less.
 const NEW: f64 = 0.7;
 
-/// What ends a frame.
+/// The sequence that ends a frame.
 const END: &[u8] = b"\x1b[?2026l";
 
-/// One program on its terminal, in a folder of its own with one scene.
+/// A program on its own terminal, in its own folder with one scene.
 pub(crate) struct Desk {
     session: Session,
     pub(crate) folder: tempfile::TempDir,
     tape: Vec<(Instant, Vec<u8>)>,
     screen: vt100::Parser,
-    /// Bytes of a frame that has not ended yet.
+    /// Bytes of the unfinished frame.
     open: Vec<u8>,
     seen: Seen,
 }
 
-/// One frame that the program drew.
+/// A frame drawn by the program.
 pub(crate) struct Drawn {
-    /// When its last byte came.
+    /// When its last byte arrived.
     pub(crate) at: Instant,
     pub(crate) bytes: usize,
-    /// By how much the picture changed: the mean of all channels' differences, of 255.
+    /// The change of the picture: the mean difference of all channels, of 255.
     pub(crate) change: f64,
-    /// What else changed.
+    /// Whether the list changed; likewise the fields.
     pub(crate) list: bool,
     pub(crate) fields: bool,
-    /// Two a cell of the picture, one above the other.
+    /// The picture, two pixels per cell, upper first.
     pub(crate) pixels: Vec<[u8; 3]>,
     /// The characters on the screen.
     pub(crate) text: String,
@@ -82,12 +82,12 @@ impl Drawn {
 }
 
 impl Desk {
-    /// Starts the program on the scene; the moment is that before it was started.
+    /// Starts the program on the scene. Returns the time before the start.
     pub(crate) fn open(arguments: &[&str], environment: &[(&str, &str)]) -> (Self, Instant) {
         Self::open_files(&[("scene.ray", SCENE)], arguments, environment)
     }
 
-    /// Starts the program on the first of some files, whose picture has the usual size.
+    /// Starts the program on the first of some files, whose picture must have the usual size.
     pub(crate) fn open_files(
         files: &[(&str, &str)],
         arguments: &[&str],
@@ -95,15 +95,15 @@ impl Desk {
     ) -> (Self, Instant) {
         let folder = tempfile::tempdir().expect("a folder");
         for (name, content) in files {
-            std::fs::write(folder.path().join(name), content).expect("the folder takes a file");
+            std::fs::write(folder.path().join(name), content).expect("the folder is writable");
         }
         Self::start(folder, files[0].0, arguments, environment)
     }
 
-    /// Starts the program on a scene where it is, whose picture has the usual ratio.
+    /// Starts the program on a scene in place, whose picture must have the usual aspect ratio.
     pub(crate) fn open_scene(scene: &Path) -> (Self, Instant) {
         let folder = tempfile::tempdir().expect("a folder");
-        let scene = scene.to_str().expect("a path of plain letters");
+        let scene = scene.to_str().expect("the path is UTF-8");
         Self::start(folder, scene, &[], &[])
     }
 
@@ -129,7 +129,7 @@ impl Desk {
         (desk, begun)
     }
 
-    /// As [`Desk::open`], with the picture at rest.
+    /// Like [`Desk::open`], with the picture at rest.
     pub(crate) fn at_rest(arguments: &[&str], environment: &[(&str, &str)]) -> Self {
         let mut desk = Self::open(arguments, environment).0;
         desk.rest();
@@ -137,34 +137,34 @@ impl Desk {
         desk
     }
 
-    /// Types, and says when.
+    /// Types keys and returns the time.
     pub(crate) fn press(&mut self, keys: &str) -> Instant {
         let at = Instant::now();
         self.session.send(keys);
         at
     }
 
-    /// Types one after the other, so far apart, and says when each.
+    /// Types keys at intervals of `apart` and returns their times.
     pub(crate) fn press_all<'k>(
         &mut self,
         keys: impl IntoIterator<Item = &'k str>,
         apart: Duration,
     ) -> Vec<Instant> {
-        let mut due = Instant::now();
+        let mut next = Instant::now();
         let mut pressed = Vec::new();
         for key in keys {
             pressed.push(self.press(key));
-            due += apart;
-            self.record(due);
+            next += apart;
+            self.record(next);
         }
         pressed
     }
 
-    /// Records until a moment.
+    /// Records output until a given time.
     pub(crate) fn record(&mut self, until: Instant) {
         loop {
-            let patience = until.saturating_duration_since(Instant::now());
-            match self.session.take(patience) {
+            let timeout = until.saturating_duration_since(Instant::now());
+            match self.session.take(timeout) {
                 Ok(piece) => self.tape.push(piece),
                 Err(RecvTimeoutError::Timeout) => return,
                 Err(RecvTimeoutError::Disconnected) => panic!("the program has ended"),
@@ -172,28 +172,27 @@ impl Desk {
         }
     }
 
-    /// Records until the program is silent.
+    /// Records output until the program is silent.
     pub(crate) fn rest(&mut self) {
         while let Ok(piece) = self.session.take(QUIET) {
             self.tape.push(piece);
         }
     }
 
-    /// Types, waits until the program is silent, and looks at what it drew.
+    /// Types keys, waits until the program is silent, and returns the frames it drew.
     pub(crate) fn answer(&mut self, keys: &str) -> (Instant, Vec<Drawn>) {
         let at = self.press(keys);
         self.rest();
         (at, self.look())
     }
 
-    /// Records until the picture under way changes but little from one frame to the next, and looks
-    /// at all of it.
+    /// Records output until the picture has settled, and returns all frames.
     pub(crate) fn settle(&mut self) -> Vec<Drawn> {
         self.record(Instant::now() + SETTLED);
         self.look()
     }
 
-    /// Looks at what was recorded.
+    /// Parses the recorded output into frames.
     pub(crate) fn look(&mut self) -> Vec<Drawn> {
         let mut drawn = Vec::new();
         for (at, piece) in std::mem::take(&mut self.tape) {
@@ -229,14 +228,14 @@ impl Desk {
         }
     }
 
-    /// The program's time on processors so far, all of its threads together.
+    /// The CPU time of the program so far, over all threads.
     pub(crate) fn processor_time(&self) -> Duration {
         let tasks = format!("/proc/{}/task", self.session.process_id());
         let tasks = std::fs::read_dir(tasks).expect("the program runs");
         let spent = tasks.map(|task| {
             let path = task.expect("a thread").path().join("schedstat");
-            let said = std::fs::read_to_string(path).unwrap_or_default();
-            said.split(' ')
+            let stat = std::fs::read_to_string(path).unwrap_or_default();
+            stat.split(' ')
                 .next()
                 .and_then(|time| time.parse().ok())
                 .unwrap_or(0)
@@ -245,17 +244,17 @@ impl Desk {
     }
 }
 
-/// The mean difference of all channels of two pictures.
+/// The mean difference of two pictures over all channels.
 pub(crate) fn difference(a: &[[u8; 3]], b: &[[u8; 3]]) -> f64 {
     let channels = a.as_flattened().iter().zip(b.as_flattened());
     let sum: u64 = channels.map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
     sum as f64 / (3 * a.len().max(1)) as f64
 }
 
-/// The cells that the picture takes.
+/// The cells of the picture.
 pub(crate) fn picture_cells(zoom: Zoom) -> Rect {
     raster(areas(zoom).picture, OUTPUT)
-        .expect("there is room")
+        .expect("the picture has cells")
         .0
 }
 
@@ -263,7 +262,7 @@ fn areas(zoom: Zoom) -> Areas {
     arrange(Rect::new(0, 0, TERMINAL.0, TERMINAL.1), zoom, 0)
 }
 
-/// What half blocks show: a cell may be sent in several forms that look the same.
+/// The pixels shown by half blocks: different characters may look the same.
 fn pixels(screen: &Screen, area: Rect) -> Vec<[u8; 3]> {
     let rgb = |colour| match colour {
         Color::Rgb(red, green, blue) => [red, green, blue],

@@ -1,4 +1,4 @@
-//! A picture on its way to the terminal, without the terminal: from a frame to the bytes.
+//! Encoding of pictures without a terminal: from frame to bytes.
 
 use std::convert::Infallible;
 use std::path::PathBuf;
@@ -15,24 +15,24 @@ use halflight::ui::terminal::{AnsiBackend, ColourDepth, Mouse};
 use halflight::ui::view::{self, Inks};
 use ratatui::layout::Size;
 
-/// What drawing pictures took.
+/// The cost of drawing pictures.
 pub(crate) struct Encoded {
-    /// From each frame to the last of its bytes.
+    /// The time from each frame to its last byte.
     pub(crate) times: Vec<Duration>,
-    /// Of one frame.
+    /// The size of the last frame.
     pub(crate) bytes: usize,
 }
 
-/// Shows by turns what a scene's camera sees and the same from farther off, nearly every cell
-/// another, on all of a terminal of so many columns and rows.
-pub(crate) fn by_turns(scene: &str, (columns, rows): (u16, u16), turns: usize) -> Encoded {
+/// Alternates full-screen pictures from a scene's camera and from farther away, which differ in
+/// nearly every cell.
+pub(crate) fn alternating(scene: &str, (columns, rows): (u16, u16), turns: usize) -> Encoded {
     let (mut app, job) = opened(scene, (columns, rows));
     let mut farther = job.clone();
     farther.camera.eye += 0.2 * (farther.camera.eye - farther.camera.target);
     show(&mut app, &[traced(job), traced(farther)], turns)
 }
 
-/// As [`by_turns`], with two pictures of noise: the most bytes that a picture takes.
+/// Like [`alternating`] with two pictures of noise, which take the most bytes.
 pub(crate) fn noise(scene: &str, (columns, rows): (u16, u16), turns: usize) -> Encoded {
     let (mut app, job) = opened(scene, (columns, rows));
     let frame = traced(job);
@@ -49,7 +49,7 @@ pub(crate) fn noise(scene: &str, (columns, rows): (u16, u16), turns: usize) -> E
     show(&mut app, &[noisy(1), noisy(2)], turns)
 }
 
-/// The interface with nothing but a picture on screen, and how that is traced.
+/// Returns the interface with only the picture on screen, and the job that traces it.
 pub(crate) fn opened(scene: &str, terminal: (u16, u16)) -> (App, Job) {
     let (mut app, mut effects) = App::open(Opening {
         path: Some(PathBuf::from("scene.ray")),
@@ -102,7 +102,7 @@ fn show(app: &mut App, frames: &[Arc<Frame>], turns: usize) -> Encoded {
         sent.clear();
         let begun = Instant::now();
         app.update(Msg::Frame(Target::Preview, frame));
-        let (_, size) = app.raster().expect("there is room");
+        let (_, size) = app.raster().expect("the picture has cells");
         app.picture_mut().advance(size, None, usize::MAX);
         let Ok(_) = terminal.draw(|frame| view::draw(app, &mut inks, frame));
         let taken = terminal.backend_mut().finish(|bytes| {
@@ -110,7 +110,7 @@ fn show(app: &mut App, frames: &[Arc<Frame>], turns: usize) -> Encoded {
             Ok::<_, Infallible>(())
         });
         let Ok(_) = taken;
-        // The first one is all of the screen, and finds memory cold.
+        // The first frames draw the whole screen, with cold memory.
         if 2 <= turn {
             times.push(begun.elapsed());
         }

@@ -1,16 +1,17 @@
-//! Edits of one object among very many: of its colour, of its shape, and by another program.
+//! Edits of one object among very many: of its colour and shape, and by another program.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crate::desk::{Desk, Drawn};
-use crate::{SECOND, each, first, scenes, times_row};
+use crate::figures::{SECOND, each, first, times_row};
+use crate::scenes;
 
-/// A scene, where in it the edits are made, and how soon they are to be seen.
+/// A scene, the object that is edited, and the targets.
 struct Case {
     name: &'static str,
     text: String,
-    /// The first sphere in the list.
+    /// The position of the first sphere in the list.
     row: usize,
     target: &'static str,
     from_disk: &'static str,
@@ -18,7 +19,7 @@ struct Case {
 
 pub(crate) fn measure() {
     let spheres = scenes::random_spheres(1_000_000, 1);
-    // The first one large enough to be seen.
+    // Makes the first one large enough to be visible.
     let (head, rest) = spheres.split_once("sphere\n").expect("there are spheres");
     let (_, rest) = rest.split_once('\n').expect("its material follows");
     for case in [
@@ -57,7 +58,7 @@ fn edit(case: &Case) {
     down(&mut desk, &["gg"]);
     down(&mut desk, &vec!["j"; case.row]);
     down(&mut desk, &["e"]);
-    // From its centre down to its radius, and from there to its second colour.
+    // From the centre to the radius, and from there to the second colour.
     for (what, keys) in [("shape", vec!["j"; 1]), ("colour", vec!["j"; 2])] {
         down(&mut desk, &keys);
         let (mut answered, mut pictured) = (Vec::new(), Vec::new());
@@ -76,8 +77,8 @@ fn edit(case: &Case) {
     }
 }
 
-/// Another program makes the first sphere larger and smaller again, once with no key pressed and
-/// once with many of them.
+/// Another program makes the first sphere alternately larger and smaller, first without and then
+/// with keys pressed.
 fn save(desk: &mut Desk, case: &Case, text: &str) {
     let path = desk.folder.path().join("scene.ray");
     let larger = with_larger_sphere(text);
@@ -90,7 +91,7 @@ fn save(desk: &mut Desk, case: &Case, text: &str) {
     }
     for text in [&larger, text].repeat(2) {
         let at = put(&path, text);
-        // Down and up again, never against an end of the list, where a key changes nothing.
+        // Down and up, never beyond an end of the list, where a key changes nothing.
         let pressed = desk.press_all(["j", "k"].repeat(18), Duration::from_millis(41));
         desk.record(at + 3 * SECOND);
         desk.rest();
@@ -103,14 +104,14 @@ fn save(desk: &mut Desk, case: &Case, text: &str) {
         case.from_disk,
     );
     times_row(
-        &format!("{name}: key to list, read"),
+        &format!("{name}: key to list, reading"),
         &answered,
         "p95 <= 16, max 33",
     );
 }
 
-/// Another program changes the last sphere while there are unsaved edits of the first one, with keys
-/// pressed meanwhile. All of it is undone at the end.
+/// Another program changes the last sphere while the first has unsaved edits and keys are pressed.
+/// All edits are undone at the end.
 fn merge(desk: &mut Desk, case: &Case, text: &str) {
     let path = desk.folder.path().join("scene.ray");
     let (head, last) = text.rsplit_once("sphere\n").expect("there are spheres");
@@ -140,10 +141,10 @@ fn merge(desk: &mut Desk, case: &Case, text: &str) {
     }
 }
 
-/// Puts a text in the place of a file, as a whole; the moment that it is there.
+/// Replaces a file atomically and returns the time.
 fn put(path: &Path, text: &str) -> Instant {
     let new = path.with_extension("new");
-    std::fs::write(&new, text).expect("the folder takes a file");
+    std::fs::write(&new, text).expect("the folder is writable");
     let at = Instant::now();
     std::fs::rename(&new, path).expect("the file is replaced");
     at

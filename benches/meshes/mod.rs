@@ -1,9 +1,9 @@
-//! Meshes to measure with, as `.obj` text made up on the spot.
+//! Generated meshes as `.obj` text.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 
-/// A scene around `ball.obj`, as `.xml` text.
+/// An `.xml` scene of `ball.obj`.
 pub(crate) const BALL_SCENE: &str = "<xml>
   <scene>
     <object type=\"obj\" name=\"ball.obj\" material=\"clay\"/>
@@ -18,8 +18,8 @@ pub(crate) const BALL_SCENE: &str = "<xml>
 </xml>
 ";
 
-/// Writes a bumpy ball of about `count` triangles as `.obj` text: rings of quadrilaterals, each
-/// given as two triangles.
+/// A bumpy ball of about `count` triangles as `.obj` text: rings of quadrilaterals, each divided
+/// into two triangles.
 pub(crate) fn bumpy_ball(count: usize) -> String {
     let rings = ((count / 4) as f64).sqrt() as usize;
     let around = 2 * rings;
@@ -50,5 +50,5 @@ pub(crate) fn bumpy_ball(count: usize) -> String {
 
 fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
     text.write_fmt(what)
-        .expect("a String takes all that is written to it");
+        .expect("writing to a String never fails");
 }

@@ -1,36 +1,45 @@
-//! The scenes that are measured, and what is asked of them.
+//! The measured scenes and their targets.
 
 use std::path::{Path, PathBuf};
 
 use halflight::language::Language;
 use halflight::scene::Size;
 
-use crate::SCRATCH;
-use crate::table::Wanted;
+use crate::setting::SCRATCH;
 use crate::{meshes, scenes};
 
-/// A scene and how it is traced.
-#[derive(Clone, Debug)]
-pub(crate) struct Case {
-    /// What it is called in the table.
-    pub(crate) name: String,
-    /// In our language.
-    pub(crate) scene: PathBuf,
-    /// What peers' files of it begin with, their folder included; none if there are none.
-    pub(crate) stem: Option<PathBuf>,
-    /// Samples a pixel.
-    pub(crate) spp: u32,
-    /// Bounces; the default if `None`.
-    pub(crate) depth: Option<u32>,
-    /// What its picture is to reach.
-    pub(crate) wanted: Wanted,
-    /// What its tracing alone is to reach, where peers tell theirs.
-    pub(crate) frame_wanted: Wanted,
-    /// What a small first picture is to reach.
-    pub(crate) first_wanted: Wanted,
+/// The target of a measurement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Target {
+    Nothing,
+    /// At most this fraction of the best peer's time.
+    Ratio(f64),
+    /// At most this time.
+    Milliseconds(f64),
 }
 
-/// What is asked of a program.
+/// A scene, how it is traced, and its targets.
+#[derive(Clone, Debug)]
+pub(crate) struct Case {
+    /// The name in the table.
+    pub(crate) name: String,
+    /// The scene file in one of our languages.
+    pub(crate) scene: PathBuf,
+    /// The path of the peers' scene files without extension, if any.
+    pub(crate) stem: Option<PathBuf>,
+    /// Samples per pixel.
+    pub(crate) spp: u32,
+    /// The maximum depth; the default if `None`.
+    pub(crate) depth: Option<u32>,
+    /// The target of the whole process.
+    pub(crate) target: Target,
+    /// The target of the tracing alone, compared with peers that report theirs.
+    pub(crate) frame_target: Target,
+    /// The target of a small first picture.
+    pub(crate) first_target: Target,
+}
+
+/// A picture to be rendered.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Picture {
     pub(crate) size: Size,
@@ -38,7 +47,7 @@ pub(crate) struct Picture {
 }
 
 impl Case {
-    /// The picture of so many pixels.
+    /// The picture of the given size.
     pub(crate) fn picture(&self, size: Size) -> Picture {
         Picture {
             size,
@@ -46,7 +55,7 @@ impl Case {
         }
     }
 
-    /// A scene of which nothing is asked.
+    /// A scene without targets.
     pub(crate) fn plain(name: &str, scene: PathBuf) -> Self {
         Self {
             name: name.to_owned(),
@@ -54,25 +63,25 @@ impl Case {
             stem: None,
             spp: 1,
             depth: None,
-            wanted: Wanted::Nothing,
-            frame_wanted: Wanted::Nothing,
-            first_wanted: Wanted::Nothing,
+            target: Target::Nothing,
+            frame_target: Target::Nothing,
+            first_target: Target::Nothing,
         }
     }
 }
 
-/// Next to nothing: three spheres of the project's own.
+/// A minimal scene, three spheres, whose memory is subtracted.
 pub(crate) fn bare() -> Case {
     Case::plain("bare", own_folder().join("spheres.xml"))
 }
 
-/// All scenes: S1 to S5 from a folder, or what stands in for them, then the project's own.
+/// All scenes: S1 to S5 from a folder, or generated substitutes, then the project's own.
 pub(crate) fn all(folder: Option<&Path>) -> Vec<Case> {
     let mut cases = match folder {
         Some(folder) => of_folder(folder),
-        None => made_up(),
+        None => generated(),
     };
-    let entries = std::fs::read_dir(own_folder()).expect("the scenes are there");
+    let entries = std::fs::read_dir(own_folder()).expect("the project has scenes");
     let mut own: Vec<_> = entries
         .map(|entry| entry.expect("a scene").path())
         .filter(|path| Language::of_path(path).is_ok())
@@ -85,31 +94,31 @@ pub(crate) fn all(folder: Option<&Path>) -> Vec<Case> {
     cases
 }
 
-/// The scenes of the folder with peers' files, and what is to be reached beside the best peer.
+/// The scenes of the folder with the peers' files, with targets relative to the best peer.
 fn of_folder(folder: &Path) -> Vec<Case> {
     let cases = [
-        ("S1", "s1", "ray", 1, 5, Wanted::Ratio(0.5)),
-        ("S1, 16 spp", "s1", "ray", 16, 5, Wanted::Ratio(0.5)),
-        ("S2", "s2", "ray", 1, 4, Wanted::Ratio(0.8)),
-        ("S2b", "s2b", "ray", 1, 4, Wanted::Ratio(0.8)),
-        ("S3", "s3", "ray", 1, 0, Wanted::Ratio(0.6)),
-        ("S4", "s4", "xml", 1, 0, Wanted::Milliseconds(600.0)),
-        ("S5", "s5", "bu.dat", 1, 3, Wanted::Ratio(0.1)),
+        ("S1", "s1", "ray", 1, 5, Target::Ratio(0.5)),
+        ("S1, 16 spp", "s1", "ray", 16, 5, Target::Ratio(0.5)),
+        ("S2", "s2", "ray", 1, 4, Target::Ratio(0.8)),
+        ("S2b", "s2b", "ray", 1, 4, Target::Ratio(0.8)),
+        ("S3", "s3", "ray", 1, 0, Target::Ratio(0.6)),
+        ("S4", "s4", "xml", 1, 0, Target::Milliseconds(600.0)),
+        ("S5", "s5", "bu.dat", 1, 3, Target::Ratio(0.1)),
     ];
-    let cases = cases.map(|(name, stem, extension, spp, depth, wanted)| Case {
+    let cases = cases.map(|(name, stem, extension, spp, depth, target)| Case {
         stem: Some(folder.join(stem)),
         spp,
         depth: Some(depth),
-        wanted,
-        // The mesh of the reference is a binary file: what can be compared is the tracing.
-        frame_wanted: match name {
-            "S4" => Wanted::Ratio(1.0),
-            _ => Wanted::Nothing,
+        target,
+        // The reference reads the mesh from a binary file: only the tracing can be compared.
+        frame_target: match name {
+            "S4" => Target::Ratio(1.0),
+            _ => Target::Nothing,
         },
-        first_wanted: match name {
-            "S1" => Wanted::Milliseconds(12.0),
-            "S2" => Wanted::Milliseconds(15.0),
-            _ => Wanted::Nothing,
+        first_target: match name {
+            "S1" => Target::Milliseconds(12.0),
+            "S2" => Target::Milliseconds(15.0),
+            _ => Target::Nothing,
         },
         ..Case::plain(name, folder.join(format!("{stem}.{extension}")))
     });
@@ -119,11 +128,11 @@ fn of_folder(folder: &Path) -> Vec<Case> {
         .collect()
 }
 
-/// Scenes like those of the folder.
-fn made_up() -> Vec<Case> {
+/// Generated scenes similar to those of the folder.
+fn generated() -> Vec<Case> {
     let write = |name: &str, text: &str| {
         let path = Path::new(SCRATCH).join(name);
-        std::fs::write(&path, text).expect("the scratch folder takes a file");
+        std::fs::write(&path, text).expect("the scratch folder is writable");
         path
     };
     let texts = [
@@ -136,7 +145,7 @@ fn made_up() -> Vec<Case> {
     write("ball.obj", &meshes::bumpy_ball(1_000_000));
     let cases = texts.map(|(name, file, text, depth)| Case {
         depth: Some(depth),
-        ..Case::plain(&format!("{name}, made up"), write(file, &text))
+        ..Case::plain(&format!("{name}, generated"), write(file, &text))
     });
     cases.into()
 }

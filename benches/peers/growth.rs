@@ -1,4 +1,4 @@
-//! How time and memory grow with objects and with lights: two tables, and plots of them.
+//! The growth of time and memory with objects and lights: two tables with plots.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -7,12 +7,13 @@ use std::time::Duration;
 use crate::cases::{self, Case};
 use crate::phases::{self, Phases};
 use crate::plot::{self, Series};
-use crate::{SCRATCH, programs, scenes};
+use crate::setting::SCRATCH;
+use crate::{programs, scenes};
 
-/// Most objects are ten times ten to this.
+/// The largest number of objects is 10 · 10 to this power.
 const DECADES: u32 = 6;
 
-/// Times below this say more of the clock than of the work.
+/// Times below this, in milliseconds, are too inaccurate for a growth.
 const CERTAIN: f64 = 10.0;
 
 /// Prints both tables and writes the plots.
@@ -21,12 +22,12 @@ pub(crate) fn measure() {
     lights();
 }
 
-/// What one number of objects takes.
+/// The measurements for one number of objects.
 struct Step {
     count: f64,
-    /// Milliseconds: parse, lower, build, render.
+    /// The times in milliseconds: parse, lower, build, render.
     times: [f64; 4],
-    /// Bytes beside the text: of an open scene, and the most that a headless picture takes.
+    /// Bytes besides the text: of an open scene, and at the peak of a headless render.
     bytes: [f64; 2],
 }
 
@@ -34,7 +35,7 @@ const TIMES: [&str; 4] = ["parse", "lower", "build", "render"];
 const BYTES: [&str; 2] = ["open", "headless"];
 
 fn objects() {
-    println!("spheres that fill the same part of a cube, milliseconds and bytes");
+    println!("spheres that fill a constant part of a cube, milliseconds and bytes");
     print!("{:>10} {:>8}", "objects", "text MB");
     for name in TIMES {
         print!(" {name:>9} {:>6}", "growth");
@@ -42,7 +43,7 @@ fn objects() {
     for name in BYTES {
         print!(" {name:>10} {:>6}", "growth");
     }
-    println!(" {:>8} {:>8}", "ns each", "n log n");
+    println!(" {:>9} {:>8}", "ns/object", "n log n");
     let bare = programs::peak_of(&cases::bare());
     let mut steps: Vec<Step> = Vec::new();
     for decade in 0..=DECADES {
@@ -54,7 +55,7 @@ fn objects() {
         };
         let phases = phases::measure(&case);
         let peak = programs::peak_of(&case).saturating_sub(bare + phases.text);
-        // It may have a gigabyte.
+        // It may be as large as a gigabyte.
         let _ = std::fs::remove_file(path);
         let step = Step {
             count: count as f64,
@@ -64,7 +65,7 @@ fn objects() {
         print_step(&step, steps.last(), phases.text);
         steps.push(step);
     }
-    println!("growth: the exponent since the step before; * where it is worse than n log n");
+    println!("growth: the exponent since the previous step; * if worse than n log n");
     let series = |name: &'static str, value: &dyn Fn(&Step) -> f64| Series {
         name,
         points: steps.iter().map(|step| (step.count, value(step))).collect(),
@@ -119,14 +120,14 @@ fn print_step(step: &Step, before: Option<&Step>, text: usize) {
     }
     let each = 1e6 * step.times[..3].iter().sum::<f64>() / step.count;
     let most = most.map_or_else(String::new, |most| format!("{most:.2}"));
-    println!("{line} {each:>8.0} {most:>8}");
+    println!("{line} {each:>9.0} {most:>8}");
 }
 
 fn lights() {
     println!("\nlights around a sphereflake of 7,381 mirrors, depth 4");
     println!(
         "{:>10} {:>9} {:>8} {:>8} {:>7} {:>6}",
-        "lights", "render ms", "ms each", "Mrays", "Mray/s", "growth"
+        "lights", "render ms", "ms/light", "Mrays", "Mray/s", "growth"
     );
     let mut points: Vec<(f64, f64)> = Vec::new();
     for count in [1_usize, 2, 4, 8, 16] {
@@ -171,11 +172,11 @@ fn milliseconds(time: Duration) -> f64 {
 fn draw(name: &str, across: &str, up: &str, series: &[Series]) {
     let path = Path::new(SCRATCH).join(name);
     plot::draw(&path, across, up, series);
-    println!("plotted in {}", path.display());
+    println!("plot: {}", path.display());
 }
 
 fn write(name: &str, text: &str) -> PathBuf {
     let path = Path::new(SCRATCH).join(name);
-    std::fs::write(&path, text).expect("the scratch folder takes a file");
+    std::fs::write(&path, text).expect("the scratch folder is writable");
     path
 }

@@ -1,13 +1,12 @@
-//! How fast pictures are made beside the tracers a user could pick instead: one table.
+//! Rendering times compared with other ray tracers: one table.
 //!
-//! `cargo bench --bench peers` prints it; with words after `--` only the scenes with one of them in
-//! their name. `HALFLIGHT_BENCH` names a folder with the scenes S1 to S5 in our languages and in
-//! those of the peers, and with the source of a reference that traces with Embree; without it scenes
-//! made up on the spot stand in for those they are like, and nothing is measured beside them.
-//! `cargo bench --bench peers -- growth` prints how time and memory grow with objects and lights
-//! instead, and plots it.
+//! `cargo bench --bench peers` prints it; words after `--` select scenes by name. `HALFLIGHT_BENCH`
+//! names a folder with the scenes S1 to S5 in our languages and those of the peers, and with the
+//! source of a reference that traces with Embree. Without it similar scenes are generated, and
+//! peers are not measured. `cargo bench --bench peers -- growth` prints and plots the growth of
+//! time and memory with objects and lights instead.
 //!
-//! Programs are run in turn, so that whatever slows the machine down slows all of them.
+//! Programs are run in turn, so that other load on the machine affects all of them alike.
 
 mod cases;
 mod growth;
@@ -18,32 +17,18 @@ mod plot;
 mod programs;
 #[path = "../scenes/mod.rs"]
 mod scenes;
+mod setting;
 mod table;
 
 use std::path::Path;
-use std::time::Duration;
 
-use cases::{Case, Picture};
+use cases::{Case, Picture, Target};
 use halflight::scene::Size;
 use programs::{Program, Timed};
-use table::{Row, Wanted};
+use setting::{LONG, RUNS, SCRATCH, THREADS, WHOLE};
+use table::Row;
 
-/// Runs of everything that is timed; the median is printed.
-const RUNS: usize = 5;
-
-/// A program that takes longer than this is run three times only.
-const LONG: Duration = Duration::from_secs(6);
-
-/// Threads that each program is given.
-const THREADS: usize = 2;
-
-/// What is traced.
-const WHOLE: Size = Size {
-    width: 1280,
-    height: 720,
-};
-
-/// A first picture.
+/// A small first picture.
 const FIRST: Picture = Picture {
     size: Size {
         width: 160,
@@ -52,21 +37,18 @@ const FIRST: Picture = Picture {
     spp: 1,
 };
 
-/// What is written on the way: below the target folder.
-const SCRATCH: &str = concat!(env!("CARGO_TARGET_TMPDIR"), "/peers");
-
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     if let [verb, of_child @ ..] = &arguments[..]
         && verb == phases::VERB
     {
-        phases::tell(of_child);
+        phases::print(of_child);
         return;
     }
-    // Cargo passes `--bench`; anything else is part of a name.
-    let wanted: Vec<&String> = arguments.iter().filter(|a| !a.starts_with("--")).collect();
-    std::fs::create_dir_all(SCRATCH).expect("the target folder takes a folder");
-    if wanted == ["growth"] {
+    // Cargo passes `--bench`; other arguments are parts of names.
+    let selected: Vec<&String> = arguments.iter().filter(|a| !a.starts_with("--")).collect();
+    std::fs::create_dir_all(SCRATCH).expect("the target folder is writable");
+    if selected == ["growth"] {
         println!("load {}", load());
         growth::measure();
         println!("load {}", load());
@@ -82,22 +64,23 @@ fn main() {
         load()
     );
     if folder.is_none() {
-        println!(
-            "peers are left out: HALFLIGHT_BENCH names no folder with scenes in their languages"
-        );
+        println!("peers skipped: HALFLIGHT_BENCH names no folder with scenes in their languages");
     }
     table::heading();
     let bare = programs::peak_of(&cases::bare());
     for case in cases::all(folder) {
-        if wanted.is_empty() || wanted.iter().any(|part| case.name.contains(part.as_str())) {
+        if selected.is_empty()
+            || selected
+                .iter()
+                .any(|part| case.name.contains(part.as_str()))
+        {
             measure(&case, &programs, bare);
         }
     }
     println!("load {}", load());
 }
 
-/// Measures a scene and prints its rows. `bare` is the most memory that a picture of next to nothing
-/// takes.
+/// Measures a scene and prints its rows. `bare` is the peak memory of a minimal render.
 fn measure(case: &Case, programs: &[Program], bare: usize) {
     let phases = phases::measure(case);
     let whole = in_turn(case, &case.picture(WHOLE), programs);
@@ -110,9 +93,9 @@ fn measure(case: &Case, programs: &[Program], bare: usize) {
         timed: &whole,
         ours: whole[0].wall,
         first: Some(small[0].wall),
-        wanted: case.wanted,
+        target: case.target,
     });
-    let plain = |name, timed, ours, wanted| {
+    let plain = |name, timed, ours, target| {
         table::print(&Row {
             name,
             phases: None,
@@ -120,19 +103,19 @@ fn measure(case: &Case, programs: &[Program], bare: usize) {
             timed,
             ours,
             first: None,
-            wanted,
+            target,
         });
     };
     let frames: Vec<_> = whole.iter().filter_map(Timed::frame_alone).collect();
     if !frames.is_empty() {
-        plain("  frame alone", &frames, phases.render, case.frame_wanted);
+        plain("  frame alone", &frames, phases.render, case.frame_target);
     }
-    if case.first_wanted != Wanted::Nothing {
-        plain("  first picture", &small, small[0].wall, case.first_wanted);
+    if case.first_target != Target::Nothing {
+        plain("  first picture", &small, small[0].wall, case.first_target);
     }
 }
 
-/// Runs all programs that can make a picture, in turn; ours is the first.
+/// Runs all programs that can render a picture, in turn, ours first.
 fn in_turn(case: &Case, picture: &Picture, programs: &[Program]) -> Vec<Timed> {
     let mut timed: Vec<Timed> = programs
         .iter()
@@ -149,8 +132,8 @@ fn in_turn(case: &Case, picture: &Picture, programs: &[Program]) -> Vec<Timed> {
     timed
 }
 
-/// The machine's load over the last minute, which says what the figures are worth.
+/// The machine's load over the last minute, an indication of how reliable the figures are.
 fn load() -> String {
-    let said = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
-    said.split(' ').next().unwrap_or("?").to_owned()
+    let text = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
+    text.split(' ').next().unwrap_or("?").to_owned()
 }

@@ -1,4 +1,4 @@
-//! What becomes of a scene step by step, in a process of its own so that its memory is its own.
+//! The phases of a scene, measured in a separate process so that its memory can be measured.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -15,65 +15,65 @@ use halflight::scene::{Camera, Images, Meshes, Object, Scene, Size};
 
 use crate::cases::Case;
 use crate::programs::{kilobytes, median};
-use crate::{LONG, RUNS, THREADS, WHOLE};
+use crate::setting::{LONG, RUNS, THREADS, WHOLE};
 
-/// The first argument of a process that measures.
+/// The first argument of a measuring process.
 pub(crate) const VERB: &str = "phases-of";
 
-/// What threads are started with.
+/// The scene with which threads are started.
 const SPHERE: &str = "0 0 0 1 0 0 9 1 1 1 1 sphere 0 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1";
 
-/// The least picture.
+/// The smallest picture.
 const PIXEL: Size = Size {
     width: 1,
     height: 1,
 };
 
-/// What was measured; times are medians.
+/// The measurements; times are medians.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Phases {
-    /// Bytes of the scene's text.
+    /// The size of the scene's text in bytes.
     pub(crate) text: usize,
-    /// Objects, and the triangles of each mesh.
+    /// The number of objects, with each triangle of a mesh counted as one.
     pub(crate) objects: usize,
-    /// Text to tree; with it, files that the text names are read.
+    /// From text to tree, including reading the files it names.
     pub(crate) parse: Duration,
-    /// Tree to scene.
+    /// From tree to scene.
     pub(crate) lower: Duration,
-    /// Scene to what rays are traced through.
+    /// Building the acceleration structures.
     pub(crate) build: Duration,
-    /// The tracing.
+    /// Tracing.
     pub(crate) render: Duration,
-    /// Rays from the camera, one for each sample.
+    /// The number of camera rays, one per sample.
     pub(crate) camera_rays: u64,
-    /// All rays.
+    /// The number of all rays.
     pub(crate) rays: u64,
-    /// Shadow rays among them.
+    /// The number of shadow rays.
     pub(crate) shadow_rays: u64,
-    /// What an open scene takes beside its text, in bytes: tree, origins, scene, structures.
+    /// The memory of an open scene besides its text, in bytes: tree, origins, scene, structures.
     pub(crate) open: usize,
 }
 
-/// Measures a scene in a process of its own.
+/// Measures a scene in a separate process.
 pub(crate) fn measure(case: &Case) -> Phases {
-    let program = std::env::current_exe().expect("a program knows its name");
+    let program = std::env::current_exe().expect("the program knows its path");
     let mut command = Command::new(program);
     command.arg(VERB).arg(&case.scene).arg(case.spp.to_string());
     command.args(case.depth.map(|depth| depth.to_string()));
-    let said = command.output().expect("it runs");
+    let output = command.output().expect("the process runs");
     assert!(
-        said.status.success(),
+        output.status.success(),
         "{}: {}",
         case.name,
-        String::from_utf8_lossy(&said.stderr)
+        String::from_utf8_lossy(&output.stderr)
     );
-    let said = String::from_utf8_lossy(&said.stdout);
-    let mut numbers = said.split_whitespace().map(|number| {
+    let output = String::from_utf8_lossy(&output.stdout);
+    let mut numbers = output.split_whitespace().map(|number| {
         number
             .parse::<u64>()
-            .expect("the process tells numbers only")
+            .expect("the process prints only numbers")
     });
-    let mut next = || numbers.next().expect("the process tells all numbers");
+    let mut next = || numbers.next().expect("the process prints all numbers");
     Phases {
         text: next() as usize,
         objects: next() as usize,
@@ -88,15 +88,17 @@ pub(crate) fn measure(case: &Case) -> Phases {
     }
 }
 
-/// Measures the scene that the arguments name and prints the numbers.
-pub(crate) fn tell(arguments: &[String]) {
+/// Measures the scene given by the arguments and prints the numbers.
+pub(crate) fn print(arguments: &[String]) {
     let [scene, spp, depth @ ..] = arguments else {
-        panic!("a scene and its samples are asked for");
+        panic!("usage: {VERB} SCENE SPP [DEPTH]");
     };
-    let spp = spp.parse().expect("samples are a number");
-    let depth = depth.first().map(|depth| depth.parse().expect("a number"));
+    let spp = spp.parse().expect("SPP is a number");
+    let depth = depth
+        .first()
+        .map(|depth| depth.parse().expect("DEPTH is a number"));
     let phases = of(Path::new(scene), spp, depth);
-    let mut said = String::new();
+    let mut line = String::new();
     for number in [
         phases.text as u128,
         phases.objects as u128,
@@ -109,16 +111,16 @@ pub(crate) fn tell(arguments: &[String]) {
         phases.shadow_rays.into(),
         phases.open as u128,
     ] {
-        let _ = write!(said, "{number} ");
+        let _ = write!(line, "{number} ");
     }
-    println!("{said}");
+    println!("{line}");
 }
 
 fn of(path: &Path, spp: u32, depth: Option<u32>) -> Phases {
-    let language = Language::of_path(path).expect("a scene by its name");
-    let text = std::fs::read_to_string(path).expect("a scene");
+    let language = Language::of_path(path).expect("a scene's extension");
+    let text = std::fs::read_to_string(path).expect("a readable scene");
 
-    // First of all: later the system does not know what of the memory is free.
+    // First, as freed memory may later stay resident.
     let before = resident();
     let opened = Opened::new(path, language, &text);
     let stage = Stage::new(depth);
@@ -162,9 +164,9 @@ fn of(path: &Path, spp: u32, depth: Option<u32>) -> Phases {
     }
 }
 
-/// A scene as far as it is understood, and what that took.
+/// A parsed and lowered scene, and the times that took.
 struct Opened {
-    /// Kept as long as the scene, as an open document does.
+    /// Kept as long as the scene, as in an open document.
     _source: Source,
     scene: Arc<Scene>,
     images: Images,
@@ -190,7 +192,7 @@ impl Opened {
         let (files, mut loaded) = read(&source);
         if files.iter().any(|file| file.kind == FileKind::Mesh) {
             (lowering, lowered) = lower(&mut source, &loaded.meshes);
-            // Meshes may name pictures, which are known once they are read.
+            // Meshes may name pictures, which are known only after reading.
             loaded = read(&source).1;
         }
         let scene = lowered.scene.expect("a scene without errors");
@@ -212,7 +214,7 @@ impl Opened {
     }
 }
 
-/// A renderer whose threads run already.
+/// A renderer whose threads are already running.
 struct Stage {
     renderer: Renderer,
     woken: Receiver<()>,
@@ -237,12 +239,12 @@ impl Stage {
         stage
     }
 
-    /// Makes a scene ready, for a picture of one pixel; how long that took.
+    /// Builds a scene for a picture of one pixel and returns the time.
     fn build(&self, opened: &Opened) -> Duration {
         self.trace(&opened.scene, &opened.images, PIXEL, 1).0
     }
 
-    /// Traces a picture; how long that took.
+    /// Traces a picture and returns the time.
     fn trace(
         &self,
         scene: &Arc<Scene>,
@@ -290,7 +292,7 @@ fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
     (begun.elapsed(), outcome)
 }
 
-/// Memory of this process that is in use, in bytes; 0 where the system does not say so.
+/// The resident memory of this process, in bytes; 0 if unknown.
 fn resident() -> usize {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     kilobytes(&status, "VmRSS:") * 1024

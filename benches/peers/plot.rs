@@ -1,11 +1,11 @@
-//! Plots with logarithmic axes, as PNG.
+//! Plots with logarithmic axes as PNG.
 
 use std::ops::Range;
 use std::path::Path;
 
 use image::{Rgb, RgbImage};
 
-/// Points to join, by name.
+/// A named line through points.
 #[derive(Clone, Debug)]
 pub(crate) struct Series {
     pub(crate) name: &'static str,
@@ -15,17 +15,17 @@ pub(crate) struct Series {
 const WIDTH: u32 = 960;
 const HEIGHT: u32 = 640;
 
-/// Pixels around the axes.
+/// The margin around the axes, in pixels.
 const MARGIN: f64 = 80.0;
 
-/// Pixels along the edge of a dot of a letter.
+/// The edge length of a letter's dot, in pixels.
 const DOT: u32 = 3;
 
 const WHITE: Rgb<u8> = Rgb([255; 3]);
 const GRID: Rgb<u8> = Rgb([220; 3]);
 const BLACK: Rgb<u8> = Rgb([0; 3]);
 
-/// Told apart by those who see fewer colours, too (Okabe and Ito).
+/// Colours that are distinct with colour vision deficiencies too (Okabe and Ito).
 const COLOURS: [Rgb<u8>; 5] = [
     Rgb([0, 114, 178]),
     Rgb([213, 94, 0]),
@@ -34,7 +34,7 @@ const COLOURS: [Rgb<u8>; 5] = [
     Rgb([120, 120, 120]),
 ];
 
-/// The digits, then the letters: five rows of three dots each, a row an octal digit.
+/// Digits, then letters: five rows of three dots each, one octal digit per row.
 const LETTERS: [u16; 36] = [
     0o75557, 0o26227, 0o71747, 0o71717, 0o55711, 0o74717, 0o74757, 0o71122, 0o75757, 0o75717,
     0o25755, 0o65656, 0o34443, 0o65556, 0o74647, 0o74644, 0o34553, 0o55755, 0o72227, 0o11152,
@@ -42,7 +42,7 @@ const LETTERS: [u16; 36] = [
     0o55557, 0o55552, 0o55775, 0o55255, 0o55222, 0o71247,
 ];
 
-/// Draws series over decades, with their names; points that are not positive are left out.
+/// Draws series and their names on a log-log plot; points that are not positive are skipped.
 pub(crate) fn draw(path: &Path, across: &str, up: &str, series: &[Series]) {
     let is_shown = |&&(x, y): &&(f64, f64)| 0.0 < x && 0.0 < y;
     let points = || {
@@ -53,7 +53,7 @@ pub(crate) fn draw(path: &Path, across: &str, up: &str, series: &[Series]) {
     };
     let decades_across = decades(points().map(|point| point.0));
     let decades_up = decades(points().map(|point| point.1));
-    let place = |x: f64, y: f64| {
+    let position = |x: f64, y: f64| {
         let share = |value: f64, decades: &Range<i32>| {
             (value.log10() - f64::from(decades.start)) / f64::from(decades.end - decades.start)
         };
@@ -68,8 +68,8 @@ pub(crate) fn draw(path: &Path, across: &str, up: &str, series: &[Series]) {
     let [low, high] = [decades_up.start, decades_up.end].map(|decade| 10f64.powi(decade));
     for decade in decades_across.start..=decades_across.end {
         let x = 10f64.powi(decade);
-        let (left, bottom) = place(x, low);
-        line(&mut image, (left, bottom), place(x, high), GRID);
+        let (left, bottom) = position(x, low);
+        line(&mut image, (left, bottom), position(x, high), GRID);
         write(
             &mut image,
             (left - 10.0, bottom + 10.0),
@@ -80,8 +80,8 @@ pub(crate) fn draw(path: &Path, across: &str, up: &str, series: &[Series]) {
     let [first, last] = [decades_across.start, decades_across.end].map(|decade| 10f64.powi(decade));
     for decade in decades_up.start..=decades_up.end {
         let y = 10f64.powi(decade);
-        let (left, top) = place(first, y);
-        line(&mut image, (left, top), place(last, y), GRID);
+        let (left, top) = position(first, y);
+        line(&mut image, (left, top), position(last, y), GRID);
         write(&mut image, (8.0, top - 7.0), &power(decade), BLACK);
     }
     write(
@@ -97,17 +97,15 @@ pub(crate) fn draw(path: &Path, across: &str, up: &str, series: &[Series]) {
             let &[&(x, y), &(next, later)] = pair else {
                 continue;
             };
-            line(&mut image, place(x, y), place(next, later), colour);
+            line(&mut image, position(x, y), position(next, later), colour);
         }
         let top = MARGIN + 12.0 + 24.0 * at as f64;
         write(&mut image, (MARGIN + 12.0, top), series.name, colour);
     }
-    image
-        .save(path)
-        .expect("the scratch folder takes a picture");
+    image.save(path).expect("the scratch folder is writable");
 }
 
-/// The whole powers of ten around values; one at least.
+/// The exponents of the decades that contain all values, at least one decade.
 fn decades(values: impl Iterator<Item = f64>) -> Range<i32> {
     let around = |(low, high): (f64, f64), value: f64| (low.min(value), high.max(value));
     let (low, high) = values.fold((f64::INFINITY, 0.0), around);
@@ -118,7 +116,7 @@ fn decades(values: impl Iterator<Item = f64>) -> Range<i32> {
     low..(high.log10().ceil() as i32).max(low + 1)
 }
 
-/// A power of ten as it is written at an axis.
+/// The label of a power of ten.
 fn power(decade: i32) -> String {
     if (0..4).contains(&decade) {
         10_i32.pow(decade as u32).to_string()
@@ -143,7 +141,7 @@ fn line(image: &mut RgbImage, from: (f64, f64), to: (f64, f64), colour: Rgb<u8>)
     }
 }
 
-/// Writes a word: digits, letters of the alphabet; others are blanks but for a minus.
+/// Writes a word of digits, letters and minus signs; other characters are blank.
 fn write(image: &mut RgbImage, (left, top): (f64, f64), word: &str, colour: Rgb<u8>) {
     for (at, letter) in word.chars().enumerate() {
         let dots = match letter.to_digit(36) {
@@ -160,7 +158,7 @@ fn write(image: &mut RgbImage, (left, top): (f64, f64), word: &str, colour: Rgb<
 
 fn square(image: &mut RgbImage, (x, y): (f64, f64), edge: u32, colour: Rgb<u8>) {
     for (column, row) in (0..edge * edge).map(|at| (at % edge, at / edge)) {
-        // A cast of what lies left of the picture, or above, gives its edge.
+        // The cast clamps coordinates left of or above the picture to its edge.
         if let Some(pixel) = image.get_pixel_mut_checked(x as u32 + column, y as u32 + row) {
             *pixel = colour;
         }

@@ -1,4 +1,4 @@
-//! The programs that make pictures: ours, and those of the peers that are installed.
+//! The programs: ours and the installed peers.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 use halflight::scene::Size;
 
 use crate::cases::{Case, Picture};
-use crate::{SCRATCH, THREADS, WHOLE};
+use crate::setting::{SCRATCH, THREADS, WHOLE};
 
-/// A program that makes pictures.
+/// A program that renders pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Program {
     Halflight,
@@ -20,7 +20,7 @@ pub(crate) enum Program {
 }
 
 impl Program {
-    /// Those that are here, ours first: no peers without a folder with their scenes.
+    /// The installed programs, ours first; without a folder of their scenes no peers.
     pub(crate) fn installed(folder: Option<&Path>) -> Vec<Self> {
         let mut programs = vec![Self::Halflight];
         let Some(folder) = folder else {
@@ -30,17 +30,17 @@ impl Program {
             if is_command(name) {
                 programs.push(program);
             } else {
-                println!("{name} is left out: it is not installed");
+                println!("{name} skipped: not installed");
             }
         }
         match compile_reference(&folder.join("whitted.cpp")) {
             Ok(()) => programs.push(Self::Embree),
-            Err(reason) => println!("the Embree reference is left out: {reason}"),
+            Err(reason) => println!("Embree reference skipped: {reason}"),
         }
         programs
     }
 
-    /// What it is called in the table.
+    /// The name in the table.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Halflight => "ours",
@@ -50,7 +50,7 @@ impl Program {
         }
     }
 
-    /// How it is told to make a picture of a scene; `None` if it can't.
+    /// The command that renders a picture of a scene; `None` if the program cannot.
     pub(crate) fn command(self, case: &Case, picture: &Picture) -> Option<Command> {
         let Size { width, height } = picture.size;
         let [width, height] = [width, height].map(|pixels| pixels.to_string());
@@ -85,7 +85,7 @@ impl Program {
                 if spp == 1 {
                     command.arg("-A");
                 } else {
-                    // Its samples are the square of a number.
+                    // The number of samples is the square of this.
                     let edge = f64::from(spp).sqrt().round();
                     command.args(["+A0.0", "+AM1", &format!("+R{edge}")]);
                 }
@@ -118,14 +118,14 @@ impl Program {
     }
 }
 
-/// A program and what its runs took.
+/// A program and the times of its runs.
 #[derive(Clone, Debug)]
 pub(crate) struct Timed {
     pub(crate) program: Program,
     /// The median of the runs so far, from before the start to after the end.
     pub(crate) wall: Duration,
     walls: Vec<Duration>,
-    /// The times that the reference tells of its tracing alone.
+    /// The times of the tracing alone, if the program reports them.
     frames: Vec<Duration>,
 }
 
@@ -139,10 +139,10 @@ impl Timed {
         }
     }
 
-    /// Runs it once more.
+    /// Runs the program once more.
     pub(crate) fn run(&mut self, case: &Case, picture: &Picture) {
         let command = self.program.command(case, picture);
-        let mut command = command.expect("a program that can't make the picture is not run");
+        let mut command = command.expect("only programs that can render the picture are run");
         let begun = Instant::now();
         let ended = command
             .spawn()
@@ -153,14 +153,16 @@ impl Timed {
         assert!(ended.status.success(), "{name} fails on {}", case.name);
         self.walls.push(wall);
         self.wall = median(&self.walls);
-        let said = String::from_utf8_lossy(&ended.stdout);
-        let mut words = said.split_whitespace().skip_while(|&word| word != "render");
+        let output = String::from_utf8_lossy(&ended.stdout);
+        let mut words = output
+            .split_whitespace()
+            .skip_while(|&word| word != "render");
         if let Some(seconds) = words.nth(1).and_then(|word| word.parse().ok()) {
             self.frames.push(Duration::from_secs_f64(seconds));
         }
     }
 
-    /// The same with the time of the tracing alone, if it is told.
+    /// The same with the time of the tracing alone, if the program reports it.
     pub(crate) fn frame_alone(&self) -> Option<Self> {
         (!self.frames.is_empty()).then(|| Self {
             wall: median(&self.frames),
@@ -169,38 +171,41 @@ impl Timed {
     }
 }
 
-/// The middle one.
+/// The median; zero if there are no times.
 pub(crate) fn median(times: &[Duration]) -> Duration {
     let mut times = times.to_vec();
     times.sort_unstable();
     times.get(times.len() / 2).copied().unwrap_or_default()
 }
 
-/// The most memory that our program takes for a picture, in bytes; 0 where the system does not say.
+/// The peak memory of our program during a render, in bytes; 0 if unknown.
 pub(crate) fn peak_of(case: &Case) -> usize {
     let command = Program::Halflight.command(case, &case.picture(WHOLE));
-    let mut command = command.expect("ours makes any picture");
-    let mut child = command.stdout(Stdio::null()).spawn().expect("ours runs");
+    let mut command = command.expect("ours can render any picture");
+    let mut child = command
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("the program starts");
     let status = format!("/proc/{}/status", child.id());
     let mut peak = 0;
-    // The system tells the most so far, and forgets it when the program ends: what may be missed is
-    // the last millisecond's.
-    while child.try_wait().expect("it is ours to wait for").is_none() {
-        let said = std::fs::read_to_string(&status).unwrap_or_default();
-        peak = peak.max(kilobytes(&said, "VmHWM:") * 1024);
+    // The system reports the peak so far until the program ends: only the last millisecond may be
+    // missed.
+    while child.try_wait().expect("it is our child").is_none() {
+        let status = std::fs::read_to_string(&status).unwrap_or_default();
+        peak = peak.max(kilobytes(&status, "VmHWM:") * 1024);
         std::thread::sleep(Duration::from_millis(1));
     }
     peak
 }
 
-/// A number of kilobytes from what the system tells of a process.
+/// A number of kilobytes from a process's `/proc` status; 0 if missing.
 pub(crate) fn kilobytes(status: &str, key: &str) -> usize {
     let line = status.lines().find_map(|line| line.strip_prefix(key));
     line.and_then(|rest| rest.trim().trim_end_matches(" kB").parse().ok())
         .unwrap_or(0)
 }
 
-/// The numbers after a key of a flat JSON object, one or a list.
+/// The number or list of numbers of a key in a flat JSON object.
 fn numbers(json: &str, key: &str) -> Vec<String> {
     let quoted = format!("\"{key}\":");
     let rest = json.split_once(&quoted).map_or("", |(_, rest)| rest);
@@ -220,7 +225,7 @@ fn is_command(name: &str) -> bool {
 
 fn compile_reference(source: &Path) -> Result<(), String> {
     if !source.exists() {
-        return Err("there is no whitted.cpp beside the scenes".to_owned());
+        return Err("no whitted.cpp beside the scenes".to_owned());
     }
     let mut compiler = Command::new("g++");
     compiler.args([
@@ -236,12 +241,12 @@ fn compile_reference(source: &Path) -> Result<(), String> {
     compiler.args(["-lembree3", "-lpthread"]);
     match compiler.stderr(Stdio::null()).status() {
         Ok(status) if status.success() => Ok(()),
-        Ok(_) => Err("it does not compile".to_owned()),
+        Ok(_) => Err("whitted.cpp does not compile".to_owned()),
         Err(error) => Err(format!("g++: {error}")),
     }
 }
 
-/// A file among those written on the way.
+/// The path of a temporary file.
 fn out(name: &str) -> String {
     format!("{SCRATCH}/{name}")
 }

@@ -1,45 +1,36 @@
-//! The table, row by row.
+//! The table of results.
 
 use std::fmt::Write as _;
 use std::time::Duration;
 
-use crate::THREADS;
+use crate::cases::Target;
 use crate::phases::Phases;
 use crate::programs::{Program, Timed};
+use crate::setting::THREADS;
 
 /// The peers, in the order of their columns.
 const PEERS: [Program; 3] = [Program::Povray, Program::Tachyon, Program::Embree];
 
-/// Below so many objects a page more or less says nothing about each.
+/// Bytes per object are omitted for fewer objects, where the size of a page dominates.
 const MANY: usize = 1000;
 
-/// What a scene is to reach.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Wanted {
-    Nothing,
-    /// At most this part of the best peer's time.
-    Ratio(f64),
-    /// At most so long.
-    Milliseconds(f64),
-}
-
-/// What is known of a scene.
+/// A row of the table.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Row<'a> {
     pub(crate) name: &'a str,
     pub(crate) phases: Option<&'a Phases>,
-    /// The most memory that its picture takes beside its text, in bytes.
+    /// The peak memory of a headless render besides the text, in bytes.
     pub(crate) peak: Option<usize>,
-    /// What programs took, ours and peers'.
+    /// The times of all programs.
     pub(crate) timed: &'a [Timed],
-    /// What ours took, of what is compared.
+    /// Our time to be compared.
     pub(crate) ours: Duration,
-    /// What ours takes to a first picture.
+    /// Our time to a first picture.
     pub(crate) first: Option<Duration>,
-    pub(crate) wanted: Wanted,
+    pub(crate) target: Target,
 }
 
-/// What stands above the columns, in two lines; the first column is wider than its heading.
+/// The two lines of headings; blanks set a column's width.
 const HEADINGS: [[&str; 2]; 20] = [
     ["", "scene            "],
     ["", "  objects"],
@@ -50,20 +41,20 @@ const HEADINGS: [[&str; 2]; 20] = [
     ["whole", "process"],
     ["first", "picture"],
     ["Mrays", "camera"],
-    ["", "onward"],
+    ["", "bounce"],
     ["", "shadow"],
     ["", "   all"],
-    ["Mray/s", "a core"],
+    ["Mray/s", "per core"],
     ["B/object", "open"],
     ["", "headless"],
     ["peers", "povray"],
     ["", "tachyon"],
     ["", " embree"],
-    ["to best", "ratio"],
-    ["", "wanted"],
+    ["vs best", "ratio"],
+    ["", "target"],
 ];
 
-/// Prints what stands above the columns.
+/// Prints the headings.
 pub(crate) fn heading() {
     for line in 0..2 {
         print_cells(&HEADINGS.map(|heading| heading[line].trim().to_owned()));
@@ -72,7 +63,7 @@ pub(crate) fn heading() {
 
 /// Prints a row.
 pub(crate) fn print(row: &Row<'_>) {
-    let of_phases = |say: &dyn Fn(&Phases) -> String| row.phases.map_or_else(String::new, say);
+    let of_phases = |show: &dyn Fn(&Phases) -> String| row.phases.map_or_else(String::new, show);
     let peer = |program| row.timed.iter().find(|timed| timed.program == program);
     let best = PEERS
         .into_iter()
@@ -115,15 +106,15 @@ pub(crate) fn print(row: &Row<'_>) {
         tachyon,
         embree,
         ratio.map_or_else(String::new, |ratio| format!("{ratio:.2}")),
-        match row.wanted {
-            Wanted::Nothing => String::new(),
-            Wanted::Ratio(ratio) => format!("<= {ratio}"),
-            Wanted::Milliseconds(most) => format!("<= {most} ms"),
+        match row.target {
+            Target::Nothing => String::new(),
+            Target::Ratio(ratio) => format!("<= {ratio}"),
+            Target::Milliseconds(most) => format!("<= {most} ms"),
         },
     ]);
 }
 
-/// Prints cells below their headings, the first to the left and all others to the right.
+/// Prints cells below their headings, the first left-aligned, the others right-aligned.
 fn print_cells(cells: &[String; HEADINGS.len()]) {
     let mut line = String::new();
     for (cell, [above, below]) in cells.iter().zip(HEADINGS) {

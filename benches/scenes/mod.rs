@@ -1,26 +1,26 @@
-//! Scenes to measure with, as text made up on the spot.
+//! Generated scenes as text.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::fmt::Write as _;
 
-/// A vector.
+/// A vector of three coordinates.
 type Vector = [f64; 3];
 
-/// Writes the sphereflake of Haines' Standard Procedural Databases ("balls"): a sphere of radius ½
-/// with nine of a third its size on it, and so on for `levels`, over a floor. Level 4 has 7,381
+/// The sphereflake of Haines' Standard Procedural Databases ("balls"): a sphere of radius ½ with
+/// nine spheres of a third its size on it, repeated for `levels`, over a floor. Level 4 has 7,381
 /// spheres.
 pub(crate) fn sphereflake(levels: u32) -> String {
     let lights = [[4.0, 3.0, 2.0], [1.0, -4.0, 4.0], [-3.0, 1.0, 5.0]];
     sphereflake_under(levels, &lights)
 }
 
-/// As [`sphereflake`], with so many lights in a ring above it.
+/// Like [`sphereflake`] with `lights` lights in a ring above it.
 pub(crate) fn lit_sphereflake(levels: u32, lights: usize) -> String {
-    let place = |light| {
+    let position = |light| {
         let turn = 2.0 * PI * light as f64 / lights as f64;
         [4.0 * turn.cos(), 4.0 * turn.sin(), 4.0]
     };
-    let lights: Vec<_> = (0..lights).map(place).collect();
+    let lights: Vec<_> = (0..lights).map(position).collect();
     sphereflake_under(levels, &lights)
 }
 
@@ -56,8 +56,8 @@ fn sphereflake_under(levels: u32, lights: &[Vector]) -> String {
     text
 }
 
-/// Writes `count` small spheres in eight colours, spread evenly over a cube of edge 2, the same part
-/// of which they fill whatever their number. The same seed gives the same text.
+/// `count` small spheres in eight colours, spread uniformly over a cube of edge 2. They fill a
+/// constant part of it regardless of their number. The text depends only on `count` and `seed`.
 pub(crate) fn random_spheres(count: usize, seed: u64) -> String {
     const COLOURS: [&str; 8] = [
         ".8 .2 .2", ".2 .7 .2", ".2 .3 .8", ".8 .7 .2", ".7 .2 .7", ".2 .7 .7", ".8 .8 .8",
@@ -84,9 +84,8 @@ pub(crate) fn random_spheres(count: usize, seed: u64) -> String {
     text
 }
 
-/// Writes a `.dat` scene of `count` combined objects over a floor: by turns a box without the ball
-/// and the rod that go through it, and what a ball, a box and a cylinder have in common, each
-/// turned at random, in one of many colours.
+/// A `.dat` scene of `count` CSG objects over a floor, alternately a box minus a ball and a rod,
+/// and the intersection of a ball, a box and a cylinder, each with a random rotation and colour.
 pub(crate) fn set_operations(count: usize) -> String {
     let mut text = String::from(
         "camera perspective 2.6 -6 5  0 0 0  0 0 1  1 .01 100\n\
@@ -105,20 +104,20 @@ pub(crate) fn set_operations(count: usize) -> String {
         let towards = [0.0, turn.sin(), turn.cos()];
         let [u, v, w] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
             .map(|axis| rotate(lean(axis, towards), [0.0, 0.0, 1.0], 3.0 * turn));
-        let say = |axis: Vector| format!("{:.9} {:.9} {:.9}", axis[0], axis[1], axis[2]);
-        let place = format!("mat ID {} {x} {y} 0", index + 1);
+        let coordinates = |axis: Vector| format!("{:.9} {:.9} {:.9}", axis[0], axis[1], axis[2]);
+        let placement = format!("mat ID {} {x} {y} 0", index + 1);
         let id = 1 + 5 * index;
         put(
             &mut text,
             format_args!(
                 "mat ID {} {red:.3} {green:.3} {blue:.3}  1 1 .4 30  0 .15 1\n\
-                 obj box ID {} {place}  {} {} {}  .3 .3 .3\n\
-                 obj sphere ID {} {place}  .19\n",
+                 obj box ID {} {placement}  {} {} {}  .3 .3 .3\n\
+                 obj sphere ID {} {placement}  .19\n",
                 index + 1,
                 id,
-                say(u),
-                say(v),
-                say(w),
+                coordinates(u),
+                coordinates(v),
+                coordinates(w),
                 id + 1
             ),
         );
@@ -130,10 +129,10 @@ pub(crate) fn set_operations(count: usize) -> String {
         put(
             &mut text,
             format_args!(
-                "obj cylinder ID {} {place}  {}  {radius} {length}\n\
+                "obj cylinder ID {} {placement}  {}  {radius} {length}\n\
                  obj CSG ID {} {word} ID {} ID {}\nobj CSG ID {} {word} ID {} ID {}\n",
                 id + 2,
-                say(axis),
+                coordinates(axis),
                 id + 3,
                 id,
                 id + 1,
@@ -175,12 +174,12 @@ fn grow(
     for &direction in directions {
         let out = lean(direction, up);
         let reach = radius + radius / 3.0;
-        let place = [0, 1, 2].map(|i| centre[i] + reach * out[i]);
-        grow(levels - 1, place, radius / 3.0, out, directions, spheres);
+        let position = [0, 1, 2].map(|i| centre[i] + reach * out[i]);
+        grow(levels - 1, position, radius / 3.0, out, directions, spheres);
     }
 }
 
-/// Turns `v` by the shortest rotation that takes +z to `up`.
+/// Rotates `v` by the shortest rotation that maps +z to `up`.
 fn lean(v: Vector, up: Vector) -> Vector {
     let sine = up[0].hypot(up[1]);
     if sine < 1e-9 {
@@ -211,8 +210,8 @@ fn unit(state: &mut u64) -> f64 {
     ((x ^ (x >> 31)) >> 11) as f64 * 2f64.powi(-53)
 }
 
-/// Appends to a text.
+/// Appends formatted text.
 fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
     text.write_fmt(what)
-        .expect("a String takes all that is written to it");
+        .expect("writing to a String never fails");
 }

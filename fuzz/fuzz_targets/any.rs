@@ -1,4 +1,4 @@
-//! One program for all targets: the environment says which, by `TARGET`.
+//! One program for all targets: the environment variable `TARGET` selects one.
 
 #![no_main]
 
@@ -15,11 +15,11 @@ fuzz_target!(
         let known = TARGETS.into_iter().find(|(known, _)| *known == name);
         let Some((_, target)) = known else {
             let names = TARGETS.map(|(name, _)| name).join(", ");
-            panic!("TARGET is none of {names}");
+            panic!("TARGET must be one of {names}");
         };
         CHOSEN.get_or_init(|| target);
         if name == "picture" {
-            // A decoder of others' that panics costs its picture only: no reason to stop here.
+            // Panics of third-party decoders are caught and must not end the process.
             std::panic::set_hook(Box::new(|_| {}));
         }
     },

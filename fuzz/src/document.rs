@@ -1,4 +1,4 @@
-//! Texts under edit: fields set, undone and redone, and changes from two sides merged.
+//! Edits of documents: setting fields, undo and redo, and merges of two versions.
 
 use halflight::document::{Document, Merge, Side};
 use halflight::language::{Before, Language, Lowered, Node, Source, Visibility};
@@ -7,7 +7,7 @@ use halflight::text::{Edit, smallest_edit};
 
 use super::scene::{check, read};
 
-/// What fields are set to, beside bytes of the input.
+/// The values that fields are set to.
 const LITERALS: [&str; 14] = [
     "0",
     "1",
@@ -25,8 +25,8 @@ const LITERALS: [&str; 14] = [
     "intersect",
 ];
 
-/// Edits a text. The first byte says its language, then come the text and, behind a byte of 0, what
-/// is done to it, three bytes a time.
+/// Edits a text. The first byte selects the language; the text follows and, after a zero byte,
+/// steps of three bytes each.
 pub fn edits(input: &[u8]) {
     let [text, steps] = super::parts(input);
     let Some((&first, text)) = text.split_first() else {
@@ -40,7 +40,7 @@ pub fn edits(input: &[u8]) {
         let before = document.text().to_owned();
         perform(&mut document, &lowered, [step[0], step[1], step[2]]);
         lowered = if step[0] % 8 == 2 {
-            // Things stand where they stood, but what was known is of the text rejected.
+            // The old positions are back, but `lowered` belongs to the rejected text.
             document.lower(&Meshes::default()).expect("there is memory")
         } else {
             followed(&mut document, &before, &lowered)
@@ -49,12 +49,12 @@ pub fn edits(input: &[u8]) {
     while document.redo().is_some() {}
     let edited = document.text().to_owned();
     while document.undo().is_some() {}
-    assert_eq!(document.text(), original, "all is undone");
+    assert_eq!(document.text(), original, "everything is undone");
     while document.redo().is_some() {}
-    assert_eq!(document.text(), edited, "all is redone");
+    assert_eq!(document.text(), edited, "everything is redone");
 }
 
-/// One step: what is done, to which of the things or fields, and with which value.
+/// Performs one step: the action, the number of the node, and the value.
 fn perform(document: &mut Document, lowered: &Lowered, [what, which, value]: [u8; 3]) {
     let source = document.source();
     let nodes = source.nodes();
@@ -100,7 +100,7 @@ fn perform(document: &mut Document, lowered: &Lowered, [what, which, value]: [u8
     }
 }
 
-/// What a document means after a step, found in both ways: anew, and from what it meant before.
+/// Lowers a document after a step, from scratch and incrementally, and compares the results.
 fn followed(document: &mut Document, before: &str, was: &Lowered) -> Lowered {
     let meshes = Meshes::default();
     let fresh = Source::new(document.language(), document.shared_text());
@@ -127,8 +127,8 @@ fn followed(document: &mut Document, before: &str, was: &Lowered) -> Lowered {
     again
 }
 
-/// Merges two texts with their ancestor: the first byte says the language, bytes of 0 stand between
-/// ancestor, own text and that from outside.
+/// Merges two texts with their ancestor. The first byte selects the language; zero bytes separate
+/// the ancestor, the own text and the external one.
 pub fn merge(input: &[u8]) {
     let Some((&first, rest)) = input.split_first() else {
         return;
@@ -157,7 +157,7 @@ pub fn merge(input: &[u8]) {
             let fresh = Source::new(language, document.shared_text());
             assert!(
                 document.source().leaves() == fresh.leaves(),
-                "the tree is that of the text"
+                "the tree matches the text"
             );
             if base == mine || document.text() == mine {
                 return;
@@ -168,14 +168,14 @@ pub fn merge(input: &[u8]) {
         Err(merge) => {
             assert!(
                 one_sided.is_none(),
-                "one side's changes conflict with nothing"
+                "changes of one side only cannot conflict"
             );
             decide(merge, &mine);
         }
     }
 }
 
-/// Decides all conflicts for either side.
+/// Decides all conflicts for one side, then for the other.
 fn decide(mut merge: Merge, mine: &str) {
     for side in [Side::Mine, Side::Theirs] {
         for conflict in &mut merge.conflicts {

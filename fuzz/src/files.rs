@@ -1,28 +1,28 @@
-//! Files that scenes name: meshes, their materials, pictures.
+//! The files that scenes name: meshes, material libraries, pictures.
 
 use halflight::image_file;
 use halflight::obj;
 
-/// The most pixels of a picture here: a hostile one must not take long.
+/// The maximum number of pixels of a picture, so that hostile ones do not take long.
 const ROOM: u64 = 1 << 18;
 
-/// A mesh that uses a material of its library.
+/// A mesh that uses a material from its library.
 const MESH: &[u8] = b"mtllib a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
 
-/// Reads a mesh, and the library behind a byte of 0.
+/// Reads a mesh with the library that follows a zero byte.
 pub fn obj(input: &[u8]) {
     let [mesh, library] = super::parts(input);
     read(mesh, library);
 }
 
-/// Reads a library of materials.
+/// Reads a material library.
 pub fn mtl(input: &[u8]) {
     read(MESH, input);
 }
 
 fn read(mesh: &[u8], library: &[u8]) {
     let lines = |bytes: &[u8]| bytes.split(|&byte| byte == b'\n').count();
-    let most = lines(mesh).max(lines(library));
+    let last = lines(mesh).max(lines(library));
     let findings = match obj::read(mesh, |_| Ok(library)) {
         Ok(model) => [model.warnings, model.library_warnings].concat(),
         Err(errors) => {
@@ -31,7 +31,7 @@ fn read(mesh: &[u8], library: &[u8]) {
         }
     };
     for finding in findings {
-        assert!((1..=most).contains(&finding.line), "{finding:?}");
+        assert!((1..=last).contains(&finding.line), "{finding:?}");
         assert!(0 < finding.column && !finding.to_string().is_empty());
     }
 }

@@ -1,4 +1,4 @@
-//! Bytes from a terminal.
+//! Input from a terminal.
 
 #[cfg(unix)]
 use std::time::{Duration, Instant};
@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 #[cfg(unix)]
 use halflight::ui::terminal::{Decoder, Event};
 
-/// Reads the bytes behind the first one whole and in pieces, whose lengths that one says: the events
-/// are the same. With pauses between the pieces there may be others.
+/// Decodes the input after its first byte at once and in pieces whose length that byte gives: the
+/// events must be equal. With pauses between the pieces they may differ.
 #[cfg(unix)]
 pub fn keys(input: &[u8]) {
     let Some((&seed, bytes)) = input.split_first() else {
@@ -19,11 +19,11 @@ pub fn keys(input: &[u8]) {
     decode(bytes.chunks(each), Duration::from_millis(u64::from(seed)));
 }
 
-/// There is no decoder of bytes elsewhere.
+/// Other systems have no decoder of bytes.
 #[cfg(not(unix))]
 pub fn keys(_: &[u8]) {}
 
-/// The events of pieces that come so long after each other.
+/// Decodes pieces with a pause between them.
 #[cfg(unix)]
 fn decode<'b>(pieces: impl IntoIterator<Item = &'b [u8]>, pause: Duration) -> Vec<Event> {
     let mut decoder = Decoder::default();
@@ -35,6 +35,10 @@ fn decode<'b>(pieces: impl IntoIterator<Item = &'b [u8]>, pause: Duration) -> Ve
         now += pause;
     }
     decoder.expire(now + Duration::from_secs(60), |event| events.push(event));
-    assert_eq!(decoder.deadline(), None, "everything is told in the end");
+    assert_eq!(
+        decoder.deadline(),
+        None,
+        "all events are reported in the end"
+    );
     events
 }

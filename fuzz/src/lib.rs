@@ -1,5 +1,5 @@
-//! What any bytes may be handed to. Each target takes some and panics if a promise is broken; they
-//! are fuzzed by libFuzzer and by `drive`, and `tests/corpus.rs` hands them what was kept.
+//! The fuzz targets. Each accepts any bytes and panics if an invariant is broken. libFuzzer and
+//! `drive` fuzz them; `tests/corpus.rs` replays the corpora.
 
 mod document;
 mod files;
@@ -11,10 +11,10 @@ pub use files::{mtl, obj, picture};
 pub use keys::keys;
 pub use scene::{dat, ray, xml};
 
-/// What takes any bytes.
+/// A function that accepts any bytes.
 pub type Target = fn(&[u8]);
 
-/// All targets by name, which is that of their corpus too.
+/// All targets by name, which is also that of their corpus.
 pub const TARGETS: [(&str, Target); 9] = [
     ("ray", ray),
     ("dat", dat),
@@ -27,7 +27,7 @@ pub const TARGETS: [(&str, Target); 9] = [
     ("keys", keys),
 ];
 
-/// The parts of an input between bytes of 0, which text has no use for; as many as are wanted.
+/// Splits an input at zero bytes, which do not occur in text, into N parts.
 fn parts<const N: usize>(input: &[u8]) -> [&[u8]; N] {
     let mut parts = input.splitn(N, |&byte| byte == 0);
     std::array::from_fn(|_| parts.next().unwrap_or_default())

@@ -1,5 +1,4 @@
-//! The languages of scenes: parsing never fails, lowering comes to an end, and whatever is said of a
-//! text belongs to it.
+//! The scene languages: parsing never fails, lowering ends, and all spans lie within the text.
 
 use std::sync::Arc;
 
@@ -22,12 +21,12 @@ pub fn xml(input: &[u8]) {
     read(Language::Xml, &String::from_utf8_lossy(input));
 }
 
-/// Reads a text and checks what comes out.
+/// Reads a text and checks the result.
 pub(super) fn read(language: Language, text: &str) -> (Source, Lowered) {
     let mut source = Source::new(language, Arc::new(text.to_owned()));
     let mut end = 0;
     for leaf in source.leaves() {
-        assert!(end <= leaf.start(), "leaves stand in order");
+        assert!(end <= leaf.start(), "leaves are in order");
         end = leaf.end();
         assert!(is_of(text, leaf) && !leaf.is_empty());
     }
@@ -36,7 +35,7 @@ pub(super) fn read(language: Language, text: &str) -> (Source, Lowered) {
     (source, lowered)
 }
 
-/// Checks what a text means.
+/// Checks the meaning of a text.
 pub(super) fn check(source: &Source, lowered: &Lowered) {
     let text = source.text();
     let found = &lowered.diagnostics;
@@ -47,7 +46,7 @@ pub(super) fn check(source: &Source, lowered: &Lowered) {
         assert!(0 < line && 0 < column && !diagnostic.message.is_empty());
     }
     assert!(found.is_sorted_by_key(|diagnostic| diagnostic.span.start()));
-    // The list of a long text is as its beginning is.
+    // The first nodes are representative of long texts.
     for node in source.nodes().iter().take(64) {
         assert!(!source.name(node).is_empty() && is_of(text, source.span(node)));
         source.comment(node);
@@ -60,7 +59,7 @@ pub(super) fn check(source: &Source, lowered: &Lowered) {
     }
 }
 
-/// Whether a span is in a text, from one character to another.
+/// Whether a span lies in a text and ends at character boundaries.
 fn is_of(text: &str, span: Span) -> bool {
     text.get(span.range()).is_some()
 }

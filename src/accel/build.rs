@@ -1,4 +1,4 @@
-//! Building the tree: wide nodes straight from the boxes, top down.
+//! Builds the tree: wide nodes directly from the boxes, top down.
 
 use arrayvec::ArrayVec;
 use glam::DVec3;
@@ -7,29 +7,29 @@ use rayon::prelude::*;
 use crate::geometry::Aabb;
 
 use super::node::{Bounds, Child, Node, WIDTH};
-use super::split::{Cancelled, Extent, Patience, Reference, by_area, by_count};
+use super::split::{CancelCheck, Cancelled, Extent, Reference, by_area, by_count};
 use super::{Bvh, RUN};
 
-/// Levels of nodes divided by area; good trees of 2³² boxes have fewer. Below them nodes are divided
-/// by count.
+/// The number of levels divided by area, more than good trees of 2³² boxes have. Nodes below them
+/// are divided by count.
 const AREA_LEVELS: usize = 12;
 
-/// The most levels of nodes: a node divided by count passes on an eighth at most, rounded up, of
-/// fewer than 2³² boxes, and 8¹¹ = 2³³.
+/// The maximum number of levels: a node divided by count leaves each child at most an eighth of its
+/// boxes, rounded up, of fewer than 2³², and 8¹¹ = 2³³.
 pub(super) const LEVELS: usize = AREA_LEVELS + 11;
 
-/// The most boxes in a leaf: as many as are visited at once. Leaves of four take as long to walk, but
-/// longer to build, and 65 bytes more a box.
+/// The maximum number of boxes in a leaf: those visited at once. Leaves of four are traversed as
+/// fast, but take longer to build and 65 bytes more per box.
 const LEAF: usize = RUN;
 
-/// References from which the children of a node are built as tasks.
+/// The minimum number of references for building the children of a node in parallel.
 const PARALLEL: usize = 2048;
 
-/// Boxes that are looked at between two checks: about a millisecond.
-const SORTED: usize = 65_536;
+/// The number of boxes between two cancellation checks: about 1 ms.
+const BATCH: usize = 65_536;
 
-/// References below which a subtree is built without asking whether to stop: about 0.2 ms.
-const QUIET: usize = 1024;
+/// Subtrees of fewer references are built without cancellation checks: about 0.2 ms.
+const UNCHECKED: usize = 1024;
 
 /// See [`Bvh::build`].
 pub(super) fn build(
@@ -37,24 +37,17 @@ pub(super) fn build(
     aabb: &(impl Fn(u32) -> Aabb + Sync),
     cancelled: &(impl Fn() -> bool + Sync),
 ) -> Result<Bvh, Cancelled> {
-    let patience = Patience(cancelled);
-    patience.check()?;
+    let cancel = CancelCheck(cancelled);
+    cancel.check()?;
     let count = u32::try_from(count).unwrap_or(u32::MAX);
     let (reference, spread) = median_centre(count, aabb);
-    let (mut references, unbounded) = sort_out(count, aabb, reference, &patience)?;
+    let (mut references, unbounded) = collect_references(count, aabb, reference, &cancel)?;
     let mut nodes = Vec::new();
     if !references.is_empty() {
-        let extent = Extent::of(&references, &patience)?;
+        let extent = Extent::of(&references, &cancel)?;
         let whole = Part::new(extent, 0, references.len());
         let mut spare: Vec<_> = references.par_iter().copied().collect();
-        grow(
-            &mut references,
-            &mut spare,
-            &whole,
-            0,
-            &patience,
-            &mut nodes,
-        )?;
+        grow(&mut references, &mut spare, &whole, 0, &cancel, &mut nodes)?;
     }
     nodes.shrink_to_fit();
     let mut order = Vec::with_capacity(references.len() + unbounded.len());
@@ -71,8 +64,8 @@ pub(super) fn build(
     })
 }
 
-/// The median of the boxes' centres along each axis, or of a thousand of them, which is near most boxes
-/// wherever a few far ones are; and the median of the largest coordinates of their ways from there.
+/// Returns the median of about a thousand of the boxes' centres along each axis, near most boxes
+/// regardless of a few far ones, and the median of their Chebyshev distances from it.
 fn median_centre(count: u32, aabb: impl Fn(u32) -> Aabb) -> (DVec3, f64) {
     let step = count as usize / 1000 + 1;
     let centres = (0..count).step_by(step).map(|index| aabb(index).centre());
@@ -87,19 +80,19 @@ fn median_centre(count: u32, aabb: impl Fn(u32) -> Aabb) -> (DVec3, f64) {
     (middle, spread)
 }
 
-/// The boxes to build from, and the indices of those without finite planes.
-fn sort_out(
+/// Returns the nonempty boxes with finite planes, and the indices of those without.
+fn collect_references(
     count: u32,
     aabb: &(impl Fn(u32) -> Aabb + Sync),
     reference: DVec3,
-    patience: &Patience<impl Fn() -> bool + Sync>,
+    cancel: &CancelCheck<impl Fn() -> bool + Sync>,
 ) -> Result<(Vec<Reference>, Vec<u32>), Cancelled> {
     let mut references = Vec::with_capacity(count as usize);
     let mut unbounded = Vec::new();
-    for first in (0..count).step_by(SORTED) {
-        patience.check()?;
-        let sorted = references.len();
-        let part = first..count.min(first.saturating_add(SORTED as u32));
+    for first in (0..count).step_by(BATCH) {
+        cancel.check()?;
+        let start = references.len();
+        let part = first..count.min(first.saturating_add(BATCH as u32));
         references.par_extend(part.into_par_iter().map(|index| {
             let aabb = aabb(index);
             let bounds = if is_empty(&aabb) {
@@ -109,12 +102,12 @@ fn sort_out(
             };
             Reference { bounds, index }
         }));
-        let is_plain = |reference: &Reference| reference.bounds.is_finite();
-        if references[sorted..].par_iter().all(is_plain) {
+        let is_bounded = |reference: &Reference| reference.bounds.is_finite();
+        if references[start..].par_iter().all(is_bounded) {
             continue;
         }
-        for reference in references.split_off(sorted) {
-            if is_plain(&reference) {
+        for reference in references.split_off(start) {
+            if is_bounded(&reference) {
                 references.push(reference);
             } else if !is_empty(&aabb(reference.index)) {
                 unbounded.push(reference.index);
@@ -124,16 +117,16 @@ fn sort_out(
     Ok((references, unbounded))
 }
 
-/// Whether a box holds nothing; one that is not a number may hold anything.
+/// Whether a box is empty; a box with NaN may contain anything.
 fn is_empty(aabb: &Aabb) -> bool {
     aabb.max.cmplt(aabb.min).any()
 }
 
-/// A run of the references.
+/// A run of references.
 #[derive(Clone, Copy)]
 struct Part {
     extent: Extent,
-    /// Half the surface of its box.
+    /// Half the surface area of its box.
     half_area: f64,
     first: usize,
     count: usize,
@@ -150,22 +143,21 @@ impl Part {
     }
 }
 
-/// Appends the node of `part`, whose references are given, and all below it. What is in `spare`, of
-/// the same length, is of no account.
+/// Appends the subtree of `part`, whose references are given. `spare` is scratch of equal length.
 fn grow(
     references: &mut [Reference],
     spare: &mut [Reference],
     part: &Part,
     level: usize,
-    patience: &Patience<impl Fn() -> bool + Sync>,
+    cancel: &CancelCheck<impl Fn() -> bool + Sync>,
     nodes: &mut Vec<Node>,
 ) -> Result<(), Cancelled> {
-    if QUIET <= part.count {
-        patience.check()?;
+    if UNCHECKED <= part.count {
+        cancel.check()?;
     }
     let number = nodes.len();
     nodes.push(Node::EMPTY);
-    // With a lane for each there is nothing to choose.
+    // Each box has its own lane: there is nothing to choose.
     if part.count <= WIDTH {
         for (lane, reference) in references.iter().enumerate() {
             let leaf = Child::Leaf {
@@ -176,7 +168,7 @@ fn grow(
         }
         return Ok(());
     }
-    let parts = divide(references, spare, part, level, patience)?;
+    let parts = divide(references, spare, part, level, cancel)?;
     let mut rest = (references, spare);
     let mut inner = ArrayVec::<_, WIDTH>::new();
     for (lane, part) in parts.iter().enumerate() {
@@ -199,7 +191,7 @@ fn grow(
             .into_par_iter()
             .map(|(lane, part, own, spare)| {
                 let mut nodes = Vec::new();
-                grow(own, spare, part, level + 1, patience, &mut nodes)?;
+                grow(own, spare, part, level + 1, cancel, &mut nodes)?;
                 Ok((lane, part, nodes))
             })
             .collect();
@@ -212,12 +204,12 @@ fn grow(
             end += tree.len();
             ends.push(end);
         }
-        patience.check()?;
-        nodes.par_extend((nodes.len()..end).into_par_iter().map(|at| {
-            let of = ends.partition_point(|&end| end <= at);
-            let tree = &trees[of].2;
-            let first = ends[of] - tree.len();
-            let mut node = tree[at - first].clone();
+        cancel.check()?;
+        nodes.par_extend((nodes.len()..end).into_par_iter().map(|index| {
+            let owner = ends.partition_point(|&end| end <= index);
+            let tree = &trees[owner].2;
+            let first = ends[owner] - tree.len();
+            let mut node = tree[index - first].clone();
             node.shift(first as u32);
             node
         }));
@@ -225,20 +217,20 @@ fn grow(
         for (lane, part, own, spare) in inner {
             let child = Child::Inner(nodes.len() as u32);
             nodes[number].put(lane, &part.extent.bounds, child);
-            grow(own, spare, part, level + 1, patience, nodes)?;
+            grow(own, spare, part, level + 1, cancel, nodes)?;
         }
     }
     Ok(())
 }
 
-/// Divides a part into up to [`WIDTH`], in order. Empty lanes cost a ray nothing, so parts are
-/// divided as long as there is room, down to single boxes, those of the largest area first.
+/// Divides a part into up to [`WIDTH`] parts, in order. Empty lanes cost a ray nothing, so parts
+/// are divided, largest area first, until all lanes are used or all parts are single boxes.
 fn divide(
     references: &mut [Reference],
     spare: &mut [Reference],
     whole: &Part,
     level: usize,
-    patience: &Patience<impl Fn() -> bool + Sync>,
+    cancel: &CancelCheck<impl Fn() -> bool + Sync>,
 ) -> Result<ArrayVec<Part, WIDTH>, Cancelled> {
     let mut parts = ArrayVec::new();
     parts.push(*whole);
@@ -255,20 +247,20 @@ fn divide(
         let start = first - whole.first;
         let own = &mut references[start..start + count];
         let half = if level < AREA_LEVELS {
-            by_area(own, &mut spare[start..start + count], &extent, patience)?
+            by_area(own, &mut spare[start..start + count], &extent, cancel)?
         } else {
             by_count(own, &extent)
         };
         let (left, right) = own.split_at(half);
-        parts[at] = Part::new(Extent::of(left, patience)?, first, half);
-        let right = Part::new(Extent::of(right, patience)?, first + half, count - half);
+        parts[at] = Part::new(Extent::of(left, cancel)?, first, half);
+        let right = Part::new(Extent::of(right, cancel)?, first + half, count - half);
         parts.insert(at + 1, right);
     }
     Ok(parts)
 }
 
-/// The part that gains most by being divided: of those with more than one box, the one with the
-/// largest area, then the most boxes; only the most boxes where the tree is too deep.
+/// The part that gains most by a division: of those with more than one box, the one with the
+/// largest area, then the most boxes; beyond [`AREA_LEVELS`], the one with the most boxes.
 fn next_to_divide(parts: &[Part], level: usize) -> Option<usize> {
     let key = |part: &Part| {
         let area = if level < AREA_LEVELS {

@@ -1,23 +1,23 @@
-//! Boxes against rays: a bounding volume hierarchy over boxes. Knows boxes and rays only; what a
-//! box holds is the caller's closure.
+//! A bounding volume hierarchy over boxes. It depends on boxes and rays only; the contents of boxes
+//! are left to the caller's closure.
 //!
-//! `build` sorts boxes into a tree of [`node::WIDTH`]-wide nodes by the surface area heuristic,
-//! `node` holds such a node, `slab` is a ray as its children's boxes are tested against it, all at
-//! once, `refit` follows boxes that move, and `traverse` and `packet` walk the tree, near children
+//! `build` sorts boxes into a tree of [`node::WIDTH`]-wide nodes by the surface area heuristic.
+//! `node` is such a node, `slab` a ray prepared for tests against all its children's boxes at once.
+//! `refit` adapts the tree to moved boxes, and `traverse` and `packet` traverse it, near children
 //! first.
 //!
-//! # How nothing is missed
+//! # Why no box is missed
 //!
 //! - Nodes store `f32` planes relative to a reference point, rounded outward. The reference is the
-//!   median of the boxes' centres, so a scene far from the origin keeps its resolution, and so do
-//!   small things beside a few huge ones.
-//! - Rays are taken to the same numbers, an origin between two of them, and each plane takes the end
-//!   that makes the box larger.
-//! - Distances grow by the bound on their rounding error after Ize, "Robust BVH Ray Traversal" (JCGT
-//!   2013); see `slab`.
+//!   median of the boxes' centres, so scenes far from the origin keep their resolution, and so do
+//!   small objects beside a few huge ones.
+//! - Rays are converted to `f32` too. An origin becomes an interval, and each plane is tested
+//!   against the end that enlarges the box.
+//! - Distances are extended by the bound of their rounding error: Ize, "Robust BVH Ray Traversal"
+//!   (JCGT 2013); see `slab`.
 //!
-//! All of it is relative: a scene scaled by a power of two gives the same tree and the same visits,
-//! unless it comes near the least or the greatest numbers of `f32`.
+//! All bounds are relative: a scene scaled by a power of two gives the same tree and the same
+//! visits, unless it comes near the limits of `f32`.
 
 mod build;
 mod node;
@@ -38,42 +38,40 @@ use crate::geometry::lanes::{Eight, Simd};
 use crate::geometry::{Aabb, Ray, Rays};
 use node::Node;
 
-/// A bounding volume hierarchy over the boxes it was built from.
+/// A bounding volume hierarchy.
 #[derive(Debug)]
 pub struct Bvh {
-    /// The point the planes of the nodes are relative to.
+    /// The origin of the planes of the nodes.
     reference: DVec3,
-    /// How far from that half of the boxes' centres are along the axis where they are farthest.
+    /// The median Chebyshev distance of the boxes' centres from `reference`.
     spread: f64,
-    /// The farthest plane's distance from it.
+    /// The largest distance of a plane from `reference`.
     farthest: f64,
-    /// The root first; none if no box is in the tree.
+    /// The nodes, root first; empty if no box is in the tree.
     nodes: Vec<Node>,
-    /// Indices of boxes; a leaf is a run of them. Last stand those without finite planes, which every
-    /// ray visits.
+    /// Indices of boxes; a leaf is a run of them. Boxes without finite planes, which every ray
+    /// visits, come last.
     order: Vec<u32>,
-    /// How many have finite planes.
+    /// The number of boxes with finite planes.
     bounded: usize,
-    /// How many boxes moved since it was built.
+    /// The number of boxes moved since the tree was built.
     moved: usize,
 }
 
-/// The most boxes of a leaf, and of any run that is visited at once.
+/// The maximum number of boxes in a leaf, and in any run visited at once.
 pub const RUN: usize = 8;
 
 impl Bvh {
-    /// Builds the tree, in parallel on the current rayon pool; the same boxes give the same tree.
-    /// `None` if `cancelled` said so, which is asked at least every few milliseconds.
+    /// Builds the tree in parallel on the current rayon pool; the result depends on the boxes only.
+    /// Returns `None` if `cancelled` returns true; it is called at least every few milliseconds.
     ///
-    /// An empty box is never visited. A box that is infinite, not a number, or farther than `f32`
-    /// reaches from most others is visited by every ray. Boxes beyond the first 2³² − 1 are
-    /// ignored.
+    /// An empty box is never visited. A box that is infinite or NaN, or too far from most others
+    /// for `f32`, is visited by every ray. Boxes beyond the first 2³² − 1 are ignored.
     pub fn build(boxes: &[Aabb], cancelled: impl Fn() -> bool + Sync) -> Option<Self> {
         Self::over(boxes.len(), |index| boxes[index as usize], cancelled)
     }
 
-    /// As [`Bvh::build`] over so many boxes, each made when it is needed: a million of them would take
-    /// 48 MB.
+    /// Like [`Bvh::build`] over `count` boxes, each computed on demand: a million would take 48 MB.
     pub fn over(
         count: usize,
         aabb: impl Fn(u32) -> Aabb + Sync,
@@ -82,29 +80,29 @@ impl Bvh {
         build::build(count, &aabb, &cancelled).ok()
     }
 
-    /// The same tree with a few boxes that are others now. `None` where a new one is better: of many
-    /// changes, of few boxes, and where a box begins or ceases to be empty or without bounds.
+    /// Adapts the tree to a few changed boxes. Returns `None` if a new one is better: after many
+    /// changes, for few boxes, or if a box becomes or ceases to be empty or unbounded.
     pub fn refitted(&self, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> Option<Self> {
         refit::refit(self, changed, aabb)
     }
 
-    /// The indices of the boxes in the order of the tree: those of a leaf stand side by side.
+    /// The indices of the boxes in the order of the tree; those of a leaf are contiguous.
     pub fn order(&self) -> &[u32] {
         &self.order
     }
 
-    /// Calls `visit` with places in [`Bvh::order`], at most [`RUN`] at once: those of every box the
-    /// ray may meet at a distance in `0..=limit` are among them, roughly near ones first. `visit`
-    /// returns the limit from there on: the same, or less once something nearer was found; below 0
-    /// ends the walk. Never misses a box the ray meets; may visit ones it does not.
+    /// Calls `visit` with ranges of [`Bvh::order`], at most [`RUN`] long, that include every box
+    /// the ray may hit at a distance in `0..=limit`, roughly near ones first. `visit` returns the
+    /// new limit: the same, or less after a nearer hit; below 0 ends the traversal. Conservative:
+    /// boxes the ray misses may be visited.
     ///
-    /// Inlined into the caller, so that it uses whatever vectors the caller was compiled for; the
-    /// visits are the same with any.
+    /// Inlined into the caller, to use the vectors the caller was compiled for; the visits do not
+    /// depend on them.
     ///
-    /// Each place is visited at most once. A ray that is not finite visits anything or nothing.
+    /// Each index is visited at most once. The visits of a ray that is not finite are unspecified.
     #[expect(
         clippy::inline_always,
-        reason = "a caller compiled for wider vectors must take this with it"
+        reason = "this must be inlined into callers compiled for wider vectors"
     )]
     #[inline(always)]
     pub fn traverse<S: Simd>(
@@ -117,11 +115,11 @@ impl Bvh {
         traverse::traverse(self, simd, ray, limit, visit);
     }
 
-    /// The same for rays side by side, those whose bit in `lanes` is 1: `visit` is told which of
-    /// them may meet what is there, and their limits, and returns the limits from there on.
+    /// The same for the rays of a packet whose bit in `lanes` is 1: `visit` gets the lanes that may
+    /// hit the boxes, and the limits, and returns the new limits.
     #[expect(
         clippy::inline_always,
-        reason = "a caller compiled for wider vectors must take this with it"
+        reason = "this must be inlined into callers compiled for wider vectors"
     )]
     #[inline(always)]
     pub fn traverse_packet<S: Simd>(

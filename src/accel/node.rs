@@ -1,18 +1,18 @@
-//! Wide nodes: the boxes of several children, tested against a ray at once.
+//! Wide nodes, whose children's boxes are tested against a ray at once.
 
 use std::array;
 
 use glam::DVec3;
 
-use super::slab::{SlabRay, cut, opens};
+use super::slab::{SlabRay, clip, is_open_in_lanes};
 use crate::geometry::Aabb;
 use crate::geometry::lanes::{Simd, SimdBase, Singles, bits};
 
-/// Children of a node.
+/// The maximum number of children of a node.
 pub(super) const WIDTH: usize = 8;
 
-/// A closed box in `f32`, relative to the reference point of its tree. The fourth lane is zero and
-/// makes unions whole vectors.
+/// A closed box in `f32`, relative to the reference point of its tree. The fourth lane, zero, lets
+/// unions use whole vectors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bounds {
     pub(super) low: [f32; 4],
@@ -20,15 +20,14 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// The box that holds nothing and changes no union.
+    /// The empty box, neutral under union.
     pub(super) const EMPTY: Self = Self {
         low: [f32::INFINITY; 4],
         high: [f32::NEG_INFINITY; 4],
     };
 
     /// The box relative to `reference`, rounded outward. Both the subtraction and the cast round to
-    /// nearest; one step outward makes up for both, as a unit of `f64` is far less than one of
-    /// `f32`.
+    /// nearest; one step outward covers both, as an ulp of `f64` is far less than one of `f32`.
     pub(super) fn around(aabb: Aabb, reference: DVec3) -> Self {
         let [x, y, z] = (aabb.min - reference).as_vec3().to_array();
         let [u, v, w] = (aabb.max - reference).as_vec3().to_array();
@@ -43,7 +42,7 @@ impl Bounds {
         self.low.iter().chain(&self.high).all(|x| x.is_finite())
     }
 
-    /// The smallest box around both.
+    /// The smallest box that contains both.
     #[inline]
     pub(super) fn union(&self, other: &Self) -> Self {
         Self {
@@ -64,7 +63,7 @@ impl Bounds {
         0.5 * self.low[axis] + 0.5 * self.high[axis]
     }
 
-    /// Half the surface, in `f64` because squares of `f32` overflow; 0 for an empty box.
+    /// Half the surface area, in `f64` because squares of `f32` overflow; 0 for an empty box.
     #[inline]
     pub(super) fn half_area(&self) -> f64 {
         let [x, y, z]: [f64; 3] =
@@ -85,25 +84,25 @@ fn greatest(a: f32, b: f32) -> f32 {
     if b < a { a } else { b }
 }
 
-/// What a child of a node is.
+/// A child of a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Child {
-    /// The node with this number.
+    /// The node with this index.
     Inner(u32),
-    /// A run of the tree's indices.
+    /// A run in the tree's order of boxes.
     Leaf { first: u32, count: u8 },
 }
 
-/// The boxes of up to [`WIDTH`] children, planes side by side so that one vector holds one plane of
-/// all of them. Four cache lines.
+/// The boxes of up to [`WIDTH`] children, laid out so that one vector holds one plane of all of
+/// them. Four cache lines.
 #[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub(super) struct Node {
-    /// By axis, then low or high, then child. A missing child has an empty box.
+    /// Indexed by axis, then low or high, then child. A missing child has an empty box.
     planes: [[[f32; WIDTH]; 2]; 3],
-    /// The node of an inner child, the first index of a leaf.
+    /// The node index of an inner child, or the start of a leaf's run.
     first: [u32; WIDTH],
-    /// The number of indices of a leaf, [`INNER`] for a node.
+    /// The length of a leaf's run, or [`INNER`].
     count: [u8; WIDTH],
 }
 
@@ -111,14 +110,14 @@ pub(super) struct Node {
 const INNER: u8 = u8::MAX;
 
 impl Node {
-    /// A node without children: its lanes are leaves that hold nothing, in boxes no ray meets.
+    /// A node without children: all lanes are empty leaves in empty boxes.
     pub(super) const EMPTY: Self = Self {
         planes: [[[f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]]; 3],
         first: [0; WIDTH],
         count: [0; WIDTH],
     };
 
-    /// Fills one lane.
+    /// Sets the child in a lane.
     pub(super) fn put(&mut self, lane: usize, bounds: &Bounds, child: Child) {
         for (axis, [low, high]) in self.planes.iter_mut().enumerate() {
             low[lane] = bounds.low[axis];
@@ -130,7 +129,7 @@ impl Node {
         };
     }
 
-    /// Adds `offset` to the numbers of the nodes below.
+    /// Adds `offset` to the node indices of the children.
     pub(super) fn shift(&mut self, offset: u32) {
         for (first, &count) in self.first.iter_mut().zip(&self.count) {
             if count == INNER {
@@ -163,7 +162,7 @@ impl Node {
         }
     }
 
-    /// A bit for each lane that something is in.
+    /// A mask of the lanes with a child.
     #[inline]
     pub(super) fn filled(&self) -> u32 {
         let mut filled = 0;
@@ -173,17 +172,17 @@ impl Node {
         filled
     }
 
-    /// How far from the reference point its farthest plane is.
+    /// The largest distance of a plane from the reference point.
     pub(super) fn farthest(&self) -> f64 {
         let planes = self.planes.iter().flatten().flatten();
         let finite = planes.copied().filter(|plane| plane.is_finite());
         finite.fold(0.0, |farthest, plane| farthest.max(f64::from(plane.abs())))
     }
 
-    /// The planes of all children across an axis, those on a side first.
+    /// The planes of all children across an axis, those of `side` first.
     #[expect(
         clippy::inline_always,
-        reason = "a caller compiled for wider vectors must take this with it"
+        reason = "this must be inlined into callers compiled for wider vectors"
     )]
     #[inline(always)]
     pub(super) fn planes<S: Simd>(&self, simd: S, axis: usize, side: usize) -> [Singles<S>; 2] {
@@ -201,11 +200,11 @@ impl Node {
         [low[lane], high[lane]]
     }
 
-    /// The distances at which the ray enters the children's boxes, or starts inside, and a bit for
-    /// each child that it may enter at a distance up to `limit`.
+    /// Returns the distances at which the ray enters the children's boxes, or starts inside, and a
+    /// mask of the children whose box it may enter at a distance up to `limit`.
     #[expect(
         clippy::inline_always,
-        reason = "a caller compiled for wider vectors must take this with it"
+        reason = "this must be inlined into callers compiled for wider vectors"
     )]
     #[inline(always)]
     pub(super) fn entries<S: Simd>(&self, ray: &SlabRay<S>, limit: f32) -> ([f32; WIDTH], u32) {
@@ -218,8 +217,8 @@ impl Node {
             let [near, far] = self.planes(simd, axis, slope.near_side);
             let near = (near - slope.near_origin) * slope.inverse;
             let far = (far - slope.far_origin) * slope.inverse;
-            interval = cut(interval, near, far);
+            interval = clip(interval, near, far);
         }
-        (*interval[0], bits::<S>(opens(interval)))
+        (*interval[0], bits::<S>(is_open_in_lanes(interval)))
     }
 }

@@ -1,19 +1,19 @@
-//! The walk of eight rays side by side, which visits what any of them may meet.
+//! Packet traversal: eight rays at once, visiting all boxes that any of them may hit.
 //!
-//! A node is first asked which of its children's boxes any ray between the packet's bounds could
-//! meet, all at once; only those are tested against each ray (after Wald, Boulos and Shirley, "Ray
-//! Tracing Deformable Scenes Using Dynamic Bounding Volume Hierarchies", TOG 2007).
+//! All children of a node are first tested at once against the bounds of the packet; only the
+//! candidates are tested against each ray (after Wald, Boulos and Shirley, "Ray Tracing Deformable
+//! Scenes Using Dynamic Bounding Volume Hierarchies", TOG 2007).
 //!
-//! Where only one or two of the rays are left, each is tested against all children at once: a tenth
-//! less time with many objects; with three left nothing more is gained.
+//! If only one or two rays are active, each is tested against all children at once: a tenth less
+//! time with many objects. With three active rays nothing is gained.
 //!
-//! Tried and lost: one list of children for both (a tenth more time); rays that do not go the same
-//! way walking alone from the root, for any measure of that (on a sphereflake of mirrors all alone
-//! took 1.3 times as long as all side by side, and no mixture less).
+//! Rejected: one list of children for both tests (a tenth more time); tracing incoherent rays
+//! singly from the root, for any measure of coherence (on a sphereflake of mirrors single rays only
+//! took 1.3 times as long as packets only, and no mixture less).
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use std::ops::Range;
@@ -25,38 +25,38 @@ use crate::geometry::lanes::{Eight, Select, Simd, SimdBase, Singles, bits, singl
 
 use super::Bvh;
 use super::node::{Child, Node, WIDTH};
-use super::slab::{Approach, SlabRay, cut, opens};
-use super::traverse::{STACK, Waiting, insert};
+use super::slab::{Approach, SlabRay, clip, is_open_in_lanes};
+use super::traverse::{Pending, STACK, insert};
 
-/// As many rays are tested against all children of a node, one after the other; of more all against
-/// each child.
+/// Up to this number of active rays, each is tested against all children of a node at once;
+/// otherwise all rays are tested against each child.
 const FEW: u32 = 2;
 
-/// Rays along one axis.
+/// The rays of a packet along one axis.
 struct Slopes<S: Simd> {
     /// 1 over the direction; infinite for 0, with its sign.
     inverse: Singles<S>,
-    /// The origin against low planes. Rays that rise come in there, and the planes must not be too
-    /// far; others go out there, and they must not be too near: it is the larger end both times.
+    /// The origin for tests against low planes: the upper end of its interval. Ascending rays enter
+    /// there and must not enter too late; others leave there and must not leave too early.
     against_low: Singles<S>,
-    /// The origin against high planes, the smaller end.
+    /// The origin for tests against high planes: the lower end of its interval.
     against_high: Singles<S>,
     rises: <Singles<S> as SimdBase<S>>::Mask,
     bounds: SlopeBounds<S>,
 }
 
-/// What lies between all rays of a packet along one axis, in each lane the same.
+/// The bounds of all rays of a packet along one axis, the same in all lanes.
 struct SlopeBounds<S: Simd> {
-    /// The least and the greatest inverse.
+    /// The minimum and the maximum inverse.
     inverse: [Singles<S>; 2],
-    /// The origins against planes where rays come in, such that none is too far.
+    /// The origin for tests against entry planes, conservative for all rays.
     near_origin: Singles<S>,
-    /// The origins against planes where rays go out, such that none is too near.
+    /// The origin for tests against exit planes, conservative for all rays.
     far_origin: Singles<S>,
-    /// Where rays come in: 0 for low planes, 1 for high ones.
+    /// The side where rays enter: 0 for low planes, 1 for high ones.
     near_side: usize,
-    /// Whether this says anything: not if some rise and others do not, or a direction is 0.
-    tells: bool,
+    /// Whether the bounds are valid: all directions have the same sign, and none is 0.
+    is_valid: bool,
 }
 
 /// See [`Bvh::traverse_packet`].
@@ -80,18 +80,18 @@ pub(super) fn traverse<S: Simd>(
     let start = singles(approach.start());
     let mut reach = singles(approach.limits(limits));
     let mut stack = ArrayVec::<_, STACK>::new();
-    stack.push(Waiting {
+    stack.push(Pending {
         entry: f32::NEG_INFINITY,
         child: Child::Inner(0),
         lanes,
     });
-    while let Some(Waiting {
+    while let Some(Pending {
         entry,
         child,
         lanes,
     }) = stack.pop()
     {
-        let reached = opens([Singles::splat(reach.simd, entry), reach]);
+        let reached = is_open_in_lanes([Singles::splat(reach.simd, entry), reach]);
         let lanes = bits::<S>(reached) & lanes;
         if lanes == 0 {
             continue;
@@ -101,16 +101,16 @@ pub(super) fn traverse<S: Simd>(
                 let node = &bvh.nodes[number as usize];
                 let base = stack.len();
                 if lanes.count_ones() <= FEW {
-                    let mut met = meet_few(node, &slopes, [start, reach], lanes);
-                    while met.children != 0 {
-                        let lane = met.children.trailing_zeros() as usize % WIDTH;
-                        met.children &= met.children - 1;
-                        let waiting = Waiting {
-                            entry: met.entries[lane],
+                    let mut hits = hit_few(node, &slopes, [start, reach], lanes);
+                    while hits.children != 0 {
+                        let lane = hits.children.trailing_zeros() as usize % WIDTH;
+                        hits.children &= hits.children - 1;
+                        let pending = Pending {
+                            entry: hits.entries[lane],
                             child: node.child(lane),
-                            lanes: met.lanes[lane],
+                            lanes: hits.lanes[lane],
                         };
-                        insert(&mut stack, base, waiting);
+                        insert(&mut stack, base, pending);
                     }
                     continue;
                 }
@@ -118,15 +118,15 @@ pub(super) fn traverse<S: Simd>(
                 while candidates != 0 {
                     let lane = candidates.trailing_zeros() as usize % WIDTH;
                     candidates &= candidates - 1;
-                    let (entry, lanes) = meet(node, lane, &slopes, [start, reach], lanes);
+                    let (entry, lanes) = hit_child(node, lane, &slopes, [start, reach], lanes);
                     if lanes != 0 {
                         let child = node.child(lane);
-                        let waiting = Waiting {
+                        let pending = Pending {
                             entry,
                             child,
                             lanes,
                         };
-                        insert(&mut stack, base, waiting);
+                        insert(&mut stack, base, pending);
                     }
                 }
             }
@@ -140,9 +140,9 @@ pub(super) fn traverse<S: Simd>(
 }
 
 impl<S: Simd> Slopes<S> {
-    /// The ray in a lane, as [`SlabRay::of`] takes it.
+    /// The ray in a lane, as expected by [`SlabRay::of`].
     #[inline(always)]
-    fn of_lane(&self, lane: usize) -> [f32; 3] {
+    fn lane(&self, lane: usize) -> [f32; 3] {
         [
             self.inverse[lane],
             self.against_low[lane],
@@ -151,7 +151,7 @@ impl<S: Simd> Slopes<S> {
     }
 }
 
-/// Rays along an axis by what [`Approach::slopes`] says.
+/// Converts the rays along an axis from [`Approach::slopes`].
 #[inline(always)]
 fn slopes<S: Simd>(numbers: [Eight<S>; 3]) -> Slopes<S> {
     let [inverse, against_low, against_high] = numbers.map(
@@ -167,27 +167,27 @@ fn slopes<S: Simd>(numbers: [Eight<S>; 3]) -> Slopes<S> {
         against_high.reduce_min_precise(),
     ];
     let [near_origin, far_origin] = if all_rise { ends } else { [ends[1], ends[0]] };
-    let (slow, fast) = (inverse.reduce_min_precise(), inverse.reduce_max_precise());
-    let alike = all_rise || bits::<S>(rises) == 0;
+    let (least, greatest) = (inverse.reduce_min_precise(), inverse.reduce_max_precise());
+    let same_sign = all_rise || bits::<S>(rises) == 0;
     Slopes {
         inverse,
         against_low,
         against_high,
         rises,
         bounds: SlopeBounds {
-            inverse: [Singles::splat(simd, slow), Singles::splat(simd, fast)],
+            inverse: [Singles::splat(simd, least), Singles::splat(simd, greatest)],
             near_origin: Singles::splat(simd, near_origin),
             far_origin: Singles::splat(simd, far_origin),
             near_side: usize::from(!all_rise),
-            tells: alike && slow.is_finite() && fast.is_finite(),
+            is_valid: same_sign && least.is_finite() && greatest.is_finite(),
         },
     }
 }
 
-/// The children that are not empty and that some ray may meet, a bit for each.
+/// A mask of the children that some ray may hit.
 ///
-/// Where all rays go the same way along an axis, a distance of any of them is between the products
-/// of the bounds: rounding keeps order.
+/// If all directions along an axis have the same sign, the distances of all rays are between the
+/// products of the bounds, as rounding is monotonic.
 #[inline(always)]
 fn candidates<S: Simd>(
     node: &Node,
@@ -201,23 +201,23 @@ fn candidates<S: Simd>(
     ];
     for (axis, slopes) in slopes.iter().enumerate() {
         let bounds = &slopes.bounds;
-        if !bounds.tells {
+        if !bounds.is_valid {
             continue;
         }
         let [near, far] = node.planes(reach.simd, axis, bounds.near_side);
-        let [slow, fast] = bounds.inverse;
+        let [least, greatest] = bounds.inverse;
         let near = near - bounds.near_origin;
         let far = far - bounds.far_origin;
-        let near = (near * slow).min(near * fast);
-        let far = (far * slow).max(far * fast);
-        interval = cut(interval, near, far);
+        let near = (near * least).min(near * greatest);
+        let far = (far * least).max(far * greatest);
+        interval = clip(interval, near, far);
     }
-    bits::<S>(opens(interval)) & node.filled()
+    bits::<S>(is_open_in_lanes(interval)) & node.filled()
 }
 
-/// Which of the rays meet a child, and where the first of them enters its box.
+/// Returns the distance at which the first ray enters a child's box, and the lanes that hit it.
 #[inline(always)]
-fn meet<S: Simd>(
+fn hit_child<S: Simd>(
     node: &Node,
     lane: usize,
     slopes: &[Slopes<S>; 3],
@@ -232,33 +232,33 @@ fn meet<S: Simd>(
         let high = (Singles::splat(simd, high) - slopes.against_high) * slopes.inverse;
         let near = slopes.rises.select(low, high);
         let far = slopes.rises.select(high, low);
-        interval = cut(interval, near, far);
+        interval = clip(interval, near, far);
     }
-    let met = opens(interval);
-    let entry = met.select(interval[0], Singles::splat(simd, f32::INFINITY));
+    let hits = is_open_in_lanes(interval);
+    let entry = hits.select(interval[0], Singles::splat(simd, f32::INFINITY));
     // No entry is NaN.
-    (entry.reduce_min(), bits::<S>(met) & lanes)
+    (entry.reduce_min(), bits::<S>(hits) & lanes)
 }
 
-/// The children of a node that few rays meet.
-struct Met {
-    /// A bit for each.
+/// The children of a node that few rays hit.
+struct FewHits {
+    /// A mask of the children.
     children: u32,
-    /// Where the first ray enters its box.
+    /// The distance at which the first ray enters each child's box.
     entries: [f32; WIDTH],
-    /// Which of the rays meet it.
+    /// The lanes that hit each child.
     lanes: [u32; WIDTH],
 }
 
-/// Tests few rays against all children, one after the other.
+/// Tests few rays, one by one, against all children at once.
 #[inline(always)]
-fn meet_few<S: Simd>(
+fn hit_few<S: Simd>(
     node: &Node,
     [x, y, z]: &[Slopes<S>; 3],
     [start, reach]: [Singles<S>; 2],
     mut lanes: u32,
-) -> Met {
-    let mut few = Met {
+) -> FewHits {
+    let mut few = FewHits {
         children: 0,
         entries: [f32::INFINITY; WIDTH],
         lanes: [0; WIDTH],
@@ -269,13 +269,13 @@ fn meet_few<S: Simd>(
         let ray = SlabRay::of(
             reach.simd,
             start[lane],
-            [x.of_lane(lane), y.of_lane(lane), z.of_lane(lane)],
+            [x.lane(lane), y.lane(lane), z.lane(lane)],
         );
-        let (entries, mut met) = node.entries(&ray, reach[lane]);
-        few.children |= met;
-        while met != 0 {
-            let child = met.trailing_zeros() as usize % WIDTH;
-            met &= met - 1;
+        let (entries, mut hits) = node.entries(&ray, reach[lane]);
+        few.children |= hits;
+        while hits != 0 {
+            let child = hits.trailing_zeros() as usize % WIDTH;
+            hits &= hits - 1;
             few.entries[child] = few.entries[child].min(entries[child]);
             few.lanes[child] |= 1 << lane;
         }

@@ -1,20 +1,20 @@
-//! A tree whose boxes follow the few that moved, divided as it was.
+//! Refits a tree to a few moved boxes without changing its topology.
 
 use super::Bvh;
 use super::node::{Bounds, Child, Node, WIDTH};
 use crate::geometry::Aabb;
 
-/// The most boxes that are followed at once: each is looked for among all.
-const MOST: usize = 16;
+/// The maximum number of boxes moved at once: each is searched for among all.
+const MAX_MOVED: usize = 16;
 
-/// Of so many boxes one may have moved since the tree was built: what is divided as if things were
-/// elsewhere costs rays time.
-const MOVED: usize = 1024;
+/// One of this many boxes may have moved since the tree was built: an outdated topology slows rays
+/// down.
+const BOXES_PER_MOVE: usize = 1024;
 
 /// See [`Bvh::refitted`].
 pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> Option<Bvh> {
     let moved = bvh.moved + changed.len();
-    if MOST < changed.len() || bvh.order.len() / MOVED < moved {
+    if MAX_MOVED < changed.len() || bvh.order.len() / BOXES_PER_MOVE < moved {
         return None;
     }
     let bounds = |index: u32| Bounds::around(aabb(index), bvh.reference);
@@ -23,8 +23,8 @@ pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> O
         return None;
     }
     let bounded = &bvh.order[..bvh.bounded];
-    let place = |index: &u32| bounded.iter().position(|held| held == index);
-    let places: Vec<usize> = changed.iter().map(place).collect::<Option<_>>()?;
+    let find = |index: &u32| bounded.iter().position(|other| other == index);
+    let positions: Vec<usize> = changed.iter().map(find).collect::<Option<_>>()?;
     let mut parents = vec![(0, 0); bvh.nodes.len()];
     let mut leaves = Vec::new();
     for (number, node) in bvh.nodes.iter().enumerate() {
@@ -33,7 +33,7 @@ pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> O
                 Child::Inner(child) => parents[child as usize] = (number, lane),
                 Child::Leaf { first, count } => {
                     let run = first as usize..first as usize + usize::from(count);
-                    if places.iter().any(|place| run.contains(place)) {
+                    if positions.iter().any(|position| run.contains(position)) {
                         leaves.push((number, lane));
                     }
                 }
@@ -46,11 +46,11 @@ pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> O
         let Child::Leaf { first, count } = child else {
             continue;
         };
-        let held = &bvh.order[first as usize..][..usize::from(count)];
+        let indices = &bvh.order[first as usize..][..usize::from(count)];
         let around = |sum: Bounds, &index: &u32| sum.union(&bounds(index));
-        let own = held.iter().fold(Bounds::EMPTY, around);
+        let own = indices.iter().fold(Bounds::EMPTY, around);
         nodes[number].put(lane, &own, child);
-        // A root is not below any node.
+        // The root has no parent.
         while number != 0 {
             let whole = whole(&nodes[number]);
             (number, lane) = parents[number];
@@ -69,7 +69,7 @@ pub(super) fn refit(bvh: &Bvh, changed: &[u32], aabb: impl Fn(u32) -> Aabb) -> O
     })
 }
 
-/// The box around all that is in a node; a missing child's is empty.
+/// The union of the children's boxes; a missing child's is empty.
 fn whole(node: &Node) -> Bounds {
     let all = (0..WIDTH).map(|lane| node.bounds(lane));
     all.fold(Bounds::EMPTY, |sum, bounds| sum.union(&bounds))

@@ -1,126 +1,125 @@
-//! Rays against the planes of boxes, in single precision: half as wide as the numbers that surfaces
-//! are met with, so half the work, and boxes hold no more.
+//! Slab tests of rays against boxes, in single precision: half the work of double precision, and
+//! boxes are stored in single precision anyway.
 //!
 //! # How nothing is missed
 //!
-//! A ray's origin is taken between two numbers, and each plane is tested against the one that makes
-//! its box larger. With u = 2⁻²⁴, a distance (plane − origin) · (1 / direction) then carries three
-//! roundings (and one of double precision, far less), so it is off by a factor of 1 ± γ₃,
-//! γ₃ = 3u / (1 − 3u), and by less than the least normal number where it underflows. Entry ≤ exit
-//! therefore holds for every box that is met once the exit is raised by 2γ₃ of its magnitude (Ize,
-//! "Robust BVH Ray Traversal", JCGT 2013) and by that number; [`MARGIN`] leaves room for the rounding
-//! of that. Distances may be negative: see [`REMOTE`].
+//! A ray's origin is enclosed in an interval, and each plane is tested against the end that
+//! enlarges its box. With u = 2⁻²⁴, a distance (plane − origin) · (1 / direction) then has three
+//! roundings (and one of double precision, far smaller), so it is off by a factor of 1 ± γ₃ with
+//! γ₃ = 3u / (1 − 3u), and by less than the least normal number if it underflows. Entry ≤ exit
+//! therefore holds for every box that is hit if the exit is raised by 2γ₃ of its magnitude (Ize,
+//! "Robust BVH Ray Traversal", JCGT 2013) and by that number; [`MARGIN`] leaves room for the
+//! rounding of this. Distances may be negative: see [`REMOTE`].
 //!
-//! Along an axis where a distance might overflow, or the inverse is not a normal number, a ray is taken
-//! to meet everything. A direction of 0 is well: its inverse is infinite.
+//! Along an axis where a distance might overflow, or the inverse is not a normal number, a ray hits
+//! everything. A direction of 0 is no such case: its inverse is infinite.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use super::Bvh;
 use crate::geometry::Rays;
 use crate::geometry::lanes::{Lanes, Simd, SimdBase, Singles, Vector};
 
-/// How much farther than computed a ray may leave a box, of the distance: 8u.
+/// The relative extension of the distance at which a ray leaves a box: 8u.
 const MARGIN: f32 = 4.0 * f32::EPSILON;
 
-/// The largest numbers that are computed with: room for all roundings below those of `f32`.
+/// The largest magnitude in computations: it leaves room for all roundings below that of `f32`.
 const MOST: f64 = (1_u128 << 126) as f64;
 
-/// Twice the error of rounding to single precision, which makes up for those before it too.
+/// Twice the error of rounding to single precision, which covers earlier roundings too.
 const SLACK: f64 = f32::EPSILON as f64;
 
-/// As many times as far from a tree's reference point as half of its boxes are, rays are followed to
-/// where they pass it before their distances are counted: else all of those would be within the
-/// rounding of the origin, as for rays that come from a sky around them.
+/// Rays that start farther than this from a tree's reference point, relative to the median distance
+/// of its boxes, are first advanced to their closest point: otherwise all distances would be within
+/// the rounding of the origin, as for rays from a surrounding sky.
 const REMOTE: f64 = 64.0;
 
-/// More than the error of all operations in double precision that lead to a place.
+/// Above the relative error of all operations in double precision that lead to a position.
 const DRIFT: f64 = 16.0 * f64::EPSILON;
 
-/// Rays as a tree sees them, in each lane.
+/// Rays relative to a tree, in each lane.
 pub(super) struct Approach<N> {
-    /// Where they are when distances begin to count, relative to the reference point.
-    from: Vector<N>,
-    /// More than the error of each coordinate, beside that of its last place.
+    /// The points from which distances count, relative to the reference point.
+    origin: Vector<N>,
+    /// Above the error of each coordinate, in addition to its own rounding.
     error: N,
-    /// How far along the rays that is.
-    ahead: N,
+    /// The distances of `origin` along the rays.
+    advance: N,
 }
 
 impl<N: Lanes> Approach<N> {
-    /// Rays as this tree sees them.
+    /// Converts rays, advancing those that start far away.
     #[inline(always)]
     pub(super) fn new(rays: &Rays<N>, bvh: &Bvh) -> Self {
         let all = |value| rays.origin.x.all(value);
         let zero = all(0.0);
-        let from = rays.origin - Vector::all(zero, bvh.reference);
-        let size = from.abs().largest();
+        let origin = rays.origin - Vector::all(zero, bvh.reference);
+        let size = origin.abs().largest();
         let remote = all(REMOTE * bvh.spread).below(size);
         if !N::any(remote) {
             return Self {
-                from,
+                origin,
                 error: zero,
-                ahead: zero,
+                advance: zero,
             };
         }
         let direction = rays.direction;
-        let way = -from.dot(direction) / direction.length_squared();
-        // Not those that go away, nor where this is beyond all numbers.
-        let moves = remote & zero.below(way) & (way * zero).equals(zero);
-        let place = from + direction.scaled(way);
-        let error = (size + way * direction.abs().largest()) * all(DRIFT);
+        let distance = -origin.dot(direction) / direction.length_squared();
+        // Not rays that point away, nor if the distance is not finite.
+        let moves = remote & zero.below(distance) & (distance * zero).equals(zero);
+        let position = origin + direction.scaled(distance);
+        let error = (size + distance * direction.abs().largest()) * all(DRIFT);
         Self {
-            from: Vector::select(moves, place, from),
+            origin: Vector::select(moves, position, origin),
             error: N::select(moves, error, zero),
-            ahead: N::select(moves, way, zero),
+            advance: N::select(moves, distance, zero),
         }
     }
 
-    /// What is not above the distance at which the rays start, once it is rounded to single precision.
+    /// Lower bounds, even after rounding to `f32`, of the distances at which rays start.
     #[inline(always)]
     pub(super) fn start(&self) -> N {
-        let ahead = self.ahead;
-        -(ahead + ahead * ahead.all(SLACK))
+        let advance = self.advance;
+        -(advance + advance * advance.all(SLACK))
     }
 
-    /// What is not below limits along the rays once it is rounded to single precision, or by less than
-    /// underflow.
+    /// Upper bounds, even after rounding to `f32` but up to underflow, of limits along the rays.
     #[inline(always)]
     pub(super) fn limits(&self, limits: N) -> N {
-        let rest = limits - self.ahead + self.ahead * limits.all(DRIFT);
+        let rest = limits - self.advance + self.advance * limits.all(DRIFT);
         rest + rest.abs() * rest.all(SLACK)
     }
 
-    /// The rays along an axis as planes are tested against them that are up to `farthest` from the
-    /// reference point: 1 over their directions, and numbers not below and not above where they are,
-    /// and still so once they are rounded to single precision.
+    /// Returns the rays along an axis for tests against planes up to `farthest` from the reference
+    /// point: 1 over their directions, and upper and lower bounds of their origins, valid even
+    /// after rounding to single precision.
     #[inline(always)]
-    fn against(&self, from: N, direction: N, farthest: f64) -> [N; 3] {
-        /// The gap between the least numbers.
+    fn against(&self, origin: N, direction: N, farthest: f64) -> [N; 3] {
+        /// The least positive number of `f32`.
         const LEAST: f64 = f32::from_bits(1) as f64;
-        let all = |value| from.all(value);
+        let all = |value| origin.all(value);
         let inverse = all(1.0) / direction;
-        let slack = from.abs() * all(SLACK) + all(LEAST) + self.error;
-        // An infinite inverse makes no distance larger that is not infinite or 0 anyway.
+        let slack = origin.abs() * all(SLACK) + all(LEAST) + self.error;
+        // With an infinite inverse every distance is infinite or NaN anyway.
         let zero = direction.equals(all(0.0));
         let size = N::select(zero, all(1.0), inverse.abs());
-        let most = from.abs() + all(farthest);
+        let most = origin.abs() + all(farthest);
         let largest = most.larger(all(1.0)) * size.larger(all(1.0));
-        let tells = all(1.0 / MOST).up_to(size) & largest.up_to(all(MOST));
+        let is_valid = all(1.0 / MOST).up_to(size) & largest.up_to(all(MOST));
         [
-            N::select(tells, inverse, all(1.0)),
-            N::select(tells, from + slack, all(f64::INFINITY)),
-            N::select(tells, from - slack, all(f64::NEG_INFINITY)),
+            N::select(is_valid, inverse, all(1.0)),
+            N::select(is_valid, origin + slack, all(f64::INFINITY)),
+            N::select(is_valid, origin - slack, all(f64::NEG_INFINITY)),
         ]
     }
 
-    /// The same along each axis.
+    /// The same along all axes.
     #[inline(always)]
     pub(super) fn slopes(&self, direction: Vector<N>, farthest: f64) -> [[N; 3]; 3] {
-        let Vector { x, y, z } = self.from;
+        let Vector { x, y, z } = self.origin;
         [
             self.against(x, direction.x, farthest),
             self.against(y, direction.y, farthest),
@@ -129,9 +128,9 @@ impl<N: Lanes> Approach<N> {
     }
 }
 
-/// A ray as the boxes of a node are tested against it, in each lane the same.
+/// A ray prepared for tests against the boxes of a node, the same in all lanes.
 pub(super) struct SlabRay<S: Simd> {
-    /// Where it starts.
+    /// The distance at which the ray starts.
     pub(super) start: f32,
     pub(super) slopes: [Slope<S>; 3],
 }
@@ -140,16 +139,16 @@ pub(super) struct SlabRay<S: Simd> {
 pub(super) struct Slope<S: Simd> {
     /// 1 over the direction; infinite for 0, with its sign.
     pub(super) inverse: Singles<S>,
-    /// The origin against planes where the ray comes in, such that they are not too far.
+    /// The origin for tests against entry planes, never too late.
     pub(super) near_origin: Singles<S>,
-    /// The origin against planes where the ray goes out, such that they are not too near.
+    /// The origin for tests against exit planes, never too early.
     pub(super) far_origin: Singles<S>,
-    /// Where the ray comes in: 0 for low planes, 1 for high ones.
+    /// The side where the ray enters: 0 for low planes, 1 for high ones.
     pub(super) near_side: usize,
 }
 
 impl<S: Simd> SlabRay<S> {
-    /// A ray by what [`Approach::slopes`] says, rounded.
+    /// Converts a ray from [`Approach::slopes`], rounded to `f32`.
     #[inline(always)]
     pub(super) fn of(simd: S, start: f32, [x, y, z]: [[f32; 3]; 3]) -> Self {
         Self {
@@ -160,7 +159,7 @@ impl<S: Simd> SlabRay<S> {
 }
 
 impl<S: Simd> Slope<S> {
-    /// A ray along one axis by what [`Approach::slopes`] says of it, rounded.
+    /// Converts one axis from [`Approach::slopes`], rounded to `f32`.
     #[inline(always)]
     fn of(simd: S, [inverse, above, below]: [f32; 3]) -> Self {
         let rises = inverse.is_sign_positive();
@@ -178,10 +177,9 @@ impl<S: Simd> Slope<S> {
     }
 }
 
-/// The part of an interval that is beyond the `near` and before the `far`. A NaN, 0 · ∞ of a ray that
-/// runs in a face, cuts nothing.
+/// Clips an interval to `near..far`. NaN, from 0 · ∞ for a ray in a face, clips nothing.
 #[inline(always)]
-pub(super) fn cut<S: Simd>(
+pub(super) fn clip<S: Simd>(
     [entry, exit]: [Singles<S>; 2],
     near: Singles<S>,
     far: Singles<S>,
@@ -189,15 +187,17 @@ pub(super) fn cut<S: Simd>(
     [entry.max_precise(near), exit.min_precise(far)]
 }
 
-/// Whether a box entered there by computation may be met up to a limit.
+/// Whether a box with this computed entry may be hit up to a limit.
 #[inline(always)]
 pub(super) fn is_open(entry: f32, limit: f32) -> bool {
     entry <= limit + limit.abs() * MARGIN + f32::MIN_POSITIVE
 }
 
-/// The lanes whose interval may hold something.
+/// The lanes whose interval may be nonempty.
 #[inline(always)]
-pub(super) fn opens<S: Simd>([entry, exit]: [Singles<S>; 2]) -> <Singles<S> as SimdBase<S>>::Mask {
+pub(super) fn is_open_in_lanes<S: Simd>(
+    [entry, exit]: [Singles<S>; 2],
+) -> <Singles<S> as SimdBase<S>>::Mask {
     let simd = exit.simd;
     let margin = exit.abs() * Singles::splat(simd, MARGIN);
     entry.simd_le(exit + margin + Singles::splat(simd, f32::MIN_POSITIVE))

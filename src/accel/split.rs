@@ -1,45 +1,45 @@
-//! Dividing boxes in two by the surface area heuristic over bins.
+//! Divides boxes in two by the binned surface area heuristic.
 //!
 //! After Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies" (RT 2007). Bins are
-//! merged by minimum, maximum and sum of integers, so they do not depend on how work was shared.
+//! merged by minimum, maximum and integer sum, so they do not depend on the distribution of work.
 
 use rayon::prelude::*;
 
 use super::node::Bounds;
 
-/// A box on its way into the tree.
+/// A box to be inserted into the tree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reference {
     pub(super) bounds: Bounds,
     pub(super) index: u32,
 }
 
-/// The answer of a build that was told to stop.
+/// The error of a cancelled build.
 #[derive(Debug)]
 pub(super) struct Cancelled;
 
-/// The caller's wish to stop, asked as a check that fails.
-pub(super) struct Patience<'a, F>(pub(super) &'a F);
+/// The caller's cancellation callback, as a check that fails.
+pub(super) struct CancelCheck<'a, F>(pub(super) &'a F);
 
-impl<F: Fn() -> bool + Sync> Patience<'_, F> {
+impl<F: Fn() -> bool + Sync> CancelCheck<'_, F> {
     pub(super) fn check(&self) -> Result<(), Cancelled> {
         if (self.0)() { Err(Cancelled) } else { Ok(()) }
     }
 }
 
-/// References looked at between two checks, and the least worth a task: about 0.2 ms.
+/// The number of references between two checks, and the smallest parallel task: about 0.2 ms.
 pub(super) const CHUNK: usize = 8192;
 
-/// References from which only the axis is considered along which their centres spread most. Tried: all
-/// three axes up to 256 references (building takes half as long again, and rays go 0.4 % faster at
-/// most); all three for any number, with 64 bins (three times as long; rays among a million triangles
-/// go 4 % faster, among spheres not at all).
+/// The number of references from which only the axis of the widest spread of centres is considered.
+/// Rejected: all three axes up to 256 references (building takes 1.5 times as long, and rays are at
+/// most 0.4 % faster); all three for any number, with 64 bins (three times as long; rays are 4 %
+/// faster among a million triangles, not at all among spheres).
 const MANY: usize = 16;
 
-/// References from which several threads divide them.
+/// The number of references above which they are partitioned in parallel.
 const SHARED: usize = 65_536;
 
-/// The boxes around some references and around their centres.
+/// The bounds of some references, and of their centres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     pub(super) bounds: Bounds,
@@ -52,12 +52,12 @@ impl Extent {
         centres: Bounds::EMPTY,
     };
 
-    /// Measures references.
+    /// Computes the extent of references.
     pub(super) fn of(
         references: &[Reference],
-        patience: &Patience<impl Fn() -> bool + Sync>,
+        cancel: &CancelCheck<impl Fn() -> bool + Sync>,
     ) -> Result<Self, Cancelled> {
-        gather(references, patience, Self::EMPTY, Self::measure, |a, b| {
+        gather(references, cancel, Self::EMPTY, Self::measure, |a, b| {
             Self {
                 bounds: a.bounds.union(&b.bounds),
                 centres: a.centres.union(&b.centres),
@@ -78,7 +78,7 @@ impl Extent {
         extent
     }
 
-    /// The axis along which the centres spread most.
+    /// The axis of the widest spread of centres.
     fn widest(&self) -> usize {
         let width = |axis: usize| self.centres.high[axis] - self.centres.low[axis];
         let wider = usize::from(width(0) < width(1));
@@ -86,29 +86,30 @@ impl Extent {
     }
 }
 
-/// Divides the references into two parts, neither empty, and returns the length of the first: where
-/// the heuristic sees the least cost, or in halves if all centres fall together. What is in `spare`,
-/// of the same length, is of no account.
+/// Divides the references into two nonempty parts at the least cost by the heuristic, or in halves
+/// if all centres coincide, and returns the length of the first. `spare` is scratch space of the
+/// same length.
 pub(super) fn by_area(
     references: &mut [Reference],
     spare: &mut [Reference],
     extent: &Extent,
-    patience: &Patience<impl Fn() -> bool + Sync>,
+    cancel: &CancelCheck<impl Fn() -> bool + Sync>,
 ) -> Result<usize, Cancelled> {
     let division = match references.len() {
-        0..MANY => cheapest::<3, { BINS / 2 }>([0, 1, 2], references, extent, patience),
-        MANY..FEW => cheapest::<1, { BINS / 2 }>([extent.widest()], references, extent, patience),
-        _ => cheapest::<1, BINS>([extent.widest()], references, extent, patience),
+        0..MANY => cheapest::<3, { BINS / 2 }>([0, 1, 2], references, extent, cancel),
+        MANY..FEW => cheapest::<1, { BINS / 2 }>([extent.widest()], references, extent, cancel),
+        _ => cheapest::<1, BINS>([extent.widest()], references, extent, cancel),
     };
     match division? {
-        Some(Division { axis, grid, bin }) => partition(references, spare, patience, |reference| {
+        Some(Division { axis, grid, bin }) => partition(references, spare, cancel, |reference| {
             grid.is_before(reference.bounds.middle(axis), bin)
         }),
         None => Ok(references.len() / 2),
     }
 }
 
-/// Divides the references into halves by their centres along the widest axis.
+/// Divides the references in halves by their centres along the widest axis, and returns the length
+/// of the first.
 pub(super) fn by_count(references: &mut [Reference], extent: &Extent) -> usize {
     let axis = extent.widest();
     let half = references.len() / 2;
@@ -119,30 +120,30 @@ pub(super) fn by_count(references: &mut [Reference], extent: &Extent) -> usize {
     half
 }
 
-/// The most bins along an axis.
+/// The maximum number of bins along an axis.
 const BINS: usize = 16;
 
-/// References up to which there are half as many bins: sweeping them is most of the work for few.
+/// Fewer references have half as many bins: for few, sweeping the bins is most of the work.
 const FEW: usize = 64;
 
-/// The boxes whose centres are in the bins before one go to the first part.
+/// A division: boxes with centres in the bins before `bin` go to the first part.
 struct Division {
     axis: usize,
     grid: Grid,
     bin: usize,
 }
 
-/// The cheapest division along one of some axes; none if each has all in one bin.
+/// The cheapest division along one of the given axes; `None` if all centres share a bin on each.
 fn cheapest<const AXES: usize, const COUNT: usize>(
     axes: [usize; AXES],
     references: &[Reference],
     extent: &Extent,
-    patience: &Patience<impl Fn() -> bool + Sync>,
+    cancel: &CancelCheck<impl Fn() -> bool + Sync>,
 ) -> Result<Option<Division>, Cancelled> {
     let grids = axes.map(|axis| Grid::new(&extent.centres, axis, COUNT));
     let rows = gather(
         references,
-        patience,
+        cancel,
         [const { Bins::<COUNT>::EMPTY }; AXES],
         |chunk| {
             let mut rows = [const { Bins::EMPTY }; AXES];
@@ -181,7 +182,7 @@ fn cheapest<const AXES: usize, const COUNT: usize>(
 #[derive(Clone, Copy)]
 struct Grid {
     low: f32,
-    /// Bins a unit of length; infinite for coincident centres.
+    /// Bins per unit of length; infinite for coincident centres.
     scale: f32,
     last: usize,
 }
@@ -196,28 +197,28 @@ impl Grid {
         }
     }
 
-    /// The bin of a coordinate; 0 · ∞ counts as the first.
+    /// The bin of a coordinate; the first for 0 · ∞.
     #[inline]
     fn bin(&self, coordinate: f32) -> usize {
-        // Of all integers the conversion to this one takes the fewest instructions.
-        let bin = self.place(coordinate) as i32;
+        // Of all integer types the conversion to this one takes the fewest instructions.
+        let bin = self.position(coordinate) as i32;
         (bin as usize).min(self.last)
     }
 
-    /// Whether a coordinate's bin is before this one, which is not the first.
+    /// Whether a coordinate's bin is before `bin`, which must not be the first.
     #[inline]
     fn is_before(&self, coordinate: f32, bin: usize) -> bool {
-        let place = self.place(coordinate);
-        place < bin as f32 || place.is_nan()
+        let position = self.position(coordinate);
+        position < bin as f32 || position.is_nan()
     }
 
     #[inline]
-    fn place(&self, coordinate: f32) -> f32 {
+    fn position(&self, coordinate: f32) -> f32 {
         (coordinate - self.low) * self.scale
     }
 }
 
-/// What fell into each bin along an axis: the box around it, and how much it is.
+/// The bounds and the number of boxes in each bin along an axis.
 struct Bins<const COUNT: usize> {
     bounds: [Bounds; COUNT],
     counts: [u32; COUNT],
@@ -243,7 +244,7 @@ impl<const COUNT: usize> Bins<COUNT> {
         }
     }
 
-    /// The least cost of a division, and the first bin of its second part; infinite if all is in one
+    /// The least cost of a division (infinite if all are in one bin), and its second part's first
     /// bin.
     fn cheapest(&self) -> (f64, usize) {
         let mut after = [f64::INFINITY; COUNT];
@@ -267,7 +268,7 @@ impl<const COUNT: usize> Bins<COUNT> {
     }
 }
 
-/// Half area times count, in proportion to the expected work; infinite if there is nothing.
+/// Half area times count, proportional to the expected work; infinite for no boxes.
 #[inline]
 fn cost(bounds: &Bounds, count: u32) -> f64 {
     if count == 0 {
@@ -280,7 +281,7 @@ fn cost(bounds: &Bounds, count: u32) -> f64 {
 /// Reduces chunks of references, in parallel if there are several, with a check before each.
 fn gather<T: Send>(
     references: &[Reference],
-    patience: &Patience<impl Fn() -> bool + Sync>,
+    cancel: &CancelCheck<impl Fn() -> bool + Sync>,
     empty: T,
     measure: impl Fn(&[Reference]) -> T + Sync,
     merge: impl Fn(T, T) -> T + Sync,
@@ -289,18 +290,18 @@ fn gather<T: Send>(
         return Ok(measure(references));
     }
     let chunks = references.par_chunks(CHUNK).map(|chunk| {
-        patience.check()?;
+        cancel.check()?;
         Ok(measure(chunk))
     });
     let merged = chunks.try_reduce_with(|a, b| Ok(merge(a, b)));
     merged.unwrap_or(Ok(empty))
 }
 
-/// Moves the references that belong first to the front, all in order, and returns how many they are.
+/// Stably moves the references that belong first to the front, and returns their number.
 fn partition(
     references: &mut [Reference],
     spare: &mut [Reference],
-    patience: &Patience<impl Fn() -> bool + Sync>,
+    cancel: &CancelCheck<impl Fn() -> bool + Sync>,
     belongs_first: impl Fn(&Reference) -> bool + Sync,
 ) -> Result<usize, Cancelled> {
     if references.len() <= SHARED {
@@ -310,17 +311,17 @@ fn partition(
     let counts: Vec<usize> = chunks
         .map(|chunk| chunk.iter().filter(|&one| belongs_first(one)).count())
         .collect();
-    patience.check()?;
+    cancel.check()?;
     let count = counts.iter().sum();
     let mut rest = spare.split_at_mut(count);
-    let mut places = Vec::with_capacity(counts.len());
+    let mut parts = Vec::with_capacity(counts.len());
     for (chunk, count) in references.chunks(CHUNK).zip(counts) {
         let (front, fronts) = rest.0.split_at_mut(count);
         let (back, backs) = rest.1.split_at_mut(chunk.len() - count);
         rest = (fronts, backs);
-        places.push((chunk, front, back));
+        parts.push((chunk, front, back));
     }
-    places.into_par_iter().for_each(|(chunk, front, back)| {
+    parts.into_par_iter().for_each(|(chunk, front, back)| {
         let (mut front, mut back) = (front.iter_mut(), back.iter_mut());
         for one in chunk {
             let side = if belongs_first(one) {
@@ -328,12 +329,12 @@ fn partition(
             } else {
                 &mut back
             };
-            if let Some(place) = side.next() {
-                *place = *one;
+            if let Some(slot) = side.next() {
+                *slot = *one;
             }
         }
     });
-    patience.check()?;
+    cancel.check()?;
     let back = spare.par_chunks(CHUNK);
     references
         .par_chunks_mut(CHUNK)
@@ -342,8 +343,7 @@ fn partition(
     Ok(count)
 }
 
-/// Moves the references that belong first to the front without branches, whose guesses would be
-/// wrong half of the time.
+/// The same on one thread, without branches, half of which would be mispredicted.
 fn partition_alone(
     references: &mut [Reference],
     spare: &mut [Reference],
@@ -367,7 +367,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_before_a_bin_is_in_an_earlier_one() {
+    fn a_coordinate_before_a_bin_is_in_an_earlier_one() {
         let ranges = [
             (0.0, 1.0),
             (-7.0, 0.1),

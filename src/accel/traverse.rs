@@ -1,4 +1,4 @@
-//! The walk of a ray through the tree, near children first.
+//! Traversal of the tree by a single ray, near children first.
 
 use std::ops::Range;
 
@@ -12,21 +12,21 @@ use super::node::{Child, WIDTH};
 use super::slab::{Approach, SlabRay, is_open};
 use super::{Bvh, RUN};
 
-/// The most children that can wait: a node takes one off and leaves at most [`WIDTH`], once a level.
+/// The capacity of the stack: a node pops one entry and pushes at most [`WIDTH`], once per level.
 pub(super) const STACK: usize = 1 + LEVELS * (WIDTH - 1);
 
-/// A child whose turn has not come.
+/// A child on the stack.
 #[derive(Clone, Copy)]
-pub(super) struct Waiting<L> {
-    /// Where the first of its rays enters its box.
+pub(super) struct Pending<L> {
+    /// The distance at which the first of its rays enters its box.
     pub(super) entry: f32,
     pub(super) child: Child,
-    /// The rays that meet it; nothing where there is but one.
+    /// The rays that hit it; `()` for a single ray.
     pub(super) lanes: L,
 }
 
 impl Bvh {
-    /// The places of boxes without finite planes.
+    /// Ranges of [`Bvh::order`] with the boxes without finite planes.
     #[inline]
     pub(super) fn unbounded(&self) -> impl Iterator<Item = Range<usize>> + use<> {
         let end = self.order.len();
@@ -38,7 +38,7 @@ impl Bvh {
 /// See [`Bvh::traverse`].
 #[expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take this with it"
+    reason = "this must be inlined into callers compiled for wider vectors"
 )]
 #[inline(always)]
 pub(super) fn traverse<S: Simd>(
@@ -65,15 +65,15 @@ pub(super) fn traverse<S: Simd>(
         |[inverse, above, below]| [inverse as f32, above as f32, below as f32],
     );
     let ray = SlabRay::of(simd, approach.start() as f32, slopes);
-    let root = Waiting {
+    let root = Pending {
         entry: ray.start,
         child: Child::Inner(0),
         lanes: (),
     };
-    // A walk takes less time than filling an array of this size.
+    // A traversal takes less time than filling an array of this size.
     let mut stack = ArrayVec::<_, STACK>::new();
     stack.push(root);
-    while let Some(Waiting { entry, child, .. }) = stack.pop() {
+    while let Some(Pending { entry, child, .. }) = stack.pop() {
         let reach = approach.limits(limit) as f32;
         if !is_open(entry, reach) {
             continue;
@@ -81,17 +81,17 @@ pub(super) fn traverse<S: Simd>(
         match child {
             Child::Inner(number) => {
                 let node = &bvh.nodes[number as usize];
-                let (entries, mut met) = node.entries(&ray, reach);
+                let (entries, mut hits) = node.entries(&ray, reach);
                 let base = stack.len();
-                while met != 0 {
-                    let lane = met.trailing_zeros() as usize % WIDTH;
-                    met &= met - 1;
-                    let waiting = Waiting {
+                while hits != 0 {
+                    let lane = hits.trailing_zeros() as usize % WIDTH;
+                    hits &= hits - 1;
+                    let pending = Pending {
                         entry: entries[lane],
                         child: node.child(lane),
                         lanes: (),
                     };
-                    insert(&mut stack, base, waiting);
+                    insert(&mut stack, base, pending);
                 }
             }
             Child::Leaf { first, count } => {
@@ -105,22 +105,22 @@ pub(super) fn traverse<S: Simd>(
     }
 }
 
-/// Puts a child among those from `base` on, which stay sorted with the nearest on top.
+/// Inserts a child among those from `base` on, which stay sorted with the nearest on top.
 #[expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take this with it"
+    reason = "this must be inlined into callers compiled for wider vectors"
 )]
 #[inline(always)]
 pub(super) fn insert<L: Copy>(
-    stack: &mut ArrayVec<Waiting<L>, STACK>,
+    stack: &mut ArrayVec<Pending<L>, STACK>,
     base: usize,
-    waiting: Waiting<L>,
+    pending: Pending<L>,
 ) {
-    let mut place = stack.len();
-    stack.push(waiting);
-    while base < place && stack[place - 1].entry < waiting.entry {
-        stack[place] = stack[place - 1];
-        place -= 1;
+    let mut position = stack.len();
+    stack.push(pending);
+    while base < position && stack[position - 1].entry < pending.entry {
+        stack[position] = stack[position - 1];
+        position -= 1;
     }
-    stack[place] = waiting;
+    stack[position] = pending;
 }

@@ -1,11 +1,11 @@
-//! A folder that is held open, so that what is read in it stands in it.
+//! A folder that is kept open, so that files opened through it are certain to lie in it.
 //!
-//! Between a look at a path and its opening anybody may put a link in a folder's place. So the path
-//! is resolved first, links and all; if the outcome lies in a folder that may be read, it has no
-//! links left, and is gone through from that folder's descriptor, name by name, following none. What
-//! became a link meanwhile is an error then. Linux can do this in one call, `openat2` with
-//! `RESOLVE_BENEATH`; that refuses absolute links even to places within, is missing in older kernels
-//! and forbidden in some containers, and so would need this walk besides.
+//! Between the check of a path and its opening, anyone may replace a folder by a link. So the path
+//! is resolved first; if the result lies in a permitted folder, it contains no links, and is opened
+//! component by component from that folder's descriptor without following links. What became a link
+//! meanwhile is an error. On Linux `openat2` with `RESOLVE_BENEATH` can do this in one call, but it
+//! refuses absolute links even within the folder, is missing in older kernels and forbidden in some
+//! containers, and so would need this loop as a fallback.
 
 use std::fs::{self, File};
 use std::io;
@@ -16,22 +16,22 @@ use rustix::fd::OwnedFd;
 #[cfg(unix)]
 use rustix::fs::{Mode, OFlags};
 
-/// A folder, and where it stands.
+/// An open folder and its path.
 #[derive(Debug)]
 pub(super) struct Folder {
-    /// Its path without links.
+    /// The canonical path.
     real: PathBuf,
     #[cfg(unix)]
-    held: OwnedFd,
+    descriptor: OwnedFd,
 }
 
-/// A folder that is named to be read from can't be.
+/// A folder given with `--assets` cannot be read from.
 #[derive(Debug, thiserror::Error)]
 #[error("--assets {path}: {reason}", path = path.display(), reason = reason(source))]
 pub struct NoFolder {
-    /// Its name.
+    /// The folder as given.
     path: PathBuf,
-    /// What the system said.
+    /// The system's error.
     source: io::Error,
 }
 
@@ -43,7 +43,7 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// Finds out whether these folders can be read from.
+/// Checks that all of these folders can be opened.
 pub fn check_folders(folders: &[PathBuf]) -> Result<(), NoFolder> {
     for path in folders {
         Folder::open(path).map_err(|source| NoFolder {
@@ -55,28 +55,28 @@ pub fn check_folders(folders: &[PathBuf]) -> Result<(), NoFolder> {
 }
 
 impl Folder {
-    /// Opens a folder, wherever links lead.
+    /// Opens a folder, following links.
     pub(super) fn open(path: &Path) -> io::Result<Self> {
         let real = fs::canonicalize(path)?;
         Ok(Self {
             #[cfg(unix)]
-            held: rustix::fs::open(&real, flags_of_folders(), Mode::empty())?,
+            descriptor: rustix::fs::open(&real, flags_of_folders(), Mode::empty())?,
             real,
         })
     }
 
-    /// Its path without links.
+    /// The canonical path.
     pub(super) fn real(&self) -> &Path {
         &self.real
     }
 
-    /// Whether a path without links lies in it, or is its own.
+    /// Whether a canonical path lies in the folder or is the folder itself.
     pub(super) fn holds(&self, real: &Path) -> bool {
         real.starts_with(&self.real)
     }
 
-    /// Opens what a path without links leads to, if it lies in this folder; never waits. It is an
-    /// error if there are links on the way by now.
+    /// Opens a file of this folder by its canonical path; never blocks. Fails if the path lies
+    /// outside or contains links by now.
     #[cfg(unix)]
     pub(super) fn file(&self, real: &Path) -> io::Result<File> {
         let inside = real.strip_prefix(&self.real).map_err(io::Error::other)?;
@@ -84,40 +84,39 @@ impl Folder {
         let name = inside.file_name().map_or(own, Path::new);
         let mut folder = None;
         for step in inside.parent().into_iter().flat_map(Path::components) {
-            let from = folder.as_ref().unwrap_or(&self.held);
+            let from = folder.as_ref().unwrap_or(&self.descriptor);
             let next =
                 rustix::fs::openat(from, step.as_os_str(), flags_of_folders(), Mode::empty());
             folder = Some(next?);
         }
-        // A terminal must not become the one that controls the process.
+        // A terminal must not become the controlling terminal.
         let flags = OFlags::RDONLY | OFlags::NONBLOCK | OFlags::NOCTTY;
         let flags = flags | OFlags::NOFOLLOW | OFlags::CLOEXEC;
-        let folder = folder.as_ref().unwrap_or(&self.held);
+        let folder = folder.as_ref().unwrap_or(&self.descriptor);
         Ok(rustix::fs::openat(folder, name, flags, Mode::empty())?.into())
     }
 
-    /// Opens what a path without links leads to.
+    /// Opens a file by its canonical path.
     #[cfg(not(unix))]
     pub(super) fn file(&self, real: &Path) -> io::Result<File> {
         File::open(real)
     }
 
-    /// Whether everybody may write in it.
+    /// Whether the folder is writable by everyone.
     #[cfg(unix)]
     pub(super) fn is_public(&self) -> bool {
-        let everybody = |stat: rustix::fs::Stat| Mode::from_raw_mode(stat.st_mode);
-        rustix::fs::fstat(&self.held).map_or(true, |stat| everybody(stat).contains(Mode::WOTH))
+        let mode = |stat: rustix::fs::Stat| Mode::from_raw_mode(stat.st_mode);
+        rustix::fs::fstat(&self.descriptor).map_or(true, |stat| mode(stat).contains(Mode::WOTH))
     }
 
-    /// Whether everybody may write in it.
+    /// Whether the folder is writable by everyone.
     #[cfg(not(unix))]
     pub(super) fn is_public(&self) -> bool {
         false
     }
 }
 
-/// How folders are opened: to go on from them, which needs less than to list them where there is
-/// `O_PATH`.
+/// The flags for opening folders. `O_PATH`, where available, needs no permission to list them.
 #[cfg(unix)]
 fn flags_of_folders() -> OFlags {
     #[cfg(any(target_os = "linux", target_os = "android"))]

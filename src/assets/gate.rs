@@ -1,8 +1,8 @@
-//! Which files may be read, where they are looked for, and their bytes.
+//! Access control: which files may be read, where they are searched for, and their bytes.
 //!
-//! A name leads into the scene's folder, the one above, or a folder that the user has named, or it is
-//! not opened. The folder above does not count where it holds more than scenes: the root, the user's
-//! home, and folders that everybody may write.
+//! A file is opened only if it lies in the scene's folder, its parent, or a folder that the user
+//! named. The parent is excluded where it is likely to contain more than scenes: if it is the root,
+//! the user's home, or writable by everyone.
 
 use std::env;
 use std::fs::{self, File};
@@ -17,41 +17,41 @@ use super::trouble::Failure;
 use crate::file::{self, directory_of};
 use crate::memory;
 
-/// Whether and from where a scene's files are read.
+/// The folders that a scene's files may be read from.
 #[derive(Debug)]
 pub(super) struct Gate {
-    /// The scene's folder, as it was named; names are relative to it.
+    /// The scene's folder as given; names are relative to it.
     folder: PathBuf,
-    /// It, and the one above if that may be read.
+    /// The scene's folder, and its parent if permitted.
     near: Vec<Folder>,
-    /// Those that the user has named, as they were named.
+    /// The folders that the user named, with their paths as given.
     named: Vec<(PathBuf, Folder)>,
-    /// Whether files may be read relative to the current folder.
+    /// Whether the current folder lies in one of these.
     is_current_within: bool,
 }
 
-/// The bytes of a file.
+/// The content of a file.
 #[derive(Clone, Debug)]
 pub(super) struct Content {
     pub(super) bytes: Vec<u8>,
-    /// What stands for them.
-    pub(super) print: u64,
-    /// Where they were, if not where they were looked for first.
+    /// A hash of the bytes.
+    pub(super) digest: u64,
+    /// The path of the file if it is not the first one tried.
     pub(super) elsewhere: Option<PathBuf>,
 }
 
-/// A file that is open at its beginning.
+/// A file opened at its beginning.
 #[derive(Debug)]
 pub(super) struct Stream {
     pub(super) file: File,
-    /// A hash of its bytes.
-    pub(super) print: u64,
-    /// Where it was found, if not at the first place.
+    /// A hash of the bytes.
+    pub(super) digest: u64,
+    /// The path of the file if it is not the first one tried.
     pub(super) elsewhere: Option<PathBuf>,
 }
 
 impl Gate {
-    /// The gate to the files of a scene. Folders that aren't there are left out.
+    /// Opens the folders permitted for a scene. Those that do not exist are left out.
     pub(super) fn new(scene: &Path, folders: &[PathBuf], home: Option<&Path>) -> Self {
         let folder = directory_of(scene).to_owned();
         let near: Vec<_> = Folder::open(&folder).into_iter().collect();
@@ -72,37 +72,37 @@ impl Gate {
         gate
     }
 
-    /// Where a file of this name is looked for first.
+    /// The first path to try for a name.
     pub(super) fn place(&self, name: &str) -> PathBuf {
         self.folder.join(portable(name))
     }
 
-    /// Reads a file, and takes its length from the `room` there is.
+    /// Reads a file and subtracts its length from `room`.
     pub(super) fn read(&self, name: &str, room: &mut u64) -> Result<Content, Failure> {
         let (file, real, elsewhere) = self.open(name)?;
         let bytes = file::read_opened(&file, &real, *room)?;
         *room -= bytes.len() as u64;
         Ok(Content {
-            print: print(&bytes),
+            digest: digest(&bytes),
             bytes,
             elsewhere,
         })
     }
 
-    /// Opens a file that is not read as a whole, and takes its length from the `room` there is.
+    /// Opens a file for reading in parts, hashes it, and subtracts its length from `room`.
     pub(super) fn stream(&self, name: &str, room: &mut u64) -> Result<Stream, Failure> {
         let (file, _, elsewhere) = self.open(name)?;
         let length = file.metadata()?.len();
         *room = room.checked_sub(length).ok_or(Failure::TooLong)?;
         Ok(Stream {
-            print: print_of_file(&file, length)?,
+            digest: digest_of_file(&file, length)?,
             file,
             elsewhere,
         })
     }
 
-    /// Opens a regular file; with it its path without links, and where it was if not where it was
-    /// looked for first.
+    /// Opens a regular file. Returns also its canonical path, and the path that led to it if it is
+    /// not the first one tried.
     fn open(&self, name: &str) -> Result<(File, PathBuf, Option<PathBuf>), Failure> {
         let (real, elsewhere) = self.find(name)?;
         let folder = self.folder_of(&real).ok_or(Failure::Missing(Vec::new()))?;
@@ -110,7 +110,7 @@ impl Gate {
         Ok((file, real, elsewhere))
     }
 
-    /// A file's path without links, and by which path it was found, if not by the first.
+    /// Finds a file. Returns its canonical path, and the path that led to it if not the first.
     fn find(&self, name: &str) -> Result<(PathBuf, Option<PathBuf>), Failure> {
         let first = self.place(name);
         let refusal = match self.resolve(&first) {
@@ -135,8 +135,8 @@ impl Gate {
         })
     }
 
-    /// Where a file is looked for that is not where it was looked for first: by its whole name
-    /// only if nothing was there.
+    /// The further paths to try if the first one fails. Uses the whole name only if the first path
+    /// did not exist, otherwise only its last component.
     fn elsewhere(&self, name: &str, is_missing: bool) -> Vec<PathBuf> {
         let name = portable(name);
         let mut places = Vec::new();
@@ -160,7 +160,7 @@ impl Gate {
         places
     }
 
-    /// The path without links of something that may be read.
+    /// Canonicalizes a path. Fails if it does not exist or lies outside the permitted folders.
     fn resolve(&self, place: &Path) -> Result<PathBuf, Failure> {
         let real = fs::canonicalize(place).map_err(|error| match error.kind() {
             io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => Failure::Missing(Vec::new()),
@@ -175,7 +175,7 @@ impl Gate {
         })
     }
 
-    /// Where files stand whose changes matter: those up to the first that may be read.
+    /// The paths to watch for a name: those tried, up to the first that may be read.
     pub(super) fn watched(&self, name: &str) -> Vec<PathBuf> {
         let first = self.place(name);
         let found = self.resolve(&first);
@@ -186,17 +186,17 @@ impl Gate {
             Ok(_) => return vec![first],
             Err(Failure::Missing(_)) => {
                 is_missing = true;
-                // The scene's folder may be gone for a while.
+                // Not conditional on the scene's folder, which may be missing temporarily.
                 let name = portable(name);
                 let climbs = Path::new(&name)
                     .components()
                     .any(|step| step == Component::ParentDir);
-                if !climbs || self.may_come(&first) {
+                if !climbs || self.may_appear(&first) {
                     places.push(first);
                 }
             }
             Err(_) => {
-                // A link that leads elsewhere may give way to a file.
+                // A link that leads outside may be replaced by a file.
                 let own = fs::canonicalize(directory_of(&first));
                 if own.is_ok_and(|own| self.folder_of(&own).is_some()) {
                     places.push(first);
@@ -204,33 +204,33 @@ impl Gate {
             }
         }
         for place in self.elsewhere(name, is_missing) {
-            let is_there = self.resolve(&place).is_ok();
-            if is_there || self.may_come(&place) {
+            let exists = self.resolve(&place).is_ok();
+            if exists || self.may_appear(&place) {
                 places.push(place);
             }
-            if is_there {
+            if exists {
                 break;
             }
         }
         places
     }
 
-    /// Whether what isn't there could be read if it were.
-    fn may_come(&self, place: &Path) -> bool {
-        let mut there = place.ancestors().filter_map(|at| fs::canonicalize(at).ok());
-        there
+    /// Whether a missing file could be read if it were created.
+    fn may_appear(&self, place: &Path) -> bool {
+        let mut existing = place.ancestors().filter_map(|at| fs::canonicalize(at).ok());
+        existing
             .next()
             .is_some_and(|real| self.folder_of(&real).is_some())
     }
 
-    /// The folder that a path without links may be read in.
+    /// The permitted folder that contains a canonical path.
     fn folder_of(&self, real: &Path) -> Option<&Folder> {
         let named = self.named.iter().map(|(_, folder)| folder);
         let mut folders = self.near.iter().chain(named);
         folders.find(|folder| folder.holds(real))
     }
 
-    /// The folders that may be read, in words.
+    /// The permitted folders, joined by "and".
     pub(super) fn allowed(&self) -> String {
         let named = self.named.iter().map(|(_, folder)| folder);
         let folders = self.near.last().into_iter().chain(named);
@@ -241,17 +241,17 @@ impl Gate {
     }
 }
 
-/// The user's home, without links.
+/// The canonical path of the user's home.
 pub(super) fn home() -> Option<PathBuf> {
     fs::canonicalize(env::var_os("HOME")?).ok()
 }
 
-/// Whether the folder above a scene's is likely to be of scenes.
+/// Whether the parent of a scene's folder is likely to contain only scenes and their files.
 fn holds_scenes(folder: &Path, is_public: bool, home: Option<&Path>) -> bool {
     folder.parent().is_some() && Some(folder) != home && !is_public
 }
 
-/// A name as this system writes it.
+/// A name with slashes instead of backslashes.
 fn portable(name: &str) -> String {
     name.replace('\\', "/")
 }
@@ -260,7 +260,7 @@ fn is_absolute(name: &str) -> bool {
     Path::new(&portable(name)).is_absolute()
 }
 
-/// Bytes of a large file that are taken in at once, side by side with others.
+/// The parts of a large file that are hashed in parallel, in bytes.
 const PART: usize = 1 << 20;
 
 fn hash(value: impl Hash) -> u64 {
@@ -270,7 +270,7 @@ fn hash(value: impl Hash) -> u64 {
 }
 
 /// A hash of bytes.
-fn print(bytes: &[u8]) -> u64 {
+fn digest(bytes: &[u8]) -> u64 {
     let parts: Vec<u64> = if bytes.len() <= PART {
         vec![hash(bytes)]
     } else {
@@ -279,9 +279,9 @@ fn print(bytes: &[u8]) -> u64 {
     hash(parts)
 }
 
-/// A hash of the bytes of a file of this length. Leaves it at its beginning.
+/// A hash of the bytes of a file with this length. The file position stays at the beginning.
 #[cfg(unix)]
-fn print_of_file(file: &File, length: u64) -> Result<u64, Failure> {
+fn digest_of_file(file: &File, length: u64) -> Result<u64, Failure> {
     use std::os::unix::fs::FileExt;
     let part = |at: u64| {
         let mut bytes = vec![0; PART.min((length - at) as usize)];
@@ -300,9 +300,9 @@ fn print_of_file(file: &File, length: u64) -> Result<u64, Failure> {
     Ok(hash(parts?))
 }
 
-/// A hash of the bytes of a file of this length. Leaves it at its beginning.
+/// A hash of the bytes of a file with this length. The file position stays at the beginning.
 #[cfg(not(unix))]
-fn print_of_file(mut file: &File, length: u64) -> Result<u64, Failure> {
+fn digest_of_file(mut file: &File, length: u64) -> Result<u64, Failure> {
     use std::io::{Read, Seek};
     let mut parts = Vec::new();
     let mut left = length;

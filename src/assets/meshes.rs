@@ -1,4 +1,4 @@
-//! Meshes, with the libraries of materials that they name.
+//! Reads meshes and the material libraries that they name.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -9,21 +9,21 @@ use super::trouble::Failure;
 use crate::obj::{self, Model};
 use crate::scene::{Meshes, NoMesh, beside};
 
-/// A mesh that was read, and what it was read from.
+/// A mesh and the files it was read from.
 #[derive(Clone, Debug)]
 pub(super) struct KnownMesh {
-    /// What stands for the bytes of its file.
-    print: u64,
-    /// The libraries it asked for, as it names them, and what stands for their bytes.
+    /// A hash of the file's bytes.
+    digest: u64,
+    /// The libraries by their names in the mesh, each with a hash of its bytes or an error.
     asked: Vec<(String, Result<u64, String>)>,
     model: Arc<Model>,
 }
 
-/// The libraries of a reading, by name: their bytes and what stands for those, or why there are none.
+/// The libraries read so far by name: their bytes and a hash of these, or an error.
 type Libraries = BTreeMap<String, Result<(Arc<[u8]>, u64), String>>;
 
 impl Reading<'_> {
-    /// Reads meshes, or learns why they can't be read.
+    /// Reads meshes. The result contains the meshes or the reasons why they cannot be read.
     pub(super) fn meshes(&mut self, names: &BTreeSet<String>) -> Meshes {
         let mut libraries = Libraries::new();
         let read = names
@@ -40,7 +40,7 @@ impl Reading<'_> {
             hint: failure.hint(),
         };
         let content = self.content(name).map_err(failed)?;
-        let known = match self.known(name, content.print, libraries) {
+        let known = match self.known(name, content.digest, libraries) {
             Some(known) => known,
             None => self
                 .parsed(name, &content, libraries)
@@ -59,22 +59,22 @@ impl Reading<'_> {
         Ok(model)
     }
 
-    /// The mesh of these bytes, if its libraries are as they were.
-    fn known(&mut self, name: &str, print: u64, libraries: &mut Libraries) -> Option<KnownMesh> {
+    /// The known mesh with this hash whose libraries have not changed.
+    fn known(&mut self, name: &str, digest: u64, libraries: &mut Libraries) -> Option<KnownMesh> {
         let known = self.now.meshes.iter().chain(&self.before.meshes);
         let same: Vec<_> = known
-            .filter(|known| known.print == print)
+            .filter(|known| known.digest == digest)
             .cloned()
             .collect();
         same.into_iter().find(|known| {
             known.asked.iter().all(|(library, before)| {
                 let now = self.library(name, library, libraries);
-                now.map(|(_, print)| print) == *before
+                now.map(|(_, digest)| digest) == *before
             })
         })
     }
 
-    /// The mesh of a file's bytes, or all that is wrong with them.
+    /// Parses a mesh. Fails with its errors.
     fn parsed(
         &mut self,
         name: &str,
@@ -84,11 +84,11 @@ impl Reading<'_> {
         let mut asked = Vec::new();
         let read = obj::read(&content.bytes, |library| {
             let answer = self.library(name, library, libraries);
-            let (bytes, print) = match answer {
-                Ok((bytes, print)) => (Ok(bytes), Ok(print)),
+            let (bytes, digest) = match answer {
+                Ok((bytes, digest)) => (Ok(bytes), Ok(digest)),
                 Err(reason) => (Err(reason.clone()), Err(reason)),
             };
-            asked.push((library.to_owned(), print));
+            asked.push((library.to_owned(), digest));
             bytes
         });
         let mut model = read.map_err(|findings| {
@@ -96,18 +96,18 @@ impl Reading<'_> {
             reasons.collect::<Vec<_>>()
         })?;
         let mut known = self.now.meshes.iter().chain(&self.before.meshes);
-        if let Some(twin) = known.find(|known| known.print == content.print) {
-            // Only its materials are others: what was made for the triangles can be kept.
+        if let Some(twin) = known.find(|known| known.digest == content.digest) {
+            // Only the materials differ: the triangles and their tree can be shared.
             model.mesh = Arc::clone(&twin.model.mesh);
         }
         Ok(KnownMesh {
-            print: content.print,
+            digest: content.digest,
             asked,
             model: Arc::new(model),
         })
     }
 
-    /// Reads a library of a mesh, once in a reading.
+    /// Reads a library of a mesh, each only once.
     fn library(
         &mut self,
         mesh: &str,
@@ -119,7 +119,7 @@ impl Reading<'_> {
             return known.clone();
         }
         let read = match self.content(&name) {
-            Ok(content) => Ok((content.bytes.into(), content.print)),
+            Ok(content) => Ok((content.bytes.into(), content.digest)),
             Err(failure) => Err(match failure.remedy() {
                 Some(remedy) => format!("{failure} ({remedy})"),
                 None => failure.to_string(),

@@ -1,6 +1,6 @@
-//! The files that scenes name, pictures and meshes, read into shared values. What may be read is a
-//! scene's own: regular files in its folder and the one above, and in folders that the user names.
-//! Knows nothing of what they are for.
+//! The pictures and meshes that scenes name, read into shared values. Only regular files may be
+//! read, from the scene's folder, its parent, and folders that the user names. Independent of what
+//! the files are used for.
 
 mod folder;
 mod gate;
@@ -23,39 +23,39 @@ use trouble::Failure;
 pub use folder::{NoFolder, check_folders};
 pub use trouble::{Trouble, Troubles, report};
 
-/// What all files of a scene may have together: 512 MiB in files, 384 MiB of pictures in memory, and
-/// as many triangles as a mesh may have alone.
+/// The limits for all files of a scene in total: 512 MiB of files, 384 MiB of decoded pictures, and
+/// as many triangles as a single mesh may have.
 const LIMITS: Room = Room {
     bytes: 512 << 20,
     pixels: 1 << 27,
     triangles: obj::MOST_TRIANGLES,
 };
 
-/// Reads files, and keeps those of the last reading: bytes that are known are not read anew.
+/// Reads files and keeps the last results: files whose bytes are known are not decoded again.
 #[derive(Debug)]
 pub struct Assets {
-    /// Folders that may be read besides the scene's surroundings.
+    /// The folders that may be read in addition to those around the scene.
     folders: Vec<PathBuf>,
-    /// The user's home, without links.
+    /// The canonical path of the user's home.
     home: Option<PathBuf>,
-    /// How much is read for one scene.
+    /// The limits for one scene.
     limits: Room,
     known: Known,
 }
 
-/// What a reading found.
+/// The results of a reading.
 #[derive(Debug, Default)]
 struct Known {
-    /// What stands for the bytes of each picture file.
+    /// Hashes of the bytes of picture files.
     files: HashMap<PathBuf, u64>,
-    /// The pictures by what stands for their bytes.
+    /// The pictures by the hashes of their files.
     images: HashMap<u64, Arc<Image>>,
     meshes: Vec<KnownMesh>,
-    /// The libraries of materials that meshes asked for, as if the scene's text named them.
+    /// The names of the material libraries that meshes use, relative to the scene.
     libraries: BTreeSet<String>,
 }
 
-/// How much may be read for one scene.
+/// The amounts that may still be read for a scene.
 #[derive(Clone, Copy, Debug)]
 struct Room {
     bytes: u64,
@@ -63,34 +63,34 @@ struct Room {
     triangles: usize,
 }
 
-/// Which files a scene names: where it stands, and the names, relative to its folder.
+/// The files that a scene names, relative to its folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wanted {
-    /// The scene file.
+    /// The path of the scene file.
     pub scene: PathBuf,
-    /// The names of pictures, each once.
+    /// The names of the pictures.
     pub pictures: BTreeSet<String>,
-    /// The names of meshes, each once.
+    /// The names of the meshes.
     pub meshes: BTreeSet<String>,
 }
 
-/// What became of a reading.
+/// The outcome of a reading.
 #[derive(Clone, Debug, Default)]
 pub struct Loaded {
     /// The pictures, by name.
     pub images: Images,
     /// The meshes, by name.
     pub meshes: Meshes,
-    /// Why there is no picture, or none of now, by name.
+    /// The errors by name, for pictures that are missing or not up to date.
     pub troubles: Troubles,
-    /// Where files were found that were looked for elsewhere first, by name.
+    /// The paths by name, for files that were not at the first path tried.
     pub elsewhere: BTreeMap<String, PathBuf>,
-    /// The files that matter to the scene: see [`Assets::places`].
+    /// The paths to watch: see [`Assets::places`].
     pub files: Vec<PathBuf>,
 }
 
 impl Wanted {
-    /// What the files named by a scene's text are.
+    /// Sorts the files named by a scene's text.
     pub fn new(scene: &Path, files: &[NamedFile]) -> Self {
         let of = |kind: FileKind| {
             let names = files.iter().filter(|file| file.kind == kind);
@@ -103,7 +103,7 @@ impl Wanted {
         }
     }
 
-    /// Whether other files hold all that is wanted.
+    /// Whether all of these files are among `others`, for the same scene.
     pub fn is_among(&self, others: &Self) -> bool {
         self.scene == others.scene
             && self.pictures.is_subset(&others.pictures)
@@ -112,7 +112,7 @@ impl Wanted {
 }
 
 impl Assets {
-    /// Reads from `folders` too.
+    /// Permits `folders` in addition to those around the scene.
     pub fn new(folders: &[PathBuf]) -> Self {
         Self {
             folders: folders.to_vec(),
@@ -122,9 +122,9 @@ impl Assets {
         }
     }
 
-    /// Reads all files wanted, and the libraries of materials that the meshes name. A picture
-    /// that can't be read now but could in the last reading, such as one whose file is being
-    /// written, stays as it was then.
+    /// Reads all files wanted and the material libraries that the meshes name. A picture that could
+    /// be read last time but cannot now, for instance because it is being written, keeps its last
+    /// content.
     pub fn read(&mut self, wanted: &Wanted) -> Loaded {
         let gate = self.gate(wanted);
         let mut reading = Reading {
@@ -147,7 +147,7 @@ impl Assets {
         }
     }
 
-    /// The folders that files of a scene may be read below, in words.
+    /// The folders that files of a scene may be read from, joined by "and".
     pub fn allowed(&self, scene: &Path) -> String {
         Gate::new(scene, &self.folders, self.home.as_deref()).allowed()
     }
@@ -156,8 +156,8 @@ impl Assets {
         Gate::new(&wanted.scene, &self.folders, self.home.as_deref())
     }
 
-    /// The files whose changes matter to a scene: those that may be read, there or not. Which
-    /// libraries of materials are among them is known from the last reading.
+    /// The paths to watch for a scene: all that may be read, existing or not. Includes the material
+    /// libraries found by the last reading.
     pub fn places(&self, wanted: &Wanted) -> Vec<PathBuf> {
         let gate = self.gate(wanted);
         let libraries = self.known.libraries.iter();
@@ -167,10 +167,10 @@ impl Assets {
     }
 }
 
-/// A reading under way.
+/// A reading in progress.
 struct Reading<'a> {
     gate: &'a Gate,
-    /// Where files were found that were looked for elsewhere first, by name.
+    /// The paths by name, for files that were not at the first path tried.
     elsewhere: BTreeMap<String, PathBuf>,
     before: Known,
     now: Known,
@@ -185,14 +185,14 @@ impl Reading<'_> {
         Ok(content)
     }
 
-    /// Opens one file that is not read as a whole.
+    /// Opens one file for reading in parts.
     fn stream(&mut self, name: &str) -> Result<Stream, Failure> {
         let mut stream = self.gate.stream(name, &mut self.room.bytes)?;
         self.note(name, stream.elsewhere.take());
         Ok(stream)
     }
 
-    /// Notes that a file was found elsewhere.
+    /// Records the path of a file that was not at the first path tried.
     fn note(&mut self, name: &str, elsewhere: Option<PathBuf>) {
         if let Some(place) = elsewhere {
             self.elsewhere.insert(name.to_owned(), place);

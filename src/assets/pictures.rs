@@ -1,4 +1,4 @@
-//! The pictures of textures.
+//! Reads the pictures of textures.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use crate::image_file::{self, Unreadable};
 use crate::scene::{Image, Images};
 
 impl Reading<'_> {
-    /// Reads pictures; says which are not to be had, or not those of now.
+    /// Reads pictures. Returns also the errors of those that are missing or not up to date.
     pub(super) fn pictures(&mut self, names: &BTreeSet<String>) -> (Images, Troubles) {
         let mut images = Vec::new();
         let mut troubles = Troubles::new();
@@ -19,7 +19,7 @@ impl Reading<'_> {
                 Ok(known) => Some(known),
                 Err(failure) => {
                     let last = self.before.image_of(&place);
-                    let last = last.filter(|(print, image)| self.has_room(*print, image));
+                    let last = last.filter(|(digest, image)| self.has_room(*digest, image));
                     let shown = match last {
                         Some(_) => Shown::Last,
                         None => Shown::Magenta,
@@ -28,11 +28,11 @@ impl Reading<'_> {
                     last
                 }
             };
-            if let Some((print, image)) = image {
+            if let Some((digest, image)) = image {
                 images.push((name.clone(), Arc::clone(&image)));
-                self.now.files.insert(place, print);
+                self.now.files.insert(place, digest);
                 let pixels = image.size().pixels() as u64;
-                if self.now.images.insert(print, image).is_none() {
+                if self.now.images.insert(digest, image).is_none() {
                     self.room.pixels -= pixels;
                 }
             }
@@ -40,31 +40,31 @@ impl Reading<'_> {
         (images.into_iter().collect(), troubles)
     }
 
-    /// Reads one picture: what stands for its bytes, and itself.
+    /// Reads one picture. Returns it with the hash of its file.
     fn picture(&mut self, name: &str) -> Result<(u64, Arc<Image>), Failure> {
         let stream = self.stream(name)?;
-        let print = stream.print;
-        let known = self.now.images.get(&print);
-        let image = match known.or_else(|| self.before.images.get(&print)) {
+        let digest = stream.digest;
+        let known = self.now.images.get(&digest);
+        let image = match known.or_else(|| self.before.images.get(&digest)) {
             Some(image) => Arc::clone(image),
             None => Arc::new(image_file::decode(&stream.file, self.room.pixels)?),
         };
-        if self.has_room(print, &image) {
-            Ok((print, image))
+        if self.has_room(digest, &image) {
+            Ok((digest, image))
         } else {
             Err(Failure::Unreadable(Unreadable::NoRoom))
         }
     }
 
-    /// Whether a picture is among those read, or fits beside them.
-    fn has_room(&self, print: u64, image: &Image) -> bool {
-        image.size().pixels() as u64 <= self.room.pixels || self.now.images.contains_key(&print)
+    /// Whether a picture is already counted or fits into the remaining room.
+    fn has_room(&self, digest: u64, image: &Image) -> bool {
+        image.size().pixels() as u64 <= self.room.pixels || self.now.images.contains_key(&digest)
     }
 }
 
 impl Known {
     fn image_of(&self, place: &std::path::Path) -> Option<(u64, Arc<Image>)> {
-        let print = *self.files.get(place)?;
-        Some((print, Arc::clone(self.images.get(&print)?)))
+        let digest = *self.files.get(place)?;
+        Some((digest, Arc::clone(self.images.get(&digest)?)))
     }
 }

@@ -25,7 +25,7 @@ impl Place {
         self.directory.path().join("scenes").join(name)
     }
 
-    /// The folder above the scene's.
+    /// The parent of the scene's folder.
     fn root(&self) -> PathBuf {
         fs::canonicalize(self.directory.path()).expect("a place")
     }
@@ -42,18 +42,19 @@ impl Place {
         }
     }
 
-    /// What a first reading of one name says is wrong.
+    /// The error of one name in a first reading, if any.
     fn refusal(&self, name: &str, folders: &[PathBuf]) -> Option<String> {
         let loaded = Assets::new(folders).read(&self.wanted(&[name]));
         assert_eq!(
             loaded.images.get(name).is_some(),
             loaded.troubles.is_empty()
         );
-        loaded.troubles.get(name).map(told)
+        loaded.troubles.get(name).map(message_of)
     }
 }
 
-fn told(trouble: &Trouble) -> String {
+/// The message with its hint in parentheses.
+fn message_of(trouble: &Trouble) -> String {
     let file = NamedFile {
         path: String::new(),
         kind: FileKind::Picture,
@@ -101,21 +102,21 @@ fn other_places_are_refused_unless_their_folder_is_named() {
     let absolute = outside.to_str().expect("a plain path");
     let own = place.at("b.ppm");
     let climbing = format!("../../../../../../../../../..{absolute}");
-    let outside_of = format!("is outside {}; magenta", place.root().display());
+    let outside_of = format!("is outside {}; shown", place.root().display());
     for (name, reason) in [
         (
             absolute,
-            "an absolute path is not read; magenta stands for it (--assets ",
+            "absolute paths are not allowed; shown in magenta (allow it with --assets ",
         ),
-        ("/dev/zero", "an absolute path"),
-        ("/none/at/all", "an absolute path"),
-        (own.to_str().expect("a plain path"), "an absolute path"),
+        ("/dev/zero", "absolute paths"),
+        ("/none/at/all", "absolute paths"),
+        (own.to_str().expect("a plain path"), "absolute paths"),
         ("link", outside_of.as_str()),
         (climbing.as_str(), outside_of.as_str()),
     ] {
-        let told = place.refusal(name, &[]).expect(name);
-        assert!(told.starts_with("texture 1 file: "), "{told}");
-        assert!(told.contains(reason), "{told}");
+        let message = place.refusal(name, &[]).expect(name);
+        assert!(message.starts_with("texture 1 file: "), "{message}");
+        assert!(message.contains(reason), "{message}");
     }
     let folders = [PathBuf::from("/nowhere"), elsewhere.path().to_owned()];
     for name in [absolute, "link", climbing.as_str()] {
@@ -124,9 +125,9 @@ fn other_places_are_refused_unless_their_folder_is_named() {
     assert!(place.refusal("/dev/zero", &folders).is_some());
 }
 
-/// A name may lead elsewhere by a link: the folder to name is the file's, not the link's.
+/// If a name leads elsewhere by a link, the folder to allow is the file's, not the link's.
 #[test]
-fn the_folder_that_helps_is_told() {
+fn the_hint_names_the_folder_to_allow() {
     let place = Place::new();
     let elsewhere = tempfile::tempdir().expect("a directory");
     let folder = fs::canonicalize(elsewhere.path()).expect("a place");
@@ -134,14 +135,14 @@ fn the_folder_that_helps_is_told() {
     symlink(folder.join("a.ppm"), place.at("link")).expect("a link");
     let absolute = place.at("link");
     for name in ["link", absolute.to_str().expect("a plain path")] {
-        let told = place.refusal(name, &[]).expect(name);
-        let hint = format!("(--assets {} lets it be read)", folder.display());
-        assert!(told.ends_with(&hint), "{told}");
+        let message = place.refusal(name, &[]).expect(name);
+        let hint = format!("(allow it with --assets {})", folder.display());
+        assert!(message.ends_with(&hint), "{message}");
     }
 }
 
 #[test]
-fn what_is_not_a_picture_is_told_as_what_it_is() {
+fn the_reason_why_a_picture_cannot_be_read_is_precise() {
     let place = Place::new();
     fs::create_dir(place.at("folder.png")).expect("a folder");
     let made = std::process::Command::new("mkfifo")
@@ -156,30 +157,27 @@ fn what_is_not_a_picture_is_told_as_what_it_is() {
     let long = fs::File::create(place.at("long.ppm")).expect("made");
     long.set_len(LIMITS.bytes + 1).expect("a hole");
     for (name, reason) in [
-        (
-            "none.png",
-            "no such file; magenta stands for it (it is looked for as ",
-        ),
+        ("none.png", "no such file; shown in magenta (looked for "),
         ("a.ppm/none.png", "no such file"),
         ("folder.png", "is a folder, not a file"),
         ("pipe.png", "is a pipe, not a file"),
         ("loop.png", "symbolic links"),
         ("empty.png", "is not a picture of a known format"),
         ("text.png", "is not a picture of a known format"),
-        ("half.ppm", "is not a whole picture: "),
+        ("half.ppm", "is not a valid picture: "),
         (
             "huge.ppm",
             "is 8193x8192: a texture has at most 67108864 pixels",
         ),
         ("long.ppm", "more than 512 MiB"),
     ] {
-        let told = place.refusal(name, &[]).expect(name);
-        assert!(told.contains(reason), "{told}");
+        let message = place.refusal(name, &[]).expect(name);
+        assert!(message.contains(reason), "{message}");
     }
 }
 
 #[test]
-fn bytes_that_are_known_are_not_decoded_again() {
+fn known_bytes_are_not_decoded_again() {
     let place = Place::new();
     place.write("a.ppm", ppm(RED));
     place.write("b.ppm", ppm(RED));
@@ -201,7 +199,7 @@ fn bytes_that_are_known_are_not_decoded_again() {
 }
 
 #[test]
-fn a_file_that_is_being_written_keeps_its_last_picture() {
+fn a_partly_written_file_keeps_its_last_picture() {
     let place = Place::new();
     place.write("a.ppm", ppm(RED));
     let wanted = place.wanted(&["a.ppm"]);
@@ -211,8 +209,8 @@ fn a_file_that_is_being_written_keeps_its_last_picture() {
         place.write("a.ppm", content);
         let loaded = assets.read(&wanted);
         assert_eq!(pixel(&loaded, "a.ppm"), Some(RED));
-        let told = told(&loaded.troubles["a.ppm"]);
-        assert!(told.contains("; its last picture is kept"), "{told}");
+        let message = message_of(&loaded.troubles["a.ppm"]);
+        assert!(message.contains("; its last picture is kept"), "{message}");
     }
     fs::remove_file(place.at("a.ppm")).expect("it is there");
     assert_eq!(pixel(&assets.read(&wanted), "a.ppm"), Some(RED));
@@ -223,7 +221,7 @@ fn a_file_that_is_being_written_keeps_its_last_picture() {
 }
 
 #[test]
-fn what_takes_a_pictures_place_does_not_take_the_picture() {
+fn a_picture_replaced_by_something_unreadable_is_kept() {
     let place = Place::new();
     place.write("a.ppm", ppm(RED));
     let wanted = place.wanted(&["a.ppm"]);
@@ -233,22 +231,22 @@ fn what_takes_a_pictures_place_does_not_take_the_picture() {
     let mut keeps = |reason: &str| {
         let loaded = assets.read(&wanted);
         assert_eq!(pixel(&loaded, "a.ppm"), Some(RED), "{reason}");
-        let told = told(&loaded.troubles["a.ppm"]);
-        assert!(told.contains(reason), "{told}");
+        let message = message_of(&loaded.troubles["a.ppm"]);
+        assert!(message.contains(reason), "{message}");
     };
     keeps("no such file; its last picture is kept");
     fs::create_dir(place.at("a.ppm")).expect("a folder");
     keeps("is a folder, not a file; its last picture is kept");
     fs::remove_dir(place.at("a.ppm")).expect("it is there");
     symlink("/dev/null", place.at("a.ppm")).expect("a link");
-    keeps("; its last picture is kept (--assets /dev lets it be read)");
+    keeps("; its last picture is kept (allow it with --assets /dev)");
     fs::remove_file(place.at("a.ppm")).expect("it is there");
     place.write("a.ppm", b"P6\n8193 8192\n255\n");
     keeps("is 8193x8192");
 }
 
 #[test]
-fn pictures_that_are_too_much_together_are_left_out() {
+fn pictures_beyond_the_limits_are_left_out() {
     let place = Place::new();
     for (name, pixel) in [("a", RED), ("b", BLUE), ("c", [1; 3]), ("d", RED)] {
         place.write(name, ppm(pixel));
@@ -258,10 +256,10 @@ fn pictures_that_are_too_much_together_are_left_out() {
         let mut assets = Assets::new(&[]);
         assets.limits = limits;
         let loaded = assets.read(&wanted);
-        let told = |(name, trouble)| format!("{name}: {}", told(trouble));
-        loaded.troubles.iter().map(told).collect::<Vec<_>>()
+        let message = |(name, trouble)| format!("{name}: {}", message_of(trouble));
+        loaded.troubles.iter().map(message).collect::<Vec<_>>()
     };
-    // The fourth is the first's twin.
+    // The fourth equals the first.
     let found = refused(Room {
         pixels: 2,
         ..LIMITS
@@ -269,7 +267,7 @@ fn pictures_that_are_too_much_together_are_left_out() {
     assert_eq!(
         found,
         [
-            "c: texture 1 file: the scene's textures have too many pixels together; magenta stands for it ()"
+            "c: texture 1 file: the scene's textures have too many pixels in total; shown in magenta ()"
         ]
     );
     let bytes = 3 * ppm(RED).len() as u64;
@@ -277,14 +275,14 @@ fn pictures_that_are_too_much_together_are_left_out() {
     assert_eq!(
         found,
         [
-            "d: texture 1 file: the scene's files have more than 512 MiB together; magenta stands for it ()"
+            "d: texture 1 file: the scene's files have more than 512 MiB in total; shown in magenta ()"
         ]
     );
     assert!(refused(LIMITS).is_empty());
 }
 
 #[test]
-fn places_to_watch_are_those_that_may_be_read() {
+fn only_places_that_may_be_read_are_watched() {
     let place = Place::new();
     place.write("a.ppm", ppm(RED));
     symlink("/dev/null", place.at("link.ppm")).expect("a link");
@@ -301,7 +299,7 @@ fn places_to_watch_are_those_that_may_be_read() {
 }
 
 #[test]
-fn a_missing_file_below_a_named_folder_is_waited_for() {
+fn a_missing_file_is_watched_for_wherever_it_is_looked_for() {
     let place = Place::new();
     let elsewhere = tempfile::tempdir().expect("a directory");
     let name = "m/deep/a.ppm";
@@ -311,26 +309,26 @@ fn a_missing_file_below_a_named_folder_is_waited_for() {
         elsewhere.path().join(name),
         elsewhere.path().join("a.ppm"),
     ];
-    let told = place.refusal(name, &folders).expect(name);
+    let message = place.refusal(name, &folders).expect(name);
     let places = looked_for
         .each_ref()
         .map(|place| place.display().to_string());
-    let expected = format!("(it is looked for as {})", places.join(", "));
-    assert!(told.ends_with(&expected), "{told}");
+    let expected = format!("(looked for {})", places.join(", "));
+    assert!(message.ends_with(&expected), "{message}");
     let wanted = place.wanted(&[name]);
     let mut places = Assets::new(&folders).places(&wanted);
     places.sort();
     let mut expected = looked_for.to_vec();
     expected.sort();
     assert_eq!(places, expected);
-    // What was found first is enough.
+    // Once found at the first path, only that is watched.
     place.write("a.ppm", ppm(RED));
     let wanted = place.wanted(&["a.ppm"]);
     assert_eq!(Assets::new(&folders).places(&wanted), [place.at("a.ppm")]);
 }
 
 #[test]
-fn warnings_stand_at_every_place_that_names_a_file() {
+fn every_place_that_names_a_file_gets_a_warning() {
     let place = Place::new();
     let loaded = Assets::new(&[]).read(&place.wanted(&["none"]));
     let file = |start, path: &str| NamedFile {

@@ -1,4 +1,4 @@
-//! Why files are not read, and how that is told.
+//! Why files cannot be read, and how that is reported.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -12,40 +12,40 @@ use crate::language::{FileKind, NamedFile};
 use crate::memory::OutOfMemory;
 use crate::text::{Diagnostic, Findings, without_codes};
 
-/// What is wrong with pictures, by name.
+/// The errors of pictures by name.
 pub type Troubles = BTreeMap<String, Trouble>;
 
-/// What is wrong with a picture.
+/// The error of a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Trouble {
-    /// What, as the end of a sentence.
+    /// The reason, as the end of a sentence.
     reason: String,
-    /// What helps.
+    /// A possible remedy.
     hint: Option<String>,
-    /// What is seen of it.
+    /// What is shown instead.
     shown: Shown,
 }
 
-/// What is seen of a picture that can't be read.
+/// What is shown instead of a picture that cannot be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shown {
-    /// The renderer's stand-in.
+    /// Magenta.
     Magenta,
-    /// The last one that could.
+    /// The last version that could be read.
     Last,
 }
 
 impl fmt::Display for Shown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Magenta => "magenta stands for it",
+            Self::Magenta => "shown in magenta",
             Self::Last => "its last picture is kept",
         })
     }
 }
 
 impl Trouble {
-    /// What is wrong, at a name's place in the text.
+    /// The warning at a place in the text that names the picture.
     pub(super) fn at(&self, file: &NamedFile) -> Diagnostic {
         let message = format!("{}: {}; {}", file.what, self.reason, self.shown);
         let expected = format!("a picture file: {}", known_extensions());
@@ -57,7 +57,7 @@ impl Trouble {
     }
 }
 
-/// Adds what is wrong with a scene's pictures to what is wrong with its text.
+/// Adds the errors of a scene's pictures to the findings in its text.
 pub fn report(troubles: &Troubles, files: &[NamedFile], mut findings: Findings) -> Findings {
     if troubles.is_empty() {
         return findings;
@@ -70,23 +70,23 @@ pub fn report(troubles: &Troubles, files: &[NamedFile], mut findings: Findings) 
     findings.sorted()
 }
 
-/// Why a file was not read.
+/// Why a file could not be read.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Failure {
-    #[error("an absolute path is not read")]
+    #[error("absolute paths are not allowed")]
     Absolute(PathBuf),
     #[error("is outside {allowed}")]
     Outside { real: PathBuf, allowed: String },
-    /// With the places where it was looked for.
+    /// With the paths that were tried.
     #[error("no such file")]
     Missing(Vec<PathBuf>),
     #[error("{}", without_codes(&.0.to_string()))]
     Io(io::Error),
     #[error("is {0}, not a file")]
     NotRegular(&'static str),
-    #[error("the scene's files have more than {} MiB together", LIMITS.bytes >> 20)]
+    #[error("the scene's files have more than {} MiB in total", LIMITS.bytes >> 20)]
     TooLong,
-    #[error("the scene's meshes have more than {} triangles together", LIMITS.triangles)]
+    #[error("the scene's meshes have more than {} triangles in total", LIMITS.triangles)]
     TooManyTriangles,
     #[error("{0}")]
     NoMemory(#[from] OutOfMemory),
@@ -95,7 +95,7 @@ pub(super) enum Failure {
 }
 
 impl Failure {
-    /// What it means for whoever looks at a picture.
+    /// The error for a picture with this failure.
     pub(super) fn trouble(&self, shown: Shown) -> Trouble {
         Trouble {
             reason: self.to_string(),
@@ -104,24 +104,24 @@ impl Failure {
         }
     }
 
-    /// What helps.
+    /// A hint for the user: the paths tried, or the remedy.
     pub(super) fn hint(&self) -> Option<String> {
         match self {
             Self::Missing(places) if !places.is_empty() => {
                 let places = places.iter().map(|place| place.display().to_string());
                 let places: Vec<_> = places.collect();
-                Some(format!("it is looked for as {}", places.join(", ")))
+                Some(format!("looked for {}", places.join(", ")))
             }
             _ => self.remedy(),
         }
     }
 
-    /// How the file is read all the same.
+    /// The option that would allow the file to be read.
     pub(super) fn remedy(&self) -> Option<String> {
         match self {
             Self::Absolute(real) | Self::Outside { real, .. } => {
                 let folder = directory_of(real).display();
-                Some(format!("--assets {folder} lets it be read"))
+                Some(format!("allow it with --assets {folder}"))
             }
             _ => None,
         }

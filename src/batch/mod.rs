@@ -1,5 +1,5 @@
-//! Headless work: check and render. Knows no terminals, but for a progress line where the error
-//! stream is one.
+//! Headless work: check and render. Knows no terminals, except for a progress line if standard
+//! error is one.
 
 mod progress;
 mod render;
@@ -23,41 +23,41 @@ use crate::text::{Diagnostic, Findings, Span, counted, visible, without_codes};
 
 pub use render::{Output, Render, render};
 
-/// Why headless work did not come to its end. Whoever gets it has nothing to print: the work did.
+/// Why headless work failed. The work has already printed it.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A scene can't be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// A folder to read from can't be read.
+    /// An assets folder can't be read.
     #[error(transparent)]
     Assets(#[from] NoFolder),
-    /// A file that is not a scene by its name.
+    /// A file whose extension is not that of a scene.
     #[error(transparent)]
     UnknownLanguage(#[from] UnknownLanguage),
     /// Scenes have errors, which were printed.
-    #[error("no picture was made: the scene has {}", counted(*.errors, "error"))]
+    #[error("nothing was rendered: the scene has {}", counted(*.errors, "error"))]
     Invalid {
-        /// How many.
+        /// The number of errors.
         errors: usize,
     },
-    /// The picture asked for can't be made, for a reason known before tracing.
+    /// The picture can't be rendered, for a reason known before tracing.
     #[error("{0}")]
     Refused(String),
-    /// There can be no file of that name.
+    /// The picture file can't be created.
     #[error("{path}: {source}", path = path.display())]
     Create {
         /// The file.
         path: PathBuf,
-        /// What the file system said.
+        /// The error of the file system.
         source: io::Error,
     },
     /// The picture can't be written.
     #[error("{to}: {source}")]
     Write {
-        /// Where to: a file's name, or what else it is.
+        /// The file name, or `standard output`.
         to: String,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
     /// The machine can't trace the picture.
@@ -71,16 +71,16 @@ pub enum Error {
 /// How warnings of a scene are treated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Warnings {
-    /// They are reported only.
+    /// Reported only.
     #[default]
     Allowed,
-    /// They are errors.
+    /// Treated as errors.
     Refused,
 }
 
 impl Warnings {
-    /// The same findings under this treatment.
-    fn judge(self, findings: Findings) -> Findings {
+    /// Turns warnings into errors if they are refused.
+    fn apply(self, findings: Findings) -> Findings {
         match self {
             Self::Allowed => findings,
             Self::Refused => findings.strict(),
@@ -88,27 +88,27 @@ impl Warnings {
     }
 }
 
-/// Bytes of a scene that may be read with several threads. Starting them costs a small one too much.
+/// Size in bytes above which several threads read a scene. Below, starting them takes too long.
 const LARGE: u64 = 1 << 14;
 
-/// Scenes to look at.
+/// Scenes to check.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Check {
     /// The scene files.
     pub scenes: Vec<PathBuf>,
     /// How their warnings are treated.
     pub warnings: Warnings,
-    /// Folders that the files they name may be read from besides their surroundings.
+    /// Additional folders that referenced files may be read from.
     pub assets: Vec<PathBuf>,
 }
 
-/// Reads scenes with the files they name and prints what is wrong with them, then a line that sums it
-/// up, all to the error stream. Every scene is looked at. The error of the first scene that can't be
-/// read or is wrong is returned; for wrong ones, with the errors of all.
+/// Reads scenes and the files they reference, and prints all findings and a summary to standard
+/// error. Every scene is checked. Returns the error of the first scene that is unreadable or
+/// invalid; [`Error::Invalid`] counts the errors of all scenes.
 pub fn check(work: &Check) -> Result<(), Error> {
     if let Err(error) = assets::check_folders(&work.assets) {
         let error = error.into();
-        tell_error(&error);
+        print_error(&error);
         return Err(error);
     }
     let mut first = None;
@@ -129,7 +129,7 @@ pub fn check(work: &Check) -> Result<(), Error> {
             }
             Err(error) => {
                 errors += 1;
-                tell_error(&error);
+                print_error(&error);
                 first.get_or_insert(error);
             }
         }
@@ -147,37 +147,37 @@ pub fn check(work: &Check) -> Result<(), Error> {
     }
 }
 
-/// A scene file as far as it was understood.
+/// A scene that was read.
 struct Loaded {
-    /// `None` where there are errors.
+    /// `None` if there are errors.
     scene: Option<Scene>,
-    /// The pictures of its textures.
+    /// The images of its textures.
     images: Images,
-    /// Where the files stand that it names.
+    /// The paths of all files it references.
     files: Vec<PathBuf>,
-    /// Of a large scene it takes long to free.
+    /// Slow to free for a large scene.
     source: Source,
-    /// Where the text says the picture's size, if it does.
+    /// The span that sets the size of the picture, if there is one.
     size: Option<Span>,
     errors: usize,
     warnings: usize,
 }
 
-/// Reads a scene with the files it names, from `folders` too, and prints what is wrong with it.
+/// Reads a scene and the files it references, from `folders` too, and prints all findings.
 fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, Error> {
     let language = Language::of_path(path).map_err(|unknown| {
-        // What can't be opened is not a scene under any name.
+        // An error in opening the file comes before its extension.
         file::open(path).map_or_else(Error::from, |_| unknown.into())
     })?;
     if let Some(beginning) = file::read_beginning(path)? {
         check_beginning(path, language, &beginning, warnings)?;
     }
     if LARGE < path.metadata().map_or(0, |metadata| metadata.len()) {
-        threads::settle();
+        threads::prepare();
     }
     let text = file::read_text(path)?;
     for copy in file::backups(path) {
-        tell("note", &file::interruption(path.display(), &copy));
+        print_message("note", &file::interruption(path.display(), &copy));
     }
     let no_memory = |reason| ReadError::NoMemory {
         path: path.to_owned(),
@@ -185,12 +185,12 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
     };
     language::fits(language, &text, 0).map_err(no_memory)?;
     let mut source = Source::new(language, Arc::new(text));
-    let (lowered, images, files) = mean(path, &mut source, folders).map_err(no_memory)?;
-    let findings = warnings.judge(lowered.diagnostics);
+    let (lowered, images, files) = lower(path, &mut source, folders).map_err(no_memory)?;
+    let findings = warnings.apply(lowered.diagnostics);
     print_all_findings(path, source.text(), &findings);
     let (errors, warnings) = (findings.errors(), findings.warnings());
     Ok(Loaded {
-        size: size_place(&source),
+        size: size_span(&source),
         scene: lowered.scene.filter(|_| errors == 0),
         images,
         files,
@@ -200,8 +200,8 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
     })
 }
 
-/// Checks the beginning of a long scene, so that the rest is not read if that can't help. Prints the
-/// errors.
+/// Checks the beginning of a long scene, so that the rest is not read if nothing in it can correct
+/// the errors. Prints them.
 fn check_beginning(
     path: &Path,
     language: Language,
@@ -212,20 +212,20 @@ fn check_beginning(
     if findings.errors() == 0 {
         return Ok(());
     }
-    let findings = warnings.judge(findings);
+    let findings = warnings.apply(findings);
     print_all_findings(path, beginning, &findings);
     let read = counted(beginning.len(), "byte");
     let note = format!("only the first {read} of {} were read", path.display());
-    tell("note", &note);
+    print_message("note", &note);
     Err(Error::Invalid {
         errors: findings.errors(),
     })
 }
 
-/// What a text means with the files it names, the pictures among these, and where all of them
-/// stand. All that is wrong with any of them is among its diagnostics; prints which were found
-/// elsewhere than by their names.
-fn mean(
+/// Lowers a text with the files it references. Returns it with their images and the paths of all of
+/// them. The diagnostics include those of the files; files found elsewhere than at the path written
+/// are printed as notes.
+fn lower(
     path: &Path,
     source: &mut Source,
     folders: &[PathBuf],
@@ -235,43 +235,43 @@ fn mean(
     let mut files = source.files();
     let mut wanted = Wanted::new(path, &files);
     if !files.is_empty() {
-        threads::settle();
+        threads::prepare();
     }
     let mut loaded = assets.read(&wanted);
     if !wanted.meshes.is_empty() {
         lowered = source.lower(&loaded.meshes)?;
-        // Meshes may name pictures.
+        // Meshes may reference pictures.
         files = source.files();
-        let named = wanted;
+        let before = wanted;
         wanted = Wanted::new(path, &files);
-        if wanted != named {
+        if wanted != before {
             loaded = assets.read(&wanted);
         }
     }
     lowered.diagnostics = assets::report(&loaded.troubles, &files, lowered.diagnostics);
-    for (name, place) in &loaded.elsewhere {
-        tell("note", &format!("{name} is read from {}", place.display()));
+    for (name, found) in &loaded.elsewhere {
+        print_message("note", &format!("{name} is read from {}", found.display()));
     }
     Ok((lowered, loaded.images, loaded.files))
 }
 
-/// Where a text says the picture's size, if it does.
-fn size_place(source: &Source) -> Option<Span> {
+/// The span that sets the size of the picture, if there is one.
+fn size_span(source: &Source) -> Option<Span> {
     let view = source.fields(Node::View);
-    let said = view.iter().filter(|placed| placed.is_said());
-    let sizes = said.filter(|placed| placed.field.kind.is_size());
+    let written = view.iter().filter(|placed| placed.is_said());
+    let sizes = written.filter(|placed| placed.field.kind.is_size());
     sizes
         .flat_map(|size| size.spans.iter().copied())
         .reduce(Span::to)
 }
 
-/// Prints the findings that are kept, and how many more there are.
+/// Prints the findings that were kept, and the number of further ones.
 fn print_all_findings(path: &Path, text: &str, findings: &Findings) {
     print_findings(path, text, findings);
     let more = findings.errors() + findings.warnings() - findings.len();
     if 0 < more {
         let more = counted(more, "more finding");
-        tell("note", &format!("{more} not shown"));
+        print_message("note", &format!("{more} not shown"));
     }
 }
 
@@ -284,8 +284,8 @@ fn print_findings(path: &Path, text: &str, findings: &[Diagnostic]) {
     ));
 }
 
-/// Prints an error; of a file that is not text, with the line in question.
-fn tell_error(error: &Error) {
+/// Prints an error; for a file that is not UTF-8, with the offending line.
+fn print_error(error: &Error) {
     let Error::Read(ReadError::NotUtf8 {
         path,
         text,
@@ -295,22 +295,22 @@ fn tell_error(error: &Error) {
         ..
     }) = error
     else {
-        tell("error", &error.to_string());
+        print_message("error", &error.to_string());
         return;
     };
     let message = format!("the byte 0x{byte:02X} is not UTF-8 text");
-    let wrong = Diagnostic::error(*span, message, "UTF-8 text").with_hint(format!(
+    let diagnostic = Diagnostic::error(*span, message, "UTF-8 text").with_hint(format!(
         "convert the file, for example with: iconv -f {encoding} -t UTF-8"
     ));
-    print_findings(path, text, &[wrong]);
+    print_findings(path, text, &[diagnostic]);
 }
 
-/// Prints one line about the whole work: `error: no such file`.
-fn tell(kind: &str, message: &str) {
+/// Prints one line that belongs to no place in a text: `error: no such file`.
+fn print_message(kind: &str, message: &str) {
     print(&format!("{kind}: {}", visible(&without_codes(message))));
 }
 
-/// Prints lines to the error stream. There is nobody to tell if that fails.
+/// Prints lines to standard error. A failure cannot be reported anywhere.
 fn print(lines: &str) {
     if !lines.is_empty() {
         let _ = writeln!(io::stderr().lock(), "{lines}");

@@ -1,4 +1,4 @@
-//! One line that says how far a picture is.
+//! A progress line.
 
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
@@ -6,13 +6,13 @@ use std::time::{Duration, Instant};
 use crate::render::Progress;
 use crate::text::percentage;
 
-/// How often the line changes at most: quick enough to show life, slow enough to be read.
+/// Minimum time between two updates: short enough to show life, long enough to be read.
 const INTERVAL: Duration = Duration::from_millis(200);
 
-/// Cells of the bar.
+/// Width of the bar in cells.
 const BAR: usize = 20;
 
-/// A line on the error stream, shown if that is a terminal and gone when this is dropped.
+/// A line on standard error, shown only if that is a terminal, and erased on drop.
 pub(super) struct ProgressLine {
     terminal: Option<io::Stderr>,
     last: Option<Instant>,
@@ -27,7 +27,7 @@ impl ProgressLine {
         }
     }
 
-    /// Shows the newest state, unless the last one was shown just now.
+    /// Shows the current state, at most once per [`INTERVAL`].
     pub(super) fn show(&mut self, progress: &Progress) {
         let Some(terminal) = &mut self.terminal else {
             return;
@@ -36,7 +36,7 @@ impl ProgressLine {
             return;
         }
         self.last = Some(Instant::now());
-        // A progress line that can't be written is not a loss.
+        // Failing to write a progress line does no harm.
         let _ = write!(terminal, "\r{}\x1b[K", line(progress));
     }
 }
@@ -62,7 +62,7 @@ fn line(progress: &Progress) -> String {
         "{bar} {percent} %  pass {}/{}{noise}  {elapsed:.1} s",
         progress.pass, progress.passes
     );
-    // A rate taken from the first moments says nothing yet.
+    // Early on, the rate is too noisy to extrapolate from.
     if progress.done <= 0.0 || elapsed <= 0.5 {
         return state;
     }
@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn the_line_foretells_from_the_share_done() {
+    fn the_line_extrapolates_from_the_fraction_done() {
         assert_eq!(
             line(&progress(0.25, 2.0)),
             "█████░░░░░░░░░░░░░░░ 25 %  pass 3/6  noise 1.3 %  2.0 s, about 6.0 s left  14.0 Mray/s"

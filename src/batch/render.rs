@@ -1,4 +1,4 @@
-//! A scene file to a picture file.
+//! Renders a scene file to a picture file.
 
 use std::io;
 use std::path::PathBuf;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver};
 
 use super::progress::ProgressLine;
-use super::{Error, Warnings, load, print_findings, stdout, tell, tell_error};
+use super::{Error, Warnings, load, print_error, print_findings, print_message, stdout};
 use crate::assets;
 use crate::file;
 use crate::image_file::ImageFormat;
@@ -14,98 +14,98 @@ use crate::render::{Aov, Filter, Frame, Job, Renderer, Settings, Threads, defaul
 use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer};
 use crate::text::{Diagnostic, counted};
 
-/// A picture to make.
+/// A picture to render.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Render {
     /// The scene file.
     pub scene: PathBuf,
-    /// How its warnings are treated.
+    /// How warnings of the scene are treated.
     pub warnings: Warnings,
     /// Where the picture goes.
     pub output: Output,
-    /// How it is encoded.
+    /// The format of the picture.
     pub format: ImageFormat,
-    /// Its size; the scene's own if `None`.
+    /// The size of the picture; the scene's if `None`.
     pub size: Option<Size>,
-    /// Samples a pixel.
+    /// Samples per pixel.
     pub spp: u32,
-    /// Bounces; the integrator's [`default_depth`] if `None`.
+    /// Maximum number of bounces; the integrator's [`default_depth`] if `None`.
     pub depth: Option<u32>,
-    /// How light is gathered; the scene says so if `None`.
+    /// The integrator; the scene's if `None`.
     pub integrator: Option<Integrator>,
-    /// What of its surroundings a pixel is the mean of.
+    /// The pixel filter.
     pub filter: Filter,
-    /// Chooses among equally good sample patterns.
+    /// The random seed.
     pub seed: u32,
-    /// What the picture shows instead of light.
+    /// What to render instead of light.
     pub aov: Option<Aov>,
-    /// How colours become 8-bit values; the scene says so if `None`.
+    /// The transfer curve to 8-bit values; the scene's if `None`.
     pub transfer: Option<Transfer>,
-    /// Threads that trace.
+    /// The number of tracing threads.
     pub threads: usize,
-    /// Folders that pictures and meshes may be read from besides the scene's surroundings.
+    /// Additional folders that pictures and meshes may be read from.
     pub assets: Vec<PathBuf>,
 }
 
 /// Where a picture goes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Output {
-    /// A file, replaced when the picture is whole.
+    /// A file, replaced once the picture is complete.
     File(PathBuf),
-    /// The output stream, unless it is a terminal.
+    /// Standard output, unless it is a terminal.
     Stdout,
-    /// The output stream, even if it is a terminal.
+    /// Standard output, even if it is a terminal.
     StdoutTerminal,
 }
 
-/// Traces a scene and writes the picture. Warnings, notes and progress go to the error stream. A
-/// reader that closes the pipe early has what it wanted: no error. Interrupted at any moment, it
-/// leaves the old file or the new one, see [`file::deliver`].
+/// Renders a scene and writes the picture. Warnings, notes and progress go to standard error. A
+/// reader that closes the pipe early is not an error. If interrupted, leaves either the old file or
+/// the new one, see [`file::deliver`].
 pub fn render(work: &Render) -> Result<(), Error> {
-    make(work).inspect_err(tell_error)
+    try_render(work).inspect_err(print_error)
 }
 
-fn make(work: &Render) -> Result<(), Error> {
+fn try_render(work: &Render) -> Result<(), Error> {
     check_output(work)?;
     assets::check_folders(&work.assets)?;
     let loaded = load(&work.scene, &work.assets, work.warnings)?;
     let scene = loaded.scene.ok_or(Error::Invalid {
         errors: loaded.errors,
     })?;
-    check_named(work, &loaded.files)?;
+    check_references(work, &loaded.files)?;
     let size = work.size.unwrap_or(scene.camera.size);
     if let Some(reason) = work.format.refuses(size) {
-        let Some(place) = loaded.size.filter(|_| work.size.is_none()) else {
+        let Some(span) = loaded.size.filter(|_| work.size.is_none()) else {
             return Err(Error::Refused(format!("--size {reason}")));
         };
         let message = format!("view size {reason}");
-        let wrong = Diagnostic::error(place, message, "a smaller size")
-            .with_hint("or say another one: --size WxH");
-        print_findings(&work.scene, loaded.source.text(), &[wrong]);
+        let diagnostic = Diagnostic::error(span, message, "a smaller size")
+            .with_hint("or override it: --size WxH");
+        print_findings(&work.scene, loaded.source.text(), &[diagnostic]);
         return Err(Error::Invalid { errors: 1 });
     }
     let (wake, woken) = mpsc::channel();
-    // Kept to the end: its threads give memory back while the picture is written. Started before the
-    // scene is read they have been no quicker.
+    // Kept to the end, so that its threads free memory while the picture is written. Starting them
+    // before reading the scene was no faster.
     let renderer = Renderer::new(Threads::Exactly(work.threads), move || {
-        // The receiver is gone only while the renderer is being dropped.
+        // This fails only while the renderer is being dropped.
         let _ = wake.send(());
     });
     renderer.restart(job(work, scene, loaded.images, size))?;
-    // Giving back a text of 85 MB takes 10 ms, its syntax nearly as much; the worker has begun.
+    // Freeing a text of 85 MB takes 10 ms, its tree nearly as long; the worker is already running.
     drop(loaded.source);
-    let frame = last(&renderer, &woken)?;
+    let frame = wait_for_last_frame(&renderer, &woken)?;
     if 0 < frame.progress.over_budget {
         let samples = counted(frame.progress.over_budget as usize, "sample");
-        tell(
+        print_message(
             "note",
-            &format!("{samples} ran out of rays and may be too dark; a smaller --depth avoids it"),
+            &format!("{samples} ran out of rays and may be too dark; try a smaller --depth"),
         );
     }
     write(work, &frame)
 }
 
-/// Finds out before the work whether its outcome has a place.
+/// Checks before any work that the picture can be written.
 fn check_output(work: &Render) -> Result<(), Error> {
     match &work.output {
         Output::File(path) if file::is_same(path, &work.scene) => Err(Error::Refused(format!(
@@ -117,14 +117,14 @@ fn check_output(work: &Render) -> Result<(), Error> {
             source,
         }),
         Output::Stdout if stdout::is_terminal() => Err(Error::Refused(
-            "a terminal can't show a picture file; use -o FILE, a pipe, or --force".to_owned(),
+            "standard output is a terminal; use -o FILE, a pipe, or --force".to_owned(),
         )),
         Output::Stdout | Output::StdoutTerminal => stdout::check().map_err(stdout_error),
     }
 }
 
-/// Refuses to replace a file that the scene itself is made of.
-fn check_named(work: &Render, files: &[PathBuf]) -> Result<(), Error> {
+/// Refuses to replace a file that the scene references.
+fn check_references(work: &Render, files: &[PathBuf]) -> Result<(), Error> {
     match &work.output {
         Output::File(path) if files.iter().any(|named| file::is_same(path, named)) => {
             Err(Error::Refused(format!(
@@ -136,13 +136,13 @@ fn check_named(work: &Render, files: &[PathBuf]) -> Result<(), Error> {
     }
 }
 
-/// The picture that is asked for.
+/// The renderer's job for a picture.
 fn job(work: &Render, scene: Scene, images: Images, size: Size) -> Job {
     let transfer = work.transfer.unwrap_or(scene.setting.transfer);
     let integrator = work.integrator.unwrap_or(scene.setting.integrator);
     Job {
         images,
-        // The picture's ratio is the one asked for.
+        // The requested size sets the aspect ratio.
         camera: Camera {
             size,
             ..scene.camera
@@ -162,8 +162,8 @@ fn job(work: &Render, scene: Scene, images: Images, size: Size) -> Job {
     }
 }
 
-/// Waits for the finished picture, and shows how far it is.
-fn last(renderer: &Renderer, woken: &Receiver<()>) -> Result<Arc<Frame>, Error> {
+/// Waits for the finished picture and shows the progress.
+fn wait_for_last_frame(renderer: &Renderer, woken: &Receiver<()>) -> Result<Arc<Frame>, Error> {
     let mut line = ProgressLine::new();
     while woken.recv().is_ok() {
         let Some(frame) = renderer.latest() else {

@@ -1,4 +1,4 @@
-//! Diagnostics as lines to read, each with an excerpt of the text.
+//! Formats diagnostics, each with an excerpt of the text.
 
 use std::fmt::Write;
 use std::io::{self, IsTerminal};
@@ -7,7 +7,7 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 use crate::text::{Diagnostic, Position, Severity, Span, line_end, line_start, mark_len, visible};
 
-/// Characters of a line shown before the place in question, and after its beginning.
+/// Maximum number of characters shown before a span, of it, and after it.
 const MARGIN: usize = 60;
 
 /// Whether a report is coloured.
@@ -18,7 +18,7 @@ pub(super) enum Style {
 }
 
 impl Style {
-    /// Coloured on a terminal, unless the user asked for no colours (see no-color.org).
+    /// Coloured on a terminal, unless `NO_COLOR` is set (see no-color.org).
     pub(super) fn of_error_stream() -> Self {
         let no_colour = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         if io::stderr().is_terminal() && !no_colour {
@@ -29,8 +29,8 @@ impl Style {
     }
 }
 
-/// Renders diagnostics of a text, in their order, as lines without a line break at the end. The
-/// first line of each holds `NAME:LINE:COLUMN`. Foreign text in them is made visible.
+/// Formats the diagnostics of a text, in order, without a trailing line break. The first line of
+/// each contains `NAME:LINE:COLUMN`. Foreign text is escaped by [`visible`].
 pub(super) fn render(name: &str, text: &str, diagnostics: &[Diagnostic], style: Style) -> String {
     let renderer = match style {
         Style::Plain => Renderer::plain(),
@@ -69,7 +69,7 @@ fn one(name: &str, text: &str, diagnostic: &Diagnostic, renderer: &Renderer) -> 
     renderer.render(&[group])
 }
 
-/// A line as it can be shown.
+/// A line prepared for display.
 #[derive(Debug, PartialEq)]
 struct Excerpt {
     line: String,
@@ -77,8 +77,8 @@ struct Excerpt {
 }
 
 impl Excerpt {
-    /// The line that `span` begins in, cut around it if it is long; of a longer span, the part in
-    /// that line.
+    /// The line in which `span` begins, shortened around it if long. Marks only the part of the
+    /// span in that line.
     fn of(text: &str, span: Span) -> Self {
         let start = span.start().clamp(mark_len(text), text.len());
         let line_start = line_start(text, start).max(mark_len(text));
@@ -102,7 +102,7 @@ impl Excerpt {
     }
 }
 
-/// Text of one line as it can be shown: tabs as spaces, all else made visible.
+/// Expands tabs to spaces and escapes the rest by [`visible`].
 fn shown(text: &str) -> String {
     let parts: Vec<_> = text.split('\t').map(visible).collect();
     parts.join("    ")
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn a_report_names_the_place_and_points_at_it() {
+    fn a_report_gives_the_position_and_points_at_it() {
         let text = "1\nsphere 0 0 0 -1\n";
         let diagnostic = Diagnostic::error(
             Span::new(15, 17),
@@ -160,7 +160,7 @@ error: a.ray:2:14: object 1 (sphere) radius: must be greater than 0
     }
 
     #[test]
-    fn warnings_say_so_and_none_is_left_out() {
+    fn warnings_are_labelled_and_none_is_omitted() {
         let warning = Diagnostic::warning(Span::at(0), "odd", "something else");
         let mut all = vec![warning; 102];
         all.push(Diagnostic::error(Span::at(0), "wrong", "something right"));
@@ -171,7 +171,7 @@ error: a.ray:2:14: object 1 (sphere) radius: must be greater than 0
     }
 
     #[test]
-    fn excerpts_keep_the_mark_on_its_text() {
+    fn the_mark_of_an_excerpt_covers_the_span() {
         let long = "0 ".repeat(1000);
         let cases = [
             ("[ab] c", "ab c", "ab"),
@@ -203,7 +203,7 @@ error: a.ray:2:14: object 1 (sphere) radius: must be greater than 0
     }
 
     #[test]
-    fn a_place_at_the_end_is_pointed_at() {
+    fn an_empty_span_at_the_end_is_marked() {
         assert_eq!(
             report("1 2[]"),
             "\
@@ -215,7 +215,7 @@ error: a.ray:1:4: wrong
     }
 
     #[test]
-    fn nothing_of_a_text_reaches_the_terminal_raw() {
+    fn control_characters_never_reach_the_terminal() {
         let evil = "\u{1b}]52;c;eA\u{7}\r\u{9b}31m\u{202e}";
         let diagnostic = Diagnostic::warning(Span::new(0, evil.len()), evil, evil).with_hint(evil);
         let lines = render(evil, evil, &[diagnostic], Style::Plain);

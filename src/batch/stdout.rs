@@ -1,22 +1,22 @@
-//! A picture on the output stream.
+//! A picture on standard output.
 
 use std::io::{self, BufWriter, IsTerminal, Write};
 
 use crate::image_file::ImageFormat;
 use crate::render::Frame;
 
-/// Bytes that go to the stream at once. It flushes at every byte that looks like a line break, but
-/// what is longer than its own buffer passes in one or two pieces.
+/// Bytes written at once. `Stdout` flushes at every byte that looks like a line break, but passes
+/// on writes longer than its own buffer in one or two pieces.
 const CHUNK: usize = 1 << 20;
 
-/// Whether it is a terminal, which can't show a picture file.
+/// Whether standard output is a terminal, which can't show a picture file.
 pub(super) fn is_terminal() -> bool {
     io::stdout().is_terminal()
 }
 
-/// Fails where the stream is closed, as far as that can be told without writing.
+/// Fails if standard output is closed, as far as that can be detected without writing.
 pub(super) fn check() -> io::Result<()> {
-    if is_stand_in() {
+    if is_placeholder() {
         Err(io::Error::other(
             "closed (or the null device, open for reading too)",
         ))
@@ -25,18 +25,18 @@ pub(super) fn check() -> io::Result<()> {
     }
 }
 
-/// Encodes a frame to the stream.
+/// Encodes a frame to standard output.
 pub(super) fn write(format: ImageFormat, frame: &Frame) -> io::Result<()> {
     let mut out = BufWriter::with_capacity(CHUNK, io::stdout().lock());
     format.write(frame, &mut out)?;
     out.flush()
 }
 
-/// Whether the stream is what the standard library opens before `main` in place of a closed one:
-/// the null device, for reading and writing. Whoever wants nothing of the picture opens it for
-/// writing alone, as a shell does.
+/// Whether standard output is what the standard library opens before `main` in place of a closed
+/// stream: the null device, for reading and writing. A shell's `>/dev/null` opens it for writing
+/// only.
 #[cfg(unix)]
-fn is_stand_in() -> bool {
+fn is_placeholder() -> bool {
     use std::os::unix::fs::MetadataExt;
 
     use rustix::fs::{FileType, OFlags, fcntl_getfl, fstat};
@@ -54,6 +54,6 @@ fn is_stand_in() -> bool {
 }
 
 #[cfg(not(unix))]
-fn is_stand_in() -> bool {
+fn is_placeholder() -> bool {
     false
 }

@@ -1,4 +1,4 @@
-//! The threads that reading shares.
+//! The thread pool shared by readers of large files.
 
 use std::sync::Once;
 use std::thread;
@@ -7,16 +7,16 @@ use rayon::ThreadPoolBuilder;
 
 use crate::memory;
 
-/// Where the system does not give the threads that large files are read with, has the calling thread
-/// do their work: without them rayon's shared pool panics. Called before the first large file.
-pub(super) fn settle() {
-    static SETTLED: Once = Once::new();
-    SETTLED.call_once(|| {
+/// If no threads can be started, makes the calling thread do the work of rayon's global pool, which
+/// would panic otherwise. To be called before the first large file is read.
+pub(super) fn prepare() {
+    static PREPARED: Once = Once::new();
+    PREPARED.call_once(|| {
         let cores = thread::available_parallelism().map_or(1, usize::from);
         let probe = ThreadPoolBuilder::new().num_threads(memory::threads(cores));
         if probe.build().is_err() {
             let alone = ThreadPoolBuilder::new().num_threads(1).use_current_thread();
-            // It is an error only where the pool is there already.
+            // This fails only if the pool already exists.
             let _ = alone.build_global();
         }
     });

@@ -1,4 +1,4 @@
-//! Words that are chosen from a few, and what they mean.
+//! Enumerated option values and what they mean.
 
 use clap::ValueEnum;
 
@@ -6,27 +6,27 @@ use crate::render::{Aov, Filter};
 use crate::scene::{Integrator, Transfer};
 use crate::ui::terminal::{Choice, ColourDepth};
 
-/// How many colours the terminal is sent.
+/// The terminal's colour depth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(super) enum ColourChoice {
-    /// As many as it is found to show.
+    /// As detected.
     #[default]
     Auto,
-    /// 24-bit colours.
+    /// 24-bit colour.
     #[value(name = "24")]
     True,
-    /// The 256 indexed colours.
+    /// 256 indexed colours.
     #[value(name = "256")]
     Indexed,
-    /// The 16 basic colours.
+    /// 16 basic colours.
     #[value(name = "16")]
     Basic,
-    /// None.
+    /// No colours.
     Mono,
 }
 
 impl ColourChoice {
-    pub(super) fn meaning(self) -> Choice {
+    pub(super) fn value(self) -> Choice {
         Choice::Fixed(match self {
             Self::Auto => return Choice::Auto,
             Self::True => ColourDepth::TrueColour,
@@ -37,21 +37,21 @@ impl ColourChoice {
     }
 }
 
-/// What a picture shows instead of light.
+/// What is rendered instead of light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum AovChoice {
-    /// How far it is from the eye: the nearest white, the farthest black.
+    /// Distance from the eye: nearest white, farthest black.
     Depth,
-    /// Its normal: −1 to 1 as 0 to 255.
+    /// Surface normal: −1 to 1 as 0 to 255.
     Normal,
-    /// Which object it is of: a colour each; in EXR and HDR its place, from 1.
+    /// A colour for each object; in EXR and HDR its number, from 1.
     Object,
-    /// Its own colour, unlit.
+    /// Surface colour, unlit.
     Albedo,
 }
 
 impl AovChoice {
-    pub(super) fn meaning(self) -> Aov {
+    pub(super) fn value(self) -> Aov {
         match self {
             Self::Depth => Aov::Depth,
             Self::Normal => Aov::Normal,
@@ -61,17 +61,17 @@ impl AovChoice {
     }
 }
 
-/// How light is gathered.
+/// The integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum IntegratorChoice {
-    /// By Whitted's rays: to the lights, mirrored and refracted.
+    /// Whitted ray tracing: rays to the lights, reflected and refracted.
     Whitted,
-    /// By random paths, which bring light by every way; noise falls with the samples.
+    /// Path tracing: light on all paths, sampled at random; more samples reduce noise.
     Path,
 }
 
 impl IntegratorChoice {
-    pub(super) fn meaning(self) -> Integrator {
+    pub(super) fn value(self) -> Integrator {
         match self {
             Self::Whitted => Integrator::Whitted,
             Self::Path => Integrator::Path,
@@ -79,20 +79,20 @@ impl IntegratorChoice {
     }
 }
 
-/// What of its surroundings a pixel is the mean of.
+/// The pixel filter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(super) enum FilterChoice {
-    /// The pixel itself.
+    /// The pixel's own area.
     #[default]
     Box,
-    /// A Gaussian three pixels wide, its deviation half a pixel.
+    /// A Gaussian three pixels wide, with a standard deviation of half a pixel.
     Gaussian,
-    /// The Blackman-Harris window, three pixels wide: sharper than the Gaussian.
+    /// A Blackman-Harris window three pixels wide, sharper than the Gaussian.
     BlackmanHarris,
 }
 
 impl FilterChoice {
-    pub(super) fn meaning(self) -> Filter {
+    pub(super) fn value(self) -> Filter {
         match self {
             Self::Box => Filter::Box,
             Self::Gaussian => Filter::Gaussian,
@@ -101,17 +101,17 @@ impl FilterChoice {
     }
 }
 
-/// How colours become 8-bit values.
+/// The transfer curve from colours to 8-bit values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum TransferChoice {
-    /// As they are, without gamma.
+    /// Linear, without gamma.
     Linear,
-    /// By the curve of sRGB.
+    /// The sRGB curve.
     Srgb,
 }
 
 impl TransferChoice {
-    pub(super) fn meaning(self) -> Transfer {
+    pub(super) fn value(self) -> Transfer {
         match self {
             Self::Linear => Transfer::Linear,
             Self::Srgb => Transfer::Srgb,

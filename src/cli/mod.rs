@@ -1,4 +1,4 @@
-//! Arguments and exit codes; no work.
+//! Command-line arguments and exit codes. Does no work itself.
 
 mod choices;
 
@@ -24,54 +24,54 @@ use crate::text::{slips, visible};
 use crate::ui;
 use crate::ui::terminal::Mouse;
 
-/// Done.
+/// Success.
 pub const DONE: u8 = 0;
-/// Writing or the machine failed on the way.
+/// A write or system error.
 pub const FAILED: u8 = 1;
-/// The arguments make no sense.
+/// Wrong arguments.
 pub const USAGE: u8 = 2;
-/// A scene is wrong.
+/// A scene has errors.
 pub const INVALID: u8 = 65;
-/// A scene is missing or can't be read.
+/// A scene is missing or unreadable.
 pub const NO_INPUT: u8 = 66;
-/// The picture's file can't be created.
+/// The picture file can't be created.
 pub const NO_OUTPUT: u8 = 73;
 
-/// The interface's terminal is gone: what shells report for `SIGHUP`.
+/// The terminal of the interface is gone; the code shells report for `SIGHUP`.
 pub const HUNG_UP: u8 = 129;
-/// The interface was interrupted from outside: what shells report for `SIGINT`.
+/// The interface was interrupted from outside; the code shells report for `SIGINT`.
 pub const INTERRUPTED: u8 = 130;
-/// Another signal asked the interface to end: with the signal's number added, what shells report for it.
+/// Another signal ended the interface. Shells report this plus the number of the signal.
 pub const SIGNALLED: u8 = 128;
 
-/// What the user wants done.
+/// A parsed command line.
 #[derive(Clone, Debug)]
 pub enum Command {
     /// Open the interface.
     Interface(ui::Options),
-    /// Make a picture.
+    /// Render a picture.
     Render(Render),
-    /// Say what was detected of the terminal and the machine, for this scene.
+    /// Report what was detected about the terminal and the machine, for this scene.
     Doctor(Option<PathBuf>),
-    /// Say what is wrong with scenes.
+    /// Report errors and warnings in scenes.
     Check(Check),
 }
 
-/// A text to print instead of doing anything, and the exit code to end with.
+/// A text to print instead of running a command, and the exit code.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Stop {
     /// The text, safe to print.
     pub text: String,
-    /// [`DONE`] if the text was asked for and goes to the output stream, else [`USAGE`].
+    /// [`DONE`] if the text was requested and goes to standard output, otherwise [`USAGE`].
     pub code: u8,
 }
 
-/// Understands the arguments, the program's name first.
+/// Parses the arguments, the first of which is the program's name.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, Stop> {
-    let said = Cli::try_parse_from(arguments).map_err(|error| Stop::of(&error))?;
-    match said.command {
+    let cli = Cli::try_parse_from(arguments).map_err(|error| Stop::of(&error))?;
+    match cli.command {
         Some(Subcommands::Render(render)) => render
-            .meaning()
+            .into_render()
             .map(Command::Render)
             .map_err(|reason| refusal(Some("render"), reason)),
         Some(Subcommands::Check {
@@ -80,22 +80,22 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, S
             assets,
         }) => Ok(Command::Check(Check {
             scenes,
-            warnings: strictness.meaning(),
+            warnings: strictness.warnings(),
             assets: assets.folders,
         })),
         Some(Subcommands::Doctor { scene }) => Ok(Command::Doctor(scene)),
-        None => said
+        None => cli
             .interface
-            .meaning()
+            .into_options()
             .map(Command::Interface)
             .map_err(|reason| refusal(None, reason)),
     }
 }
 
-/// Refuses arguments that clap has taken, with the usage of the command they are for.
+/// Rejects arguments that clap has accepted, showing the usage of their command.
 fn refusal(command: Option<&str>, reason: String) -> Stop {
     let mut cli = Cli::command();
-    // Without this a command's usage lacks the program's name.
+    // Without this, a subcommand's usage lacks the program's name.
     cli.build();
     let of_command = command.and_then(|name| cli.find_subcommand_mut(name).cloned());
     let error = of_command
@@ -104,7 +104,7 @@ fn refusal(command: Option<&str>, reason: String) -> Stop {
     Stop::of(&error)
 }
 
-/// The exit code that headless work ends with.
+/// The exit code for headless work.
 pub fn exit_code(outcome: &Result<(), batch::Error>) -> u8 {
     use batch::Error;
     let Err(error) = outcome else {
@@ -120,7 +120,7 @@ pub fn exit_code(outcome: &Result<(), batch::Error>) -> u8 {
     }
 }
 
-/// The exit code that the interface ends with.
+/// The exit code for the interface.
 pub fn interface_exit_code(outcome: &Result<ui::Ending, ui::Error>) -> u8 {
     match outcome {
         Ok(ui::Ending::Quit) => DONE,
@@ -149,7 +149,7 @@ fn read_code(error: &ReadError) -> u8 {
 
 impl Stop {
     fn of(error: &clap::Error) -> Self {
-        // The text repeats arguments, which may hold anything.
+        // The text quotes arguments, which may contain anything.
         let mut text = String::new();
         for line in error.to_string().lines() {
             // Writing to a string can't fail.
@@ -178,25 +178,25 @@ struct Cli {
 
 const EXAMPLES: &str = "\
 Examples:
-  halflight scene.ray                             edit and see a scene
-  halflight render scene.ray -o scene.bmp         make a picture
+  halflight scene.ray                             edit a scene and see it traced
+  halflight render scene.ray -o scene.bmp         render a picture
   halflight render scene.ray -o - --format ppm | ssh far 'cat > scene.ppm'
-  halflight check scenes/*.ray                    say what is wrong with scenes
-  halflight doctor                                say what was detected, and why
+  halflight check scenes/*.ray                    report errors and warnings
+  halflight doctor                                report what was detected, and why
 
-A scene named like a command is opened as ./render, ./check or ./doctor. Scenes are read from \
+To open a scene named like a command, write ./render, ./check or ./doctor. Scenes are read from \
 files, not from standard input, pipes or devices.
 
 Exit codes: 0 success, 1 write or system error, 2 wrong arguments, 65 invalid scene, \
 66 scene not found or unreadable, 73 picture file cannot be created, 129 terminal gone, \
-130 SIGINT, 143 SIGTERM, 128 + N another signal N. Ctrl-C quits the interface with 0, as q does.";
+130 SIGINT, 143 SIGTERM, 128 + N any other signal N. Ctrl-C quits the interface with 0, like q.";
 
 #[derive(Debug, Subcommand)]
 enum Subcommands {
-    /// Make a picture of a scene
+    /// Render a scene to a picture file
     #[command(after_help = RENDER_EXAMPLES)]
     Render(RenderArguments),
-    /// Say what is wrong with scenes, without tracing them
+    /// Report errors and warnings in scenes without rendering them
     Check {
         /// Scene files
         #[arg(required = true, value_name = "SCENE")]
@@ -206,9 +206,9 @@ enum Subcommands {
         #[command(flatten)]
         assets: AssetArguments,
     },
-    /// Say what was detected of the terminal and the machine, and why
+    /// Report what was detected about the terminal and the machine, and why
     Doctor {
-        /// Scene file whose folder is examined [default: the current folder]
+        /// Scene file whose folder to examine [default: the current folder]
         #[arg(value_name = "SCENE")]
         scene: Option<PathBuf>,
     },
@@ -216,13 +216,13 @@ enum Subcommands {
 
 #[derive(Args, Debug)]
 struct StrictnessArguments {
-    /// Treat the scene's warnings as errors; notes and findings about the picture stay as they are
+    /// Treat warnings in the scene as errors; notes are unaffected
     #[arg(long)]
     strict: bool,
 }
 
 impl StrictnessArguments {
-    fn meaning(&self) -> Warnings {
+    fn warnings(&self) -> Warnings {
         if self.strict {
             Warnings::Refused
         } else {
@@ -233,8 +233,8 @@ impl StrictnessArguments {
 
 #[derive(Args, Debug)]
 struct AssetArguments {
-    /// Let the scene read pictures and meshes from this folder too; may be given several times.
-    /// Without it they are read from the scene's folder and the one above it only
+    /// Also allow pictures and meshes to be read from this folder, in addition to the scene's
+    /// folder and the folder above it; repeatable
     #[arg(long = "assets", value_name = "DIR")]
     folders: Vec<PathBuf>,
 }
@@ -244,21 +244,20 @@ struct InterfaceArguments {
     /// Scene file to open: .ray, .dat or .xml
     #[arg(value_name = "SCENE")]
     scene: Option<PathBuf>,
-    // Read so that a second scene is refused as such and not as an unknown command.
+    // Parsed so that a second scene is not rejected as an unknown command.
     #[arg(hide = true)]
     surplus: Vec<PathBuf>,
-    /// Compare the file's content every MS milliseconds (10 to 3600000; 500 unless given), for
-    /// network file systems, which send no notices of changes
+    /// Check the file for changes every MS milliseconds, 10 to 3600000 (500 if omitted); for
+    /// network file systems, which send no change notifications
     #[arg(
         long, value_name = "MS", num_args = 0..=1, require_equals = true,
         default_missing_value = "500", value_parser = value_parser!(u64).range(10..=3_600_000)
     )]
     poll: Option<u64>,
-    /// Send the terminal at most so many kilobytes (1000 bytes) a second, up to 4000000; 0 means no
-    /// limit
+    /// Limit terminal output, in KB/s (1000 bytes per second), up to 4000000; 0 means no limit
     #[arg(long, value_name = "KB/s", value_parser = value_parser!(u32).range(..=4_000_000))]
     bandwidth: Option<u32>,
-    /// Colours that the terminal is sent
+    /// Colour depth of the terminal
     #[arg(
         long,
         alias = "colour",
@@ -267,22 +266,22 @@ struct InterfaceArguments {
         default_value_t
     )]
     color: ColourChoice,
-    /// Leave the mouse to the terminal
+    /// Do not capture the mouse
     #[arg(long)]
     no_mouse: bool,
-    /// Samples a pixel, 1 to 65536, of full-size traces and of exports [default: 16]
+    /// Samples per pixel of full-size traces and exports, 1 to 65536 [default: 16]
     #[arg(long, value_name = "N", value_parser = spp_range())]
     spp: Option<u32>,
-    /// Bounces of a ray, up to 4096; 0 is none [default: 8, with path tracing 64]
+    /// Maximum number of bounces, 0 to 4096 [default: 8, or 64 with path tracing]
     #[arg(long, value_name = "N", value_parser = depth_range())]
     depth: Option<u32>,
-    /// How light is gathered at first; P changes it [default: whitted, unless the scene says path]
-    #[arg(long, value_name = "HOW", value_enum)]
+    /// Integrator to start with; P switches it [default: whitted, unless the scene sets path]
+    #[arg(long, value_name = "INTEGRATOR", value_enum)]
     integrator: Option<IntegratorChoice>,
-    /// What full-size traces and exports filter pixels by; the preview has the box
+    /// Pixel filter of full-size traces and exports; the preview always uses box
     #[arg(long, value_name = "FILTER", value_enum, default_value_t)]
     filter: FilterChoice,
-    /// Threads that trace, 1 to 1024 [default: one fewer than the machine's cores]
+    /// Number of tracing threads, 1 to 1024 [default: one fewer than the number of cores]
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
     #[command(flatten)]
@@ -290,17 +289,17 @@ struct InterfaceArguments {
 }
 
 impl InterfaceArguments {
-    fn meaning(self) -> Result<ui::Options, String> {
-        if let Some(meant) = self.scene.as_deref().and_then(command_meant) {
-            let said = self.scene.unwrap_or_default();
+    fn into_options(self) -> Result<ui::Options, String> {
+        if let Some(command) = self.scene.as_deref().and_then(likely_command) {
+            let word = self.scene.unwrap_or_default();
             return Err(format!(
-                "no command is called `{}`: did you mean {meant}?",
-                said.display()
+                "unknown command `{}`: did you mean {command}?",
+                word.display()
             ));
         }
         if let Some(second) = self.surplus.first() {
             return Err(format!(
-                "one scene is opened at a time, {} is a second one; the commands are render, \
+                "unexpected second scene {}: only one can be opened; the commands are render, \
                  check and doctor",
                 second.display()
             ));
@@ -309,25 +308,25 @@ impl InterfaceArguments {
             scene: self.scene,
             poll: self.poll.map(Duration::from_millis),
             bandwidth: self.bandwidth.map(|kilobytes| kilobytes * 1000),
-            colour: self.color.meaning(),
+            colour: self.color.value(),
             mouse: if self.no_mouse { Mouse::Off } else { Mouse::On },
             spp: self.spp,
             depth: self.depth,
-            integrator: self.integrator.map(IntegratorChoice::meaning),
-            filter: self.filter.meaning(),
+            integrator: self.integrator.map(IntegratorChoice::value),
+            filter: self.filter.value(),
             threads: self.threads.map(usize::from),
             assets: self.assets.folders,
         })
     }
 }
 
-/// The command that a word for a scene was probably meant to be: scenes have an extension.
-fn command_meant(scene: &Path) -> Option<String> {
+/// The command that was probably meant by a scene name without an extension.
+fn likely_command(scene: &Path) -> Option<String> {
     let word = scene.to_str().filter(|word| !word.contains(['.', '/']))?;
     let cli = Cli::command();
     let mut names = cli.get_subcommands().map(clap::Command::get_name);
-    let meant = names.find(|name| slips(word, name) <= 2)?;
-    Some(meant.to_owned())
+    let command = names.find(|name| slips(word, name) <= 2)?;
+    Some(command.to_owned())
 }
 
 const RENDER_EXAMPLES: &str = "\
@@ -336,8 +335,8 @@ Examples:
   halflight render scene.ray -o scene.png --size 1920x1080 --spp 64
   halflight render scene.ray -o - --format ppm | display
 
-GIF keeps 256 colours, JPEG has quality 95; EXR and HDR hold unclamped values, the other formats \
-every pixel in 8 bits a channel.
+GIF is reduced to 256 colours and JPEG has quality 95. EXR and HDR keep unclamped values; the \
+other formats keep every pixel with 8 bits per channel.
 
 The same scene and options give the same bytes on every machine and with any number of threads.";
 
@@ -346,59 +345,59 @@ struct RenderArguments {
     /// Scene file: .ray, .dat or .xml
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// Picture file, in the format its extension says (.bmp, .ppm, .png, .tiff, .gif,
-    /// .jpeg, .exr, .hdr); - is standard output
+    /// Picture file, in the format of its extension (.bmp, .ppm, .png, .tiff, .gif, .jpeg, .exr,
+    /// .hdr); - for standard output
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Format of the picture, whatever the file's name [default for -o -: bmp]
+    /// Picture format, regardless of the file's extension [default for -o -: bmp]
     #[arg(long, value_name = "FORMAT", value_parser = format_names())]
     format: Option<ImageFormat>,
-    /// Width and height in pixels, such as 800x600, at most 268435456 pixels in all (as 16384x16384)
+    /// Width and height in pixels, such as 800x600; at most 268435456 pixels in all (16384x16384)
     /// [default: the scene's]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<Size>,
-    /// Samples a pixel, 1 to 65536
+    /// Samples per pixel, 1 to 65536
     #[arg(long, value_name = "N", default_value_t = DEFAULT_SPP, value_parser = spp_range())]
     spp: u32,
-    /// Bounces of a ray, up to 4096; 0 is none [default: 8, with path tracing 64]
+    /// Maximum number of bounces, 0 to 4096 [default: 8, or 64 with path tracing]
     #[arg(long, value_name = "N", value_parser = depth_range())]
     depth: Option<u32>,
-    /// How light is gathered [default: whitted, unless the scene says path]
-    #[arg(long, value_name = "HOW", value_enum)]
+    /// Integrator [default: whitted, unless the scene sets path]
+    #[arg(long, value_name = "INTEGRATOR", value_enum)]
     integrator: Option<IntegratorChoice>,
-    /// What pixels are filtered by
+    /// Pixel filter
     #[arg(long, value_name = "FILTER", value_enum, default_value_t)]
     filter: FilterChoice,
-    /// Chooses among equally good sample patterns, 0 to 4294967295
+    /// Random seed, 0 to 4294967295
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u32,
-    /// Show the first surface under each pixel instead of light
-    #[arg(long, value_name = "WHAT", value_enum)]
+    /// Render the first surface under each pixel instead of light
+    #[arg(long, value_name = "AOV", value_enum)]
     aov: Option<AovChoice>,
-    /// How colours become 8-bit values [default: linear, unless the scene says srgb]
+    /// Transfer curve from colours to 8-bit values [default: linear, unless the scene sets srgb]
     #[arg(long, value_name = "CURVE", value_enum)]
     transfer: Option<TransferChoice>,
-    /// Threads that trace, 1 to 1024 [default: one a core]
+    /// Number of tracing threads, 1 to 1024 [default: one per core]
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
     #[command(flatten)]
     strictness: StrictnessArguments,
     #[command(flatten)]
     assets: AssetArguments,
-    /// Write the picture even to a terminal
+    /// Write to standard output even if it is a terminal
     #[arg(long)]
     force: bool,
 }
 
 impl RenderArguments {
-    fn meaning(self) -> Result<Render, String> {
+    fn into_render(self) -> Result<Render, String> {
         let to_stdout = self.output == Path::new("-");
         let format = match self.format {
             Some(format) => format,
             None if to_stdout => ImageFormat::Bmp,
             None => ImageFormat::of_path(&self.output).ok_or_else(|| {
                 format!(
-                    "can't tell the format of {}: give it an extension of {}, or use --format",
+                    "cannot tell the format of {}: use the extension {}, or --format",
                     self.output.display(),
                     known_extensions()
                 )
@@ -407,7 +406,7 @@ impl RenderArguments {
         let all_cores = || thread::available_parallelism().map_or(1, NonZero::get);
         Ok(Render {
             scene: self.scene,
-            warnings: self.strictness.meaning(),
+            warnings: self.strictness.warnings(),
             output: match (to_stdout, self.force) {
                 (false, _) => Output::File(self.output),
                 (true, false) => Output::Stdout,
@@ -417,11 +416,11 @@ impl RenderArguments {
             size: self.size,
             spp: self.spp,
             depth: self.depth,
-            integrator: self.integrator.map(IntegratorChoice::meaning),
-            filter: self.filter.meaning(),
+            integrator: self.integrator.map(IntegratorChoice::value),
+            filter: self.filter.value(),
             seed: self.seed,
-            aov: self.aov.map(AovChoice::meaning),
-            transfer: self.transfer.map(TransferChoice::meaning),
+            aov: self.aov.map(AovChoice::value),
+            transfer: self.transfer.map(TransferChoice::value),
             threads: self.threads.map_or_else(all_cores, usize::from),
             assets: self.assets.folders,
         })
@@ -433,12 +432,12 @@ fn spp_range() -> impl TypedValueParser<Value = u32> {
 }
 
 fn depth_range() -> impl TypedValueParser<Value = u32> {
-    // No sample has rays for more bounces: see the ray budget of the renderer.
+    // No sample can have more bounces; see the renderer's ray budget.
     value_parser!(u32).range(..=4096)
 }
 
 fn threads_range() -> impl TypedValueParser<Value = u16> {
-    // More than any machine has; far more could not be started.
+    // More cores than any machine has; far more threads could not be started.
     value_parser!(u16).range(1..=1024)
 }
 
@@ -446,16 +445,16 @@ fn format_names() -> impl TypedValueParser<Value = ImageFormat> {
     let names = FORMATS.map(|(format, extensions)| {
         PossibleValue::new(format.name()).aliases(extensions.iter().copied())
     });
-    PossibleValuesParser::new(names).try_map(|said| {
+    PossibleValuesParser::new(names).try_map(|name| {
         let mut formats = FORMATS.into_iter();
-        let known = formats.find(|(_, extensions)| extensions.contains(&said.as_str()));
+        let known = formats.find(|(_, extensions)| extensions.contains(&name.as_str()));
         known.map(|(format, _)| format).ok_or("unknown format")
     })
 }
 
-fn parse_size(said: &str) -> Result<Size, String> {
-    Size::parse(said)
-        .ok_or_else(|| "expected two whole numbers of at least 1, such as 800x600".to_owned())
+fn parse_size(text: &str) -> Result<Size, String> {
+    Size::parse(text)
+        .ok_or_else(|| "expected two integers of at least 1, such as 800x600".to_owned())
 }
 
 #[cfg(test)]

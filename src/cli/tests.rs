@@ -4,7 +4,7 @@ use crate::render::Filter;
 use crate::scene::Integrator;
 use crate::ui::terminal::{Choice, ColourDepth};
 
-/// What a command line, its words separated by blanks, means.
+/// Parses a command line whose words are separated by spaces.
 fn parsed(line: &str) -> Result<Command, Stop> {
     parse(line.split(' ').map(OsString::from))
 }
@@ -24,12 +24,12 @@ fn render(line: &str) -> Render {
 }
 
 #[test]
-fn the_declaration_is_sound() {
+fn the_command_line_declaration_is_valid() {
     Cli::command().debug_assert();
 }
 
 #[test]
-fn omitted_options_are_left_to_the_interface() {
+fn omitted_options_have_the_defaults_of_the_interface() {
     assert_eq!(interface("halflight"), ui::Options::default());
     assert_eq!(
         interface("halflight a.ray --poll").poll,
@@ -65,7 +65,7 @@ fn options_reach_the_interface() {
 }
 
 #[test]
-fn a_pictures_format_is_its_extension_unless_given() {
+fn the_extension_sets_the_format_unless_one_is_given() {
     let cases = [
         ("halflight render a -o b.PNG", ImageFormat::Png),
         ("halflight render a -o b.png --format ppm", ImageFormat::Ppm),
@@ -81,29 +81,29 @@ fn a_pictures_format_is_its_extension_unless_given() {
 }
 
 #[test]
-fn a_picture_has_defaults() {
+fn render_options_have_defaults() {
     let default = render("halflight render a.ray -o a.bmp");
     assert_eq!((default.spp, default.seed), (16, 0));
     assert_eq!((default.depth, default.integrator), (None, None));
     assert_eq!(default.filter, Filter::Box);
     assert_eq!(default.size, None);
     assert_eq!(default.output, Output::File("a.bmp".into()));
-    let said = render(
+    let given = render(
         "halflight render a -o - --force --size 3X2 --spp 65536 --seed 7 --integrator whitted --depth 9 --filter blackman-harris",
     );
     let size = Size {
         width: 3,
         height: 2,
     };
-    assert_eq!((said.size, said.spp, said.seed), (Some(size), 65_536, 7));
-    assert_eq!(said.integrator, Some(Integrator::Whitted));
-    assert_eq!(said.depth, Some(9));
-    assert_eq!(said.filter, Filter::BlackmanHarris);
-    assert_eq!(said.output, Output::StdoutTerminal);
+    assert_eq!((given.size, given.spp, given.seed), (Some(size), 65_536, 7));
+    assert_eq!(given.integrator, Some(Integrator::Whitted));
+    assert_eq!(given.depth, Some(9));
+    assert_eq!(given.filter, Filter::BlackmanHarris);
+    assert_eq!(given.output, Output::StdoutTerminal);
 }
 
 #[test]
-fn folders_of_textures_reach_every_command() {
+fn asset_folders_reach_every_command() {
     let folders: Vec<PathBuf> = vec!["b".into(), "c".into()];
     let line = "halflight render a.dat -o a.bmp --assets b --assets c";
     assert_eq!(render(line).assets, folders);
@@ -117,9 +117,9 @@ fn folders_of_textures_reach_every_command() {
 }
 
 #[test]
-fn wrong_arguments_are_refused_with_a_reason() {
+fn wrong_arguments_are_rejected_with_a_reason() {
     let cases = [
-        ("halflight a b", "b is a second one"),
+        ("halflight a b", "unexpected second scene b"),
         (
             "halflight --color blue a",
             "[possible values: auto, 24, 256, 16, mono]",
@@ -207,7 +207,7 @@ fn the_paragraphs_of_help_fill_80_columns() {
 }
 
 #[test]
-fn help_names_the_limits() {
+fn help_states_the_limits() {
     for (line, limits) in [
         ("halflight -h", vec![MAX_SPP.into()]),
         ("halflight render -h", vec![MAX_SPP.into(), MAX_PIXELS]),

@@ -1,37 +1,36 @@
-//! Undo and redo steps as edits that lead back. Holds no text: the document applies what it hands
-//! out.
+//! Undo and redo steps as inverse edits. Holds no text: the document applies the edits.
 
 use crate::text::{Edit, Span};
 
-/// The edits that take one step back, in positions of the text after the step.
+/// The edits that undo one step; their spans refer to the text after it.
 type Step = Vec<Edit>;
 
-/// The steps done and undone, and what is needed to forget the last call.
+/// The undo and redo steps, and what is needed to revert the last call.
 #[derive(Clone, Debug, Default)]
 pub(super) struct History {
     undo: Vec<Step>,
     redo: Vec<Step>,
-    /// Whether the top of `undo` is a run of replacements of one leaf that may still grow.
+    /// Whether the top of `undo` is a run of replacements of one leaf that can still grow.
     open: bool,
     last: Option<Call>,
 }
 
-/// What the last call did to the history and the text, so that both can be taken back.
+/// What the last call did to the history and the text, so that both can be reverted.
 #[derive(Clone, Debug)]
 struct Call {
-    /// The edits that take the text back; unlike the top step, they span this one call.
+    /// The edits that revert the text; unlike the top step, they cover only this call.
     inverse: Step,
-    /// Whether it left a step on top.
+    /// Whether it pushed a step.
     pushed: bool,
-    /// The step that its own took the place of.
+    /// The step that was replaced by its own.
     replaced: Option<Step>,
     redo: Vec<Step>,
     open: bool,
 }
 
 impl History {
-    /// Notes a replacement of one leaf by `literal`; joins the open step if that ended with the
-    /// same leaf. A run that comes back to where it began is not a step.
+    /// Records a replacement of one leaf by `literal`, merging it into the open step if that ended
+    /// with the same leaf. A run that returns to its initial text is not a step.
     pub(super) fn record_literal(&mut self, inverse: Edit, literal: &str) {
         let start = inverse.span.start();
         let before = Span::new(start, start + inverse.text.len());
@@ -59,7 +58,7 @@ impl History {
         });
     }
 
-    /// Notes a step of its own.
+    /// Records a separate step.
     pub(super) fn record(&mut self, inverse: Step) {
         self.undo.push(inverse.clone());
         self.last = Some(Call {
@@ -72,18 +71,18 @@ impl History {
         self.open = false;
     }
 
-    /// Notes a call that changed nothing, so that taking it back changes nothing either.
+    /// Records a call that changed nothing, so that reverting it changes nothing either.
     pub(super) fn record_nothing(&mut self) {
         self.last = None;
     }
 
-    /// Ends the open step and lets the last call stand for good.
-    pub(super) fn settle(&mut self) {
+    /// Ends the open step; the last call can no longer be reverted.
+    pub(super) fn commit(&mut self) {
         self.close();
         self.last = None;
     }
 
-    /// Ends the open step; the last call can still be taken back.
+    /// Ends the open step; the last call can still be reverted.
     pub(super) fn close(&mut self) {
         self.open = false;
         if let Some(call) = &mut self.last {
@@ -91,8 +90,8 @@ impl History {
         }
     }
 
-    /// Forgets the last call; the edits that take the text back.
-    pub(super) fn take_back(&mut self) -> Option<Step> {
+    /// Removes the last call from the history and returns the edits that revert the text.
+    pub(super) fn revert(&mut self) -> Option<Step> {
         let call = self.last.take()?;
         if call.pushed {
             self.undo.pop();
@@ -103,24 +102,24 @@ impl History {
         Some(call.inverse)
     }
 
-    /// Takes the step to undo; what leads forward again goes to [`History::undone`].
+    /// Takes the step to undo; its inverse is to be passed to [`History::undone`].
     pub(super) fn next_undo(&mut self) -> Option<Step> {
-        self.settle();
+        self.commit();
         self.undo.pop()
     }
 
-    /// Takes the step to redo; what leads back again goes to [`History::redone`].
+    /// Takes the step to redo; its inverse is to be passed to [`History::redone`].
     pub(super) fn next_redo(&mut self) -> Option<Step> {
-        self.settle();
+        self.commit();
         self.redo.pop()
     }
 
-    /// Keeps what redoes a step just undone.
+    /// Stores the edits that redo a step just undone.
     pub(super) fn undone(&mut self, inverse: Step) {
         self.redo.push(inverse);
     }
 
-    /// Keeps what undoes a step just redone.
+    /// Stores the edits that undo a step just redone.
     pub(super) fn redone(&mut self, inverse: Step) {
         self.undo.push(inverse);
     }

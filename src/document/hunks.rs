@@ -1,8 +1,8 @@
-//! Where one text differs from another, in chunks: leaves and the white space between them.
+//! The differences between two texts, in chunks: leaves and the white space between them.
 //!
-//! A diff finds a shortest way from one text to the other, which is not always what happened: of
-//! equal leaves in a row it cannot tell which one is new. Every doubt is settled towards larger
-//! hunks, for a needless question is better than a silently wrong merge.
+//! A diff finds a shortest edit script, which is not always what happened: in a run of equal leaves
+//! it cannot tell which one is new. Ambiguities are resolved in favour of larger hunks, since a
+//! needless question is better than a silently wrong merge.
 
 use std::ops::{Index, Range};
 use std::sync::Arc;
@@ -13,23 +13,23 @@ use similar::{Algorithm, DiffOp, capture_diff_deadline};
 use crate::language::{Language, Source};
 use crate::text::Span;
 
-/// How long the search for a short difference may go on; what is left then counts as one hunk. In
-/// tests a machine that stalls must not change what is found.
+/// Time limit of the search for a short diff; what remains then counts as one hunk. In tests, a
+/// slow machine must not change the result.
 const PATIENCE: Duration = Duration::from_millis(if cfg!(test) { 3_600_000 } else { 500 });
 
-/// This many unchanged leaves in a row are never taken for a coincidence.
+/// More unchanged leaves in a row than this are never taken for a coincidence.
 const COINCIDENCE: usize = 4;
 
-/// A text chopped into white space, leaf, white space … leaf, white space, where any white space
-/// may be empty: leaves have odd indices. All chunks together are the text.
+/// A text split into alternating chunks: white space, leaf, white space, …, leaf, white space.
+/// White space may be empty; leaves have odd indices. The concatenated chunks are the text.
 pub(super) struct Chunks<'t> {
     text: &'t str,
-    /// Where each chunk begins, and the text's length. A text is read only up to 4 GiB, as spans are.
+    /// The start of each chunk, then the length of the text, which is below 4 GiB, as for spans.
     bounds: Vec<u32>,
 }
 
 impl<'t> Chunks<'t> {
-    /// Chops a text.
+    /// Splits a text.
     pub(super) fn of(language: Language, text: &'t str) -> Self {
         let leaves = Source::new(language, Arc::new(text.to_owned())).leaves();
         let mut bounds = Vec::with_capacity(2 * leaves.len() + 2);
@@ -44,7 +44,7 @@ impl<'t> Chunks<'t> {
         self.bounds[chunk] as usize
     }
 
-    /// How many there are.
+    /// The number of chunks.
     pub(super) fn len(&self) -> usize {
         self.bounds.len() - 1
     }
@@ -54,17 +54,17 @@ impl<'t> Chunks<'t> {
         self.text
     }
 
-    /// Each of them, in order.
+    /// The chunks, in order.
     pub(super) fn iter(&self) -> impl Iterator<Item = &str> {
         (0..self.len()).map(|chunk| &self[chunk])
     }
 
-    /// The bytes that some chunks cover.
+    /// The span of a range of chunks.
     pub(super) fn span(&self, chunks: &Range<usize>) -> Span {
         Span::new(self.bound(chunks.start), self.bound(chunks.end))
     }
 
-    /// The text of some chunks.
+    /// The text of a range of chunks.
     pub(super) fn slice(&self, chunks: &Range<usize>) -> &'t str {
         self.span(chunks).of(self.text)
     }
@@ -78,30 +78,30 @@ impl Index<usize> for Chunks<'_> {
     }
 }
 
-/// Chunks of the base that became other chunks.
+/// A range of base chunks replaced by other chunks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Hunk {
-    /// What was replaced; empty where something was inserted.
+    /// The replaced chunks; empty for an insertion.
     pub(super) base: Range<usize>,
-    /// What stands there now; empty where something was deleted.
+    /// The new chunks; empty for a deletion.
     pub(super) other: Range<usize>,
 }
 
 impl Hunk {
-    /// Whether it changes how many chunks there are; otherwise it replaces one by one.
+    /// Whether the number of chunks changes; otherwise they are replaced one by one.
     pub(super) fn is_structural(&self) -> bool {
         self.base.len() != self.other.len()
     }
 
-    /// How many leaves it takes or brings.
+    /// The number of leaves removed or added, whichever is greater.
     fn leaves(&self) -> usize {
         leaves(&self.base).max(leaves(&self.other))
     }
 }
 
-/// The differences of `other` from `base`, in order and disjoint. Where leaves were replaced one by
-/// one, each is a hunk of its own; an insertion or deletion that might as well have happened a few
-/// chunks further on covers all those places.
+/// The differences between `base` and `other`, in order and disjoint. Leaves replaced one by one
+/// are separate hunks. An insertion or deletion that could equally have happened a few chunks away
+/// covers all those positions.
 pub(super) fn hunks(base: &Chunks, other: &Chunks) -> Vec<Hunk> {
     let raw = fuse(differences(base, other));
     let mut hunks: Vec<Hunk> = Vec::with_capacity(raw.len());
@@ -127,7 +127,7 @@ pub(super) fn hunks(base: &Chunks, other: &Chunks) -> Vec<Hunk> {
     hunks
 }
 
-/// The differences as the diff finds them, apart from each other by equal chunks.
+/// The differences found by the diff, separated by equal chunks.
 fn differences(base: &Chunks, other: &Chunks) -> Vec<Hunk> {
     let deadline = Instant::now().checked_add(PATIENCE);
     let (old, new) = (0..base.len(), 0..other.len());
@@ -152,8 +152,8 @@ fn differences(base: &Chunks, other: &Chunks) -> Vec<Hunk> {
     hunks
 }
 
-/// Joins hunks with so few unchanged leaves between them that these may be equal by coincidence:
-/// `0 1 2` becomes `1 2 3` by three new values rather than by a deletion and an insertion.
+/// Joins hunks separated by so few unchanged leaves that these may be equal by coincidence: `0 1 2`
+/// became `1 2 3` by three new values rather than by a deletion and an insertion.
 fn fuse(hunks: Vec<Hunk>) -> Vec<Hunk> {
     let mut fused: Vec<Hunk> = Vec::with_capacity(hunks.len());
     let mut previous_leaves = 0;
@@ -171,9 +171,9 @@ fn fuse(hunks: Vec<Hunk>) -> Vec<Hunk> {
     fused
 }
 
-/// Widens an insertion or deletion to every place where it would give the same text, within the
-/// base chunks `room`. One that can be read as appending to the text, or as cutting off its end, is
-/// read so; likewise at the beginning.
+/// Widens an insertion or deletion to all positions that give the same text, within the base chunks
+/// `room`. One that may be an append or a truncation is taken as such, and likewise at the
+/// beginning of the text.
 fn widen(hunk: &Hunk, base: &Chunks, other: &Chunks, room: Range<usize>) -> Hunk {
     let (chunks, block) = match (hunk.base.is_empty(), hunk.other.is_empty()) {
         (true, false) => (other, &hunk.other),
@@ -186,7 +186,7 @@ fn widen(hunk: &Hunk, base: &Chunks, other: &Chunks, room: Range<usize>) -> Hunk
     let forth = (0..room.end - hunk.base.end)
         .take_while(|step| chunks[block.start + step] == chunks[block.end + step])
         .count();
-    // The first and the last chunk are white space, which belongs to either side of an end.
+    // The first and last chunks are white space; an edit next to them still counts as at an end.
     let at_start = hunk.base.start - back <= 1;
     let at_end = base.len() <= hunk.base.end + forth + 1;
     let slide = |range: &Range<usize>| match (at_start, at_end) {
@@ -200,7 +200,7 @@ fn widen(hunk: &Hunk, base: &Chunks, other: &Chunks, room: Range<usize>) -> Hunk
     }
 }
 
-/// How many of the chunks are leaves.
+/// The number of leaves in a range of chunks.
 fn leaves(chunks: &Range<usize>) -> usize {
     chunks.end / 2 - chunks.start / 2
 }

@@ -1,8 +1,8 @@
 //! Three-way merging of texts by leaves: tokens and comments, and the white space between them.
 //!
-//! The method is diff3's (Khanna, Kunal, Pierce, "A Formal Investigation of Diff3", 2007): changes
-//! of both texts against their common ancestor are laid side by side, those that meet form a
-//! region, and a region that both changed differently is a conflict.
+//! This is diff3 (Khanna, Kunal, Pierce, "A Formal Investigation of Diff3", 2007): the changes of
+//! both texts to their common ancestor are aligned, overlapping ones form a region, and a region
+//! that both changed differently is a conflict.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -14,55 +14,55 @@ use crate::language::Language;
 use crate::text;
 use crate::text::{Edit, Span};
 
-/// One of the two texts that changed.
+/// One of the two changed texts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// The text under edit.
+    /// The text being edited.
     Mine,
-    /// The text that came from outside.
+    /// The text from outside.
     Theirs,
 }
 
-/// A place that both texts changed, differently.
+/// A place that both texts changed differently.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Conflict {
-    /// Where it stands in the text under edit.
+    /// The span in the text being edited.
     pub span: Span,
-    /// The common ancestor's text.
+    /// The text of the common ancestor.
     pub base: String,
-    /// The text under edit.
+    /// The edited text.
     pub mine: String,
     /// The text from outside.
     pub theirs: String,
-    /// What was decided; undecided conflicts keep `Mine`.
+    /// The decision; undecided conflicts keep `Mine`.
     pub decision: Option<Side>,
-    /// Where it stands in the common ancestor: which conflict it is, when mine goes on.
+    /// The span in the common ancestor, which identifies the conflict after further edits.
     ancestor: Span,
 }
 
-/// A three-way merge: pieces both agree on, and conflicts between them.
+/// A three-way merge: changes that apply cleanly, and conflicts.
 #[derive(Clone, Debug)]
 pub struct Merge {
     /// The conflicts, in text order.
     pub conflicts: Vec<Conflict>,
-    /// What to change in `mine`, in text order.
+    /// The changes to `mine`, in text order.
     pieces: Vec<Piece>,
     pub(super) base: Arc<String>,
     pub(super) mine: Arc<String>,
     pub(super) theirs: Arc<String>,
 }
 
-/// A place where the outcome may differ from the text under edit.
+/// A place where the result may differ from the text being edited.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Piece {
-    /// Only the other text changed it.
+    /// A change made only in the text from outside.
     Theirs(Edit),
-    /// The conflict of this index.
+    /// The index of a conflict.
     Conflict(usize),
 }
 
 impl Side {
-    /// The other text.
+    /// The other side.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -73,7 +73,7 @@ impl Side {
 }
 
 impl Conflict {
-    /// What one of the texts says there.
+    /// The text of one side.
     pub fn said(&self, side: Side) -> &str {
         match side {
             Side::Mine => &self.mine,
@@ -83,7 +83,7 @@ impl Conflict {
 }
 
 impl Merge {
-    /// Merges the changes of two texts against their common ancestor.
+    /// Merges the changes that two texts made to their common ancestor.
     pub fn new(
         language: Language,
         base: &Arc<String>,
@@ -92,7 +92,7 @@ impl Merge {
     ) -> Self {
         let changes = [mine, theirs].map(|other| Change::between(base, other));
         let (pieces, conflicts) = widening(language, |margin| {
-            settle(language, [base, mine, theirs], changes, margin)
+            resolve(language, [base, mine, theirs], changes, margin)
         });
         Self {
             conflicts,
@@ -103,27 +103,26 @@ impl Merge {
         }
     }
 
-    /// Whether the text under edit still is the one that it started from.
+    /// Whether the text being edited is still the one merged.
     pub fn is_of(&self, document: &Document) -> bool {
         Arc::ptr_eq(&self.mine, document.source.text())
     }
 
-    /// The merged text under the decisions made so far.
+    /// The merged text with the decisions made so far.
     pub fn text(&self) -> String {
         let mut text = String::clone(&self.mine);
         text::apply(&mut text, &self.edits());
         text
     }
 
-    /// The edits that turn the text under edit into the merged one.
+    /// The edits that turn the text being edited into the merged text.
     pub(super) fn edits(&self) -> Vec<Edit> {
         edits(&self.pieces, &self.conflicts, |conflict| {
             conflict.decision.unwrap_or(Side::Mine)
         })
     }
 
-    /// The same merge for a text under edit that has gone on; conflicts that are still the same
-    /// keep their decisions.
+    /// Repeats the merge for a text edited meanwhile. Unchanged conflicts keep their decisions.
     pub(super) fn onto(self, language: Language, mine: &Arc<String>) -> Self {
         let mut merge = Self::new(language, &self.base, mine, &self.theirs);
         let mut earlier = self.conflicts.into_iter().peekable();
@@ -142,9 +141,9 @@ impl Merge {
     }
 }
 
-/// What to change in mine and what is to be decided, by the lines around the changes of both texts:
-/// the ancestor's, mine and theirs. `None` where a margin of so many bytes is too narrow to tell.
-fn settle(
+/// The changes to mine and the conflicts, found in the lines around the changes of the ancestor,
+/// mine and theirs. `None` if a margin of `margin` bytes is too narrow for a certain result.
+fn resolve(
     language: Language,
     [base, mine, theirs]: [&str; 3],
     changes: [Option<Change>; 2],
@@ -157,7 +156,7 @@ fn settle(
             mine: Chunks::of(language, window.mine.of(mine)),
             theirs: Chunks::of(language, window.theirs.of(theirs)),
         };
-        let (settled, open) = sides.merge(language, window)?;
+        let (merged, open) = sides.merge(language, window)?;
         let later = |piece| match piece {
             Piece::Theirs(edit) => Piece::Theirs(Edit {
                 span: edit.span.later(window.mine.start()),
@@ -165,7 +164,7 @@ fn settle(
             }),
             Piece::Conflict(index) => Piece::Conflict(index + conflicts.len()),
         };
-        pieces.extend(settled.into_iter().map(later));
+        pieces.extend(merged.into_iter().map(later));
         conflicts.extend(open.into_iter().map(|conflict| Conflict {
             span: conflict.span.later(window.mine.start()),
             ancestor: conflict.ancestor.later(window.base.start()),
@@ -175,7 +174,7 @@ fn settle(
     Some((pieces, conflicts))
 }
 
-/// The edits that the pieces ask for under some decisions.
+/// The edits of the pieces, with each conflict decided by `decide`.
 fn edits(
     pieces: &[Piece],
     conflicts: &[Conflict],
@@ -196,7 +195,7 @@ fn edits(
         .collect()
 }
 
-/// The three texts, or parts of them that correspond.
+/// The three texts, or corresponding parts of them.
 struct Sides<'t> {
     base: Chunks<'t>,
     mine: Chunks<'t>,
@@ -204,8 +203,7 @@ struct Sides<'t> {
 }
 
 impl Sides<'_> {
-    /// What to change in mine and what is to be decided; `None` if they are too narrow a window to
-    /// tell.
+    /// The changes to mine and the conflicts; `None` if the window is too narrow to be certain.
     fn merge(&self, language: Language, window: Window) -> Option<(Vec<Piece>, Vec<Conflict>)> {
         let mine = hunks(&self.base, &self.mine);
         let theirs = hunks(&self.base, &self.theirs);
@@ -216,9 +214,9 @@ impl Sides<'_> {
             return None;
         }
         let regions = regions(&mine, &theirs);
-        let (pieces, conflicts) = self.settle(&regions);
-        // Changes side by side can run together, as when one text opens a comment where the other
-        // takes away the line's end behind it. Then the merged text no longer has their leaves.
+        let (pieces, conflicts) = self.resolve(&regions);
+        // Adjacent changes can run together, for example if one text opens a comment where the
+        // other removes the next line break. Then the merged text no longer has their leaves.
         let holds = [Side::Mine, Side::Theirs].into_iter().all(|side| {
             let mut text = self.mine.text().to_owned();
             text::apply(&mut text, &edits(&pieces, &conflicts, |_| side));
@@ -230,12 +228,12 @@ impl Sides<'_> {
             return Some((pieces, conflicts));
         }
         let whole = regions.into_iter().reduce(|first, later| first.to(&later));
-        Some(self.settle(whole.as_slice()))
+        Some(self.resolve(whole.as_slice()))
     }
 
-    /// What becomes of each region: a region of one side's making is that side's, one that both
-    /// changed alike changes once.
-    fn settle(&self, regions: &[Region]) -> (Vec<Piece>, Vec<Conflict>) {
+    /// Resolves each region: a change by one side is taken, and so is one that both sides made
+    /// alike; different changes conflict.
+    fn resolve(&self, regions: &[Region]) -> (Vec<Piece>, Vec<Conflict>) {
         let (mut pieces, mut conflicts) = (Vec::new(), Vec::new());
         for region in regions {
             let base = self.base.slice(&region.base);
@@ -265,7 +263,7 @@ impl Sides<'_> {
         (pieces, conflicts)
     }
 
-    /// The chunks of the merged text with all conflicts decided for one side.
+    /// The chunks of the merged text if all conflicts are decided for one side.
     fn outcome(&self, regions: &[Region], side: Side) -> impl Iterator<Item = &str> {
         let mut parts = Vec::with_capacity(2 * regions.len() + 1);
         let mut at = 0;
@@ -288,7 +286,7 @@ impl Sides<'_> {
     }
 }
 
-/// Chunks of all three texts that correspond, with changes that belong together.
+/// Corresponding chunks of all three texts, with changes that belong together.
 #[derive(Clone, Debug)]
 struct Region {
     base: Range<usize>,
@@ -307,7 +305,7 @@ impl Region {
     }
 }
 
-/// Lays the changes of two texts side by side: those that clash share a region.
+/// Aligns the changes of two texts: those that clash share a region.
 fn regions(mine: &[Hunk], theirs: &[Hunk]) -> Vec<Region> {
     let (mut mine, mut theirs) = (Walk::new(mine), Walk::new(theirs));
     let mut regions = Vec::new();
@@ -323,7 +321,7 @@ fn regions(mine: &[Hunk], theirs: &[Hunk]) -> Vec<Region> {
         let starts = (mine.position(base.start), theirs.position(base.start));
         mine.structural = false;
         theirs.structural = false;
-        // The first hunk is the region itself; the rest joins by clashing with it.
+        // The first hunk starts the region; others join by clashing with it.
         if !mine.take_if(&mut base, |hunk, base| hunk.base == *base) {
             theirs.take_if(&mut base, |hunk, base| hunk.base == *base);
         }
@@ -342,20 +340,20 @@ fn regions(mine: &[Hunk], theirs: &[Hunk]) -> Vec<Region> {
     }
 }
 
-/// Whether a hunk shares a chunk with a region, or touches it where both it and the other text
-/// change the number of chunks, so that their order would be a guess.
+/// Whether a hunk overlaps a region, or is adjacent to it while both the hunk and the other text
+/// change the number of chunks, so that their order would be ambiguous.
 fn clash(hunk: &Hunk, region: &Range<usize>, other: &Walk) -> bool {
     let shares = hunk.base.start < region.end && region.start < hunk.base.end;
     let touches = hunk.base.start <= region.end && region.start <= hunk.base.end;
     shares || (touches && hunk.is_structural() && other.structural)
 }
 
-/// A walk along one text's hunks.
+/// A cursor over the hunks of one text.
 struct Walk<'h> {
     hunks: &'h [Hunk],
-    /// A place of the base behind the hunks taken so far, and the same place in the other text.
+    /// The end of the last hunk taken, in the base and in the other text.
     passed: (usize, usize),
-    /// Whether a hunk taken into the present region changes the number of chunks.
+    /// Whether a hunk in the current region changes the number of chunks.
     structural: bool,
 }
 
@@ -373,12 +371,12 @@ impl<'h> Walk<'h> {
         self.hunks.first()
     }
 
-    /// Where a place of the base, not before the hunks taken, stands in the other text.
+    /// Maps a base index, not before the last hunk taken, to the other text.
     fn position(&self, base: usize) -> usize {
         self.passed.1 + (base - self.passed.0)
     }
 
-    /// Takes the next hunk into the region if it meets a condition; whether it did.
+    /// Takes the next hunk into the region if `condition` holds; returns whether it did.
     fn take_if(
         &mut self,
         region: &mut Range<usize>,

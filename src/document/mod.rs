@@ -1,6 +1,6 @@
-//! The sole owner of a scene's text, its tree, its undo history and the text last saved.
+//! The sole owner of a scene's text and tree, its undo history and the text last saved.
 //!
-//! A document knows no files and no scenes: it is handed texts and edits.
+//! A document knows no files and no scenes; it receives texts and edits.
 
 mod history;
 mod hunks;
@@ -22,31 +22,31 @@ use crate::scene::Meshes;
 use crate::text::{Edit, Span, cover};
 use history::History;
 
-/// A scene's text under edit.
+/// A scene text being edited.
 #[derive(Clone, Debug)]
 pub struct Document {
     source: Source,
     saved: Arc<String>,
-    /// Whether the two differ: asked with every key, and in a text of 85 MB an answer of 10 ms.
+    /// Whether the two differ. Cached: it is asked at every key, and comparing 85 MB takes 10 ms.
     is_dirty: bool,
-    /// How often the text has changed.
+    /// The number of changes to the text.
     revision: u64,
     history: History,
 }
 
-/// What became of a merge whose conflicts were decided.
+/// The result of adopting a merge whose conflicts were decided.
 #[derive(Debug)]
 pub enum Adopted {
-    /// Its outcome is in the text now, as one undoable step.
+    /// The merge was applied as one undoable step.
     Taken,
-    /// The text was edited since, and conflicts are open again; nothing was touched.
+    /// The text was edited meanwhile, which left undecided conflicts; nothing was changed.
     Conflict(Merge),
-    /// The text, or the text saved, is another one since; nothing was touched.
+    /// The text, or the saved text, was replaced meanwhile; nothing was changed.
     OutOfDate,
 }
 
 impl Document {
-    /// A document whose saved text is `text`.
+    /// Creates a document whose text and saved text are `text`.
     pub fn new(language: Language, text: String) -> Self {
         Self {
             saved: Arc::new(text.clone()),
@@ -57,22 +57,23 @@ impl Document {
         }
     }
 
-    /// Its language.
+    /// The language of the text.
     pub fn language(&self) -> Language {
         self.source.language()
     }
 
-    /// The text with its tree, and where its things stand as of the last lowering.
+    /// The text with its tree, and the origins of its scene as of the last lowering.
     pub fn source(&self) -> &Source {
         &self.source
     }
 
-    /// Finds the meaning of the text: [`Answers::lower`](crate::language::Answers::lower).
+    /// Lowers the text, see [`Answers::lower`](crate::language::Answers::lower).
     pub fn lower(&mut self, meshes: &Meshes) -> Result<Lowered, OutOfMemory> {
         self.source.lower(meshes)
     }
 
-    /// Finds it after an edit: [`Answers::lower_again`](crate::language::Answers::lower_again).
+    /// Lowers the text after an edit, see
+    /// [`Answers::lower_again`](crate::language::Answers::lower_again).
     pub fn lower_again(
         &mut self,
         meshes: &Meshes,
@@ -87,30 +88,30 @@ impl Document {
         self.source.text()
     }
 
-    /// The text, for others to hold while this one is edited on.
+    /// The text, shared; later edits do not affect it.
     pub fn shared_text(&self) -> Arc<String> {
         Arc::clone(self.source.text())
     }
 
-    /// The text last saved or loaded: the ancestor of the next merge.
+    /// The text last saved or loaded, which is the ancestor of the next merge.
     pub fn saved(&self) -> &Arc<String> {
         &self.saved
     }
 
-    /// Whether the text differs from the saved one.
+    /// Whether there are unsaved changes.
     pub fn is_dirty(&self) -> bool {
         self.is_dirty
     }
 
-    /// What stands for the text: another number for any other text.
+    /// The revision number of the text, which changes with every edit.
     pub fn revision(&self) -> u64 {
         self.revision
     }
 
     /// Replaces the text of one leaf of the tree as an undoable step. Consecutive calls on the same
-    /// leaf (the span follows the literal's length) merge into one step until
-    /// [`Document::end_step`] or another operation; a run that ends where it began is not a step.
-    /// The same literal again changes nothing.
+    /// leaf (the span follows the length of the literal) merge into one step until
+    /// [`Document::end_step`] or another operation; a run that returns to its initial text is not a
+    /// step. Repeating the same literal changes nothing.
     pub fn set(&mut self, span: Span, literal: &str) {
         if span.of(self.text()) == literal {
             self.history.record_nothing();
@@ -125,7 +126,7 @@ impl Document {
         }
     }
 
-    /// Applies edits, sorted and disjoint, as one undoable step; none if they change nothing.
+    /// Applies sorted, disjoint edits as one undoable step, or as none if they change nothing.
     pub fn edit(&mut self, edits: &[Edit]) {
         let edits: Vec<_> = edits
             .iter()
@@ -140,23 +141,23 @@ impl Document {
         }
     }
 
-    /// Ends the run of merged [`Document::set`] calls: the next one is a step of its own.
+    /// Ends a run of merged [`Document::set`] calls; the next call begins a new step.
     pub fn end_step(&mut self) {
         self.history.close();
     }
 
-    /// Takes back the last `set` or `edit` call (one call, even inside a merged step) as if it had
-    /// never been made: for a value that turns out to be refused. What it made impossible to redo
-    /// can be redone again, and things stand where they stood. Does nothing if undo, redo or a text from outside came after the call.
+    /// Reverts the last `set` or `edit` call (one call, even inside a merged step) as if it had
+    /// never been made, as for an invalid value. Also restores the redo steps and the origins of
+    /// the scene. Does nothing after undo, redo or a text from outside.
     pub fn reject(&mut self) {
-        if let Some(inverse) = self.history.take_back() {
+        if let Some(inverse) = self.history.revert() {
             self.change(&inverse);
             self.source.restore();
         }
     }
 
-    /// Undoes one step; the span of what changed in the text as it is afterwards, or `None` if
-    /// there is nothing to undo.
+    /// Undoes one step. Returns the changed span of the resulting text, or `None` if there is
+    /// nothing to undo.
     pub fn undo(&mut self) -> Option<Span> {
         let step = self.history.next_undo()?;
         let inverse = self.change(&step);
@@ -165,7 +166,7 @@ impl Document {
         changed
     }
 
-    /// Redoes one undone step, as [`Document::undo`].
+    /// Redoes one step; returns like [`Document::undo`].
     pub fn redo(&mut self) -> Option<Span> {
         let step = self.history.next_redo()?;
         let inverse = self.change(&step);
@@ -174,14 +175,14 @@ impl Document {
         changed
     }
 
-    /// Notes that `text` was written to the file; it need not be the present text, which may have
-    /// been edited while it was written.
+    /// Records that `text` was written to the file. It may differ from the current text, which may
+    /// have been edited meanwhile.
     pub fn mark_saved(&mut self, text: Arc<String>) {
         self.history.close();
         self.set_saved(text);
     }
 
-    /// What a text from outside is merged with, elsewhere; copies nothing.
+    /// A snapshot to merge with a text from outside on another thread. Copies nothing.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
             language: self.language(),
@@ -190,31 +191,30 @@ impl Document {
         }
     }
 
-    /// Becomes a text from outside where there are no unsaved edits; what it was before. That is not an
-    /// edit of this document's, and the history starts anew: undo must not lead back to what another
-    /// program has replaced.
-    #[must_use = "to free it may take long"]
+    /// Replaces the document, which must have no unsaved edits, by a text from outside; returns the
+    /// old one. Clears the history: undo must not return to what another program has replaced.
+    #[must_use = "freeing it may take long"]
     pub fn load(&mut self, mut document: Self) -> Self {
         document.revision = self.revision + 1;
         std::mem::replace(self, document)
     }
 
-    /// Becomes what a merge with a text from outside has led to, as one undoable step if that
-    /// changes the text; what it was before. The merge is one of this document as it is now.
-    #[must_use = "to free it may take long"]
+    /// Replaces the document by the merge of its current state with a text from outside, as one
+    /// undoable step if that changes the text; returns the old one.
+    #[must_use = "freeing it may take long"]
     pub fn take(&mut self, merged: Merged) -> Self {
         let Merged { mut document, back } = merged;
         document.history = std::mem::take(&mut self.history);
         if !back.is_empty() {
             document.history.record(back);
         }
-        document.history.settle();
+        document.history.commit();
         self.load(document)
     }
 
-    /// Takes the outcome of a merge whose conflicts were decided, as one undoable step.
+    /// Applies a merge whose conflicts were decided, as one undoable step.
     ///
-    /// If the text was edited since, it is merged anew under the decisions that still apply.
+    /// If the text was edited meanwhile, merges again with the decisions that still apply.
     pub fn adopt(&mut self, mut merge: Merge) -> Adopted {
         if merge.base != self.saved {
             return Adopted::OutOfDate;
@@ -226,20 +226,19 @@ impl Document {
             }
         }
         self.edit(&merge.edits());
-        self.history.settle();
+        self.history.commit();
         self.set_saved(merge.theirs);
         Adopted::Taken
     }
 
-    /// Takes the outcome of a merge of this text with edits from elsewhere, as one undoable step; the
-    /// text saved stays the same. Unlike for [`Document::adopt`], the text from outside is the edited
-    /// one.
+    /// Applies a merge of this text with recovered edits, as one undoable step; the saved text
+    /// stays the same. Unlike in [`Document::adopt`], the text from outside is the edited one.
     pub fn restore(&mut self, merge: &Merge) -> Adopted {
         if merge.mine != *self.source.text() {
             return Adopted::OutOfDate;
         }
         self.edit(&merge.edits());
-        self.history.settle();
+        self.history.commit();
         Adopted::Taken
     }
 
@@ -248,7 +247,7 @@ impl Document {
         self.saved = text;
     }
 
-    /// Changes text and tree; the edits that lead back.
+    /// Changes text and tree; returns the inverse edits.
     fn change(&mut self, edits: &[Edit]) -> Vec<Edit> {
         let inverse = self.source.change(edits);
         self.is_dirty = *self.source.text() != self.saved;

@@ -1,4 +1,4 @@
-//! A text from outside and unsaved edits, brought together beside the document that is edited on.
+//! Merges a text from outside with unsaved edits, while the document can be edited.
 
 use std::sync::Arc;
 
@@ -7,28 +7,28 @@ use crate::language::Language;
 use crate::text;
 use crate::text::{Edit, smallest_edit};
 
-/// A document at one moment, as far as a text from outside is compared with it.
+/// What a merge with a text from outside needs of a document, at one moment.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
-    /// Its language.
+    /// The language of the text.
     pub language: Language,
     /// The text last saved or loaded.
     pub saved: Arc<String>,
-    /// The text under edit, if it is another one.
+    /// The text being edited, if it differs.
     pub edited: Option<Arc<String>>,
 }
 
-/// What a text from outside and unsaved edits make together: [`Document::take`].
+/// A text from outside merged with unsaved edits, for [`Document::take`].
 #[derive(Debug)]
 pub struct Merged {
-    /// The text with both, and its tree; what is saved is the text from outside.
+    /// The merged text and its tree; its saved text is the one from outside.
     pub document: Document,
-    /// The edits that lead back to the text under edit.
+    /// The edits that lead back to the text that was edited.
     pub(super) back: Vec<Edit>,
 }
 
 impl Snapshot {
-    /// Whether a document still is as it was.
+    /// Whether a document is unchanged since the snapshot.
     pub fn is_of(&self, document: &Document) -> bool {
         let is_text = match &self.edited {
             Some(edited) => Arc::ptr_eq(edited, document.source.text()),
@@ -37,12 +37,12 @@ impl Snapshot {
         is_text && Arc::ptr_eq(&self.saved, &document.saved)
     }
 
-    /// The text under edit.
+    /// The text being edited.
     pub fn text(&self) -> &Arc<String> {
         self.edited.as_ref().unwrap_or(&self.saved)
     }
 
-    /// Merges a text from outside with the unsaved edits; or what is to be decided first.
+    /// Merges a text from outside with the unsaved edits; the error is a merge with conflicts.
     pub fn merge(&self, theirs: Document) -> Result<Merged, Merge> {
         let merge = Merge::new(
             self.language,

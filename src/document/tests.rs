@@ -7,7 +7,7 @@ fn document(text: &str) -> Document {
     Document::new(Language::Ray, text.to_owned())
 }
 
-/// Sets the leaf of an index; whatever happens, the tree must fit the text.
+/// Sets the leaf at an index.
 fn set(document: &mut Document, leaf: usize, literal: &str) {
     let span = document.source().leaves()[leaf];
     document.set(span, literal);
@@ -19,7 +19,7 @@ fn check_tree(document: &Document) {
     assert_eq!(document.source().leaves(), fresh.leaves());
 }
 
-/// Takes a text from outside; or the merge whose conflicts are to be decided.
+/// Applies a text from outside; returns the undecided merge if there are conflicts.
 fn replace(document: &mut Document, theirs: &str) -> Result<(), Merge> {
     let theirs = self::document(theirs);
     let snapshot = document.snapshot();
@@ -38,7 +38,7 @@ fn save(document: &mut Document, text: &str) {
     document.mark_saved(Arc::new(text.to_owned()));
 }
 
-/// The texts that undoing everything passes through, the present one first.
+/// The current text, then those after each undo.
 fn history(document: &Document) -> Vec<String> {
     let mut document = document.clone();
     let mut texts = vec![document.text().to_owned()];
@@ -49,7 +49,7 @@ fn history(document: &Document) -> Vec<String> {
     texts
 }
 
-/// The texts that redoing everything passes through, the present one first.
+/// The current text, then those after each redo.
 fn future(document: &Document) -> Vec<String> {
     let mut document = document.clone();
     let mut texts = vec![document.text().to_owned()];
@@ -75,7 +75,7 @@ fn consecutive_sets_of_one_leaf_are_one_step() {
 }
 
 #[test]
-fn what_changes_nothing_is_not_a_step() {
+fn calls_that_change_nothing_are_not_steps() {
     let mut doc = document("1 2");
     set(&mut doc, 0, "1");
     doc.edit(&[]);
@@ -88,7 +88,7 @@ fn what_changes_nothing_is_not_a_step() {
 }
 
 #[test]
-fn undo_and_redo_tell_where_the_text_changed() {
+fn undo_and_redo_return_the_changed_span() {
     let mut doc = document("1 2 3");
     let span = |start, end| Some(Span::new(start, end));
     set(&mut doc, 1, "200");
@@ -117,7 +117,7 @@ fn new_edits_clear_redo() {
 }
 
 #[test]
-fn reject_takes_back_one_call() {
+fn reject_reverts_one_call() {
     let mut doc = document("1 2");
     set(&mut doc, 1, "5");
     doc.undo();
@@ -128,9 +128,9 @@ fn reject_takes_back_one_call() {
         (vec!["1 2".into()], vec!["1 2".into(), "1 5".into()])
     );
     doc.reject();
-    assert_eq!(doc.text(), "1 2", "there is one call to take back, not two");
+    assert_eq!(doc.text(), "1 2", "only one call can be reverted");
 
-    // Inside a merged step; the run goes on as if nothing had happened.
+    // Inside a merged step; the run continues as if nothing had happened.
     set(&mut doc, 0, "3");
     set(&mut doc, 0, "33");
     doc.reject();
@@ -140,12 +140,12 @@ fn reject_takes_back_one_call() {
     set(&mut doc, 0, "4");
     assert_eq!(history(&doc), ["4 2", "1 2"]);
 
-    // A call that came back to where the run began.
+    // A call that returned to the initial text of the run.
     set(&mut doc, 0, "1");
     doc.reject();
     assert_eq!(history(&doc), ["4 2", "1 2"]);
 
-    // A call that changed nothing is a call.
+    // A call that changed nothing still counts as a call.
     set(&mut doc, 0, "4");
     doc.reject();
     assert_eq!(history(&doc), ["4 2", "1 2"]);
@@ -153,7 +153,7 @@ fn reject_takes_back_one_call() {
 }
 
 #[test]
-fn texts_from_outside_begin_a_new_history_where_nothing_is_unsaved() {
+fn texts_from_outside_clear_the_history_if_nothing_is_unsaved() {
     let mut doc = document("1 2");
     set(&mut doc, 0, "3");
     assert!(doc.is_dirty());
@@ -174,7 +174,7 @@ fn texts_from_outside_begin_a_new_history_where_nothing_is_unsaved() {
     assert_eq!(
         doc.text(),
         "0 3 2",
-        "what came from outside is no call to reject"
+        "a text from outside cannot be rejected"
     );
 }
 
@@ -186,13 +186,13 @@ fn unsaved_edits_merge_with_texts_from_outside() {
     assert_eq!((doc.text(), doc.saved().as_str()), ("9 2 8", "1 2 8"));
     assert_eq!(history(&doc), ["9 2 8", "9 2 3", "1 2 3"]);
     assert!(doc.is_dirty());
-    replace(&mut doc, "9 2 8").expect("it says what the text says");
+    replace(&mut doc, "9 2 8").expect("both texts are equal");
     assert!(!doc.is_dirty());
     assert_eq!(history(&doc), ["9 2 8", "9 2 3", "1 2 3"]);
 }
 
-/// A document in which `1 2` is saved and the first leaf set to `3`, and the conflict with a file
-/// that says `theirs`.
+/// A document with the saved text `1 2` whose first leaf was set to `3`, and its conflict with
+/// `theirs`.
 fn conflict(theirs: &str) -> (Document, Merge) {
     let mut doc = document("1 2");
     set(&mut doc, 0, "3");
@@ -202,7 +202,7 @@ fn conflict(theirs: &str) -> (Document, Merge) {
 }
 
 #[test]
-fn decided_conflicts_are_adopted_as_a_step() {
+fn decided_conflicts_are_adopted_as_one_step() {
     for (decision, text) in [(Side::Mine, "3 5"), (Side::Theirs, "4 5")] {
         let (mut doc, mut merge) = conflict("4 5");
         merge.conflicts[0].decision = Some(decision);
@@ -213,36 +213,36 @@ fn decided_conflicts_are_adopted_as_a_step() {
 }
 
 #[test]
-fn merges_out_of_date_do_no_harm() {
-    // Edited elsewhere since: the edit stays, the decision holds.
+fn outdated_merges_lose_nothing() {
+    // Edited elsewhere meanwhile: both the edit and the decision are kept.
     let (mut doc, mut merge) = conflict("4 2");
     merge.conflicts[0].decision = Some(Side::Theirs);
     set(&mut doc, 1, "7");
     assert!(matches!(doc.adopt(merge), Adopted::Taken));
     assert_eq!((doc.text(), doc.saved().as_str()), ("4 7", "4 2"));
 
-    // Edited at the conflict since: it is asked again.
+    // Edited at the conflict meanwhile: it is undecided again.
     let (mut doc, mut merge) = conflict("4 2");
     merge.conflicts[0].decision = Some(Side::Theirs);
     set(&mut doc, 0, "7");
     let Adopted::Conflict(again) = doc.adopt(merge) else {
-        panic!("the decision was about another value");
+        panic!("the decision was for another value");
     };
     assert_eq!((doc.text(), again.conflicts[0].mine.as_str()), ("7 2", "7"));
 
-    // Saved over since.
+    // Saved meanwhile.
     let (mut doc, merge) = conflict("4 2");
     save(&mut doc, "3 2");
     assert!(matches!(doc.adopt(merge), Adopted::OutOfDate));
     assert_eq!((doc.text(), doc.saved().as_str()), ("3 2", "3 2"));
 
-    // Another text came while the conflict was undecided: the ancestor is still the same.
+    // Another text arrived while the conflict was undecided: the ancestor is still the same.
     let (mut doc, _) = conflict("4 2");
     replace(&mut doc, "1 6").expect("they changed different leaves");
     assert_eq!((doc.text(), doc.saved().as_str()), ("3 6", "1 6"));
 }
 
-/// Scenes with everything that a careless editor loses.
+/// Scenes with everything that a careless editor would lose.
 fn scene() -> impl Strategy<Value = String> {
     let pattern = "\u{FEFF}?(([0-9]{1,3}|[a-z]{1,4}|-?\\.[0-9]|// é[ a]{0,4}\r?\n|\\\\\\\\ x\n)\
                    ( |\t|\r\n|\n|\u{A0}|\u{A0}\u{A0} ){1,2}){1,12}(5|// end)?";
@@ -250,7 +250,7 @@ fn scene() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    // 100 texts of 100 edits each in either language.
+    // 200 texts of 100 edits each, over all languages.
     #![proptest_config(ProptestConfig::with_cases(200))]
 
     #[test]

@@ -1,36 +1,36 @@
-//! The lines around the differences of texts: only they are chopped into leaves, for a scene of a
-//! million objects has tens of millions of those.
+//! The lines around differences between texts. Only these are split into leaves, since a scene of a
+//! million objects has tens of millions of leaves.
 
 use super::hunks::{Chunks, Hunk, hunks};
 use crate::language::Language;
 use crate::text;
 use crate::text::Span;
 
-/// At first, a window has this many bytes on either side of a difference.
+/// Initial margin of a window in bytes, on either side of a difference.
 const MARGIN: usize = 1024;
 
-/// How many times as wide the next margin is, where one was too narrow.
+/// Factor by which a margin grows if it was too narrow.
 const WIDER: usize = 16;
 
-/// Parts of three texts that correspond: whole lines, or all of the text.
+/// Corresponding parts of three texts: whole lines, or the whole texts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Window {
     /// In the common ancestor.
     pub(super) base: Span,
-    /// In the text under edit.
+    /// In the text being edited.
     pub(super) mine: Span,
     /// In the text from outside.
     pub(super) theirs: Span,
-    /// Whether it begins where the texts do, and ends where they do.
+    /// Whether the window starts at the start of the texts, and ends at their end.
     pub(super) at_ends: [bool; 2],
 }
 
 impl Window {
-    /// Whether hunks of this window might be others in a wider one: they reach its edge, where the
-    /// text goes on.
+    /// Whether a wider window might give other hunks: they reach an edge beyond which the text
+    /// continues.
     pub(super) fn is_narrow(&self, base: &Chunks, hunks: &[Hunk]) -> bool {
         let [is_start, is_end] = self.at_ends;
-        // The first and the last chunk are white space that goes on outside.
+        // The first and last chunks are white space that may continue outside.
         let starts = |hunk: &Hunk| hunk.base.start <= 1;
         let ends = |hunk: &Hunk| base.len() <= hunk.base.end + 1;
         (!is_start && hunks.first().is_some_and(starts))
@@ -38,23 +38,23 @@ impl Window {
     }
 }
 
-/// From the first to the last place where a text differs from another.
+/// The spans from the first to the last difference between two texts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Change {
-    /// What is replaced.
+    /// The replaced text.
     base: Span,
-    /// What stands there afterwards.
+    /// The new text.
     other: Span,
 }
 
 impl Change {
-    /// The change that leads from one text to another, if there is any.
+    /// The change from `base` to `other`; `None` if they are equal.
     pub(super) fn between(base: &str, other: &str) -> Option<Self> {
         let [base, other] = text::difference(base, other)?;
         Some(Self { base, other })
     }
 
-    /// Where a span of the base that holds all of the change or nothing of it stands afterwards.
+    /// Maps a span of the base, which contains all of the change or none of it, to the new text.
     fn moved(&self, span: Span) -> Span {
         let behind = |at: usize| at - self.base.end() + self.other.end();
         let start = if span.start() <= self.base.start() {
@@ -71,7 +71,7 @@ impl Change {
     }
 }
 
-/// What `work` finds in the narrowest windows wide enough, which it is handed the margins of.
+/// Calls `work` with growing margins until it returns a result.
 pub(super) fn widening<T>(language: Language, work: impl Fn(usize) -> Option<T>) -> T {
     let mut margin = if language.leaves_keep_to_lines() {
         MARGIN
@@ -86,7 +86,7 @@ pub(super) fn widening<T>(language: Language, work: impl Fn(usize) -> Option<T>)
     }
 }
 
-/// The lines around the changes of two texts, in order: one window where they are near each other.
+/// The lines around the changes of two texts, in order; one window if they are close together.
 pub(super) fn windows(
     base: &str,
     mine: Option<Change>,
@@ -111,14 +111,14 @@ pub(super) fn windows(
     spans.into_iter().map(window).collect()
 }
 
-/// The lines that hold a span and as much around it.
+/// The lines that contain a span and a margin around it.
 fn lines_around(text: &str, span: Span, margin: usize) -> Span {
     let from = span.start().saturating_sub(margin);
     let to = span.end().saturating_add(margin).min(text.len());
     Span::new(text::line_start(text, from), text::next_line(text, to))
 }
 
-/// How many places of another text differ from one: leaves, or runs of them.
+/// The number of places, leaves or runs of leaves, at which `other` differs from `text`.
 pub fn differences(language: Language, text: &str, other: &str) -> usize {
     let change = Change::between(text, other);
     widening(language, |margin| {
@@ -141,7 +141,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn windows_are_lines_around_changes() {
+    fn windows_are_the_lines_around_changes() {
         let base = "aa\nbb\ncc\ndd\nee\n";
         let windows = |mine: &str, theirs: &str, margin| {
             let changes = [mine, theirs].map(|other| Change::between(base, other));
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn windows_follow_the_texts_own_line_ends() {
+    fn windows_end_at_any_kind_of_line_end() {
         for end in ["\r", "\r\n", "\r\r\n"] {
             let text = |middle: &str| ["aa", middle, "cc", ""].join(end);
             let (base, other) = (text("bb"), text("b"));
@@ -175,14 +175,14 @@ mod tests {
         }
     }
 
-    /// Rows of few different words, so that what is new among them is often in doubt.
+    /// Rows of few different words, so that the position of an insertion is often ambiguous.
     fn rows() -> impl Strategy<Value = Vec<&'static str>> {
         prop::collection::vec(prop::sample::select(vec!["0 0", "0", "1 0", "ab"]), 0..40)
     }
 
     proptest! {
         #[test]
-        fn hunks_of_a_window_are_those_of_the_whole(
+        fn a_window_has_the_same_hunks_as_the_whole_text(
             head in rows(), old in rows(), new in rows(), tail in rows(), margin in 0_usize..20,
         ) {
             let text = |middle: &[&str]| [&head[..], middle, &tail[..]].concat().join("\n");

@@ -1,4 +1,4 @@
-//! What a new file has in common with the one whose place it takes.
+//! The attributes that a new file takes over from the file it replaces.
 
 use std::fs::{File, Metadata};
 use std::io;
@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::calls::call;
 
-/// Gives a twin the owner, the attributes and the mode of the file at `path`.
+/// Copies owner, extended attributes and mode of the file at `path` to `twin`.
 pub(super) fn take_after(path: &Path, metadata: &Metadata, twin: &File) -> io::Result<()> {
     #[cfg(unix)]
     {
@@ -23,16 +23,16 @@ pub(super) fn take_after(path: &Path, metadata: &Metadata, twin: &File) -> io::R
     copy_attributes(path, twin)?;
     #[cfg(not(any(target_os = "linux", target_vendor = "apple")))]
     let _ = path;
-    // After the owner: changing that one clears bits of the mode.
+    // After the owner: changing it clears bits of the mode.
     call("chmod", || twin.set_permissions(metadata.permissions()))
 }
 
-/// Copies extended attributes, which hold access lists too.
+/// Copies extended attributes, which include access control lists.
 #[cfg(any(target_os = "linux", target_vendor = "apple"))]
 fn copy_attributes(path: &Path, twin: &File) -> io::Result<()> {
     use rustix::fs::{XattrFlags, fsetxattr, getxattr, getxattr_query, listxattr, listxattr_query};
 
-    // A file system that can't tell has none.
+    // A file system without this query has no attributes.
     let mut names = vec![0; listxattr_query(path).unwrap_or(0)];
     if names.is_empty() {
         return Ok(());

@@ -1,5 +1,5 @@
-//! What a file held before it was written over, kept beside it until the new content is whole. The
-//! copy's name says which file it is of: where the process is killed meanwhile, the copy is found.
+//! Backup copies of files that are overwritten in place, kept until the new content is complete. A
+//! copy's name identifies its file, so that the copy is found again if the process is killed.
 
 use std::fmt::Display;
 use std::fs::{self, DirEntry, File, Metadata};
@@ -13,13 +13,13 @@ use super::owner::{PREFIX, random};
 use super::target::directory_of;
 use super::temporary::{Access, Temporary, copy_all, is_refusal, sync_directory};
 
-/// What follows the common beginning of names of temporary files.
+/// Marks backups; follows the prefix of all temporary files.
 const MARK: &str = "backup-";
 
-/// How much of a file's name is part of the copy's, in bytes: names have 255 at most.
+/// How many bytes of the file's name the copy's name contains; names have at most 255.
 const NAME: usize = 180;
 
-/// A copy of what a file held. It stays unless it is discarded.
+/// A copy of a file's previous content. It remains unless discarded.
 #[derive(Debug)]
 pub(super) struct Backup {
     path: PathBuf,
@@ -27,16 +27,16 @@ pub(super) struct Backup {
 }
 
 impl Backup {
-    /// Copies what a file holds: into its folder, or else into the one for temporary files.
+    /// Copies a file's content into its folder, or failing that into the system's temporary folder.
     pub(super) fn of(path: &Path, file: &File) -> io::Result<Self> {
         let beside = Self::in_folder(directory_of(path), path, file);
         beside.or_else(|first| {
             let folder = std::env::temp_dir();
             Self::in_folder(&folder, path, file).map_err(|second| {
-                // A folder that can't be written to is why there is a copy at all.
+                // Overwriting in place may be necessary just because the folder is not writable.
                 if is_refusal(&first) {
                     let shown = folder.display();
-                    let reason = format!("no copy of it can be kept in {shown}: {second}");
+                    let reason = format!("cannot keep a copy of it in {shown}: {second}");
                     io::Error::new(second.kind(), reason)
                 } else {
                     first
@@ -52,13 +52,13 @@ impl Backup {
         let mut copy = Temporary::new(folder, Access::Private)?;
         copy_all(file, copy.file())?;
         copy.sync()?;
-        // Only a whole copy has a backup's name.
+        // Only a complete copy gets the name of a backup.
         copy.take_new_name(&path)?;
         sync_directory(folder);
         Ok(Self { path, copy })
     }
 
-    /// What the file held.
+    /// Reads the copied content.
     pub(super) fn content(&self) -> io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
         let mut file = self.copy.file();
@@ -67,12 +67,12 @@ impl Backup {
         Ok(bytes)
     }
 
-    /// Where it is.
+    /// The path of the copy.
     pub(super) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Removes it. Where that fails it is at least empty, which stands for nothing.
+    /// Removes the copy, or if that fails, empties it: empty copies are ignored.
     pub(super) fn discard(self) {
         let removed = call("unlink", || fs::remove_file(&self.path));
         if removed.is_err() {
@@ -81,7 +81,7 @@ impl Backup {
     }
 }
 
-/// The copies of what a file held before saves of it that were cut off.
+/// The backup copies of a file that interrupted saves left behind.
 pub fn backups(path: &Path) -> Vec<PathBuf> {
     let Ok(path) = fs::canonicalize(path) else {
         return Vec::new();
@@ -90,7 +90,7 @@ pub fn backups(path: &Path) -> Vec<PathBuf> {
     let elsewhere = copies(&std::env::temp_dir(), &path);
     let mut found: Vec<_> = beside.chain(elsewhere).collect();
     if found.is_empty() {
-        // There hardly ever are any, and the file may be large.
+        // The usual case; the file may be large.
         return found;
     }
     let content = super::read_bytes(&path, super::MAX_BYTES).unwrap_or_default();
@@ -100,17 +100,17 @@ pub fn backups(path: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// What is said of a copy that [`backups`] found of a file.
+/// The message about a backup copy that [`backups`] found.
 pub fn interruption(name: impl Display, copy: &Path) -> String {
     let copy = copy.display();
-    // The copy outlives saves that are not interrupted: whether it is needed is not known here.
+    // The copy survives later, complete saves: whether it is still needed is not known here.
     format!(
-        "a save of {name} was interrupted: the content before it is in {copy}; delete that if you \
-         do not need it"
+        "a save of {name} was interrupted: the previous content is in {copy}; delete that file if \
+         you do not need it"
     )
 }
 
-/// Removes copies of what a file holds anyway.
+/// Removes backup copies that equal the file's content.
 fn sweep(folder: &Path, path: &Path) {
     let Ok(content) = super::read_bytes(path, super::MAX_BYTES) else {
         return;
@@ -120,31 +120,31 @@ fn sweep(folder: &Path, path: &Path) {
     }
 }
 
-/// This user's copies of a file in a folder, but for those of saves under way. Beside the file they
-/// bear its number or its name, for it may be known by another of its names now; elsewhere both. A
-/// number is used again once its file is gone: whoever got it is younger than the copy.
+/// This user's backup copies of a file in a folder, except those of saves in progress. In the
+/// file's own folder, inode or name must match, for the file may have several names; elsewhere,
+/// both. Inodes are reused after a file is deleted: the new file is then younger than the copy.
 fn copies(folder: &Path, path: &Path) -> impl Iterator<Item = PathBuf> + use<> {
     let beside = folder == directory_of(path);
     let metadata = fs::metadata(path).ok();
-    let number = metadata.as_ref().map(inode);
+    let own_inode = metadata.as_ref().map(inode);
     let born = metadata.and_then(|metadata| metadata.created().ok());
-    let named = shown_name(path);
+    let own_name = shown_name(path);
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     entries
         .filter(move |entry| {
             let copy = entry.file_name();
             let copy = copy.to_string_lossy();
             parts(&copy).is_some_and(|(inode, name)| {
-                let is_number = number == Some(inode) && !is_older(entry, born);
-                let is_name = name == named;
-                is_number && is_name || beside && (is_number || is_name)
+                let same_inode = own_inode == Some(inode) && !is_older(entry, born);
+                let same_name = name == own_name;
+                same_inode && same_name || beside && (same_inode || same_name)
             })
         })
         .map(|entry| entry.path())
-        .filter(|copy| is_own(copy) && !is_at_work(copy))
+        .filter(|copy| is_own(copy) && !is_in_use(copy))
 }
 
-/// Whether a copy was finished before a file was made, as far as that can be told.
+/// Whether a copy was finished before a file was created. False if the times are not known.
 fn is_older(copy: &DirEntry, born: Option<SystemTime>) -> bool {
     let finished = copy.metadata().and_then(|copy| copy.modified()).ok();
     finished
@@ -152,16 +152,16 @@ fn is_older(copy: &DirEntry, born: Option<SystemTime>) -> bool {
         .is_some_and(|(finished, born)| finished < born)
 }
 
-/// Whether a copy holds nothing that is not in the file.
+/// Whether a copy is empty or equals the file's content.
 fn is_needless(copy: &Path, content: &[u8]) -> bool {
     super::read_bytes(copy, super::MAX_BYTES).is_ok_and(|held| held.is_empty() || held == content)
 }
 
-fn is_at_work(copy: &Path) -> bool {
+fn is_in_use(copy: &Path) -> bool {
     super::open(copy).is_ok_and(|file| lock(&file) == Lock::Busy)
 }
 
-/// Whether this user has made it.
+/// Whether the copy belongs to this user.
 fn is_own(copy: &Path) -> bool {
     #[cfg(unix)]
     {
@@ -182,7 +182,7 @@ fn name_of(path: &Path, inode: u64) -> String {
     format!("{PREFIX}{MARK}{inode:x}-{random:08x}-{name}")
 }
 
-/// The inode and the name of the file that a copy of this name is of.
+/// Parses a copy's name into the inode and the name of its file.
 fn parts(name: &str) -> Option<(u64, &str)> {
     let rest = name.strip_prefix(PREFIX)?.strip_prefix(MARK)?;
     let mut parts = rest.splitn(3, '-');
@@ -191,14 +191,14 @@ fn parts(name: &str) -> Option<(u64, &str)> {
     Some((inode, parts.next()?))
 }
 
-/// A file's name, as much of it as there is room for.
+/// A file's name, truncated to [`NAME`] bytes.
 fn shown_name(path: &Path) -> String {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let end = (0..=NAME.min(name.len())).rfind(|&at| name.is_char_boundary(at));
     name[..end.unwrap_or(0)].to_owned()
 }
 
-/// The file's number on its file system, the same for all its names.
+/// The inode, which is the same for all hard links; 0 where there are none.
 fn inode(metadata: &Metadata) -> u64 {
     #[cfg(unix)]
     {

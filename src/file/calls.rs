@@ -1,8 +1,8 @@
-//! The system calls of a write, each behind one function, so that tests can fail any of them.
+//! A common entry point for the system calls of a write, so that tests can make any of them fail.
 
 use std::io::{self, Write};
 
-/// Makes a system call, again where a signal interrupts it.
+/// Makes a system call and repeats it if a signal interrupts it.
 pub(super) fn call<T>(
     name: &'static str,
     mut perform: impl FnMut() -> io::Result<T>,
@@ -15,7 +15,7 @@ pub(super) fn call<T>(
     }
 }
 
-/// The content of a file being written.
+/// A writer whose system calls can be made to fail.
 pub(super) struct Content<W>(pub(super) W);
 
 impl<W: Write> Write for Content<W> {
@@ -29,7 +29,7 @@ impl<W: Write> Write for Content<W> {
 }
 
 #[cfg(not(test))]
-#[expect(clippy::unnecessary_wraps, reason = "tests have another one")]
+#[expect(clippy::unnecessary_wraps, reason = "fails in tests")]
 fn injected(_name: &'static str) -> io::Result<()> {
     Ok(())
 }

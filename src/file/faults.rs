@@ -1,36 +1,36 @@
-//! Faults that tests inject into the system calls of writes.
+//! Fault injection into the system calls of writes, for tests.
 
 use std::cell::RefCell;
 use std::io;
 
 use rustix::io::Errno;
 
-/// What goes wrong.
+/// A kind of fault. The k-th call is counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fault {
-    /// The k-th call fails, counted from 0.
+    /// The k-th call fails.
     Once(Errno),
-    /// The k-th call and all after it fail.
+    /// The k-th and all later calls fail.
     Ever(Errno),
-    /// Writes from the k-th call on take half of what they are given.
+    /// Writes from the k-th call on accept half of their bytes.
     Short,
-    /// The process is killed at the k-th call. All writes take half of what they are given.
+    /// The process is killed at the k-th call. All writes accept half of their bytes.
     Kill,
 }
 
 impl Fault {
-    /// Whether a write has to succeed all the same.
+    /// Whether a write must succeed in spite of the fault.
     pub(crate) fn is_harmless(self) -> bool {
         matches!(self, Self::Once(Errno::INTR) | Self::Short)
     }
 }
 
-/// The calls that were made, and whether one of them was hit.
+/// The calls that were made, and the first that the fault affected.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Calls {
-    /// Their names.
+    /// The names of the calls, in order.
     pub(crate) names: Vec<&'static str>,
-    /// The first that was hit.
+    /// The first call that the fault affected.
     pub(crate) hit: Option<&'static str>,
 }
 
@@ -45,7 +45,7 @@ thread_local! {
     static PLAN: RefCell<Option<Plan>> = const { RefCell::new(None) };
 }
 
-/// Does some work on this thread while the call of number `at`, from 0, goes wrong.
+/// Runs `work` on this thread with a fault at call `at`, counted from 0.
 pub(crate) fn during<T>(fault: Fault, at: usize, work: impl FnOnce() -> T) -> (T, Calls) {
     PLAN.set(Some(Plan {
         fault,
@@ -57,7 +57,7 @@ pub(crate) fn during<T>(fault: Fault, at: usize, work: impl FnOnce() -> T) -> (T
     (outcome, plan.map(|plan| plan.calls).unwrap_or_default())
 }
 
-/// Fails if the plan says so.
+/// Counts a call, and fails if the plan has a fault for it.
 pub(super) fn injected(name: &'static str) -> io::Result<()> {
     let step = |plan: &mut Plan| {
         let number = plan.calls.names.len();
@@ -79,7 +79,7 @@ pub(super) fn injected(name: &'static str) -> io::Result<()> {
     PLAN.with_borrow_mut(|plan| plan.as_mut().map_or(Ok(()), step))
 }
 
-/// Ends the process as a power cut would: without another word.
+/// Ends the process abruptly, like a power cut.
 fn kill() -> ! {
     #[cfg(unix)]
     {
@@ -89,7 +89,7 @@ fn kill() -> ! {
     std::process::abort()
 }
 
-/// What of `bytes` a write takes.
+/// The part of `bytes` that a write accepts.
 pub(super) fn shortened(bytes: &[u8]) -> &[u8] {
     let step = |plan: &mut Plan| {
         // This write is counted already.

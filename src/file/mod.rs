@@ -1,5 +1,5 @@
-//! Files whole or not at all: reading a scene's text, and replacing a file. Knows nothing of what
-//! the bytes mean.
+//! File input and output: reading a scene's text, and replacing files atomically. Independent of
+//! what the bytes mean.
 
 mod alike;
 mod backup;
@@ -28,98 +28,99 @@ pub(crate) use target::end_of_links;
 pub use target::{check_replaceable, check_target, directory_of, no_such_folder};
 pub use version::{FileId, Version};
 
-/// The longest file that is read, in bytes: positions in a text are 32-bit numbers.
+/// The largest readable file, in bytes: positions in a text are 32-bit.
 pub const MAX_BYTES: u64 = u32::MAX as u64;
 
-/// Of longer files the beginning is checked before the rest is read: see [`read_beginning`].
+/// The beginning of files longer than this is checked before the rest is read; in bytes. See
+/// [`read_beginning`].
 pub const LONG: u64 = 16 << 20;
 
-/// The most bytes of a beginning. They are parsed within a few milliseconds.
+/// The length of such a beginning in bytes, which parse within a few milliseconds.
 const BEGINNING: usize = 1 << 20;
 
-/// The most bytes that are kept of a line that is not UTF-8, from the first wrong one on.
+/// How many bytes of a line are kept from its first invalid UTF-8 byte on.
 const WRONG_LINE: usize = 1 << 10;
 
-/// A text with more zeros than this is none.
+/// A file with more NUL bytes than this counts as binary.
 const MOST_ZEROS: usize = 100;
 
-/// Longer files may be worked on side by side.
+/// Longer files, in bytes, may be processed in parallel.
 const WITHOUT_THREADS: u64 = 1 << 14;
 
 /// Why a scene's text could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
-    /// Nothing has that name.
+    /// The file does not exist.
     #[error("{path}: no such file", path = path.display())]
     NotFound {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
     },
-    /// The file system said no.
+    /// The file system reported an error.
     #[error("{path}: {source}", path = path.display())]
     Io {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// What it said.
+        /// The error it reported.
         source: io::Error,
     },
-    /// It is a folder, a pipe, a device: something that is not read as a scene.
+    /// Not a regular file but a folder, a pipe or a device.
     #[error("{path}: is {kind}, not a file", path = path.display())]
     NotRegular {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// What it is, with its article: `a folder`.
+        /// Its type with an article, e.g. `a folder`.
         kind: &'static str,
     },
-    /// It is longer than allowed, which is [`MAX_BYTES`] for scenes.
-    #[error("{path}: is 4 GiB or longer; scenes are shorter", path = path.display())]
+    /// Longer than allowed; the limit for scenes is [`MAX_BYTES`].
+    #[error("{path}: is 4 GiB or longer; scenes must be shorter", path = path.display())]
     TooLong {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
     },
-    /// There is no memory for it, or for what is made of it.
+    /// Not enough memory for the file, or for what is built from it.
     #[error("{path}: {reason}", path = path.display())]
     NoMemory {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// What does not fit.
+        /// The allocation that was refused.
         reason: OutOfMemory,
     },
-    /// It is too long to be read without threads.
+    /// Too long to be read without threads, which could not be started.
     #[error(transparent)]
     NoThreads(#[from] NoThreads),
-    /// It holds many bytes that no text has.
+    /// Contains more NUL bytes than text would.
     #[error("{path}: is a binary file, not text: NUL bytes from line {line} on", path = path.display())]
     Binary {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// The line of the first such byte, from 1.
+        /// The line of the first NUL byte, from 1.
         line: usize,
     },
-    /// Its bytes are not UTF-8.
+    /// The content is not UTF-8.
     #[error(
         "{path}:{line}:{column}: the byte 0x{byte:02X} is not UTF-8 text; convert the file, for \
          example with: iconv -f {encoding} -t UTF-8",
         path = path.display(), line = position.line, column = position.column
     )]
     NotUtf8 {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// Where the first wrong byte stands.
+        /// The position of the first invalid byte.
         position: Position,
-        /// The text to the end of its line or a good part of that, with U+FFFD for what can't be
-        /// read.
+        /// The text up to the end of that line, or a limited part of it, with invalid bytes
+        /// replaced by U+FFFD.
         text: String,
-        /// The place in `text` of what stands for the byte.
+        /// The first such replacement in `text`.
         span: Span,
-        /// That byte.
+        /// The invalid byte.
         byte: u8,
-        /// The encoding that it is most likely in, by iconv's name.
+        /// The most likely encoding, by its iconv name.
         encoding: &'static str,
     },
 }
 
-/// Reads a scene file: a regular file of at most [`MAX_BYTES`] bytes in UTF-8, with few zeros.
+/// Reads a scene file: a regular UTF-8 file of at most [`MAX_BYTES`] bytes, with few NUL bytes.
 pub fn read_text(path: &Path) -> Result<String, ReadError> {
     let file = open(path)?;
     if let Some(line) = binary_start(&file) {
@@ -131,8 +132,8 @@ pub fn read_text(path: &Path) -> Result<String, ReadError> {
     text(path, read_opened(&file, path, MAX_BYTES)?)
 }
 
-/// Reads the first characters, about a megabyte, of a scene file of more than [`LONG`] bytes; `None`
-/// of a shorter one. The error is the one that [`read_text`] would give.
+/// Reads about the first megabyte of a scene file longer than [`LONG`] bytes, in whole characters.
+/// Returns `None` for shorter files. Fails like [`read_text`].
 pub fn read_beginning(path: &Path) -> Result<Option<String>, ReadError> {
     let file = open(path)?;
     let metadata = file.metadata().map_err(|source| ReadError::Io {
@@ -168,7 +169,7 @@ pub fn read_beginning(path: &Path) -> Result<Option<String>, ReadError> {
     text(path, bytes).map(Some)
 }
 
-/// The text that bytes are, if they are UTF-8 with few zeros.
+/// Converts bytes to text. Fails unless they are UTF-8 with few NUL bytes.
 fn text(path: &Path, bytes: Vec<u8>) -> Result<String, ReadError> {
     let text = decode(path, bytes)?;
     match first_zero(text.as_bytes()) {
@@ -180,8 +181,8 @@ fn text(path: &Path, bytes: Vec<u8>) -> Result<String, ReadError> {
     }
 }
 
-/// The line of the first zero among a file's first bytes, which are looked at before long ones are
-/// read. None where they begin as UTF-16 does, or the file is too long anyway.
+/// Checks the first bytes of a file before all of it is read. Returns the line of the first NUL
+/// byte if the file looks binary; `None` if it looks like UTF-16 or is too long anyway.
 fn binary_start(file: &File) -> Option<usize> {
     if file
         .metadata()
@@ -198,9 +199,10 @@ fn binary_start(file: &File) -> Option<usize> {
     Some(line_of(&start[..first_zero(start)?]))
 }
 
-/// The first zero of bytes that are not text; none where there are so few that each is worth a message.
+/// The offset of the first NUL byte of binary content; `None` if there are few enough for the
+/// parser to report each.
 fn first_zero(bytes: &[u8]) -> Option<usize> {
-    // Texts have none, and that is told faster than a number.
+    // Texts usually have none, and checking that is faster than counting.
     if !bytes.contains(&0) {
         return None;
     }
@@ -211,13 +213,13 @@ fn first_zero(bytes: &[u8]) -> Option<usize> {
     bytes.iter().position(|&byte| byte == 0)
 }
 
-/// Reads bytes from a file's beginning without moving on.
+/// Reads from the beginning of a file; the file position does not advance.
 #[cfg(unix)]
 fn read_start(file: &File, start: &mut [u8]) -> io::Result<usize> {
     std::os::unix::fs::FileExt::read_at(file, start, 0)
 }
 
-/// Reads bytes from a file's beginning without moving on.
+/// Reads from the beginning of a file; the file position does not advance.
 #[cfg(not(unix))]
 fn read_start(mut file: &File, start: &mut [u8]) -> io::Result<usize> {
     use std::io::Seek;
@@ -226,7 +228,7 @@ fn read_start(mut file: &File, start: &mut [u8]) -> io::Result<usize> {
     Ok(length)
 }
 
-/// The number of the line that begins before the end of some bytes, from 1.
+/// The number, from 1, of the line that contains the end of `before`.
 fn line_of(before: &[u8]) -> usize {
     before.split(|&byte| byte == b'\n').count()
 }
@@ -239,12 +241,15 @@ fn decode(path: &Path, bytes: Vec<u8>) -> Result<String, ReadError> {
             [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => "UTF-16",
             _ => "WINDOWS-1252",
         };
-        let wrong = &bytes[valid..];
-        let byte = wrong[0];
-        let line = wrong.split(|&byte| byte == b'\n').next().unwrap_or(wrong);
+        let invalid = &bytes[valid..];
+        let byte = invalid[0];
+        let line = invalid
+            .split(|&byte| byte == b'\n')
+            .next()
+            .unwrap_or(invalid);
         let line = &line[..line.len().min(WRONG_LINE)];
         let line = String::from_utf8_lossy(line).into_owned();
-        // The text may be long: what is valid of it is not copied.
+        // The text may be long: its valid part is not copied.
         bytes.truncate(valid);
         let mut text = String::from_utf8(bytes).unwrap_or_default();
         text.push_str(&line);
@@ -259,8 +264,7 @@ fn decode(path: &Path, bytes: Vec<u8>) -> Result<String, ReadError> {
     })
 }
 
-/// The length of a scene file that [`read_text`] can open; the error is the one that it would give.
-/// Reads nothing.
+/// The length of a scene file in bytes. Fails if [`read_text`] could not open it; reads nothing.
 pub fn scene_length(path: &Path) -> Result<u64, ReadError> {
     let metadata = open(path)?.metadata().map_err(|source| ReadError::Io {
         path: path.to_owned(),
@@ -279,7 +283,7 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     read_opened(&open(path)?, path, limit)
 }
 
-/// Reads a regular file that is open, of at most `limit` bytes.
+/// Reads an open regular file of at most `limit` bytes.
 pub(crate) fn read_opened(file: &File, path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
     let length = file.metadata().map_or(0, |metadata| metadata.len());
     memory::check(length.min(limit), || Need {
@@ -304,14 +308,14 @@ pub(crate) fn read_opened(file: &File, path: &Path, limit: u64) -> Result<Vec<u8
     })
 }
 
-/// Whether two names mean one file, through links of either kind. Names of nothing do not.
+/// Whether two paths name the same existing file, also through hard or symbolic links.
 pub fn is_same(one: &Path, other: &Path) -> bool {
     FileId::of(one).is_some_and(|found| FileId::of(other) == Some(found))
 }
 
-/// Opens a regular file for reading. Never waits: opening a pipe would, until somebody writes.
+/// Opens a regular file for reading. Never blocks, as opening a pipe without a writer would.
 pub(crate) fn open(path: &Path) -> Result<File, ReadError> {
-    let told = |source: io::Error| match source.kind() {
+    let describe = |source: io::Error| match source.kind() {
         io::ErrorKind::NotFound => ReadError::NotFound {
             path: path.to_owned(),
         },
@@ -322,18 +326,18 @@ pub(crate) fn open(path: &Path) -> Result<File, ReadError> {
     };
     let file = without_waiting(OpenOptions::new().read(true))
         .open(path)
-        .map_err(told)?;
+        .map_err(describe)?;
     regular(file, path)
 }
 
-/// The same file, if it is a regular one. Asked of the open file, not of the name, which may mean
+/// Returns the file if it is a regular one. Checks the open file, not the path, which may refer to
 /// another file by now.
 pub(crate) fn regular(file: File, path: &Path) -> Result<File, ReadError> {
-    let told = |source| ReadError::Io {
+    let describe = |source| ReadError::Io {
         path: path.to_owned(),
         source,
     };
-    let file_type = file.metadata().map_err(told)?.file_type();
+    let file_type = file.metadata().map_err(describe)?.file_type();
     if file_type.is_file() {
         Ok(file)
     } else {
@@ -349,7 +353,7 @@ fn without_waiting(options: &mut OpenOptions) -> &mut OpenOptions {
     {
         use rustix::fs::OFlags;
         use std::os::unix::fs::OpenOptionsExt;
-        // A terminal opened by its path must not become the one that controls the process.
+        // Opening a terminal by its path must not make it the controlling terminal.
         let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
         options.custom_flags(flags.bits() as i32);
     }
@@ -382,7 +386,7 @@ fn read_open(file: &File, limit: u64) -> io::Result<Vec<u8>> {
     bytes.try_reserve_exact(length as usize)?;
     #[cfg(unix)]
     read_by_parts(file, length as usize, &mut bytes)?;
-    // The file may grow while it is read.
+    // The file may have grown meanwhile.
     let rest = limit + 1 - bytes.len() as u64;
     file.take(rest).read_to_end(&mut bytes)?;
     if limit < bytes.len() as u64 {
@@ -391,8 +395,8 @@ fn read_open(file: &File, limit: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Reads the first `length` bytes of a large file, side by side: where the system has them in memory,
-/// taking new memory for them is most of the work. What has become shorter is left to be read.
+/// Reads the first `length` bytes of a large file in parallel: if they are cached, allocating
+/// memory for them is most of the work. Reads nothing of small files and of files that shrink.
 #[cfg(unix)]
 fn read_by_parts(mut file: &File, length: usize, bytes: &mut Vec<u8>) -> io::Result<()> {
     use rayon::prelude::*;

@@ -1,5 +1,5 @@
-//! Whose a temporary file is: its name says which process on which machine has made it, so that the
-//! files of processes that were killed are found and removed.
+//! The owners of temporary files: a file's name identifies the process and the machine that created
+//! it, so that the files of killed processes can be found and removed.
 
 use std::fs;
 use std::hash::{BuildHasher, DefaultHasher, Hash, Hasher, RandomState};
@@ -7,26 +7,26 @@ use std::path::Path;
 
 use super::lock::{Lock, lock};
 
-/// What the names of temporary files begin with.
+/// The prefix of the names of temporary files.
 pub(super) const PREFIX: &str = ".halflight-";
 
-/// The most names that are looked at in one folder.
+/// The number of names examined in one folder.
 const MOST: usize = 1 << 16;
 
-/// A process, as the name of a file tells it.
+/// A process, as encoded in the name of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Owner {
-    /// Stands for the machine.
+    /// A hash that identifies the machine.
     host: u32,
-    /// Stands for its last start.
+    /// A hash that identifies its last boot.
     boot: u32,
     process: u32,
-    /// When the process began, in the system's units: numbers of processes are used again.
+    /// The start time of the process in the system's units: process IDs are reused.
     began: u64,
 }
 
 impl Owner {
-    /// This process.
+    /// The current process.
     fn own() -> Self {
         let process = std::process::id();
         Self {
@@ -37,7 +37,7 @@ impl Owner {
         }
     }
 
-    /// Whose the file of this name is, if it is a temporary file.
+    /// Parses the name of a temporary file. Returns `None` for any other name.
     fn of_name(name: &str) -> Option<Self> {
         let mut parts = name.strip_prefix(PREFIX)?.split('-');
         let owner = Self {
@@ -50,13 +50,13 @@ impl Owner {
         parts.next().is_none().then_some(owner)
     }
 
-    /// Whether this process of this machine may still run.
+    /// Whether the process, which must be one of this machine, may still be running.
     fn may_run(&self) -> bool {
         self.boot == boot() && began(self.process).is_some_and(|began| began == self.began)
     }
 }
 
-/// A name for a temporary file of this process, unlike any other.
+/// Returns a new name for a temporary file of this process.
 pub(super) fn temporary_name() -> String {
     let Owner {
         host,
@@ -68,12 +68,12 @@ pub(super) fn temporary_name() -> String {
     format!("{PREFIX}{host:08x}-{boot:08x}-{process}-{began}-{random:08x}")
 }
 
-/// A number unlike the last one.
+/// A random number.
 pub(super) fn random() -> u32 {
     RandomState::new().hash_one(()) as u32
 }
 
-/// Removes the temporary files in a folder that processes of this machine have left there.
+/// Removes the temporary files that dead processes of this machine left in a folder.
 pub(super) fn sweep(folder: &Path) {
     let Ok(entries) = fs::read_dir(folder) else {
         return;
@@ -83,21 +83,21 @@ pub(super) fn sweep(folder: &Path) {
         let name = entry.file_name();
         let owner = name.to_str().and_then(Owner::of_name);
         if let Some(owner) = owner.filter(|owner| owner.host == host) {
-            remove_if_left(&entry.path(), &owner);
+            remove_if_orphaned(&entry.path(), &owner);
         }
     }
 }
 
-/// Removes a temporary file unless somebody is still at it.
-fn remove_if_left(path: &Path, owner: &Owner) {
-    // The lock, if it is to be had, is kept until the file is gone.
+/// Removes a temporary file unless it is still in use.
+fn remove_if_orphaned(path: &Path, owner: &Owner) {
+    // The lock, if it could be taken, is held until the file is removed.
     let file = super::open(path).ok();
-    let is_left = match file.as_ref().map(lock) {
+    let is_orphaned = match file.as_ref().map(lock) {
         Some(Lock::Taken) => true,
         Some(Lock::Busy) => false,
         Some(Lock::Unknown) | None => !owner.may_run(),
     };
-    if is_left {
+    if is_orphaned {
         let _ = fs::remove_file(path);
     }
 }
@@ -108,7 +108,7 @@ fn hash(value: impl Hash) -> u32 {
     hasher.finish() as u32
 }
 
-/// Stands for this machine: its name, and its number where it has one.
+/// Identifies this machine: a hash of its name, and of its machine ID if it has one.
 fn host() -> u32 {
     let number = fs::read("/etc/machine-id").unwrap_or_default();
     #[cfg(unix)]
@@ -118,16 +118,16 @@ fn host() -> u32 {
     hash((name, number))
 }
 
-/// Stands for the time since the machine was started.
+/// Identifies the current boot of the machine; constant where systems have no boot ID.
 fn boot() -> u32 {
     hash(fs::read("/proc/sys/kernel/random/boot_id").unwrap_or_default())
 }
 
-/// When a process that runs began; 0 where systems don't say.
+/// The start time of a running process, 0 if the system does not report it. `None` if none runs.
 #[cfg(target_os = "linux")]
 fn began(process: u32) -> Option<u64> {
     let stat = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    // The second field, a name in parentheses, may hold anything; the 22nd is the time.
+    // The second field, a name in parentheses, may contain anything; the 22nd is the start time.
     let (_, rest) = stat.rsplit_once(')')?;
     rest.split_ascii_whitespace().nth(19)?.parse().ok()
 }
@@ -151,7 +151,7 @@ mod tests {
 
     use super::*;
 
-    /// A name of a temporary file that another process might have given.
+    /// The name of a temporary file of the given process.
     fn name_of(owner: &Owner) -> String {
         let Owner {
             host,
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn names_tell_their_process() {
+    fn names_identify_their_process() {
         assert_eq!(Owner::of_name(&temporary_name()), Some(Owner::own()));
         assert!(Owner::own().may_run());
         for name in [
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_is_left_behind_on_this_machine_is_swept() {
+    fn only_orphaned_files_of_this_machine_are_swept() {
         let own = Owner::own();
         let (other_host, other_boot) = (own.host ^ 1, own.boot ^ 1);
         let ended = Owner {
@@ -213,7 +213,7 @@ mod tests {
         sweep(folder.path());
         let left = |name: &String| place(name).exists();
         assert!(kept.iter().all(left) && left(&busy));
-        // Of a file that could be locked, it doesn't matter whether its process runs on.
+        // If the lock of a file can be taken, it does not matter whether its process still runs.
         for owner in [&ended, &from_before, &own] {
             assert!(!left(&name_of(owner)), "{owner:?}");
         }

@@ -1,4 +1,4 @@
-//! The one way in which files are written.
+//! Writing files, atomically where possible: the only way in which the program writes them.
 
 use std::fs::{File, Metadata, OpenOptions};
 use std::io::{self, BufWriter, Seek, Write};
@@ -15,70 +15,69 @@ use super::target::{Target, directory_of, not_a_file, open};
 use super::temporary::{Access, Temporary, is_refusal, sync_directory};
 use super::version::Version;
 
-/// How long a file that another program has locked is waited for, and how often it is looked at.
+/// How long to wait for a file that another program has locked, and the interval between attempts.
 const LOCK_PATIENCE: Duration = Duration::from_secs(1);
 const LOCK_RETRY: Duration = Duration::from_millis(20);
 
-/// Bytes handed to the system at once: pictures come in rows of a few hundred.
+/// The size of the write buffer in bytes: pictures arrive in rows of a few hundred.
 const CHUNK: usize = 1 << 18;
 
-/// Replaces a file, or creates it, so that at every moment it holds either its old content or the
-/// new one whole. Follows symbolic links; keeps mode, owner and extended attributes. What is not a
-/// file is refused. A program that has locked a file which is written over in place is waited for, for
-/// a second at most.
+/// Replaces or creates a file, so that at any moment it holds either the old or the complete new
+/// content. Follows symbolic links; keeps mode, owner and extended attributes. Fails if the target
+/// is not a file.
 ///
-/// The content is written to a file without a name, or with a temporary one where the file system
-/// has no such files, and synced; then it takes the name. `may` is asked at that moment: an error
-/// leaves the old file. It is asked again where another file got the name meanwhile.
+/// The content is written to a file without a name, or with a temporary one if the file system has
+/// no unnamed files, and synced; then it takes the file's name. `confirm` is called just before:
+/// an error leaves the old file. It is called again if another file took the name meanwhile.
 ///
-/// Where that would break a hard link or lose the owner, or where the folder can't be written to, the
-/// content is made in memory and written over the old one, of which a copy is kept until the new one
-/// is whole: only there can a sudden stop leave a half-written file. [`backups`](super::backups)
-/// finds the copy. Temporary files that a sudden stop leaves behind are removed by the next write in
-/// their folder.
+/// If that would break a hard link or lose the owner, or if the folder is not writable, the content
+/// is built in memory and overwrites the old one, a copy of which is kept until the new one is
+/// complete: only then can a crash leave a half-written file. [`backups`](super::backups) finds the
+/// copy. If another program has locked the file, this waits for up to a second. The next write in a
+/// folder removes temporary files that a crash left behind.
 pub fn replace<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    may: impl Fn() -> Result<(), E>,
+    confirm: impl Fn() -> Result<(), E>,
 ) -> Result<(), E> {
     match Target::of(path)? {
         Target::Stream(_, kind) => Err(not_a_file(kind).into()),
-        target => put(&target, write, may).map(drop),
+        target => put(&target, write, confirm).map(drop),
     }
 }
 
-/// As [`replace`], but a pipe or a device, which has no content to keep, is written to. A pipe that
-/// nobody reads is an error. Returns the version of the file that was written, if it is one.
+/// Like [`replace`], but also writes to pipes and devices, which have no content to keep. Fails for
+/// a pipe without a reader. Returns the version of the written file, `None` for pipes and devices.
 pub fn deliver<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    may: impl Fn() -> Result<(), E>,
+    confirm: impl Fn() -> Result<(), E>,
 ) -> Result<Option<Version>, E> {
     match Target::of(path)? {
         Target::Stream(path, _) => {
-            may()?;
+            confirm()?;
             let mut out = BufWriter::with_capacity(CHUNK, stream::open(&path)?);
             write(&mut out)?;
             out.flush()?;
             Ok(None)
         }
-        target => put(&target, write, may),
+        target => put(&target, write, confirm),
     }
 }
 
 fn put<E: From<io::Error>>(
     target: &Target,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    may: impl Fn() -> Result<(), E>,
+    confirm: impl Fn() -> Result<(), E>,
 ) -> Result<Option<Version>, E> {
     match target {
         Target::New(path) => {
             let new = Temporary::new(directory_of(path), Access::AsUsual)?;
             let mut new = filled(new, write)?;
-            may()?;
+            confirm()?;
             match new.take_new_name(path) {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                    may()?;
+                    confirm()?;
                     new.take_name(path)?;
                 }
                 taken => taken?,
@@ -89,10 +88,10 @@ fn put<E: From<io::Error>>(
         }
         Target::File(path, metadata) => {
             let Some(twin) = twin(path, metadata)? else {
-                return overwrite(path, write, may);
+                return overwrite(path, write, confirm);
             };
             let mut twin = filled(twin, write)?;
-            may()?;
+            confirm()?;
             twin.take_name(path)?;
             let version = version_of(twin.file());
             sync_directory(directory_of(path));
@@ -102,28 +101,28 @@ fn put<E: From<io::Error>>(
     }
 }
 
-/// The version of a file that has its name; none where the system can't tell.
+/// The version of an open file; `None` if its metadata cannot be read.
 fn version_of(file: &File) -> Option<Version> {
     let metadata = file.metadata().ok()?;
     Some(Version::of_metadata(&metadata))
 }
 
-/// A file with all of its content, which a power cut does not take.
+/// Writes the content to a file and syncs it.
 fn filled(
     file: Temporary,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<Temporary> {
     let mut out = BufWriter::with_capacity(CHUNK, file.content());
     let written = write(&mut out).and_then(|()| out.flush());
-    // What is left after an error is not written.
+    // After an error the rest of the buffer is not written.
     let _ = out.into_parts();
     written?;
     file.sync()?;
     Ok(file)
 }
 
-/// An empty file beside `path` with its mode, owner and attributes, fit to take its name; `None`
-/// if there can't be one.
+/// Creates an empty file in the folder of `path` that can replace it, with the same mode, owner and
+/// attributes. Returns `None` if that is not possible.
 fn twin(path: &Path, metadata: &Metadata) -> io::Result<Option<Temporary>> {
     if is_hard_linked(metadata) {
         return Ok(None);
@@ -152,14 +151,14 @@ fn is_hard_linked(_metadata: &Metadata) -> bool {
 fn overwrite<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    may: impl Fn() -> Result<(), E>,
+    confirm: impl Fn() -> Result<(), E>,
 ) -> Result<Option<Version>, E> {
     let mut content = Vec::new();
     write(&mut content)?;
     let file = open(OpenOptions::new().read(true).write(true), path)?;
     wait_for_others(&file)?;
     let backup = Backup::of(path, &file)?;
-    if let Err(refused) = may() {
+    if let Err(refused) = confirm() {
         backup.discard();
         return Err(refused);
     }
@@ -177,15 +176,16 @@ fn overwrite<E: From<io::Error>>(
     }
 }
 
-/// Waits until nobody else writes over a file, under whatever name; an error if that takes long.
+/// Waits until no other program has the file locked, under any of its names. Fails after
+/// [`LOCK_PATIENCE`].
 fn wait_for_others(file: &File) -> io::Result<()> {
-    // Elsewhere a lock would keep this process, too, from reading the file by its name.
+    // On other systems a lock would also keep this process from reading the file by its name.
     if cfg!(unix) {
         let give_up = Instant::now() + LOCK_PATIENCE;
-        // Where files can't be locked, nobody is known to write.
+        // If files cannot be locked, no other writer is known.
         while lock(file) == Lock::Busy {
             if give_up < Instant::now() {
-                return Err(io::Error::other("another program has it locked"));
+                return Err(io::Error::other("locked by another program"));
             }
             thread::sleep(LOCK_RETRY);
         }
@@ -193,8 +193,8 @@ fn wait_for_others(file: &File) -> io::Result<()> {
     Ok(())
 }
 
-/// Puts the content of a backup back after an error, which is returned; where that fails too, the
-/// copy stays and the error says first where it is.
+/// Restores the content of a backup after an error, which is returned. If that fails too, the copy
+/// remains and the error also names it.
 fn restore(file: &File, backup: Backup, path: &Path, error: io::Error) -> io::Error {
     let old = backup.content();
     let restored = old.and_then(|old| put_in_place(file, &old, &mut false));
@@ -209,9 +209,8 @@ fn restore(file: &File, backup: Backup, path: &Path, error: io::Error) -> io::Er
     io::Error::new(error.kind(), reason)
 }
 
-/// Makes `content` the whole content of a file, and notes from when on the old one may be gone. Cuts
-/// only at the end, so that the blocks of the old content stay its own and it can be put back even on
-/// a full disk.
+/// Overwrites a file with `content`; sets `is_changed` as soon as the old content may be damaged.
+/// Truncates last, so that the file keeps its blocks and can be restored even on a full disk.
 fn put_in_place(mut file: &File, mut content: &[u8], is_changed: &mut bool) -> io::Result<()> {
     let length = content.len() as u64;
     call("seek", || file.rewind())?;

@@ -1,11 +1,11 @@
-//! Pipes and devices, as somebody else's ends of what is written.
+//! Pipes and devices as targets of a write.
 
 use std::fs::{File, OpenOptions};
 use std::io;
 use std::path::Path;
 
-/// Opens a pipe or a device to be written to. A pipe that nobody reads is waited for for a moment
-/// only: a reader that is started in the same breath may be a little late.
+/// Opens a pipe or a device for writing. Waits up to a second for a pipe's reader, which may have
+/// been started at the same time. Fails if there is none.
 #[cfg(unix)]
 pub(super) fn open(path: &Path) -> io::Result<File> {
     use std::thread;
@@ -21,7 +21,7 @@ pub(super) fn open(path: &Path) -> io::Result<File> {
         match super::without_waiting(OpenOptions::new().write(true)).open(path) {
             Err(error) if Errno::from_io_error(&error) == Some(Errno::NXIO) => {
                 if deadline <= Instant::now() {
-                    return Err(io::Error::new(error.kind(), "nobody reads this pipe"));
+                    return Err(io::Error::new(error.kind(), "no process reads this pipe"));
                 }
                 thread::sleep(PAUSE);
             }
@@ -29,9 +29,9 @@ pub(super) fn open(path: &Path) -> io::Result<File> {
         }
     };
     if stream.metadata()?.is_file() {
-        return Err(io::Error::other("was replaced by a file meanwhile"));
+        return Err(io::Error::other("has been replaced by a file"));
     }
-    // From here on a slow reader is waited for.
+    // From here on, writes wait for a slow reader.
     let flags = fcntl_getfl(&stream)?;
     fcntl_setfl(&stream, flags - OFlags::NONBLOCK)?;
     Ok(stream)

@@ -1,4 +1,4 @@
-//! What stands where something is to be written.
+//! Examines the path that a write goes to.
 
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io;
@@ -7,17 +7,17 @@ use std::path::{Path, PathBuf};
 use super::calls::call;
 use super::{kind, without_waiting};
 
-/// Links followed before a chain of them counts as endless, as Linux does.
+/// The number of symbolic links followed before a chain counts as endless, as on Linux.
 const MAX_LINKS: usize = 40;
 
-/// What stands at the end of a path's links.
+/// What a path refers to after following its symbolic links.
 #[derive(Debug)]
 pub(super) enum Target {
-    /// Nothing, in this place.
+    /// Nothing yet, at this path.
     New(PathBuf),
-    /// A file that may be written.
+    /// A writable file.
     File(PathBuf, Metadata),
-    /// What holds no content: a pipe or a device, and which of them.
+    /// A pipe or a device, which holds no content, and its type with an article.
     Stream(PathBuf, &'static str),
 }
 
@@ -28,12 +28,11 @@ impl Target {
             Ok(metadata) if metadata.is_file() => {
                 let path = fs::canonicalize(path)?;
                 let mut options = OpenOptions::new();
-                // A file that may not be written must not be replaced either, though its folder
-                // allows it.
+                // A read-only file must not be replaced either, even if its folder allows that.
                 let file = open(options.write(true), &path)?;
                 Ok(Self::File(path, file.metadata()?))
             }
-            // By its own name: a pipe inherited as `/dev/stdout` has no other.
+            // Not canonicalized: a pipe inherited as `/dev/stdout` has no other name.
             Ok(metadata) => Ok(Self::Stream(path.to_owned(), kind(metadata.file_type()))),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 Ok(Self::New(end_of_links(path)?))
@@ -43,8 +42,7 @@ impl Target {
     }
 }
 
-/// Opens a regular file as `options` say. Never waits: what takes the file's place meanwhile may be
-/// a pipe.
+/// Opens a regular file with `options`. Never blocks, even if a pipe has taken the file's place.
 pub(super) fn open(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
     let file = call("open", || without_waiting(options).open(path))?;
     let file_type = file.metadata()?.file_type();
@@ -55,14 +53,14 @@ pub(super) fn open(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
     }
 }
 
-/// That content which is to last can't be put there.
+/// The error for a target that cannot hold content.
 pub(super) fn not_a_file(kind: &str) -> io::Error {
     let reason = format!("is {kind}, not a file");
     io::Error::new(io::ErrorKind::InvalidInput, reason)
 }
 
-/// Says why [`deliver`](super::deliver) could not write to `path`, as far as that can be told
-/// without writing: to be asked before long work whose outcome is to be written there.
+/// Fails if [`deliver`](super::deliver) could not write to `path`, as far as that can be determined
+/// without writing. Meant to be called before long work whose result goes there.
 pub fn check_target(path: &Path) -> io::Result<()> {
     match Target::of(path)? {
         Target::New(path) => {
@@ -81,14 +79,13 @@ pub fn check_target(path: &Path) -> io::Result<()> {
             }
             Ok(())
         }
-        // Opening a pipe is noticed at its other end.
+        // Not opened: a pipe's reader would notice.
         Target::File(..) | Target::Stream(..) => Ok(()),
     }
 }
 
-/// That a folder in which something is to be written is not there.
+/// The error for a folder that does not exist; explains an unexpanded `~`.
 pub fn no_such_folder(folder: &Path) -> io::Error {
-    // Shells have taught that it is the home folder.
     let is_home_meant = folder.as_os_str().as_encoded_bytes().starts_with(b"~");
     let reason = if is_home_meant {
         "no such folder; only shells expand ~"
@@ -98,8 +95,8 @@ pub fn no_such_folder(folder: &Path) -> io::Error {
     io::Error::new(io::ErrorKind::NotFound, reason)
 }
 
-/// Says what stands at `path` if [`replace`](super::replace()) can't write there: a folder, a pipe, a
-/// device, a file that may not be written.
+/// Fails if [`replace`](super::replace()) could not write to `path`: if that is a folder, a pipe, a
+/// device or a read-only file.
 pub fn check_replaceable(path: &Path) -> io::Result<()> {
     match Target::of(path)? {
         Target::Stream(_, kind) => Err(not_a_file(kind)),
@@ -107,7 +104,7 @@ pub fn check_replaceable(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Where a chain of links that leads to no file ends.
+/// The end of a chain of symbolic links that leads to no file.
 pub(crate) fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     if path.file_name().is_none() {
         return Err(io::ErrorKind::NotFound.into());
@@ -122,7 +119,7 @@ pub(crate) fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("too many symbolic links"))
 }
 
-/// The directory that holds a path's last name.
+/// The parent directory of a path; `.` for a bare name.
 pub fn directory_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,

@@ -1,4 +1,4 @@
-//! New content before it has its name.
+//! Temporary files that hold new content until they take their final name.
 
 use std::fs::{self, File, OpenOptions};
 use std::io;
@@ -9,31 +9,30 @@ use super::calls::{Content, call};
 use super::lock::{Lock, lock};
 use super::owner::{sweep, temporary_name};
 
-/// How often a name is looked for that nobody has.
+/// The number of attempts to find an unused name.
 const ATTEMPTS: usize = 16;
 
-/// Who may read a new file.
+/// The permissions of a new file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Access {
-    /// Whoever may read any new file of this process.
+    /// As the process's umask allows.
     AsUsual,
-    /// Its owner.
+    /// Accessible only to its owner.
     Private,
 }
 
-/// A file that is gone when this is dropped, unless it was given a name to keep. It has no name at
-/// all where the file system has such files: of these, nothing is left even by a process that is
-/// killed.
+/// A file that is deleted when dropped, unless it has taken a final name. Has no name at all if the
+/// file system supports that: then not even a killed process leaves it behind.
 #[derive(Debug)]
 pub(super) struct Temporary {
     file: File,
     folder: PathBuf,
-    /// Its name for now.
+    /// Its temporary name, if it has one.
     name: Option<PathBuf>,
 }
 
 impl Temporary {
-    /// An empty one in a folder; what others have left behind there is removed.
+    /// Creates an empty file in a folder and removes the orphaned ones there.
     pub(super) fn new(folder: &Path, access: Access) -> io::Result<Self> {
         sweep(folder);
         match unnamed(folder, access) {
@@ -55,7 +54,7 @@ impl Temporary {
                 folder: folder.to_owned(),
                 name: Some(name),
             };
-            // Another writer may have taken it for one left behind, before it was locked.
+            // Before it was locked, another writer may have taken it for an orphan.
             if lock(&named.file) != Lock::Busy && !is_gone(&named.file) {
                 return Ok(named);
             }
@@ -68,17 +67,17 @@ impl Temporary {
         &self.file
     }
 
-    /// Its content, to be written.
+    /// A writer to the file.
     pub(super) fn content(&self) -> Content<&File> {
         Content(&self.file)
     }
 
-    /// Has its content outlast a power cut.
+    /// Makes the content durable across a power cut.
     pub(super) fn sync(&self) -> io::Result<()> {
         call("fsync", || self.file.sync_all())
     }
 
-    /// Takes a name that nothing has; fails with [`io::ErrorKind::AlreadyExists`] otherwise.
+    /// Takes an unused name. Fails with [`io::ErrorKind::AlreadyExists`] if it is in use.
     pub(super) fn take_new_name(&mut self, path: &Path) -> io::Result<()> {
         if self.name.is_none() {
             match self.link(path) {
@@ -93,7 +92,7 @@ impl Temporary {
         Ok(())
     }
 
-    /// Takes a name in place of the file that has it.
+    /// Takes a name and replaces the file that has it.
     pub(super) fn take_name(&mut self, path: &Path) -> io::Result<()> {
         if self.name.is_none() {
             self.take_temporary_name()?;
@@ -105,7 +104,7 @@ impl Temporary {
         Ok(())
     }
 
-    /// Gives a file without a name a temporary one; where it can't have one, a file like it.
+    /// Gives an unnamed file a temporary name. If that is not possible, copies it to a named file.
     #[cfg(target_os = "linux")]
     fn take_temporary_name(&mut self) -> io::Result<()> {
         let name = self.folder.join(temporary_name());
@@ -128,7 +127,7 @@ impl Temporary {
         Err(io::ErrorKind::Unsupported.into())
     }
 
-    /// Gives a file without a name one that nothing has.
+    /// Gives an unnamed file an unused name.
     #[cfg(target_os = "linux")]
     fn link(&self, path: &Path) -> io::Result<()> {
         use rustix::fs::{AtFlags, CWD, linkat};
@@ -147,13 +146,13 @@ impl Temporary {
 impl Drop for Temporary {
     fn drop(&mut self) {
         if let Some(name) = &self.name {
-            // What can't be removed now is swept later.
+            // If this fails, a later sweep removes it.
             let _ = call("unlink", || fs::remove_file(name));
         }
     }
 }
 
-/// Copies all of one file's content behind what another has.
+/// Appends all of one file's content to another.
 pub(super) fn copy_all(mut from: &File, to: &File) -> io::Result<()> {
     use std::io::{Read, Seek, Write};
     let mut bytes = Vec::new();
@@ -162,7 +161,7 @@ pub(super) fn copy_all(mut from: &File, to: &File) -> io::Result<()> {
     Content(to).write_all(&bytes)
 }
 
-/// Makes a new name last through a power cut. Some file systems can't; the file is whole either way.
+/// Makes a new name durable. Some file systems cannot; the file is complete either way.
 pub(super) fn sync_directory(directory: &Path) {
     #[cfg(unix)]
     if let Ok(directory) = File::open(directory) {
@@ -172,7 +171,7 @@ pub(super) fn sync_directory(directory: &Path) {
     let _ = directory;
 }
 
-/// Whether an error says that a folder can't be written to.
+/// Whether an error means that a folder is not writable.
 pub(super) fn is_refusal(error: &io::Error) -> bool {
     matches!(
         error.kind(),
@@ -190,8 +189,7 @@ fn options(access: Access) -> OpenOptions {
     options
 }
 
-/// The mode to ask for. The kernel takes the process's mask off; asking for the mask would mean
-/// changing it.
+/// The mode to request. The kernel applies the umask, which cannot be read without changing it.
 #[cfg(unix)]
 fn mode(access: Access) -> u32 {
     match access {
@@ -200,7 +198,7 @@ fn mode(access: Access) -> u32 {
     }
 }
 
-/// A file without a name; `None` where there are none, or none that could get one later.
+/// Creates an unnamed file. Returns `None` if the system has none, or none that can be named later.
 #[cfg(target_os = "linux")]
 fn unnamed(folder: &Path, access: Access) -> Option<io::Result<Temporary>> {
     use rustix::fs::{CWD, Mode, OFlags, openat};
@@ -219,7 +217,7 @@ fn unnamed(folder: &Path, access: Access) -> Option<io::Result<Temporary>> {
             return (!is_unknown).then_some(Err(error));
         }
     };
-    // Whoever has its lock is at work on it, from the moment it has a name.
+    // The lock marks the file as in use from the moment it gets a name.
     lock(&file);
     let temporary = Temporary {
         file,
@@ -234,14 +232,14 @@ fn unnamed(_folder: &Path, _access: Access) -> Option<io::Result<Temporary>> {
     None
 }
 
-/// Where the kernel shows an open file.
+/// The path under which the kernel exposes an open file.
 #[cfg(target_os = "linux")]
 fn place_of(file: &File) -> PathBuf {
     use std::os::fd::AsRawFd;
     PathBuf::from(format!("/proc/self/fd/{}", file.as_raw_fd()))
 }
 
-/// Whether a file can't be given a name later, on this file system or by this process.
+/// Whether an error means that this file system or process cannot name an unnamed file.
 fn is_unlinkable(error: &io::Error) -> bool {
     #[cfg(unix)]
     {
@@ -258,7 +256,7 @@ fn is_unlinkable(error: &io::Error) -> bool {
     }
 }
 
-/// Renames a file unless the new name is taken, as far as the file system can tell in one step.
+/// Renames a file unless the new name is in use; atomically if the file system supports that.
 fn rename_to_new(from: &Path, to: &Path) -> io::Result<()> {
     #[cfg(any(target_os = "linux", target_vendor = "apple"))]
     {

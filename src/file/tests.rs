@@ -13,7 +13,7 @@ fn directory() -> TempDir {
     tempfile::tempdir().expect("a directory for a test")
 }
 
-/// The names in a directory, sorted.
+/// The sorted names in a directory.
 fn names(directory: &Path) -> Vec<String> {
     let mut names: Vec<_> = fs::read_dir(directory)
         .expect("a directory")
@@ -41,7 +41,7 @@ fn content(path: &Path) -> String {
     fs::read_to_string(path).expect("a text file")
 }
 
-/// The message about a file `s` of these bytes, without its directory.
+/// The error message for a file `s` with these bytes, without its directory.
 fn refusal(bytes: &[u8]) -> String {
     let directory = directory();
     let path = directory.path().join("s");
@@ -54,7 +54,7 @@ fn refusal(bytes: &[u8]) -> String {
 fn long_files_are_read_byte_for_byte() {
     let directory = directory();
     let path = directory.path().join("long");
-    // Read by parts of a power of two, of which none is like another.
+    // Files are read in parts, each a power of two long; no two parts are alike.
     for length in [(16 << 20) - 1, 16 << 20, (16 << 20) + 1, (17 << 20) + 77] {
         let bytes: Vec<u8> = (0..length)
             .map(|at: u32| (at ^ at >> 8 ^ at >> 16) as u8)
@@ -94,7 +94,7 @@ fn the_first_byte_that_is_not_utf8_is_named() {
 }
 
 #[test]
-fn a_missing_file_is_told_from_a_directory() {
+fn missing_files_and_directories_have_different_errors() {
     let directory = directory();
     let missing = read_text(&directory.path().join("none"));
     assert!(matches!(missing, Err(ReadError::NotFound { .. })));
@@ -135,7 +135,7 @@ fn a_failed_write_leaves_the_old_content() {
 }
 
 #[test]
-fn whether_to_replace_is_asked_when_only_the_name_is_left_to_take() {
+fn permission_to_replace_is_asked_after_the_content_is_written() {
     let directory = directory();
     let path = directory.path().join("s");
     fs::write(&path, "old").expect("written");
@@ -143,7 +143,7 @@ fn whether_to_replace_is_asked_when_only_the_name_is_left_to_take() {
         &path,
         |out| {
             out.write_all(b"ours")?;
-            // Somebody else writes meanwhile.
+            // Another program writes meanwhile.
             fs::write(&path, "theirs")
         },
         || match content(&path).as_str() {
@@ -157,7 +157,7 @@ fn whether_to_replace_is_asked_when_only_the_name_is_left_to_take() {
 }
 
 #[test]
-fn a_target_that_cannot_be_written_is_told_beforehand() {
+fn a_target_that_cannot_be_written_is_detected_beforehand() {
     let directory = directory();
     let path = directory.path().join("s");
     assert!(check_target(&path).is_ok());
@@ -197,11 +197,11 @@ mod unix {
     }
 
     #[test]
-    fn a_file_too_long_is_refused_unread() {
+    fn a_file_that_is_too_long_is_refused_unread() {
         let directory = directory();
         let path = directory.path().join("s");
         let file = File::create(&path).expect("created");
-        // A hole: it takes no space.
+        // A hole, which takes no space.
         file.set_len(MAX_BYTES + 1)
             .expect("a file system with holes");
         assert!(matches!(read_text(&path), Err(ReadError::TooLong { .. })));
@@ -256,7 +256,7 @@ mod unix {
     }
 
     #[test]
-    fn a_new_file_has_the_mode_of_any_new_file() {
+    fn a_new_file_has_the_usual_mode() {
         let directory = directory();
         let mode = |name: &str| {
             let metadata = fs::metadata(directory.path().join(name)).expect("there");
@@ -267,11 +267,11 @@ mod unix {
         assert_eq!(mode("ours"), mode("theirs"));
     }
 
-    /// What others do to a file after it was written.
+    /// Something another program does to a file after it was written.
     type Change = fn(&Path);
 
     #[test]
-    fn a_file_has_another_version_once_others_touched_it() {
+    fn changes_by_others_change_the_version_of_a_file() {
         let rewrite = |path: &Path, content: &str| {
             let modified = fs::metadata(path).and_then(|found| found.modified());
             fs::write(path, content).expect("written");
@@ -317,7 +317,7 @@ mod unix {
                 assert_eq!(found == Some(version), *is_same, "{name}, {linked}");
             }
         }
-        // A date that is set back hides nothing.
+        // Setting the modification time back does not hide a change.
         let directory = directory();
         let path = directory.path().join("s");
         fs::write(&path, "one").expect("written");
@@ -362,14 +362,14 @@ mod unix {
     }
 
     #[test]
-    fn a_pipe_is_delivered_to_and_stays() {
+    fn a_pipe_is_written_to_and_not_replaced() {
         let directory = directory();
         let pipe = pipe_in(&directory);
         let reader = std::thread::spawn({
             let pipe = pipe.clone();
             move || fs::read_to_string(pipe)
         });
-        // More than a pipe holds: its reader is waited for.
+        // More than a pipe buffers, so the writer waits for the reader.
         let content = "through".repeat(100_000);
         deliver_to(&pipe, &content).expect("written");
         let read = reader.join().expect("no panic").expect("read");
@@ -379,10 +379,10 @@ mod unix {
     }
 
     #[test]
-    fn a_pipe_that_nobody_reads_is_an_error() {
+    fn a_pipe_without_a_reader_is_an_error() {
         let directory = directory();
         let error = deliver_to(&pipe_in(&directory), "x").expect_err("nobody reads it");
-        assert_eq!(error.to_string(), "nobody reads this pipe");
+        assert_eq!(error.to_string(), "no process reads this pipe");
     }
 
     #[test]
@@ -403,19 +403,19 @@ mod unix {
     }
 
     #[test]
-    fn a_new_file_never_takes_the_place_of_one_that_came_meanwhile() {
+    fn a_file_created_meanwhile_is_only_replaced_with_permission() {
         let directory = directory();
         let path = directory.path().join("s");
-        let asked = std::cell::Cell::new(0);
+        let calls = std::cell::Cell::new(0);
         let replace_after = |allowed: usize| {
             replace(
                 &path,
                 |out| out.write_all(b"ours"),
                 || {
-                    // Somebody writes between the question and the name's being taken.
+                    // Another program writes just before the name is taken.
                     fs::write(&path, "theirs")?;
-                    asked.set(asked.get() + 1);
-                    if asked.get() <= allowed {
+                    calls.set(calls.get() + 1);
+                    if calls.get() <= allowed {
                         Ok(())
                     } else {
                         Err(io::Error::other("exists"))
@@ -427,15 +427,15 @@ mod unix {
         assert_eq!(refused.to_string(), "exists");
         assert_eq!(content(&path), "theirs");
         fs::remove_file(&path).expect("removed");
-        asked.set(0);
+        calls.set(0);
         replace_after(2).expect("allowed");
-        assert_eq!((asked.get(), content(&path).as_str()), (2, "ours"));
+        assert_eq!((calls.get(), content(&path).as_str()), (2, "ours"));
         assert_eq!(names(directory.path()), ["s"]);
     }
 }
 
 #[test]
-fn a_long_file_has_a_beginning() {
+fn only_the_beginning_of_a_long_file_is_read() {
     let directory = directory();
     let path = directory.path().join("s");
     let write = |head: &[u8], len: u64| {
@@ -449,7 +449,7 @@ fn a_long_file_has_a_beginning() {
     write(b"a", LONG + 1);
     let beginning = read_beginning(&path).expect("read").expect("it is long");
     assert_eq!(beginning.len(), BEGINNING);
-    // A character that is cut is left away, one that is wrong is an error.
+    // A cut character is dropped, an invalid one is an error.
     let cut = ["a".repeat(BEGINNING - 1), "é".to_owned()].concat();
     write(cut.as_bytes(), LONG + 1);
     let beginning = read_beginning(&path).expect("read").expect("it is long");
@@ -466,7 +466,7 @@ fn a_long_file_has_a_beginning() {
 }
 
 #[test]
-fn little_is_kept_of_a_line_that_is_not_text() {
+fn only_the_start_of_a_long_invalid_line_is_kept() {
     let bytes = [&b"a\n "[..], &vec![0xFF; 1 << 20]].concat();
     let wrong = decode(Path::new("s"), bytes).expect_err("it is not UTF-8");
     let ReadError::NotUtf8 { text, position, .. } = wrong else {

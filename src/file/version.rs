@@ -1,11 +1,11 @@
-//! Whether a file is still the one that was seen before, without reading it.
+//! Detects changes of a file without reading it.
 
 use std::fs::{self, Metadata};
 use std::io;
 use std::path::Path;
 use std::time::SystemTime;
 
-/// Which file or folder it is, whatever its names and its content.
+/// The identity of a file or folder, independent of its names and content.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileId(
     /// The device and the inode.
@@ -15,7 +15,7 @@ pub struct FileId(
 );
 
 impl FileId {
-    /// That of what is at the end of a path's links; `None` if that is nothing.
+    /// The identity of what a path refers to, following links; `None` if it does not exist.
     pub fn of(path: &Path) -> Option<Self> {
         #[cfg(unix)]
         {
@@ -28,29 +28,29 @@ impl FileId {
     }
 }
 
-/// A file at one moment. Two versions are equal only if no other file took its place and nobody
-/// wrote to it in between, as far as the file system's clock tells moments apart.
+/// The state of a file at one moment. Two versions are equal only if the file was neither replaced
+/// nor written to in between, within the resolution of the file system's clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Version {
     length: u64,
-    /// When the content was last written; whoever writes may set this back.
+    /// When the content was last written; writers can set this back.
     modified: Option<SystemTime>,
     #[cfg(unix)]
     node: Node,
 }
 
-/// What only the file system sets.
+/// The attributes that only the file system sets.
 #[cfg(unix)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Node {
     device: u64,
     inode: u64,
-    /// Seconds and nanoseconds of the last change to content, name or owner.
+    /// The time of the last change to content, name or owner, in seconds and nanoseconds.
     changed: (i64, i64),
 }
 
 impl Version {
-    /// The version of the file at the end of a path's links.
+    /// The version of the file that a path refers to, following links.
     pub fn of(path: &Path) -> io::Result<Self> {
         fs::metadata(path).map(|metadata| Self::of_metadata(&metadata))
     }

@@ -2,7 +2,7 @@
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use glam::DVec3;
@@ -22,7 +22,7 @@ const BASE: u32 = 1;
 pub struct Cone(pub Affine);
 
 impl Cone {
-    /// The tight axis-aligned box: of the base and the apex.
+    /// The tight axis-aligned box, around the base and the apex.
     pub fn bounds(&self) -> Aabb {
         let base = self.0.origin();
         let [_, _, axis] = self.0.axes();
@@ -33,24 +33,25 @@ impl Cone {
         }
     }
 
-    /// Where the lines cross the cone, in each lane: where they are inside the endless side, and
-    /// between base and apex. The side has a second nappe above the apex, which that excludes.
+    /// Intersects lines with the cone, in each lane: the overlap of the infinite side and the slab
+    /// from base to apex, which excludes the second nappe above the apex.
     #[inline(always)]
     pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
         let line = self.0.line(rays);
         let from_apex = line.origin - Vector::all(line.start, DVec3::Z);
         let found = slab(line.origin.z, line.direction.z, [BASE, SIDE])?
             .overlap(inside_side(from_apex, line.direction)?)?
-            .after(line.start)?;
+            .shifted(line.start)?;
         self.0.clipped(found, rays, || self.bounds())
     }
 
-    /// The surfaces at hits, in each lane. At the apex any normal would do; it is that of one generatrix.
+    /// The surface at a hit, in each lane. At the apex it has the normal of an arbitrary
+    /// generatrix.
     #[inline(always)]
     pub(super) fn surface<N: Lanes>(&self, rays: &Rays<N>, at: End<N>) -> Surfaces<N> {
         let (zero, one) = (at.t.all(0.0), at.t.all(1.0));
-        let place = self.0.places(rays, at.t);
-        let flat = place.flat();
+        let position = self.0.positions(rays, at.t);
+        let flat = position.flat();
         let on_base = at.part.equals(at.part.all(BASE.into()));
         let radial = normalised(flat, DVec3::X);
         let outward = Vector {
@@ -62,10 +63,10 @@ impl Cone {
             outward,
             #[inline(always)]
             |margin| {
-                // Drawn from the tip by all three margins, a ray that goes in has an inside to go to.
+                // All three margins away from the apex, a ray that leaves inward starts inside.
                 let rim = one - margin.sum();
-                let across = flat.within(rim);
-                let z = place.z.larger(margin.z).smaller(rim);
+                let across = flat.clamp_length_max(rim);
+                let z = position.z.larger(margin.z).smaller(rim);
                 let around = radial.scaled(one - z);
                 Vector {
                     x: N::select(on_base, across.x, around.x),
@@ -76,22 +77,22 @@ impl Cone {
         )
     }
 
-    /// The texture coordinates at a hit: around the side and up it, or across the disc.
+    /// The texture coordinates at a hit: around and along the side, or across the base.
     pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
-        self.0.chart(ray, hit, |place| match hit.part {
-            BASE => Chart::of_disc(place),
-            _ => Chart::of_side(place),
+        self.0.chart(ray, hit, |position| match hit.part {
+            BASE => Chart::of_disc(position),
+            _ => Chart::of_side(position),
         })
     }
 }
 
-/// Where lines, as seen from the apex, are inside the endless cone x² + y² = z²; of two such parts
-/// the one in the lower nappe.
+/// The interval where lines, relative to the apex, are inside the infinite cone x² + y² ≤ z²; of
+/// two intervals the one in the lower nappe.
 ///
 /// With the indefinite product ⟨u, v⟩ = ux vx + uy vy − uz vz a line is inside where
-/// a t² + 2 b t + c ≤ 0, a = ⟨d, d⟩, b = ⟨o, d⟩, c = ⟨o, o⟩. Lagrange's identity gives the
-/// discriminant from the cross product n = o × d: b² − ac = nx² + ny² − nz², here a product of a
-/// sum and a difference, exact relative to the line's distance from the apex.
+/// a t² + 2 b t + c ≤ 0, a = ⟨d, d⟩, b = ⟨o, d⟩, c = ⟨o, o⟩. By Lagrange's identity the
+/// discriminant follows from the cross product n = o × d: b² − ac = nx² + ny² − nz², computed as
+/// a sum times a difference, exact relative to the line's distance from the apex.
 #[inline(always)]
 fn inside_side<N: Lanes>(origin: Vector<N>, direction: Vector<N>) -> Option<Ends<N>> {
     let discriminant = indefinite_square(origin.cross(direction));
@@ -107,7 +108,7 @@ fn inside_side<N: Lanes>(origin: Vector<N>, direction: Vector<N>) -> Option<Ends
     let enter = N::select(flatter, first, N::select(rises, before, second));
     let exit = N::select(flatter, second, N::select(rises, first, after));
     let missed = flatter & discriminant.below(zero);
-    // Parallel to a generatrix it crosses the side once at most.
+    // A line parallel to a generatrix crosses the side at most once.
     let parallel = a.equals(zero);
     let crossed = Ends::between(enter, exit, SIDE, !missed & !parallel);
     if !N::any(parallel) {
@@ -119,7 +120,7 @@ fn inside_side<N: Lanes>(origin: Vector<N>, direction: Vector<N>) -> Option<Ends
     }
 }
 
-/// x² + y² − z².
+/// Returns x² + y² − z².
 #[inline(always)]
 fn indefinite_square<N: Lanes>(v: Vector<N>) -> N {
     let radius = v.flat().length_squared().sqrt();

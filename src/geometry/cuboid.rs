@@ -2,7 +2,7 @@
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use glam::DVec3;
@@ -13,12 +13,12 @@ use super::{Aabb, Affine, Chart, Hit, Ray, Rays, Surfaces};
 
 /// An affine image of the cube [0, 1]³.
 ///
-/// Parts 2i and 2i + 1 are the faces where coordinate i is 0 and 1.
+/// Parts 2i and 2i + 1 are the faces at coordinate i = 0 and 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cuboid(pub Affine);
 
 impl Cuboid {
-    /// The tight axis-aligned box: a corner of it is the sum of the edges that point its way.
+    /// The tight axis-aligned box: each corner is the sum of the edges that point toward it.
     pub fn bounds(&self) -> Aabb {
         let origin = self.0.origin();
         let [u, v, w] = self.0.axes();
@@ -29,21 +29,21 @@ impl Cuboid {
         }
     }
 
-    /// Where the lines cross the box, in each lane: where they are between all three pairs of faces.
+    /// Intersects lines with the box, in each lane: the overlap of three slabs.
     #[inline(always)]
     pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
         let line = self.0.line(rays);
         let found = slab(line.origin.x, line.direction.x, [0, 1])?
             .overlap(slab(line.origin.y, line.direction.y, [2, 3])?)?
             .overlap(slab(line.origin.z, line.direction.z, [4, 5])?)?
-            .after(line.start)?;
+            .shifted(line.start)?;
         self.0.clipped(found, rays, || self.bounds())
     }
 
-    /// The surfaces at hits, in each lane.
+    /// The surface at a hit, in each lane.
     #[inline(always)]
     pub(super) fn surface<N: Lanes>(&self, rays: &Rays<N>, at: End<N>) -> Surfaces<N> {
-        let place = self.0.places(rays, at.t);
+        let position = self.0.positions(rays, at.t);
         let x = Face::new(at.part, [0, 1]);
         let y = Face::new(at.part, [2, 3]);
         let z = Face::new(at.part, [4, 5]);
@@ -56,22 +56,22 @@ impl Cuboid {
             outward,
             #[inline(always)]
             |margin| Vector {
-                x: x.put(place.x, margin.x),
-                y: y.put(place.y, margin.y),
-                z: z.put(place.z, margin.z),
+                x: x.put(position.x, margin.x),
+                y: y.put(position.y, margin.y),
+                z: z.put(position.z, margin.z),
             },
         )
     }
 
     /// The texture coordinates at a hit: the face's two coordinates as fractions of its edges.
     pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
-        self.0.chart(ray, hit, |place| {
-            Chart::of_face(place, (hit.part / 2) as usize % 3)
+        self.0.chart(ray, hit, |position| {
+            Chart::of_face(position, (hit.part / 2) as usize % 3)
         })
     }
 }
 
-/// Which of the two faces across an axis a part is, if it is one.
+/// Whether a part is the low or the high face across an axis, in each lane.
 #[derive(Clone, Copy)]
 struct Face<N: Lanes> {
     low: N::Mask,
@@ -89,7 +89,7 @@ impl<N: Lanes> Face<N> {
         }
     }
 
-    /// The normal's coordinate.
+    /// The outward normal's coordinate on this axis.
     #[inline(always)]
     fn outward(self) -> N {
         let zero = self.zero;
@@ -100,11 +100,11 @@ impl<N: Lanes> Face<N> {
         )
     }
 
-    /// A place's coordinate: that of the face itself, or at least a margin from faces beside it.
+    /// Moves a coordinate onto the face, or at least a margin away from both faces of the axis.
     #[inline(always)]
-    fn put(self, place: N, margin: N) -> N {
-        let one = place.all(1.0);
-        let inside = place.larger(margin).smaller(one - margin);
+    fn put(self, position: N, margin: N) -> N {
+        let one = position.all(1.0);
+        let inside = position.larger(margin).smaller(one - margin);
         N::select(self.high, one, N::select(self.low, self.zero, inside))
     }
 }

@@ -2,7 +2,7 @@
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use glam::DVec3;
@@ -22,7 +22,7 @@ const TOP: u32 = 2;
 pub struct Cylinder(pub Affine);
 
 impl Cylinder {
-    /// The tight axis-aligned box: of the base and of the top.
+    /// The tight axis-aligned box, around the base and the top.
     pub fn bounds(&self) -> Aabb {
         let base = self.0.origin();
         let [_, _, axis] = self.0.axes();
@@ -33,23 +33,23 @@ impl Cylinder {
         }
     }
 
-    /// Where the lines cross the cylinder, in each lane: where they are inside the endless side, which
-    /// is a circle in the plane, and between the caps.
+    /// Intersects lines with the cylinder, in each lane: the overlap of the infinite side, a circle
+    /// in the xy plane, and the slab between the caps.
     #[inline(always)]
     pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
         let line = self.0.line(rays);
         let found = slab(line.origin.z, line.direction.z, [BASE, TOP])?
             .overlap(inside_side(line.origin.flat(), line.direction.flat())?)?
-            .after(line.start)?;
+            .shifted(line.start)?;
         self.0.clipped(found, rays, || self.bounds())
     }
 
-    /// The surfaces at hits, in each lane.
+    /// The surface at a hit, in each lane.
     #[inline(always)]
     pub(super) fn surface<N: Lanes>(&self, rays: &Rays<N>, at: End<N>) -> Surfaces<N> {
         let (zero, one) = (at.t.all(0.0), at.t.all(1.0));
-        let place = self.0.places(rays, at.t);
-        let flat = place.flat();
+        let position = self.0.positions(rays, at.t);
+        let flat = position.flat();
         let on_base = at.part.equals(one);
         let on_top = at.part.equals(at.part.all(TOP.into()));
         let on_cap = on_base | on_top;
@@ -63,8 +63,8 @@ impl Cylinder {
             outward,
             #[inline(always)]
             |margin| {
-                let across = flat.within(one - (margin.x + margin.y));
-                let height = place.z.larger(margin.z).smaller(one - margin.z);
+                let across = flat.clamp_length_max(one - (margin.x + margin.y));
+                let height = position.z.larger(margin.z).smaller(one - margin.z);
                 Vector {
                     x: N::select(on_cap, across.x, radial.x),
                     y: N::select(on_cap, across.y, radial.y),
@@ -74,17 +74,17 @@ impl Cylinder {
         )
     }
 
-    /// The texture coordinates at a hit: around the side and up it, or across the disc.
+    /// The texture coordinates at a hit: around and along the side, or across a cap.
     pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
-        self.0.chart(ray, hit, |place| match hit.part {
-            BASE | TOP => Chart::of_disc(place),
-            _ => Chart::of_side(place),
+        self.0.chart(ray, hit, |position| match hit.part {
+            BASE | TOP => Chart::of_disc(position),
+            _ => Chart::of_side(position),
         })
     }
 }
 
-/// Where lines in the plane are inside the unit circle. A line along the cylinder's axis is a point
-/// there: always inside or never.
+/// The interval where lines in the xy plane are inside the unit circle. A line along the cylinder's
+/// axis projects to a point, always or never inside.
 #[inline(always)]
 fn inside_side<N: Lanes>(origin: Vector<N>, direction: Vector<N>) -> Option<Ends<N>> {
     let (zero, one) = (origin.x.all(0.0), origin.x.all(1.0));

@@ -1,4 +1,4 @@
-//! Numbers of 106 bits as sums of two `f64`: T. J. Dekker, "A floating-point technique for
+//! 106-bit numbers as sums of two `f64`: T. J. Dekker, "A floating-point technique for
 //! extending the available precision", Numerische Mathematik 18 (1971).
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -30,8 +30,8 @@ impl Double {
         if self.high < 0.0 { -self } else { self }
     }
 
-    /// Two sums in one, for |high| ≥ |low|.
-    fn settled(high: f64, low: f64) -> Self {
+    /// The normalised sum of two numbers, |high| ≥ |low|.
+    fn normalised(high: f64, low: f64) -> Self {
         let sum = high + low;
         Self {
             high: sum,
@@ -39,14 +39,14 @@ impl Double {
         }
     }
 
-    /// One step of Newton's from the root of the leading part.
+    /// The square root: one Newton step from the root of the leading part.
     pub(super) fn sqrt(self) -> Self {
         let root = self.high.sqrt();
         if root == 0.0 {
             return Self::ZERO;
         }
         let residue = self - Self::of(root) * Self::of(root);
-        Self::settled(root, residue.high / (2.0 * root))
+        Self::normalised(root, residue.high / (2.0 * root))
     }
 }
 
@@ -60,8 +60,8 @@ impl Add for Double {
         let low = self.low + other.low;
         let low_kept = low - self.low;
         let low_error = (self.low - (low - low_kept)) + (other.low - low_kept);
-        let first = Self::settled(sum, error + low);
-        Self::settled(first.high, first.low + low_error)
+        let first = Self::normalised(sum, error + low);
+        Self::normalised(first.high, first.low + low_error)
     }
 }
 
@@ -90,7 +90,7 @@ impl Mul for Double {
     fn mul(self, other: Self) -> Self {
         let product = self.high * other.high;
         let error = self.high.mul_add(other.high, -product);
-        Self::settled(
+        Self::normalised(
             product,
             error + (self.high * other.low + self.low * other.high),
         )
@@ -105,11 +105,11 @@ impl Div for Double {
         let residue = self - Self::of(first) * other;
         let second = residue.high / other.high;
         let rest = residue - Self::of(second) * other;
-        Self::settled(first, second) + Self::of(rest.high / other.high)
+        Self::normalised(first, second) + Self::of(rest.high / other.high)
     }
 }
 
-/// A vector of such numbers.
+/// A vector in twice the precision.
 pub(super) type Vector = [Double; 3];
 
 pub(super) fn vector(v: DVec3) -> Vector {

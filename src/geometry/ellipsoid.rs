@@ -2,7 +2,7 @@
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use glam::DVec3;
@@ -17,8 +17,8 @@ use super::{Aabb, Affine, Chart, Hit, Ray, Rays, Surfaces};
 pub struct Ellipsoid(pub Affine);
 
 impl Ellipsoid {
-    /// The tight axis-aligned box: along each world axis, the length of that row of the matrix that
-    /// takes the unit sphere to the world.
+    /// The tight axis-aligned box: its half extents are the lengths of the rows of the
+    /// unit-to-world matrix.
     pub fn bounds(&self) -> Aabb {
         let half = self.0.reach_of_disc([0, 1, 2]);
         Aabb {
@@ -27,22 +27,22 @@ impl Ellipsoid {
         }
     }
 
-    /// Where the lines cross the ellipsoid, in each lane. Its only part is 0.
+    /// Intersects lines with the ellipsoid, in each lane. Its only part is 0.
     #[inline(always)]
     pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
         let line = self.0.line(rays);
-        let found = ball(line.origin, line.direction, line.start.all(1.0))?.after(line.start)?;
+        let found = ball(line.origin, line.direction, line.start.all(1.0))?.shifted(line.start)?;
         self.0.clipped(found, rays, || self.bounds())
     }
 
-    /// The surfaces at hits, in each lane.
+    /// The surface at a hit, in each lane.
     #[inline(always)]
     pub(super) fn surface<N: Lanes>(&self, rays: &Rays<N>, at: End<N>) -> Surfaces<N> {
-        let place = normalised(self.0.places(rays, at.t), DVec3::Z);
+        let position = normalised(self.0.positions(rays, at.t), DVec3::Z);
         self.0.surface(
-            place,
+            position,
             #[inline(always)]
-            |_| place,
+            |_| position,
         )
     }
 

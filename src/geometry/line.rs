@@ -1,49 +1,49 @@
-//! What lines and unit solids have in common: balls, slabs, roots.
+//! Intersections of lines with balls, half-spaces and slabs, shared by the unit solids.
 //!
-//! No discriminant is computed as b² − ac from its rounded terms: near a silhouette, and for
-//! small or distant solids, the difference would be noise. Sources: E. Haines, J. Günther,
+//! No discriminant is computed as b² − ac from rounded terms: near a silhouette, and for small or
+//! distant solids, the difference would be noise. Sources: E. Haines, J. Günther,
 //! T. Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems
 //! (2019), chapter 7; M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 4th edition,
 //! section 6.8.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use super::lanes::{Lanes, Vector};
 use super::{Aabb, Rays};
 
-/// How many times its size a solid may be away before the line is followed toward it first. The
-/// products of nearer lines lose at most these six bits, and need no fused operations.
+/// The distance of a solid, relative to its size, above which a line is first advanced toward it.
+/// The products of nearer lines lose at most six bits, and need no fused operations.
 pub(super) const FAR: f64 = 64.0;
 
-/// A line in the space of a unit solid, in each lane. Distances along it are those along the ray.
+/// A line in the space of a unit solid, in each lane. Distances along it equal those along the ray.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line<N> {
-    /// The place at `start`.
+    /// The position at `start`.
     pub(super) origin: Vector<N>,
-    /// The ray's direction, not of unit length here.
+    /// The ray's direction, not of unit length in this space.
     pub(super) direction: Vector<N>,
-    /// How far along the ray `origin` is.
+    /// The distance of `origin` along the ray.
     pub(super) start: N,
 }
 
-/// Where a line enters or leaves a solid, in each lane.
+/// A point where a line enters or leaves a solid, in each lane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct End<N> {
     /// The distance.
     pub(super) t: N,
-    /// Which of the solid's surfaces, a whole number.
+    /// The part of the solid's surface, an integer.
     pub(super) part: N,
 }
 
-/// Where lines enter and leave a solid, in each lane that `met` is true in.
+/// Where lines enter and leave a solid; valid in the lanes where `hit` is true.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ends<N: Lanes> {
     pub(super) enter: End<N>,
     pub(super) exit: End<N>,
-    pub(super) met: N::Mask,
+    pub(super) hit: N::Mask,
 }
 
 impl<N: Lanes> End<N> {
@@ -55,7 +55,7 @@ impl<N: Lanes> End<N> {
         }
     }
 
-    /// Whether it is at 0 < t < `limit`.
+    /// Whether 0 < t < `limit`.
     #[inline(always)]
     pub(super) fn is_within(self, limit: N) -> N::Mask {
         limit.all(0.0).below(self.t) & self.t.below(limit)
@@ -63,22 +63,22 @@ impl<N: Lanes> End<N> {
 }
 
 impl<N: Lanes> Ends<N> {
-    /// From one crossing of a part of a surface to another.
+    /// The interval between two crossings of the same part.
     #[inline(always)]
-    pub(super) fn between(enter: N, exit: N, part: u32, met: N::Mask) -> Self {
+    pub(super) fn between(enter: N, exit: N, part: u32, hit: N::Mask) -> Self {
         let part = enter.all(f64::from(part));
         Self {
             enter: End { t: enter, part },
             exit: End { t: exit, part },
-            met,
+            hit,
         }
     }
 
-    /// The whole line, which no surface bounds.
+    /// The whole line, bounded by no surface.
     #[inline(always)]
-    pub(super) fn everywhere(like: N, met: N::Mask) -> Self {
+    pub(super) fn everywhere(like: N, hit: N::Mask) -> Self {
         let (before, after) = (like.all(f64::NEG_INFINITY), like.all(f64::INFINITY));
-        Self::between(before, after, 0, met)
+        Self::between(before, after, 0, hit)
     }
 
     #[inline(always)]
@@ -86,41 +86,41 @@ impl<N: Lanes> Ends<N> {
         Self {
             enter: End::select(mask, yes.enter, no.enter),
             exit: End::select(mask, yes.exit, no.exit),
-            met: (mask & yes.met) | (!mask & no.met),
+            hit: (mask & yes.hit) | (!mask & no.hit),
         }
     }
 
-    /// Itself, if any lane is met.
+    /// Returns `None` if no lane has a hit.
     #[inline(always)]
     pub(super) fn if_any(self) -> Option<Self> {
-        N::any(self.met).then_some(self)
+        N::any(self.hit).then_some(self)
     }
 
-    /// The part of the line that is in both solids, if any.
+    /// The interval inside both solids, if any.
     #[inline(always)]
     pub(super) fn overlap(self, other: Self) -> Option<Self> {
         let enter = End::select(self.enter.t.below(other.enter.t), other.enter, self.enter);
         let exit = End::select(other.exit.t.below(self.exit.t), other.exit, self.exit);
-        let met = self.met & other.met & enter.t.up_to(exit.t);
-        Self { enter, exit, met }.if_any()
+        let hit = self.hit & other.hit & enter.t.up_to(exit.t);
+        Self { enter, exit, hit }.if_any()
     }
 
-    /// The same as seen from `start` farther back, but for lanes where a distance is beyond what
-    /// `f64` holds: a line without direction, sizes near the ends of its range.
+    /// Moves the origin of distances back by `start`. Drops lanes whose distances are not finite: a
+    /// line without direction, or sizes near the limits of `f64`.
     #[inline(always)]
-    pub(super) fn after(mut self, start: N) -> Option<Self> {
+    pub(super) fn shifted(mut self, start: N) -> Option<Self> {
         self.enter.t = self.enter.t + start;
         self.exit.t = self.exit.t + start;
         let ordered = self.enter.t.up_to(self.exit.t);
-        self.met = self.met & ordered & is_finite(self.enter.t) & is_finite(self.exit.t);
+        self.hit = self.hit & ordered & is_finite(self.enter.t) & is_finite(self.exit.t);
         self.if_any()
     }
 
-    /// The part in a box that is widened by the rounding of places, if any. An end that is cut off
-    /// keeps its surface.
+    /// The interval inside a box that is widened by the rounding of positions, if any. An end that
+    /// is clipped keeps its part.
     #[inline(always)]
     pub(super) fn clipped(self, bounds: &Aabb, rays: &Rays<N>) -> Option<Self> {
-        // More than the error of a crossing, of the largest coordinate there is.
+        // Above the error of a crossing, relative to the largest coordinate.
         const ROUNDING: f64 = 32.0 * f64::EPSILON;
         let Rays { origin, direction } = *rays;
         let size = origin.x.all(bounds.magnitude());
@@ -134,28 +134,28 @@ impl<N: Lanes> Ends<N> {
             .overlap(range([min.z - margin, max.z + margin], direction.z))
     }
 
-    /// The nearer crossing at 0 < t < `limit`, and whether there is one.
+    /// Returns the nearer crossing with 0 < t < `limit`, and whether there is one.
     #[inline(always)]
     pub(super) fn nearest(self, limit: N) -> (End<N>, N::Mask) {
         let enters = self.enter.is_within(limit);
-        let met = self.met & (enters | self.exit.is_within(limit));
-        (End::select(enters, self.enter, self.exit), met)
+        let hit = self.hit & (enters | self.exit.is_within(limit));
+        (End::select(enters, self.enter, self.exit), hit)
     }
 }
 
-/// Whether numbers are finite.
+/// Whether a number is finite, in each lane.
 #[inline(always)]
 fn is_finite<N: Lanes>(number: N) -> N::Mask {
     let zero = number.all(0.0);
     (zero * number).equals(zero)
 }
 
-/// Follows lines that start far from a solid to where they pass the solid's origin closest, and
-/// gives that place and the distance to it; a line that starts near stays.
+/// Advances lines that start far from a solid to the point closest to the solid's origin. Returns
+/// that point and its distance along the line; a line that starts near is unchanged.
 ///
-/// `offset` is the line's start as seen from the solid's origin, `reach` the solid's size. The
-/// fused product makes the new place as exact as its own, small, coordinates: an error in the
-/// distance moves it along the line only, which changes nothing.
+/// `offset` is the line's start relative to the solid's origin, `reach` the solid's size. With the
+/// fused product the error is relative to the new, small, coordinates: an error in the distance
+/// only moves the point along the line, which changes nothing.
 #[inline(always)]
 pub(super) fn approach<N: Lanes>(
     offset: Vector<N>,
@@ -169,21 +169,21 @@ pub(super) fn approach<N: Lanes>(
         return (offset, stays);
     }
     let t = -offset.dot(direction) / direction.length_squared();
-    let place = Vector {
+    let position = Vector {
         x: t.mul_add(direction.x, offset.x),
         y: t.mul_add(direction.y, offset.y),
         z: t.mul_add(direction.z, offset.z),
     };
     (
-        Vector::select(near, offset, place),
+        Vector::select(near, offset, position),
         N::select(near, stays, t),
     )
 }
 
-/// Where lines cross a ball around the origin; not where they miss it or have no direction.
+/// Intersects lines with a ball around the origin; a line without direction misses it.
 ///
-/// With l the point of the line closest to the centre, the discriminant is a (r − |l|) (r + |l|),
-/// and its sign as exact as |l|.
+/// If l is the point of the line closest to the centre, the discriminant is a (r − |l|) (r + |l|),
+/// with a sign as exact as |l|.
 #[inline(always)]
 pub(super) fn ball<N: Lanes>(
     origin: Vector<N>,
@@ -192,27 +192,26 @@ pub(super) fn ball<N: Lanes>(
 ) -> Option<Ends<N>> {
     let a = direction.length_squared();
     let b = origin.dot(direction);
-    let aside = (origin - direction.scaled(b / a)).length_squared();
+    let offset_squared = (origin - direction.scaled(b / a)).length_squared();
     let square = radius * radius;
-    // A line that passes at more than the radius and rounding misses: most do, and no root is
-    // needed for them.
-    let surely = square + square.all(1e-9) * square + square.all(f64::MIN_POSITIVE);
-    if !N::any(!surely.below(aside)) {
+    // Most lines pass at more than the radius plus rounding, and need no square root.
+    let bound = square + square.all(1e-9) * square + square.all(f64::MIN_POSITIVE);
+    if !N::any(!bound.below(offset_squared)) {
         return None;
     }
-    let closest = aside.sqrt();
+    let closest = offset_squared.sqrt();
     let discriminant = a * ((radius - closest) * (radius + closest));
-    let met = discriminant.all(0.0).up_to(discriminant);
-    if !N::any(met) {
+    let hit = discriminant.all(0.0).up_to(discriminant);
+    if !N::any(hit) {
         return None;
     }
     let distance = origin.length_squared().sqrt();
     let c = (distance - radius) * (distance + radius);
     let [enter, exit] = roots(a, b, c, discriminant.sqrt());
-    Some(Ends::between(enter, exit, 0, met))
+    Some(Ends::between(enter, exit, 0, hit))
 }
 
-/// Where 2 b t + c ≤ 0, between crossings of a part of a surface.
+/// The half-line where 2 b t + c ≤ 0, bounded by a crossing of `part`.
 #[inline(always)]
 pub(super) fn half_line<N: Lanes>(b: N, c: N, part: u32) -> Option<Ends<N>> {
     let t = b.all(-0.5) * (c / b);
@@ -231,8 +230,8 @@ pub(super) fn half_line<N: Lanes>(b: N, c: N, part: u32) -> Option<Ends<N>> {
 
 /// The roots of a t² + 2 b t + c = 0 in ascending order, given the square root of b² − ac; a ≠ 0.
 ///
-/// The root of lesser magnitude is c / q, so that a line which starts on a surface (c ≈ 0) finds
-/// that crossing at t ≈ 0 without cancellation, on the side that the sign of c says.
+/// The root of lesser magnitude is c / q, so that a line which starts on a surface (c ≈ 0) has
+/// that crossing at t ≈ 0 without cancellation, on the side given by the sign of c.
 #[inline(always)]
 pub(super) fn roots<N: Lanes>(a: N, b: N, c: N, root: N) -> [N; 2] {
     let q = -(b + root.copysign(b));
@@ -248,9 +247,9 @@ pub(super) fn roots<N: Lanes>(a: N, b: N, c: N, root: N) -> [N; 2] {
     ]
 }
 
-/// Where one coordinate of lines is in [0, 1]. `parts` are the surfaces at 0 and at 1.
+/// The interval where one coordinate is in [0, 1]. `parts` are the surfaces at 0 and 1.
 ///
-/// A coordinate that stays the same is inside for ever or never: 0 / 0 is not a distance.
+/// A constant coordinate is always or never inside: 0 / 0 is not a distance.
 #[inline(always)]
 pub(super) fn slab<N: Lanes>(origin: N, speed: N, parts: [u32; 2]) -> Option<Ends<N>> {
     let (zero, one) = (origin.all(0.0), origin.all(1.0));
@@ -267,7 +266,7 @@ pub(super) fn slab<N: Lanes>(origin: N, speed: N, parts: [u32; 2]) -> Option<End
     let crossed = Ends {
         enter: End::select(rises, low, high),
         exit: End::select(rises, high, low),
-        met: !stays,
+        hit: !stays,
     };
     if !N::any(stays) {
         return Some(crossed);
@@ -276,7 +275,7 @@ pub(super) fn slab<N: Lanes>(origin: N, speed: N, parts: [u32; 2]) -> Option<End
     Ends::select(stays, Ends::everywhere(origin, inside), crossed).if_any()
 }
 
-/// Where one coordinate of lines, 0 where they start, is in a range that may have no end.
+/// The interval where one coordinate, 0 at the line's start, is in a range that may be unbounded.
 #[inline(always)]
 fn range<N: Lanes>([low, high]: [N; 2], speed: N) -> Ends<N> {
     let zero = speed.all(0.0);

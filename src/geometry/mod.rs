@@ -1,13 +1,13 @@
-//! Rays against shapes, in `f64`, one shape a file. Knows no lights, materials or text.
+//! Ray–shape intersection in `f64`, one shape per file. Independent of lights, materials and text.
 //!
-//! Formulas of the simple solids are written once, for one ray and for eight side by side ([`lanes`]).
+//! Formulas of the simple solids are written once, for single rays and packets of eight
+//! ([`lanes`]).
 //!
-//! Hits come in two steps: [`Shape::hit`] gives a distance for every candidate, and
-//! [`Shape::surface`] the point and normal once, for the winner. [`Shape::spans`] gives all of a
-//! line that is inside, which is more than one span if the solid is not convex; squares and meshes
-//! are surfaces without an inside. There is no epsilon: the point is re-projected onto its surface,
-//! and a ray that leaves it starts [`Surface::leave`], a few units in the last place off the
-//! surface.
+//! A hit is found in two steps: [`Shape::hit`] returns a distance for every candidate, and
+//! [`Shape::surface`] the point and normal, for the nearest hit only. [`Shape::spans`] returns the
+//! parts of a line inside a solid, more than one if the solid is not convex; squares and meshes are
+//! surfaces without an inside. There is no epsilon: the point is re-projected onto its surface, and
+//! [`Surface::leave`] starts a secondary ray a few ulps off the surface.
 
 mod aabb;
 mod chart;
@@ -17,6 +17,7 @@ mod cuboid;
 mod cylinder;
 mod double_double;
 mod ellipsoid;
+mod hit;
 pub mod lanes;
 mod line;
 mod mesh;
@@ -39,13 +40,14 @@ pub use csg::{Csg, Node, Operation};
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use ellipsoid::Ellipsoid;
+pub use hit::{Crossings, Hit, Hits, Spans};
 pub use mesh::{
     ABSENT, Attribute, Instance, Mesh, MeshError, MeshLine, MeshLines, MeshParts, SlotRun,
 };
 pub use plane::Plane;
 pub use quadric::Quadric;
 pub use ray::{Packet, Packets, Ray, Rays};
-pub use shape::{Crossings, Hit, Hits, Shape, Spans};
+pub use shape::Shape;
 pub use sphere::{Sphere, sphere_hits, sphere_surfaces};
 pub use surface::{Surface, Surfaces, ulp};
 pub use transform::{Affine, FLATTEST, normalise};

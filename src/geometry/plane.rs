@@ -1,11 +1,11 @@
-//! Affine images of a square: a surface that bounds no solid.
+//! Affine images of a square, a surface that bounds no solid.
 
 use glam::DVec3;
 
 use super::line::Ends;
 use super::{Aabb, Affine, Chart, Hit, Ray, Surface};
 
-/// An affine image of the square −1 ≤ x, y ≤ 1 at z = 0. Its normal is that of +z.
+/// An affine image of the square −1 ≤ x, y ≤ 1 at z = 0, with the normal of +z.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane(pub Affine);
 
@@ -20,26 +20,26 @@ impl Plane {
         }
     }
 
-    /// Where the ray crosses the square at 0 < t < `limit`. Its only part is 0.
+    /// The hit with 0 < t < `limit`. The square's only part is 0.
     #[inline]
     pub fn hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
         let line = self.0.line(&ray.into());
         let t = -line.origin.z / line.direction.z;
-        let place = DVec3::from(line.origin) + t * DVec3::from(line.direction);
-        let inside = place.x.abs() <= 1.0 && place.y.abs() <= 1.0;
-        let found = Ends::between(t, t, 0, inside).after(line.start)?;
+        let position = DVec3::from(line.origin) + t * DVec3::from(line.direction);
+        let inside = position.x.abs() <= 1.0 && position.y.abs() <= 1.0;
+        let found = Ends::between(t, t, 0, inside).shifted(line.start)?;
         let found = self.0.clipped(found, &ray.into(), || self.bounds())?;
-        let (end, met) = found.nearest(limit);
-        met.then_some(end.into())
+        let (end, hit) = found.nearest(limit);
+        hit.then_some(end.into())
     }
 
     /// The surface at a hit.
     pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
-        let place = self.0.place(ray.at(hit.t)).with_z(0.0);
-        self.0.surface(DVec3::Z.into(), |_| place.into()).into()
+        let position = self.0.position(ray.at(hit.t)).with_z(0.0);
+        self.0.surface(DVec3::Z.into(), |_| position.into()).into()
     }
 
-    /// The texture coordinates at a hit: from 0, 0 at the corner (−1, −1) to 1, 1.
+    /// The texture coordinates at a hit: from 0, 0 at the corner (−1, −1) to 1, 1 at (1, 1).
     pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
         self.0.chart(ray, hit, Chart::of_disc)
     }

@@ -1,8 +1,8 @@
-//! Rays, alone and side by side.
+//! Single rays and packets of rays.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use std::ops::Deref;
@@ -11,33 +11,33 @@ use glam::DVec3;
 
 use super::lanes::{Eight, Lanes, Row, Simd, SimdBase, Vector, WIDTH};
 
-/// A half line.
+/// A half-line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts.
+    /// The start.
     pub origin: DVec3,
-    /// Where it goes; of unit length, so that distances along it are in world units.
+    /// The direction, of unit length, so that distances along it are in world units.
     pub direction: DVec3,
 }
 
 impl Ray {
-    /// The point at distance `t`.
+    /// Returns the point at distance `t`.
     pub fn at(&self, t: f64) -> DVec3 {
         self.origin + t * self.direction
     }
 }
 
-/// One ray, or several side by side.
+/// One ray, or one in each lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Rays<N> {
-    /// Where they start.
+    /// The starts.
     pub origin: Vector<N>,
-    /// Where they go.
+    /// The directions.
     pub direction: Vector<N>,
 }
 
 impl<N: Lanes> Rays<N> {
-    /// The points at distances `t`.
+    /// Returns the points at distances `t`.
     #[inline(always)]
     pub fn at(&self, t: N) -> Vector<N> {
         self.origin + self.direction.scaled(t)
@@ -55,7 +55,7 @@ impl From<&Ray> for Rays<f64> {
 }
 
 impl<S: Simd> Rays<Eight<S>> {
-    /// The same ray in each lane.
+    /// Broadcasts a ray to all lanes.
     #[inline(always)]
     pub fn all(simd: S, ray: &Ray) -> Self {
         let like = Eight::splat(simd, 0.0);
@@ -65,7 +65,7 @@ impl<S: Simd> Rays<Eight<S>> {
         }
     }
 
-    /// Up to eight rays; the first stands in the lanes that are left. There is at least one.
+    /// Gathers 1 to 8 rays; unused lanes repeat the first.
     #[inline(always)]
     pub fn gather(simd: S, rays: &[Ray]) -> Self {
         let mut packet = Packet::new(&rays[0], 0.0);
@@ -76,7 +76,7 @@ impl<S: Simd> Rays<Eight<S>> {
         packet.rays.load(simd)
     }
 
-    /// The ray in a lane.
+    /// Returns the ray in a lane.
     #[inline(always)]
     pub fn ray(&self, lane: usize) -> Ray {
         Ray {
@@ -86,19 +86,19 @@ impl<S: Simd> Rays<Eight<S>> {
     }
 }
 
-/// Up to eight rays as they lie in memory, each with a distance where it ends.
+/// 1 to 8 rays in memory, each with a maximum distance.
 #[derive(Clone, Copy, Debug)]
 pub struct Packet {
-    /// The rays; the first stands in the lanes that are left.
+    /// The rays; unused lanes repeat the first.
     pub rays: Rays<Row>,
-    /// How far they go.
+    /// Their maximum distances.
     pub ends: Row,
-    /// A bit for each lane that holds one, the lowest for the first.
+    /// A mask of the used lanes, lowest bit first.
     pub lanes: u32,
 }
 
 impl Packet {
-    /// A packet of one ray.
+    /// Creates a packet of one ray.
     pub fn new(ray: &Ray, end: f64) -> Self {
         Self {
             rays: Rays {
@@ -110,7 +110,7 @@ impl Packet {
         }
     }
 
-    /// The ray in a lane.
+    /// Returns the ray in a lane.
     #[inline(always)]
     pub fn ray(&self, lane: usize) -> Ray {
         Ray {
@@ -121,7 +121,7 @@ impl Packet {
 }
 
 impl Rays<Row> {
-    /// Those, in vectors.
+    /// Loads the rays into SIMD vectors.
     #[inline(always)]
     pub fn load<S: Simd>(&self, simd: S) -> Rays<Eight<S>> {
         Rays {
@@ -131,7 +131,7 @@ impl Rays<Row> {
     }
 }
 
-/// Rays in packets of eight, of which the last may hold fewer.
+/// Rays in packets of eight; the last may have fewer.
 #[derive(Clone, Debug, Default)]
 pub struct Packets {
     packets: Vec<Packet>,
@@ -139,19 +139,19 @@ pub struct Packets {
 }
 
 impl Packets {
-    /// Takes all rays out.
+    /// Removes all rays.
     pub fn clear(&mut self) {
         self.packets.clear();
         self.count = 0;
     }
 
-    /// How many rays there are.
+    /// The number of rays.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Adds a ray and how far it goes.
-    #[inline]
+    /// Adds a ray and its maximum distance.
+    #[inline(always)]
     pub fn push(&mut self, ray: &Ray, end: f64) {
         let lane = self.count % WIDTH;
         self.count += 1;

@@ -1,9 +1,8 @@
-//! Spheres. They stay in world space, where every ray has unit speed; see [`ball`] for the
-//! formula.
+//! Spheres, intersected in world space, where rays have unit speed; see [`ball`] for the formula.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use glam::DVec3;
@@ -16,9 +15,9 @@ use super::{Aabb, Chart, Hit, Hits, Ray, Rays, Surfaces};
 /// A sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
-    /// Its centre.
+    /// The centre.
     pub centre: DVec3,
-    /// Its radius, above 0.
+    /// The radius, above 0.
     pub radius: f64,
 }
 
@@ -31,14 +30,14 @@ impl Sphere {
         }
     }
 
-    /// Where the lines cross the sphere, in each lane. Its only part is 0.
+    /// Intersects lines with the sphere, in each lane. Its only part is 0.
     #[inline(always)]
     pub(super) fn ends<N: Lanes>(&self, rays: &Rays<N>) -> Option<Ends<N>> {
         let like = rays.origin.x;
         ends(Vector::all(like, self.centre), like.all(self.radius), rays)
     }
 
-    /// The surfaces at hits, in each lane.
+    /// The surface at a hit, in each lane.
     #[inline(always)]
     pub(super) fn surface<N: Lanes>(&self, rays: &Rays<N>, at: End<N>) -> Surfaces<N> {
         let centre = Vector::all(at.t, self.centre);
@@ -52,8 +51,8 @@ impl Sphere {
     }
 }
 
-/// Where rays meet spheres, side by side, at 0 < t < limit; in lanes whose bit is 0 none do. `None`
-/// if none does in any.
+/// The hits of rays with spheres, one of each per lane, with 0 < t < limit. Lanes whose bit is 0
+/// have none; `None` if no lane has one.
 #[inline(always)]
 pub fn sphere_hits<S: Simd>(
     centre: Vector<Eight<S>>,
@@ -65,7 +64,7 @@ pub fn sphere_hits<S: Simd>(
     ends(centre, radius, rays)?.hits(limits, lanes)
 }
 
-/// The surfaces of spheres where rays meet them at distances `t`, in each lane.
+/// The surfaces of spheres where rays hit them at distances `t`, in each lane.
 #[inline(always)]
 pub fn sphere_surfaces<N: Lanes>(
     centre: Vector<N>,
@@ -81,9 +80,9 @@ pub fn sphere_surfaces<N: Lanes>(
     }
 }
 
-/// Where lines cross spheres, in each lane.
+/// Intersects lines with spheres, in each lane.
 #[inline(always)]
 pub(super) fn ends<N: Lanes>(centre: Vector<N>, radius: N, rays: &Rays<N>) -> Option<Ends<N>> {
-    let (place, start) = approach(rays.origin - centre, rays.direction, radius);
-    ball(place, rays.direction, radius)?.after(start)
+    let (position, start) = approach(rays.origin - centre, rays.direction, radius);
+    ball(position, rays.direction, radius)?.shifted(start)
 }

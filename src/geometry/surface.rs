@@ -1,65 +1,64 @@
-//! Points on surfaces, alone and side by side.
+//! Points on surfaces, single or one per lane.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use glam::DVec3;
 
 use super::lanes::{Eight, Lanes, Row, Simd, Vector};
 
-/// A point on a surface, as exact as `f64` holds it.
+/// A point on a surface, as exact as `f64` allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
     /// The point, re-projected onto the surface.
     pub point: DVec3,
     /// The outward geometric normal, of unit length.
     pub normal: DVec3,
-    /// The normal that light is computed with, of unit length: the geometric one, but on a mesh
-    /// with normals of its own.
+    /// The shading normal, of unit length: the geometric one except on a mesh with vertex normals.
     pub shading: DVec3,
-    /// The largest magnitude that entered the computation of the point (coordinates of the shape's
-    /// origin, its size), times the cancellation of a skewed frame: a few [`ulp`] of it bound how
-    /// far from the surface the point is.
+    /// The largest magnitude in the computation of the point (coordinates of the shape's origin,
+    /// its size), times the cancellation of a skewed frame. A few [`ulp`]s of it bound the distance
+    /// of the point from the surface.
     pub scale: f64,
 }
 
-/// How many [`ulp`] of its scale a ray starts off the surface it leaves.
+/// The distance from the surface at which a leaving ray starts, in [`ulp`]s of its scale.
 ///
-/// Rounding the point costs one, taking it into the shape's frame again a few more. Of the five
-/// million rays of the tests thousands come back from 1 and none from 2; 16 has a factor of eight
-/// in hand for frames that those do not meet, and is still far below any distance that shows.
+/// Rounding the point costs one, mapping it into the shape's frame again a few more. Of the five
+/// million rays of the tests, thousands hit their own surface from 1 and none from 2; 16 leaves a
+/// factor of eight for frames the tests do not cover, and is still far below any visible distance.
 pub(super) const CLEARANCE: f64 = 16.0;
 
 impl Surface {
-    /// The start of a ray that leaves the surface toward `direction`: moved off it by a few units
-    /// in the last place of `scale`, to the side the direction points to.
+    /// The start of a ray that leaves the surface toward `direction`: the point moved off the
+    /// surface by a few ulps of `scale`, to the side the direction points to.
     #[inline(always)]
     pub fn leave(&self, direction: DVec3) -> DVec3 {
         Surfaces::from(*self).leave(direction.into()).into()
     }
 }
 
-/// The unit in the last place of a finite number: see [`Lanes::ulp`].
+/// The ulp of a finite number: see [`Lanes::ulp`].
 #[inline(always)]
 pub fn ulp(x: f64) -> f64 {
     Lanes::ulp(x)
 }
 
-/// A point on a surface in each lane: see [`Surface`]. Light is computed with the geometric normal.
+/// A point on a surface in each lane: see [`Surface`]. The shading normal is the geometric one.
 #[derive(Clone, Copy, Debug)]
 pub struct Surfaces<N> {
     /// The points.
     pub point: Vector<N>,
-    /// The outward normals.
+    /// The outward normals, of unit length.
     pub normal: Vector<N>,
-    /// The largest magnitudes that entered the computation.
+    /// See [`Surface::scale`].
     pub scale: N,
 }
 
 impl<N: Lanes> Surfaces<N> {
-    /// The starts of rays: see [`Surface::leave`].
+    /// The starts of leaving rays: see [`Surface::leave`].
     #[inline(always)]
     pub fn leave(&self, direction: Vector<N>) -> Vector<N> {
         let clearance = self.scale.all(CLEARANCE) * self.scale.ulp();
@@ -70,7 +69,7 @@ impl<N: Lanes> Surfaces<N> {
 }
 
 impl<S: Simd> Surfaces<Eight<S>> {
-    /// The one where the mask is true, the other where it is not.
+    /// Selects `yes` in the lanes where the mask is true, `no` in the others.
     #[must_use]
     #[inline(always)]
     pub fn select(mask: <Eight<S> as Lanes>::Mask, yes: Self, no: Self) -> Self {
@@ -81,7 +80,7 @@ impl<S: Simd> Surfaces<Eight<S>> {
         }
     }
 
-    /// Those, as they lie in memory.
+    /// Stores the surfaces in memory.
     #[inline(always)]
     pub fn store(self) -> Surfaces<Row> {
         Surfaces {
@@ -93,7 +92,7 @@ impl<S: Simd> Surfaces<Eight<S>> {
 }
 
 impl Surfaces<Row> {
-    /// Those, in vectors.
+    /// Loads the surfaces into SIMD vectors.
     #[inline(always)]
     pub fn load<S: Simd>(&self, simd: S) -> Surfaces<Eight<S>> {
         Surfaces {

@@ -1,8 +1,8 @@
-//! Affine frames: where a unit solid stands in the world.
+//! Affine frames, which place unit solids in the world.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use glam::DVec3;
@@ -12,14 +12,14 @@ use super::line::{Ends, Line, approach};
 use super::surface::CLEARANCE;
 use super::{Aabb, Chart, Hit, Ray, Rays, Surfaces};
 
-/// The least |determinant| of a frame's unit directions: flatter ones span no volume.
+/// The least |determinant| of a frame's unit directions; flatter frames count as degenerate.
 pub const FLATTEST: f64 = 1e-6;
 
-/// The same for the columns of a matrix, which need not look like a solid's axes.
+/// The same for the columns of a matrix, which need not resemble a solid's axes.
 const FLATTEST_COLUMNS: f64 = 1e-12;
 
-/// The condition number above which a frame is ill-conditioned: below it rounding is nothing beside
-/// a shape.
+/// The condition number above which a frame is ill-conditioned; below it rounding is negligible
+/// compared with a shape.
 const ILL_CONDITIONED: f64 = 1e4;
 
 /// An affine frame: an origin, three directions of unit length (not necessarily orthogonal) and a
@@ -27,42 +27,41 @@ const ILL_CONDITIONED: f64 = 1e4;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Affine {
     origin: DVec3,
-    /// lengthᵢ · directionᵢ: the columns of the matrix to the world.
+    /// lengthᵢ · directionᵢ: the columns of the unit-to-world matrix.
     axes: [DVec3; 3],
-    /// The dual basis, dualᵢ · axisⱼ = 1 if i = j, else 0: the rows of the matrix from the world.
+    /// The dual basis, dualᵢ · axisⱼ = δᵢⱼ: the rows of the world-to-unit matrix.
     duals: [DVec3; 3],
-    /// No point of a unit solid is farther from the origin.
+    /// An upper bound of the distance from the origin to a point of a unit solid.
     reach: f64,
-    /// How far a step of length 1 in the world goes at most along each axis of the unit solid: the
-    /// lengths of the duals.
+    /// The largest change of each unit coordinate per world length: the lengths of the duals.
     steps: DVec3,
-    /// Whether steps of the rounding of places may be large ones in the unit space.
+    /// Whether the rounding of positions may be large in unit space.
     is_ill_conditioned: bool,
 }
 
 impl Affine {
-    /// Makes a frame. Directions are normalised; `None` if one is zero, or the determinant of the
-    /// unit directions is below [`FLATTEST`] in magnitude: then they span no volume. Lengths are above 0.
+    /// Creates a frame. Directions are normalised; lengths must be above 0. Returns `None` if a
+    /// direction is zero or |determinant| of the unit directions is below [`FLATTEST`].
     ///
-    /// A dual vector is the cross product of two directions, made one by its own product with the
-    /// third; both are computed as if with twice the precision. So the two matrices undo each other
-    /// to the last bits however flat the frame is.
+    /// A dual vector is the cross product of two directions over their triple product with the
+    /// third, both computed as if in twice the precision. The two matrices are therefore inverse to
+    /// each other to the last bits, however flat the frame is.
     pub fn new(origin: DVec3, directions: [DVec3; 3], lengths: DVec3) -> Option<Self> {
-        Self::spanning(origin, directions, lengths, FLATTEST)
+        Self::with_threshold(origin, directions, lengths, FLATTEST)
     }
 
-    /// Makes the frame that a 3 × 4 matrix takes the unit axes to: any scaling, turning, mirroring
-    /// and shearing. `None` if |determinant| < 1e-12 · the product of the columns' lengths, or a
-    /// number is not finite.
+    /// Creates the frame of a 3 × 4 matrix with any scaling, rotation, reflection and shear.
+    /// Returns `None` if |determinant| < 1e-12 · the product of the columns' lengths, or a number
+    /// is not finite.
     pub fn of_matrix(columns: [DVec3; 3], translation: DVec3) -> Option<Self> {
         let lengths = DVec3::from_array(columns.map(length));
         if !translation.is_finite() || !lengths.is_finite() {
             return None;
         }
-        Self::spanning(translation, columns, lengths, FLATTEST_COLUMNS)
+        Self::with_threshold(translation, columns, lengths, FLATTEST_COLUMNS)
     }
 
-    fn spanning(
+    fn with_threshold(
         origin: DVec3,
         directions: [DVec3; 3],
         lengths: DVec3,
@@ -84,19 +83,19 @@ impl Affine {
             dual(w, u, v, lengths.z),
         ];
         let axes = [lengths.x * u, lengths.y * v, lengths.z * w];
-        Some(Self::by(origin, axes, duals, lengths.element_sum()))
+        Some(Self::from_parts(origin, axes, duals, lengths.element_sum()))
     }
 
-    /// The frame of the cube of half edge `size`, a power of two, around a place of this one.
-    pub(super) fn around(&self, place: DVec3, size: f64) -> Self {
+    /// The frame of a cube around a position in this frame; its half edge `size` is a power of two.
+    pub(super) fn around(&self, position: DVec3, size: f64) -> Self {
         let [x, y, z] = self.axes;
-        let origin = self.origin + (place.x * x + place.y * y + place.z * z);
+        let origin = self.origin + (position.x * x + position.y * y + position.z * z);
         let axes = self.axes.map(|axis| size * axis);
         let duals = self.duals.map(|dual| dual / size);
-        Self::by(origin, axes, duals, size * self.reach)
+        Self::from_parts(origin, axes, duals, size * self.reach)
     }
 
-    fn by(origin: DVec3, axes: [DVec3; 3], duals: [DVec3; 3], reach: f64) -> Self {
+    fn from_parts(origin: DVec3, axes: [DVec3; 3], duals: [DVec3; 3], reach: f64) -> Self {
         let condition = reach * DVec3::from_array(duals.map(length)).max_element();
         Self {
             origin,
@@ -108,7 +107,7 @@ impl Affine {
         }
     }
 
-    /// Where the unit solid's origin is.
+    /// The image of the unit solid's origin.
     pub(super) fn origin(&self) -> DVec3 {
         self.origin
     }
@@ -118,8 +117,8 @@ impl Affine {
         self.axes
     }
 
-    /// How far the image of the unit disc or ball in the given axes reaches along each axis of the
-    /// world: the length of that row of the matrix to the world.
+    /// The half extent, along each world axis, of the image of the unit disc or ball in the given
+    /// axes: the length of that row of the unit-to-world matrix.
     pub(super) fn reach_of_disc<const N: usize>(&self, axes: [usize; N]) -> DVec3 {
         let row = |world: usize| {
             let mut row = DVec3::ZERO;
@@ -131,7 +130,7 @@ impl Affine {
         DVec3::new(row(0), row(1), row(2))
     }
 
-    /// The rays' lines in the space of the unit solid, in each lane.
+    /// The rays in the space of the unit solid, in each lane.
     #[inline(always)]
     pub(super) fn line<N: Lanes>(&self, rays: &Rays<N>) -> Line<N> {
         let like = rays.origin.x;
@@ -145,10 +144,10 @@ impl Affine {
         }
     }
 
-    /// Crossings of the shape, which has these bounds, but for those that are nowhere near it.
+    /// Clips crossings to the bounds of the shape if the frame is ill-conditioned.
     ///
-    /// In an ill-conditioned frame rounding may take a crossing to where the shape is not. What of it
-    /// is outside the box does not count: a tree looks for the shape in its box alone.
+    /// Rounding may then move a crossing off the shape. A crossing outside the box must not count,
+    /// as a bvh finds the shape inside its box only.
     #[inline(always)]
     pub(super) fn clipped<N: Lanes>(
         &self,
@@ -163,24 +162,24 @@ impl Affine {
         }
     }
 
-    /// A point of the world in the space of the unit solid.
-    pub(super) fn place(&self, point: DVec3) -> DVec3 {
+    /// Maps a world point into the space of the unit solid.
+    pub(super) fn position(&self, point: DVec3) -> DVec3 {
         self.dual_products(point - self.origin)
     }
 
-    /// Where rays are in the space of the unit solid at distances `t`.
+    /// Maps the rays' points at distances `t` into the space of the unit solid.
     #[inline(always)]
-    pub(super) fn places<N: Lanes>(&self, rays: &Rays<N>, t: N) -> Vector<N> {
+    pub(super) fn positions<N: Lanes>(&self, rays: &Rays<N>, t: N) -> Vector<N> {
         let offset = rays.at(t) - Vector::all(t, self.origin);
         products(all(t, self.duals), offset)
     }
 
-    /// The surface at a place of the unit solid where its outward normal is `outward`, of any
-    /// length, in each lane. `project` gives that place, on the surface and at least a margin, in each
-    /// coordinate, from the solid's edges: a ray that leaves inward must start inside.
+    /// The surface at a position on the unit solid with the outward normal `outward`, of any
+    /// length, in each lane. `project` returns that position, on the surface and at least a margin,
+    /// in each coordinate, away from the solid's edges: a ray that leaves inward must start inside.
     ///
-    /// Normals go to the world by the inverse transpose. Where the terms of that sum cancel, the
-    /// rounding of a place does not: it is as much larger beside the gradient, and so is the scale.
+    /// Normals are transformed by the inverse transpose. If the terms of that sum cancel, the
+    /// rounding of a position grows relative to the gradient by that factor, and so does the scale.
     #[inline(always)]
     pub(super) fn surface<N: Lanes>(
         &self,
@@ -189,27 +188,27 @@ impl Affine {
     ) -> Surfaces<N> {
         let like = outward.x;
         let duals @ [u, v, w] = all(like, self.duals);
-        let gradient = outward.weigh(duals);
+        let gradient = outward.combine(duals);
         let terms =
             u.scaled(outward.x).abs() + v.scaled(outward.y).abs() + w.scaled(outward.z).abs();
         let cancellation = terms.largest() / gradient.abs().largest();
         let scale = like.all(self.origin.abs().max_element().max(self.reach)) * cancellation;
         let margin = Vector::all(like, self.steps).scaled(like.all(2.0 * CLEARANCE) * scale.ulp());
-        let place = project(margin.smaller(Vector::all(like, DVec3::splat(0.25))));
+        let position = project(margin.smaller(Vector::all(like, DVec3::splat(0.25))));
         Surfaces {
-            point: Vector::all(like, self.origin) + place.weigh(all(like, self.axes)),
+            point: Vector::all(like, self.origin) + position.combine(all(like, self.axes)),
             normal: normalised(gradient, DVec3::Z),
             scale,
         }
     }
 
-    /// The texture coordinates at a hit, from those at its place in the unit solid. Gradients go to
-    /// the world by the inverse transpose, as normals do.
+    /// The texture coordinates at a hit, from those at its position on the unit solid. Gradients
+    /// are transformed by the inverse transpose, as normals are.
     pub(super) fn chart(&self, ray: &Ray, hit: Hit, chart: impl FnOnce(DVec3) -> Chart) -> Chart {
-        chart(self.place(ray.at(hit.t))).with_gradients(|gradient| self.gradient(gradient))
+        chart(self.position(ray.at(hit.t))).with_gradients(|gradient| self.gradient(gradient))
     }
 
-    /// A gradient, such as a normal of any length, taken to the world: by the inverse transpose.
+    /// Transforms a gradient, such as a normal, to the world by the inverse transpose.
     pub(super) fn gradient(&self, gradient: DVec3) -> DVec3 {
         let [u, v, w] = self.duals;
         gradient.x * u + gradient.y * v + gradient.z * w
@@ -222,7 +221,7 @@ impl Affine {
     }
 }
 
-/// Three vectors, in each lane the same.
+/// Broadcasts three vectors to all lanes.
 #[inline(always)]
 fn all<N: Lanes>(like: N, [x, y, z]: [DVec3; 3]) -> [Vector<N>; 3] {
     [
@@ -232,7 +231,7 @@ fn all<N: Lanes>(like: N, [x, y, z]: [DVec3; 3]) -> [Vector<N>; 3] {
     ]
 }
 
-/// The scalar products of a vector with three.
+/// The dot products of a vector with three others.
 #[inline(always)]
 fn products<N: Lanes>([x, y, z]: [Vector<N>; 3], v: Vector<N>) -> Vector<N> {
     Vector {
@@ -242,22 +241,21 @@ fn products<N: Lanes>([x, y, z]: [Vector<N>; 3], v: Vector<N>) -> Vector<N> {
     }
 }
 
-/// The vector of unit length in the direction of `v`, or `None` if `v` is zero or not finite.
+/// Returns `v` scaled to unit length, or `None` if `v` is zero or not finite.
 pub fn normalise(v: DVec3) -> Option<DVec3> {
     let largest = v.abs().max_element();
     (0.0 < largest && largest.is_finite()).then(|| normalised(v.into(), v).into())
 }
 
-/// The vector of unit length in the direction of `v`, or another if `v` is zero or not finite, in
-/// each lane.
+/// Scales `v` to unit length in each lane, or returns `otherwise` where `v` is zero or not finite.
 ///
-/// Divided by a power of two first, which changes no bits of the result, no component is too large
-/// or too small to be squared.
+/// It is divided by a power of two first, which changes no bits of the result, so that no component
+/// is too large or too small to be squared.
 #[inline(always)]
 pub(super) fn normalised<N: Lanes>(v: Vector<N>, otherwise: DVec3) -> Vector<N> {
     let largest = v.abs().largest();
     let has_direction = largest.all(0.0).below(largest) & largest.below(largest.all(f64::INFINITY));
-    // Of half the largest, as there may be none next to it.
+    // Of half the largest, which always has a next larger number.
     let power = (largest.all(0.5) * largest).ulp() * largest.all(2.0 / f64::EPSILON);
     let v = v.over(power);
     let unit = v.over(v.length());
@@ -270,12 +268,12 @@ fn length(v: DVec3) -> f64 {
     size * (v / size).length()
 }
 
-/// The largest power of two not above `x`, or the least normal number; `x` ≥ 0 and finite.
+/// The largest power of two not above `x`, at least the least normal number; `x` ≥ 0 and finite.
 pub(super) fn power_of_two(x: f64) -> f64 {
     f64::from_bits(x.to_bits() & f64::INFINITY.to_bits()).max(f64::MIN_POSITIVE)
 }
 
-/// The cross product, each component rounded as if once.
+/// The cross product, each component by [`exact_difference`].
 pub(super) fn exact_cross(u: DVec3, v: DVec3) -> DVec3 {
     DVec3::new(
         exact_difference([u.y, v.z], [u.z, v.y]),
@@ -284,16 +282,16 @@ pub(super) fn exact_cross(u: DVec3, v: DVec3) -> DVec3 {
     )
 }
 
-/// The difference of two products, rounded as if once or twice. Kahan: the error of one product is
-/// recovered by a fused multiply-add; C.-P. Jeannerod, N. Louvet, J.-M. Muller, "Further analysis of
-/// Kahan's algorithm", Mathematics of Computation 82 (2013).
+/// The difference of two products, as if rounded once or twice, by Kahan's algorithm: the error of
+/// one product is recovered by a fused multiply-add. C.-P. Jeannerod, N. Louvet, J.-M. Muller,
+/// "Further analysis of Kahan's algorithm", Mathematics of Computation 82 (2013).
 pub(super) fn exact_difference([a, b]: [f64; 2], [c, d]: [f64; 2]) -> f64 {
     let product = c * d;
     let error = (-c).mul_add(d, product);
     a.mul_add(b, -product) + error
 }
 
-/// The dot product as if computed with twice the precision: T. Ogita, S. Rump, S. Oishi, "Accurate
+/// The dot product as if computed in twice the precision: T. Ogita, S. Rump, S. Oishi, "Accurate
 /// sum and dot product", SIAM Journal on Scientific Computing 26 (2005).
 fn exact_dot(u: DVec3, v: DVec3) -> f64 {
     let mut sum = u.x * v.x;

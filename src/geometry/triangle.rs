@@ -1,15 +1,15 @@
-//! Rays against triangles without gaps: S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle
+//! Watertight ray–triangle intersection: S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle
 //! Intersection", JCGT 2 (2013).
 //!
-//! Corners go to a space where the ray starts at the origin and runs along z, each by itself, so
-//! that all triangles that share a corner see it at the same place. There the signs of the edge
-//! functions say whether the origin is inside. They are exact for the corners as rounded, so two
-//! triangles that share an edge agree on its side, and edges belong to both: a ray that meets a
-//! closed mesh slips through nowhere, however the corners were rounded.
+//! Vertices are transformed to a space where the ray starts at the origin and runs along z, each by
+//! itself, so that all triangles that share a vertex have it at the same position. There the signs
+//! of the edge functions show whether the origin is inside. They are exact for the rounded
+//! vertices, so two triangles agree on the side of a shared edge, and edges belong to both: no ray
+//! slips through a closed mesh, however the vertices were rounded.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use glam::DVec3;
@@ -17,27 +17,27 @@ use glam::DVec3;
 use super::lanes::{Eight, Lanes, Simd, SimdBase, WIDTH, bits};
 use super::transform::exact_difference;
 
-/// A line in the space of its triangles, ready to be tested against them.
+/// A line prepared for tests against triangles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sheared {
     origin: DVec3,
-    /// The axis along which the line runs fastest comes last.
+    /// The axes, the one of the largest component of the direction last.
     axes: [usize; 3],
-    /// How far the other two change along that axis, and 1 over the speed along it.
+    /// The slopes of the other two along that axis, and 1 over the component along it.
     shear: [f64; 3],
 }
 
-/// Where a line crosses the plane of a triangle, inside of it.
+/// The point where a line crosses a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Crossing {
     /// The distance, in units of the line's direction.
     pub(super) t: f64,
-    /// The weights of the corners, none below 0: they add up to 1.
+    /// The barycentric coordinates, none below 0, with sum 1.
     pub(super) weights: [f64; 3],
 }
 
 impl Sheared {
-    /// A line from `origin` along `direction`, of any length.
+    /// Prepares the line from `origin` along `direction`, of any length.
     #[inline]
     pub(super) fn new(origin: DVec3, direction: DVec3) -> Self {
         let size = direction.abs();
@@ -57,16 +57,16 @@ impl Sheared {
         }
     }
 
-    /// Where the line crosses a triangle. A line in its plane crosses none.
+    /// Intersects the line with a triangle. A line in its plane does not cross it.
     #[inline]
     pub(super) fn crossing(&self, corners: [DVec3; 3]) -> Option<Crossing> {
-        let [a, b, c] = corners.map(|corner| self.seen(corner));
+        let [a, b, c] = corners.map(|corner| self.transformed(corner));
         let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
         if (u < 0.0 || v < 0.0 || w < 0.0) && (0.0 < u || 0.0 < v || 0.0 < w) {
             return None;
         }
-        // In a needle the products of an edge function all but cancel: their signs are right, but a
-        // distance takes more. Few triangles come this far.
+        // In a needle-shaped triangle the products of an edge function nearly cancel: signs are
+        // right, but a distance needs more precision. Few triangles come this far.
         let (u, v, w) = (exact_edge(c, b), exact_edge(a, c), exact_edge(b, a));
         let area = u + v + w;
         if area == 0.0 {
@@ -78,9 +78,9 @@ impl Sheared {
         })
     }
 
-    /// A corner as seen from the line: across it, and along it.
+    /// A vertex relative to the line: two coordinates across it, one along it.
     #[inline]
-    fn seen(&self, corner: DVec3) -> [f64; 3] {
+    fn transformed(&self, corner: DVec3) -> [f64; 3] {
         let offset = (corner - self.origin).to_array();
         let [x, y, z] = self.axes.map(|axis| offset[axis]);
         let [shear_x, shear_y, shear_z] = self.shear;
@@ -88,7 +88,8 @@ impl Sheared {
     }
 }
 
-/// Lines side by side in the space of their triangles that run fastest along the same axis.
+/// Lines whose directions have their largest component on the same axis, one per lane, prepared for
+/// tests against triangles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShearedLines<S: Simd> {
     origin: [Eight<S>; 3],
@@ -97,7 +98,7 @@ pub(super) struct ShearedLines<S: Simd> {
 }
 
 impl<S: Simd> ShearedLines<S> {
-    /// `None` if they run fastest along different axes.
+    /// Returns `None` if the largest components are on different axes.
     #[inline(always)]
     pub(super) fn new(simd: S, lines: [&Sheared; WIDTH]) -> Option<Self> {
         let axes = lines[0].axes;
@@ -127,11 +128,15 @@ impl<S: Simd> ShearedLines<S> {
         })
     }
 
-    /// A bit for each line that [`Sheared::crossing`] may find to cross a triangle: for all but those
-    /// that pass beside it, which most do, by the same signs. Equal products count as on the edge.
+    /// A mask of the lines that may cross a triangle by [`Sheared::crossing`]: all except those
+    /// that surely miss it, as most do, by the same signs. Equal products count as on the edge.
     #[inline(always)]
     pub(super) fn may_cross(&self, [a, b, c]: [DVec3; 3]) -> u32 {
-        let (a, b, c) = (self.seen(a), self.seen(b), self.seen(c));
+        let (a, b, c) = (
+            self.transformed(a),
+            self.transformed(b),
+            self.transformed(c),
+        );
         let (u, v, w) = (across(c, b), across(a, c), across(b, a));
         let zero = u.all(0.0);
         let below = u.below(zero) | v.below(zero) | w.below(zero);
@@ -139,9 +144,9 @@ impl<S: Simd> ShearedLines<S> {
         bits::<S>(!(below & above))
     }
 
-    /// A corner as seen across the lines.
+    /// The two coordinates of a vertex across the lines.
     #[inline(always)]
-    fn seen(&self, corner: DVec3) -> [Eight<S>; 2] {
+    fn transformed(&self, corner: DVec3) -> [Eight<S>; 2] {
         let [x, y, z] = self.origin;
         let [i, j, k] = self.axes;
         let (x, y, z) = (
@@ -154,14 +159,14 @@ impl<S: Simd> ShearedLines<S> {
     }
 }
 
-/// [`edge`] in each lane, 0 where rounding hides the sign.
+/// [`edge`] in each lane; 0 if rounding hides the sign.
 #[inline(always)]
 fn across<S: Simd>(a: [Eight<S>; 2], b: [Eight<S>; 2]) -> Eight<S> {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// Twice the area that an edge spans with the origin, with the right sign: that of rounded products
-/// is right unless they are equal.
+/// Twice the signed area of the triangle of an edge and the origin. The sign is exact: rounded
+/// products compare correctly unless they are equal.
 #[inline]
 fn edge(a: [f64; 3], b: [f64; 3]) -> f64 {
     let (first, second) = (a[0] * b[1], a[1] * b[0]);
@@ -172,7 +177,7 @@ fn edge(a: [f64; 3], b: [f64; 3]) -> f64 {
     }
 }
 
-/// The same, rounded as if once or twice.
+/// The same, as if rounded once or twice.
 #[inline]
 fn exact_edge([ax, ay, _]: [f64; 3], [bx, by, _]: [f64; 3]) -> f64 {
     exact_difference([ax, by], [ay, bx])

@@ -1,5 +1,5 @@
-//! Picture files: frames written to them, textures read from them. Knows nothing of scenes but
-//! pictures and their sizes.
+//! Picture files: writing frames, reading textures. Of scenes it knows only pictures and their
+//! sizes.
 
 mod read;
 mod sieve;
@@ -13,28 +13,28 @@ use crate::scene::Size;
 pub use read::{MAX_TEXTURE_PIXELS, Unreadable, decode};
 pub use write::save;
 
-/// The picture formats that are written; they are read too.
+/// The picture formats that can be written. All of them can also be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ImageFormat {
     /// 24-bit uncompressed, bottom-up.
     Bmp,
     /// Binary PPM, `P6`.
     Ppm,
-    /// PNG, 8 bits a channel.
+    /// PNG, 8 bits per channel.
     Png,
-    /// TIFF, 8 bits a channel, uncompressed.
+    /// TIFF, 8 bits per channel, uncompressed.
     Tiff,
-    /// GIF with a palette of its own: exact up to 256 colours.
+    /// GIF with an optimized palette; exact up to 256 colours.
     Gif,
-    /// JPEG of quality 95, every pixel with its own colour.
+    /// JPEG of quality 95, without chroma subsampling.
     Jpeg,
     /// `OpenEXR`, 32-bit floating-point values.
     Exr,
-    /// Radiance HDR, values of 8 bits with a common exponent: none below 0.
+    /// Radiance HDR: 8 bits per channel with a shared exponent, no negative values.
     Hdr,
 }
 
-/// Each format and the extensions of its files: the first is its name, too.
+/// The formats with their file extensions, of which the first is also the format's name.
 pub const FORMATS: [(ImageFormat, &[&str]); 8] = [
     (ImageFormat::Bmp, &["bmp"]),
     (ImageFormat::Ppm, &["ppm"]),
@@ -46,37 +46,38 @@ pub const FORMATS: [(ImageFormat, &[&str]); 8] = [
     (ImageFormat::Hdr, &["hdr"]),
 ];
 
-/// The most pixels a picture may have, of any format. Tracing keeps about forty bytes a pixel:
-/// ten gigabytes at this limit.
+/// The maximum number of pixels of a picture in any format. Tracing takes about 40 bytes per pixel:
+/// 10 GB at this limit.
 pub const MAX_PIXELS: u64 = 1 << 28;
 
-/// The longest side of a BMP. The format has 32 bits for it, but readers, the `image` crate's
-/// among them, stop at 16.
+/// The longest side of a BMP in pixels. The format stores 32 bits, but readers, including that of
+/// the `image` crate, accept only 16.
 const MAX_BMP_SIDE: u32 = 65_535;
 
-/// The longest side of formats that have 16 bits for it.
+/// The longest side in formats that store it in 16 bits, in pixels.
 const MAX_SHORT_SIDE: u32 = 65_535;
 
-/// The longest side of a PNG, from its specification.
+/// The longest side of a PNG in pixels, from its specification.
 const MAX_PNG_SIDE: u32 = (1 << 31) - 1;
 
-// A BMP's file size is a 32-bit number. Rows are padded by up to three bytes each.
+// The file size of a BMP is a 32-bit number. Rows are padded by up to three bytes.
 const _: () = assert!(54 + 3 * MAX_PIXELS + 3 * (MAX_BMP_SIDE as u64) < 1 << 32);
 
-// So are a TIFF's offsets. Its strips are a row at least, each listed in eight bytes.
+// The offsets of a TIFF are 32-bit numbers. Each of its strips has at least one row and takes eight
+// bytes in a table.
 const _: () = assert!(1024 + 3 * MAX_PIXELS + 8 * MAX_PIXELS / 3 < 1 << 32);
 
 impl ImageFormat {
-    /// The format a file name's extension says, in any case.
+    /// The format for a file name's extension, case-insensitively.
     pub fn of_path(path: &Path) -> Option<Self> {
-        let said = path.extension()?.to_str()?;
-        let says = |known: &&str| known.eq_ignore_ascii_case(said);
+        let extension = path.extension()?.to_str()?;
+        let is_it = |known: &&str| known.eq_ignore_ascii_case(extension);
         let mut formats = FORMATS.into_iter();
-        let (format, _) = formats.find(|(_, extensions)| extensions.iter().any(says))?;
+        let (format, _) = formats.find(|(_, extensions)| extensions.iter().any(is_it))?;
         Some(format)
     }
 
-    /// Why a picture of this size can't be written in this format, if so: asked before tracing.
+    /// Returns why a picture of this size cannot be written in this format, or `None` if it can.
     pub fn refuses(self, size: Size) -> Option<String> {
         let Size { width, height } = size;
         let max_side = match self {
@@ -87,7 +88,7 @@ impl ImageFormat {
         };
         if width == 0 || height == 0 {
             Some(format!(
-                "{width}x{height}: a picture has at least one pixel each way"
+                "{width}x{height}: width and height must be at least one pixel"
             ))
         } else if max_side < width.max(height) {
             Some(format!(
@@ -103,7 +104,7 @@ impl ImageFormat {
         }
     }
 
-    /// Which frames a job needs whose picture is written in this format.
+    /// The kind of frames that a render must produce for this format.
     pub fn frames(self) -> Frames {
         match self {
             Self::Exr | Self::Hdr => Frames::LastWithValues,
@@ -111,7 +112,7 @@ impl ImageFormat {
         }
     }
 
-    /// Its name: `bmp`.
+    /// The name in lower case, e.g. `bmp`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Bmp => "bmp",
@@ -126,7 +127,7 @@ impl ImageFormat {
     }
 }
 
-/// The extensions of picture files as words: `.bmp, .ppm or .png`.
+/// The extensions of picture files as a phrase: `.bmp, .ppm or .png`.
 pub fn known_extensions() -> String {
     let extensions = FORMATS.iter().flat_map(|(_, extensions)| *extensions);
     let names: Vec<_> = extensions.map(|name| format!(".{name}")).collect();

@@ -1,5 +1,5 @@
-//! Picture files to the pixels of textures. The files may be anybody's: sizes are looked at before
-//! memory is asked for, and what pixels do not need is not read.
+//! Decodes picture files into textures. Files are untrusted: sizes are checked before memory is
+//! allocated, and data that the pixels do not need is not read.
 
 use std::io::{BufRead, BufReader, ErrorKind, Read, Seek};
 use std::panic::{self, AssertUnwindSafe};
@@ -11,64 +11,64 @@ use image::{Limits, Rgba};
 use super::sieve::Sieve;
 use crate::scene::{Image, Size};
 
-/// The most pixels of a texture: 8192 × 8192, 192 MiB.
+/// The maximum number of pixels of a texture: 8192 × 8192, 192 MiB.
 pub const MAX_TEXTURE_PIXELS: u64 = 1 << 26;
 
-/// The most memory that a decoder may ask for, its result included: sixteen bytes a pixel is the
-/// most that any format has, and those are rare.
+/// The memory limit of a decoder in bytes, including its result. No format has more than 16 bytes
+/// per pixel, and few pictures have that many.
 const MAX_MEMORY: u64 = 512 << 20;
 
-/// The most that what comes before a picture's pixels may take.
-const MAX_PREFACE: u64 = 16 << 20;
+/// The memory limit, in bytes, for everything before the pixels.
+const MAX_HEADER: u64 = 16 << 20;
 
-/// Why a file is not a picture that can be used.
+/// Why a picture file cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum Unreadable {
-    /// It is not a picture of a known format.
+    /// Not a picture, or one of an unknown format.
     #[error("is not a picture of a known format")]
     Unknown,
-    /// It uses a part of its format, which is named, that is not supported.
+    /// Uses an unsupported feature of the named format.
     #[error("is a {0} of an unsupported kind")]
     Unsupported(&'static str),
-    /// It breaks off or contradicts itself: how.
-    #[error("is not a whole picture: {0}")]
+    /// Truncated or inconsistent, with a description.
+    #[error("is not a valid picture: {0}")]
     Broken(String),
-    /// The picture has more than [`MAX_TEXTURE_PIXELS`].
+    /// Has more than [`MAX_TEXTURE_PIXELS`] pixels.
     #[error("is {width}x{height}: a texture has at most {MAX_TEXTURE_PIXELS} pixels (8192x8192)")]
     TooLarge {
-        /// Pixels across.
+        /// Width in pixels.
         width: u32,
-        /// Pixels down.
+        /// Height in pixels.
         height: u32,
     },
-    /// It has more pixels than there was room for.
-    #[error("the scene's textures have too many pixels together")]
+    /// Has more pixels than were left for the scene's textures.
+    #[error("the scene's textures have too many pixels in total")]
     NoRoom,
-    /// There is no memory for it, or its decoder wants more than [`MAX_MEMORY`].
-    #[error("takes more memory than there is for a texture (512 MiB)")]
+    /// Out of memory, or its decoder needs more than [`MAX_MEMORY`].
+    #[error("needs more memory than is available for a texture (512 MiB)")]
     NoMemory,
 }
 
-/// Decodes a picture file in whatever format its first bytes say, from the place where it stands. Of
-/// several pictures in it the first; what is more than red, green and blue of 8 bits is left away. More
-/// pixels than `room` are refused, and a JPEG of more than eight bytes a pixel and a MiB, segments that
-/// its pixels don't need not counted. Memory is taken for the pixels and for what the decoder keeps of
-/// the file, which is all of a JPEG.
+/// Decodes a picture file from its current position; its first bytes determine the format. Of
+/// several pictures the first is read, reduced to 8-bit red, green and blue. Fails if it has more
+/// pixels than `room`, or if a JPEG has more than eight bytes per pixel plus 1 MiB, not counting
+/// segments that the pixels do not need. Memory is taken for the pixels and for what the decoder
+/// keeps of the file, which is all of a JPEG.
 pub fn decode(file: impl Read + Seek, room: u64) -> Result<Image, Unreadable> {
-    // Decoders are others' work on anybody's bytes: if one panics, that costs the picture only.
+    // Third-party decoders run on untrusted bytes: if one panics, only the picture is lost.
     let decoded = panic::catch_unwind(AssertUnwindSafe(|| by_format(file, room)));
     decoded.unwrap_or_else(|_| Err(Unreadable::Broken("its decoder failed".to_owned())))
 }
 
 fn by_format(mut file: impl Read + Seek, room: u64) -> Result<Image, Unreadable> {
-    /// As many as any format is known by.
-    const MARK: u64 = 16;
+    /// The length of the longest magic number of any format.
+    const MAGIC: u64 = 16;
     let unreadable = |error: std::io::Error| Unreadable::Broken(error.to_string());
-    let mut mark = Vec::new();
-    let length = (&mut file).take(MARK).read_to_end(&mut mark);
+    let mut magic = Vec::new();
+    let length = (&mut file).take(MAGIC).read_to_end(&mut magic);
     let back = -(length.map_err(unreadable)? as i64);
     file.seek_relative(back).map_err(unreadable)?;
-    let format = image::guess_format(&mark).map_err(|_| Unreadable::Unknown)?;
+    let format = image::guess_format(&magic).map_err(|_| Unreadable::Unknown)?;
     match format {
         ImageFormat::Png => pixels(BufReader::new(Sieve::png(file)), format, room),
         ImageFormat::Jpeg => pixels(BufReader::new(Sieve::jpeg(file)), format, room),
@@ -84,7 +84,7 @@ fn pixels(file: impl BufRead + Seek, format: ImageFormat, room: u64) -> Result<I
         limits.max_alloc = Some(bytes);
         limits
     };
-    reader.limits(limits(MAX_PREFACE));
+    reader.limits(limits(MAX_HEADER));
     let mut decoder = reader.into_decoder().map_err(broken)?;
     let (width, height) = decoder.dimensions();
     let count = u64::from(width) * u64::from(height);
@@ -107,11 +107,11 @@ fn pixels(file: impl BufRead + Seek, format: ImageFormat, room: u64) -> Result<I
         let read = decoder.read_image(pixels.as_flattened_mut());
         read.map_err(broken)?;
     } else {
-        // The decoder's own memory is asked for in a way that ends the process where there is none.
-        let asked = Vec::<u8>::new().try_reserve_exact(decoder.total_bytes() as usize);
-        asked.map_err(|_| Unreadable::NoMemory)?;
+        // If the decoder's own allocation failed, it would end the process: try it beforehand.
+        let available = Vec::<u8>::new().try_reserve_exact(decoder.total_bytes() as usize);
+        available.map_err(|_| Unreadable::NoMemory)?;
         match DynamicImage::from_decoder(decoder).map_err(broken)? {
-            // Most of them, without another copy.
+            // The most frequent case, without another copy.
             DynamicImage::ImageRgba8(image) => {
                 pixels.extend(image.pixels().map(|&Rgba([r, g, b, _])| [r, g, b]));
             }
@@ -121,7 +121,7 @@ fn pixels(file: impl BufRead + Seek, format: ImageFormat, room: u64) -> Result<I
     Image::new(size, pixels).ok_or_else(|| Unreadable::Broken("it has no pixels".to_owned()))
 }
 
-/// What a decoder's error means. Its own words are no more than hints for programmers.
+/// Translates a decoder's error, whose own message is meant for programmers.
 fn unreadable(error: ImageError, format: ImageFormat) -> Unreadable {
     let name = match format {
         ImageFormat::Png => "PNG",

@@ -1,38 +1,38 @@
-//! Strips picture files of what their pixels do not need. Profiles, comments, thumbnails and the like may
-//! be of any size, and decoders keep what they are given.
+//! Filters out of picture files what their pixels do not need: profiles, comments, thumbnails and
+//! the like can have any size, and decoders would keep them in memory.
 
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 
-/// Bytes that are passed on at once.
+/// The number of bytes passed on at once.
 const PIECE: u64 = 1 << 16;
 
-/// The most bytes of a JPEG for each of its pixels. At the best quality, noise without subsampling takes
-/// less than five.
+/// The maximum number of bytes per pixel of a JPEG. Noise at the best quality, without subsampling,
+/// takes fewer than five.
 const JPEG_BYTES: u64 = 8;
 
-/// The most bytes of a JPEG besides: tables, and what takes more than its pixels in a small picture.
+/// The bytes that a JPEG may have in addition, for tables and for the overhead of small pictures.
 const JPEG_TABLES: u64 = 1 << 20;
 
 /// The chunks of a PNG that define its pixels.
 const PNG_CHUNKS: [&[u8; 4]; 5] = [b"IHDR", b"PLTE", b"tRNS", b"IDAT", b"IEND"];
 
-/// The length of the longest of them apart from the pixels: a palette.
+/// The length in bytes of the longest of them apart from the pixels: a palette.
 const PNG_LONGEST: u32 = 3 * 256;
 
-/// A file without what its pixels do not need. It can't be sought in.
+/// A reader of a file without what its pixels do not need. Cannot seek.
 pub(super) struct Sieve<R> {
     source: BufReader<R>,
     format: Format,
-    /// What is passed on next, from `at` on.
+    /// The bytes to pass on next, from `at` on.
     piece: Vec<u8>,
     at: usize,
 }
 
 enum Format {
     Png {
-        /// Whether the signature is passed on.
+        /// Whether the signature has been passed on.
         is_begun: bool,
-        /// Bytes of the present chunk that are still to be passed on.
+        /// The bytes of the current chunk that remain to be passed on.
         left: u64,
     },
     Jpeg(Jpeg),
@@ -40,11 +40,11 @@ enum Format {
 
 #[derive(Default)]
 struct Jpeg {
-    /// Bytes that are passed on.
+    /// The number of bytes passed on.
     passed: u64,
-    /// Pixels, once they are known.
+    /// The number of pixels, 0 until known.
     pixels: u64,
-    /// Whether a JFIF and an Adobe segment were passed on: the latter says how colours are coded.
+    /// Whether a JFIF and an Adobe segment have been passed on; the latter has the colour encoding.
     applications: [bool; 2],
     is_over: bool,
 }
@@ -99,7 +99,7 @@ impl<R> Seek for Sieve<R> {
     }
 }
 
-/// Reads at most so many bytes to the end of a piece.
+/// Appends up to `bytes` bytes of the source to `piece`. Returns their number.
 fn take(source: &mut impl Read, bytes: u64, piece: &mut Vec<u8>) -> io::Result<u64> {
     source
         .take(bytes)
@@ -107,12 +107,12 @@ fn take(source: &mut impl Read, bytes: u64, piece: &mut Vec<u8>) -> io::Result<u
         .map(|read| read as u64)
 }
 
-/// Passes over bytes of a file, which may have fewer.
+/// Skips `bytes` bytes of a file, which may have fewer.
 fn skip(source: &mut BufReader<impl Read + Seek>, bytes: u64) -> io::Result<()> {
     source.seek_relative(bytes as i64)
 }
 
-/// Reads the next piece of a PNG; an empty one where it ends.
+/// Reads the next piece of a PNG. It is empty at the end.
 fn png(
     source: &mut BufReader<impl Read + Seek>,
     is_begun: &mut bool,
@@ -131,7 +131,7 @@ fn png(
         }
         let length = u32::from_be_bytes([head[0], head[1], head[2], head[3]]);
         let kind = [head[4], head[5], head[6], head[7]];
-        // Behind the chunk stands its checksum.
+        // A checksum follows the data.
         let whole = u64::from(length) + 4;
         let is_fit = kind == *b"IDAT" || length <= PNG_LONGEST;
         if PNG_CHUNKS.contains(&&kind) && is_fit {
@@ -146,7 +146,7 @@ fn png(
 }
 
 impl Jpeg {
-    /// Reads the next piece; an empty one where the picture ends.
+    /// Reads the next piece. It is empty at the end of the picture.
     fn next(
         &mut self,
         source: &mut BufReader<impl Read + Seek>,
@@ -159,16 +159,14 @@ impl Jpeg {
         self.passed += piece.len() as u64;
         let most = JPEG_TABLES + JPEG_BYTES * self.pixels;
         if most < self.passed {
-            let message = format!(
-                "it has more than {most} bytes, {JPEG_BYTES} for each pixel and {JPEG_TABLES} more"
-            );
+            let message =
+                format!("it has more than {most} bytes, {JPEG_BYTES} per pixel plus {JPEG_TABLES}");
             return Err(io::Error::new(io::ErrorKind::InvalidData, message));
         }
         Ok(())
     }
 
-    /// Passes on a segment that is needed, or what stands before the next marker, or passes over a
-    /// segment.
+    /// Passes on the data before the next marker or a needed segment, or skips a segment.
     fn pass(
         &mut self,
         source: &mut BufReader<impl Read + Seek>,
@@ -187,12 +185,12 @@ impl Jpeg {
         }
         let marker = piece[1];
         match marker {
-            // Another mark may begin at the second byte.
+            // A fill byte: the marker may begin at the second one.
             0xFF => {
                 piece.pop();
                 return source.seek_relative(-1);
             }
-            // A byte of the pixels, or a mark that stands alone.
+            // An escaped byte of the pixels, or a marker without a segment.
             0x00 | 0x01 | 0xD0..=0xD8 => return Ok(()),
             0xD9 => {
                 self.is_over = true;
@@ -215,7 +213,7 @@ impl Jpeg {
             return skip(source, length);
         }
         take(source, length, piece)?;
-        // A frame's precision, height and width; three others in its range are not frames.
+        // A frame header: precision, height and width. Three markers in its range are not frames.
         if let (0xC0..=0xCF, [_, _, _, _, _, h1, h0, w1, w0, ..]) = (marker, &piece[..])
             && !matches!(marker, 0xC4 | 0xC8 | 0xCC)
         {

@@ -5,7 +5,7 @@ use super::*;
 use crate::render::{Frame, NO_OBJECT, Progress};
 use crate::scene::Image;
 
-/// A finished frame of these pixels.
+/// A finished frame with the given pixels.
 fn frame(width: u32, height: u32, pixels: &[[u8; 3]]) -> Frame {
     Frame {
         generation: 1,
@@ -72,7 +72,7 @@ fn a_bmp_is_24_bit_uncompressed_and_bottom_up() {
     assert_eq!(bytes[54..], [4, 254, 3, 0, 2, 1, 255, 0]);
 }
 
-/// A picture of smooth colours, no two pixels alike, of which a fourth is black.
+/// A picture of smooth colours, no two pixels alike except in a black quarter.
 fn gradient() -> Frame {
     let (width, height) = (48, 32);
     let pixels: Vec<_> = (0..height)
@@ -93,7 +93,7 @@ fn decoded(format: ImageFormat, frame: &Frame) -> Image {
 }
 
 #[test]
-fn lossless_formats_read_back_as_they_were() {
+fn lossless_formats_round_trip() {
     use ImageFormat::{Bmp, Gif, Png, Ppm, Tiff};
     let few = frame(3, 2, &[RED, GREEN, BLUE, RED, RED, GREEN]);
     for format in [Bmp, Ppm, Png, Tiff, Gif] {
@@ -107,7 +107,7 @@ fn lossless_formats_read_back_as_they_were() {
     }
 }
 
-/// Values that no 8-bit picture holds.
+/// A frame with values that no 8-bit picture can hold.
 fn bright() -> Frame {
     Frame {
         values: vec![
@@ -120,16 +120,16 @@ fn bright() -> Frame {
 }
 
 #[test]
-fn floating_point_formats_hold_the_values_and_not_the_pixels() {
+fn floating_point_formats_store_the_values_and_not_the_pixels() {
     let read = |format| {
         let bytes = encoded(format, &bright());
         let image = image::load_from_memory(&bytes).expect("it is a picture");
         image.into_rgb32f().into_raw()
     };
     assert_eq!(read(ImageFormat::Exr), bright().values.as_flattened());
-    let held = [[0.0, 0.5, 1e-4], [3.25, 1e6, 17.0], [0.0, 1e38, 0.25]];
-    for (pixel, expected) in read(ImageFormat::Hdr).chunks(3).zip(held) {
-        // Eight bits each, with the exponent of the greatest.
+    let stored = [[0.0, 0.5, 1e-4], [3.25, 1e6, 17.0], [0.0, 1e38, 0.25]];
+    for (pixel, expected) in read(ImageFormat::Hdr).chunks(3).zip(stored) {
+        // Eight bits per channel, with the exponent of the greatest.
         let greatest = expected.into_iter().fold(0.0, f32::max);
         for (found, wanted) in pixel.iter().zip(expected) {
             assert!(
@@ -141,7 +141,7 @@ fn floating_point_formats_hold_the_values_and_not_the_pixels() {
 }
 
 #[test]
-fn values_that_were_not_asked_for_are_no_picture() {
+fn a_frame_without_values_is_refused() {
     let frame = Frame {
         values: Vec::new(),
         ..gradient()
@@ -151,7 +151,7 @@ fn values_that_were_not_asked_for_are_no_picture() {
     }
 }
 
-/// How far two pictures are from each other: the mean over all channels, and the most.
+/// The difference between two pictures: the mean and the maximum over all channels.
 fn difference(one: &Image, other: &Frame) -> (f64, u8) {
     let pixels = one.pixels().as_flattened().iter();
     let differences: Vec<_> = pixels
@@ -164,7 +164,7 @@ fn difference(one: &Image, other: &Frame) -> (f64, u8) {
 }
 
 #[test]
-fn lossy_formats_read_back_much_as_they_were() {
+fn lossy_formats_round_trip_approximately() {
     let frame = gradient();
     for (format, mean, most) in [(ImageFormat::Jpeg, 2.0, 24), (ImageFormat::Gif, 8.0, 48)] {
         let read = decoded(format, &frame);
@@ -178,7 +178,7 @@ fn lossy_formats_read_back_much_as_they_were() {
 }
 
 #[test]
-fn every_format_tells_of_a_full_disk() {
+fn every_format_reports_a_full_disk() {
     struct Full(usize);
 
     impl Write for Full {
@@ -210,7 +210,7 @@ fn every_format_tells_of_a_full_disk() {
 }
 
 #[test]
-fn a_picture_that_breaks_off_is_none() {
+fn truncated_pictures_are_refused() {
     for (format, _) in FORMATS {
         let bytes = encoded(format, &gradient());
         for length in [0, 1, 10, bytes.len() / 2] {
@@ -220,15 +220,15 @@ fn a_picture_that_breaks_off_is_none() {
 }
 
 #[test]
-fn noise_is_refused_without_harm() {
+fn corrupt_pictures_do_no_harm() {
     for (format, _) in FORMATS {
         let bytes = encoded(format, &gradient());
         for at in 0..bytes.len().min(700) {
             for value in [0, 1, 0x7F, 0xFF] {
-                let mut bent = bytes.clone();
-                bent[at] = value;
-                // Whatever comes of it: no panic, no endless work.
-                let _ = decode(&bent);
+                let mut corrupt = bytes.clone();
+                corrupt[at] = value;
+                // Whatever the result: no panic, no endless loop.
+                let _ = decode(&corrupt);
             }
         }
     }
@@ -244,7 +244,7 @@ fn noise_is_refused_without_harm() {
 }
 
 #[test]
-fn headers_that_claim_too_much_are_refused_before_memory_is_asked_for() {
+fn headers_that_claim_too_much_are_refused_before_memory_is_allocated() {
     let bmp = |width: u32, height: u32| {
         let mut bytes = encoded(ImageFormat::Bmp, &frame(1, 1, &[RED]));
         bytes[18..22].copy_from_slice(&width.to_le_bytes());
@@ -264,7 +264,7 @@ fn headers_that_claim_too_much_are_refused_before_memory_is_asked_for() {
 }
 
 #[test]
-fn a_picture_for_which_there_is_no_room_is_refused() {
+fn a_picture_with_more_pixels_than_are_left_is_refused() {
     let bytes = encoded(ImageFormat::Png, &gradient());
     let refused = super::decode(Cursor::new(&bytes), 48 * 32 - 1).expect_err("one too many");
     assert!(matches!(refused, Unreadable::NoRoom), "{refused}");
@@ -272,7 +272,7 @@ fn a_picture_for_which_there_is_no_room_is_refused() {
 }
 
 #[test]
-fn what_is_more_than_three_bytes_a_pixel_is_left_away() {
+fn pixels_are_converted_to_8_bit_rgb() {
     for (file, pixel) in [
         (&b"P5\n1 1\n255\n\x07"[..], [7, 7, 7]),
         (b"P6\n1 1\n65535\n\xFF\xFF\x80\x80\x00\x00", [255, 128, 0]),
@@ -287,7 +287,7 @@ fn what_is_more_than_three_bytes_a_pixel_is_left_away() {
 }
 
 #[test]
-fn impossible_sizes_are_refused_and_the_limit_named() {
+fn impossible_sizes_are_refused_with_the_limit() {
     use ImageFormat::{Bmp, Gif, Jpeg, Png, Ppm, Tiff};
     let cases = [
         (Bmp, 1, 1, None),
@@ -319,7 +319,7 @@ fn impossible_sizes_are_refused_and_the_limit_named() {
 }
 
 #[test]
-fn the_extension_says_the_format_in_any_case() {
+fn the_extension_determines_the_format_in_any_case() {
     let of = |name: &str| ImageFormat::of_path(Path::new(name));
     assert_eq!(of("a.bmp"), Some(ImageFormat::Bmp));
     assert_eq!(of("b/a.x.PpM"), Some(ImageFormat::Ppm));
@@ -335,7 +335,7 @@ fn an_unknown_extension_is_refused_with_the_known_ones() {
     let path = directory.path().join("a.webp");
     let saved: io::Result<_> = save(&frame(1, 1, &[RED]), &path, || Ok(()));
     let error = saved.expect_err("unknown").to_string();
-    assert!(error.starts_with("pictures end in .bmp, .ppm, .png, .tiff"));
+    assert!(error.starts_with("picture files end in .bmp, .ppm, .png, .tiff"));
     assert!(!path.exists());
 }
 
@@ -369,7 +369,7 @@ fn a_picture_is_whole_whichever_call_fails() {
     }
 }
 
-/// A file that counts the bytes that are read of it.
+/// A file that counts the bytes read from it.
 struct Counted<'a> {
     file: Cursor<&'a [u8]>,
     read: usize,
@@ -389,13 +389,13 @@ impl io::Seek for Counted<'_> {
     }
 }
 
-/// A picture with bytes put in, and the place behind its head where they go.
-fn bent(format: ImageFormat, head: usize, more: &[u8]) -> Vec<u8> {
+/// A picture with bytes inserted after its first `head` bytes.
+fn inserted(format: ImageFormat, head: usize, more: &[u8]) -> Vec<u8> {
     let bytes = encoded(format, &gradient());
     [&bytes[..head], more, &bytes[head..]].concat()
 }
 
-/// A chunk of a PNG without its checksum.
+/// A chunk of a PNG without a valid checksum.
 fn chunk(kind: [u8; 4], length: usize) -> Vec<u8> {
     let mut chunk = (length as u32).to_be_bytes().to_vec();
     chunk.extend(kind);
@@ -404,9 +404,9 @@ fn chunk(kind: [u8; 4], length: usize) -> Vec<u8> {
 }
 
 #[test]
-fn what_pixels_do_not_need_is_not_read() {
+fn data_that_the_pixels_do_not_need_is_not_read() {
     const LENGTH: usize = 1 << 20;
-    // Signature and first chunk of a PNG; the first mark of a JPEG.
+    // Signature and first chunk of a PNG; the first marker of a JPEG.
     let (png, jpeg) = (8 + 25, 2);
     let comments = |marker: u8| {
         let comment = [&[0xFF, marker, 0xFF, 0xFF], &vec![b'c'; 0xFFFD][..]].concat();
@@ -420,45 +420,45 @@ fn what_pixels_do_not_need_is_not_read() {
         (ImageFormat::Jpeg, jpeg, comments(0xE1)),
         (ImageFormat::Jpeg, jpeg, comments(0xE2)),
     ] {
-        let bytes = bent(format, head, &more);
+        let bytes = inserted(format, head, &more);
         let file = Cursor::new(&bytes[..]);
         let mut counted = Counted { file, read: 0 };
         let image = super::decode(&mut counted, u64::MAX).expect("a picture");
         assert_eq!(image, decoded(format, &gradient()), "{format:?}");
-        let mark = &more[..8];
-        assert!(counted.read < LENGTH / 4, "{mark:?}: {}", counted.read);
+        let start = &more[..8];
+        assert!(counted.read < LENGTH / 4, "{start:?}: {}", counted.read);
     }
 }
 
 #[test]
-fn a_jpeg_far_longer_than_its_pixels_is_refused() {
+fn a_jpeg_far_too_long_for_its_pixels_is_refused() {
     let bytes = encoded(ImageFormat::Jpeg, &gradient());
     let end = bytes.len() - 2;
     let tables = [0xFF, 0xDB, 0xFF, 0xFF].into_iter().chain(vec![1; 0xFFFD]);
     let tables: Vec<u8> = tables.collect();
     for (head, more) in [(end, vec![1; 2 << 20]), (2, tables.repeat(40))] {
-        let refused = decode(&bent(ImageFormat::Jpeg, head, &more)).expect_err("too long");
+        let refused = decode(&inserted(ImageFormat::Jpeg, head, &more)).expect_err("too long");
         let message = refused.to_string();
-        let expected = "is not a whole picture: it has more than 10";
+        let expected = "is not a valid picture: it has more than 10";
         assert!(message.starts_with(expected), "{message}");
     }
 }
 
 #[test]
-fn damage_is_told_without_the_decoders_words() {
+fn damage_is_reported_without_the_decoders_messages() {
     for (format, name) in [
         (ImageFormat::Png, "PNG"),
         (ImageFormat::Jpeg, "JPEG"),
         (ImageFormat::Bmp, "BMP"),
     ] {
         let bytes = encoded(format, &gradient());
-        let damaged = format!("is not a whole picture: its {name} data is damaged");
+        let damaged = format!("is not a valid picture: its {name} data is damaged");
         let unsupported = format!("is a {name} of an unsupported kind");
         let mut found = 0;
         for at in 2..bytes.len().min(300) {
-            let mut bent = bytes.clone();
-            bent[at] ^= 0x55;
-            let Err(error) = decode(&bent) else {
+            let mut corrupt = bytes.clone();
+            corrupt[at] ^= 0x55;
+            let Err(error) = decode(&corrupt) else {
                 continue;
             };
             let message = error.to_string();

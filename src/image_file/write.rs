@@ -1,4 +1,4 @@
-//! Frames to picture files.
+//! Encodes frames as picture files.
 
 use std::io::{self, Cursor, Write};
 use std::path::Path;
@@ -17,28 +17,28 @@ use crate::file::{self, Version};
 use crate::render::{Frame, Frames};
 use crate::scene::Size;
 
-/// From 1 to 100: errors can't be seen at this quality, and a file is a third of a PNG's.
+/// From 1 to 100. At 95 errors are invisible, and files are a third as long as a PNG.
 const JPEG_QUALITY: u8 = 95;
 
-/// How many pixels are looked at to find a GIF's palette where it has more colours than fit: of a
-/// larger picture one of several, of ten at the most.
+/// About how many pixels determine the palette of a GIF with more than 256 colours. Larger pictures
+/// are sampled at every n-th pixel, at most every tenth.
 const GIF_SAMPLES: usize = 1 << 17;
 
-/// The greatest value that is written to an HDR file, near the greatest that it can hold.
+/// The greatest value written to an HDR file, near the greatest that the format can represent.
 const MAX_HDR: f32 = 1e38;
 
-/// What a BMP has before its pixels.
+/// The length of the header of a BMP, in bytes.
 const BMP_HEADER: usize = 54;
 
-/// What a TIFF has besides its pixels and its list of strips, and more.
+/// An upper bound, in bytes, for the rest of a TIFF beside its pixels and its table of strips.
 const TIFF_HEADER: usize = 4096;
 
 impl ImageFormat {
-    /// Encodes a frame, which is one of [`ImageFormat::frames`]. The same frame gives the same
-    /// bytes.
+    /// Encodes a frame of the kind that [`ImageFormat::frames`] requires. Deterministic: the same
+    /// frame gives the same bytes.
     pub fn write(self, frame: &Frame, out: &mut dyn Write) -> io::Result<()> {
         if self.frames() == Frames::LastWithValues && frame.values.len() != frame.pixels.len() {
-            let reason = "the picture was traced without its values";
+            let reason = "the picture was traced without floating-point values";
             return Err(io::Error::new(io::ErrorKind::InvalidInput, reason));
         }
         let mut out = Remembering { out, error: None };
@@ -56,13 +56,13 @@ impl ImageFormat {
         let colour = ExtendedColorType::Rgb8;
         match self {
             Self::Bmp => {
-                // The encoder writes pixel by pixel: by way of memory in half the time.
+                // The encoder writes pixel by pixel: via a buffer it takes half the time.
                 let mut bytes = room(pixels.len() + 4 * height as usize + BMP_HEADER)?;
                 BmpEncoder::new(&mut bytes).write_image(pixels, width, height, colour)?;
                 out.write_all(&bytes).map_err(ImageError::IoError)
             }
             Self::Png => PngEncoder::new(out).write_image(pixels, width, height, colour),
-            // The `image` crate writes another header, which readers of three lines refuse.
+            // The `image` crate writes a header that readers which expect three lines refuse.
             Self::Ppm => write!(out, "P6\n{width} {height}\n255\n")
                 .and_then(|()| out.write_all(pixels))
                 .map_err(ImageError::IoError),
@@ -76,16 +76,16 @@ impl ImageFormat {
                 .write_image(pixels, width, height, colour),
             Self::Exr => write_exr(&frame.values, frame.size, out),
             Self::Hdr => {
-                // The format has nothing below 0, and nothing infinite.
-                let held = |value: &[f32; 3]| Rgb(value.map(|x| x.clamp(0.0, MAX_HDR)));
-                let values: Vec<_> = frame.values.iter().map(held).collect();
+                // The format has neither negative nor infinite values.
+                let clamped = |value: &[f32; 3]| Rgb(value.map(|x| x.clamp(0.0, MAX_HDR)));
+                let values: Vec<_> = frame.values.iter().map(clamped).collect();
                 HdrEncoder::new(out).encode(&values, width as usize, height as usize)
             }
         }
     }
 }
 
-/// Keeps what went wrong in writing: some encoders tell it in words of their own only.
+/// A writer that keeps its last error: some encoders replace it by a message of their own.
 struct Remembering<'a> {
     out: &'a mut dyn Write,
     error: Option<io::Error>,
@@ -115,7 +115,7 @@ impl Write for Remembering<'_> {
     }
 }
 
-/// Memory for a file of this length.
+/// An empty buffer with the given capacity in bytes. Fails if there is not enough memory.
 fn room(length: usize) -> Result<Vec<u8>, ImageError> {
     let mut bytes = Vec::new();
     let reserved = bytes.try_reserve_exact(length);
@@ -123,7 +123,7 @@ fn room(length: usize) -> Result<Vec<u8>, ImageError> {
     Ok(bytes)
 }
 
-/// Encodes a TIFF in memory: its beginning says where its end is, and a stream does not go back.
+/// Encodes a TIFF in memory: its header contains offsets, and `out` cannot seek.
 fn write_tiff(pixels: &[u8], size: Size, out: &mut impl Write) -> Result<(), ImageError> {
     let Size { width, height } = size;
     let mut bytes = Cursor::new(room(pixels.len() + 8 * height as usize + TIFF_HEADER)?);
@@ -131,10 +131,10 @@ fn write_tiff(pixels: &[u8], size: Size, out: &mut impl Write) -> Result<(), Ima
     out.write_all(bytes.get_ref()).map_err(ImageError::IoError)
 }
 
-/// Encodes an `OpenEXR` in memory: it has tables of places, too.
+/// Encodes an `OpenEXR` in memory: it too contains tables of offsets.
 fn write_exr(values: &[[f32; 3]], size: Size, out: &mut impl Write) -> Result<(), ImageError> {
     let mut bytes = Cursor::new(Vec::new());
-    // The encoder takes the bytes of numbers in the machine's order.
+    // The encoder expects native byte order.
     let values: Vec<u8> = values
         .as_flattened()
         .iter()
@@ -145,19 +145,19 @@ fn write_exr(values: &[[f32; 3]], size: Size, out: &mut impl Write) -> Result<()
     out.write_all(bytes.get_ref()).map_err(ImageError::IoError)
 }
 
-/// Writes a frame to a file, whole or not at all, in the format its extension says; or to a pipe or
-/// a device of such a name. `may` is asked when the picture only has to take its place. Returns the
-/// version of the file, if it is one.
+/// Writes a frame in the format of the path's extension, atomically to a file, or to a pipe or
+/// device. `confirm` is called just before the finished picture takes its name. Returns the version
+/// of the file, `None` for pipes and devices.
 pub fn save<E: From<io::Error>>(
     frame: &Frame,
     path: &Path,
-    may: impl Fn() -> Result<(), E>,
+    confirm: impl Fn() -> Result<(), E>,
 ) -> Result<Option<Version>, E> {
     let format = ImageFormat::of_path(path).ok_or_else(|| {
         io::Error::new(
             io::ErrorKind::InvalidInput,
-            format!("pictures end in {}", known_extensions()),
+            format!("picture files end in {}", known_extensions()),
         )
     })?;
-    file::deliver(path, |out| format.write(frame, out), may)
+    file::deliver(path, |out| format.write(frame, out), confirm)
 }

@@ -1,4 +1,4 @@
-//! What all languages ask of a camera.
+//! Camera checks and defaults shared by all languages.
 
 use glam::DVec3;
 
@@ -7,19 +7,19 @@ use crate::geometry::{Aabb, normalise};
 use crate::scene::Camera;
 use crate::text::{Diagnostic, Findings, Span};
 
-/// Where the text says a camera, or what stands for a place where it does not.
+/// The places of a camera's parts in the text, or stand-ins for missing parts.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Places {
     pub(super) eye: Span,
     pub(super) target: Span,
     pub(super) up: Span,
     pub(super) whole: Span,
-    /// How to say a camera in this language.
+    /// How to state a camera in this language.
     pub(super) remedy: &'static str,
 }
 
-/// The centre of the box, and the eye from which, on the given side of it, a sphere around the box
-/// fills the angle of view, in degrees. Of an empty box, a box of size 1 around the origin.
+/// Returns the centre of the box and an eye on the given side of it, from which its bounding sphere
+/// fills the angle of view, in degrees. An empty box counts as one of size 1 around the origin.
 pub(super) fn default_eye_and_target(bounds: Aabb, fov: f64, side: DVec3) -> (DVec3, DVec3) {
     let (centre, radius) = if bounds.is_empty() {
         (DVec3::ZERO, 0.5 * 3.0_f64.sqrt())
@@ -30,7 +30,7 @@ pub(super) fn default_eye_and_target(bounds: Aabb, fov: f64, side: DVec3) -> (DV
     (centre + distance * side.normalize(), centre)
 }
 
-/// Reports a camera that looks nowhere, and one that looks along its `up`.
+/// Reports a camera whose eye is at its target, and one that looks along its `up`.
 pub(super) fn check(camera: &Camera, places: &Places, report: &mut Findings) {
     if !camera.eye.is_finite() || !camera.target.is_finite() {
         report.error(|| {
@@ -39,7 +39,7 @@ pub(super) fn check(camera: &Camera, places: &Places, report: &mut Findings) {
         });
         return;
     }
-    // Halves, because the difference of two large numbers may overflow.
+    // Halved, because the difference of two large numbers may overflow.
     let Some(forward) = normalise(0.5 * camera.target - 0.5 * camera.eye) else {
         report.error(|| {
             let message = "view target: is where the eye is";

@@ -1,13 +1,16 @@
-//! Scenes as text: a folder for each language, and here what all of them answer.
+//! Scene languages: one folder each, and the interface they share.
 //!
-//! A language reads text into a tree, lowers the tree to a [`Scene`], knows where in the text each
-//! field stands, and makes edits that say something else there. [`Source`] holds text, tree and places
-//! of one language together. The rest of the program asks it by the questions of [`Answers`], and never
+//! A language parses text into a tree, lowers the tree to a [`Scene`], knows the place of each
+//! field in the text, and makes edits that change a field there. [`Source`] holds the text, tree
+//! and places of one scene together. The rest of the program uses it through [`Answers`] and never
 //! learns which language it is.
 
+mod at;
 mod camera;
+pub(crate) mod coefficients;
 mod dat;
 mod node;
+mod partition;
 mod placed;
 mod ray;
 mod record;
@@ -17,6 +20,7 @@ pub mod table;
 #[cfg(test)]
 mod tests;
 mod view;
+mod words;
 mod written;
 mod xml;
 
@@ -30,43 +34,44 @@ use crate::memory::OutOfMemory;
 use crate::scene::{Camera, Meshes, Scene};
 use crate::text::{Diagnostic, Edit, Findings, Span};
 use room::Counts;
-use table::Category;
+use table::{Category, Field};
+use view::Numbers;
 
 pub use node::{FileKind, NamedFile, Node, Nodes};
-pub use placed::{Placed, Unsaid};
+pub use placed::{Placed, Wanted};
 pub use room::fits;
+pub use xml::Unsaid;
 
-/// Declares the languages, one a line: by its folder, which is also the extension of its files' names.
-/// A folder provides `Source`, `parse`, `errors_of_beginning`, `tree_bytes` and `LEAVES_KEEP_TO_LINES`.
+/// Declares the languages, one per line, by folder name, which is also the file extension. A folder
+/// provides `Source`, `parse`, `errors_of_beginning`, `tree_bytes` and `LEAVES_KEEP_TO_LINES`.
 macro_rules! languages {
     ($($(#[$doc:meta])* $name:ident in $folder:ident,)+) => {
-        /// The languages Halflight reads.
+        /// The supported scene languages.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Language {
             $($(#[$doc])* $name,)+
         }
 
         impl Language {
-            /// All of them.
+            /// All languages.
             pub const ALL: [Self; [$(stringify!($name)),+].len()] = [$(Self::$name),+];
 
-            /// The extension of its files' names.
+            /// The file extension, without the dot.
             pub const fn extension(self) -> &'static str {
                 match self {
                     $(Self::$name => stringify!($folder),)+
                 }
             }
 
-            /// Whether no leaf crosses the end of a line, and each line is read alike wherever it
-            /// stands.
+            /// Whether no leaf crosses a line end, and lines are read regardless of their position.
             pub const fn leaves_keep_to_lines(self) -> bool {
                 match self {
                     $(Self::$name => $folder::LEAVES_KEEP_TO_LINES,)+
                 }
             }
 
-            /// About how many bytes a tree of so many leaves takes while it is made. Lists that grow
-            /// have up to twice the room they need.
+            /// Estimates the bytes needed to build a tree with these counts. Growing lists have up
+            /// to twice the capacity they need.
             fn tree_bytes(self, counts: &Counts) -> u64 {
                 match self {
                     $(Self::$name => $folder::tree_bytes(counts),)+
@@ -74,8 +79,8 @@ macro_rules! languages {
             }
         }
 
-        /// The errors of every text that begins like this, with the warnings so far; none where what
-        /// follows may make a scene of it.
+        /// Returns the errors of every text with this beginning, with the warnings so far; empty if
+        /// what follows could still complete a valid scene.
         pub fn errors_of_beginning(language: Language, beginning: &str) -> Findings {
             let findings = match language {
                 $(Language::$name => $folder::errors_of_beginning(beginning),)+
@@ -83,22 +88,22 @@ macro_rules! languages {
             findings.sorted()
         }
 
-        /// A scene's text, its tree, and where its things stand, in one language.
+        /// A scene's text in one language, with its tree and the places of its nodes.
         #[derive(Clone, Debug)]
         pub enum Source {
             $($(#[$doc])* $name(Box<$folder::Source>),)+
         }
 
         impl Source {
-            /// Parses a text. Never fails: whatever stands in the text has a place in the tree. Its
-            /// things have places once it is lowered.
+            /// Parses a text. Never fails: every part of the text has a place in the tree. Nodes
+            /// have places only after lowering.
             pub fn new(language: Language, text: Arc<String>) -> Self {
                 match language {
                     $(Language::$name => Self::$name(Box::new($folder::parse(text))),)+
                 }
             }
 
-            /// The language.
+            /// The language of the text.
             pub fn language(&self) -> Language {
                 match self {
                     $(Self::$name(_) => Language::$name,)+
@@ -129,19 +134,19 @@ macro_rules! languages {
 languages! {
     /// Rice University's `.ray`: a stream of tokens.
     Ray in ray,
-    /// Boston University's `.dat`: one record a line.
+    /// Boston University's `.dat`: one record per line.
     Dat in dat,
     /// The University of Utah's `.xml`: elements with attributes.
     Xml in xml,
 }
 
-/// A file whose name does not say which language it is written in.
+/// The error for a file name without the extension of a known language.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{path}: not a scene: scenes end in {}", extensions(), path = .0.display())]
 pub struct UnknownLanguage(pub PathBuf);
 
 impl Language {
-    /// The language that a file name's extension says, in any case.
+    /// Returns the language for a file name's extension, ignoring case.
     pub fn of_path(path: &Path) -> Result<Self, UnknownLanguage> {
         let extension = path.extension().unwrap_or_default();
         let is = |known: &Self| extension.eq_ignore_ascii_case(known.extension());
@@ -150,7 +155,7 @@ impl Language {
     }
 }
 
-/// The extensions of all languages, as a sentence lists them.
+/// The extensions of all languages, as a list for a message.
 fn extensions() -> String {
     let extensions = Language::ALL.map(|language| format!(".{}", language.extension()));
     match &extensions[..] {
@@ -159,17 +164,17 @@ fn extensions() -> String {
     }
 }
 
-/// What a text means.
+/// The result of lowering a text.
 #[derive(Debug)]
 pub struct Lowered {
-    /// The scene; `None` where there are errors.
+    /// The scene; `None` if there are errors.
     pub scene: Option<Scene>,
     /// Errors and warnings, in text order.
     pub diagnostics: Findings,
 }
 
 impl Lowered {
-    /// What a text means that is not lowered: nothing, for this reason.
+    /// The result for a text that does not fit into memory: no scene, and `reason` as the error.
     pub fn refused(reason: &OutOfMemory) -> Self {
         let mut diagnostics = Findings::default();
         diagnostics.error(|| {
@@ -183,50 +188,54 @@ impl Lowered {
     }
 }
 
-/// What a text without errors meant before an edit.
+/// The result of lowering an error-free text before an edit.
 #[derive(Clone, Copy, Debug)]
 pub struct Before<'a> {
-    /// The scene.
+    /// The scene before the edit.
     pub scene: &'a Scene,
-    /// Warnings.
+    /// The warnings before the edit.
     pub diagnostics: &'a Findings,
 }
 
 /// Whether an object is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Visibility {
-    /// It is.
+    /// Drawn.
     Shown,
-    /// It is not.
+    /// Not drawn.
     Hidden,
 }
 
-/// What every language answers about a scene's text. Where things stand is as of the last lowering,
-/// and complete up to where the text could be understood.
-pub trait Answers: Debug {
-    /// The text.
+/// A text with its tree and places.
+pub trait Editable: Debug {
+    /// The current text.
     fn text(&self) -> &Arc<String>;
 
-    /// Applies edits, sorted and disjoint, to the text and the tree, which stays that of
-    /// [`Source::new`]; returns the edits that lead back. What shares the text keeps the old one.
+    /// Applies edits, sorted and disjoint, to the text and the tree, which stays equal to a fresh
+    /// parse by [`Source::new`]. Returns the inverse edits. Other holders of the text keep the old
+    /// version.
     fn change(&mut self, edits: &[Edit]) -> Vec<Edit>;
 
-    /// Takes back the places of the last lowering, if the text was not changed since: those of the
-    /// lowering before stand again.
+    /// Restores the places from before the last lowering; does nothing if the text has changed
+    /// since.
     fn restore(&mut self);
+}
 
-    /// Finds the meaning of the text, with the meshes that are read so far, and where its things stand.
-    /// All errors that can be told apart are reported at once. Never panics, never loops, never
-    /// allocates by a number that the text merely declares, and takes time linear in the text.
+/// What every language answers about a scene's text. Places are as of the last lowering, and
+/// complete up to where the text could be understood.
+pub trait Answers: Editable {
+    /// Lowers the text, with the meshes read so far, and finds the places of its nodes. Reports all
+    /// independent errors at once. Never panics, never loops, never allocates by a number that the
+    /// text merely declares, and takes time linear in the text.
     ///
     /// # Errors
     ///
-    /// Where the scene does not fit into memory; nothing has a place then.
+    /// Fails if the scene does not fit into memory; then no node has a place.
     fn lower(&mut self, meshes: &Meshes) -> Result<Lowered, OutOfMemory>;
 
-    /// As [`Answers::lower`] after an edit, of which `changed` is what it put in the place of the bytes
-    /// `old`: sooner for a number of an object among very many. `before` is what was found when things
-    /// were placed as they are now.
+    /// As [`Answers::lower`] after an edit that replaced the bytes `old` by `changed`, but faster
+    /// for a number of one object among very many. `before` is the result that belongs to the
+    /// current places.
     ///
     /// # Errors
     ///
@@ -241,140 +250,157 @@ pub trait Answers: Debug {
         self.lower(meshes)
     }
 
-    /// The parts of the text that carry meaning, in order: tokens, and comments whole. What lies
-    /// between them is white space.
+    /// The meaningful parts of the text, in order: tokens, and whole comments. Between them is only
+    /// white space.
     fn leaves(&self) -> Vec<Span>;
 
-    /// What a leaf says.
+    /// The text of a leaf.
     fn said(&self, leaf: Span) -> &str {
         leaf.of(self.text())
     }
 
-    /// How a leaf is written to say something.
+    /// Returns the edits that set these components of fields.
+    fn edits(&self, wanted: &[Wanted<'_>]) -> Vec<Edit> {
+        placed::edits(self, wanted)
+    }
+
+    /// How to spell a value in this leaf's place.
     fn spelled<'v>(&self, leaf: Span, value: &'v str) -> Cow<'v, str> {
         let _ = leaf;
         Cow::Borrowed(value)
     }
 
-    /// The view, ambient light or background and environment, lights, materials, textures, objects: as
-    /// far as the text has them.
+    /// The nodes of the text: view, ambient light or background and environment, lights, materials,
+    /// textures, objects.
     fn nodes(&self) -> Nodes;
 
-    /// What a node is called: `view`, `ambient`, `light 2`, `object 3 (box)`.
+    /// A node's name: `view`, `ambient`, `light 2`, `object 3 (box)`.
     fn name(&self, node: Node) -> String;
 
-    /// How many listed things a node is in.
+    /// The nesting depth of a node below other listed nodes.
     fn depth(&self, node: Node) -> usize {
         let _ = node;
         0
     }
 
-    /// A node's fields with their places. A node whose text breaks off has only those fields whose
-    /// components are all there.
+    /// A node's fields with their places. If a node's text breaks off, only fields with all
+    /// components are included.
     fn fields(&self, node: Node) -> Vec<Placed>;
 
-    /// The whole of a node's text, from its first token to its last; empty for a missing view. Of a
-    /// node that stands in several places, the first.
+    /// A node's whole text, from its first token to its last; empty for a missing view. For a node
+    /// in several places, the first.
     fn span(&self, node: Node) -> Span;
 
-    /// What a comment says of a node: one that follows its text in the line where that begins, or
-    /// else where it ends; in `.dat` one that takes the line before; in `.xml` one behind the start tag
-    /// or in the line before.
+    /// The comment on a node: one that follows its text on the line where that begins, otherwise on
+    /// the line where it ends; in `.dat` one that is the line before; in `.xml` one behind the
+    /// start tag or on the line before.
     fn comment(&self, node: Node) -> Option<&str>;
 
-    /// The node whose text holds or touches `span`. A view comment inside another node's text
+    /// The node whose text contains or touches `span`. A view comment inside another node's text
     /// counts as the view; where it ends at that node's token, the token counts.
     fn node_at(&self, span: Span) -> Option<Node>;
 
-    /// The nodes whose text `span` covers in part or lies within, in text order.
+    /// The nodes whose text overlaps `span`, in text order.
     fn nodes_in(&self, span: Span) -> Vec<Node>;
 
-    /// What an object is made of: itself, then the objects it combines, each with how deep it lies
-    /// below the first. At most `limit` of them; one alone if it is no combination.
+    /// The parts of an object: itself, then the objects it combines, each with its depth below the
+    /// first. At most `limit`; a single one if it is not a combination.
     fn parts(&self, object: usize, limit: usize) -> Vec<(usize, Node)> {
         let _ = limit;
         vec![(0, Node::Object(object))]
     }
 
-    /// The word by which an object combines others: `union`. `None` if it is no combination.
+    /// The word for how an object combines others: `union`. `None` if it does not.
     fn operation(&self, object: usize) -> Option<&str> {
         let _ = object;
         None
     }
 
-    /// The object of the scene that an object of the text is; `None` if it is not drawn.
+    /// Maps an object of the text to its object of the scene; `None` if it is not drawn.
     fn drawn(&self, object: usize) -> Option<u32> {
         u32::try_from(object).ok()
     }
 
-    /// Whether an object of the text is but what is in it.
+    /// Whether an object of the text only groups the objects in it.
     fn is_group(&self, object: usize) -> bool {
         let _ = object;
         false
     }
 
-    /// The object of the text that an object of the scene is.
+    /// Maps an object of the scene to its object of the text.
     fn object(&self, drawn: u32) -> usize {
         drawn as usize
     }
 
-    /// The material of an object that is listed as a thing of its own.
+    /// The listed material of an object.
     fn material(&self, object: usize) -> Option<usize> {
         let _ = object;
         None
     }
 
-    /// The numbers that a field of a node may refer to: those of a category that are given before
-    /// the node's text, ascending.
+    /// The IDs that a field of a node may refer to: those of a category defined before the node's
+    /// text, ascending.
     fn identities(&self, node: Node, category: Category) -> Vec<i64> {
         let _ = (node, category);
         Vec::new()
     }
 
-    /// The names that a field may say: those of a category, in text order, each once.
+    /// The names that a field may refer to: those of a category, in text order, without duplicates.
     fn names(&self, category: Category) -> Vec<String> {
         let _ = category;
         Vec::new()
     }
 
-    /// The files that the text names, or that its meshes do, as far as those were read.
+    /// The files named by the text, and by its meshes as far as they were read.
     fn files(&self) -> Vec<NamedFile> {
         Vec::new()
     }
 
-    /// How many objects a material or a texture is part of.
+    /// The number of objects that use a material or a texture.
     fn users(&self, node: Node) -> usize {
         let _ = node;
         0
     }
 
-    /// What the fields of the view would say of a camera, one literal a component, in the order of
-    /// [`Answers::fields`].
-    fn view_literals(&self, camera: &Camera) -> Vec<Vec<String>>;
+    /// The fields of the view that belong to the camera, the first of [`Answers::fields`].
+    fn view_fields(&self) -> Vec<&'static Field>;
 
-    /// The camera after a component of a field of the view says something else.
+    /// The values of these fields that describe a camera.
+    fn view_numbers(&self, camera: &Camera) -> Numbers;
+
+    /// The camera described by these numbers; `base` is a camera of the same text.
+    fn view_camera(&self, numbers: &Numbers, base: &Camera) -> Camera;
+
+    /// The literals of the view's fields for a camera, one per component.
+    fn view_literals(&self, camera: &Camera) -> Vec<Vec<String>> {
+        view::literals(&self.view_fields(), &self.view_numbers(camera))
+    }
+
+    /// The camera after a component of a view field is changed.
     ///
     /// # Errors
     ///
-    /// What it must be, if it can't be that.
+    /// Fails with a description of the permitted values if `said` is not one.
     fn view_saying(
         &self,
         camera: &Camera,
         at: (usize, usize),
         said: &str,
-    ) -> Result<Camera, String>;
+    ) -> Result<Camera, String> {
+        let numbers = view::saying(&self.view_fields(), self.view_numbers(camera), at, said)?;
+        Ok(self.view_camera(&numbers, camera))
+    }
 
-    /// The edits that make the text say this camera: numbers that it states differently are replaced,
-    /// missing parts are added. `before` is the camera as lowered; only parts that differ from it are
+    /// Returns the edits that make the text describe this camera, replacing numbers and adding
+    /// missing parts. `before` is the camera as lowered; only parts that differ from it are
     /// written, and those whose defaults would move with them.
     fn view_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit>;
 
-    /// The edits after which the text shows or hides an object, by index, and does with all others as
-    /// before.
+    /// Returns the edits that show or hide an object, by index, and leave all others as they are.
     ///
     /// # Errors
     ///
-    /// Why no text can say that.
+    /// Fails with the reason if no text can express that.
     fn visibility_edits(
         &self,
         object: usize,
@@ -383,22 +409,4 @@ pub trait Answers: Debug {
         let _ = (object, wanted);
         Err("in this language every object is drawn")
     }
-}
-
-/// The width in bytes of the white-space character that `bytes` begin with.
-fn white_space(bytes: &[u8]) -> Option<usize> {
-    match bytes {
-        [b' ' | b'\t' | b'\n' | b'\r' | 0x0B | 0x0C, ..] => Some(1),
-        [0xC2, 0xA0, ..] => Some(2),
-        [0xEF, 0xBB, 0xBF, ..] => Some(3),
-        _ => None,
-    }
-}
-
-/// The span without white space at its end.
-fn trim_end(text: &str, span: Span) -> Span {
-    let kept = span
-        .of(text)
-        .trim_end_matches([' ', '\t', '\r', '\n', '\x0B', '\x0C', '\u{A0}', '\u{FEFF}']);
-    Span::new(span.start(), span.start() + kept.len())
 }

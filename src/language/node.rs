@@ -1,17 +1,18 @@
-//! The things of a scene's text: those that have fields, the list of them, and the files they name.
+//! The nodes of a scene's text: those with fields, their list, and the files they name.
 
+use super::partition::partition_point;
 use crate::text::Span;
 
-/// A thing that has fields, in the order in which the interface lists them.
+/// A node with fields, in the order of the list in the interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Node {
     /// The camera.
     View,
     /// Ambient light.
     Ambient,
-    /// What the camera sees behind everything.
+    /// The background seen by camera rays.
     Background,
-    /// What other rays meet there.
+    /// The background seen by all other rays.
     Environment,
     /// A light, by index.
     Light(usize),
@@ -23,36 +24,36 @@ pub enum Node {
     Object(usize),
 }
 
-/// The nodes of a scene, ascending. Of each kind the first so many are there, so that a list of
-/// millions is no longer than one of a few.
+/// The nodes of a scene, ascending. Only the count of each kind is stored, so that a list of
+/// millions takes no more memory than a short one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Nodes {
     /// Whether there is a view.
     pub(super) view: bool,
     /// Whether there is ambient light.
     pub(super) ambient: bool,
-    /// Whether there are background and environment.
+    /// Whether there are a background and an environment.
     pub(super) surroundings: bool,
-    /// How many lights there are.
+    /// The number of lights.
     pub(super) lights: usize,
-    /// How many materials.
+    /// The number of materials.
     pub(super) materials: usize,
-    /// How many textures.
+    /// The number of textures.
     pub(super) textures: usize,
-    /// How many objects.
+    /// The number of objects.
     pub(super) objects: usize,
 }
 
-/// The node of a kind that has an index; kinds of which there is one at most take any.
+/// Makes the node with an index; kinds with at most one node ignore it.
 type Kind = fn(usize) -> Node;
 
 impl Nodes {
-    /// How many there are.
+    /// The number of nodes.
     pub fn len(self) -> usize {
         self.kinds().iter().map(|&(_, count)| count).sum()
     }
 
-    /// Whether there are none.
+    /// Whether there are no nodes.
     pub fn is_empty(self) -> bool {
         self.len() == 0
     }
@@ -69,26 +70,17 @@ impl Nodes {
         None
     }
 
-    /// How many of the list come before a node, which need not be in it.
+    /// The number of listed nodes before a node, which need not be in the list.
     pub fn before(self, node: Node) -> usize {
         self.partition_point(|listed| listed < node)
     }
 
-    /// How many fulfil a condition that the first so many fulfil and no others.
+    /// The number of nodes that meet a condition, which must hold for exactly a prefix.
     pub fn partition_point(self, fulfils: impl Fn(Node) -> bool) -> usize {
-        let (mut from, mut until) = (0, self.len());
-        while from < until {
-            let middle = from.midpoint(until);
-            if self.get(middle).is_some_and(&fulfils) {
-                from = middle + 1;
-            } else {
-                until = middle;
-            }
-        }
-        from
+        partition_point(self.len(), |at| self.get(at).is_some_and(&fulfils))
     }
 
-    /// All of them.
+    /// All nodes.
     pub fn iter(self) -> impl Iterator<Item = Node> {
         (0..self.len()).filter_map(move |row| self.get(row))
     }
@@ -107,34 +99,34 @@ impl Nodes {
     }
 }
 
-/// What is in a file that a text names.
+/// The kind of a file named by a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
-    /// A picture, of a texture.
+    /// The picture of a texture.
     Picture,
-    /// A mesh, of an object.
+    /// The mesh of an object.
     Mesh,
 }
 
-/// Another file that a text names.
+/// A file named by a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedFile {
-    /// Its path, relative to the scene's folder: as the text says it, or a mesh that the text names.
+    /// The path, relative to the scene's folder, as written in the text or in a mesh.
     pub path: String,
-    /// What is in it.
+    /// The kind of file.
     pub kind: FileKind,
-    /// Where the text names it, or the mesh.
+    /// The place in the text that names the file, or the mesh that does.
     pub span: Span,
-    /// What it is: `texture 2 file`.
+    /// A description: `texture 2 file`.
     pub what: String,
 }
 
-/// The object of the scene that an object of the text is, given those that are drawn, ascending.
+/// Maps an object of the text to one of the scene, given the drawn objects in ascending order.
 pub(super) fn place_of(drawn: &[usize], object: usize) -> Option<u32> {
     u32::try_from(drawn.binary_search(&object).ok()?).ok()
 }
 
-/// The object of the text that an object of the scene is, given those that are drawn, ascending.
+/// Maps an object of the scene to one of the text, given the drawn objects in ascending order.
 pub(super) fn object_at(drawn: &[usize], place: u32) -> usize {
     drawn.get(place as usize).copied().unwrap_or(usize::MAX)
 }
@@ -144,7 +136,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_node_is_in_the_row_that_follows_those_before_it() {
+    fn rows_follow_the_order_of_nodes() {
         let nodes = Nodes {
             view: true,
             ambient: false,

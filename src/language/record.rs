@@ -1,23 +1,23 @@
-//! A run of numbers that the table of fields gives a meaning: checked against its ranges, then
-//! sorted into points, directions, colours and plain numbers.
+//! Records: runs of numbers that the table of fields gives a meaning, checked against their ranges.
 
 use glam::{DMat3, DVec3};
 
+use super::coefficients::Coefficients;
 use super::report::Name;
 use super::table::{Field, Kind};
 use crate::geometry::{FLATTEST, normalise};
-use crate::scene::{Phong, Rgb};
+use crate::scene::Rgb;
 use crate::text::{Diagnostic, Findings, Span, concise};
 
-/// How far a direction's length may be off 1, and the dot product of two of them off 0.
+/// The tolerance for a direction's length around 1 and for dot products of two around 0.
 const UNIT_TOLERANCE: f64 = 1e-3;
 
-/// The numbers of one thing, as far as the text gives them.
+/// The numbers of one node, as far as the text gives them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Record<'a> {
-    /// The thing.
+    /// The node.
     pub(super) name: Name,
-    /// Its numbers; NaN where a token could not be read.
+    /// The numbers; NaN where a token could not be read.
     pub(super) values: &'a [f64],
     /// The token of each number.
     pub(super) spans: &'a [Span],
@@ -31,7 +31,7 @@ struct Part<'a> {
 }
 
 impl<'a> Record<'a> {
-    /// The fields that are complete, with their numbers.
+    /// The complete fields, with their numbers.
     fn parts(self, fields: impl Iterator<Item = &'static Field>) -> impl Iterator<Item = Part<'a>> {
         let mut at = 0;
         fields.map_while(move |field| {
@@ -45,7 +45,7 @@ impl<'a> Record<'a> {
         })
     }
 
-    /// The first `count` numbers and the rest, as records of their own.
+    /// Splits off the first `count` numbers as a record of their own.
     pub(super) fn split_at(self, count: usize) -> (Self, Self) {
         let (values, spans) = (self.values.split_at(count), self.spans.split_at(count));
         let part = |values, spans| Self {
@@ -56,12 +56,12 @@ impl<'a> Record<'a> {
         (part(values.0, spans.0), part(values.1, spans.1))
     }
 
-    /// Reports numbers outside of their ranges and directions that are none.
+    /// Reports numbers outside their ranges and invalid directions.
     pub(super) fn check(self, fields: impl Iterator<Item = &'static Field>, report: &mut Findings) {
         for part in self.parts(fields) {
             match part.field.kind {
                 Kind::Direction | Kind::Axis => self.check_direction(&part, report),
-                // These were judged when they were read.
+                // Checked when they were read.
                 Kind::Choice(_) | Kind::Reference(_) | Kind::Word => {}
                 _ => self.check_numbers(&part, report),
             }
@@ -83,7 +83,7 @@ impl<'a> Record<'a> {
             if value.is_nan() || field.usual.contains(value) {
                 continue;
             }
-            // Spelled out only for a message that is kept.
+            // Formatted only for a message that is kept.
             let what = || what(self.name, field, component);
             if field.allowed.contains(value) {
                 report.warning(|| {
@@ -112,7 +112,7 @@ impl<'a> Record<'a> {
         }
         let span = part.spans[0].to(part.spans[2]);
         let what = || what(self.name, part.field, "");
-        // Scaled, so that no square overflows.
+        // Scaled so that no square overflows.
         let largest = vector.abs().max_element();
         let length = largest * (vector / largest).length();
         if normalise(vector).is_none() {
@@ -132,7 +132,7 @@ impl<'a> Record<'a> {
         }
     }
 
-    /// Reports directions that are not those of a right-handed, right-angled frame.
+    /// Reports directions that do not form a right-handed orthogonal frame.
     pub(super) fn check_frame(
         self,
         fields: impl Iterator<Item = &'static Field>,
@@ -181,7 +181,7 @@ impl<'a> Record<'a> {
         }
     }
 
-    /// The three directions of a shape that has them all.
+    /// The three directions of a shape; `None` if it has fewer.
     fn frame(self, fields: impl Iterator<Item = &'static Field>) -> Option<[Axis; 3]> {
         let mut axes = self
             .parts(fields)
@@ -194,19 +194,15 @@ impl<'a> Record<'a> {
         Some([axes.next()?, axes.next()?, axes.next()?])
     }
 
-    /// The numbers by what they are; complete and readable, or fewer come out.
+    /// Sorts the numbers by kind. They must be complete and readable; otherwise some are left out.
     pub(super) fn gather(self, fields: impl Iterator<Item = &'static Field>) -> Gathered {
         let mut gathered = Gathered::default();
-        let (mut points, mut directions, mut colours, mut numbers, mut choices) = (0, 0, 0, 0, 0);
+        let (mut points, mut colours, mut numbers, mut choices) = (0, 0, 0, 0);
         for Part { field, values, .. } in self.parts(fields) {
             match field.kind {
                 Kind::Point => {
                     gathered.points[points] = DVec3::from_slice(values);
                     points += 1;
-                }
-                Kind::Direction | Kind::Axis => {
-                    gathered.directions[directions] = DVec3::from_slice(values);
-                    directions += 1;
                 }
                 Kind::Colour => {
                     gathered.colours[colours] = DVec3::from_slice(values);
@@ -221,9 +217,11 @@ impl<'a> Record<'a> {
                     gathered.choices[choices] = values[0] as usize;
                     choices += 1;
                 }
-                // What they name is looked up where they are read; cuts are read by themselves, and
-                // the rest is in no record.
-                Kind::Reference(_)
+                // No light, material or texture has a direction. References are looked up where they are
+                // read, and the other kinds are in no record.
+                Kind::Direction
+                | Kind::Axis
+                | Kind::Reference(_)
                 | Kind::Name(_)
                 | Kind::Word
                 | Kind::HalfSpace
@@ -237,24 +235,23 @@ impl<'a> Record<'a> {
     }
 }
 
-/// The numbers of a record by what they are, each in the table's order.
+/// The numbers of a light, a material or a texture by kind, each in the order of the table.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Gathered {
     pub(super) points: [DVec3; 3],
-    pub(super) directions: [DVec3; 3],
     pub(super) colours: [Rgb; 3],
     pub(super) numbers: [f64; 10],
-    /// Of each choice the place of the word.
+    /// The index of the word of each choice.
     pub(super) choices: [usize; 2],
     pub(super) pair: [f64; 2],
 }
 
 impl Gathered {
-    /// The material these numbers describe.
-    pub(super) fn material(&self) -> Phong {
+    /// The material described by these numbers.
+    pub(super) fn material(&self) -> Coefficients {
         let [ambient, diffuse, specular] = self.colours;
         let [exponent, reflection, transmission, index, ..] = self.numbers;
-        Phong {
+        Coefficients {
             ambient,
             diffuse,
             specular,
@@ -262,7 +259,6 @@ impl Gathered {
             reflection,
             transmission,
             index,
-            ..Phong::default()
         }
     }
 }
@@ -274,13 +270,13 @@ struct Axis {
     span: Span,
 }
 
-/// The determinant of the unit directions, if all three could be read.
+/// The determinant of the unit directions; `None` if one could not be read.
 fn determinant([a, b, c]: &[Axis; 3]) -> Option<f64> {
     Some(DMat3::from_cols(a.direction?, b.direction?, c.direction?).determinant())
 }
 
-/// The error for directions that span no volume, at the first that lies along another one, or
-/// else at the third.
+/// The error for directions that span no volume: at the first that is parallel to another,
+/// otherwise at the third.
 fn flat(name: Name, [a, b, c]: &[Axis; 3]) -> Diagnostic {
     let parallel = |first: &Axis, second: &Axis| {
         let across = first
@@ -306,7 +302,7 @@ fn flat(name: Name, [a, b, c]: &[Axis; 3]) -> Diagnostic {
     }
 }
 
-/// A field's component as messages name it: `object 2 (box) corner x`.
+/// A field's component as named in messages: `object 2 (box) corner x`.
 pub(super) fn what(name: Name, field: &Field, component: &str) -> String {
     let space = if component.is_empty() { "" } else { " " };
     match name {
@@ -316,7 +312,7 @@ pub(super) fn what(name: Name, field: &Field, component: &str) -> String {
     }
 }
 
-/// A value as messages tell it that was computed and not read: four digits of it.
+/// A computed value for a message, rounded to four digits.
 fn rounded(value: f64) -> String {
     match format!("{value:.3e}").parse() {
         Ok(rounded) if f64::is_finite(rounded) => concise(rounded),
@@ -324,7 +320,7 @@ fn rounded(value: f64) -> String {
     }
 }
 
-/// What becomes of a value outside of its usual range.
+/// A hint at how a value outside its usual range is treated.
 fn reading(field: &Field) -> String {
     match field.reads_as {
         Some(value) => format!("it reads as {value}"),

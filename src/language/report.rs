@@ -1,4 +1,4 @@
-//! The words that the diagnostics of lowering share.
+//! Wording shared by the diagnostics of lowering.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use crate::text::{
     Diagnostic, Findings, NumberError, Severity, Span, parse_number, slips, without_suffix,
 };
 
-/// A token as messages show it: in backticks, cut short, unprintable characters escaped.
+/// A token for display in messages: in backticks, truncated, unprintable characters escaped.
 pub(super) fn quoted(token: &str) -> String {
     const SHOWN: usize = 24;
     let mut shown: String = token
@@ -20,7 +20,7 @@ pub(super) fn quoted(token: &str) -> String {
     format!("`{shown}`")
 }
 
-/// Reads a number that may have a fraction. An `f` at its end is ignored, with a warning; `what`
+/// Parses a number that may have a fraction. A trailing `f` is ignored, with a warning; `what`
 /// names the field.
 pub(super) fn number(
     span: Span,
@@ -43,7 +43,7 @@ pub(super) fn number(
     Ok(value)
 }
 
-/// The diagnostic for a token that stands where a number is due. `what` names the field.
+/// The diagnostic for a token where a number is expected. `what` names the field.
 pub(super) fn no_number(
     severity: Severity,
     span: Span,
@@ -64,7 +64,7 @@ pub(super) fn no_number(
     }
 }
 
-/// What was probably meant by a token that is not a number.
+/// A hint at what was probably meant by a token that is not a number.
 fn number_hint(token: &str, error: NumberError) -> Option<String> {
     const LONGEST: usize = 64;
     if LONGEST < token.len() {
@@ -105,7 +105,7 @@ fn number_hint(token: &str, error: NumberError) -> Option<String> {
     None
 }
 
-/// The known word that a word is most like, if a slip or two of the hand lie between them.
+/// Returns the known word closest to a word, if at most one or two typing slips apart.
 pub(super) fn nearest_word(
     word: &str,
     known: impl Iterator<Item = &'static str>,
@@ -117,7 +117,7 @@ pub(super) fn nearest_word(
     known
         .map(|known| (slips(word, known), known))
         .filter(|&(slips, known)| {
-            // In a short word two slips leave nothing to know it by.
+            // Two slips would make a short word unrecognisable.
             let allowed = if known.len() < 5 { 1 } else { 2 };
             slips <= allowed
         })
@@ -125,17 +125,17 @@ pub(super) fn nearest_word(
         .map(|(_, known)| known)
 }
 
-/// A node's name, spelled out only where a message needs it.
+/// A node's name, formatted only when a message needs it.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Name {
     View,
     Ambient,
     Light(usize),
-    /// By index, and of what kind.
+    /// By index and kind.
     Object(usize, &'static str),
-    /// Something known by a number: what it is, its number, and of what kind.
+    /// An item with an ID: category, ID and kind.
     Known(&'static str, i64, &'static str),
-    /// A record without a number.
+    /// A record without an ID.
     Record(&'static str),
 }
 
@@ -158,7 +158,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_number_gone_wrong_gets_the_way_out() {
+    fn malformed_numbers_get_a_hint() {
         for (token, hint) in [
             ("1,5", Some("write 1.5")),
             ("1,2,3", Some("without commas")),
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn tokens_are_shown_short_and_printable() {
+    fn quoted_tokens_are_truncated_and_printable() {
         assert_eq!(quoted("ab"), "`ab`");
         assert_eq!(quoted("a\u{1b}[2J"), "`a\\u{1b}[2J`");
         assert_eq!(quoted(&"é".repeat(25)), format!("`{}…`", "é".repeat(24)));

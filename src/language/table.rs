@@ -1,13 +1,13 @@
-//! What the tables of fields are made of: kinds, ranges, steps and units.
+//! The elements of the tables of fields: kinds, ranges, steps and units.
 //!
-//! Each language has one table of what can be said of each thing, in which order, within which range.
-//! Lowering reads its grammar from it, the editor its names, ranges and steps: there is no second list
-//! of what an object holds. A table knows neither text nor values.
+//! Each language has one table of the fields of each kind of node, with their order and ranges.
+//! Lowering takes its grammar from it, the editor its names, ranges and steps: there is no second
+//! list of what an object holds. A table knows neither text nor values.
 
-/// What a field's numbers are.
+/// The kind of a field's numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// One number.
+    /// A single number.
     Number,
     /// A point: x, y, z.
     Point,
@@ -17,9 +17,9 @@ pub enum Kind {
     Axis,
     /// A colour: red, green, blue.
     Colour,
-    /// Width and height, whole numbers.
+    /// Width and height in pixels, integers.
     Pixels,
-    /// Width or height, a whole number.
+    /// Width or height in pixels, an integer.
     Side,
     /// Two numbers: across and up.
     Pair,
@@ -29,25 +29,25 @@ pub enum Kind {
     ScaledColour,
     /// An axis x, y, z and an angle about it.
     Rotation,
-    /// A half-space: the normal x, y, z of its face, and how far along it the face is.
+    /// A half-space: the normal x, y, z of its face, and the offset of the face along it.
     HalfSpace,
-    /// One of some words.
+    /// One of these words.
     Choice(&'static [&'static str]),
-    /// The whole number by which another thing is known.
+    /// The integer ID of another node.
     Reference(Category),
-    /// The name that another thing has.
+    /// The name of another node.
     Name(Category),
-    /// A word of the user's own.
+    /// A free word.
     Word,
 }
 
 impl Kind {
-    /// Whether it is of the picture's size, which no camera moves.
+    /// Whether this is a size of the picture, which no camera movement changes.
     pub const fn is_size(self) -> bool {
         matches!(self, Self::Pixels | Self::Side)
     }
 
-    /// How many numbers it takes.
+    /// The number of components.
     pub const fn components(self) -> usize {
         match self {
             Self::Number
@@ -62,7 +62,7 @@ impl Kind {
         }
     }
 
-    /// What its numbers are called, one name a component; a single number has no name of its own.
+    /// The names of the components, one each; empty for a single number.
     pub const fn component_names(self) -> &'static [&'static str] {
         match self {
             Self::Number
@@ -83,7 +83,7 @@ impl Kind {
     }
 }
 
-/// What numbers are given to; each category has its own.
+/// A category of nodes with IDs or names of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Category {
     /// Lights.
@@ -97,7 +97,7 @@ pub enum Category {
 }
 
 impl Category {
-    /// What one of them is called.
+    /// The noun for one of the category.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Light => "light",
@@ -117,18 +117,18 @@ pub enum Range {
     Positive,
     /// 0 or more.
     NotNegative,
-    /// From 0 to 1, both included.
+    /// From 0 to 1, inclusive.
     Unit,
-    /// Greater than the first, less than the second.
+    /// Between two numbers, exclusive.
     Between(f64, f64),
-    /// A whole number, 1 or more.
+    /// An integer, 1 or more.
     Count,
-    /// A whole number that names a thing.
+    /// An integer ID.
     Identity,
 }
 
 impl Range {
-    /// Whether `value` is within the bounds. Infinity and NaN never are.
+    /// Whether `value` is within the bounds. Always false for infinity and NaN.
     pub fn contains(self, value: f64) -> bool {
         value.is_finite()
             && match self {
@@ -142,7 +142,7 @@ impl Range {
             }
     }
 
-    /// The least and the greatest number within the bounds; none where not all between are.
+    /// The least and greatest number within the bounds; `None` if there are gaps between.
     pub const fn ends(self) -> Option<[f64; 2]> {
         match self {
             Self::Any => Some([f64::MIN, f64::MAX]),
@@ -154,7 +154,7 @@ impl Range {
         }
     }
 
-    /// The bounds as a noun: `a number greater than 0`.
+    /// The bounds as a noun phrase: `a number greater than 0`.
     pub fn words(self) -> String {
         match self {
             Self::Any => "a number".to_owned(),
@@ -163,7 +163,7 @@ impl Range {
         }
     }
 
-    /// The bounds as they follow "must be": `greater than 0`.
+    /// The bounds as a phrase after "must be": `greater than 0`.
     pub fn limits(self) -> String {
         match self {
             Self::Any => "a number".to_owned(),
@@ -177,39 +177,43 @@ impl Range {
     }
 }
 
-/// One field.
+/// A field of a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Field {
-    /// Its name, as messages and the editor say it.
+    /// The name shown in messages and the editor.
     pub key: &'static str,
-    /// What its numbers are.
+    /// The kind of its numbers.
     pub kind: Kind,
-    /// Outside of this it is an error.
+    /// The range outside of which a value is an error.
     pub allowed: Range,
-    /// Outside of this it is a warning.
+    /// The range outside of which a value is a warning.
     pub usual: Range,
-    /// What a number reads as that is allowed but not usual; `None` if it is used as given.
+    /// The value used for a number that is allowed but not usual; `None` to use it as given.
     pub reads_as: Option<f64>,
-    /// What one nudge adds.
+    /// The increment of one nudge.
     pub step: f64,
-    /// Unit, or empty.
+    /// The unit, or an empty string.
     pub unit: &'static str,
-    /// What it does, in one sentence.
+    /// Alternative spellings of the words of a choice, each with the word it stands for.
+    pub other_spellings: &'static [(&'static str, &'static str)],
+    /// A description in one sentence.
     pub doc: &'static str,
 }
 
-/// Other spellings of words that are chosen from, each with the word that it stands for.
-const OTHER_SPELLINGS: &[(&str, &str)] = &[("intersect", "intersection")];
-
-/// The place among `words` of the one that is said, in any of its spellings.
-pub fn place_of(words: &[&str], said: &str) -> Option<usize> {
-    let other = OTHER_SPELLINGS.iter().find(|(other, _)| *other == said);
-    let word = other.map_or(said, |(_, word)| word);
-    words.iter().position(|&known| known == word)
-}
-
 impl Field {
-    /// What each of its components is, as a noun: `a number greater than 0`.
+    /// The index and canonical spelling of a chosen word; `None` if it is unknown.
+    pub fn chosen(&self, said: &str) -> Option<(usize, &'static str)> {
+        let Kind::Choice(words) = self.kind else {
+            return None;
+        };
+        let mut others = self.other_spellings.iter();
+        let other = others.find(|(other, _)| *other == said);
+        let word = other.map_or(said, |(_, word)| word);
+        let place = words.iter().position(|&known| known == word)?;
+        Some((place, words[place]))
+    }
+
+    /// What each component is, as a noun phrase: `a number greater than 0`.
     pub fn expected(&self) -> String {
         match self.kind {
             Kind::Choice(words) => words.join(" or "),
@@ -220,8 +224,8 @@ impl Field {
         }
     }
 
-    /// As [`Field::expected`], and what is usual where more is allowed: `a number, usually from 0
-    /// to 1`.
+    /// As [`Field::expected`], with the usual range where more is allowed:
+    /// `a number, usually from 0 to 1`.
     pub fn advice(&self) -> String {
         let expected = self.expected();
         if self.usual == self.allowed {
@@ -239,6 +243,7 @@ impl Field {
             reads_as: None,
             step: 0.1,
             unit: "",
+            other_spellings: &[],
             doc,
         }
     }
@@ -297,7 +302,7 @@ impl Field {
     }
 }
 
-/// How many numbers these fields take together.
+/// The total number of components of these fields.
 pub const fn numbers(fields: &[Field]) -> usize {
     let (mut sum, mut at) = (0, 0);
     while at < fields.len() {
@@ -335,7 +340,7 @@ mod tests {
     }
 
     #[test]
-    fn ranges_hold_what_their_words_say() {
+    fn ranges_contain_what_their_words_describe() {
         let cases: [(Range, &[f64], &[f64], &str); 7] = [
             (Range::Any, &[-1e308, 0.0], &[], "a number"),
             (

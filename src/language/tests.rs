@@ -1,4 +1,4 @@
-//! What texts mean in every language, as data.
+//! Tests of the meaning of texts in all languages.
 
 mod beginning;
 mod line_ends;
@@ -9,7 +9,7 @@ use super::{Language, Lowered, Source};
 use crate::scene::Meshes;
 use crate::text::{Diagnostic, Position, Span};
 
-/// A text and what it means.
+/// Parses and lowers a text.
 pub(super) fn read_as(language: Language, text: &str, meshes: &Meshes) -> (Source, Lowered) {
     let mut source = Source::new(language, Arc::new(text.to_owned()));
     let lowered = source.lower(meshes).expect("there is memory for it");
@@ -30,7 +30,7 @@ pub(super) fn shown(text: &str, lowered: &Lowered) -> Vec<String> {
     lowered.diagnostics.iter().map(line).collect()
 }
 
-/// Steele, Lea and Flood's `SplitMix64`: enough randomness for tests, the same everywhere.
+/// Steele, Lea and Flood's `SplitMix64`: random enough for tests, and reproducible.
 pub(super) struct Random(pub(super) u64);
 
 impl Random {
@@ -51,7 +51,7 @@ impl Random {
     }
 }
 
-/// Takes away, doubles or replaces one of a text's leaves, or all from it on; `words` stand in.
+/// Removes, doubles or replaces (by one of `words`) a leaf of a text, or cuts the text there.
 pub(super) fn damage(text: &mut String, leaves: &[Span], words: &[&str], random: &mut Random) {
     if leaves.is_empty() {
         text.push_str(random.pick(words));

@@ -1,44 +1,42 @@
-//! A camera in the words of a language: the literals of the view's fields.
+//! Cameras in a language: the literals of the view's fields.
 
-use super::table::{Field, Kind, place_of};
+use super::table::{Field, Kind};
 use crate::text::{line_end, next_line, parse_number};
 
-/// The numbers of each of the view's fields; for a choice, the place of the word.
-pub(super) type Numbers = Vec<Vec<f64>>;
+/// The numbers of the view's fields, one per component; for a choice, the index of the word.
+pub(super) type Numbers = Vec<f64>;
 
-/// What the fields of the view would say of a camera that has these numbers, one literal a component.
-pub(super) fn literals(
-    fields: impl Iterator<Item = &'static Field>,
-    numbers: Numbers,
-) -> Vec<Vec<String>> {
-    let literals = |(field, numbers): (&Field, Vec<f64>)| {
-        let spell = |number| literal(field, number);
-        numbers.into_iter().map(spell).collect()
+/// The literals of the view's fields for these numbers, one per component.
+pub(super) fn literals(fields: &[&'static Field], numbers: &Numbers) -> Vec<Vec<String>> {
+    let mut numbers = numbers.iter();
+    let literals = |field: &&Field| {
+        let own = numbers.by_ref().take(field.kind.components());
+        own.map(|&number| literal(field, number)).collect()
     };
-    fields.zip(numbers).map(literals).collect()
+    fields.iter().map(literals).collect()
 }
 
-/// The numbers of the view after a component of a field says something else.
+/// Returns the numbers of the view with one component of a field changed to `said`.
 ///
 /// # Errors
 ///
-/// What it must be, if it can't be that.
+/// Fails with a description of the permitted values if `said` is not one.
 pub(super) fn saying(
-    mut fields: impl Iterator<Item = &'static Field>,
+    fields: &[&'static Field],
     mut numbers: Numbers,
     (field, component): (usize, usize),
     said: &str,
 ) -> Result<Numbers, String> {
-    let number = numbers
-        .get_mut(field)
-        .and_then(|field| field.get_mut(component));
-    let (Some(field), Some(number)) = (fields.nth(field), number) else {
+    let before = fields.iter().take(field);
+    let first: usize = before.map(|field| field.kind.components()).sum();
+    let number = numbers.get_mut(first + component);
+    let (Some(field), Some(number)) = (fields.get(field), number) else {
         return Ok(numbers);
     };
     *number = match field.kind {
         Kind::Choice(words) => {
-            let place = place_of(words, said);
-            place.ok_or_else(|| words.join(" or "))? as f64
+            let (place, _) = field.chosen(said).ok_or_else(|| words.join(" or "))?;
+            place as f64
         }
         _ => parse_number(said)
             .ok()
@@ -48,22 +46,29 @@ pub(super) fn saying(
     Ok(numbers)
 }
 
-/// How a number of a field is written where none stood before.
+/// Splits off the numbers of a field from the front of `numbers`.
+pub(super) fn take<'n>(numbers: &mut &'n [f64], field: &Field) -> &'n [f64] {
+    let (taken, rest) = numbers.split_at(field.kind.components());
+    *numbers = rest;
+    taken
+}
+
+/// Formats a number of a field in default style, for a place without a number.
 pub(super) fn literal(field: &Field, number: f64) -> String {
     match field.kind {
         Kind::Choice(words) => words[number as usize % words.len()].to_owned(),
         _ if 1e16 <= number.abs() => format!("{number:e}"),
-        // The sum is the same number, and 0 for −0.
+        // Adding 0 keeps the number but turns −0 into 0.
         _ => (number + 0.0).to_string(),
     }
 }
 
-/// Whether the text must change to say another number; it says 0 for both zeros.
+/// Whether a number's text must change; both zeros are written as 0.
 pub(super) fn differ(old: f64, new: f64) -> bool {
     old.partial_cmp(&new) != Some(std::cmp::Ordering::Equal)
 }
 
-/// How the text's first line ends; all others are taken to end so, too.
+/// The line ending of the text's first line, assumed for all others.
 pub(super) fn line_ending(text: &str) -> &'static str {
     let from = line_end(text, 0);
     let end = &text[from..next_line(text, from)];
@@ -73,7 +78,7 @@ pub(super) fn line_ending(text: &str) -> &'static str {
         .unwrap_or(if end.is_empty() { "\n" } else { "\r\r\n" })
 }
 
-/// Where the text begins, after a byte order mark.
+/// The offset where the text begins, after a byte order mark.
 pub(super) fn beginning(text: &str) -> usize {
     const MARK: char = '\u{FEFF}';
     if text.starts_with(MARK) {

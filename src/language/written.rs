@@ -1,18 +1,21 @@
-//! What every language keeps of a text.
+//! The state that every language keeps of a text.
 
+use std::fmt::Debug;
 use std::sync::Arc;
 
+use super::{Editable, Lowered};
+use crate::memory::OutOfMemory;
 use crate::text::{self, Edit, Span, cover};
 
-/// A text, its tree, and where its things stand.
+/// A text, its tree, and the places of its nodes.
 #[derive(Clone, Debug)]
 pub struct Written<Tree, Origins> {
-    /// Where others hold it, it is copied before it changes.
+    /// Copied on write if shared.
     pub(super) text: Arc<String>,
     pub(super) tree: Tree,
-    /// As of the last lowering.
+    /// The places found by the last lowering.
     pub(super) origins: Origins,
-    /// What the last lowering has replaced; `None` once the text has changed.
+    /// The places replaced by the last lowering; `None` once the text has changed.
     former: Option<Origins>,
 }
 
@@ -27,30 +30,49 @@ impl<Tree, Origins: Default> Written<Tree, Origins> {
         }
     }
 
-    /// Applies edits, sorted and disjoint; returns those that lead back. `follow` is given the tree to
-    /// become that of the new text, in which the first span is replaced by the second.
-    pub(super) fn apply(
+    /// Stores the places found by a lowering, or none if it was refused.
+    pub(super) fn settle(
         &mut self,
-        edits: &[Edit],
-        follow: impl FnOnce(&mut Tree, &str, [Span; 2]),
-    ) -> Vec<Edit> {
+        found: Result<(Origins, Lowered), OutOfMemory>,
+    ) -> Result<Lowered, OutOfMemory> {
+        let (origins, lowered) = match found {
+            Ok((origins, lowered)) => (origins, Ok(lowered)),
+            Err(refused) => (Origins::default(), Err(refused)),
+        };
+        self.place(origins);
+        lowered
+    }
+
+    /// Stores the places found by a lowering.
+    pub(super) fn place(&mut self, origins: Origins) {
+        let before = std::mem::replace(&mut self.origins, origins);
+        // Of several lowerings of one text, the first replaced the places of the text before.
+        self.former.get_or_insert(before);
+    }
+}
+
+/// A tree that can follow edits of its text.
+pub(super) trait Follow {
+    /// Updates the tree after an edit that replaced the first span by the second; `text` is the new
+    /// text.
+    fn follow(&mut self, text: &str, edit: [Span; 2]);
+}
+
+impl<Tree: Debug + Follow, Origins: Debug + Default> Editable for Written<Tree, Origins> {
+    fn text(&self) -> &Arc<String> {
+        &self.text
+    }
+
+    fn change(&mut self, edits: &[Edit]) -> Vec<Edit> {
         let inverse = text::apply(Arc::make_mut(&mut self.text), edits);
         let old = cover(edits).unwrap_or_default();
         let changed = cover(&inverse).unwrap_or_default();
-        follow(&mut self.tree, &self.text, [old, changed]);
+        self.tree.follow(&self.text, [old, changed]);
         self.former = None;
         inverse
     }
 
-    /// Takes the places that a lowering has found.
-    pub(super) fn place(&mut self, origins: Origins) {
-        let before = std::mem::replace(&mut self.origins, origins);
-        // Of several lowerings of one text the first has replaced those of the text before.
-        self.former.get_or_insert(before);
-    }
-
-    /// Takes back the places of the lowerings since the text last changed.
-    pub(super) fn take_back(&mut self) {
+    fn restore(&mut self) {
         if let Some(former) = self.former.take() {
             self.origins = former;
         }

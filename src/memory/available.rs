@@ -1,13 +1,13 @@
-//! The tightest of the limits that this system tells of.
+//! The memory limits reported by the system.
 
 use super::{Available, Limit};
 
-/// Room that is left to what is not asked for beforehand: buffers, stacks, messages.
+/// Bytes reserved for allocations that are not checked beforehand: buffers, stacks, messages.
 const SPARE: u64 = 16 << 20;
 
-/// What the tightest limit leaves; `None` where no limit is known.
+/// The memory available within the tightest hard limit, minus a reserve; `None` if none is known.
 pub fn available() -> Option<Available> {
-    // Beyond that one the group is slowed down, not stopped.
+    // Beyond `memory.high` a group is slowed down, not stopped.
     let hard = limits()
         .into_iter()
         .filter(|available| available.limit != Limit::GroupHigh);
@@ -18,7 +18,7 @@ pub fn available() -> Option<Available> {
     })
 }
 
-/// What each known limit leaves.
+/// The memory available within each known limit.
 #[cfg(target_os = "linux")]
 pub fn limits() -> Vec<Available> {
     use super::{cgroup, proc};
@@ -47,7 +47,7 @@ pub fn limits() -> Vec<Available> {
     limits
 }
 
-/// What each known limit leaves. This system does not tell how much of them is used.
+/// The known limits. This system does not report how much of them is used.
 #[cfg(not(target_os = "linux"))]
 pub fn limits() -> Vec<Available> {
     #[cfg(unix)]

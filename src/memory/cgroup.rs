@@ -1,5 +1,5 @@
-//! What control groups leave: the limits of the process's group and of all above it, of either
-//! version, less what their processes use. Cached files don't count as used: they are given up.
+//! The memory available within control groups: the limits of the process's group and its ancestors,
+//! in either version, minus the usage. Cached files don't count as used, since they can be evicted.
 
 use std::path::{Path, PathBuf};
 
@@ -9,21 +9,21 @@ use super::proc::{number, read};
 /// Where control groups are mounted.
 const MOUNT: &str = "/sys/fs/cgroup";
 
-/// Version 1 says "no limit" by a number near 2⁶³.
+/// Version 1 expresses "no limit" as a number near 2⁶³.
 const UNLIMITED: u64 = 1 << 60;
 
-/// What each limit leaves.
+/// The memory available within each limit, in bytes.
 pub(super) fn available() -> Vec<(Limit, u64)> {
     let read = |path: &Path| read(path);
     let groups = read(Path::new("/proc/self/cgroup"));
     left(&groups, Path::new(MOUNT), &read)
 }
 
-/// A version's names for its files.
+/// File names of one cgroup version.
 struct Names {
     limits: &'static [(&'static str, Limit)],
     usage: &'static str,
-    /// Cached files in `memory.stat`.
+    /// Keys of the cached files in `memory.stat`.
     cached: [&'static str; 2],
 }
 
@@ -42,7 +42,7 @@ const FIRST: Names = Names {
     cached: ["total_inactive_file", "total_active_file"],
 };
 
-/// The same from the process's list of groups, with `read` to read files.
+/// Implements [`available`] for a list of groups, with `read` to read files.
 fn left(groups: &str, mount: &Path, read: &impl Fn(&Path) -> String) -> Vec<(Limit, u64)> {
     let mut found = Vec::new();
     for line in groups.lines() {
@@ -64,8 +64,8 @@ fn left(groups: &str, mount: &Path, read: &impl Fn(&Path) -> String) -> Vec<(Lim
     found
 }
 
-/// The folders of a group and of all above it. Inside a container its own group may be mounted as the
-/// root, and the folder of its full name is missing.
+/// The folders of a group and its ancestors. In a container, its own group may be mounted as the
+/// root, so that the folder with the full name does not exist.
 fn folders(root: &Path, group: &str) -> Vec<PathBuf> {
     let group = root.join(group.trim_start_matches('/'));
     let within = group.ancestors().take_while(|path| path.starts_with(root));
@@ -79,8 +79,8 @@ fn of_folder(
     found: &mut Vec<(Limit, u64)>,
 ) {
     for &(name, limit) in names.limits {
-        let said = read(&folder.join(name)).trim().parse();
-        let Some(most) = said.ok().filter(|&most: &u64| most < UNLIMITED) else {
+        let value = read(&folder.join(name)).trim().parse();
+        let Some(most) = value.ok().filter(|&most: &u64| most < UNLIMITED) else {
             continue;
         };
         let used: u64 = read(&folder.join(names.usage)).trim().parse().unwrap_or(0);
@@ -100,7 +100,7 @@ mod tests {
 
     const MB: u64 = 1 << 20;
 
-    /// What is left where these files are, below the mount.
+    /// The available memory if these files exist below the mount.
     fn left_with(groups: &str, files: &[(&str, &str)]) -> Vec<(Limit, u64)> {
         let read = |path: &Path| {
             let found = files
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn each_group_of_the_second_version_limits() {
+    fn every_group_of_version_2_limits_memory() {
         let files = [
             ("a/b/memory.max", "104857600\n"),
             ("a/b/memory.high", "max\n"),
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn a_group_of_the_first_version_limits_unless_it_says_none() {
+    fn a_group_of_version_1_limits_memory_unless_unlimited() {
         let groups = "5:cpu,cpuacct:/x\n4:memory:/docker/1\n1:name=systemd:/x\n0::/\n";
         let files = [
             ("memory/memory.limit_in_bytes", "104857600\n"),
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_known_of_what_is_not_a_list_of_groups() {
+    fn malformed_lists_of_groups_give_no_limits() {
         for groups in ["", "0\n", "::", "x:y\n", "0::/../../etc\n"] {
             assert_eq!(left_with(groups, &[]), [], "{groups:?}");
         }

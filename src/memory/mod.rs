@@ -1,9 +1,9 @@
-//! How much more memory the process may use, and whether work fits into it. Knows nothing of what
-//! the memory is for.
+//! The memory available to the process, and whether work fits into it. Does not know what the
+//! memory is used for.
 //!
-//! Most memory is allocated in ways that end the process where there is none, and on most systems
-//! more is granted than exists. So large work states what it needs before it begins, and is refused
-//! if that is more than the tightest limit leaves.
+//! Most failing allocations abort the process, and most systems grant more memory than exists. So
+//! large work states its need before it begins, and is refused if that exceeds what the tightest
+//! limit leaves.
 
 mod available;
 #[cfg(target_os = "linux")]
@@ -17,31 +17,31 @@ use std::fmt;
 pub use available::{available, limits};
 pub use threads::{NoThreads, start_threads, threads};
 
-/// Work that needs less is not checked: asking the system takes longer, and other allocations are as
-/// likely to fail.
+/// Work that needs fewer bytes is not checked: asking the system takes longer, and any other
+/// allocation is as likely to fail.
 const SMALL: u64 = 4 << 20;
 
-/// What a limit leaves to the process.
+/// Memory available to the process within a limit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Available {
     /// Bytes that can still be allocated.
     pub bytes: u64,
-    /// What limits them.
+    /// The limit.
     pub limit: Limit,
 }
 
 /// A limit on memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limit {
-    /// The process's address space: `ulimit -v`.
+    /// The address space of the process (`ulimit -v`).
     AddressSpace,
-    /// Its private memory: `ulimit -d`.
+    /// The private memory of the process (`ulimit -d`).
     Data,
-    /// A control group's hard limit.
+    /// The hard limit of a control group.
     Group,
     /// The limit beyond which a control group is throttled.
     GroupHigh,
-    /// The machine's memory and swap space.
+    /// Free memory and swap space of the machine.
     Machine,
 }
 
@@ -60,27 +60,27 @@ impl fmt::Display for Limit {
 /// Work that needs memory.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Need {
-    /// What needs it, as the subject of a sentence in the plural: `2000000 objects`.
+    /// What needs it, as a plural subject: `2000000 objects`.
     pub what: String,
-    /// About how much more memory the process will use at most.
+    /// Approximate upper bound of the additional memory, in bytes.
     pub bytes: u64,
 }
 
-/// Work needs more memory than a limit leaves.
+/// The error that work needs more memory than is available.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "out of memory: {} need about {}, of {} available ({})",
     need.what, megabytes(need.bytes), megabytes(available.bytes), available.limit
 )]
 pub struct OutOfMemory {
-    /// What does not fit.
+    /// The memory needed.
     pub need: Need,
-    /// Where it does not fit.
+    /// The memory available.
     pub available: Available,
 }
 
-/// Refuses work that does not fit. `most` is a bound on what it needs that is quick to tell; only where
-/// that does not fit the need itself is asked for.
+/// Refuses work that does not fit. `most` is an upper bound that is quick to compute; `need` is
+/// called only if that does not fit.
 pub fn check(most: u64, need: impl FnOnce() -> Need) -> Result<(), OutOfMemory> {
     if most < SMALL {
         return Ok(());
@@ -98,7 +98,7 @@ fn fits(need: Need, available: Available) -> Result<(), OutOfMemory> {
     Err(OutOfMemory { need, available })
 }
 
-/// A number of bytes as messages show it: `340 MB`.
+/// Formats a number of bytes for messages, rounded up: `340 MB`.
 pub fn megabytes(bytes: u64) -> String {
     format!("{} MB", bytes.div_ceil(1_000_000))
 }
@@ -108,7 +108,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_does_not_fit_says_so() {
+    fn the_message_states_need_and_available_memory() {
         let need = |bytes| Need {
             what: "2000000 objects".to_owned(),
             bytes,
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn small_work_is_never_refused_and_impossible_work_always() {
+    fn small_work_is_never_refused_and_impossible_work_always_is() {
         let need = |bytes| Need {
             what: "things".to_owned(),
             bytes,

@@ -1,13 +1,13 @@
-//! Tables of the system: a key and a number in each line.
+//! Tables in `/proc` and control groups: a key and a number per line.
 
 use std::fs;
 
-/// The text of a table; empty where there is none.
+/// The text of a table; empty if it can't be read.
 pub(super) fn read(path: impl AsRef<std::path::Path>) -> String {
     fs::read_to_string(path).unwrap_or_default()
 }
 
-/// The number in the line that begins with `key`.
+/// The number in the line whose first word is `key`.
 pub(super) fn number(table: &str, key: &str) -> Option<u64> {
     let of = |line: &str| {
         let mut words = line.split_ascii_whitespace();
@@ -17,7 +17,7 @@ pub(super) fn number(table: &str, key: &str) -> Option<u64> {
     table.lines().find_map(of)
 }
 
-/// The bytes in the line that begins with `key` and is given in kilobytes.
+/// The number of bytes in the line whose first word is `key`, which is given in kilobytes.
 pub(super) fn kilobytes(table: &str, key: &str) -> Option<u64> {
     Some(number(table, key)?.saturating_mul(1024))
 }

@@ -1,24 +1,23 @@
-//! Threads under a limit on memory: each takes address space for its stack and for what its
-//! allocations come from, used or not.
+//! Threads under a memory limit: each takes address space for its stack and its heap, used or not.
 
 use std::sync::OnceLock;
 use std::thread;
 
 use rayon::ThreadPoolBuilder;
 
-/// Address space that a thread may take: a stack of two megabytes, and the heap of its own that the
-/// GNU C library reserves.
+/// Address space of a thread in bytes: a stack of two megabytes, and the separate heap that the GNU
+/// C library reserves.
 const EACH: u64 = 66 << 20;
 
-/// The part of the address space that a pool of threads may take is one in so many.
+/// A thread pool may take one part in this many of the address space.
 const SHARE: u64 = 4;
 
-/// The system gives no threads.
+/// The error that no threads can be started.
 #[derive(Clone, Debug, thiserror::Error)]
-#[error("the system gives no threads to work with")]
+#[error("cannot start threads")]
 pub struct NoThreads;
 
-/// How many threads a pool may have of the number wanted: at least one.
+/// The number of threads that a pool may have, from 1 to `wanted`.
 pub fn threads(wanted: usize) -> usize {
     fewer(wanted, address_space_limit())
 }
@@ -30,7 +29,7 @@ fn fewer(wanted: usize, limit: Option<u64>) -> usize {
         .max(1)
 }
 
-/// Address space that threads to be started may take.
+/// Address space in bytes to reserve for threads yet to be started.
 #[cfg(target_os = "linux")]
 pub(super) fn address_space() -> u64 {
     let cores = thread::available_parallelism().map_or(1, usize::from);
@@ -46,15 +45,15 @@ fn address_space_limit() -> Option<u64> {
     None
 }
 
-/// Starts the threads that long work is shared among outside any pool, unless they run already. Left to
-/// start by themselves they panic where the system gives none.
+/// Starts rayon's global pool, used by long work outside any other pool, unless it is running. If
+/// rayon started it implicitly and got no threads, it would panic.
 pub fn start_threads() -> Result<(), NoThreads> {
     static STARTED: OnceLock<Result<(), NoThreads>> = OnceLock::new();
     let start = || {
         let cores = thread::available_parallelism().map_or(1, usize::from);
         let builder = ThreadPoolBuilder::new().num_threads(threads(cores));
         match builder.build_global() {
-            // Others have started them.
+            // It is already running.
             Err(error) if std::error::Error::source(&error).is_none() => Ok(()),
             started => started.map_err(|_| NoThreads),
         }
@@ -67,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn little_address_space_means_few_threads() {
+    fn little_address_space_allows_few_threads() {
         const GB: u64 = 1 << 30;
         for (wanted, limit, got) in [
             (8, None, 8),

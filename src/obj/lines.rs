@@ -1,4 +1,4 @@
-//! Lines and words of both languages.
+//! Splits `.obj` and `.mtl` files into statements and words.
 
 use std::borrow::Cow;
 use std::str;
@@ -6,10 +6,10 @@ use std::str;
 use super::{Finding, MOST_FINDINGS};
 use crate::text::{NumberError, parse_number, visible};
 
-/// A statement: a line, or several that end in `\` but for the last.
+/// A statement: a line, or several lines of which all except the last end in `\`.
 #[derive(Clone, Debug)]
 pub(super) struct Statement<'t> {
-    /// The number of its first line, from 1.
+    /// The number of the first line, from 1.
     pub(super) line: usize,
     text: Cow<'t, [u8]>,
 }
@@ -18,11 +18,11 @@ pub(super) struct Statement<'t> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Word<'s> {
     pub(super) text: &'s [u8],
-    /// Where it begins, in bytes from 1.
+    /// The column of the first byte, in bytes from 1.
     pub(super) column: usize,
 }
 
-/// The statements that are not blank of a text whose first line has this number.
+/// The non-blank statements of a text whose first line has number `line`.
 pub(super) fn statements(bytes: &[u8], line: usize) -> impl Iterator<Item = Statement<'_>> {
     let mut lines = bytes.split(|&byte| byte == b'\n').zip(line..);
     std::iter::from_fn(move || {
@@ -42,7 +42,7 @@ pub(super) fn statements(bytes: &[u8], line: usize) -> impl Iterator<Item = Stat
 }
 
 impl Statement<'_> {
-    /// Its words, but for a comment at the end.
+    /// The words, without a comment at the end.
     pub(super) fn words(&self) -> impl Iterator<Item = Word<'_>> {
         let start = self.text.as_ptr() as usize;
         self.text
@@ -55,7 +55,7 @@ impl Statement<'_> {
             })
     }
 
-    /// All after the first word, which may be a name with blanks in it, up to a comment.
+    /// Everything after the first word up to a comment: a name may contain blanks.
     pub(super) fn rest(&self) -> Word<'_> {
         let text = self.text.trim_ascii_start();
         let keyword = text.iter().take_while(|byte| !byte.is_ascii_whitespace());
@@ -74,25 +74,25 @@ impl Statement<'_> {
         }
     }
 
-    /// The column behind it, where something is missing.
+    /// The column after the end, for errors about missing words.
     pub(super) fn end(&self) -> usize {
         1 + self.text.len()
     }
 }
 
 impl Word<'_> {
-    /// What it says, safe to print and not too long.
+    /// The text, shortened and escaped for printing.
     pub(super) fn shown(&self) -> String {
         let text = String::from_utf8_lossy(&self.text[..self.text.len().min(40)]);
         visible(&text).into_owned()
     }
 
-    /// What it says as a name.
+    /// The text as a name.
     pub(super) fn name(&self) -> String {
         String::from_utf8_lossy(self.text).into_owned()
     }
 
-    /// The number it is.
+    /// Parses a number. Fails with a message.
     pub(super) fn number(&self) -> Result<f64, String> {
         let number = str::from_utf8(self.text).map_err(|_| NumberError::NotANumber);
         match number.and_then(parse_number) {
@@ -103,23 +103,23 @@ impl Word<'_> {
     }
 }
 
-/// What was found wrong with a text.
+/// The errors and warnings of a text.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
-    /// The library that is read; none in the mesh itself.
+    /// The library being read; `None` for the mesh itself.
     pub(super) library: Option<String>,
     pub(super) errors: Vec<Finding>,
     pub(super) warnings: Vec<Finding>,
 }
 
 impl Findings {
-    /// Notes an error.
+    /// Adds an error.
     pub(super) fn error(&mut self, line: usize, column: usize, message: impl Into<String>) {
         let finding = self.finding(line, column, message.into());
         self.errors.push(finding);
     }
 
-    /// Notes a warning, unless there are many.
+    /// Adds a warning, unless there are [`MOST_FINDINGS`] already.
     pub(super) fn warn(&mut self, line: usize, column: usize, message: impl Into<String>) {
         if self.warnings.len() < MOST_FINDINGS {
             let finding = self.finding(line, column, message.into());
@@ -127,7 +127,7 @@ impl Findings {
         }
     }
 
-    /// Whether reading on is of no use.
+    /// Whether there are enough errors to stop reading.
     pub(super) fn is_full(&self) -> bool {
         MOST_FINDINGS <= self.errors.len()
     }

@@ -1,4 +1,4 @@
-//! Meshes: vertices, faces, and which material they have.
+//! Meshes: vertices, faces and the assignment of materials.
 
 use std::collections::HashMap;
 use std::ops::{Range, RangeInclusive};
@@ -7,37 +7,38 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::lines::{Findings, Statement, Word, statements};
-use super::plain::{self, Part, Plain};
+use super::plain::{self, Part, Plain, push_corners};
 use super::{Finding, MOST_FINDINGS, MOST_LIBRARIES, Model, mtl};
 use crate::geometry::{ABSENT, Mesh, MeshError, MeshParts, SlotRun};
 use crate::text::{counted, visible};
 
-/// The kinds of what a corner of a face names, in this order.
+/// The kinds of values that a corner of a face refers to, in this order.
 const KINDS: [&str; 3] = ["v", "vt", "vn"];
 
-/// A mesh as far as it is read.
+/// A mesh being read.
 #[derive(Default)]
 struct Reading {
-    /// How many triangles there may be.
+    /// The maximum number of triangles.
     most: usize,
     parts: MeshParts,
     findings: Findings,
-    /// The greatest index of each kind, and where it stands: what it names may come later.
+    /// The greatest index of each kind plus 1, with its line and column; checked at the end because
+    /// the value may follow later.
     greatest: [(u32, usize, usize); 3],
-    /// The slots of materials by name; slot 0 is for none.
+    /// The slots of materials by name; slot 0 means no material.
     slots: HashMap<String, u32>,
-    /// Where each slot but the first was first named.
+    /// The names of slots from 1 on, with line and column of their first use.
     named: Vec<(String, usize, usize)>,
-    /// Libraries and where they were first named.
+    /// The names of libraries with line and column.
     libraries: Vec<(String, usize, usize)>,
-    /// Corners of the face at hand: position, texture coordinates, normal.
+    /// The corners of the current face: position, texture coordinates, normal.
     corners: Vec<[u32; 3]>,
 }
 
-/// A column and what is wrong there.
+/// A column and an error message.
 type Fault = (usize, String);
 
-/// See [`super::read`]. `most` is how many triangles there may be.
+/// See [`super::read`]. `most` is the maximum number of triangles.
 pub(super) fn read<B: AsRef<[u8]>>(
     bytes: &[u8],
     most: usize,
@@ -47,7 +48,7 @@ pub(super) fn read<B: AsRef<[u8]>>(
     read_parts(bytes, plain::parts(bytes, plain::PART), most, library)
 }
 
-/// Reads a text whose parts are these.
+/// Reads a text that has been cut into parts.
 pub(super) fn read_parts<B: AsRef<[u8]>>(
     bytes: &[u8],
     parts: Vec<Part>,
@@ -91,7 +92,7 @@ pub(super) fn read_parts<B: AsRef<[u8]>>(
     if !findings.errors.is_empty() {
         return Err(findings.errors);
     }
-    // Values that no corner names have no corners at all.
+    // Values that no corner refers to are dropped.
     if parts.normals.corners.is_empty() {
         parts.normals.values.clear();
     }
@@ -117,7 +118,7 @@ pub(super) fn read_parts<B: AsRef<[u8]>>(
 }
 
 impl Reading {
-    /// Makes room for what parts say.
+    /// Reserves memory for the content of plain parts.
     fn reserve(&mut self, parts: &[Part]) {
         let plain = || parts.iter().filter_map(|part| part.plain.as_ref());
         let sum = |of: fn(&Plain) -> usize| plain().map(of).sum();
@@ -131,12 +132,12 @@ impl Reading {
         own.normals.corners.reserve(corners);
     }
 
-    /// Whether there may be the triangles of a part too.
+    /// Whether the triangles of a part stay within the limit.
     fn has_room(&self, plain: &Plain) -> bool {
         self.parts.triangles.len() + plain.triangles.len() <= self.most
     }
 
-    /// Takes what plain lines say, the first of which is this one.
+    /// Appends the content of plain lines, the first of which has number `line`.
     fn append(&mut self, plain: Plain, line: usize) {
         let parts = &mut self.parts;
         let before = parts.triangles.len();
@@ -145,12 +146,12 @@ impl Reading {
         parts.normals.values.extend(plain.normals);
         let added = plain.triangles.len();
         parts.triangles.extend(plain.triangles);
-        note_all(
+        push_all_corners(
             &mut parts.uvs.corners,
             before..before + added,
             plain.uv_corners,
         );
-        note_all(
+        push_all_corners(
             &mut parts.normals.corners,
             before..before + added,
             plain.normal_corners,
@@ -168,10 +169,10 @@ impl Reading {
         };
         match keyword.text {
             b"v" => {
-                // What follows the place is a weight or a colour.
-                let (place, fault) = numbers(statement, 3..=7);
-                // A place is kept even if it is wrong, so that indices go on meaning the same.
-                self.parts.positions.push(DVec3::from_array(place));
+                // A weight or a colour may follow.
+                let (position, fault) = numbers(statement, 3..=7);
+                // Kept even if it is wrong, so that the following indices keep their meaning.
+                self.parts.positions.push(DVec3::from_array(position));
                 fault
             }
             b"vt" => {
@@ -192,17 +193,17 @@ impl Reading {
                     return Err((statement.end(), "mtllib: the name is missing".into()));
                 }
                 if self.libraries.len() == MOST_LIBRARIES {
-                    let message = format!("more than {MOST_LIBRARIES} mtllib");
+                    let message = format!("more than {MOST_LIBRARIES} mtllib statements");
                     return Err((keyword.column, message));
                 }
                 let library = (names.name(), statement.line, names.column);
                 self.libraries.push(library);
                 Ok(())
             }
-            // Groups and smoothing say nothing about triangles; points and lines have no surface.
+            // Groups and smoothing do not affect triangles; points and lines have no surface.
             b"g" | b"o" | b"s" | b"mg" | b"p" | b"l" => Ok(()),
             _ => {
-                let message = format!("`{}` is not drawn", keyword.shown());
+                let message = format!("`{}` is ignored", keyword.shown());
                 self.findings.warn(statement.line, keyword.column, message);
                 Ok(())
             }
@@ -216,8 +217,8 @@ impl Reading {
             corners.push(self.corner(statement.line, word)?);
         }
         if corners.len() < 3 {
-            let count = counted(corners.len(), "corner");
-            let message = format!("f: expected three corners or more, found {count}");
+            let count = corners.len();
+            let message = format!("f: expected at least three corners, found {count}");
             return Err((statement.end(), message));
         }
         let parts = &mut self.parts;
@@ -229,8 +230,8 @@ impl Reading {
             let fan = [corners[0], pair[0], pair[1]];
             parts.triangles.push(fan.map(|corner| corner[0]));
             let number = parts.triangles.len();
-            note(&mut parts.uvs.corners, number, fan.map(|corner| corner[1]));
-            note(
+            push_corners(&mut parts.uvs.corners, number, fan.map(|corner| corner[1]));
+            push_corners(
                 &mut parts.normals.corners,
                 number,
                 fan.map(|corner| corner[2]),
@@ -240,7 +241,7 @@ impl Reading {
         Ok(())
     }
 
-    /// The indices that a corner names, from 0.
+    /// Parses the indices of a corner, converted to start at 0.
     fn corner(&mut self, line: usize, word: Word<'_>) -> Result<[u32; 3], Fault> {
         let counts = [
             self.parts.positions.len(),
@@ -264,14 +265,14 @@ impl Reading {
                         "is not a corner: expected v, v/vt, v//vn or v/vt/vn".into(),
                     ));
                 }
-                Some(0) => return Err(fault("names number 0: the first is 1".into())),
+                Some(0) => return Err(fault("is not an index: indices start at 1".into())),
                 Some(number) if 0 < number => number - 1,
                 Some(number) => counts[place] as i64 + number,
             };
             let Some(index) = u32::try_from(index).ok().filter(|&index| index < ABSENT) else {
                 let count = counts[place];
                 return Err(fault(format!(
-                    "names a {kind} that is not among the {count} so far"
+                    "is out of range: there are {count} {kind} so far"
                 )));
             };
             corner[place] = index;
@@ -303,7 +304,7 @@ impl Reading {
         Ok(())
     }
 
-    /// Indices may name what comes after them, but not what never comes.
+    /// Checks that the greatest indices exist: they may refer to later lines.
     fn check_indices(&mut self) {
         let counts = [
             self.parts.positions.len(),
@@ -314,26 +315,26 @@ impl Reading {
             KINDS.into_iter().zip(counts).zip(self.greatest)
         {
             if count < greatest as usize {
-                let message = format!("f: names {kind} {greatest}, but there are only {count}");
+                let message = format!("f: refers to {kind} {greatest}, but there are only {count}");
                 self.findings.error(line, column, message);
             }
         }
     }
 
-    /// The material of each slot, and what is wrong with the libraries.
+    /// Reads the libraries. Returns the material of each slot and the warnings.
     fn materials<B: AsRef<[u8]>>(
         &mut self,
         mut library: impl FnMut(&str) -> Result<B, String>,
     ) -> (Vec<Option<mtl::Material>>, Vec<Finding>) {
         let mut materials = HashMap::new();
-        let mut doubts = Findings::default();
+        let mut findings = Findings::default();
         let mut seen = Vec::new();
         for (names, line, column) in std::mem::take(&mut self.libraries) {
             if seen.contains(&names) {
                 continue;
             }
             seen.push(names.clone());
-            // A line may name one library with blanks in its name, or several.
+            // A line may name one library whose name contains blanks, or several.
             let several = names.contains(|c: char| c.is_ascii_whitespace());
             let read: Vec<_> = match library(&names) {
                 Err(_) if several => names
@@ -347,42 +348,33 @@ impl Reading {
                 match bytes {
                     Ok(bytes) => match mtl::read(bytes.as_ref(), &name) {
                         Ok(defined) => materials.extend(defined),
-                        Err(errors) => doubts.warnings.extend(errors),
+                        Err(errors) => findings.warnings.extend(errors),
                     },
                     Err(reason) => {
-                        let message = format!("`{}` can't be read: {reason}", visible(&name));
-                        doubts.warn(line, column, message);
+                        let message = format!("cannot read `{}`: {reason}", visible(&name));
+                        findings.warn(line, column, message);
                     }
                 }
             }
         }
-        // What a library that can't be read defines is not known.
-        let is_known = doubts.warnings.is_empty();
+        // The definitions in an unreadable library are not known.
+        let is_known = findings.warnings.is_empty();
         let mut by_slot = vec![None];
         for (name, line, column) in std::mem::take(&mut self.named) {
             let material = materials.get(&name).cloned();
             if material.is_none() && is_known {
                 let message = format!("no library defines `{}`", visible(&name));
-                doubts.warn(line, column, message);
+                findings.warn(line, column, message);
             }
             by_slot.push(material);
         }
-        doubts.warnings.truncate(MOST_FINDINGS);
-        (by_slot, doubts.warnings)
+        findings.warnings.truncate(MOST_FINDINGS);
+        (by_slot, findings.warnings)
     }
 }
 
-/// Adds the indices of a triangle, which is the `number`th, unless none before and none of it has
-/// any.
-pub(super) fn note(corners: &mut Vec<[u32; 3]>, number: usize, triangle: [u32; 3]) {
-    if !corners.is_empty() || triangle != [ABSENT; 3] {
-        corners.resize(number - 1, [ABSENT; 3]);
-        corners.push(triangle);
-    }
-}
-
-/// Adds the indices of a run of triangles as [`note`] does.
-fn note_all(corners: &mut Vec<[u32; 3]>, run: Range<usize>, triangles: Vec<[u32; 3]>) {
+/// Adds the indices of a run of triangles like [`push_corners`].
+fn push_all_corners(corners: &mut Vec<[u32; 3]>, run: Range<usize>, triangles: Vec<[u32; 3]>) {
     if corners.is_empty() && triangles.is_empty() {
         return;
     }
@@ -391,11 +383,11 @@ fn note_all(corners: &mut Vec<[u32; 3]>, run: Range<usize>, triangles: Vec<[u32;
     corners.resize(run.end, [ABSENT; 3]);
 }
 
-/// The first N numbers of a statement, 0 where there are none, and what is wrong with it: it has as
-/// many words as `due`, and those N are numbers.
+/// Reads the first N numbers of a statement, 0 if missing. Also returns an error unless these are
+/// numbers and the number of words is in `allowed`.
 fn numbers<const N: usize>(
     statement: &Statement<'_>,
-    due: RangeInclusive<usize>,
+    allowed: RangeInclusive<usize>,
 ) -> ([f64; N], Result<(), Fault>) {
     let mut numbers = [0.0; N];
     let mut count = 0;
@@ -409,13 +401,13 @@ fn numbers<const N: usize>(
             }
         }
         count += 1;
-        if *due.end() < count {
-            let message = format!("expected at most {}", counted(*due.end(), "number"));
+        if *allowed.end() < count {
+            let message = format!("expected at most {}", counted(*allowed.end(), "number"));
             return (numbers, fault(word.column, &message));
         }
     }
-    if count < *due.start() {
-        let expected = counted(*due.start(), "number");
+    if count < *allowed.start() {
+        let expected = counted(*allowed.start(), "number");
         let message = format!("expected {expected}, found {count}");
         return (numbers, fault(statement.end(), &message));
     }

@@ -1,8 +1,7 @@
-//! Wavefront `.obj` meshes and their `.mtl` materials: bytes in, a mesh out. Knows no files; whoever
-//! asks for a mesh hands in the bytes of the libraries it names.
+//! Parses Wavefront `.obj` meshes and their `.mtl` materials from bytes. Accesses no files; the
+//! caller supplies the bytes of the libraries that a mesh names.
 //!
-//! Of a material there is what its statements say; what a surface is to look like for it is for
-//! the scene's format to decide.
+//! A material is just what its statements specify; the scene's language decides how it looks.
 
 mod lines;
 mod mesh;
@@ -19,39 +18,39 @@ use crate::geometry::Mesh;
 
 pub use mtl::Material;
 
-/// The most triangles of a mesh: with its structure it takes less than 2 GB.
+/// The maximum number of triangles of a mesh, which with its tree takes less than 2 GB.
 pub const MOST_TRIANGLES: usize = 1 << 24;
 
-/// The most libraries that a mesh may name.
+/// The maximum number of libraries that a mesh may name.
 pub const MOST_LIBRARIES: usize = 64;
 
-/// The most errors and the most warnings that are told of; reading ends at the last error.
+/// The maximum number of errors, and of warnings, to report. Reading stops at the last error.
 const MOST_FINDINGS: usize = 10;
 
 /// A mesh with its materials.
 #[derive(Debug)]
 pub struct Model {
-    /// Its triangles.
+    /// The triangles.
     pub mesh: Arc<Mesh>,
-    /// The material of each slot; none for triangles without one, or with one that no library
+    /// The material of each slot; `None` for triangles without one, or with one that no library
     /// defines.
     pub materials: Vec<Option<Material>>,
-    /// What is doubtful about the text, at most ten of it.
+    /// Warnings about the mesh, at most ten.
     pub warnings: Vec<Finding>,
-    /// What is wrong with the libraries, at most ten of it.
+    /// Warnings about the libraries, at most ten.
     pub library_warnings: Vec<Finding>,
 }
 
-/// Something wrong with a line.
+/// An error or a warning at a place in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// The library it is in, as the mesh names it; none if it is in the mesh itself.
+    /// The library as named by the mesh; `None` for the mesh itself.
     pub library: Option<String>,
     /// The line, from 1; the last one if something is missing at the end.
     pub line: usize,
     /// The column of the offending word, in bytes from 1.
     pub column: usize,
-    /// What is wrong. May hold foreign text, which is safe to print.
+    /// The message. May quote the file, escaped for safe printing.
     pub message: String,
 }
 
@@ -70,11 +69,11 @@ impl fmt::Display for Finding {
     }
 }
 
-/// Reads a mesh. `library` gives the bytes of a library by the name that the mesh gives it, or says
-/// why it can't be read. A library with errors defines nothing. Polygons become fans around their
-/// first corner, in file order.
+/// Reads a mesh. `library` returns the bytes of a library, given its name in the mesh, or why it
+/// cannot be read. A library with errors defines nothing. Polygons become triangle fans around
+/// their first corner, in file order.
 ///
-/// The errors of up to ten lines are told of at once.
+/// Fails with the errors of up to ten lines.
 pub fn read<B: AsRef<[u8]>>(
     bytes: &[u8],
     library: impl FnMut(&str) -> Result<B, String>,

@@ -1,26 +1,26 @@
-//! Libraries of materials.
+//! Material libraries.
 
 use std::collections::HashMap;
 
 use super::Finding;
 use super::lines::{Findings, Statement, Word, statements};
 
-/// What a library says about a material.
+/// A material as a library defines it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// The library it is from, as the mesh names it: paths are relative to it.
+    /// The library as named by the mesh; paths are relative to it.
     pub library: String,
-    /// Kd; white unless said.
+    /// Kd; white by default.
     pub diffuse: [f64; 3],
-    /// Ks; black unless said.
+    /// Ks; black by default.
     pub specular: [f64; 3],
-    /// Ns; 0 unless said.
+    /// Ns; 0 by default.
     pub exponent: f64,
-    /// Ni; 1 unless said.
+    /// Ni; 1 by default.
     pub index: f64,
-    /// illum; 2 unless said.
+    /// illum; 2 by default.
     pub illumination: u32,
-    /// Tf; black unless said.
+    /// Tf; black by default.
     pub filter: [f64; 3],
     /// The path of `map_Kd`.
     pub diffuse_map: Option<String>,
@@ -44,7 +44,7 @@ impl Material {
     }
 }
 
-/// The materials of a library by name; of two with one name the last counts.
+/// Reads the materials of a library by name. Of two with the same name the last counts.
 pub(super) fn read(bytes: &[u8], library: &str) -> Result<HashMap<String, Material>, Vec<Finding>> {
     let mut materials = HashMap::new();
     let mut findings = Findings {
@@ -83,7 +83,7 @@ pub(super) fn read(bytes: &[u8], library: &str) -> Result<HashMap<String, Materi
             }
             continue;
         };
-        if let Err((column, message)) = say(material, keyword, &statement) {
+        if let Err((column, message)) = set(material, keyword, &statement) {
             let message = format!("{}: {message}", keyword.shown());
             findings.error(statement.line, column, message);
         }
@@ -96,7 +96,7 @@ pub(super) fn read(bytes: &[u8], library: &str) -> Result<HashMap<String, Materi
     }
 }
 
-/// Whether a statement says something about a material that is read.
+/// Whether a keyword sets a property of a material.
 fn is_known(keyword: Word<'_>) -> bool {
     matches!(
         keyword.text,
@@ -104,10 +104,10 @@ fn is_known(keyword: Word<'_>) -> bool {
     )
 }
 
-/// A column and what is wrong there.
+/// A column and an error message.
 type Fault = (usize, String);
 
-fn say(material: &mut Material, keyword: Word<'_>, statement: &Statement<'_>) -> Result<(), Fault> {
+fn set(material: &mut Material, keyword: Word<'_>, statement: &Statement<'_>) -> Result<(), Fault> {
     match keyword.text {
         b"Kd" => colour(&mut material.diffuse, statement)?,
         b"Ks" => colour(&mut material.specular, statement)?,
@@ -129,8 +129,7 @@ fn say(material: &mut Material, keyword: Word<'_>, statement: &Statement<'_>) ->
     Ok(())
 }
 
-/// One number for all of red, green and blue, or one for each; colours as spectra or CIE XYZ are
-/// passed over.
+/// Reads a colour: one number for all channels, or three. Spectra and CIE XYZ are ignored.
 fn colour(colour: &mut [f64; 3], statement: &Statement<'_>) -> Result<(), Fault> {
     let mut values = Vec::with_capacity(3);
     for word in statement.words().skip(1) {
@@ -139,13 +138,13 @@ fn colour(colour: &mut [f64; 3], statement: &Statement<'_>) -> Result<(), Fault>
         }
         values.push(word.number().map_err(|message| (word.column, message))?);
         if 3 < values.len() {
-            return Err((word.column, "expected one number or three".into()));
+            return Err((word.column, "expected one or three numbers".into()));
         }
     }
     *colour = match values[..] {
         [grey] => [grey; 3],
         [red, green, blue] => [red, green, blue],
-        _ => return Err((statement.end(), "expected one number or three".into())),
+        _ => return Err((statement.end(), "expected one or three numbers".into())),
     };
     Ok(())
 }
@@ -157,7 +156,7 @@ fn number(statement: &Statement<'_>) -> Result<f64, Fault> {
     word.number().map_err(|message| (word.column, message))
 }
 
-/// The path behind the options of a map, which are passed over.
+/// Reads the path of a map after its options, which are ignored.
 fn path(statement: &Statement<'_>) -> Result<String, Fault> {
     let whole = statement.rest();
     let mut words = statement.words().skip(1).peekable();

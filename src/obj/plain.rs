@@ -1,19 +1,18 @@
-//! The plain lines of a mesh, read side by side: vertices, and faces whose corners are counted from
-//! the first. A part of the text that holds anything else is left to the reader in order.
+//! Reads plain lines of a mesh in parallel: vertices, and faces with positive indices. A part of
+//! the text that contains any other statement is left to the sequential reader.
 
 use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::mesh::note;
 use crate::geometry::ABSENT;
 use crate::text::parse_number;
 
-/// Bytes of text that are read at once.
+/// The length in bytes of the parts that are read in parallel.
 pub(super) const PART: usize = 1 << 18;
 
-/// What plain lines say.
+/// The content of plain lines.
 #[derive(Debug, Default)]
 pub(super) struct Plain {
     pub(super) positions: Vec<DVec3>,
@@ -22,23 +21,23 @@ pub(super) struct Plain {
     pub(super) triangles: Vec<[u32; 3]>,
     pub(super) uv_corners: Vec<[u32; 3]>,
     pub(super) normal_corners: Vec<[u32; 3]>,
-    /// The greatest index of each kind and 1, and the line and the column where it first stands.
+    /// The greatest index of each kind plus 1, with the line and column of its first use.
     pub(super) greatest: [(u32, usize, usize); 3],
 }
 
 /// A part of a mesh's text.
 pub(super) struct Part {
-    /// Where it stands.
+    /// The range of its bytes.
     pub(super) range: Range<usize>,
-    /// How many lines it has.
+    /// The number of its lines.
     pub(super) lines: usize,
-    /// How many end before the last that is not blank, if there is one.
+    /// The number of lines before the last non-blank one; `None` if all are blank.
     pub(super) last: Option<usize>,
-    /// What it says, if all of it is plain.
+    /// The content, if all of it is plain.
     pub(super) plain: Option<Plain>,
 }
 
-/// Reads the plain parts of a text, which is cut into parts of about so many bytes.
+/// Cuts a text into parts of about `size` bytes and reads those that are plain.
 pub(super) fn parts(bytes: &[u8], size: usize) -> Vec<Part> {
     let part = |range: Range<usize>| {
         let bytes = &bytes[range.clone()];
@@ -57,8 +56,8 @@ pub(super) fn parts(bytes: &[u8], size: usize) -> Vec<Part> {
     }
 }
 
-/// How many lines end in a text. Sums of bytes are counted sixteen and more at once, those of larger
-/// numbers take a fifth of the time that reading takes.
+/// The number of line ends in a text. Sums bytes, 16 or more per instruction: with wider integers
+/// counting takes a fifth of the time that reading takes.
 fn lines(bytes: &[u8]) -> usize {
     let of_few = |few: &[u8]| {
         let ends = few.iter().map(|&byte| u8::from(byte == b'\n'));
@@ -67,7 +66,7 @@ fn lines(bytes: &[u8]) -> usize {
     bytes.chunks(u8::MAX.into()).map(of_few).sum()
 }
 
-/// Cuts a text behind lines that do not go on in the next one.
+/// Cuts a text after lines that are not continued.
 fn cut(bytes: &[u8], part: usize) -> Vec<Range<usize>> {
     let mut parts = Vec::new();
     let mut start = 0;
@@ -76,9 +75,9 @@ fn cut(bytes: &[u8], part: usize) -> Vec<Range<usize>> {
         while end < bytes.len() {
             let line = bytes[end..].iter().position(|&byte| byte == b'\n');
             let line_end = line.map_or(bytes.len(), |line| end + line);
-            let goes_on = bytes[start..line_end].trim_ascii_end().ends_with(b"\\");
+            let continues = bytes[start..line_end].trim_ascii_end().ends_with(b"\\");
             end = bytes.len().min(line_end + 1);
-            if !goes_on {
+            if !continues {
                 break;
             }
         }
@@ -88,7 +87,7 @@ fn cut(bytes: &[u8], part: usize) -> Vec<Range<usize>> {
     parts
 }
 
-/// Reads a text if all of it is plain.
+/// Reads a text. Returns `None` unless all of it is plain.
 fn read(text: &str) -> Option<Plain> {
     let mut plain = Plain::default();
     let mut corners = Vec::new();
@@ -99,11 +98,11 @@ fn read(text: &str) -> Option<Plain> {
         }
         let mut words = Words { line, at: 0 };
         match words.next().map(str::as_bytes) {
-            // Groups and smoothing say nothing about triangles.
+            // Groups and smoothing do not affect triangles.
             None | Some(b"g" | b"o" | b"s") => {}
             Some(b"v") => {
-                let place = words.numbers()?;
-                plain.positions.push(DVec3::from_array(place));
+                let position = words.numbers()?;
+                plain.positions.push(DVec3::from_array(position));
                 // A weight or a colour may follow.
                 if 4 < words.count() {
                     return None;
@@ -154,8 +153,8 @@ impl Plain {
             let fan = [*first, pair[0], pair[1]];
             self.triangles.push(fan.map(|corner| corner[0]));
             let number = self.triangles.len();
-            note(&mut self.uv_corners, number, fan.map(|corner| corner[1]));
-            note(
+            push_corners(&mut self.uv_corners, number, fan.map(|corner| corner[1]));
+            push_corners(
                 &mut self.normal_corners,
                 number,
                 fan.map(|corner| corner[2]),
@@ -168,7 +167,7 @@ impl Plain {
 /// The words of a line, up to a comment.
 struct Words<'t> {
     line: &'t str,
-    /// Where the last one ends.
+    /// The offset after the last word returned.
     at: usize,
 }
 
@@ -198,20 +197,20 @@ impl<'t> Words<'t> {
         Some(&self.line[start..end])
     }
 
-    /// How many are left.
+    /// The number of remaining words.
     fn count(mut self) -> usize {
         std::iter::from_fn(|| self.next()).count()
     }
 }
 
-/// The indices that a corner names, from 0.
+/// Parses the indices of a corner, converted to start at 0.
 fn corner(word: &str) -> Option<[u32; 3]> {
     let mut corner = [ABSENT; 3];
     let mut rest = word.as_bytes();
     for (place, index) in corner.iter_mut().enumerate() {
         let (named, after) = number(rest);
         *index = match named {
-            // Nothing between two strokes names nothing.
+            // Nothing between two slashes: no index.
             None if 0 < place => ABSENT,
             named => named?,
         };
@@ -224,9 +223,10 @@ fn corner(word: &str) -> Option<[u32; 3]> {
     None
 }
 
-/// The index that digits give, from 0, and what follows them: no stroke if they give none.
+/// Parses an index, converted to start at 0. Also returns the rest, which does not begin with a
+/// slash if the digits are not a valid index.
 fn number(bytes: &[u8]) -> (Option<u32>, &[u8]) {
-    /// All numbers of so many digits are indices.
+    /// All numbers with this many digits fit.
     const DIGITS: usize = 9;
     let digits = bytes
         .iter()
@@ -247,12 +247,21 @@ fn number(bytes: &[u8]) -> (Option<u32>, &[u8]) {
     }
 }
 
+/// Adds the indices of a triangle, which is the `number`th, unless none before and none of it has
+/// any.
+pub(super) fn push_corners(corners: &mut Vec<[u32; 3]>, number: usize, triangle: [u32; 3]) {
+    if !corners.is_empty() || triangle != [ABSENT; 3] {
+        corners.resize(number - 1, [ABSENT; 3]);
+        corners.push(triangle);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn texts_are_cut_behind_statements() {
+    fn texts_are_cut_between_statements() {
         let text = b"v 1\nv 2 \\ \n3\nv 4\nv 5";
         let cuts = |part| {
             cut(text, part)

@@ -8,31 +8,31 @@ use crate::geometry::{Affine, Instance, Ray, Shape};
 
 const SQUARE: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
 
-/// There are no libraries.
-fn nothing(_: &str) -> Result<Vec<u8>, String> {
+/// Finds no library.
+fn no_library(_: &str) -> Result<Vec<u8>, String> {
     Err("no such file".to_owned())
 }
 
-fn alone(text: &str) -> Result<Model, Vec<super::Finding>> {
-    read(text.as_bytes(), nothing)
+fn read_alone(text: &str) -> Result<Model, Vec<super::Finding>> {
+    read(text.as_bytes(), no_library)
 }
 
 fn model(text: &str) -> Model {
-    alone(text).unwrap_or_else(|errors| panic!("{text} is sound, but: {}", errors[0]))
+    read_alone(text).unwrap_or_else(|errors| panic!("{text}: {}", errors[0]))
 }
 
-fn told(findings: &[super::Finding]) -> Vec<String> {
+fn messages(findings: &[super::Finding]) -> Vec<String> {
     findings.iter().map(ToString::to_string).collect()
 }
 
-/// The mesh in the world as it stands in the file; its slots are their own tags.
+/// The mesh placed without a transformation; the tag of each slot is its number.
 fn shape(model: Model) -> Shape {
     let frame = Affine::of_matrix(DVec3::AXES, DVec3::ZERO).expect("the axes span a volume");
     let tags = (0..model.materials.len() as u32).collect();
     Shape::Mesh(Box::new(Instance::new(model.mesh, &frame, tags)))
 }
 
-/// Triangle, slot, texture coordinates and shading normal where a ray down on x, y meets a mesh.
+/// Triangle, slot, texture coordinates and shading normal where a ray down at x, y hits a mesh.
 fn seen(shape: &Shape, x: f64, y: f64) -> Option<(u32, u32, DVec2, DVec3)> {
     let ray = Ray {
         origin: DVec3::new(x, y, 9.0),
@@ -66,7 +66,7 @@ fn polygons_become_fans_in_order() {
 }
 
 #[test]
-fn corners_name_texture_coordinates_and_normals() {
+fn corners_refer_to_texture_coordinates_and_normals() {
     let values = "vt 0 0\nvt 1 0 7\nvt 1 1\nvt 0.5\nvn 0 0 1\nvn .6 0 .8\nvn 0 0 -3\n";
     let (up, leans) = (DVec3::Z, DVec3::new(0.6, 0.0, 0.8));
     for (face, uv, normal) in [
@@ -86,9 +86,9 @@ fn corners_name_texture_coordinates_and_normals() {
     }
 }
 
-/// Values that no corner names are none, even if there are as many as positions.
+/// Even if there are as many as positions.
 #[test]
-fn values_nobody_names_are_dropped() {
+fn values_without_references_are_dropped() {
     let values = "vt 1 1\nvt 1 1\nvt 1 1\nvn 1 0 0\nvn 1 0 0\nvn 1 0 0\n";
     let shape = shape(model(&format!("{SQUARE}{values}f 1 2 3")));
     let expected = Some((0, 0, DVec2::ZERO, DVec3::Z));
@@ -96,7 +96,7 @@ fn values_nobody_names_are_dropped() {
 }
 
 #[test]
-fn text_may_be_laid_out_in_any_way() {
+fn any_layout_of_the_text_is_accepted() {
     for text in [
         "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n",
         "\u{feff}# a\n\tv  0 0 0 # b\nv 1 0 0 1\nv 0 1 0 .5 .5 .5\n\n  f 1 2 3",
@@ -109,7 +109,7 @@ fn text_may_be_laid_out_in_any_way() {
         assert!(seen(&shape(model), 0.2, 0.2).is_some(), "{text}");
     }
     let latin: &[u8] = b"# caf\xe9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3";
-    assert!(read(latin, nothing).is_ok());
+    assert!(read(latin, no_library).is_ok());
 }
 
 #[test]
@@ -122,7 +122,7 @@ fn materials_come_from_libraries() {
         asked.push(name.to_owned());
         Ok::<_, String>(library)
     });
-    let model = model.expect("the mesh is sound");
+    let model = model.expect("a valid mesh");
     assert_eq!(asked, ["my colours.mtl"]);
     assert_eq!(model.warnings, []);
     let plain = Material {
@@ -159,7 +159,7 @@ fn materials_come_from_libraries() {
 }
 
 #[test]
-fn several_libraries_are_asked_for_one_by_one() {
+fn several_libraries_on_a_line_are_read_one_by_one() {
     let text = format!("mtllib a.mtl b.mtl\nmtllib a.mtl b.mtl\n{SQUARE}usemtl b\nf 1 2 3\n");
     let mut asked = Vec::new();
     let model = read(text.as_bytes(), |name| {
@@ -170,11 +170,11 @@ fn several_libraries_are_asked_for_one_by_one() {
             Err("no such file".to_owned())
         }
     });
-    let model = model.expect("the mesh is sound");
+    let model = model.expect("a valid mesh");
     assert_eq!(asked, ["a.mtl b.mtl", "a.mtl", "b.mtl"]);
     assert_eq!(
-        told(&model.library_warnings),
-        ["line 1, column 8: `a.mtl` can't be read: no such file"]
+        messages(&model.library_warnings),
+        ["line 1, column 8: cannot read `a.mtl`: no such file"]
     );
     assert_eq!(
         model.materials[1].as_ref().map(|m| &*m.library),
@@ -183,15 +183,15 @@ fn several_libraries_are_asked_for_one_by_one() {
 }
 
 #[test]
-fn doubtful_lines_are_warned_of() {
+fn doubtful_lines_get_warnings() {
     let text = format!("{SQUARE}curv 0 1 1 2\nusemtl \u{1b}gold\nf 1 2 3\n");
     let model = model(&text);
     assert_eq!(
-        told(&model.warnings),
-        ["line 5, column 1: `curv` is not drawn"]
+        messages(&model.warnings),
+        ["line 5, column 1: `curv` is ignored"]
     );
     assert_eq!(
-        told(&model.library_warnings),
+        messages(&model.library_warnings),
         ["line 6, column 8: no library defines `\\u{1b}gold`"]
     );
     assert_eq!(model.materials, [None, None]);
@@ -216,31 +216,31 @@ fn malformed_lines_are_errors() {
         ),
         (
             "f 1 2",
-            "line 5, column 6: f: expected three corners or more, found 2 corners",
+            "line 5, column 6: f: expected at least three corners, found 2",
         ),
         (
             "f",
-            "line 5, column 2: f: expected three corners or more, found 0 corners",
+            "line 5, column 2: f: expected at least three corners, found 0",
         ),
         (
             "f 1 2 9",
-            "line 5, column 7: f: names v 9, but there are only 4",
+            "line 5, column 7: f: refers to v 9, but there are only 4",
         ),
         (
             "f 1 2/1 3",
-            "line 5, column 5: f: names vt 1, but there are only 0",
+            "line 5, column 5: f: refers to vt 1, but there are only 0",
         ),
         (
             "f 1 2//1 3",
-            "line 5, column 5: f: names vn 1, but there are only 0",
+            "line 5, column 5: f: refers to vn 1, but there are only 0",
         ),
         (
             "f 1 -5 3",
-            "line 5, column 5: f: `-5` names a v that is not among the 4 so far",
+            "line 5, column 5: f: `-5` is out of range: there are 4 v so far",
         ),
         (
             "f 1 0 3",
-            "line 5, column 5: f: `0` names number 0: the first is 1",
+            "line 5, column 5: f: `0` is not an index: indices start at 1",
         ),
         (
             "f 1 2.5 3",
@@ -256,7 +256,7 @@ fn malformed_lines_are_errors() {
         ),
         (
             "f 1 9999999999 3",
-            "line 5, column 5: f: `9999999999` names a v that is not among the 4 so far",
+            "line 5, column 5: f: `9999999999` is out of range: there are 4 v so far",
         ),
         (
             "f 1 9999999999999999999 3",
@@ -266,12 +266,12 @@ fn malformed_lines_are_errors() {
         ("mtllib  ", "line 5, column 7: mtllib: the name is missing"),
         ("# only corners", "line 5, column 1: the file has no faces"),
     ] {
-        let errors = alone(&format!("{SQUARE}{text}")).expect_err(text);
+        let errors = read_alone(&format!("{SQUARE}{text}")).expect_err(text);
         assert!(errors[0].line == 5 || text.starts_with("# only"), "{text}");
         let shown: Vec<_> = errors.iter().map(ToString::to_string).collect();
         assert_eq!(shown[0], error, "{text}");
     }
-    assert_eq!(alone("").expect_err("nothing")[0].line, 1);
+    assert_eq!(read_alone("").expect_err("nothing")[0].line, 1);
 }
 
 #[test]
@@ -287,15 +287,15 @@ fn malformed_libraries_define_nothing() {
         ),
         (
             "newmtl a\nKd 1 0",
-            "x.mtl: line 2, column 7: Kd: expected one number or three",
+            "x.mtl: line 2, column 7: Kd: expected one or three numbers",
         ),
         (
             "newmtl a\nKd",
-            "x.mtl: line 2, column 3: Kd: expected one number or three",
+            "x.mtl: line 2, column 3: Kd: expected one or three numbers",
         ),
         (
             "newmtl a\nKs 1 0 0 0",
-            "x.mtl: line 2, column 10: Ks: expected one number or three",
+            "x.mtl: line 2, column 10: Ks: expected one or three numbers",
         ),
         (
             "newmtl a\nNs high",
@@ -316,52 +316,52 @@ fn malformed_libraries_define_nothing() {
     ] {
         let mesh = format!("mtllib x.mtl\n{SQUARE}usemtl a\nf 1 2 3");
         let read = read(mesh.as_bytes(), |_| Ok::<_, String>(text));
-        let model = read.expect("the mesh itself is sound");
-        assert_eq!(told(&model.library_warnings), [error], "{text}");
+        let model = read.expect("a valid mesh");
+        assert_eq!(messages(&model.library_warnings), [error], "{text}");
         assert_eq!(model.materials, [None, None]);
     }
-    // What is not used is not looked at.
+    // Unused statements are not parsed.
     let others = "newmtl a\nKa x\nKe\nd -halo 1\nbump\nKd spectral x.rfl 1\nKs xyz 1 1\n";
     let mesh = format!("mtllib x.mtl\n{SQUARE}f 1 2 3");
     assert!(read(mesh.as_bytes(), |_| Ok::<_, String>(others)).is_ok());
 }
 
 #[test]
-fn several_errors_are_told_of_at_once_but_not_all() {
+fn several_errors_are_reported_up_to_a_limit() {
     let text = format!("{SQUARE}v 1\nf 1 2\nvn x 0 0\nf 1 2 3");
-    let lines: Vec<_> = alone(&text)
+    let lines: Vec<_> = read_alone(&text)
         .expect_err("errors")
         .iter()
         .map(|e| e.line)
         .collect();
     assert_eq!(lines, [5, 6, 7]);
     let many = "f\n".repeat(1000);
-    assert_eq!(alone(&many).expect_err("errors").len(), MOST_FINDINGS);
+    assert_eq!(read_alone(&many).expect_err("errors").len(), MOST_FINDINGS);
     let doubts = format!("{SQUARE}f 1 2 3\n{}", "what\n".repeat(1000));
     assert_eq!(model(&doubts).warnings.len(), MOST_FINDINGS);
 }
 
 #[test]
-fn there_are_limits() {
+fn triangles_and_libraries_are_limited() {
     let text = format!("{SQUARE}f 1 2 3 4\nf 1 2 3");
-    assert!(mesh::read(text.as_bytes(), 3, nothing).is_ok());
-    let errors = mesh::read(text.as_bytes(), 2, nothing).expect_err("three triangles");
+    assert!(mesh::read(text.as_bytes(), 3, no_library).is_ok());
+    let errors = mesh::read(text.as_bytes(), 2, no_library).expect_err("three triangles");
     let shown = errors[0].to_string();
     assert_eq!(shown, "line 6, column 1: f: more than 2 triangles");
     let libraries = |count: usize| {
         let text = format!("{}{SQUARE}f 1 2 3", "mtllib a.mtl\n".repeat(count));
-        alone(&text)
+        read_alone(&text)
             .map(|_| ())
             .map_err(|errors| errors[0].to_string())
     };
     assert_eq!(libraries(64), Ok(()));
-    let error = "line 65, column 1: more than 64 mtllib".to_owned();
+    let error = "line 65, column 1: more than 64 mtllib statements".to_owned();
     assert_eq!(libraries(65), Err(error));
 }
 
-/// The course's teapot, with the counts that `awk` gives: 80 triangles and 3120 quadrilaterals.
+/// The course's teapot has 80 triangles and 3120 quadrilaterals, as counted with `awk`.
 #[test]
-fn the_teapot_is_whole() {
+fn the_teapot_is_read_completely() {
     let Some(folder) = std::env::var_os("HALFLIGHT_EXTRA_SCENES").map(PathBuf::from) else {
         return;
     };
@@ -370,7 +370,7 @@ fn the_teapot_is_whole() {
         ("teapot-low.obj", 16 + 2 * 112),
     ] {
         let bytes = std::fs::read(folder.join("utah").join(name)).expect("the course's mesh");
-        let model = read(&bytes, nothing).expect("the teapot is sound");
+        let model = read(&bytes, no_library).expect("a valid mesh");
         assert_eq!(model.mesh.len(), triangles);
         assert_eq!(model.warnings, []);
         let bounds = shape(model).bounds();
@@ -394,7 +394,7 @@ proptest! {
     }
 
     #[test]
-    fn parts_are_read_as_the_whole_is(
+    fn parts_are_read_like_the_whole(
         mixed in prop_oneof![Just(""), Just("mtllib l\n"), Just("v 1 2\n"), Just("\n \n")],
         lines in prop::collection::vec("(v -?[0-9.]{1,4} 1 [0-9]|v 1 2 3 4|vt [0-9]( 1)?|vn 0 0 1|usemtl [ab]|g a|# f|v 1 2 3 \\\\|f 1 [1-3] 3( 4)?|f [1-5]/[1-3]/[1-2] 2/1/[1-4] 1//2|f -1 2 3|f 0 1 2|f 1/ 2 3/|fo 1 2 3|x| |)( #c| {0,2}\r?)\n", 0..40),
         size in 1usize..80,
@@ -408,7 +408,7 @@ proptest! {
             parts.map(|part| plain::Part { plain: None, ..part }).collect::<Vec<_>>()
         };
         let read = |parts| {
-            let read = mesh::read_parts(text.as_bytes(), parts, most, nothing);
+            let read = mesh::read_parts(text.as_bytes(), parts, most, no_library);
             read.map(|model| (model.mesh, model.materials, model.warnings, model.library_warnings))
         };
         prop_assert_eq!(read(parts), read(in_order(usize::MAX / 2)));
@@ -422,7 +422,7 @@ proptest! {
     }
 
     #[test]
-    fn no_change_makes_the_reader_panic(
+    fn no_mutation_makes_the_reader_panic(
         changes in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..3), 1..8),
     ) {
         let mut texts = [WHOLE.as_bytes().to_vec(), LIBRARY.as_bytes().to_vec()];
@@ -445,8 +445,8 @@ proptest! {
 }
 
 #[test]
-fn what_is_changed_there_is_sound() {
-    let model = read(WHOLE.as_bytes(), |_| Ok::<_, String>(LIBRARY)).expect("it is sound");
+fn the_text_that_is_mutated_is_valid() {
+    let model = read(WHOLE.as_bytes(), |_| Ok::<_, String>(LIBRARY)).expect("a valid mesh");
     assert_eq!((model.mesh.len(), model.warnings.len()), (3, 0));
     assert_eq!(model.materials.iter().flatten().count(), 2);
 }

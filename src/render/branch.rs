@@ -1,42 +1,41 @@
-//! How rays go on from the surfaces that they have come to.
+//! Secondary rays of Whitted ray tracing.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
-use super::optics::{Dielectric, index, mirror, refract_all, spread};
-use super::probe::{Matter, Point, Sample, Seen};
+use super::optics::{fresnel, mirror, refract_all, spread};
+use super::probe::{Point, Sample, Seen};
 use super::sampler::{Sampler, Use};
 use super::surfaces::Landing;
-use super::utah::Shading;
-use super::wave::{Arrived, Wave, Way};
+use super::wave::{Wave, Way};
 use crate::geometry::lanes::{Eight, Row, Simd, WIDTH, bits};
 use crate::geometry::{Packet, Ray, Rays};
-use crate::scene::Rgb;
+use crate::scene::{Material, Reflectance, Rgb};
 
-/// Rays that go on from a packet's points where matter is clear, in each lane.
-struct Clear<S: Simd> {
+/// The secondary rays of a packet's points at perfect mirrors and clear boundaries, in each lane.
+struct Specular<S: Simd> {
     mirrored: Rays<Eight<S>>,
     refracted: Rays<Eight<S>>,
-    /// A bit for each lane that has no total internal reflection.
+    /// A bit for each lane without total internal reflection.
     passes: u32,
 }
 
-/// A ray that goes on from a point.
+/// A secondary ray.
 struct Branch {
-    /// Which one of the point's it is.
+    /// Its number among the point's secondary rays.
     number: u32,
     ray: Ray,
-    /// Which part of its radiance leaves the point toward where the ray came from.
+    /// Weight of its radiance in that of the point.
     weight: Rgb,
-    /// What is lost per unit of length until it meets something.
+    /// Absorption per unit of length up to the next hit.
     absorption: Rgb,
 }
 
 impl Wave<'_> {
-    /// Adds what leaves the points that a packet has come to to what is seen, and leaves the rays that
-    /// go on pending: the mirrored one last, which is to be traced first.
+    /// Adds the radiance of a packet's points to `seen` and pushes their secondary rays onto the
+    /// pending ones, the mirrored ray last because it is traced first.
     #[inline(always)]
     pub(super) fn go_on<S: Simd>(
         &mut self,
@@ -52,68 +51,53 @@ impl Wave<'_> {
         let last = self.arrived.len().min(first + WIDTH);
         let all = &self.arrived[first..last];
         let ways = &self.ways[first..last];
-        let mut clear = None;
+        let mut specular = None;
         for (lane, (arrived, way)) in all.iter().zip(ways).enumerate() {
-            if let Matter::Flat(_) = arrived.matter {
+            let Some(material) = arrived.found.material(&self.mapped) else {
                 continue;
-            }
+            };
             seen[way.tree].radiance += arrived.weight * arrived.radiance;
             if way.bounce == depth {
                 continue;
             }
+            let mirrored = material.mirrored(landing.is_front(lane));
+            if mirrored == Rgb::ZERO && material.dielectric.tint == Rgb::ZERO {
+                continue;
+            }
+            let found = || {
+                all.iter()
+                    .map(|arrived| arrived.found.material(&self.mapped))
+            };
+            let specular = match &specular {
+                Some(specular) => specular,
+                None => &*specular.insert(Specular::new(simd, packet, landing, found())),
+            };
             let pending = &mut self.trees[way.tree].pending;
-            let mut push = |branch: Branch| {
+            let push = |branch: Branch| {
                 if branch.weight != Rgb::ZERO {
                     pending.push((branch.ray, branch.way(way, arrived.weight)));
                 }
             };
-            match &arrived.matter {
-                Matter::Phong(material) => {
-                    let mut mirrored_weight = material.reflection;
-                    let branch = |number, ray, weight| Branch {
-                        number,
-                        ray,
-                        weight: Rgb::splat(weight),
-                        absorption: Rgb::ZERO,
-                    };
-                    if material.reflection == 0.0 && material.transmission == 0.0 {
-                        continue;
-                    }
-                    let clear = match &clear {
-                        Some(clear) => clear,
-                        None => &*clear.insert(Clear::new(simd, packet, landing, all)),
-                    };
-                    if material.transmission != 0.0 {
-                        if clear.passes >> lane & 1 == 1 {
-                            push(branch(0, clear.refracted.ray(lane), material.transmission));
-                        } else {
-                            // Both rays go the same way and are traced as one.
-                            mirrored_weight += material.transmission;
-                        }
-                    }
-                    push(branch(1, clear.mirrored.ray(lane), mirrored_weight));
-                }
-                Matter::Utah(shading) => {
-                    let point = landing.point(packet, lane);
-                    let sampler = samples[way.tree].sampler;
-                    let numbers = |purpose| sampler.pair(way.node, purpose);
-                    branch_by_fresnel(&point, shading, numbers, push);
-                }
-                Matter::Flat(_) => {}
-            }
+            let sampler = samples[way.tree].sampler;
+            let numbers = |purpose| sampler.pair(way.node, purpose);
+            specular.branch((packet, landing), lane, material, numbers, push);
         }
     }
 }
 
-impl<S: Simd> Clear<S> {
+impl<S: Simd> Specular<S> {
     #[inline(always)]
-    fn new(simd: S, packet: &Packet, landing: &Landing, arrived: &[Arrived<'_>]) -> Self {
+    fn new<'m>(
+        simd: S,
+        packet: &Packet,
+        landing: &Landing,
+        materials: impl Iterator<Item = Option<&'m Material>>,
+    ) -> Self {
         let mut ratios = Row::all(1.0);
-        for (lane, arrived) in arrived.iter().enumerate() {
-            if let Matter::Phong(material) = &arrived.matter {
-                let index = index(material.index);
-                let front = landing.is_front(lane);
-                ratios.0[lane] = if front { 1.0 / index } else { index };
+        for (lane, material) in materials.enumerate() {
+            if let Some(material) = material {
+                let [from, to] = material.indices(landing.is_front(lane));
+                ratios.0[lane] = from / to;
             }
         }
         let surface = landing.surface.load(simd);
@@ -133,11 +117,91 @@ impl<S: Simd> Clear<S> {
             passes: bits::<S>(passes),
         }
     }
+
+    /// Pushes the secondary rays of the point in a lane.
+    #[inline(always)]
+    fn branch(
+        &self,
+        (packet, landing): (&Packet, &Landing),
+        lane: usize,
+        material: &Material,
+        numbers: impl Fn(Use) -> Option<[f64; 2]>,
+        mut push: impl FnMut(Branch),
+    ) {
+        let front = landing.is_front(lane);
+        let point = || landing.point(packet, lane);
+        let dielectric = &material.dielectric;
+        let losses = material.losses(front);
+        let mut by_mirror = material.mirrored(front);
+        let mut by_boundary = Rgb::ZERO;
+        if dielectric.tint != Rgb::ZERO {
+            let passes = self.passes >> lane & 1 == 1;
+            let ray = passes.then(|| self.refracted.ray(lane));
+            let reflectance = match (ray, dielectric.reflectance) {
+                (None, _) => 1.0,
+                (Some(_), Reflectance::TotalOnly) => 0.0,
+                (Some(ray), Reflectance::Schlick) => {
+                    let point = point();
+                    let [from, to] = material.indices(front);
+                    let incident = point.view.dot(point.normal);
+                    fresnel(from, incident, to, -ray.direction.dot(point.normal))
+                }
+            };
+            by_boundary = reflectance * dielectric.tint;
+            if let Some(ray) = ray {
+                let numbers = || numbers(Use::Refraction);
+                push(Branch {
+                    number: 0,
+                    ray: spread_ray(ray, dielectric.spread, -1.0, point, numbers),
+                    weight: (1.0 - reflectance) * dielectric.tint,
+                    absorption: losses.refracted,
+                });
+            }
+        }
+        if material.mirror.spread == dielectric.spread {
+            // Both rays have the same direction and are traced as one.
+            by_mirror += by_boundary;
+            by_boundary = Rgb::ZERO;
+        }
+        // The last one pushed is traced first.
+        for (number, tangent, weight) in [
+            (1, dielectric.spread, by_boundary),
+            (2, material.mirror.spread, by_mirror),
+        ] {
+            if weight == Rgb::ZERO {
+                continue;
+            }
+            let numbers = || numbers(Use::Reflection);
+            push(Branch {
+                number,
+                ray: spread_ray(self.mirrored.ray(lane), tangent, 1.0, point, numbers),
+                weight,
+                absorption: losses.mirrored,
+            });
+        }
+    }
+}
+
+/// Spreads a ray in a cone whose half angle has this tangent, on the side of the surface that its
+/// normal times `side` points to.
+#[inline(always)]
+fn spread_ray(
+    ray: Ray,
+    tangent: f64,
+    side: f64,
+    point: impl Fn() -> Point,
+    numbers: impl FnOnce() -> Option<[f64; 2]>,
+) -> Ray {
+    if tangent == 0.0 {
+        return ray;
+    }
+    let point = point();
+    point.leave(spread(ray.direction, tangent, side * point.normal, numbers))
 }
 
 impl Branch {
-    /// What its ray brings with it, from a point where a ray came that brought the other, and whose
-    /// radiance reaches the eye in part.
+    /// Returns the state of its ray, given the state `from` of the incoming ray and the `weight` of
+    /// the point's radiance in the pixel.
     #[inline(always)]
     fn way(&self, from: &Way, weight: Rgb) -> Way {
         Way {
@@ -147,61 +211,5 @@ impl Branch {
             bounce: from.bounce + 1,
             node: Sampler::child(from.node, self.number),
         }
-    }
-}
-
-/// The rays that go on where how much goes which way depends on the angle.
-fn branch_by_fresnel(
-    point: &Point,
-    shading: &Shading,
-    numbers: impl Fn(Use) -> Option<[f64; 2]>,
-    mut push: impl FnMut(Branch),
-) {
-    let direction = -point.view;
-    let losses = shading.losses(point.front);
-    let mut by_mirror = if point.front {
-        shading.mirror()
-    } else {
-        Rgb::ZERO
-    };
-    let mut by_glass = Rgb::ZERO;
-    if shading.refraction != Rgb::ZERO {
-        let Dielectric {
-            reflectance,
-            refracted,
-        } = Dielectric::new(direction, point.normal, shading.indices(point.front));
-        by_glass = reflectance * shading.refraction;
-        if let Some(refracted) = refracted {
-            let numbers = || numbers(Use::Refraction);
-            let spread = spread(refracted, shading.refraction_spread, -point.normal, numbers);
-            push(Branch {
-                number: 0,
-                ray: point.leave(spread),
-                weight: (1.0 - reflectance) * shading.refraction,
-                absorption: losses.refracted,
-            });
-        }
-    }
-    if shading.reflection_spread == shading.refraction_spread {
-        by_mirror += by_glass;
-        by_glass = Rgb::ZERO;
-    }
-    // The one pushed last is traced first.
-    for (number, tangent, weight) in [
-        (1, shading.refraction_spread, by_glass),
-        (2, shading.reflection_spread, by_mirror),
-    ] {
-        if weight == Rgb::ZERO {
-            continue;
-        }
-        let mirrored = mirror(direction.into(), point.normal.into()).into();
-        let numbers = || numbers(Use::Reflection);
-        let spread = spread(mirrored, tangent, point.normal, numbers);
-        push(Branch {
-            number,
-            ray: point.leave(spread),
-            weight,
-            absorption: losses.mirrored,
-        });
     }
 }

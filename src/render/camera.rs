@@ -1,8 +1,8 @@
-//! Rays from the eye through the picture.
+//! Camera rays.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use glam::DVec3;
@@ -12,7 +12,7 @@ use crate::geometry::lanes::{Lanes, Vector};
 use crate::geometry::{Ray, Rays, normalise};
 use crate::scene::{Camera, Focus, Lens, Size};
 
-/// A camera made ready to give rays for a raster of pixels.
+/// A camera prepared to generate rays for a raster of pixels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Projection {
     eye: DVec3,
@@ -20,17 +20,17 @@ pub(crate) struct Projection {
     right: DVec3,
     up: DVec3,
     bundle: Bundle,
-    /// Half extents of the picture: on the plane one unit before the eye, or where rays go side by
-    /// side in world units.
+    /// Half extents of the picture: on the plane one unit in front of the eye, or in world units
+    /// for parallel rays.
     half_width: f64,
     half_height: f64,
-    /// Between these distances along the view things are seen.
+    /// Near and far limits of visible distances along the view.
     depths: [f64; 2],
     focus: Focus,
     raster: Size,
 }
 
-/// How rays go.
+/// The geometry of the rays.
 #[derive(Clone, Copy, Debug)]
 enum Bundle {
     FromTheEye,
@@ -38,8 +38,8 @@ enum Bundle {
 }
 
 impl Projection {
-    /// Frames what the camera frames, in `raster` pixels: the aspect is the camera's own, so that a
-    /// preview whose size can only come near it shows the same picture.
+    /// Prepares a camera for `raster` pixels. The aspect ratio is the camera's own, so that a
+    /// preview of only approximately that ratio shows the same framing.
     pub(crate) fn new(camera: &Camera, raster: Size) -> Self {
         let forward = direction(way(camera.eye, camera.target));
         let right = direction(forward.cross(upright(forward, direction(camera.up))));
@@ -65,10 +65,9 @@ impl Projection {
         }
     }
 
-    /// The ray through a place of the raster, in pixels from its top left corner, from where things
-    /// begin to be seen; and how far along it they are.
-    ///
-    /// With a lens, through the place of it that `lens` says in the unit square, or else its middle.
+    /// Returns the ray through a point of the raster, in pixels from its top left corner, from the
+    /// near limit on, and its length. With a lens it passes through the point of the lens that
+    /// `lens` gives in the unit square, or through the centre.
     pub(crate) fn ray(
         &self,
         x: f64,
@@ -88,19 +87,19 @@ impl Projection {
         (ray, self.reach(slant))
     }
 
-    /// The same where there is no lens, in each lane.
+    /// Returns the rays of a camera without a lens, in each lane.
     #[inline(always)]
     pub(crate) fn rays<N: Lanes>(&self, x: N, y: N) -> (Rays<N>, N) {
         let (rays, slant) = self.middles(x, y);
         (rays, self.reach(slant))
     }
 
-    /// Whether it matters through which place of the lens a ray goes.
+    /// Whether rays depend on the point on the lens.
     pub(crate) fn has_lens(&self) -> bool {
         self.focus.lens_radius != 0.0
     }
 
-    /// The rays through the middle of the lens, and the cosines of their angles to the view.
+    /// Returns the rays through the centre of the lens, and the cosines of their angle to the view.
     #[inline(always)]
     fn middles<N: Lanes>(&self, x: N, y: N) -> (Rays<N>, N) {
         let all = |value: f64| x.all(value);
@@ -128,15 +127,15 @@ impl Projection {
         (rays, slant)
     }
 
-    /// How far along rays things are seen that stand at angles of such cosines to the view.
+    /// Length of rays between near and far limit, given the cosines of their angles to the view.
     #[inline(always)]
     fn reach<N: Lanes>(&self, slant: N) -> N {
         let [near, far] = self.depths;
         slant.all(far - near) / slant
     }
 
-    /// The ray through a place of the lens to where the one through its middle meets the plane of
-    /// what is sharp (Cook and others, "Distributed Ray Tracing", 1984).
+    /// Returns the ray from a point of the lens to where the ray through its centre meets the plane
+    /// in focus (Cook and others, "Distributed Ray Tracing", 1984).
     fn through_lens(&self, middle: &Ray, slant: f64, place: [f64; 2]) -> Ray {
         let sharp = middle.at(self.focus.distance / slant);
         let place = self.focus.lens_radius * warp::in_disc(place);
@@ -148,8 +147,8 @@ impl Projection {
     }
 }
 
-/// The up direction to use: the camera's, or where the camera looks along it the world axis least
-/// aligned with the view (ties: x, then y, then z).
+/// Returns the up direction: the camera's, or if parallel to the view, the world axis most nearly
+/// perpendicular to the view (ties: x, then y, then z).
 fn upright(forward: DVec3, up: DVec3) -> DVec3 {
     if Camera::LEAST_SINE <= forward.cross(up).length() {
         return up;
@@ -164,7 +163,7 @@ fn upright(forward: DVec3, up: DVec3) -> DVec3 {
     }
 }
 
-/// The way from one point to another, or half of it where the whole is longer than `f64` can say.
+/// The vector between two points, halved if it would overflow `f64`.
 fn way(from: DVec3, to: DVec3) -> DVec3 {
     let whole = to - from;
     if whole.is_finite() {
@@ -174,7 +173,7 @@ fn way(from: DVec3, to: DVec3) -> DVec3 {
     }
 }
 
-/// The direction of a vector that has one; zero has none.
+/// The direction of a vector; zero for a zero vector.
 fn direction(vector: DVec3) -> DVec3 {
     normalise(vector).unwrap_or(DVec3::ZERO)
 }
@@ -204,7 +203,7 @@ mod tests {
         assert!((a - b).length() < 1e-15, "{a} is not {b}");
     }
 
-    /// With a right angle of view, the plane one unit ahead spans −1..1 upward and −2..2 across.
+    /// At a field of view of 90°, the plane one unit ahead spans −1..1 vertically and −2..2 across.
     #[test]
     fn pixel_centres_follow_the_formula() {
         let projection = Projection::new(
@@ -252,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn an_up_along_the_view_is_replaced_by_the_least_aligned_axis() {
+    fn up_parallel_to_the_view_is_replaced_by_the_least_aligned_axis() {
         let projection = Projection::new(
             &camera(DVec3::Z),
             Size {
@@ -260,7 +259,7 @@ mod tests {
                 height: 2,
             },
         );
-        // n = −z; x and y are equally far from it, and x comes first.
+        // n = −z; x and y are equally distant from it, and x comes first.
         assert_near(projection.up, DVec3::X);
     }
 
@@ -287,7 +286,7 @@ mod tests {
                     focus: Focus::PINHOLE,
                     size: raster,
                 };
-                // Scenes with such a view have an error.
+                // Scenes with such a view are rejected.
                 if camera.eye == camera.target {
                     continue;
                 }
@@ -305,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn extreme_lengths_of_up_do_no_harm() {
+    fn the_length_of_up_does_not_matter() {
         for length in [1e-300, 1.0, 1e300] {
             let projection = Projection::new(
                 &camera(DVec3::Y * length),

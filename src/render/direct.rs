@@ -1,8 +1,8 @@
-//! Light that comes from lights straight to points, one by one or eight side by side.
+//! Direct light from lights, for single points or eight lanes.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use glam::DVec3;
@@ -13,36 +13,36 @@ use crate::geometry::lanes::{Lanes, Vector};
 use crate::geometry::{Ray, Rays, Surfaces};
 use crate::scene::{Light, Rgb, Shadows};
 
-/// Points that light is asked for, in each lane.
+/// Points to light, in each lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Points<N> {
     pub(crate) surface: Surfaces<N>,
-    /// The normals to shade with.
+    /// Shading normals.
     pub(crate) normal: Vector<N>,
-    /// Unit vectors toward where the rays came from.
+    /// Unit vectors toward the viewer.
     pub(crate) view: Vector<N>,
 }
 
-/// How a light stands to points, in each lane.
+/// The geometry of a light relative to points, in each lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Facing<N: Lanes> {
-    /// Unit vectors toward where its light comes from.
+    /// Unit vectors toward the light.
     pub(crate) toward: Vector<N>,
-    /// The cosines to the normals.
+    /// Cosines to the shading normals.
     pub(crate) cosine: N,
-    /// The cosines between the view and where a mirror would send its light.
+    /// Cosines between the view and the mirrored light direction.
     pub(crate) mirrored: N,
-    /// Whether it is before the surface: the rest is of no use where it is not.
+    /// Whether the light is in front of the surface; otherwise the other fields are meaningless.
     pub(crate) is_lit: N::Mask,
-    /// The ways on which something may keep its light away.
+    /// Shadow rays; `None` if the light casts no shadows.
     pub(crate) shadow: Option<Shadow<N>>,
 }
 
-/// Ways to a light, in each lane.
+/// Shadow rays, in each lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shadow<N> {
     pub(crate) rays: Rays<N>,
-    /// How far along them something is in the way.
+    /// Distances up to which occluders count.
     pub(crate) ends: N,
 }
 
@@ -57,7 +57,7 @@ impl From<&Point> for Points<f64> {
 }
 
 impl<N: Lanes> Facing<N> {
-    /// How a light stands to points that its light comes to.
+    /// Relates points to the light that arrives at them.
     #[inline(always)]
     pub(crate) fn new(points: &Points<N>, light: &Light, incoming: Incoming<N>) -> Self {
         let toward = incoming.toward;
@@ -67,14 +67,14 @@ impl<N: Lanes> Facing<N> {
             toward,
             cosine,
             mirrored: mirrored.dot(points.view),
-            // A light that stands at the point itself has a cosine that is NaN.
+            // The cosine is NaN for a light at the point itself.
             is_lit: cosine.all(0.0).below(cosine),
             shadow: shadow(&points.surface, light, incoming),
         }
     }
 }
 
-/// The ways from surfaces to a light, unless nothing keeps that light from others.
+/// Returns the shadow rays from surfaces to a light; `None` if it casts no shadows.
 #[inline(always)]
 pub(crate) fn shadow<N: Lanes>(
     surface: &Surfaces<N>,
@@ -97,8 +97,8 @@ pub(crate) fn shadow<N: Lanes>(
     };
     let way = source - origin;
     let distance = way.length();
-    // The surface that a light lies on does not block it: the way ends before that surface, by
-    // as much as rounding may displace it.
+    // The surface that contains the light must not block it: the ray ends before that surface by
+    // more than its rounding error.
     let reach = origin.abs().larger(source.abs()).largest();
     let rays = Rays {
         origin,
@@ -108,8 +108,8 @@ pub(crate) fn shadow<N: Lanes>(
     Some(Shadow { rays, ends })
 }
 
-/// What a point sends back of a light's light if nothing is in the way, when it sends back a part
-/// of what comes from `toward`; `None` if that is nothing.
+/// Returns the unoccluded light reflected from a light, given the reflectance `reflected` for light
+/// from `toward`; `None` if it is zero.
 #[inline]
 pub(crate) fn sent_back(
     light: &Light,
@@ -125,8 +125,8 @@ pub(crate) fn sent_back(
 }
 
 impl<C: Fn() -> bool> Probe<'_, C> {
-    /// What a surface sends back of a light's light, from its middle if it has a size: `reflected`
-    /// gives how much of what comes from where it stands.
+    /// Returns the light reflected from a light, sampled at its centre if it has a size;
+    /// `reflected` gives the reflectance for the geometry of the light.
     pub(crate) fn direct(
         &mut self,
         point: &Point,
@@ -148,7 +148,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         }
     }
 
-    /// The part of light that passes along a way; all of it without one.
+    /// Transmittance of a shadow ray; 1 without one.
     pub(crate) fn visibility(&mut self, shadow: Option<Shadow<f64>>) -> f64 {
         let Some(Shadow { rays, ends }) = shadow else {
             return 1.0;

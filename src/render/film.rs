@@ -1,4 +1,4 @@
-//! The picture under way: what every pixel has gathered, in tiles that threads fill side by side.
+//! A picture in progress: the accumulated pixels, in tiles that threads fill in parallel.
 
 use std::collections::TryReserveError;
 use std::ops::Range;
@@ -16,18 +16,18 @@ use super::touched::Touched;
 use super::tracer::Tracer;
 use crate::scene::{Size, Transfer};
 
-/// The most pixels of a picture of which is remembered what they depend on: of larger ones that
-/// would take more memory than the time is worth.
+/// Most pixels of a picture whose dependencies are recorded; for larger pictures that would cost
+/// more memory than the time saved is worth.
 const MOST_REMEMBERED: usize = 1 << 22;
 
-/// Pixels developed without asking whether to stop, or else two rows of tiles a thread: a few
-/// milliseconds.
+/// Pixels developed between two polls of cancellation, which takes a few milliseconds; at least two
+/// rows of tiles per thread.
 const QUIET: usize = 262_144;
 
-/// Tiles freed at once: about four megabytes, less than a millisecond.
+/// Tiles freed at once: about 4 MB, in less than 1 ms.
 const FREED: usize = 512;
 
-/// The tiles of a picture, row by row.
+/// The tiles of a picture, in rows.
 #[derive(Debug)]
 pub(crate) struct Film {
     size: Size,
@@ -36,20 +36,20 @@ pub(crate) struct Film {
     transfer: Transfer,
     shape: TileShape,
     remembers: Remembers,
-    /// Those that a step has come to; there is room for all. A large picture's memory takes long to
-    /// be first touched: it is, tile by tile, by the threads that trace.
+    /// The tiles begun so far; capacity is reserved for all. First touching a large picture's
+    /// memory takes long, so the tracing threads do it tile by tile.
     tiles: Vec<Tile>,
-    /// The sum of the pixels' squared errors, as far as the pass under way has come.
+    /// The sum of the pixels' squared errors, up to the current tile of the pass.
     squared_errors: f64,
-    /// What it came to in the last pass that told.
+    /// The noise after the last pass that estimated it.
     noise: Option<f64>,
-    /// Samples that ran out of their ray budget.
+    /// Samples that exceeded their ray budget.
     over_budget: u64,
-    /// Room for the finished picture: what long work has made must not be lost for want of it.
+    /// Memory for the finished picture, reserved so that long work is not lost for lack of it.
     room: Raster,
 }
 
-/// What a picture's tiles hold.
+/// What the tiles of a picture store.
 fn remembers(size: Size, frames: Frames) -> Remembers {
     if frames == Frames::Live && size.pixels() <= MOST_REMEMBERED {
         Remembers::Causes
@@ -58,24 +58,24 @@ fn remembers(size: Size, frames: Frames) -> Remembers {
     }
 }
 
-/// A picture takes more memory than the system gives.
+/// The picture does not fit into memory.
 #[derive(Debug)]
 pub(crate) struct NoMemory {
-    /// How many bytes it takes.
+    /// Required bytes.
     pub(crate) bytes: u64,
 }
 
-/// Pixels row by row, and the index of the object under each.
+/// Pixels in rows, with the index of the object under each.
 #[derive(Debug, Default)]
 pub(crate) struct Raster {
     pub(crate) pixels: Vec<[u8; 3]>,
     pub(crate) objects: Vec<u32>,
-    /// What the pixels are made of, where it is asked for.
+    /// Unclamped values of the pixels, if requested.
     pub(crate) values: Vec<[f32; 3]>,
 }
 
 impl Raster {
-    /// Room for so many pixels, and what is told of them in frames of some kind.
+    /// Reserves memory for the pixels that frames of this kind show.
     fn with_room(count: usize, frames: Frames) -> Result<Self, TryReserveError> {
         let mut room = Self::default();
         room.pixels.try_reserve_exact(count)?;
@@ -89,7 +89,7 @@ impl Raster {
 }
 
 impl Film {
-    /// What a film takes with the finished picture.
+    /// Bytes needed by a film and its finished picture.
     pub(crate) fn bytes(settings: &Settings, frames: Frames) -> u64 {
         let size = settings.size;
         let bytes = |count: usize, each: usize| (count as u64).saturating_mul(each as u64);
@@ -103,7 +103,7 @@ impl Film {
         tiles.saturating_add(bytes(size.pixels(), size_of::<[u8; 3]>() + told))
     }
 
-    /// An empty film, with room for its tiles and the finished picture.
+    /// Creates an empty film; reserves memory for its tiles and the finished picture.
     pub(crate) fn new(settings: &Settings, frames: Frames) -> Result<Self, NoMemory> {
         let Settings {
             size,
@@ -137,24 +137,24 @@ impl Film {
         })
     }
 
-    /// How many tiles there are.
+    /// The number of tiles.
     pub(crate) fn tiles(&self) -> usize {
         self.shape.count(self.size)
     }
 
-    /// How many rows of tiles there are.
+    /// The number of rows of tiles.
     pub(crate) fn rows(&self) -> usize {
         self.tiles() / self.shape.across(self.size)
     }
 
-    /// How many tiles a step has come to.
+    /// The number of tiles begun.
     #[cfg(test)]
     pub(crate) fn begun(&self) -> usize {
         self.tiles.len()
     }
 
-    /// Takes over what another film of as large a picture holds, but for what depends on `changed`. On
-    /// the threads of the current pool.
+    /// Takes over the contents of a film of the same size, except what depends on `changed`. Runs
+    /// on the current thread pool.
     pub(crate) fn take_over(&mut self, other: Self, changed: Touched) {
         self.tiles = other.tiles;
         self.tiles
@@ -163,12 +163,12 @@ impl Film {
         self.over_budget = self.tiles.iter().map(|tile| tile.over_budget).sum();
     }
 
-    /// Whether something can be told of what its pixels depend on.
+    /// Whether the dependencies of its pixels are recorded.
     pub(crate) fn remembers(&self) -> bool {
         self.remembers == Remembers::Causes
     }
 
-    /// Where so many tiles from one on end that have yet to take a step.
+    /// Returns the end of the range from tile `from` that holds `count` tiles lacking a step.
     pub(crate) fn stretch(&self, from: usize, count: usize, step: &Step) -> usize {
         let lacks = |number: usize| {
             let tile = self.tiles.get(number);
@@ -178,9 +178,9 @@ impl Film {
         lacking.nth(count).unwrap_or_else(|| self.tiles())
     }
 
-    /// Takes one step in those of some tiles that have yet to take it, on the threads of the current
-    /// pool. Once `cancelled` says so it stops, and what was under way is to be forgotten. The first
-    /// step comes to all tiles in order.
+    /// Takes one step in those of some tiles that lack it, on the current thread pool. Stops once
+    /// `cancelled` returns true; unfinished pixels must then be forgotten. The first step begins
+    /// the tiles in order.
     pub(crate) fn advance(
         &mut self,
         tiles: Range<usize>,
@@ -197,8 +197,8 @@ impl Film {
         let lacking = self.tiles[tiles.clone()]
             .iter_mut()
             .filter(|tile| tile.lacks(step));
-        // Each thread takes the next tile when it is done with one: some take a hundred times as long
-        // as others, and halves of their list would not end together.
+        // Threads take one tile at a time: some take a hundred times as long as others, and halves
+        // of a list would not end together.
         let counts = lacking
             .par_bridge()
             .map_init(
@@ -226,8 +226,8 @@ impl Film {
         counts
     }
 
-    /// Adds up the squared errors of tiles, one by one in their order: sums of other groups would be
-    /// other numbers. With the last tile the noise is known.
+    /// Adds the squared errors of tiles one by one in order, since other groupings would round
+    /// differently. The last tile completes the noise estimate.
     fn gather_errors(&mut self, tiles: Range<usize>) {
         if tiles.start == 0 {
             self.squared_errors = 0.0;
@@ -241,25 +241,25 @@ impl Film {
         }
     }
 
-    /// The root of the mean of the pixels' squared errors, in 0..1, as of the last pass that told.
+    /// The root mean square of the pixels' errors, 0..1, after the last pass that estimated it.
     pub(crate) fn noise(&self) -> Option<f64> {
         self.noise
     }
 
-    /// How many of its samples ran out of their ray budget.
+    /// The number of samples that exceeded their ray budget.
     pub(crate) fn over_budget(&self) -> u64 {
         self.over_budget
     }
 
-    /// The pixels as far as they are known, on the threads of the current pool: where only a coarse
-    /// grid is traced, its nearest point up and to the left stands for them. Every tile has been
-    /// come to. `None` once `cancelled` says so, or where there is no memory for them.
+    /// Converts the pixels traced so far, on the current thread pool; while only a coarse grid is
+    /// traced, each pixel shows the nearest grid point up and to the left. All tiles must be begun.
+    /// `None` once `cancelled` returns true, or if memory is short.
     pub(crate) fn develop(&self, cancelled: impl Fn() -> bool) -> Option<Raster> {
         let room = Raster::with_room(self.size.pixels(), Frames::Live);
         self.develop_in(room.ok()?, cancelled)
     }
 
-    /// As [`Film::develop`], but only once, and there is memory for it.
+    /// Like [`Film::develop`], but only once, with the memory reserved.
     pub(crate) fn finish(&mut self, cancelled: impl Fn() -> bool) -> Option<Raster> {
         let room = std::mem::take(&mut self.room);
         self.develop_in(room, cancelled)
@@ -293,8 +293,8 @@ impl Film {
         Some(raster)
     }
 
-    /// Adds the pixels of some rows of tiles to those before: of each what `told` says of the one that
-    /// stands for it.
+    /// Appends the pixels of some rows of tiles, each computed by `told` from the pixel that
+    /// represents it.
     pub(crate) fn develop_rows<T: Clone + Default + Send>(
         &self,
         rows: Range<usize>,
@@ -309,7 +309,7 @@ impl Film {
         let new = developed[from..].par_chunks_mut(width as usize * shape.height as usize);
         new.zip(rows).for_each(|(pixels, row)| {
             let tiles = &self.tiles[row * across..][..across];
-            // Tile by tile: along lines that cross many of them, memory is waited for.
+            // Tile by tile: lines that cross many tiles would miss the cache.
             for (left, tile) in (0..).step_by(shape.width as usize).zip(tiles) {
                 let right = width.min(left + shape.width);
                 let lines = pixels.chunks_exact_mut(width as usize);
@@ -323,8 +323,8 @@ impl Film {
         });
     }
 
-    /// Leaves the memory to the current pool to free, bit by bit: a large picture takes a tenth of a
-    /// second, and while the system takes memory back, no thread of the process can end.
+    /// Hands the memory to the current pool to free in small parts: freeing a large picture takes
+    /// 0.1 s, during which no thread of the process can exit.
     pub(crate) fn free_later(mut self) {
         rayon::spawn(move || {
             while !self.tiles.is_empty() {
@@ -334,7 +334,7 @@ impl Film {
         });
     }
 
-    /// How what the pixels hold is shown.
+    /// How pixel values are converted to 8 bits.
     fn tone(&self) -> Tone {
         match self.aov {
             None | Some(Aov::Albedo) => Tone::Colour(self.transfer),

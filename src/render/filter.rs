@@ -1,37 +1,37 @@
-//! What a pixel is the mean of. The weights of a filter are the density of the places that samples
-//! are taken at, so that all count alike and each belongs to one pixel: no tile asks another for
-//! its samples.
+//! Pixel reconstruction filters, by importance sampling: samples are placed with the density of the
+//! filter's weights, so that all count alike and each belongs to one pixel. Tiles need no samples
+//! of others.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-/// What of its surroundings a pixel is the mean of.
+/// The reconstruction filter of a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Filter {
-    /// The pixel itself.
+    /// The area of the pixel.
     #[default]
     Box,
     /// A Gaussian with a standard deviation of half a pixel, three pixels wide.
     Gaussian,
-    /// The Blackman-Harris window with four terms, three pixels wide.
+    /// The four-term Blackman-Harris window, three pixels wide.
     BlackmanHarris,
 }
 
-/// Pixels from the centre to where a filter wider than a pixel ends.
+/// Radius of the filters wider than a pixel, in pixels.
 const RADIUS: f64 = 1.5;
 
 /// Standard deviation of the Gaussian, in pixels.
 const DEVIATION: f64 = 0.5;
 
-/// Weights of the window's cosines (Harris, "On the use of windows for harmonic analysis with the
+/// Coefficients of the window (Harris, "On the use of windows for harmonic analysis with the
 /// discrete Fourier transform", Proceedings of the IEEE 66(1), 1978).
 const TERMS: [f64; 4] = [0.35875, 0.48829, 0.14128, 0.01168];
 
-/// Steps from the centre to the end of a filter. Between them it counts as even, by which a pixel at
-/// an edge is off by less than a hundredth of an 8-bit level.
+/// Steps from the centre to the end of a filter, interpolated linearly, which changes a pixel at an
+/// edge by less than 0.01 of an 8-bit level.
 const STEPS: usize = 256;
 
 impl Filter {
-    /// The share of the filter, along one axis, that lies within so many pixels of the centre.
+    /// The fraction of the filter, along one axis, within this distance of the centre, in pixels.
     fn within(self, distance: f64) -> f64 {
         match self {
             Self::Box => (2.0 * distance).min(1.0),
@@ -51,15 +51,15 @@ impl Filter {
     }
 }
 
-/// A filter made ready to place samples.
+/// A filter prepared for placing samples.
 #[derive(Clone, Debug)]
 pub(crate) struct Spread {
-    /// The share of the filter within each of the steps; none of the box, where all is left alone.
+    /// The fraction of the filter within each step; empty for the box filter.
     shares: Vec<f64>,
 }
 
 impl Spread {
-    /// The places of a filter's samples.
+    /// Prepares a filter.
     pub(crate) fn of(filter: Filter) -> Self {
         let at = |step| filter.within(RADIUS * step as f64 / STEPS as f64);
         Self {
@@ -70,8 +70,8 @@ impl Spread {
         }
     }
 
-    /// Where a sample goes whose place in the pixel, in 0..1 from its top left, would be this if
-    /// all were alike: the inverse of the filter's distribution along each axis. A centre stays.
+    /// Warps a uniform place in the pixel, 0..1 from its top left, by the inverse of the filter's
+    /// distribution along each axis. The centre is a fixed point.
     pub(crate) fn place(&self, even: [f64; 2]) -> [f64; 2] {
         if self.shares.is_empty() {
             return even;
@@ -82,7 +82,7 @@ impl Spread {
         })
     }
 
-    /// How far from the centre this share of the filter ends.
+    /// The distance from the centre within which this fraction of the filter lies.
     fn distance(&self, share: f64) -> f64 {
         let after = self.shares.partition_point(|&within| within <= share);
         let after = after.clamp(1, STEPS);
@@ -98,29 +98,29 @@ mod tests {
 
     const WIDE: [Filter; 2] = [Filter::Gaussian, Filter::BlackmanHarris];
 
-    /// Numbers in 0..1, each in the middle of its share.
+    /// Numbers in 0..1, at the midpoints of equal strata.
     fn even(count: u32) -> impl Iterator<Item = f64> {
         (0..count).map(move |k| (f64::from(k) + 0.5) / f64::from(count))
     }
 
-    /// Along one axis.
+    /// The warped place along one axis.
     fn place(spread: &Spread, even: f64) -> f64 {
         let [across, down] = spread.place([even, 1.0 - even]);
-        // At the ends a rounded share is a thousand times as long a way.
+        // Near the ends, the inverse magnifies rounding errors a thousandfold.
         assert!((across + down - 1.0).abs() < 1e-11, "{even}");
         across
     }
 
     #[test]
-    fn the_box_leaves_places_as_they_are() {
+    fn the_box_filter_is_the_identity() {
         let spread = Spread::of(Filter::Box);
         for even in even(1000) {
             assert_eq!(spread.place([even, 0.1]), [even, 0.1]);
         }
     }
 
-    /// Of the Gaussian cut at three deviations: sigma² (1 − 2 · 3 phi(3) / erf(3/√2)). Of a window:
-    /// the integral of x² cos(2 pi k x) over −½..½ is (−1)^k / (2 pi² k²).
+    /// The Gaussian truncated at three deviations: sigma² (1 − 2 · 3 phi(3) / erf(3/√2)). The
+    /// window: the integral of x² cos(2 pi k x) over −½..½ is (−1)^k / (2 pi² k²).
     #[test]
     fn places_have_the_mean_and_the_variance_of_the_filter() {
         let density = (-4.5f64).exp() / (2.0 * PI).sqrt();
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn places_rise_from_end_to_end_and_the_centre_stays() {
+    fn places_increase_monotonically_and_the_centre_is_fixed() {
         for filter in WIDE {
             let spread = Spread::of(filter);
             let mut last = -RADIUS;

@@ -1,16 +1,16 @@
-//! What the first surface on a ray's way is, apart from light.
+//! AOVs: properties of the first surface along a ray, apart from light.
 
 use glam::DVec3;
 
 use super::frame::{Aov, NO_OBJECT};
-use super::probe::{Matter, Seen};
+use super::probe::Seen;
 use super::touched::Touched;
 use super::world::World;
 use crate::geometry::Ray;
 use crate::scene::Rgb;
 
-/// A variable at the first surface that a camera ray meets before `reach`; the ray begins `skipped`
-/// away from the eye.
+/// Computes an AOV at the first surface that a camera ray hits within `reach`; the ray starts
+/// `skipped` away from the eye.
 pub(crate) fn first_hit(world: &World, ray: &Ray, reach: f64, skipped: f64, aov: Aov) -> Seen {
     let Some(nearest) = world.nearest(ray, reach) else {
         let radiance = match aov {
@@ -23,17 +23,12 @@ pub(crate) fn first_hit(world: &World, ray: &Ray, reach: f64, skipped: f64, aov:
             touched: Touched::default(),
         };
     };
-    let (point, matter) = world.arrive(ray, nearest);
-    let albedo = match &matter {
-        Matter::Phong(material) => material.diffuse,
-        Matter::Utah(shading) => shading.diffuse,
-        Matter::Flat(colour) => *colour,
-    };
+    let (point, material) = world.arrive(ray, nearest);
     let value = match aov {
         Aov::Depth => DVec3::splat(skipped + nearest.hit.t),
         Aov::Normal => point.normal,
         Aov::Object => DVec3::splat(f64::from(nearest.object) + 1.0),
-        Aov::Albedo => albedo,
+        Aov::Albedo => material.albedo(),
     };
     Seen {
         radiance: value,

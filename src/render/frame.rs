@@ -1,4 +1,4 @@
-//! What goes into a renderer and what comes out: jobs and frames.
+//! Input and output of a renderer: jobs and frames.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -6,16 +6,16 @@ use std::time::Duration;
 use super::filter::Filter;
 use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer};
 
-/// Samples a pixel of full-size pictures unless the user says otherwise.
+/// Default samples per pixel of full-size pictures.
 pub const DEFAULT_SPP: u32 = 16;
 
-/// Bounces of Whitted's rays unless the user says otherwise.
+/// Default depth of Whitted ray tracing.
 pub const DEFAULT_DEPTH: u32 = 8;
 
-/// Bounces of paths unless the user says otherwise: most end by themselves before.
+/// Default depth of path tracing; most paths end earlier.
 const DEFAULT_PATH_DEPTH: u32 = 64;
 
-/// Bounces unless the user says otherwise.
+/// The default depth of an integrator.
 pub fn default_depth(integrator: Integrator) -> u32 {
     match integrator {
         Integrator::Whitted => DEFAULT_DEPTH,
@@ -23,51 +23,51 @@ pub fn default_depth(integrator: Integrator) -> u32 {
     }
 }
 
-/// The most samples a pixel: the length of the sample sequence.
+/// Maximum samples per pixel: the length of the sample sequence.
 pub const MAX_SPP: u32 = 65_536;
 
-/// The marker of a pixel under which no object lies, in [`Frame::objects`].
+/// Marks a pixel without an object in [`Frame::objects`].
 pub const NO_OBJECT: u32 = u32::MAX;
 
-/// How a picture is traced: with the scene and the camera, all that its pixels depend on.
+/// Render settings; with scene, images and camera they determine every pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// Pixels traced; the framing is the camera's own, whatever their number.
+    /// Traced resolution; does not affect the framing.
     pub size: Size,
-    /// Samples a pixel, 1 to [`MAX_SPP`].
+    /// Samples per pixel, 1 to [`MAX_SPP`].
     pub spp: u32,
-    /// Bounces; primary rays are bounce 0.
+    /// Maximum number of bounces; primary rays are bounce 0.
     pub depth: u32,
-    /// Chooses among equally good sample patterns.
+    /// Random seed.
     pub seed: u32,
-    /// What the pixels show instead of light.
+    /// The AOV to render instead of light.
     pub aov: Option<Aov>,
-    /// How light is gathered.
+    /// The integrator.
     pub integrator: Integrator,
-    /// What of its surroundings a pixel is the mean of.
+    /// The pixel reconstruction filter.
     pub filter: Filter,
-    /// How colours become 8-bit values.
+    /// The transfer function from linear colours to 8 bits.
     pub transfer: Transfer,
 }
 
-/// What the first surface under a pixel is, apart from light: an arbitrary output variable.
+/// An arbitrary output variable: a property of the first surface under a pixel, apart from light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aov {
-    /// How far the first surface is from the eye, in world units, infinite where there is none. In
-    /// 8 bits the nearest is white, the farthest black.
+    /// Distance from the eye in world units, infinite without a surface. In 8 bits the nearest is
+    /// white, the farthest black.
     Depth,
-    /// The unit normal of the first surface with its bumps, turned toward the eye, 0 where there is
-    /// none. In 8 bits −1 to 1 become 0 to 255.
+    /// Unit shading normal including bumps, turned toward the eye; 0 without a surface. In 8 bits
+    /// −1 to 1 become 0 to 255.
     Normal,
-    /// The place of the object in the scene, counted from 1, 0 where there is none. In 8 bits each
-    /// has a colour of its own.
+    /// Number of the object in the scene, from 1; 0 without an object. In 8 bits each object has
+    /// its own colour.
     Object,
-    /// The share of light that the first surface sends back evenly, with its textures.
+    /// Diffuse albedo including textures; the emission of surfaces without diffuse or highlight.
     Albedo,
 }
 
 impl Aov {
-    /// What it is called.
+    /// The name, such as `depth`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Depth => "depth",
@@ -77,8 +77,8 @@ impl Aov {
         }
     }
 
-    /// Samples a pixel to take where so many are asked for. Several distances, or places in the
-    /// scene, have no mean that means anything: one is taken, at the centre.
+    /// The number of samples per pixel to take if `asked` are requested. Distances and object
+    /// numbers cannot be averaged: they take one, at the centre.
     pub fn samples(self, asked: u32) -> u32 {
         match self {
             Self::Depth | Self::Object => 1,
@@ -87,74 +87,72 @@ impl Aov {
     }
 }
 
-/// Which frames of a job show pixels. All tell the progress.
+/// Which frames of a job contain pixels. All contain the progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frames {
-    /// Every one: the picture is watched as it comes about.
+    /// Every frame, for a picture watched while it is traced.
     Live,
-    /// The last one, which is complete: pixels before that would be made for nobody.
+    /// Only the last, complete frame.
     Last,
-    /// The last one, which tells [`Frame::values`] besides.
+    /// Only the last frame, with [`Frame::values`].
     LastWithValues,
 }
 
 /// A picture to trace.
 #[derive(Clone, Debug)]
 pub struct Job {
-    /// What is seen.
+    /// The scene.
     pub scene: Arc<Scene>,
-    /// The pictures its textures show.
+    /// The images of its textures.
     pub images: Images,
-    /// From where: the scene's own camera, or the working view.
+    /// The scene's own camera, or the working view.
     pub camera: Camera,
-    /// How.
+    /// Render settings.
     pub settings: Settings,
-    /// What is shown of it on the way.
+    /// Which frames contain pixels.
     pub frames: Frames,
 }
 
 /// A picture as far as it is traced.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    /// Which [`Renderer::restart`](super::Renderer::restart) it belongs to.
+    /// The [`Renderer::restart`](super::Renderer::restart) call it belongs to.
     pub generation: u64,
-    /// Its size.
+    /// Size in pixels.
     pub size: Size,
-    /// Red, green, blue of each pixel, row by row from the top left, as an export writes them; none
-    /// in a frame that shows no pixels, see [`Frames`].
+    /// Red, green, blue of each pixel, in rows from the top left, as exported; empty in frames
+    /// without pixels, see [`Frames`].
     pub pixels: Vec<[u8; 3]>,
-    /// Index of the object under each pixel's centre, or [`NO_OBJECT`]. Only in [`Frames::Live`].
+    /// Index of the object under each pixel's centre, or [`NO_OBJECT`]; only with [`Frames::Live`].
     pub objects: Vec<u32>,
-    /// What the pixels were made of: linear light, or the output variable. Only where it was asked
-    /// for, see [`Frames`].
+    /// Linear radiance or AOV of each pixel; only with [`Frames::LastWithValues`].
     pub values: Vec<[f32; 3]>,
-    /// How far it is.
+    /// Progress of the job.
     pub progress: Progress,
 }
 
-/// How far a picture is traced.
+/// The progress of a job.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// The pass under way, from 1; passes double the samples: 1, 1, 2, 4 …
+    /// Current pass, from 1; each pass doubles the samples: 1, 1, 2, 4 …
     pub pass: u32,
-    /// Passes in all.
+    /// Total number of passes.
     pub passes: u32,
-    /// Samples that every pixel has; 0 while the picture is still coarse.
+    /// Samples of every pixel; 0 while the picture is coarse.
     pub spp: u32,
-    /// Share of all samples taken, 0 to 1.
+    /// Fraction of all samples taken, 0 to 1.
     pub done: f64,
-    /// Time since the job was begun.
+    /// Time since the start of the job.
     pub elapsed: Duration,
-    /// Rays traced, shadow rays included.
+    /// Rays traced, including shadow rays.
     pub rays: u64,
-    /// Shadow rays among them.
+    /// Shadow rays traced.
     pub shadow_rays: u64,
-    /// Samples that ran out of their ray budget and lack the light of the rays not traced.
+    /// Samples that exceeded their ray budget and lack the light of the rays not traced.
     pub over_budget: u64,
-    /// How far pixels are, as a root mean square, from what more samples would show: an estimate,
-    /// of displayed values from 0 to 1. `None` before the samples were first doubled, and of what is
-    /// no light.
+    /// Estimated root mean square error of the pixels against the converged picture, in displayed
+    /// values from 0 to 1. `None` before samples were first doubled, and for AOVs.
     pub noise: Option<f64>,
-    /// Whether every sample is taken.
+    /// Whether all samples are taken.
     pub complete: bool,
 }

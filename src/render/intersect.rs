@@ -1,8 +1,8 @@
-//! Rays against a world: which object a ray meets first, and how much light passes.
+//! Intersection of rays with a world: nearest hits and transmittance.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use std::ops::Range;
@@ -13,21 +13,21 @@ use super::world::World;
 use crate::geometry::lanes::{Eight, Simd, dispatch};
 use crate::geometry::{Hit, Ray, Rays, Shape, ulp};
 
-/// What shadow rays meet.
+/// The objects hit by shadow rays.
 #[derive(Debug, Default)]
 pub(crate) struct Crossed {
-    /// What they go through: which of the rays, the object and its material there.
+    /// Surfaces that transmit light: ray, object, and its material at the hit.
     pub(crate) passed: Vec<(u32, u32, u32)>,
-    /// Whether to note what they depend on.
+    /// Whether to record dependencies.
     pub(crate) notes: bool,
-    /// What each of the last ones depends on, where that is noted.
+    /// The dependencies of each ray of the current batch, if recorded.
     pub(crate) touched: Vec<Touched>,
-    /// The place there of the first of those that are together.
+    /// Index in `touched` of the first ray of the current packet.
     first: usize,
 }
 
 impl Crossed {
-    /// Begins with so many rays together.
+    /// Begins a packet of this many rays.
     #[inline]
     pub(crate) fn begin(&mut self, rays: usize) {
         self.passed.clear();
@@ -37,7 +37,7 @@ impl Crossed {
         }
     }
 
-    /// Notes that those of the rays whose bit in `lanes` is 1 meet an object.
+    /// Records that the rays whose bit in `lanes` is 1 depend on an object.
     #[inline]
     pub(crate) fn touch(&mut self, object: u32, mut lanes: u32) {
         if !self.notes {
@@ -51,27 +51,27 @@ impl Crossed {
     }
 }
 
-/// The first object on a ray's way.
+/// The nearest hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Nearest {
-    /// Its index.
+    /// Index of the object.
     pub(crate) object: u32,
-    /// Where it is met.
+    /// The hit on its surface.
     pub(crate) hit: Hit,
 }
 
-/// The nearest object of those that were met so far.
+/// The nearest of the objects hit so far.
 ///
-/// Of objects that are met within 64 ulp of the least distance the first of the file counts, so that
-/// touching solids show no speckle. Which of several hits in that window comes first depends on the
-/// order of a walk until the least distance is known, so ties are only noticed here. They are rare.
+/// Of objects hit within 64 ulp of the least distance, the first in the file counts, so that
+/// touching solids show no speckle. Which of several such hits comes first depends on the traversal
+/// until the least distance is known, so ties, which are rare, are only detected here.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Closest {
     best: Option<Nearest>,
     tied: bool,
-    /// How far along the ray something may still count.
+    /// Distance along the ray up to which a hit may still count.
     pub(crate) limit: f64,
-    /// How far the ray's origin is from that of the world.
+    /// Distance of the ray's origin from the world's origin.
     reach: f64,
 }
 
@@ -106,14 +106,14 @@ impl Closest {
 }
 
 impl World {
-    /// The nearest object on the ray nearer than `limit`; of those that are met within 64 ulp of
-    /// the least distance, the first of the file.
+    /// Returns the nearest object hit before `limit`; of those within 64 ulp of the least distance,
+    /// the first in the file.
     pub(crate) fn nearest(&self, ray: &Ray, limit: f64) -> Option<Nearest> {
         dispatch!(self.level, simd => self.nearest_alone(simd, ray, limit))
     }
 
-    /// The part of light that passes along the ray up to `distance`: the product of kt over every
-    /// solid whose surface the way crosses, each once, in file order. `crossed` is scratch space.
+    /// The transmittance along the ray up to `distance`: the product of kt over every solid whose
+    /// surface is crossed, each once, in file order. `crossed` is scratch space.
     pub(crate) fn transmittance(&self, ray: &Ray, distance: f64, crossed: &mut Crossed) -> f64 {
         dispatch!(self.level, simd => self.transmittance_alone(simd, ray, distance, crossed))
     }
@@ -195,7 +195,7 @@ impl World {
             .product()
     }
 
-    /// What was met first, ties settled.
+    /// Returns the nearest hit, with ties settled.
     #[inline(always)]
     pub(crate) fn settle<S: Simd>(
         &self,
@@ -210,7 +210,7 @@ impl World {
         }
     }
 
-    /// The first object of the file that is met before a limit. It settles ties.
+    /// Returns the first object in the file that is hit before a limit, which settles ties.
     #[inline(never)]
     fn first_in_file<S: Simd>(&self, simd: S, ray: &Ray, limit: f64) -> Option<Nearest> {
         let mut first: Option<Nearest> = None;
@@ -233,8 +233,8 @@ impl World {
         first
     }
 
-    /// Tells of the objects at some places that the ray, which is also in all lanes of `rays`, meets
-    /// before a limit.
+    /// Reports the objects at some positions of the order that the ray, which also fills all lanes
+    /// of `rays`, hits before a limit.
     #[inline(always)]
     pub(crate) fn meet<S: Simd>(
         &self,
@@ -264,7 +264,7 @@ impl World {
         }
     }
 
-    /// Where an object is met; shapes other than meshes always say where first.
+    /// Intersects an object; shapes other than meshes always return their nearest hit.
     #[inline(always)]
     pub(crate) fn hit<S: Simd>(
         &self,
@@ -287,7 +287,7 @@ impl World {
         }
     }
 
-    /// What is asked of a mesh: of one that is opaque any hit says as much as the nearest.
+    /// Returns the search an object needs: in an opaque mesh any hit is as good as the nearest.
     pub(crate) fn search(&self, object: u32, search: Search) -> Search {
         match (search, self.opaque.get(object as usize)) {
             (Search::Blocker, Some(true)) => Search::Blocker,
@@ -295,8 +295,7 @@ impl World {
         }
     }
 
-    /// Visits runs of places in [`World::order`], at least those of all objects that the ray may
-    /// meet.
+    /// Visits ranges of [`World::order`] that include at least all objects the ray may hit.
     #[inline(always)]
     fn visit<S: Simd>(
         &self,

@@ -1,5 +1,4 @@
-//! Light as it comes from lights: where it is from, how much, and from which part of one that has a
-//! size.
+//! Light arriving from lights: direction, attenuation, and sampling of lights with a size.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -11,57 +10,59 @@ use super::warp;
 use crate::accel::Bvh;
 use crate::geometry::lanes::{Eight, Lanes, Level, Simd, Vector, dispatch};
 use crate::geometry::{Aabb, Ray};
-use crate::scene::{Falloff, Integrator, Light, Rgb, Scene, Source};
+use crate::scene::{Emitter, Falloff, Light, Rgb};
 
-/// From where light comes to points, in each lane.
+/// The light arriving at points, in each lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Incoming<N> {
-    /// The unit vectors toward it; NaN for a light at the point itself.
+    /// Unit vectors toward the light; NaN for a light at the point itself.
     pub(crate) toward: Vector<N>,
-    /// Where it starts, unless that is infinitely far away.
+    /// Origin of the light, unless it is infinitely far away.
     pub(crate) source: Option<Vector<N>>,
 }
 
-/// From where a light comes to points: from the middle of one that has a size. `None` if it comes
-/// from nowhere.
+/// Returns the light arriving at points, from its centre if it has a size; `None` for ambient
+/// light.
 #[expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take this with it"
+    reason = "this must be inlined into callers compiled for wider vectors"
 )]
 #[inline(always)]
 pub(crate) fn incoming<N: Lanes>(light: &Light, points: Vector<N>) -> Option<Incoming<N>> {
-    match light.source {
-        Source::Point { position, .. } => {
+    match light.emitter {
+        Emitter::Point { position, .. } => {
             let source = Vector::all(points.x, position);
             Some(Incoming {
                 toward: (source - points).unit(),
                 source: Some(source),
             })
         }
-        Source::Distant(toward) => Some(Incoming {
+        Emitter::Distant(toward) => Some(Incoming {
             toward: Vector::all(points.x, toward),
             source: None,
         }),
-        Source::Everywhere => None,
+        Emitter::Ambient => None,
     }
 }
 
-/// The part of a light that comes to a point in a direction, whatever is in its way. Of a light with
-/// a size its centre's distance counts.
+/// The fraction of a light that arrives at a point from a direction, ignoring occlusion. For a
+/// light with a size, the distance to its centre counts.
 #[inline]
 pub(crate) fn attenuation(light: &Light, point: DVec3, toward: DVec3) -> f64 {
-    match &light.source {
-        Source::Point { falloff, .. } if *falloff == Falloff::NONE => 1.0,
-        Source::Point { position, falloff } => falloff.share(position.distance(point), toward),
-        Source::Distant(_) | Source::Everywhere => 1.0,
+    match &light.emitter {
+        Emitter::Point { falloff, .. } if *falloff == Falloff::NONE => 1.0,
+        Emitter::Point {
+            position, falloff, ..
+        } => falloff.share(position.distance(point), toward),
+        Emitter::Distant(_) | Emitter::Ambient => 1.0,
     }
 }
 
 impl<S: Simd> Incoming<Eight<S>> {
-    /// Lets the light in a lane come from elsewhere.
+    /// Replaces the direction and origin of the light in a lane.
     #[expect(
         clippy::inline_always,
-        reason = "a caller compiled for wider vectors must take this with it"
+        reason = "this must be inlined into callers compiled for wider vectors"
     )]
     #[inline(always)]
     pub(crate) fn put(&mut self, lane: usize, incoming: Incoming<f64>) {
@@ -73,13 +74,16 @@ impl<S: Simd> Incoming<Eight<S>> {
 }
 
 impl Light {
-    /// What it is where it is seen, if it has a size.
+    /// The visible sphere of a light that has a size.
     pub(crate) fn sphere(&self) -> Option<SphereLight> {
-        match self.source {
-            Source::Point { position, .. } if 0.0 < self.radius => Some(SphereLight {
+        match self.emitter {
+            Emitter::Point {
+                position, radius, ..
+            } if 0.0 < radius => Some(SphereLight {
                 centre: position,
-                radius: self.radius,
+                radius,
                 intensity: self.colour,
+                scale: self.scale,
             }),
             _ => None,
         }
@@ -87,14 +91,15 @@ impl Light {
 }
 
 impl Falloff {
-    /// The part of the light that goes a distance in the direction from `toward`, a unit vector.
+    /// The fraction of the light at a distance, in the direction opposite to `toward`, a unit
+    /// vector.
     fn share(&self, distance: f64, toward: DVec3) -> f64 {
         let [a0, a1, a2] = self.radial;
         let spread = a0 + a1 * distance + a2 * distance * distance;
         let radial = if 0.0 < spread { 1.0 / spread } else { 1.0 };
         let angular = self.spot.map_or(1.0, |(direction, exponent)| {
             let cosine = -direction.dot(toward);
-            // Behind a spot light it is dark, whatever the exponent.
+            // Behind a spot light it is dark, regardless of the exponent.
             if cosine <= 0.0 {
                 0.0
             } else {
@@ -105,18 +110,20 @@ impl Falloff {
     }
 }
 
-/// A light that has a size: a sphere.
+/// A light with a size: a sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SphereLight {
     centre: DVec3,
     /// Above 0.
     radius: f64,
     intensity: Rgb,
+    /// See [`Light::scale`].
+    pub(crate) scale: f64,
 }
 
 impl SphereLight {
-    /// Chooses a place of what is seen of it from a point, each direction as likely as any other.
-    /// `None` from inside.
+    /// Samples the part of the sphere visible from a point, uniformly over directions. `None` if
+    /// the point is inside.
     pub(crate) fn choose(&self, point: DVec3, place: [f64; 2]) -> Option<Incoming<f64>> {
         let versine = self.versine(point)?;
         let axis = (self.centre - point).normalize();
@@ -125,7 +132,7 @@ impl SphereLight {
             origin: point,
             direction: toward,
         };
-        // A ray along the rim may just miss it.
+        // A ray along the rim may just miss the sphere.
         let distance = self
             .hit(&ray)
             .unwrap_or_else(|| toward.dot(self.centre - point));
@@ -135,28 +142,28 @@ impl SphereLight {
         })
     }
 
-    /// The density of [`SphereLight::choose`] over directions that meet it, per steradian; 0 from inside.
+    /// The density of [`SphereLight::choose`] per steradian where it hits the sphere; 0 inside.
     pub(crate) fn density(&self, point: DVec3) -> f64 {
         self.versine(point)
             .map_or(0.0, |versine| 1.0 / (TAU * versine))
     }
 
-    /// What it shows where it is seen: I / (π r²).
+    /// Emitted radiance: I / (π r²).
     pub(crate) fn radiance(&self) -> Rgb {
         self.intensity / self.radius / (PI * self.radius)
     }
 
-    /// Radiance over density: what its light counts in one direction that was chosen.
+    /// Radiance over density: the contribution of a sampled direction.
     pub(crate) fn irradiance(&self, point: DVec3) -> Rgb {
         // 1 − cos is sin² / (1 + cos), and the sine is the radius over the distance, so that the
-        // radius, which may be as small as numbers are, cancels.
+        // radius, which may be arbitrarily small, cancels.
         let distance = self.centre.distance(point);
         let sine = self.radius / distance;
         let cosine = (1.0 - sine * sine).max(0.0).sqrt();
         2.0 * self.intensity / distance / distance / (1.0 + cosine)
     }
 
-    /// How far along a ray it is; `None` if it is missed, or from inside.
+    /// The distance at which a ray hits the sphere; `None` if it misses or starts inside.
     pub(crate) fn hit(&self, ray: &Ray) -> Option<f64> {
         let way = self.centre - ray.origin;
         let along = way.dot(ray.direction);
@@ -174,7 +181,7 @@ impl SphereLight {
         }
     }
 
-    /// 1 − cos of half the angle that it takes as seen from a point outside.
+    /// 1 − cos of the half angle that the sphere subtends at a point; `None` inside.
     fn versine(&self, point: DVec3) -> Option<f64> {
         let sine = self.radius / self.centre.distance(point);
         (sine < 1.0).then(|| {
@@ -184,7 +191,7 @@ impl SphereLight {
     }
 }
 
-/// All lights of a scene that have a size.
+/// All lights of a scene with a size.
 #[derive(Clone, Debug)]
 pub(crate) struct SphereLights {
     all: Vec<SphereLight>,
@@ -192,7 +199,7 @@ pub(crate) struct SphereLights {
 }
 
 impl SphereLights {
-    /// `None` if `cancelled` said so.
+    /// Collects the lights; `None` once `cancelled` returns true.
     pub(crate) fn new(lights: &[Light], cancelled: impl Fn() -> bool + Sync) -> Option<Self> {
         let all: Vec<_> = lights.iter().filter_map(Light::sphere).collect();
         let boxes: Vec<_> = all.iter().map(SphereLight::bounds).collect();
@@ -200,8 +207,8 @@ impl SphereLights {
         Some(Self { all, tree })
     }
 
-    /// The nearest one that a ray meets before a distance, and where; of several at the same place
-    /// the first in file order.
+    /// Returns the nearest light that a ray hits before a distance, and where; of several at the
+    /// same distance, the first in the file.
     pub(crate) fn nearest(&self, ray: &Ray, distance: f64) -> Option<(SphereLight, f64)> {
         let mut nearest: Option<(f64, u32)> = None;
         self.visit(ray, distance, |number| {
@@ -216,7 +223,7 @@ impl SphereLights {
         nearest.map(|(hit, number)| (self.all[number as usize], hit))
     }
 
-    /// Whether a ray meets one other than its own target before a distance.
+    /// Whether a ray hits a light other than its target before a distance.
     pub(crate) fn hide(&self, target: &SphereLight, ray: &Ray, distance: f64) -> bool {
         let mut hidden = false;
         self.visit(ray, distance, |number| {
@@ -227,7 +234,7 @@ impl SphereLights {
         hidden
     }
 
-    /// Visits those that the ray may meet; `visit` gives the limit from there on, below 0 to end.
+    /// Visits the lights that the ray may hit; `visit` returns the new limit, negative to stop.
     fn visit(&self, ray: &Ray, limit: f64, mut visit: impl FnMut(u32) -> f64) {
         if self.all.is_empty() {
             return;
@@ -244,15 +251,5 @@ impl SphereLights {
                 limit
             });
         });
-    }
-}
-
-/// What the intensities of a scene's lights are multiplied by where paths gather them. Those of a
-/// scene of `.xml` that was not made for it shine on even surfaces as they do without paths. (Light
-/// on other materials is weighed as without paths.)
-pub(crate) fn path_gain(scene: &Scene) -> f64 {
-    match scene.setting.integrator {
-        Integrator::Path => 1.0,
-        Integrator::Whitted => PI,
     }
 }

@@ -1,7 +1,7 @@
-//! What a surface of `.xml` does with light along paths: how much it sends back between two
-//! directions, and directions chosen by that.
+//! The non-specular part of a surface in path tracing: evaluation and importance sampling of its
+//! diffuse and glossy lobes.
 //!
-//! Mirrors and glass are not of it: theirs is one direction, or a narrow cone.
+//! Mirrors and dielectrics are excluded: they scatter into one direction or a narrow cone.
 
 use std::f64::consts::{PI, TAU};
 
@@ -10,41 +10,74 @@ use glam::DVec3;
 use super::microfacet::Microfacets;
 use super::optics::{power, reflect, schlick};
 use super::probe::Point;
-use super::utah::{Gloss, Shading};
 use super::warp;
-use crate::scene::Rgb;
+use crate::scene::{Gloss, Highlight, Material, Rgb};
 
-/// The part of a surface at a point that sends light back in all directions.
+/// The diffuse and glossy lobes of a surface at a point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lobes {
+    /// Diffuse BRDF.
     diffuse: Rgb,
-    gloss: Gloss,
-    /// How likely a direction is chosen by the cosine and not by the gloss.
+    glossy: Glossy,
+    /// A highlight of lights only, which is not part of the BRDF.
+    highlight: Option<Gloss>,
+    /// Probability of sampling the cosine lobe instead of the glossy lobe.
     even: f64,
 }
 
-/// Light sent back between two directions.
+/// A glossy lobe.
+#[derive(Clone, Copy, Debug)]
+enum Glossy {
+    None,
+    /// Around the mirror direction.
+    Phong(Gloss),
+    /// By the half vector of view and light.
+    Blinn(Gloss),
+    /// Microfacets: reflectance at normal incidence, and α. Perfect ones are a mirror instead.
+    Microfacets(Rgb, f64),
+}
+
+/// Light scattered between two directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Scattered {
-    /// The BRDF times the cosine to the normal.
+    /// BRDF times the cosine to the normal.
     pub(crate) value: Rgb,
-    /// How likely [`Lobes::choose`] is to give the direction, per steradian.
+    /// Probability density with which [`Lobes::choose`] returns the direction, per steradian.
     pub(crate) density: f64,
 }
 
 impl Lobes {
-    /// The lobes of a surface at a point, and how much they send back at most, roughly.
-    pub(crate) fn of(point: &Point, shading: &Shading) -> (Self, f64) {
-        let gloss = match shading.gloss {
-            Gloss::Blinn(colour, _) | Gloss::Phong(colour, _) => strength(colour),
-            // A perfect one is a mirror.
-            Gloss::Microfacet(_, alpha) if Microfacets::is_perfect(alpha) => 0.0,
-            // At grazing angles it sends back all.
-            Gloss::Microfacet(straight, _) => strength(straight).max(0.25),
+    /// Returns the lobes of a surface at a point, and approximately their maximum reflectance.
+    pub(crate) fn of(point: &Point, material: &Material) -> (Self, f64) {
+        let mut highlight = None;
+        let (glossy, gloss) = match material.highlight {
+            Highlight::None => (Glossy::None, 0.0),
+            Highlight::Phong(gloss) => {
+                highlight = Some(gloss);
+                (Glossy::None, 0.0)
+            }
+            Highlight::ModifiedPhong(gloss) => (Glossy::Phong(gloss), strength(gloss.specular)),
+            Highlight::Blinn(gloss) => (Glossy::Blinn(gloss), strength(gloss.specular)),
+            Highlight::Microfacet {
+                roughness,
+                metallic,
+            } => {
+                let straight = material.facets_reflectance(metallic);
+                let alpha = roughness * roughness;
+                if Microfacets::is_perfect(alpha) {
+                    (Glossy::None, 0.0)
+                } else {
+                    // At grazing incidence everything is reflected.
+                    let gloss = strength(straight).max(0.25);
+                    (Glossy::Microfacets(straight, alpha), gloss)
+                }
+            }
         };
-        let diffuse = strength(shading.diffuse);
+        let albedo = material.diffuse();
+        let diffuse = strength(albedo);
         let total = diffuse + gloss;
-        // From below the normal, where it leans past the eye, none of the gloss's directions is right.
+        // Where the shading normal leans away from the eye, no direction of the glossy lobe is
+        // valid.
         let leans = point.normal.dot(point.view) <= 0.0;
         let even = if total == 0.0 || leans {
             1.0
@@ -52,16 +85,31 @@ impl Lobes {
             diffuse / total
         };
         let lobes = Self {
-            diffuse: shading.diffuse,
-            gloss: shading.gloss,
+            diffuse: albedo / PI,
+            glossy,
+            highlight,
             even,
         };
         (lobes, total)
     }
 
-    /// What goes from the direction `toward` to the eye: BRDF kd/π + ks(g+2)/8π (N·H)^g, or
-    /// ks(g+1)/2π (R·V)^g (the normalised forms of Blinn's and Phong's highlights), or that of little
-    /// mirrors.
+    /// Returns the highlight of light from the direction `toward` that [`Lobes::scatter`] excludes:
+    /// ks (R·V)^g / π for any cosine above 0.
+    pub(crate) fn highlight(&self, point: &Point, toward: DVec3) -> Rgb {
+        let cosine = point.normal.dot(toward);
+        match self.highlight {
+            Some(gloss) if 0.0 < cosine => {
+                let mirrored = 2.0 * cosine * point.normal - toward;
+                gloss.specular * power(mirrored.dot(point.view), gloss.exponent) / PI
+            }
+            _ => Rgb::ZERO,
+        }
+    }
+
+    /// Evaluates light scattered from the direction `toward` to the eye: BRDF kd/π + ks(g+2)/8π
+    /// (N·H)^g, or ks(g+1)/2π (R·V)^g (the normalised Blinn and Phong lobes), or that of
+    /// microfacets.
+    #[inline]
     pub(crate) fn scatter(&self, point: &Point, toward: DVec3) -> Scattered {
         let cosine = point.normal.dot(toward);
         if cosine <= 0.0 || cosine.is_nan() {
@@ -70,52 +118,61 @@ impl Lobes {
                 density: 0.0,
             };
         }
+        let (glossy, density) = match self.glossy {
+            Glossy::None => (Rgb::ZERO, 0.0),
+            _ => self.scatter_glossy(point, toward),
+        };
+        Scattered {
+            value: cosine * (self.diffuse + glossy),
+            density: self.even * cosine / PI + (1.0 - self.even) * density,
+        }
+    }
+
+    /// The value of the glossy lobe without the cosine of incidence, and its density.
+    fn scatter_glossy(&self, point: &Point, toward: DVec3) -> (Rgb, f64) {
         let view = point.view;
-        let (glossy, density) = match self.gloss {
-            Gloss::Blinn(colour, exponent) => {
+        match self.glossy {
+            Glossy::None => (Rgb::ZERO, 0.0),
+            Glossy::Blinn(Gloss { specular, exponent }) => {
                 let exponent = exponent.max(0.0);
                 let halfway = (toward + view).normalize();
                 let raised = power(point.normal.dot(halfway).min(1.0), exponent);
                 let density = (exponent + 1.0) / TAU * raised / (4.0 * view.dot(halfway));
-                (colour * ((exponent + 2.0) / (8.0 * PI) * raised), density)
+                (specular * ((exponent + 2.0) / (8.0 * PI) * raised), density)
             }
-            Gloss::Phong(colour, exponent) => {
+            Glossy::Phong(Gloss { specular, exponent }) => {
                 let exponent = exponent.max(0.0);
                 let raised = power(reflect(-view, point.normal).dot(toward).min(1.0), exponent);
                 let density = (exponent + 1.0) / TAU * raised;
-                (colour * density, density)
+                (specular * density, density)
             }
-            Gloss::Microfacet(_, alpha) if Microfacets::is_perfect(alpha) => (Rgb::ZERO, 0.0),
-            Gloss::Microfacet(straight, alpha) => {
+            Glossy::Microfacets(straight, alpha) => {
                 let facets = Microfacets::new(point.normal, alpha);
                 let halfway = (toward + view).normalize();
                 let colour = straight + (Rgb::ONE - straight) * schlick(view.dot(halfway));
                 let (value, density) = facets.scatter(view, toward, halfway);
                 (colour * value, density)
             }
-        };
-        Scattered {
-            value: cosine * (self.diffuse / PI + glossy),
-            density: self.even * cosine / PI + (1.0 - self.even) * density,
         }
     }
 
-    /// A direction, by three numbers in 0..1. It may lead below the surface, where nothing comes from.
+    /// Samples a direction by three numbers in 0..1. It may point below the surface, into darkness.
     pub(crate) fn choose(&self, point: &Point, lobe: f64, place: [f64; 2]) -> DVec3 {
         if lobe < self.even {
             return warp::by_cosine(point.normal, place);
         }
-        match self.gloss {
-            Gloss::Blinn(_, exponent) => {
+        match self.glossy {
+            Glossy::None => warp::by_cosine(point.normal, place),
+            Glossy::Blinn(Gloss { exponent, .. }) => {
                 let exponent = exponent.max(0.0);
                 let halfway = warp::by_power_of_cosine(point.normal, exponent, place);
                 reflect(-point.view, halfway)
             }
-            Gloss::Phong(_, exponent) => {
+            Glossy::Phong(Gloss { exponent, .. }) => {
                 let mirrored = reflect(-point.view, point.normal);
                 warp::by_power_of_cosine(mirrored, exponent.max(0.0), place)
             }
-            Gloss::Microfacet(_, alpha) => {
+            Glossy::Microfacets(_, alpha) => {
                 let halfway = Microfacets::new(point.normal, alpha).choose(point.view, place);
                 reflect(-point.view, halfway)
             }
@@ -123,7 +180,7 @@ impl Lobes {
     }
 }
 
-/// How much a colour lets through, for chances.
+/// Scalar weight of a colour, used for probabilities.
 pub(crate) fn strength(colour: Rgb) -> f64 {
     let strength = colour.abs().max_element();
     if strength.is_finite() { strength } else { 1.0 }

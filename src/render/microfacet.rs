@@ -1,7 +1,7 @@
-//! Little mirrors that lie about a normal: the distribution of Trowbridge and Reitz ("GGX": Walter
-//! and others, "Microfacet Models for Refraction through Rough Surfaces", 2007), shadowed by Smith's
-//! height-correlated function, chosen by how much of them is seen (Heitz, "Sampling the GGX
-//! Distribution of Visible Normals", JCGT 7(4), 2018).
+//! Microfacets: the distribution of Trowbridge and Reitz ("GGX": Walter and others, "Microfacet
+//! Models for Refraction through Rough Surfaces", 2007), with Smith's height-correlated shadowing,
+//! sampled by visible normals (Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT
+//! 7(4), 2018).
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::warp;
 
-/// Little mirrors about a normal.
+/// Microfacets around a normal.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Microfacets {
     basis: [DVec3; 3],
@@ -17,13 +17,13 @@ pub(crate) struct Microfacets {
 }
 
 impl Microfacets {
-    /// Below this α they are one mirror: the lobe is narrower than any pixel.
+    /// Below this α they count as one mirror: the lobe is narrower than any pixel.
     const PERFECT: f64 = 1e-4;
 
-    /// From this α on they stand on edge, and more would overflow.
+    /// Upper limit of α: facets are vertical, and larger values would overflow.
     const ROUGHEST: f64 = 1e6;
 
-    /// Whether they are one mirror.
+    /// Whether they count as one mirror.
     pub(crate) fn is_perfect(alpha: f64) -> bool {
         alpha < Self::PERFECT
     }
@@ -36,9 +36,9 @@ impl Microfacets {
         }
     }
 
-    /// D·G / (4 N·L N·V), and the density per steradian with which `toward` is the mirrored direction
-    /// of `view` on a facet of [`Microfacets::choose`]. Both directions are above the surface, or nothing
-    /// is sent back.
+    /// Returns D·G / (4 N·L N·V) and the density per steradian with which `toward` is the
+    /// reflection of `view` at a facet of [`Microfacets::choose`]. Both are 0 unless both
+    /// directions are above the surface.
     pub(crate) fn scatter(&self, view: DVec3, toward: DVec3, halfway: DVec3) -> (f64, f64) {
         let [_, _, normal] = self.basis;
         let [from, to] = [view, toward].map(|direction| normal.dot(direction));
@@ -49,11 +49,11 @@ impl Microfacets {
         let [lambda_from, lambda_to] = [from, to].map(|cosine| self.lambda(cosine));
         let seen = spread / (1.0 + lambda_from);
         let value = spread / ((1.0 + lambda_from + lambda_to) * 4.0 * from * to);
-        // Visible normals have the density D G₁ (V·H) / (N·V); mirroring divides by 4 V·H.
+        // Visible normals have the density D G₁ (V·H) / (N·V); reflection divides by 4 V·H.
         (value, seen / (4.0 * from))
     }
 
-    /// The normal of a facet that is seen from `view`, by how much of it is seen.
+    /// Samples the normal of a facet in proportion to its area visible from `view`.
     pub(crate) fn choose(&self, view: DVec3, [u, v]: [f64; 2]) -> DVec3 {
         let [x, y, normal] = self.basis;
         let alpha = self.alpha;
@@ -62,7 +62,7 @@ impl Microfacets {
             alpha * y.dot(view),
             normal.dot(view).max(0.0),
         );
-        // Seen from above a hemisphere, its projected area is a disc, in part behind its own rim.
+        // Seen from above, a hemisphere's projected area is a disc, partly hidden behind its rim.
         let stretched = local.normalize_or(DVec3::Z);
         let across = DVec3::new(-stretched.y, stretched.x, 0.0).normalize_or(DVec3::X);
         let up = stretched.cross(across);
@@ -78,19 +78,19 @@ impl Microfacets {
         (facet.x * x + facet.y * y + facet.z * normal).normalize()
     }
 
-    /// D: how many of them face a direction, by its cosine to the normal.
+    /// D: the density of facet normals, by their cosine to the normal.
     fn distribution(&self, cosine: f64) -> f64 {
         if cosine <= 0.0 {
             return 0.0;
         }
         let square = self.alpha * self.alpha;
-        // cos² (α² − 1) + 1 without the difference of two numbers near 1.
+        // cos² (α² − 1) + 1 without cancellation near 1.
         let sine = (1.0 - cosine) * (1.0 + cosine);
         let denominator = sine.max(0.0) + cosine * cosine * square;
         square / (PI * denominator * denominator)
     }
 
-    /// Smith's Λ: what is hidden for each that is seen.
+    /// Smith's Λ: the ratio of hidden to visible facets.
     fn lambda(&self, cosine: f64) -> f64 {
         let square = cosine * cosine;
         let tangent = ((1.0 - square) / square).max(0.0);

@@ -1,33 +1,33 @@
-//! Pixels from a scene. Knows no documents, files or terminals.
+//! Traces scenes to pixels. Independent of documents, files and terminals.
 //!
-//! A [`Renderer`] is a handle on a worker thread that traces the newest [`Job`] it was given and
-//! shows its progress as [`Frame`]s. Every sample is a pure function of (scene, camera, settings,
-//! pixel, sample index) and each pixel's samples are added in the order of their indices, so a
-//! finished frame has the same bits for any number of threads and any history of cancelled jobs.
+//! A [`Renderer`] is a handle to a worker thread that traces the newest [`Job`] and publishes its
+//! progress as [`Frame`]s. Every sample is a pure function of (scene, camera, settings, pixel,
+//! sample index), and the samples of a pixel are added in index order, so a finished frame has the
+//! same bits for any number of threads and any history of cancelled jobs.
 //!
-//! Dropping a renderer ends its work soon, however large the picture: work asks every few
-//! milliseconds whether to stop, a film's memory is first touched as it is traced, and is left to
-//! the pool to free.
+//! Dropping a renderer ends its work soon, however large the picture: cancellation is polled every
+//! few milliseconds, and a film's memory is first touched while tracing and freed by the pool.
 //!
-//! The way of a picture: [`renderer`] hands a job to [`worker`], which builds a [`world`] with the
-//! [`structures`] of its meshes and fills the [`tile`]s of a [`film`] in [`steps`]; each sample takes
-//! its numbers from [`sampler`], its place around the pixel from [`filter`], its ray from [`camera`]
-//! and its radiance from a [`tracer`], or something else from [`first_hit`]; [`tone`] makes the film a
-//! frame, and [`noise`] says how far that is from the last one.
+//! Data flow: [`renderer`] hands a job to [`worker`], which builds a [`world`] with the
+//! [`structures`] of its meshes and fills the [`tile`]s of a [`film`] in [`steps`]. Each sample
+//! gets its numbers from [`sampler`], its place around the pixel from [`filter`], its ray from
+//! [`camera`] and its radiance from a [`tracer`], or an AOV from [`first_hit`]. [`tone`] converts
+//! the film to a frame, and [`noise`] estimates the remaining error.
 //!
-//! Pixels of live pictures remember what they depend on ([`touched`]): an edit of a material or of a
-//! light's colour takes over the film as far as it is, and only what depends on it is traced anew.
+//! Pixels of live pictures record their dependencies ([`touched`]): after an edit of a material or
+//! of a light's colour the film is reused, and only dependent pixels are traced again.
 //!
-//! A tracer gathers light in one of two ways: [`whitted`], a [`wave`] of samples at once, whose rays
-//! land on [`surfaces`] and [`branch`]; or [`path`], one sample after the other. Both ask the world by
-//! a [`probe`], come to matter of [`phong`] (with its [`texture`]s) or [`utah`] (with those of
-//! [`mapped`]) and ask [`lights`] for their [`direct`] light; [`optics`], [`lobes`], [`microfacet`] and
-//! [`warp`] are the formulas.
+//! A tracer has two integrators: [`whitted`] traces a [`wave`] of samples at once, whose rays land
+//! on [`surfaces`] and [`branch`]; [`path`] traces samples one by one, continuing by a [`bsdf`] and
+//! its [`lobes`]. Both query the world through a [`probe`], which applies a material's maps
+//! ([`texture`]), shade according to [`shading`], and sample [`lights`] for [`direct`] light.
+//! [`optics`], [`microfacet`] and [`warp`] hold the formulas.
 //!
-//! Rays meet the world eight side by side, against one object after the other ([`packets`]), or alone,
-//! against up to eight [`spheres`] at once ([`intersect`]). Neither changes a bit of what is met.
+//! Rays are intersected in packets of eight with one object after the other ([`packets`]), or
+//! singly with up to eight [`spheres`] at once ([`intersect`]), with bitwise equal results.
 
 mod branch;
+mod bsdf;
 mod camera;
 mod direct;
 mod film;
@@ -37,17 +37,16 @@ mod frame;
 mod intersect;
 mod lights;
 mod lobes;
-mod mapped;
 mod microfacet;
 mod noise;
 mod optics;
 mod packets;
 mod path;
-mod phong;
 mod probe;
 mod renderer;
 mod room;
 mod sampler;
+mod shading;
 mod shared;
 mod shot;
 mod spheres;
@@ -59,7 +58,6 @@ mod tile;
 mod tone;
 mod touched;
 mod tracer;
-mod utah;
 mod warp;
 mod wave;
 mod whitted;

@@ -1,30 +1,30 @@
-//! Mirrors, glass and highlights: where rays go on, and how much light goes each way.
+//! Reflection, refraction and highlights: directions and Fresnel weights.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use glam::DVec3;
 
 use super::warp;
 use crate::geometry::lanes::{Lanes, Vector};
-use crate::scene::Rgb;
+use crate::scene::{Reflectance, Rgb};
 
-/// The mirrored unit directions of unit directions, in each lane: R = d − 2(d·N)N.
+/// Reflects unit directions, in each lane: R = d − 2(d·N)N.
 #[inline(always)]
 pub(crate) fn mirror<N: Lanes>(direction: Vector<N>, normal: Vector<N>) -> Vector<N> {
     let along = direction.dot(normal);
     (direction - normal.scaled(along.all(2.0) * along)).unit()
 }
 
-/// The same for one.
+/// Reflects one unit direction.
 pub(crate) fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
     mirror(direction.into(), normal.into()).into()
 }
 
-/// Snell's law: the refracted unit directions for unit directions meeting surfaces whose normals are
-/// turned against them, `ratio` = n1/n2, in each lane that has no total internal reflection.
+/// Refracts unit directions by Snell's law at surfaces whose normals face them, with `ratio` =
+/// n1/n2; the mask selects lanes without total internal reflection.
 #[inline(always)]
 pub(crate) fn refract_all<N: Lanes>(
     direction: Vector<N>,
@@ -39,34 +39,34 @@ pub(crate) fn refract_all<N: Lanes>(
     (refracted, !squared.below(zero))
 }
 
-/// The same for one: `None` on total internal reflection.
+/// Refracts one unit direction; `None` on total internal reflection.
 pub(crate) fn refract(direction: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
     let (refracted, passes) = refract_all(direction.into(), normal.into(), ratio);
     passes.then(|| refracted.into())
 }
 
-/// The index of refraction that a said one means: 0 or less reads as 1.
+/// The effective index of refraction: values of 0 or less count as 1.
 pub(crate) fn index(said: f64) -> f64 {
     if 0.0 < said { said } else { 1.0 }
 }
 
-/// The share that a surface between two indices mirrors straight on: ((n1 − n2) / (n1 + n2))².
+/// The reflectance at normal incidence between two indices: ((n1 − n2) / (n1 + n2))².
 pub(crate) fn normal_reflectance(first: f64, second: f64) -> f64 {
     let root = (first - second) / (first + second);
     root * root
 }
 
-/// How far from straight-on reflectance to all of it a cosine is: (1 − c)⁵ (Schlick, "An
-/// Inexpensive BRDF Model for Physically-based Rendering", 1994).
+/// Schlick's interpolation from normal reflectance to 1: (1 − c)⁵ (Schlick, "An Inexpensive BRDF
+/// Model for Physically-based Rendering", 1994).
 pub(crate) fn schlick(cosine: f64) -> f64 {
     let rest = 1.0 - cosine.clamp(0.0, 1.0);
     let square = rest * rest;
     square * square * rest
 }
 
-/// The share of light that glass mirrors by Schlick's approximation: `incident` and `refracted` are
-/// the cosines on the sides of the indices `first` and `second`; that on the side of the smaller
-/// index counts. Nothing is mirrored where the indices are equal.
+/// The reflectance of glass by Schlick's approximation: `incident` and `refracted` are the cosines
+/// on the sides of the indices `first` and `second`; the one on the side of the smaller index is
+/// used. Zero where the indices are equal.
 pub(crate) fn fresnel(first: f64, incident: f64, second: f64, refracted: f64) -> f64 {
     let cosine = if first < second {
         incident
@@ -79,32 +79,41 @@ pub(crate) fn fresnel(first: f64, incident: f64, second: f64, refracted: f64) ->
     straight + (1.0 - straight) * schlick(cosine)
 }
 
-/// What becomes of light that meets a transparent surface.
+/// Light at the boundary of a transparent solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Dielectric {
-    /// The part that is mirrored: all of it on total internal reflection.
+pub(crate) struct Refraction {
+    /// Reflected fraction; 1 on total internal reflection.
     pub(crate) reflectance: f64,
-    /// Where the rest goes.
+    /// Refracted direction; `None` on total internal reflection.
     pub(crate) refracted: Option<DVec3>,
 }
 
-impl Dielectric {
-    /// Light of a unit `direction` that goes from one index to another, at a surface whose `normal` is
-    /// turned against it.
-    pub(crate) fn new(direction: DVec3, normal: DVec3, [from, to]: [f64; 2]) -> Self {
+impl Refraction {
+    /// Computes the refraction of light with unit `direction` between two indices, at a surface
+    /// whose `normal` faces it.
+    pub(crate) fn new(
+        direction: DVec3,
+        normal: DVec3,
+        indices: [f64; 2],
+        reflectance: Reflectance,
+    ) -> Self {
+        let [from, to] = indices;
         let refracted = refract(direction, normal, from / to);
-        let reflectance = refracted.map_or(1.0, |refracted| {
-            let incident = -direction.dot(normal);
-            fresnel(from, incident, to, -refracted.dot(normal))
-        });
+        let short_of_total = |refracted: DVec3| match reflectance {
+            Reflectance::TotalOnly => 0.0,
+            Reflectance::Schlick => {
+                let incident = -direction.dot(normal);
+                fresnel(from, incident, to, -refracted.dot(normal))
+            }
+        };
         Self {
-            reflectance,
+            reflectance: refracted.map_or(1.0, short_of_total),
             refracted,
         }
     }
 }
 
-/// What is left of light after a way (Beer, Lambert): e^(−absorption · length).
+/// The transmittance along a path (Beer, Lambert): e^(−absorption · length).
 pub(crate) fn transmitted(absorption: Rgb, length: f64) -> Rgb {
     if absorption == Rgb::ZERO {
         return Rgb::ONE;
@@ -112,8 +121,8 @@ pub(crate) fn transmitted(absorption: Rgb, length: f64) -> Rgb {
     absorption.map(|lost| libm::exp(-lost * length))
 }
 
-/// A direction spread in a cone whose half angle has this tangent; kept on the side of the surface
-/// that `outward` points to by folding the cone along it.
+/// Spreads a direction in a cone whose half angle has this tangent; the part of the cone beyond the
+/// surface is folded back to the side that `outward` points to.
 pub(crate) fn spread(
     direction: DVec3,
     tangent: f64,
@@ -138,9 +147,9 @@ pub(crate) fn spread(
     }
 }
 
-/// The power of a highlight: cosineⁿ, 0 for a negative cosine; 0⁰ = 1, and n < 0 reads as 0. Whole
-/// exponents to 4096 go by repeated squaring, which is exact to a few ulp, the same on every
-/// machine and ten times as fast as the general power.
+/// The power of a highlight: cosineⁿ, 0 for a negative cosine; 0⁰ = 1, and n < 0 counts as 0.
+/// Integer exponents up to 4096 use repeated squaring, which is exact to a few ulp, equal on all
+/// machines and ten times as fast as the general power.
 pub(crate) fn power(cosine: f64, exponent: f64) -> f64 {
     if cosine < 0.0 {
         return 0.0;
@@ -168,7 +177,7 @@ mod tests {
     /// By hand: ((1 − 1.5) / 2.5)² = .04; at 60° 0.04 + 0.96 / 32 = .07. Leaving glass at an angle
     /// whose sine is ⅓ the ray is in air at 30°: 1 − cos 30° = 0.133975, to the fifth 4.316e-5.
     #[test]
-    fn schlicks_values_known_on_paper() {
+    fn schlick_matches_values_computed_by_hand() {
         let from_air = |cosine| fresnel(1.0, cosine, 1.5, 0.9);
         for (cosine, share) in [(1.0, 0.04), (0.5, 0.07), (0.0, 1.0)] {
             assert!((from_air(cosine) - share).abs() < 1e-15, "{cosine}");
@@ -176,12 +185,12 @@ mod tests {
         let from_glass = fresnel(1.5, 8.0f64.sqrt() / 3.0, 1.0, 0.75f64.sqrt());
         assert!((from_glass - (0.04 + 0.96 * 4.316_307e-5)).abs() < 1e-9);
         assert_eq!(fresnel(1.5, 0.1, 1.5, 0.1), 0.0);
-        // Into what is thinner than air the cosine inside counts.
+        // Toward an index below that of air, the inside cosine is used.
         assert!((fresnel(1.0, 0.9, 0.5, 0.5) - (1.0 / 9.0 + 8.0 / 9.0 / 32.0)).abs() < 1e-15);
     }
 
     #[test]
-    fn an_index_of_0_or_less_is_1() {
+    fn an_index_of_0_or_less_counts_as_1() {
         assert_eq!([1.5, 0.0, -2.0].map(index), [1.5, 1.0, 1.0]);
     }
 }

@@ -1,8 +1,8 @@
-//! Rays against a world, eight side by side.
+//! Intersection of rays with a world in packets of eight.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use std::ops::Range;
@@ -14,7 +14,7 @@ use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, Vector, WIDTH, dispat
 use crate::geometry::{Hit, Hits, Packet, Rays, Shape, sphere_hits};
 
 impl World {
-    /// [`World::nearest`] for each of several rays.
+    /// Returns [`World::nearest`] for each ray.
     pub(crate) fn nearest_each(&self, packets: &[Packet], nearest: &mut Vec<Option<Nearest>>) {
         nearest.clear();
         dispatch!(self.level, simd => {
@@ -24,8 +24,8 @@ impl World {
         });
     }
 
-    /// [`World::transmittance`] for each of several rays up to its end. `blocker` is an object that
-    /// may block them, tried first; the last simple one that did comes back.
+    /// Returns [`World::transmittance`] for each ray up to its end. `blocker` is a likely occluder
+    /// to try first; it is set to the last simple object that blocked a ray.
     pub(crate) fn transmittance_each(
         &self,
         packets: &[Packet],
@@ -133,7 +133,7 @@ impl World {
         }
     }
 
-    /// Of lanes that meet an object, those where it lets nothing through.
+    /// Of the lanes that hit an object, returns those that it blocks completely.
     #[inline(always)]
     fn blocked(&self, object: u32, hits: &Hits) -> u32 {
         let mut blocked = 0;
@@ -204,7 +204,7 @@ impl World {
         }
     }
 
-    /// [`World::meet`] for one ray of a packet.
+    /// Runs [`World::meet`] for one ray of a packet.
     #[inline(always)]
     fn meet_alone<S: Simd>(
         &self,
@@ -220,10 +220,10 @@ impl World {
         self.meet(&rays, &ray, limits[lane], places, search, met);
     }
 
-    /// [`World::hits`] by an object's place in [`World::order`].
+    /// Runs [`World::hits`] for the object at a position in [`World::order`].
     ///
-    /// What is near in space is near in that order, so that of a million spheres those that rays
-    /// come to next are mostly in the cache.
+    /// Objects close in space are close in that order, so that the next of a million spheres is
+    /// usually in the cache.
     #[inline(always)]
     fn hits_at<S: Simd>(
         &self,
@@ -246,9 +246,9 @@ impl World {
         )
     }
 
-    /// Where an object is met by rays side by side, those whose bit in `lanes` is 1.
+    /// Intersects an object with the rays of a packet whose bit in `lanes` is 1.
     ///
-    /// Not inlined, but compiled for the vectors of `simd`: it holds the code of all shapes.
+    /// Not inlined but compiled for the vectors of `simd`: it holds the code of all shapes.
     #[inline(always)]
     fn hits<S: Simd>(
         &self,
@@ -272,8 +272,8 @@ impl World {
         )
     }
 
-    /// Notes an object that blocks light, to be tried first, if that takes no longer than the boxes
-    /// around it.
+    /// Remembers an object that blocks light, to be tried first, if that is no slower than testing
+    /// its bounding boxes.
     fn remember(&self, blocker: &mut Option<u32>, object: u32) {
         let shape = &self.scene.objects[object as usize].shape;
         if !matches!(shape, Shape::Mesh(_) | Shape::Csg(_)) {
@@ -281,7 +281,7 @@ impl World {
         }
     }
 
-    /// Visits runs of places in [`World::order`], at least those of all objects that some ray may meet.
+    /// Visits ranges of [`World::order`] that include at least all objects that some ray may hit.
     #[inline(always)]
     fn visit_together<S: Simd>(
         &self,
@@ -299,7 +299,7 @@ impl World {
     }
 }
 
-/// Lets some rays end before they begin.
+/// Ends some rays before their start.
 #[inline(always)]
 fn close<S: Simd>(limits: &mut Eight<S>, mut lanes: u32) {
     while lanes != 0 {

@@ -1,55 +1,41 @@
-//! Path tracing (Kajiya, "The Rendering Equation", 1986): an unbiased estimate of all light that
-//! comes by up to `depth` bounces, ambient light apart. At each bounce light is asked for from all
-//! lights; a light that has a size is also met by chance, and both estimates are weighed by how
-//! likely each was (Veach and Guibas, "Optimally Combining Sampling Techniques for Monte Carlo
-//! Rendering", 1995).
+//! Path tracing (Kajiya, "The Rendering Equation", 1986): an unbiased estimate of radiance over up
+//! to `depth` bounces, without ambient light. Next event estimation samples all lights at each
+//! bounce; for a light with a size it is combined with BSDF sampling by multiple importance
+//! sampling (Veach and Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering",
+//! 1995).
 
 use glam::DVec3;
 
+use super::bsdf::{Bsdf, BsdfSample};
 use super::direct::shadow;
 use super::frame::NO_OBJECT;
-use super::lights::{self, SphereLight};
-use super::lobes::{Lobes, strength};
-use super::microfacet::Microfacets;
-use super::optics::{Dielectric, index, reflect, refract, schlick, spread, transmitted};
-use super::phong;
-use super::probe::{Matter, Point, Probe, RAY_BUDGET, Sample, Seen};
+use super::lights::SphereLight;
+use super::optics::transmitted;
+use super::probe::{Point, Probe, RAY_BUDGET, Sample, Seen};
 use super::sampler::{Sampler, Use};
 use super::touched::Touched;
-use super::utah::{Gloss, Shading};
-use super::warp;
 use crate::geometry::Ray;
 use crate::geometry::lanes::Vector;
-use crate::scene::{Light, Phong, Rgb};
+use crate::scene::{Light, Rgb};
 
-/// Paths that carry less than this go on by chance only.
+/// Paths with a throughput below this are subject to Russian roulette.
 const FAINT: f64 = 1.0 / 16.0;
 
-/// A path on its way.
+/// The state of a path.
 struct Path {
     ray: Ray,
-    /// Which part of the radiance ahead reaches the eye.
+    /// Weight of the incoming radiance in the pixel.
     throughput: Rgb,
-    /// What is lost per unit of length until it meets something.
+    /// Absorption per unit of length up to the next hit.
     absorption: Rgb,
-    /// The surface it left by chance among many directions, and how likely it went this way, per
-    /// steradian; none if it had no choice.
+    /// The point of the last scattering and the probability density of the direction per steradian;
+    /// `None` after mirrors and boundaries.
     chosen: Option<(DVec3, f64)>,
     bounce: u32,
 }
 
-/// How a path goes on.
-#[derive(Clone, Copy, Debug)]
-struct BsdfSample {
-    ray: Ray,
-    /// What its throughput is multiplied by.
-    weight: Rgb,
-    absorption: Rgb,
-    chosen: Option<(DVec3, f64)>,
-}
-
 impl<C: Fn() -> bool> Probe<'_, C> {
-    /// Radiance along a camera ray.
+    /// Estimates the radiance along a camera ray.
     pub(crate) fn by_path(&mut self, sample: &Sample) -> Seen {
         let mut seen = Seen {
             radiance: Rgb::ZERO,
@@ -82,7 +68,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         }
     }
 
-    /// Adds what a path meets, and chooses how it goes on from there, if it does.
+    /// Adds the light at the path's next hit and samples its continuation; `None` at its end.
     fn follow(&mut self, path: &mut Path, sample: &Sample, seen: &mut Seen) -> Option<BsdfSample> {
         let world = self.world;
         let reach = if path.bounce == 0 {
@@ -94,7 +80,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let distance = nearest.map_or(reach, |nearest| nearest.hit.t);
         if let Some((light, distance)) = world.sphere_lights.nearest(&path.ray, distance) {
             path.throughput *= transmitted(path.absorption, distance);
-            let radiance = lights::path_gain(&world.scene) * light.radiance();
+            let radiance = light.scale * light.radiance();
             seen.radiance += path.throughput * radiance * path.weight_of_chance(&light);
             return None;
         }
@@ -107,76 +93,56 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         }
         self.touched |= Touched::object(nearest.object);
         path.throughput *= transmitted(path.absorption, nearest.hit.t);
-        let (point, matter) = world.arrive(&path.ray, nearest);
-        match matter {
-            Matter::Flat(colour) => {
-                seen.radiance += path.throughput * colour;
-                None
-            }
-            Matter::Phong(material) => {
-                let light = self.light_on_phong(&point, &material);
-                seen.radiance += path.throughput * light;
-                let numbers = sample.sampler.four(path.bounce, Use::Bounce);
-                sample_phong(&path.ray, &point, &material, numbers)
-            }
-            Matter::Utah(shading) => {
-                let bsdf = Bsdf::at(&point, &shading);
-                if shading.is_lit(point.front) {
-                    let light = self.light_on_lobes(&point, &bsdf, path.bounce, sample.sampler);
-                    seen.radiance += path.throughput * (shading.emission + light);
-                }
-                bsdf.sample(&path.ray, &point, &shading, sample.sampler, path.bounce)
-            }
+        let (point, material) = world.arrive(&path.ray, nearest);
+        let bsdf = Bsdf::at(&point, &material);
+        if material.is_lit(point.front) {
+            let light = self.light_of_all(&point, &bsdf, path.bounce, sample.sampler);
+            seen.radiance += path.throughput * (material.emission + light);
         }
+        bsdf.sample(&path.ray, &point, sample.sampler, path.bounce)
     }
 
-    /// Whether to stop before the light of this number, which is asked for some of them: a scene may
-    /// have a hundred thousand.
+    /// Whether to stop before the light with this index; polled for some only, since a scene may
+    /// have 100,000 lights.
     fn is_cancelled_at(&self, light: usize) -> bool {
         light % 16 == 15 && (self.cancelled)()
     }
 
-    /// What a surface of `.ray` or `.dat` sends back of the light of all lights, in file order.
-    fn light_on_phong(&mut self, point: &Point, material: &Phong) -> Rgb {
+    /// Sums the reflected light of all lights, in file order.
+    fn light_of_all(
+        &mut self,
+        point: &Point,
+        bsdf: &Bsdf<'_>,
+        bounce: u32,
+        sampler: Sampler,
+    ) -> Rgb {
         let world = self.world;
         let mut sum = Rgb::ZERO;
         for (number, light) in world.scene.lights.iter().enumerate() {
             if self.is_cancelled_at(number) {
                 break;
             }
-            sum += self.direct(point, light, |facing| {
-                phong::reflected(material, facing.cosine, facing.mirrored)
-            });
-        }
-        sum
-    }
-
-    /// What is sent back of the light of all lights, in file order.
-    fn light_on_lobes(&mut self, point: &Point, bsdf: &Bsdf, bounce: u32, sampler: Sampler) -> Rgb {
-        let world = self.world;
-        let mut sum = Rgb::ZERO;
-        for (number, light) in world.scene.lights.iter().enumerate() {
-            if self.is_cancelled_at(number) {
-                break;
-            }
-            sum += match light.sphere() {
+            let sent_back = match light.sphere() {
                 None => self.direct(point, light, |facing| {
-                    bsdf.lobes.scatter(point, facing.toward.into()).value
+                    let toward = facing.toward.into();
+                    let scattered = bsdf.lobes.scatter(point, toward);
+                    scattered.value + bsdf.lobes.highlight(point, toward)
                 }),
                 Some(sphere) => {
                     let [u, v, ..] = sampler.four(bounce, Use::Light(number as u32));
                     self.of_sphere_light(point, bsdf, bounce, light, &sphere, [u, v])
                 }
             };
+            sum += light.scale * sent_back;
         }
-        lights::path_gain(&world.scene) * sum
+        sum
     }
 
-    /// What is sent back of a light that has a size, by asking the place of it that `place` says.
+    /// Returns the reflected light of a light with a size, sampled at the point that `place` gives.
     fn of_sphere_light(
         &mut self,
         point: &Point,
-        bsdf: &Bsdf,
+        bsdf: &Bsdf<'_>,
         bounce: u32,
         light: &Light,
         sphere: &SphereLight,
@@ -186,42 +152,48 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let Some(incoming) = sphere.choose(from, place) else {
             return Rgb::ZERO;
         };
-        let scattered = bsdf.lobes.scatter(point, incoming.toward.into());
-        let ray = point.leave(incoming.toward.into());
+        let toward = incoming.toward.into();
+        let scattered = bsdf.lobes.scatter(point, toward);
+        let highlight = bsdf.lobes.highlight(point, toward);
+        let ray = point.leave(toward);
         let hides = |place: Vector<f64>| {
             let distance = DVec3::from(place).distance(ray.origin);
             self.world.sphere_lights.hide(sphere, &ray, distance)
         };
-        if scattered.value == Rgb::ZERO || incoming.source.is_some_and(hides) {
+        let is_dark = scattered.value == Rgb::ZERO && highlight == Rgb::ZERO;
+        if is_dark || incoming.source.is_some_and(hides) {
             return Rgb::ZERO;
         }
-        // At the last bounce no path goes on to meet it by chance.
+        // At the last bounce no BSDF sample can hit the light.
         let chance = if bounce < self.depth {
             bsdf.lobes_chance * scattered.density
         } else {
             0.0
         };
         let weight = power_heuristic(sphere.density(from), chance);
-        let arriving = weight * sphere.irradiance(from);
+        let irradiance = sphere.irradiance(from);
+        let arriving = weight * irradiance;
         let shadow = shadow(&point.surface.into(), light, incoming);
-        self.visibility(shadow) * (scattered.value * arriving)
+        // BSDF samples never include the highlight.
+        let sent_back = scattered.value * arriving + highlight * irradiance;
+        self.visibility(shadow) * sent_back
     }
 }
 
 impl Path {
-    /// How much a light that is met by chance counts beside the one that was asked for its light.
+    /// The multiple importance sampling weight of a light hit by a BSDF sample.
     fn weight_of_chance(&self, light: &SphereLight) -> f64 {
         self.chosen.map_or(1.0, |(from, density)| {
             power_heuristic(density, light.density(from))
         })
     }
 
-    /// Goes on, unless it is faint and chance ends it ("Russian roulette": Arvo and Kirk, "Particle
+    /// Continues a path, subject to Russian roulette if it is faint (Arvo and Kirk, "Particle
     /// Transport and Image Synthesis", 1990).
     fn go_on(&mut self, next: BsdfSample, sampler: Sampler) -> bool {
         self.throughput *= next.weight;
         if !self.throughput.is_finite() {
-            // Materials that send back more than comes, beyond what numbers hold.
+            // Overflow caused by materials that reflect more than they receive.
             return false;
         }
         let left = self.throughput.abs().max_element() / FAINT;
@@ -240,147 +212,9 @@ impl Path {
     }
 }
 
-/// Veach's power heuristic: the weight of what was found with one density, where another way of
-/// finding it has another.
+/// Veach's power heuristic: the weight of a sample with density `own` that another technique would
+/// produce with density `other`.
 fn power_heuristic(own: f64, other: f64) -> f64 {
     let ratio = other / own;
     1.0 / (1.0 + ratio * ratio)
-}
-
-/// A way on from a surface of `.ray` or `.dat`: mirrored, through, or anywhere by the cosine.
-fn sample_phong(
-    ray: &Ray,
-    point: &Point,
-    material: &Phong,
-    numbers: [f64; 4],
-) -> Option<BsdfSample> {
-    let index = index(material.index);
-    let ratio = if point.front { 1.0 / index } else { index };
-    let through = match material.transmission {
-        0.0 => None,
-        _ => refract(ray.direction, point.normal, ratio),
-    };
-    let mirrored = reflect(ray.direction, point.normal);
-    let specular = [
-        (mirrored, material.reflection),
-        // On total internal reflection what would go through goes this way too.
-        (through.unwrap_or(mirrored), material.transmission),
-    ];
-    let diffuse = strength(material.diffuse);
-    let total = diffuse + specular.iter().map(|(_, weight)| weight.abs()).sum::<f64>();
-    let [lobe, u, v, _] = numbers;
-    let mut chosen = lobe * total;
-    for (direction, weight) in specular {
-        if chosen < weight.abs() {
-            return Some(BsdfSample {
-                ray: point.leave(direction),
-                weight: Rgb::splat(total * weight.signum()),
-                absorption: Rgb::ZERO,
-                chosen: None,
-            });
-        }
-        chosen -= weight.abs();
-    }
-    (0.0 < diffuse).then(|| {
-        let direction = warp::by_cosine(point.normal, [u, v]);
-        BsdfSample {
-            ray: point.leave(direction),
-            weight: material.diffuse * (total / diffuse),
-            absorption: Rgb::ZERO,
-            chosen: None,
-        }
-    })
-}
-
-/// The ways on from a surface of `.xml`, and how likely each is chosen.
-struct Bsdf {
-    lobes: Lobes,
-    lobes_chance: f64,
-    /// What is mirrored.
-    mirror: Rgb,
-    mirror_chance: f64,
-}
-
-impl Bsdf {
-    fn at(point: &Point, shading: &Shading) -> Self {
-        let is_lit = shading.is_lit(point.front);
-        let (lobes, of_lobes) = Lobes::of(point, shading);
-        let of_lobes = if is_lit { of_lobes } else { 0.0 };
-        let mirror = match shading.gloss {
-            Gloss::Microfacet(straight, alpha) if is_lit && Microfacets::is_perfect(alpha) => {
-                let cosine = point.normal.dot(point.view);
-                straight + (Rgb::ONE - straight) * schlick(cosine)
-            }
-            Gloss::Blinn(..) | Gloss::Phong(..) if point.front => shading.reflection,
-            _ => Rgb::ZERO,
-        };
-        let total = of_lobes + strength(mirror) + strength(shading.refraction);
-        let chance = |strength: f64| if total == 0.0 { 0.0 } else { strength / total };
-        Self {
-            lobes,
-            lobes_chance: chance(of_lobes),
-            mirror,
-            mirror_chance: chance(strength(mirror)),
-        }
-    }
-
-    /// A way on, by chance.
-    fn sample(
-        &self,
-        ray: &Ray,
-        point: &Point,
-        shading: &Shading,
-        sampler: Sampler,
-        bounce: u32,
-    ) -> Option<BsdfSample> {
-        let [way, u, v, _] = sampler.four(bounce, Use::Bounce);
-        if way < self.lobes_chance {
-            let direction = self.lobes.choose(point, way / self.lobes_chance, [u, v]);
-            let scattered = self.lobes.scatter(point, direction);
-            let density = self.lobes_chance * scattered.density;
-            let leads_on = scattered.value != Rgb::ZERO && 0.0 < density;
-            return leads_on.then(|| BsdfSample {
-                ray: point.leave(direction),
-                weight: scattered.value / density,
-                absorption: Rgb::ZERO,
-                chosen: Some((point.surface.point, density)),
-            });
-        }
-        let numbers = || {
-            let [u, v, ..] = sampler.four(bounce, Use::Spread);
-            Some([u, v])
-        };
-        let specular = |direction, weight, absorption| {
-            Some(BsdfSample {
-                ray: point.leave(direction),
-                weight,
-                absorption,
-                chosen: None,
-            })
-        };
-        let losses = shading.losses(point.front);
-        let mirrored = reflect(ray.direction, point.normal);
-        let way = way - self.lobes_chance;
-        if way < self.mirror_chance {
-            let direction = spread(mirrored, shading.reflection_spread, point.normal, numbers);
-            return specular(direction, self.mirror / self.mirror_chance, losses.mirrored);
-        }
-        let chance = 1.0 - self.lobes_chance - self.mirror_chance;
-        if shading.refraction == Rgb::ZERO || chance <= 0.0 {
-            return None;
-        }
-        let weight = shading.refraction / chance;
-        let way = (way - self.mirror_chance) / chance;
-        let tangent = shading.refraction_spread;
-        let Dielectric {
-            reflectance,
-            refracted,
-        } = Dielectric::new(ray.direction, point.normal, shading.indices(point.front));
-        if let Some(refracted) = refracted.filter(|_| reflectance <= way) {
-            let direction = spread(refracted, tangent, -point.normal, numbers);
-            return specular(direction, weight, losses.refracted);
-        }
-        let direction = spread(mirrored, tangent, point.normal, numbers);
-        specular(direction, weight, losses.mirrored)
-    }
 }

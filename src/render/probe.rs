@@ -1,4 +1,4 @@
-//! What both ways of gathering light share: samples, and the points that rays come to.
+//! Shared by both integrators: samples, and the points that rays hit.
 
 use std::borrow::Cow;
 
@@ -8,46 +8,45 @@ use super::frame::NO_OBJECT;
 use super::intersect::{Crossed, Nearest};
 use super::sampler::Sampler;
 use super::touched::Touched;
-use super::utah::Shading;
 use super::world::World;
 use crate::geometry::{Ray, Surface};
-use crate::scene::{Material, Phong, Rgb};
+use crate::scene::{Material, Rgb};
 
-/// Rays that one camera sample may trace, shadow rays apart. With reflection and transmission both
-/// 1 a tree of depth 30 would have two thousand million.
+/// Ray budget of a camera sample, not counting shadow rays. With reflection and transmission both
+/// 1, a tree of depth 30 would have two billion.
 pub(crate) const RAY_BUDGET: u32 = 4096;
 
-/// Asks a world for light, and counts what that takes.
+/// Queries a world for radiance and counts the rays.
 ///
-/// Once `cancelled` says so, what it gives is of no use.
+/// Results are meaningless once `cancelled` returns true.
 #[derive(Debug)]
 pub(crate) struct Probe<'w, C> {
     pub(crate) world: &'w World,
-    /// Whether to stop; asked every few hundred rays.
+    /// Whether to stop; polled every few hundred rays.
     pub(crate) cancelled: C,
-    /// Bounces that rays are followed to.
+    /// Maximum bounces.
     pub(crate) depth: u32,
     /// Scratch space.
     pub(crate) crossed: Crossed,
-    /// What a path has depended on so far.
+    /// Dependencies of the current path.
     pub(crate) touched: Touched,
-    /// What was traced so far.
+    /// Rays traced so far.
     pub(crate) counts: Counts,
 }
 
 /// Counts of work done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Counts {
-    /// Rays, shadow rays included.
+    /// Rays, including shadow rays.
     pub(crate) rays: u64,
     /// Shadow rays.
     pub(crate) shadow_rays: u64,
-    /// Samples that ran out of their budget.
+    /// Samples that exceeded their ray budget.
     pub(crate) over_budget: u64,
 }
 
 impl Counts {
-    /// What was added since `before`.
+    /// The difference since `before`.
     pub(crate) fn since(self, before: Self) -> Self {
         Self {
             rays: self.rays - before.rays,
@@ -56,7 +55,7 @@ impl Counts {
         }
     }
 
-    /// Both counts together.
+    /// The sum of both.
     pub(crate) fn and(self, other: Self) -> Self {
         Self {
             rays: self.rays + other.rays,
@@ -66,31 +65,31 @@ impl Counts {
     }
 }
 
-/// A camera ray, and what its sample is made of besides.
+/// A camera ray with the inputs of its sample.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sample {
     pub(crate) ray: Ray,
-    /// How far along it things are seen.
+    /// Length of the ray up to the far limit.
     pub(crate) reach: f64,
-    /// The middle of its pixel in the picture, 0 to 1 from the top left.
+    /// The pixel's centre in the picture, 0 to 1 from the top left.
     pub(crate) screen: DVec2,
-    /// Its numbers.
+    /// Its random numbers.
     pub(crate) sampler: Sampler,
 }
 
-/// What a camera ray brings.
+/// The result of a camera ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Seen {
-    /// Radiance.
+    /// Radiance or AOV.
     pub(crate) radiance: Rgb,
-    /// The first object met, or [`NO_OBJECT`].
+    /// The first object hit, or [`NO_OBJECT`].
     pub(crate) object: u32,
-    /// What that depends on.
+    /// Dependencies of the radiance.
     pub(crate) touched: Touched,
 }
 
 impl Seen {
-    /// What a ray brings that has met nothing yet.
+    /// The initial result of a ray.
     pub(crate) const NOTHING: Self = Self {
         radiance: Rgb::ZERO,
         object: NO_OBJECT,
@@ -98,31 +97,20 @@ impl Seen {
     };
 }
 
-/// A point that a ray has come to.
+/// A point hit by a ray.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Point {
     pub(crate) surface: Surface,
-    /// The normal to shade with, its bumps included: turned round where the back was hit.
+    /// Shading normal including bumps, flipped on back faces.
     pub(crate) normal: DVec3,
-    /// Whether the ray came from outside.
+    /// Whether the front face was hit.
     pub(crate) front: bool,
-    /// Unit vector toward where the ray came from.
+    /// Unit vector toward the origin of the ray.
     pub(crate) view: DVec3,
 }
 
-/// What a surface is made of at a point, with its textures.
-#[derive(Clone, Debug)]
-pub(crate) enum Matter<'w> {
-    /// See [`Material::Phong`].
-    Phong(Cow<'w, Phong>),
-    /// See [`Material::Utah`].
-    Utah(Shading),
-    /// See [`Material::Flat`].
-    Flat(Rgb),
-}
-
 impl<'w, C: Fn() -> bool> Probe<'w, C> {
-    /// A probe that follows rays to bounce `depth`.
+    /// Creates a probe that follows rays up to bounce `depth`.
     pub(crate) fn new(world: &'w World, depth: u32, cancelled: C) -> Self {
         Self {
             world,
@@ -136,7 +124,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
 }
 
 impl Point {
-    /// The start of a ray from here.
+    /// Starts a ray from this point.
     pub(crate) fn leave(&self, direction: DVec3) -> Ray {
         Ray {
             origin: self.surface.leave(direction),
@@ -146,13 +134,13 @@ impl Point {
 }
 
 impl World {
-    /// The point where a ray meets an object, and what that is made of there.
-    pub(crate) fn arrive(&self, ray: &Ray, nearest: Nearest) -> (Point, Matter<'_>) {
+    /// Returns the point where a ray hits an object, and its material there.
+    pub(crate) fn arrive(&self, ray: &Ray, nearest: Nearest) -> (Point, Cow<'_, Material>) {
         let shape = &self.scene.objects[nearest.object as usize].shape;
         let surface = shape.surface(ray, nearest.hit);
-        let (matter, bumped) = self.matter(nearest, || (*ray, surface.shading));
-        let normal = bumped.unwrap_or(surface.shading);
-        // Which side is seen is the surface's to say, not the bumps'.
+        let (material, raised) = self.material(nearest, || (*ray, surface.shading));
+        let normal = raised.unwrap_or(surface.shading);
+        // Bumps do not affect which side is seen.
         let front = ray.direction.dot(surface.normal) < 0.0;
         let point = Point {
             surface,
@@ -160,33 +148,27 @@ impl World {
             front,
             view: -ray.direction,
         };
-        (point, matter)
+        (point, material)
     }
 
-    /// What an object is made of where a ray meets it, and the normal to shade with if it has bumps:
-    /// `coming` is that ray, and the normal without them.
-    pub(crate) fn matter(
+    /// Returns the material of an object at a hit with its maps applied, and the shading normal if
+    /// it has bumps; `coming` holds the ray's direction and the normal without bumps.
+    #[inline]
+    pub(crate) fn material(
         &self,
         nearest: Nearest,
         coming: impl Fn() -> (Ray, DVec3),
-    ) -> (Matter<'_>, Option<DVec3>) {
+    ) -> (Cow<'_, Material>, Option<DVec3>) {
         let object = &self.scene.objects[nearest.object as usize];
-        let chart = || object.shape.chart(&coming().0, nearest.hit);
-        match &self.scene.materials[object.material_at(nearest.hit) as usize] {
-            Material::Phong(phong) if phong.colour_texture.is_none() && phong.bump.is_none() => {
-                (Matter::Phong(Cow::Borrowed(phong)), None)
-            }
-            Material::Phong(phong) => {
-                let mut phong = *phong;
-                let (_, mut normal) = coming();
-                self.textures.apply(&chart(), &mut phong, &mut normal);
-                (Matter::Phong(Cow::Owned(phong)), Some(normal))
-            }
-            Material::Utah(utah) => {
-                let place = || chart().uv;
-                (Matter::Utah(Shading::at(utah, &self.mapped, place)), None)
-            }
-            Material::Flat(colour) => (Matter::Flat(*colour), None),
-        }
+        let material = &self.scene.materials[object.material_at(nearest.hit) as usize];
+        let Some(maps) = &material.maps else {
+            return (Cow::Borrowed(material), None);
+        };
+        let (ray, normal) = coming();
+        let chart = object.shape.chart(&ray, nearest.hit);
+        let applied = self.textures.applied(maps, material, chart.uv);
+        let raised = maps.bump;
+        let raised = raised.map(|bump| self.textures.raised(bump, &chart, normal));
+        (Cow::Owned(applied), raised)
     }
 }

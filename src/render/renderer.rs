@@ -1,4 +1,4 @@
-//! The handle on a worker that traces pictures in the background.
+//! The handle to a worker that traces pictures in the background.
 
 use std::cell::RefCell;
 use std::mem;
@@ -16,56 +16,55 @@ use super::worker::{self, Order};
 use crate::memory::{self, OutOfMemory};
 use crate::scene::{Scene, Size};
 
-/// How many threads trace, and how they stand beside other work.
+/// The number of tracing threads and their priority.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Threads {
-    /// One fewer than the machine's cores (at least one): keys stay quick.
+    /// One fewer than the machine's cores, at least one, so that keys are answered quickly.
     Preview,
-    /// As many as given, at lower priority where the system has priorities for threads.
+    /// This many, at lower priority where threads have priorities.
     Background(usize),
-    /// As many as given.
+    /// This many, at normal priority.
     Exactly(usize),
 }
 
-/// Why a job is not traced.
+/// Why a job was refused.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Refusal {
-    /// The worker has ended by a panic; what its `wake` owned is dropped.
+    /// The worker panicked; whatever `wake` owned is dropped.
     #[error("the renderer has stopped")]
     Ended,
-    /// The system does not give the worker its threads; what its `wake` owned is dropped.
+    /// The worker's threads cannot be started; whatever `wake` owned is dropped.
     #[error("can't start the rendering threads ({count}): {reason}; --threads N sets how many")]
     Threads {
-        /// How many trace.
+        /// Number of tracing threads.
         count: usize,
-        /// What the system said.
+        /// The system's error message.
         reason: String,
     },
     /// The objects or the picture do not fit into memory.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// The picture takes more memory than there is.
+    /// The picture needs more memory than is available.
     #[error(
         "{}x{}: tracing it takes {:.1} GB of memory, more than the system gives; a smaller size \
          takes less",
         size.width, size.height, *bytes as f64 / 1e9
     )]
     Memory {
-        /// Its size.
+        /// Size of the picture.
         size: Size,
-        /// What tracing it takes.
+        /// Memory needed for tracing it.
         bytes: u64,
     },
 }
 
-/// A worker that traces the newest job it was given. Dropping it cancels the work and joins.
+/// A worker that traces the newest job. Dropping it cancels the work and joins the thread.
 #[derive(Debug)]
 pub struct Renderer {
     shared: Arc<Shared>,
-    /// Why there is none, where threads can't be started; else [`Refusal::Ended`] only while it is
-    /// dropped.
+    /// The reason if threads cannot be started; [`Refusal::Ended`] only during drop.
     worker: Result<Worker, Refusal>,
-    /// The scene of the last job that was not refused.
+    /// The scene of the last accepted job.
     accepted: RefCell<Weak<Scene>>,
 }
 
@@ -76,9 +75,8 @@ struct Worker {
 }
 
 impl Renderer {
-    /// Starts the worker. `wake` is called from it whenever a newer frame is to be had, at most
-    /// once until [`Renderer::latest`] is next called. Where threads can't be started every job is
-    /// refused.
+    /// Starts the worker. It calls `wake` when a newer frame is available, at most once between
+    /// calls of [`Renderer::latest`]. If threads cannot be started, every job is refused.
     pub fn new(threads: Threads, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let shared = Arc::new(Shared::default());
         let count = threads.count();
@@ -90,9 +88,9 @@ impl Renderer {
         }
     }
 
-    /// Makes `job` the one to trace and returns its generation, greater than all before. What is
-    /// under way is cancelled, but for a first coarse picture younger than 50 ms; a refused job
-    /// cancels nothing.
+    /// Makes `job` the one to trace and returns its generation, greater than all before. Cancels
+    /// the current job, except a first coarse picture younger than 50 ms; a refused job cancels
+    /// nothing.
     pub fn restart(&self, job: Job) -> Result<u64, Refusal> {
         let worker = self.worker.as_ref().map_err(Refusal::clone)?;
         let size = job.settings.size;
@@ -111,7 +109,7 @@ impl Renderer {
         Ok(generation)
     }
 
-    /// The newest frame since the last call, if there is one.
+    /// Returns the newest frame since the last call, if any.
     pub fn latest(&self) -> Option<Arc<Frame>> {
         self.shared.take()
     }
@@ -122,7 +120,7 @@ impl Drop for Renderer {
         self.shared.quit();
         if let Ok(Worker { orders, thread }) = mem::replace(&mut self.worker, Err(Refusal::Ended)) {
             drop(orders);
-            // The panic hook has told of a panic already.
+            // The panic hook has already reported any panic.
             let _ = thread.join();
         }
     }
@@ -162,10 +160,10 @@ fn pool(threads: Threads) -> Result<ThreadPool, rayon::ThreadPoolBuildError> {
     }
 }
 
-/// Lets everything else go first: on Linux a thread has a priority of its own.
+/// Yields to all other work; on Linux each thread has its own priority.
 #[cfg(target_os = "linux")]
 fn lower_priority() {
-    // Refusal does no harm: the thread merely keeps its priority.
+    // If refused, the thread merely keeps its priority.
     let _ = rustix::process::setpriority_process(Some(rustix::thread::gettid()), 10);
 }
 

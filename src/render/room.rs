@@ -1,4 +1,4 @@
-//! How much memory a job takes, before anything of it is made.
+//! Estimates the memory a job needs, before allocating any of it.
 
 use std::sync::Arc;
 
@@ -10,18 +10,18 @@ use super::world::FEW;
 use crate::memory::{self, Need};
 use crate::scene::Scene;
 
-/// What a box takes while its tree is built: references, nodes twice, places.
+/// Bytes per bounding box while its tree is built: references, nodes twice, positions.
 const BOX: usize = 128;
 
-/// What a pixel takes while the picture is encoded.
+/// Bytes per pixel while the picture is encoded.
 const ENCODED: usize = 4;
 
-/// Objects whose shapes are compared with those of the scene before. To compare a million takes longer
-/// than a key may wait.
+/// Objects whose shapes are compared with the previous scene; comparing a million takes longer than
+/// a key may wait.
 const COMPARED: usize = 1 << 10;
 
-/// Refuses a job whose world and film do not fit into memory. The world of an edit of the scene `before`
-/// is there already, or is about to be.
+/// Refuses a job whose world and film do not fit into memory. For an edit of the scene `before`,
+/// the world exists already or is about to exist.
 pub(super) fn fits(job: &Job, before: Option<&Arc<Scene>>) -> Result<(), Refusal> {
     let size = job.settings.size;
     let pixels = (size.pixels() as u64).saturating_mul(ENCODED as u64);
@@ -45,10 +45,10 @@ pub(super) fn fits(job: &Job, before: Option<&Arc<Scene>>) -> Result<(), Refusal
     })
 }
 
-/// Whether a scene is an edit of another one, as far as a sample of their objects tells: its world is
-/// that one's but for a few shapes.
+/// Whether a scene is an edit of another, judging by a sample of the objects: their worlds differ
+/// in a few shapes at most.
 fn is_edit_of(before: &Scene, scene: &Scene) -> bool {
-    /// A tree can follow fewer.
+    /// Beyond this many changes a tree is rebuilt.
     const MANY: usize = 32;
     let count = scene.objects.len();
     let sample = (0..count).step_by(1 + count / COMPARED);
@@ -56,7 +56,7 @@ fn is_edit_of(before: &Scene, scene: &Scene) -> bool {
     count == before.objects.len() && sample.filter(is_other).nth(MANY).is_none()
 }
 
-/// What the structures of a scene take.
+/// Bytes of a scene's acceleration structures.
 fn world(scene: &Scene) -> u64 {
     let objects = scene.objects.len();
     let own = if objects <= FEW { 0 } else { objects };

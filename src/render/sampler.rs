@@ -1,9 +1,9 @@
-//! The numbers that samples are made of, even: before filters spread them.
+//! Sample numbers, uniformly distributed; filters warp them later.
 
 use sobol_burley::sample_4d;
 
-/// The numbers of one sample, each a function of (pixel, index, seed) and what it is for: points of
-/// Sobol' sequences, each Owen-scrambled by a seed of its own (Burley, "Practical Hash-based Owen
+/// The numbers of one sample, each a function of pixel, index, seed and purpose: points of Sobol'
+/// sequences, each Owen-scrambled with its own seed (Burley, "Practical Hash-based Owen
 /// Scrambling", JCGT 9(4), 2020).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Sampler {
@@ -12,20 +12,20 @@ pub(crate) struct Sampler {
     seed: u32,
 }
 
-/// What numbers are for.
+/// The purpose of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Use {
-    /// The place on the lens.
+    /// The point on the lens.
     Lens,
-    /// How a mirrored ray is spread.
+    /// The spread of a reflected ray.
     Reflection,
-    /// How a refracted ray is spread.
+    /// The spread of a refracted ray.
     Refraction,
-    /// Where a path goes on.
+    /// The continuation of a path.
     Bounce,
-    /// How far a path's bounce is spread.
+    /// The spread of a path's continuation.
     Spread,
-    /// The place on a light, by its index.
+    /// The point on the light with this index.
     Light(u32),
 }
 
@@ -33,7 +33,7 @@ impl Sampler {
     /// The node of camera rays.
     pub(crate) const ROOT: u32 = 0;
 
-    /// The numbers of sample `index`, below [`MAX_SPP`](super::MAX_SPP), of pixel (x, y).
+    /// Creates the sampler for sample `index`, below [`MAX_SPP`](super::MAX_SPP), of pixel (x, y).
     pub(crate) fn new(x: u32, y: u32, index: u32, seed: u32) -> Self {
         Self {
             pixel: [x, y],
@@ -42,7 +42,7 @@ impl Sampler {
         }
     }
 
-    /// The place in the pixel as fractions of it from its top left, in 0..1: the centre for sample 0.
+    /// The place in the pixel, 0..1 from its top left corner; the centre for sample 0.
     pub(crate) fn place_in_pixel(self) -> [f64; 2] {
         if self.index == 0 {
             return [0.5, 0.5];
@@ -51,13 +51,13 @@ impl Sampler {
         [x.into(), y.into()]
     }
 
-    /// The node of a ray's `number`th child: rays with other nodes have other numbers.
+    /// The node of a ray's `number`th child. Rays with different nodes get different numbers.
     pub(crate) fn child(node: u32, number: u32) -> u32 {
         mix(node ^ 0x5851_F42D).wrapping_add(number + 1)
     }
 
-    /// Two numbers in 0..1, for one use at one node; none for sample 0, which takes the middle of
-    /// everything.
+    /// Two numbers in 0..1 for a purpose at a node; `None` for sample 0, which takes the centre of
+    /// every distribution.
     pub(crate) fn pair(self, node: u32, purpose: Use) -> Option<[f64; 2]> {
         if self.index == 0 {
             return None;
@@ -66,7 +66,7 @@ impl Sampler {
         Some([u, v])
     }
 
-    /// Four numbers in 0..1, for one use at one node, whatever the index.
+    /// Four numbers in 0..1 for a purpose at a node, at any index.
     pub(crate) fn four(self, node: u32, purpose: Use) -> [f64; 4] {
         let purpose = match purpose {
             Use::Lens => 0,
@@ -80,8 +80,8 @@ impl Sampler {
         sample_4d(self.index, 0, seed).map(f64::from)
     }
 
-    /// Mixes coordinates and seed so that neighbouring pixels get unrelated patterns. When it is
-    /// asked for: a picture of one sample a pixel has no use for it.
+    /// Hashes pixel and seed so that adjacent pixels get unrelated patterns. Computed on demand: a
+    /// picture with one sample per pixel does not need it.
     fn pixel_seed(self) -> u32 {
         let [x, y] = self.pixel;
         mix(mix(mix(self.seed ^ 0x9E37_79B9) ^ x).wrapping_add(0x9E37_79B9) ^ y)
@@ -101,15 +101,15 @@ fn mix(mut hash: u32) -> u32 {
 mod tests {
     use super::*;
 
-    /// Every prefix of 2^k points has exactly one in each of 2^k equal strips, across and down:
-    /// the property that makes a sequence a (0, 2)-sequence in base 2, seen in one dimension.
+    /// Every prefix of 2^k points has exactly one in each of 2^k equal strips, across and down: the
+    /// one-dimensional stratification of a (0, 2)-sequence in base 2.
     #[test]
-    fn power_of_two_prefixes_are_stratified_once_the_centre_is_replaced() {
+    fn power_of_two_prefixes_are_stratified_apart_from_the_centre() {
         for (x, y) in [(0, 0), (7, 3), (1919, 1079)] {
             for count in [4u32, 16, 64, 256] {
                 for axis in 0..2 {
                     let mut strips = vec![0; count as usize];
-                    // Points count..2·count are such a block that holds no centre sample.
+                    // Points count..2·count form such a block without the centre sample.
                     for index in count..2 * count {
                         let place = Sampler::new(x, y, index, 0).place_in_pixel()[axis];
                         assert!((0.0..1.0).contains(&place));

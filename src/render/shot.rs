@@ -1,8 +1,8 @@
-//! What a picture is traced from, and its camera samples.
+//! The inputs of tracing a picture, and its camera samples.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use glam::{DVec2, DVec3};
@@ -16,23 +16,23 @@ use super::world::World;
 use crate::geometry::lanes::{Eight, Lanes, Row, Simd, SimdBase, WIDTH, dispatch};
 use crate::scene::Integrator;
 
-/// Everything a tile needs to be traced.
+/// The inputs of tracing a tile.
 #[derive(Debug)]
 pub(crate) struct Shot<'w> {
-    /// What is seen.
+    /// The scene with its structures.
     pub(crate) world: &'w World,
-    /// From where.
+    /// The camera.
     pub(crate) projection: Projection,
-    /// Where the camera stands.
+    /// Position of the camera.
     pub(crate) eye: DVec3,
-    /// How.
+    /// Render settings.
     pub(crate) settings: Settings,
-    /// Where around its pixel each sample lies.
+    /// The pixel filter.
     pub(crate) spread: Spread,
 }
 
 impl Shot<'_> {
-    /// A sample of each pixel, in place of what `samples` holds.
+    /// Replaces the contents of `samples` by one sample of each pixel.
     pub(crate) fn samples(&self, pixels: &[[u32; 2]], index: u32, samples: &mut Vec<Sample>) {
         samples.clear();
         dispatch!(self.world.level, simd => {
@@ -42,7 +42,7 @@ impl Shot<'_> {
         });
     }
 
-    /// A sample of each of up to eight pixels.
+    /// Generates a sample of each of up to eight pixels.
     #[inline(always)]
     fn sample_together<S: Simd>(
         &self,
@@ -85,10 +85,10 @@ impl Shot<'_> {
         }
     }
 
-    /// The place of a sample on the lens; none where it is the middle.
+    /// The point of a sample on the lens; `None` for its centre.
     fn lens(&self, sampler: Sampler) -> Option<[f64; 2]> {
         match (self.settings.integrator, self.settings.aov) {
-            // An unbiased sample has no middle.
+            // An unbiased sample must not use the centre.
             (Integrator::Path, None) => {
                 let [u, v, ..] = sampler.four(Sampler::ROOT, Use::Lens);
                 Some([u, v])

@@ -1,4 +1,4 @@
-//! The spheres among a scene's objects, side by side in the order that the tree visits them in.
+//! The spheres of a scene, as arrays in the order of the tree's traversal.
 
 use std::ops::Range;
 
@@ -10,14 +10,14 @@ use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, Vector, bits};
 use crate::geometry::{Hits, Rays, Shape, Sphere, sphere_hits};
 use crate::scene::Objects;
 
-/// Centres and radii by place; the radius is NaN where an object is not a sphere, and after the last.
+/// Centres and radii by position; the radius is NaN for other shapes and in the padding at the end.
 #[derive(Clone, Debug)]
 pub(crate) struct Spheres(Vec<[f64; 4]>);
 
 impl Spheres {
-    /// Those among the objects with these numbers, in their order.
+    /// Collects the spheres among the objects with these numbers, in this order.
     pub(crate) fn new(objects: &Objects, order: &[u32]) -> Self {
-        // Zeros are memory that nobody has touched yet; the threads below do.
+        // Zeroed memory is untouched; the threads below touch it first.
         let mut spheres = vec![[0.0; 4]; order.len() + RUN];
         let (inside, after) = spheres.split_at_mut(order.len());
         after.fill([0.0, 0.0, 0.0, f64::NAN]);
@@ -31,18 +31,18 @@ impl Spheres {
         Self(spheres)
     }
 
-    /// Centre and radius of the sphere at a place; `None` if the object there is none.
+    /// Returns the centre and radius of the sphere at a position; `None` for other shapes.
     #[inline]
     pub(crate) fn at(&self, place: usize) -> Option<(DVec3, f64)> {
         let [x, y, z, radius] = self.0[place];
         (!radius.is_nan()).then_some((DVec3::new(x, y, z), radius))
     }
 
-    /// Where a ray, the same in each lane, meets spheres of a run before a limit, and a bit for each
-    /// place of the run that is not a sphere.
+    /// Intersects a ray, equal in each lane, with the spheres of a run before a limit; also returns
+    /// a bit for each position of the run that holds another shape.
     #[expect(
         clippy::inline_always,
-        reason = "a caller compiled for wider vectors must take this with it"
+        reason = "this must be inlined into callers compiled for wider vectors"
     )]
     #[inline(always)]
     pub(crate) fn hits<S: Simd>(
@@ -52,7 +52,7 @@ impl Spheres {
         places: &Range<usize>,
     ) -> (Option<Hits>, u32) {
         let simd = ray.origin.x.simd;
-        // As many places as a run has follow the last.
+        // The padding is as long as a run.
         let run: &[[f64; 4]; RUN] = self.0[places.start..]
             .first_chunk()
             .expect("so many places");
@@ -73,10 +73,10 @@ impl Spheres {
     }
 }
 
-/// One of the numbers of each sphere.
+/// One coordinate of each sphere.
 #[expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take this with it"
+    reason = "this must be inlined into callers compiled for wider vectors"
 )]
 #[inline(always)]
 fn row<S: Simd>(simd: S, spheres: &[[f64; 4]; RUN], number: usize) -> Eight<S> {

@@ -1,28 +1,28 @@
-//! The order in which a picture's samples are taken.
+//! The order in which the samples of a picture are taken.
 
 use std::ops::Range;
 
 use super::frame::Frames;
 
-/// What one walk over all tiles adds.
+/// The samples added by one pass over all tiles.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Step {
-    /// Sample 0 of the pixels on a grid of this spacing that no coarser grid holds.
+    /// Sample 0 of the pixels on a grid of this spacing, except those on coarser grids.
     Grid(u32),
     /// These samples of every pixel.
     Samples(Range<u32>),
 }
 
-/// Spacing of the grid that comes first.
+/// Spacing of the first grid.
 pub(crate) const COARSEST: u32 = 8;
 
-/// Spacings of the grids that sample 0 is taken on, coarse to fine, as in Adam7: each shows the
-/// whole picture, and none of its samples is wasted.
+/// Spacings of the grids for sample 0, coarse to fine as in Adam7: each shows the whole picture,
+/// and no sample is wasted.
 const GRIDS: [u32; 4] = [COARSEST, 4, 2, 1];
 
-/// The steps to `spp` samples a pixel: sample 0, then 1, 2, 4, 8 … more. Sample 0 is taken from coarse
-/// to fine where frames are looked at before the last; else at once, as rays that start side by side
-/// are faster.
+/// Returns the steps to `spp` samples per pixel: sample 0, then 1, 2, 4, 8 … more. Sample 0 is
+/// taken coarse to fine if intermediate frames are shown, and otherwise at once, because adjacent
+/// rays are faster.
 pub(crate) fn steps(spp: u32, frames: Frames) -> Vec<Step> {
     let mut steps = match frames {
         Frames::Live => GRIDS.map(Step::Grid).to_vec(),
@@ -38,17 +38,17 @@ pub(crate) fn steps(spp: u32, frames: Frames) -> Vec<Step> {
 }
 
 impl Step {
-    /// The samples it adds, a pixel.
+    /// Samples added, as a mean per pixel.
     pub(crate) fn share(&self) -> f64 {
         match self {
             Self::Grid(COARSEST) => 1.0 / f64::from(COARSEST * COARSEST),
-            // A grid holds a quarter of the next finer one's points, itself included.
+            // A grid has a quarter of the points of the next finer one, which includes it.
             Self::Grid(spacing) => 0.75 / f64::from(spacing * spacing),
             Self::Samples(indices) => f64::from(indices.end - indices.start),
         }
     }
 
-    /// The samples that every pixel has after it.
+    /// Samples of every pixel after this step.
     pub(crate) fn whole_after(&self) -> u32 {
         match self {
             Self::Grid(spacing) => u32::from(*spacing == 1),
@@ -56,7 +56,7 @@ impl Step {
         }
     }
 
-    /// The spacing of the pixels that it is for.
+    /// Spacing of the pixels sampled.
     pub(crate) fn spacing(&self) -> u32 {
         match self {
             Self::Grid(spacing) => *spacing,
@@ -64,7 +64,7 @@ impl Step {
         }
     }
 
-    /// The samples that it adds to each of them.
+    /// Indices of the samples added to each of these pixels.
     pub(crate) fn indices(&self) -> Range<u32> {
         match self {
             Self::Grid(_) => 0..1,
@@ -72,14 +72,14 @@ impl Step {
         }
     }
 
-    /// What it brings them to, which tells how many samples they have (see [`samples_at`]): 1 with
-    /// sample 0, and 1 more each time their samples double or come to the last one.
+    /// The level of these pixels after this step, which encodes their number of samples (see
+    /// [`samples_at`]): 1 with sample 0, and 1 more per doubling, the last of which may be partial.
     pub(crate) fn level(&self) -> u8 {
         1 + self.indices().end.next_power_of_two().ilog2() as u8
     }
 }
 
-/// The samples of a pixel at a level, where `spp` are all; none at level 0.
+/// The number of samples at a level, at most `spp`; 0 at level 0.
 pub(crate) fn samples_at(level: u8, spp: u32) -> u32 {
     match level {
         0 => 0,

@@ -1,4 +1,4 @@
-//! What makes meshes quick to meet: one tree over the triangles of each, for all its instances.
+//! Acceleration structures of meshes: one tree over the triangles of each, shared by all instances.
 
 use std::sync::Arc;
 
@@ -9,27 +9,27 @@ use crate::geometry::lanes::{Eight, Lanes, Simd, WIDTH, mask};
 use crate::geometry::{Hit, Hits, Instance, Mesh, Ray, Rays, Shape};
 use crate::scene::Objects;
 
-/// Which hit of a mesh is asked for.
+/// Which hit of a mesh is searched for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Search {
-    /// The nearest one.
+    /// The nearest hit.
     Nearest,
-    /// Whichever is found first, to know whether light is blocked.
+    /// Any hit, to find out whether light is blocked.
     Blocker,
 }
 
 /// The trees of a scene's meshes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Structures {
-    /// Meshes and their trees, each mesh once.
+    /// Each mesh once, with its tree.
     trees: Vec<(Arc<Mesh>, Arc<Bvh>)>,
-    /// For each object the number of its tree, if there is any mesh; 0 for other shapes.
+    /// Index of each object's tree, 0 for other shapes; empty without meshes.
     numbers: Vec<u32>,
 }
 
 impl Structures {
-    /// Builds a tree for each mesh, or takes that of the same mesh, as one value in memory, from
-    /// `known`. `None` if `cancelled` said so.
+    /// Builds a tree for each mesh, reusing those in `known` for meshes at the same address. `None`
+    /// once `cancelled` returns true.
     pub(crate) fn build(
         objects: &Objects,
         known: Option<&Self>,
@@ -56,10 +56,10 @@ impl Structures {
         Some(structures)
     }
 
-    /// A hit of an object that is this instance, with `0 < t < limit`.
+    /// Returns a hit of an object, which is this instance, with `0 < t < limit`.
     #[expect(
         clippy::inline_always,
-        reason = "a caller compiled for wider vectors must take this with it"
+        reason = "this must be inlined into callers compiled for wider vectors"
     )]
     #[inline(always)]
     pub(crate) fn hit<S: Simd>(
@@ -95,10 +95,10 @@ impl Structures {
         line.hit(nearest?, limit)
     }
 
-    /// The same for rays side by side, those whose bit in `lanes` is 1.
+    /// Returns hits of a packet's rays whose bit in `lanes` is 1.
     #[expect(
         clippy::inline_always,
-        reason = "a caller compiled for wider vectors must take this with it"
+        reason = "this must be inlined into callers compiled for wider vectors"
     )]
     #[inline(always)]
     pub(crate) fn hits<S: Simd>(
@@ -142,7 +142,7 @@ impl Structures {
         })
     }
 
-    /// The trees, in the order of their meshes' first objects.
+    /// The trees, ordered by the first object of their meshes.
     #[cfg(test)]
     pub(crate) fn trees(&self) -> impl Iterator<Item = &Arc<Bvh>> {
         self.trees.iter().map(|(_, tree)| tree)
@@ -155,7 +155,7 @@ impl Structures {
     }
 }
 
-/// The meshes among objects, and the objects' numbers, in order.
+/// The mesh instances among objects with their object numbers, in order.
 pub(super) fn instances(objects: &Objects) -> Vec<(usize, &Instance)> {
     let meshes = objects
         .par_numbered()

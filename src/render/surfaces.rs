@@ -1,8 +1,8 @@
-//! The surfaces that rays have come to, eight side by side.
+//! The surface points hit by packets of eight rays.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use glam::DVec3;
@@ -13,24 +13,23 @@ use super::world::World;
 use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector, WIDTH, bits, dispatch, mask};
 use crate::geometry::{Hits, Packet, Rays, Shape, Surface, Surfaces, sphere_surfaces};
 
-/// Up to eight points that rays have come to, as they lie in memory; lanes of rays that meet nothing
-/// hold nothing of use.
+/// Up to eight surface points, in memory layout; lanes of rays that miss are undefined.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Landing {
     pub(crate) surface: Surfaces<Row>,
-    /// The normals to shade with, turned round where the back was hit.
+    /// Shading normals, flipped on back faces.
     pub(crate) normal: Vector<Row>,
-    /// A bit for each ray that came from outside.
+    /// A bit for each ray that hit a front face.
     pub(crate) front: u32,
 }
 
 impl Landing {
-    /// Whether the ray came from outside.
+    /// Whether the ray in a lane hit a front face.
     pub(crate) fn is_front(&self, lane: usize) -> bool {
         self.front >> lane & 1 == 1
     }
 
-    /// The point in a lane of a packet.
+    /// Returns the point in a lane of a packet.
     pub(crate) fn point(&self, packet: &Packet, lane: usize) -> Point {
         Point {
             surface: Surface {
@@ -47,7 +46,7 @@ impl Landing {
 }
 
 impl World {
-    /// Where rays come to, packet by packet; `nearest` has what each of them meets.
+    /// Computes the surface points of all rays, packet by packet; `nearest` holds their hits.
     pub(crate) fn land_each(
         &self,
         packets: &[Packet],
@@ -106,7 +105,7 @@ impl World {
                 rest &= rest - 1;
             }
         }
-        // Which side is seen is the surface's to say, not that of its normals for light.
+        // The visible side depends on the geometric normal, not on the shading normal.
         let front = rays.direction.dot(surface.normal).below(zero.x);
         Landing {
             surface: surface.store(),
@@ -115,7 +114,7 @@ impl World {
         }
     }
 
-    /// The surfaces of all spheres that were met, and their lanes.
+    /// Computes the surface points of all spheres hit, and their lanes.
     #[inline(always)]
     fn of_spheres<S: Simd>(
         &self,
@@ -142,7 +141,7 @@ impl World {
     }
 }
 
-/// The lanes where an object was met.
+/// The lanes that hit an object.
 #[inline(always)]
 fn lanes_of(nearest: &[Option<Nearest>], object: u32) -> u32 {
     let mut lanes = 0;

@@ -1,34 +1,39 @@
-//! Textures on surfaces: the colour of a place, and the slope of what stands on it.
+//! Evaluation of textures: colours at a point, mapped materials, and slopes of bump maps.
 
+use std::cell::Cell;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 
 use crate::geometry::Chart;
-use crate::scene::{Image, Images, Pattern, Phong, Rgb, Texture};
+use crate::scene::{
+    Bump, Dielectric, Gloss, Highlight, Image, Images, Maps, Material, Mirror, Pattern, Rgb, Side,
+    Texture, Tinted,
+};
 
-/// What stands for a picture that can't be read.
-pub(crate) const MAGENTA: Rgb = Rgb::new(1.0, 0.0, 1.0);
+/// Replaces images that cannot be read.
+const MAGENTA: Rgb = Rgb::new(1.0, 0.0, 1.0);
 
-/// How bright a colour is (Rec. 709).
+/// Weights of luminance (Rec. 709).
 const LUMINANCE: Rgb = Rgb::new(0.2126, 0.7152, 0.0722);
 
-/// The textures of a scene, with their pictures.
+/// The textures of a scene with their images.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Textures(Vec<(DVec2, Texels)>);
+pub(crate) struct Textures(Vec<(DAffine3, Texels)>);
 
 #[derive(Clone, Debug)]
 enum Texels {
-    Checker([Rgb; 2]),
+    Checker([Tinted; 2], Side),
     Image(Arc<Image>),
     Missing,
 }
 
 impl Textures {
-    /// Makes textures ready; those whose picture is not among `images` are magenta.
+    /// Prepares textures; images missing from `images` become magenta.
     pub(crate) fn new(textures: &[Texture], images: &Images) -> Self {
         let texels = |pattern: &Pattern| match pattern {
-            Pattern::Checker(colours) => Texels::Checker(*colours),
+            Pattern::Checker { squares, side } => Texels::Checker(*squares, *side),
             Pattern::Image(path) => {
                 let image = images.get(path).cloned();
                 image.map_or(Texels::Missing, Texels::Image)
@@ -37,52 +42,121 @@ impl Textures {
         let ready = textures.iter();
         Self(
             ready
-                .map(|texture| (texture.repeat, texels(&texture.pattern)))
+                .map(|texture| (texture.inverse, texels(&texture.pattern)))
                 .collect(),
         )
     }
 
-    /// Gives a material its colour at a place of a surface, and an outward unit normal its bumps.
-    pub(crate) fn apply(&self, chart: &Chart, material: &mut Phong, normal: &mut DVec3) {
-        if let Some(texture) = material.colour_texture {
-            let colour = self.colour(texture, chart.uv);
-            material.ambient *= colour;
-            material.diffuse *= colour;
-            material.specular *= colour;
-        }
-        if let Some((texture, height)) = material.bump {
-            let slope = height * self.slope(texture, chart);
-            let tangential = slope - slope.dot(*normal) * *normal;
-            *normal = (*normal - tangential).normalize();
+    /// Applies maps to a material at uv; the result has no maps.
+    pub(crate) fn applied(&self, maps: &Maps, material: &Material, place: DVec2) -> Material {
+        // Slots often share a texture.
+        let last = Cell::new(None);
+        let sampled = |index| match last.get() {
+            Some((known, sample)) if known == index => sample,
+            _ => {
+                let white = Tinted {
+                    colour: Rgb::ONE,
+                    texture: Some(index),
+                };
+                let sample = self.colour(white, place);
+                last.set(Some((index, sample)));
+                sample
+            }
+        };
+        let colour = |colour: Rgb, texture| match texture {
+            None => colour,
+            // Nested colours are multiplied from the outside in, which rounds differently.
+            Some(index) if self.is_nested(index) => self.colour(Tinted { colour, texture }, place),
+            Some(index) => colour * sampled(index),
+        };
+        let number = |value, texture: Option<u32>| match texture {
+            None => value,
+            Some(_) => value * colour(Rgb::ONE, texture).x,
+        };
+        let gloss = |gloss: Gloss| Gloss {
+            specular: colour(gloss.specular, maps.specular),
+            exponent: number(gloss.exponent, maps.exponent),
+        };
+        Material {
+            ambient: material
+                .ambient
+                .map(|ambient| colour(ambient, maps.ambient)),
+            diffuse: colour(material.diffuse, maps.diffuse),
+            highlight: match material.highlight {
+                Highlight::None => Highlight::None,
+                Highlight::Phong(own) => Highlight::Phong(gloss(own)),
+                Highlight::ModifiedPhong(own) => Highlight::ModifiedPhong(gloss(own)),
+                Highlight::Blinn(own) => Highlight::Blinn(gloss(own)),
+                Highlight::Microfacet {
+                    roughness,
+                    metallic,
+                } => Highlight::Microfacet {
+                    roughness: number(roughness, maps.roughness),
+                    metallic: number(metallic, maps.metallic),
+                },
+            },
+            mirror: Mirror {
+                tint: colour(material.mirror.tint, maps.mirror),
+                ..material.mirror
+            },
+            dielectric: Dielectric {
+                tint: colour(material.dielectric.tint, maps.dielectric),
+                ..material.dielectric
+            },
+            emission: colour(material.emission, maps.emission),
+            maps: None,
+            ..*material
         }
     }
 
-    fn colour(&self, texture: u32, uv: DVec2) -> Rgb {
-        let Some((repeat, texels)) = self.0.get(texture as usize) else {
-            return MAGENTA;
-        };
-        let place = *repeat * uv;
-        match texels {
-            Texels::Checker([first, second]) => {
-                let cell = place.x.floor() + place.y.floor();
-                if cell.rem_euclid(2.0) == 0.0 {
-                    *first
-                } else {
-                    *second
+    /// Whether a texture contains others.
+    fn is_nested(&self, texture: u32) -> bool {
+        match self.0.get(texture as usize) {
+            Some((_, Texels::Checker(squares, _))) => {
+                squares.iter().any(|square| square.texture.is_some())
+            }
+            _ => false,
+        }
+    }
+
+    /// Evaluates a colour at uv. The textures of a checker are looked up at its own coordinates.
+    pub(crate) fn colour(&self, tinted: Tinted, mut place: DVec2) -> Rgb {
+        let Tinted {
+            mut colour,
+            mut texture,
+        } = tinted;
+        while let Some(index) = texture {
+            let Some((inverse, texels)) = self.0.get(index as usize) else {
+                return colour * MAGENTA;
+            };
+            place = inverse.transform_point3(place.extend(0.0)).truncate();
+            match texels {
+                Texels::Image(image) => return colour * image.at(place.x, place.y),
+                Texels::Missing => return colour * MAGENTA,
+                Texels::Checker([first, second], side) => {
+                    let square = if side.is_first(place) { first } else { second };
+                    colour *= square.colour;
+                    texture = square.texture;
                 }
             }
-            Texels::Image(image) => image.at(place.x, place.y),
-            Texels::Missing => MAGENTA,
         }
+        colour
     }
 
-    /// How the brightness of a texture grows along the surface, by central differences of half a
-    /// texel. A checker is flat.
+    /// Perturbs an outward unit normal by a bump map.
+    pub(crate) fn raised(&self, bump: Bump, chart: &Chart, normal: DVec3) -> DVec3 {
+        let slope = bump.height * self.slope(bump.texture, chart);
+        let tangential = slope - slope.dot(normal) * normal;
+        (normal - tangential).normalize()
+    }
+
+    /// The gradient of a texture's luminance along the surface, by central differences of half a
+    /// texel. Zero for a checker.
     fn slope(&self, texture: u32, chart: &Chart) -> DVec3 {
-        let Some((repeat, Texels::Image(image))) = self.0.get(texture as usize) else {
+        let Some((inverse, Texels::Image(image))) = self.0.get(texture as usize) else {
             return DVec3::ZERO;
         };
-        let place = *repeat * chart.uv;
+        let place = inverse.transform_point3(chart.uv.extend(0.0)).truncate();
         let brightness = |place: DVec2| image.at(place.x, place.y).dot(LUMINANCE);
         let size = DVec2::new(image.size().width.into(), image.size().height.into());
         let half = 0.5 / size;
@@ -93,6 +167,178 @@ impl Textures {
             (brightness(place + down) - brightness(place - down)) / (2.0 * half.y),
         );
         let [along_u, along_v] = chart.gradients;
-        repeat.x * grows.x * along_u + repeat.y * grows.y * along_v
+        let of_place = |column: DVec3| column.truncate().dot(grows);
+        of_place(inverse.matrix3.x_axis) * along_u + of_place(inverse.matrix3.y_axis) * along_v
+    }
+}
+
+impl Side {
+    /// Whether a point lies in the first kind of square.
+    fn is_first(self, place: DVec2) -> bool {
+        match self {
+            Self::One => (place.x.floor() + place.y.floor()).rem_euclid(2.0) == 0.0,
+            Self::Half => {
+                let low = place.map(|x| x - x.floor()).cmple(DVec2::splat(0.5));
+                low.x == low.y
+            }
+        }
+    }
+}
+
+/// Maps a unit direction to uv in an environment image.
+pub(crate) fn environment_place(direction: DVec3) -> DVec2 {
+    let DVec3 { x, y, z } = direction;
+    let sum = x.abs() + y.abs();
+    let (x, y) = if sum == 0.0 {
+        (0.0, 0.0)
+    } else {
+        (x / sum, y / sum)
+    };
+    let down = libm::asin(-z.clamp(-1.0, 1.0)) / PI + 0.5;
+    DVec2::splat(0.5) + down * (x * DVec2::new(0.5, 0.5) + y * DVec2::new(-0.5, 0.5))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Size;
+
+    const RED: Rgb = Rgb::new(1.0, 0.0, 0.0);
+    const BLUE: Rgb = Rgb::new(0.0, 0.0, 1.0);
+
+    fn tinted(colour: Rgb, texture: Option<u32>) -> Tinted {
+        Tinted { colour, texture }
+    }
+
+    fn board(colours: [Tinted; 2], inverse: DAffine3) -> Texture {
+        Texture {
+            inverse,
+            pattern: Pattern::Checker {
+                squares: colours,
+                side: Side::Half,
+            },
+        }
+    }
+
+    fn plain_board(inverse: DAffine3) -> Texture {
+        board([tinted(RED, None), tinted(BLUE, None)], inverse)
+    }
+
+    /// The first colour is where (u ≤ ½) = (v ≤ ½) for the fractional parts.
+    #[test]
+    fn squares_of_a_checkerboard() {
+        let textures = Textures::new(&[plain_board(DAffine3::IDENTITY)], &Images::default());
+        for (u, v, colour) in [
+            (0.0, 0.0, RED),
+            (0.5, 0.5, RED),
+            (0.500_001, 0.5, BLUE),
+            (0.25, 0.75, BLUE),
+            (0.75, 0.75, RED),
+            (1.0, 0.75, BLUE),
+            (-0.25, 0.25, BLUE),
+            (-0.25, -0.25, RED),
+            (7.75, -3.75, BLUE),
+        ] {
+            let seen = textures.colour(tinted(Rgb::ONE, Some(0)), DVec2::new(u, v));
+            assert_eq!(seen, colour, "{u} {v}");
+        }
+    }
+
+    /// A scale of ½ repeats twice; nested textures start from these coordinates.
+    #[test]
+    fn nested_textures_apply_their_own_maps() {
+        let twice = DAffine3::from_scale(DVec3::new(0.5, 0.5, 1.0)).inverse();
+        let moved = DAffine3::from_translation(DVec3::new(0.25, 0.0, 0.0)).inverse();
+        let outer = board(
+            [tinted(Rgb::splat(0.5), Some(1)), tinted(BLUE, None)],
+            twice,
+        );
+        let textures = Textures::new(&[outer, plain_board(moved)], &Images::default());
+        for (u, v, colour) in [
+            // Doubled, this is (.2, .2), in the first square; a quarter less is (−.05, .2).
+            (0.1, 0.1, 0.5 * BLUE),
+            // (.4, .2), and (.15, .2).
+            (0.2, 0.1, 0.5 * RED),
+            (0.3, 0.1, BLUE),
+        ] {
+            let seen = textures.colour(tinted(Rgb::ONE, Some(0)), DVec2::new(u, v));
+            assert_eq!(seen, colour, "{u} {v}");
+        }
+    }
+
+    /// 1×2 pixels: red above blue. Texel centres are not offset; at the seam both count half.
+    #[test]
+    fn images_repeat_and_are_interpolated() {
+        let size = Size {
+            width: 1,
+            height: 2,
+        };
+        let image = Image::new(size, vec![[255, 0, 0], [0, 0, 255]]).expect("two pixels");
+        let images = Images::from_iter([("a.ppm".to_owned(), Arc::new(image))]);
+        let picture = |path: &str| Texture {
+            inverse: DAffine3::IDENTITY,
+            pattern: Pattern::Image(path.to_owned()),
+        };
+        let textures = Textures::new(&[picture("a.ppm"), picture("b.ppm")], &images);
+        let white = |texture| tinted(Rgb::splat(0.5), Some(texture));
+        for (v, colour) in [
+            (0.0, 0.5 * RED),
+            (0.5, 0.5 * BLUE),
+            (0.25, 0.25 * (RED + BLUE)),
+            (0.75, 0.25 * (RED + BLUE)),
+            (-0.5, 0.5 * BLUE),
+            (1.0, 0.5 * RED),
+        ] {
+            let seen = textures.colour(white(0), DVec2::new(0.3, v));
+            assert_eq!(seen, colour, "{v}");
+        }
+        assert_eq!(textures.colour(white(1), DVec2::ZERO), 0.5 * MAGENTA);
+        let material = Material {
+            highlight: Highlight::Blinn(Gloss {
+                specular: Rgb::ONE,
+                exponent: 20.0,
+            }),
+            ..Material::BLACK
+        };
+        for (exponent, place, expected) in [
+            (Some(0), DVec2::ZERO, 20.0),
+            (Some(0), DVec2::new(0.0, 0.5), 0.0),
+            (None, DVec2::ZERO, 20.0),
+        ] {
+            let maps = Maps {
+                exponent,
+                ..Maps::default()
+            };
+            let expected = Gloss {
+                specular: Rgb::ONE,
+                exponent: expected,
+            };
+            let found = textures.applied(&maps, &material, place).highlight;
+            assert_eq!(found, Highlight::Blinn(expected));
+        }
+    }
+
+    /// By hand from the formula: up maps to the middle, as does down; the horizon lies halfway out.
+    #[test]
+    fn directions_map_to_the_environment() {
+        for (direction, place) in [
+            (DVec3::Z, [0.5, 0.5]),
+            (DVec3::NEG_Z, [0.5, 0.5]),
+            (DVec3::X, [0.75, 0.75]),
+            (DVec3::Y, [0.25, 0.75]),
+            (DVec3::NEG_X, [0.25, 0.25]),
+            (DVec3::NEG_Y, [0.75, 0.25]),
+            // asin(.6) / π + ½ = 0.704833 down; x and y divide the sum 3 to 1.
+            (
+                DVec3::new(0.758_946_6, 0.252_982_2, -0.6),
+                [0.676_208_2, 0.852_416_4],
+            ),
+        ] {
+            let found = environment_place(direction);
+            assert!(
+                (found - DVec2::from(place)).length() < 1e-6,
+                "{direction}: {found}"
+            );
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! A part of the picture under way: what its pixels have gathered.
+//! A part of a film: the accumulated samples of its pixels.
 
 use super::first_hit::first_hit;
 use super::frame::NO_OBJECT;
@@ -10,26 +10,26 @@ use super::touched::Touched;
 use super::tracer::Tracer;
 use crate::scene::{Rgb, Size};
 
-/// Pixels of a tile.
+/// Pixels per tile.
 pub(crate) const AREA: u32 = 256;
 
-/// Pixels along the edges of most tiles; a multiple of the coarsest [`Step::Grid`].
+/// Edge length of most tiles, in pixels; a multiple of the coarsest [`Step::Grid`].
 const TILE: u32 = 16;
 
-/// The spacing of no grid.
+/// A spacing coarser than any grid.
 const NO_GRID: u32 = 2 * COARSEST;
 
-/// The level of pixels beyond the picture's edge, where no step is lacking.
+/// The level of pixels beyond the picture's edge, which no step applies to.
 const BEYOND: u8 = u8::MAX;
 
-/// What a thread traces tiles with: room that it keeps from one to the next.
+/// A thread's tracer, with scratch space reused between tiles.
 pub(crate) struct Work<'w, C> {
     pub(crate) tracer: Tracer<'w, C>,
-    /// The pixels that are sampled.
+    /// Pixels to sample.
     pixels: Vec<[u32; 2]>,
-    /// A sample of each.
+    /// A sample of each pixel.
     samples: Vec<Sample>,
-    /// What each brings.
+    /// Results of the samples.
     seen: Vec<Seen>,
 }
 
@@ -44,7 +44,7 @@ impl<'w, C: Fn() -> bool> Work<'w, C> {
     }
 }
 
-/// The pixels along a tile's edges, powers of two.
+/// Width and height of a tile in pixels, both powers of two.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TileShape {
     pub(crate) width: u32,
@@ -52,8 +52,8 @@ pub(crate) struct TileShape {
 }
 
 impl TileShape {
-    /// Squares, unless the picture is narrower or lower than those: what of a tile lies beyond the
-    /// picture takes memory too, and grids begin at its edges.
+    /// Chooses squares unless the picture is narrower or lower: pixels beyond the picture cost
+    /// memory too, and grids start at tile edges.
     pub(crate) fn of(size: Size) -> Self {
         let edge = |pixels: u32| pixels.min(TILE).next_power_of_two();
         if size.height < TILE {
@@ -71,17 +71,17 @@ impl TileShape {
         }
     }
 
-    /// Where a pixel is in a tile with this corner.
+    /// Index of a pixel in a tile with this corner.
     fn index(self, [left, top]: [u32; 2], [x, y]: [u32; 2]) -> usize {
         ((y - top) * self.width + (x - left)) as usize
     }
 
-    /// Tiles along each row of a picture.
+    /// Tiles in each row of a picture.
     pub(crate) fn across(self, size: Size) -> usize {
         size.width.div_ceil(self.width) as usize
     }
 
-    /// Tiles of a picture.
+    /// Tiles in a picture.
     pub(crate) fn count(self, size: Size) -> usize {
         self.across(size) * size.height.div_ceil(self.height) as usize
     }
@@ -90,47 +90,47 @@ impl TileShape {
 /// A part of a picture.
 #[derive(Debug)]
 pub(crate) struct Tile {
-    /// Its top left pixel.
+    /// Top left pixel.
     corner: [u32; 2],
     shape: TileShape,
-    /// Sums of radiance, row by row; pixels beyond the picture's edge stay 0.
+    /// Sums of radiance, in rows; pixels beyond the picture's edge stay 0.
     sums: [Rgb; AREA as usize],
-    /// The object under each pixel's centre.
+    /// Index of the object under each pixel's centre.
     objects: [u32; AREA as usize],
-    /// How far each pixel is, see [`Step::level`]; 0 if it was not come to, or cancelled on the way.
+    /// [`Step::level`] of each pixel; 0 before its first sample or after cancellation.
     levels: [u8; AREA as usize],
-    /// Spacing of the finest grid whose pixels are all traced, while not every pixel is.
+    /// Spacing of the finest complete grid, until every pixel is traced.
     grid: u32,
-    /// What every pixel has reached, at least.
+    /// Minimum level of all pixels.
     level: u8,
-    /// The sum of its pixels' squared errors in the last pass that told.
+    /// The sum of its pixels' squared errors after the last pass that estimated them.
     pub(crate) squared_errors: f64,
-    /// Its samples that ran out of their ray budget.
+    /// Samples that exceeded their ray budget.
     pub(crate) over_budget: u64,
-    /// What it takes to trace some of its pixels anew.
+    /// Data for tracing a subset of the pixels again.
     memory: Option<Box<Memory>>,
 }
 
-/// What a tile knows of each pixel beside what is shown.
+/// Data of each pixel that is not displayed.
 #[derive(Debug)]
 struct Memory {
-    /// What all samples of it depend on.
+    /// Dependencies of all its samples.
     touched: [Touched; AREA as usize],
-    /// Its squared error in the last pass that told.
+    /// Squared error after the last pass that estimated it.
     squared_errors: [f32; AREA as usize],
 }
 
-/// What a tile remembers.
+/// What a tile stores.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Remembers {
-    /// Its pixels.
+    /// Pixels only.
     Pixels,
-    /// And what each of them depends on.
+    /// Pixels and their dependencies.
     Causes,
 }
 
 impl Tile {
-    /// How much memory one takes.
+    /// Bytes of one tile.
     pub(crate) fn bytes(remembers: Remembers) -> usize {
         let memory = match remembers {
             Remembers::Pixels => 0,
@@ -139,7 +139,7 @@ impl Tile {
         size_of::<Self>() + memory
     }
 
-    /// An empty tile, by its place in the film.
+    /// Creates an empty tile, given its number in the film.
     pub(crate) fn new(number: usize, size: Size, shape: TileShape, remembers: Remembers) -> Self {
         let across = shape.across(size);
         let memory = || {
@@ -180,7 +180,7 @@ impl Tile {
         }
     }
 
-    /// Takes a step with those of its pixels that have yet to take it.
+    /// Takes a step in those pixels that lack it.
     pub(crate) fn advance<C: Fn() -> bool>(
         &mut self,
         size: Size,
@@ -221,7 +221,7 @@ impl Tile {
         }
     }
 
-    /// Adds one sample to each of some pixels.
+    /// Adds one sample to each of the given pixels.
     fn sample<C: Fn() -> bool>(&mut self, index: u32, shot: &Shot<'_>, work: &mut Work<'_, C>) {
         let Work {
             tracer,
@@ -267,7 +267,7 @@ impl Tile {
         self.squared_errors = errors.iter().copied().map(f64::from).sum();
     }
 
-    /// Forgets the pixels that depend on what has changed, and those whose tracing was cancelled.
+    /// Resets the pixels that depend on a change, and those whose tracing was cancelled.
     pub(crate) fn forget(&mut self, changed: Touched) {
         let memory = self.memory.as_deref();
         let stale: [bool; AREA as usize] = std::array::from_fn(|at| {
@@ -277,7 +277,7 @@ impl Tile {
         if !stale.contains(&true) {
             return;
         }
-        // Which pixels ran out of their budget is not known.
+        // The pixels that exceeded their budget are not known individually.
         let is_whole = 0 < self.over_budget;
         self.over_budget = 0;
         for (at, is_stale) in stale.into_iter().enumerate() {
@@ -291,7 +291,7 @@ impl Tile {
 
     fn forget_pixel(&mut self, at: usize) {
         self.sums[at] = Rgb::ZERO;
-        // Beyond the picture's edge there is nothing to be traced.
+        // Pixels beyond the picture's edge are never traced.
         if self.levels[at] != BEYOND {
             self.levels[at] = 0;
         }
@@ -300,7 +300,7 @@ impl Tile {
         }
     }
 
-    /// What a pixel that stands for others holds.
+    /// The mean of a pixel's samples.
     pub(crate) fn value(&self, at: usize, spp: u32) -> Rgb {
         self.sums[at] / f64::from(samples_at(self.levels[at], spp).max(1))
     }
@@ -314,8 +314,8 @@ impl Tile {
         self.sums
     }
 
-    /// Visits its pixels within the picture on a grid of some spacing, in blocks of four by two: those
-    /// that stand side by side are traced side by side.
+    /// Visits the pixels of a grid that lie within the picture, in blocks of 4×2, so that adjacent
+    /// pixels are traced together.
     fn each_pixel(&mut self, size: Size, spacing: u32, mut visit: impl FnMut(&mut Self, [u32; 2])) {
         let [left, top] = self.corner;
         let right = left + (size.width - left).min(self.shape.width);
@@ -332,8 +332,8 @@ impl Tile {
         }
     }
 
-    /// Where the pixel that stands for (x, y) is: while that is not traced, the nearest one of the grid
-    /// up and to the left.
+    /// Index of the pixel that represents (x, y): itself if traced, otherwise the nearest grid
+    /// point up and to the left.
     pub(crate) fn known(&self, [x, y]: [u32; 2]) -> usize {
         let at = self.index([x, y]);
         if self.levels[at] == 0 {

@@ -1,22 +1,22 @@
-//! What pixels hold to 8 bits a channel.
+//! Conversion of pixel values to 8 bits per channel.
 
 use crate::scene::{Rgb, Transfer};
 
-/// How what a pixel holds is shown.
+/// The mapping from pixel values to colours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Tone {
-    /// As a colour.
+    /// A linear colour.
     Colour(Transfer),
-    /// A distance: the nearest white, the farthest black, and where there is none, too.
+    /// A distance: the nearest is white, the farthest black, infinity black too.
     Depth { nearest: f64, farthest: f64 },
-    /// A unit vector, each component from −1 to 1; black where it is 0.
+    /// A unit vector with components from −1 to 1; zero is black.
     Normal,
-    /// A number as a colour of its own; black for 0.
+    /// A number, each in its own colour; 0 is black.
     Number,
 }
 
 impl Tone {
-    /// The 8-bit value of each channel.
+    /// Converts a value to 8 bits per channel.
     #[inline]
     pub(crate) fn bytes(self, value: Rgb) -> [u8; 3] {
         match self {
@@ -33,13 +33,13 @@ impl Tone {
     }
 }
 
-/// A colour as it is displayed: each channel from 0 to 1.
+/// Returns a colour as displayed, each channel from 0 to 1.
 pub(crate) fn displayed(colour: Rgb, transfer: Transfer) -> Rgb {
-    // Clamping leaves NaN, which is taken to 0, as in bytes.
+    // NaN survives clamping and becomes 0, as in bytes.
     curved(colour, transfer).map(|channel| channel.clamp(0.0, 1.0).max(0.0))
 }
 
-/// A colour after the curve.
+/// Applies the transfer function.
 fn curved(colour: Rgb, transfer: Transfer) -> Rgb {
     match transfer {
         Transfer::Linear => colour,
@@ -47,14 +47,14 @@ fn curved(colour: Rgb, transfer: Transfer) -> Rgb {
     }
 }
 
-/// A bright colour for a number: Fibonacci hashing (Knuth, The Art of Computer Programming 6.4)
-/// spreads neighbours apart.
+/// Returns a bright colour for a number; Fibonacci hashing (Knuth, The Art of Computer Programming
+/// 6.4) makes neighbours distinct.
 fn colour_of(number: u32) -> [u8; 3] {
     let [hash @ .., _] = number.wrapping_mul(0x9E37_79B9).to_be_bytes();
     hash.map(|byte| 64 | byte)
 }
 
-/// The curve of sRGB for a linear value from 0 to 1.
+/// The sRGB transfer function for a linear value from 0 to 1.
 fn srgb(linear: f64) -> f64 {
     if linear <= 0.003_130_8 {
         12.92 * linear
@@ -63,9 +63,9 @@ fn srgb(linear: f64) -> f64 {
     }
 }
 
-/// The 8-bit value of each channel: ⌊255 · clamp(c, 0, 1) + ½⌋.
+/// Quantises each channel: ⌊255 · clamp(c, 0, 1) + ½⌋.
 fn to_bytes(colour: Rgb) -> [u8; 3] {
-    // The cast truncates, and takes NaN to 0.
+    // The cast truncates and maps NaN to 0.
     colour
         .to_array()
         .map(|channel| (255.0 * channel.clamp(0.0, 1.0) + 0.5) as u8)
@@ -75,9 +75,9 @@ fn to_bytes(colour: Rgb) -> [u8; 3] {
 mod tests {
     use super::*;
 
-    /// Values from the standard's table: 128 / 255 is linear 0.21586; 0.003 lies in the straight part.
+    /// From the standard's table: 128 / 255 is linear 0.21586; 0.003 lies in the linear segment.
     #[test]
-    fn the_curve_of_srgb_is_the_standard_s() {
+    fn the_srgb_curve_matches_the_standard() {
         let tone = Tone::Colour(Transfer::Srgb);
         for (linear, byte) in [
             (0.0, 0),
@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn distances_normals_and_numbers_are_told_apart() {
+    fn distances_normals_and_numbers_have_distinct_mappings() {
         let depth = Tone::Depth {
             nearest: 2.0,
             farthest: 4.0,

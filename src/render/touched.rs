@@ -1,6 +1,6 @@
-//! What pixels depend on, so that an edit of a material or of a light's colour needs only some of
-//! them traced anew (Brière and Poulin, "Hierarchical View-dependent Structures for Interactive Scene
-//! Manipulation", 1996, who keep whole trees of rays).
+//! Dependencies of pixels, so that an edit of a material or of a light's colour retraces only some
+//! of them (cf. Brière and Poulin, "Hierarchical View-dependent Structures for Interactive Scene
+//! Manipulation", 1996, who store whole ray trees).
 
 use std::ops::{BitOr, BitOrAssign};
 
@@ -9,11 +9,11 @@ use super::world::World;
 use crate::geometry::Shape;
 use crate::scene::{Integrator, Light, Object, Scene};
 
-/// A set of objects and lights, perhaps with some more than were put in: several share a bit.
+/// A conservative set of objects and lights, in which several share a bit.
 ///
-/// A pixel depends on the materials of the objects that its rays come to and that its shadow rays are
-/// blocked by or go through, and on the colours of the lights that reach what it shows. A shadow ray
-/// that one object blocks depends on no other.
+/// A pixel depends on the materials of the objects that its rays hit and that its shadow rays are
+/// blocked by or pass through, and on the colours of the lights that contribute to it. A shadow ray
+/// blocked by one object depends on no other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Touched(u64);
 
@@ -21,25 +21,25 @@ impl Touched {
     /// The empty set.
     pub(crate) const NOTHING: Self = Self(0);
 
-    /// An object, by its number.
+    /// The set of one object, by its number.
     #[inline]
     pub(crate) fn object(number: u32) -> Self {
         Self(1 << (number % u64::BITS))
     }
 
-    /// A light, by its number. Lights begin at the other end: few of both share no bit.
+    /// The set of one light, by its number, counted from the other end to avoid shared bits.
     #[inline]
     pub(crate) fn light(number: usize) -> Self {
         Self(1 << 63 >> (number as u32 % u64::BITS))
     }
 
-    /// Whether they may have something in common.
+    /// Whether two sets may intersect.
     pub(crate) fn meets(self, other: Self) -> bool {
         self.0 & other.0 != 0
     }
 
-    /// What is not the same in two jobs with their worlds. `None` if it is more than materials and
-    /// colours of lights.
+    /// Returns the difference between two jobs with their worlds; `None` if more than materials and
+    /// colours of lights differ.
     pub(crate) fn between(before: (&Job, &World), after: (&Job, &World)) -> Option<Self> {
         let ((job, world), (new_job, new_world)) = (before, after);
         let (scene, new_scene) = (&*world.scene, &*new_world.scene);
@@ -48,7 +48,7 @@ impl Touched {
             && job.camera == new_job.camera
             && job.images == new_job.images
             && world.has_shapes_of(new_world)
-            && scene.ambient == new_scene.ambient
+            && world.ambient == new_world.ambient
             && scene.textures == new_scene.textures
             && scene.setting == new_scene.setting
             && scene.lights.len() == new_scene.lights.len();
@@ -61,7 +61,7 @@ impl Touched {
                 continue;
             }
             let colour = new.colour;
-            // Paths meet lights by chance, too.
+            // BSDF samples may hit any light.
             if *new != (Light { colour, ..*light }) || job.settings.integrator == Integrator::Path {
                 return None;
             }
@@ -93,8 +93,8 @@ impl BitOrAssign for Touched {
     }
 }
 
-/// Whether an object, whose shape is the same in two scenes, is made of something else. Scenes may
-/// number equal materials otherwise.
+/// Whether an object, whose shape is the same in two scenes, has a different material. Equal
+/// materials may have different numbers.
 fn looks_other((object, scene): (&Object, &Scene), (new, new_scene): (&Object, &Scene)) -> bool {
     let differ = |material: u32, new_material: u32| {
         scene.materials[material as usize] != new_scene.materials[new_material as usize]

@@ -1,4 +1,4 @@
-//! Radiance along camera rays, gathered in one of two ways.
+//! Radiance along camera rays, computed by either integrator.
 
 use super::probe::{Counts, Probe, Sample, Seen};
 use super::touched::Touched;
@@ -6,9 +6,9 @@ use super::wave::Wave;
 use super::world::World;
 use crate::scene::Integrator;
 
-/// Traces samples; keeps its scratch space and counts from one to the next.
+/// Traces samples, reusing scratch space and accumulating counts.
 ///
-/// Once `cancelled` says so, what it gives is of no use.
+/// Results are meaningless once `cancelled` returns true.
 #[derive(Debug)]
 pub(crate) struct Tracer<'w, C> {
     integrator: Integrator,
@@ -17,7 +17,7 @@ pub(crate) struct Tracer<'w, C> {
 }
 
 impl<'w, C: Fn() -> bool> Tracer<'w, C> {
-    /// A tracer that follows rays to bounce `depth`.
+    /// Creates a tracer that follows rays up to bounce `depth`.
     pub(crate) fn new(world: &'w World, integrator: Integrator, depth: u32, cancelled: C) -> Self {
         Self {
             integrator,
@@ -26,13 +26,13 @@ impl<'w, C: Fn() -> bool> Tracer<'w, C> {
         }
     }
 
-    /// The same, which tells what all that samples bring depends on.
+    /// Enables recording of dependencies.
     pub(crate) fn noting(mut self) -> Self {
         self.probe.crossed.notes = true;
         self
     }
 
-    /// What camera samples bring, in their order.
+    /// Computes the results of camera samples, in their order.
     pub(crate) fn trace(&mut self, samples: &[Sample], seen: &mut Vec<Seen>) {
         seen.clear();
         let probe = &mut self.probe;
@@ -55,12 +55,12 @@ impl<'w, C: Fn() -> bool> Tracer<'w, C> {
         }
     }
 
-    /// What was traced so far.
+    /// Rays traced so far.
     pub(crate) fn counts(&self) -> Counts {
         self.probe.counts
     }
 
-    /// Counts rays that were traced otherwise.
+    /// Counts rays traced elsewhere.
     pub(crate) fn count(&mut self, rays: usize) {
         self.probe.counts.rays += rays as u64;
     }

@@ -1,32 +1,31 @@
-//! Numbers of the unit square made directions and places.
+//! Mappings from the unit square to directions and points.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
 use glam::{DVec2, DVec3};
 
-/// A direction within a cone around a unit vector, each as likely as any other within it; the axis
-/// itself for u = 0. `versine` is 1 − cos of the half angle, which stays exact where that is
-/// small.
+/// Samples a direction uniformly in a cone around a unit vector; u = 0 gives the axis. `versine` is
+/// 1 − cos of the half angle, which stays accurate for small angles.
 pub(crate) fn in_cone(axis: DVec3, versine: f64, [u, v]: [f64; 2]) -> DVec3 {
     let versine = u * versine;
     let sine = (versine * (2.0 - versine)).max(0.0).sqrt();
     around(axis, 1.0 - versine, sine, v)
 }
 
-/// A direction around a unit vector by the density cos θ / π.
+/// Samples a direction around a unit vector with density cos θ / π.
 pub(crate) fn by_cosine(normal: DVec3, [u, v]: [f64; 2]) -> DVec3 {
     around(normal, (1.0 - u).sqrt(), u.sqrt(), v)
 }
 
-/// A direction around a unit vector by the density (n + 1) / 2π cosⁿ θ.
+/// Samples a direction around a unit vector with density (n + 1) / 2π cosⁿ θ.
 pub(crate) fn by_power_of_cosine(axis: DVec3, exponent: f64, [u, v]: [f64; 2]) -> DVec3 {
     let cosine = libm::pow(1.0 - u, 1.0 / (exponent + 1.0));
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
     around(axis, cosine, sine, v)
 }
 
-/// A place in the unit disc, each as likely as any other; its centre for (½, ½), and neighbours stay
-/// neighbours (Shirley and Chiu, "A Low Distortion Map Between Disk and Square", 1997).
+/// Maps to the unit disc, uniformly and continuously; (½, ½) maps to the centre (Shirley and Chiu,
+/// "A Low Distortion Map Between Disk and Square", 1997).
 pub(crate) fn in_disc([u, v]: [f64; 2]) -> DVec2 {
     let (x, y) = (2.0 * u - 1.0, 2.0 * v - 1.0);
     let (radius, angle) = if x.abs() > y.abs() {
@@ -40,8 +39,8 @@ pub(crate) fn in_disc([u, v]: [f64; 2]) -> DVec2 {
     radius * DVec2::new(cosine, sine)
 }
 
-/// Two unit vectors that make a right-handed basis with a third (Duff and others, "Building an
-/// Orthonormal Basis, Revisited", JCGT 6(1), 2017).
+/// Two unit vectors that complete a unit vector to a right-handed basis (Duff and others, "Building
+/// an Orthonormal Basis, Revisited", JCGT 6(1), 2017).
 pub(crate) fn basis(normal: DVec3) -> [DVec3; 2] {
     let DVec3 { x, y, z } = normal;
     let sign = 1.0f64.copysign(z);
@@ -53,7 +52,7 @@ pub(crate) fn basis(normal: DVec3) -> [DVec3; 2] {
     ]
 }
 
-/// The unit vector at an angle from an axis, a part of the way around it.
+/// The unit vector at an angle to an axis, at a fraction of the turn around it.
 fn around(axis: DVec3, cosine: f64, sine: f64, part: f64) -> DVec3 {
     let [x, y] = basis(axis);
     let (up, across) = libm::sincos(TAU * part);
@@ -68,7 +67,7 @@ mod tests {
 
     const SIDE: usize = 64;
 
-    /// The mean of a function over the middles of a fine grid.
+    /// The mean of a function over the midpoints of a fine grid.
     fn mean(of: impl Fn([f64; 2]) -> f64) -> f64 {
         let middle = |i: usize| (i as f64 + 0.5) / SIDE as f64;
         let rows = (0..SIDE).flat_map(|i| (0..SIDE).map(move |j| [middle(i), middle(j)]));
@@ -96,10 +95,10 @@ mod tests {
         }
     }
 
-    /// The mean cosine tells each density from others: ½ (1 + cos of the half angle), ⅔, and
-    /// (n + 1) / (n + 2).
+    /// The mean cosine characterises each density: ½ (1 + cos of the half angle), ⅔, and (n + 1) /
+    /// (n + 2).
     #[test]
-    fn mean_cosines_are_those_of_the_densities() {
+    fn mean_cosines_match_the_densities() {
         for axis in axes() {
             for versine in [1e-12, 0.1, 1.0, 2.0] {
                 let turned = mean(|uv| 1.0 - axis.dot(in_cone(axis, versine, uv)));
@@ -116,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn no_number_leaves_the_cone() {
+    fn directions_stay_within_the_cone() {
         let axis = DVec3::new(1.0, 2.0, -3.0).normalize();
         for part in [0.0, 0.2, 0.5, 0.999] {
             let direction = in_cone(axis, 0.25, [1.0, part]);
@@ -125,9 +124,9 @@ mod tests {
         }
     }
 
-    /// Of a uniform disc: the mean square of the radius is ½, of each coordinate ¼.
+    /// For a uniform disc the mean square of the radius is ½, that of each coordinate ¼.
     #[test]
-    fn the_disc_is_filled_evenly() {
+    fn the_disc_is_filled_uniformly() {
         assert!((mean(|uv| in_disc(uv).length_squared()) - 0.5).abs() < 1e-3);
         assert!((mean(|uv| in_disc(uv).x.powi(2)) - 0.25).abs() < 1e-3);
         let inner = mean(|uv| f64::from(u8::from(in_disc(uv).length() < 0.5)));

@@ -1,71 +1,98 @@
-//! Camera samples on their way side by side: one ray of each at a time.
+//! Camera samples traced together, one ray of each at a time.
 
 use super::intersect::Nearest;
-use super::probe::{Counts, Matter, RAY_BUDGET, Sample};
+use super::probe::{Counts, RAY_BUDGET, Sample};
 use super::sampler::Sampler;
 use super::surfaces::Landing;
 use crate::geometry::{Packets, Ray};
-use crate::scene::Rgb;
+use crate::scene::{Material, Rgb};
 
-/// What a ray brings with it, besides where it goes.
+/// The state of a ray apart from its geometry.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Way {
-    /// The number of its sample.
+    /// Index of its sample.
     pub(super) tree: usize,
-    /// Which part of its radiance reaches the eye.
+    /// Weight of its radiance in the pixel.
     pub(super) weight: Rgb,
-    /// What is lost per unit of length until it meets something.
+    /// Absorption per unit of length up to the next hit.
     pub(super) absorption: Rgb,
     pub(super) bounce: u32,
-    /// Its place in the tree of rays, for numbers of its own.
+    /// Node in the ray tree, which selects its random numbers.
     pub(super) node: u32,
 }
 
 /// The rays of a camera sample.
 #[derive(Debug, Default)]
 pub(super) struct Tree {
-    /// Those yet to be traced, the last first.
+    /// Rays yet to be traced, last in first out.
     pub(super) pending: Vec<(Ray, Way)>,
     traced: u32,
 }
 
-/// What a ray has come to.
+/// The shaded hit of a ray.
 #[derive(Debug)]
 pub(super) struct Arrived<'w> {
-    /// [`Matter::Flat`] if no light is asked for: it met nothing, or what shines by itself.
-    pub(super) matter: Matter<'w>,
-    /// Which part of its radiance reaches the eye.
+    pub(super) found: Found<'w>,
+    /// Weight of its radiance in the pixel.
     pub(super) weight: Rgb,
-    /// What leaves the point toward where the ray came from.
+    /// Radiance toward the origin of the ray.
     pub(super) radiance: Rgb,
 }
 
-/// Camera samples on their way side by side: one ray of each at a time, which are the front.
+/// The material at the hit of a ray.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Found<'w> {
+    /// The ray missed.
+    Nothing,
+    /// A material of the scene without maps.
+    Plain(&'w Material),
+    /// A material with its maps applied, by its index in [`Wave::mapped`].
+    Mapped(usize),
+}
+
+impl<'w> Found<'w> {
+    /// Returns the material, given those with maps applied.
+    #[inline]
+    pub(super) fn material<'m>(self, mapped: &'m [Material]) -> Option<&'m Material>
+    where
+        'w: 'm,
+    {
+        match self {
+            Self::Nothing => None,
+            Self::Plain(material) => Some(material),
+            Self::Mapped(place) => mapped.get(place),
+        }
+    }
+}
+
+/// Camera samples traced together; the current ray of each forms the front.
 #[derive(Debug, Default)]
 pub(crate) struct Wave<'w> {
     pub(super) trees: Vec<Tree>,
-    /// The numbers of the trees that are not done.
+    /// Indices of the unfinished trees.
     growing: Vec<usize>,
-    /// The rays of the front, and what each brings with it.
+    /// The rays of the front and their states.
     pub(super) rays: Packets,
     pub(super) ways: Vec<Way>,
-    /// What each meets.
+    /// Nearest hits of the front.
     pub(super) nearest: Vec<Option<Nearest>>,
-    /// Where each comes to.
+    /// Surface points of the front.
     pub(super) landings: Vec<Landing>,
-    /// What is there.
+    /// Shaded hits of the front.
     pub(super) arrived: Vec<Arrived<'w>>,
-    /// The ways from there to a light.
+    /// Materials of the hits with maps applied.
+    pub(super) mapped: Vec<Material>,
+    /// Shadow rays from the hits to one light.
     pub(super) shadows: Packets,
-    /// For each of these the ray that came, and what is sent back if nothing is in the way.
+    /// For each shadow ray, the index of its hit and the reflected light if unoccluded.
     pub(super) asking: Vec<(usize, Rgb)>,
     pub(super) transmittances: Vec<f64>,
-    /// By light: the last simple object that kept it from a surface.
+    /// For each light, the last simple object that occluded it.
     pub(super) blockers: Vec<Option<u32>>,
 }
 
 impl Wave<'_> {
-    /// Plants a tree for each sample.
+    /// Starts a tree for each sample.
     pub(super) fn start(&mut self, samples: &[Sample]) {
         self.trees.resize_with(samples.len(), Tree::default);
         self.growing.clear();
@@ -84,7 +111,7 @@ impl Wave<'_> {
         }
     }
 
-    /// Takes the next ray of each tree to the front; `false` if there is none.
+    /// Moves the next ray of each tree to the front; returns whether there are any.
     pub(super) fn advance(&mut self, samples: &[Sample], counts: &mut Counts) -> bool {
         self.rays.clear();
         self.ways.clear();

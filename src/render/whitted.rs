@@ -1,32 +1,32 @@
-//! Whitted's recursive ray tracing (Whitted, "An Improved Illumination Model for Shaded Display",
-//! 1980).
+//! Recursive ray tracing (Whitted, "An Improved Illumination Model for Shaded Display", 1980).
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
+
+use std::borrow::Cow;
 
 use glam::DVec3;
 
 use super::direct::{Facing, Points, Shadow, sent_back};
 use super::intersect::Nearest;
-use super::lights::{self, Incoming};
+use super::lights;
 use super::optics::transmitted;
-use super::phong;
-use super::probe::{Matter, Probe, Sample, Seen};
+use super::probe::{Probe, Sample, Seen};
 use super::sampler::Use;
 use super::touched::Touched;
-use super::wave::{Arrived, Wave, Way};
+use super::wave::{Arrived, Found, Wave, Way};
 use super::world::World;
 use crate::geometry::lanes::{Simd, WIDTH, bits, dispatch};
 use crate::scene::{Light, Rgb};
 
 impl<'w, C: Fn() -> bool> Probe<'w, C> {
-    /// Radiance along camera rays. The rays of each are traced depth first, reflection before
-    /// refraction; those beyond the budget bring nothing.
+    /// Computes the radiance along camera rays. The rays of each are traced depth first, reflection
+    /// before refraction; those beyond the ray budget contribute nothing.
     ///
-    /// Many samples are traced at once, one ray of each at a time, so that rays and shadow rays meet
-    /// the scene side by side. What each sample adds up, and in which order, is its own.
+    /// Many samples are traced at once, one ray of each at a time, to form packets of rays and
+    /// shadow rays. The order of summation within each sample does not depend on the others.
     pub(crate) fn by_whitted(
         &mut self,
         wave: &mut Wave<'w>,
@@ -49,13 +49,13 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
         }
     }
 
-    /// Adds what surfaces send back of the light of all lights, in file order.
+    /// Adds the light of all lights reflected by the hits, in file order.
     fn light(&mut self, wave: &mut Wave<'_>, samples: &[Sample], seen: &mut [Seen]) {
         let world = self.world;
         let lights = &world.scene.lights;
         wave.blockers.resize(lights.len(), None);
         for (number, light) in lights.iter().enumerate() {
-            // A light may take as many rays as there are samples.
+            // Each light may take as many rays as there are samples.
             if 0 < number && (self.cancelled)() {
                 break;
             }
@@ -77,12 +77,12 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
             );
             let asking = wave.asking.iter().zip(&wave.transmittances);
             for (&(ray, unblocked), &transmittance) in asking.clone() {
-                // Light that does not come counts nothing, were it infinitely strong.
+                // Occluded light adds nothing, even if infinite.
                 if transmittance != 0.0 {
                     wave.arrived[ray].radiance += transmittance * unblocked;
                 }
             }
-            // Of what nobody notes there is nothing.
+            // Empty unless dependencies are recorded.
             for ((&(ray, _), &transmittance), &touched) in asking.zip(&self.crossed.touched) {
                 let seen = &mut seen[wave.ways[ray].tree];
                 seen.touched |= touched;
@@ -95,15 +95,16 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
 }
 
 impl<'w> Wave<'w> {
-    /// Finds what the rays of the front have come to.
+    /// Shades the hits of the front's rays.
     fn arrive(&mut self, world: &'w World, samples: &[Sample], seen: &mut [Seen]) {
         self.arrived.clear();
+        self.mapped.clear();
         for (number, (nearest, way)) in self.nearest.iter().zip(&self.ways).enumerate() {
             let seen = &mut seen[way.tree];
             let (packet, lane) = (&self.rays[number / WIDTH], number % WIDTH);
             let landing = &mut self.landings[number / WIDTH];
             let mut arrived = Arrived {
-                matter: Matter::Flat(Rgb::ZERO),
+                found: Found::Nothing,
                 weight: way.weight,
                 radiance: Rgb::ZERO,
             };
@@ -120,22 +121,21 @@ impl<'w> Wave<'w> {
                     }
                 };
                 let coming = || (packet.ray(lane), turned(landing.normal.get(lane)));
-                let (matter, bumped) = world.matter(nearest, coming);
-                if let Some(normal) = bumped {
+                let (material, raised) = world.material(nearest, coming);
+                if let Some(normal) = raised {
                     landing.normal.set(lane, turned(normal));
                 }
-                let ambient = world.scene.ambient;
-                match &matter {
-                    Matter::Flat(colour) => seen.radiance += way.through(nearest) * *colour,
-                    Matter::Phong(material) => arrived.radiance = material.ambient * ambient,
-                    Matter::Utah(shading) => {
-                        arrived.weight = way.through(nearest);
-                        if shading.is_lit(landing.is_front(lane)) {
-                            arrived.radiance = shading.emission + ambient * shading.diffuse;
-                        }
-                    }
+                arrived.weight = way.through(nearest);
+                if material.is_lit(landing.is_front(lane)) {
+                    arrived.radiance = material.glow(world.ambient);
                 }
-                arrived.matter = matter;
+                arrived.found = match material {
+                    Cow::Borrowed(material) => Found::Plain(material),
+                    Cow::Owned(material) => {
+                        self.mapped.push(material);
+                        Found::Mapped(self.mapped.len() - 1)
+                    }
+                };
             } else {
                 let screen = samples[way.tree].screen;
                 let around = world.around(&packet.ray(lane), way.bounce, screen);
@@ -145,7 +145,7 @@ impl<'w> Wave<'w> {
         }
     }
 
-    /// Lets the points that a packet has come to ask for a light's light.
+    /// Adds shadow rays from a packet's points to a light.
     #[inline(always)]
     fn ask<S: Simd>(
         &mut self,
@@ -168,12 +168,16 @@ impl<'w> Wave<'w> {
         };
         let last = self.arrived.len().min(first + WIDTH);
         let arrived = &mut self.arrived[first..last];
-        if 0.0 < light.radius {
+        if let Some(sphere) = light.sphere() {
             for (lane, (arrived, way)) in arrived.iter().zip(&self.ways[first..]).enumerate() {
+                if let Found::Nothing = arrived.found {
+                    continue;
+                }
                 let sampler = samples[way.tree].sampler;
-                let place = || sampler.pair(way.node, Use::Light(number as u32));
+                let place = sampler.pair(way.node, Use::Light(number as u32));
                 let point = landing.surface.point.get(lane);
-                if let Some(chosen) = arrived.chosen(light, point, place) {
+                // Without random numbers the centre is sampled.
+                if let Some(chosen) = place.and_then(|place| sphere.choose(point, place)) {
                     incoming.put(lane, chosen);
                 }
             }
@@ -184,18 +188,16 @@ impl<'w> Wave<'w> {
             let lane = lit.trailing_zeros() as usize % WIDTH;
             lit &= lit - 1;
             let arrived = &mut arrived[lane];
-            let reflected = match &arrived.matter {
-                Matter::Phong(material) => {
-                    phong::reflected(material, facing.cosine[lane], facing.mirrored[lane])
-                }
-                Matter::Utah(shading) if shading.is_lit(landing.is_front(lane)) => {
-                    let view = -rays.direction.get(lane);
-                    let toward = facing.toward.lane(lane);
-                    let normal = landing.normal.get(lane);
-                    facing.cosine[lane] * shading.reflected(normal, view, toward)
-                }
-                Matter::Utah(_) | Matter::Flat(_) => continue,
+            let material = match arrived.found.material(&self.mapped) {
+                Some(material) if material.is_lit(landing.is_front(lane)) => material,
+                _ => continue,
             };
+            let halfway = || {
+                let view = -rays.direction.get(lane);
+                let toward: DVec3 = facing.toward.lane(lane);
+                landing.normal.get(lane).dot((toward + view).normalize())
+            };
+            let reflected = material.reflected(facing.cosine[lane], facing.mirrored[lane], halfway);
             let place = landing.surface.point.get(lane);
             let toward = || facing.toward.lane(lane);
             let Some(unblocked) = sent_back(light, place, toward, reflected) else {
@@ -215,23 +217,8 @@ impl<'w> Wave<'w> {
     }
 }
 
-impl Arrived<'_> {
-    /// From where a light that has a size comes to the point, if it does not come from its middle.
-    fn chosen(
-        &self,
-        light: &Light,
-        point: DVec3,
-        place: impl FnOnce() -> Option<[f64; 2]>,
-    ) -> Option<Incoming<f64>> {
-        match &self.matter {
-            Matter::Utah(_) => light.sphere()?.choose(point, place()?),
-            Matter::Phong(_) | Matter::Flat(_) => None,
-        }
-    }
-}
-
 impl Way {
-    /// Which part of the radiance at a hit reaches the eye.
+    /// Weight of the radiance at a hit in the pixel.
     fn through(&self, nearest: Nearest) -> Rgb {
         self.weight * transmitted(self.absorption, nearest.hit.t)
     }

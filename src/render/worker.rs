@@ -1,4 +1,4 @@
-//! The thread behind a renderer: traces one job at a time, the newest, and publishes its progress.
+//! The thread behind a renderer, which traces the newest job and publishes its progress.
 
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
@@ -18,20 +18,20 @@ use super::touched::Touched;
 use super::world::World;
 use crate::scene::Size;
 
-/// How long a first picture may be refined before it is shown: half of what passes for immediate,
-/// so that the picture of an edit that had to wait for the one before still comes in time.
+/// Time for refining a first picture before it is shown: half of what counts as immediate, so that
+/// even the picture of an edit that waited for its predecessor is in time.
 const FIRST_PICTURE: Duration = Duration::from_millis(20);
 
-/// How long a job is safe from newer ones while it has shown nothing. With naive cancelling a held
-/// key shows no picture at all; with this, one for every edit.
+/// Time during which newer jobs cannot cancel one that has shown nothing. Without it, holding a key
+/// shows no picture at all; with it, one per edit.
 const GRACE: Duration = Duration::from_millis(50);
 
-/// How the tiles of a step go to the pool: progress is published between two batches, and some threads
-/// wait for others.
+/// How the tiles of a step are divided into batches for the pool. Progress is published between
+/// batches, where some threads must wait for others.
 struct Batches {
-    /// How many tiles a thread the first holds.
+    /// Tiles per thread in the first batch.
     first: usize,
-    /// How long later ones take, about.
+    /// Target duration of later batches.
     time: Duration,
 }
 
@@ -42,7 +42,7 @@ impl Batches {
                 first: 2,
                 time: Duration::from_millis(8),
             },
-            // Only progress is told.
+            // Frames contain only the progress.
             Frames::Last | Frames::LastWithValues => Self {
                 first: 32,
                 time: Duration::from_millis(50),
@@ -51,21 +51,21 @@ impl Batches {
     }
 }
 
-/// A job and what it needs.
+/// A job with its generation and film.
 pub(crate) struct Order {
     pub(crate) generation: u64,
     pub(crate) job: Job,
     pub(crate) film: Film,
 }
 
-/// What a job leaves to the next one.
+/// State kept for the next job.
 struct Left {
     world: World,
-    /// What it traced, and how far it came, if that may be gone on with.
+    /// The last job and its film, if they can be continued.
     traced: Option<(Job, Film)>,
 }
 
-/// Traces jobs until the renderer is dropped, or a panic ends the thread.
+/// Traces jobs until the renderer is dropped or the thread panics.
 pub(crate) fn run<W: Fn() + Sync>(
     orders: &Receiver<Order>,
     shared: &Shared,
@@ -77,7 +77,7 @@ pub(crate) fn run<W: Fn() + Sync>(
         let order = orders.try_iter().last().unwrap_or(newest);
         left = pool.install(|| trace(order, shared, wake, left.take()));
     }
-    // Nobody is to wait while the system takes back the structure of a large scene: up to 16 ms for a
+    // In the background, because freeing the structures of a large scene takes up to 16 ms for a
     // million spheres.
     pool.spawn(move || {
         if let Some(Left { world, traced }) = left {
@@ -89,7 +89,7 @@ pub(crate) fn run<W: Fn() + Sync>(
     });
 }
 
-/// Traces a job to its end, unless it is cancelled.
+/// Traces a job until it is complete or cancelled.
 fn trace<W: Fn() + Sync>(
     order: Order,
     shared: &Shared,
@@ -102,8 +102,8 @@ fn trace<W: Fn() + Sync>(
         mut film,
     } = order;
     let begun = Instant::now();
-    // A newer job does not cancel the building: it may need the same structure, and if a held key
-    // moved the objects of a large scene, no structure would ever be finished.
+    // A newer job does not cancel the build: it may need the same structures, and while a held key
+    // moves objects of a large scene, none would ever be finished.
     let quit = || shared.is_quitting();
     let known = previous.as_ref().map(|left| &left.world);
     let Some(world) = World::build(Arc::clone(&job.scene), &job.images, known, quit) else {
@@ -148,31 +148,30 @@ fn trace<W: Fn() + Sync>(
     Some(Left { world, traced })
 }
 
-/// What says whether a job may go on.
+/// Decides whether a job may continue.
 #[derive(Clone, Copy)]
 struct Ticket<'s> {
     generation: u64,
-    /// When its world was ready.
+    /// When the world was ready.
     built: Instant,
     shared: &'s Shared,
 }
 
 impl Ticket<'_> {
-    /// Whether to stop: at once when the renderer is dropped; for a newer job once something of
-    /// this one was published, or its grace is over.
+    /// Whether to stop: at once when the renderer is dropped; for a newer job once a frame of this
+    /// one was published, or its grace period is over.
     fn cancelled(&self, published: Option<Instant>) -> bool {
         self.shared.is_old(self.generation)
             && (published.is_some() || GRACE <= self.built.elapsed() || self.shared.is_quitting())
     }
 
-    /// Whether not even a picture that is traced is to be shown any more: a first one is, in spite
-    /// of newer jobs.
+    /// Whether a finished frame is no longer wanted; a first frame is shown despite newer jobs.
     fn unwanted(&self, shown: bool) -> bool {
         self.shared.is_quitting() || (shown && self.shared.is_old(self.generation))
     }
 }
 
-/// The picture of a job, as far as it is.
+/// The picture of a job in progress.
 struct Picture<'s, W> {
     ticket: Ticket<'s>,
     wake: &'s W,
@@ -182,15 +181,15 @@ struct Picture<'s, W> {
     spp: u32,
     frames: Frames,
     counts: Counts,
-    /// Samples taken, in pixels' worth.
+    /// Samples taken, divided by the number of pixels.
     taken: f64,
     pass: u32,
     whole_samples: u32,
-    /// Tiles that go to the pool at once.
+    /// Tiles in the next batch.
     batch: usize,
-    /// When it was last published.
+    /// Time of the last publication.
     published: Option<Instant>,
-    /// How long making the last frame took.
+    /// Time spent on developing the last frame.
     developing: Duration,
 }
 
@@ -214,7 +213,7 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
         }
     }
 
-    /// Takes a step; `false` if it was cancelled.
+    /// Takes a step; returns false if cancelled.
     fn take(&mut self, step: &Step, shot: &Shot<'_>) -> bool {
         if let Step::Samples(indices) = step
             && 0 < indices.start
@@ -251,15 +250,15 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
         true
     }
 
-    /// Whether the first picture is to be shown now, at the end of a grid: it is if the next grid,
-    /// with three times the points so far, would end after its time.
+    /// Whether to show the first picture after a grid: if the next grid, with three times as many
+    /// points as all so far, would end too late.
     fn is_first_due(&self, step: &Step) -> bool {
         let elapsed = self.ticket.built.elapsed();
         self.published.is_none() && (*step == Step::Grid(1) || FIRST_PICTURE <= 4 * elapsed)
     }
 
-    /// Whether it is time for another picture: often at first, ever more seldom later, and never so
-    /// often that a large picture is developed rather than traced.
+    /// Whether to publish a frame: often at first, less often later, and never so often that a
+    /// large picture is mostly developed instead of traced.
     fn is_due(&self) -> bool {
         let interval = match self.begun.elapsed().as_millis() {
             0..1000 => 33,
@@ -270,7 +269,7 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
         let interval = Duration::from_millis(interval).max(4 * self.developing);
         match self.published {
             Some(last) => interval <= last.elapsed(),
-            // What only tells how far it is can do so before every tile was come to.
+            // Frames without pixels do not need every tile to be begun.
             None => self.frames != Frames::Live,
         }
     }
@@ -324,7 +323,7 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
     }
 }
 
-/// How many tiles to hand out next, to take as long as wanted, when this many took that long.
+/// The size of the next batch, given the duration of the last one and the target.
 fn next_batch(batch: usize, took: Duration, wanted: Duration) -> usize {
     let ratio = wanted.as_secs_f64() / took.as_secs_f64().max(1e-6);
     let least = 2 * rayon::current_num_threads();

@@ -1,52 +1,51 @@
-//! A scene made ready for rays.
+//! A scene prepared for tracing.
 //!
-//! A tree over the objects; and one over the triangles of each mesh, which its instances share and
-//! which lives as long as the mesh is in the scene.
+//! It has a tree over the objects, and one over the triangles of each mesh, shared by its instances
+//! and kept as long as the mesh is in the scene.
 
 use std::sync::Arc;
 
 use glam::DVec2;
 
 use super::lights::SphereLights;
-use super::mapped::{MappedTextures, environment_place};
 use super::spheres::Spheres;
 use super::structures::{Structures, instances};
-use super::texture::Textures;
+use super::texture::{Textures, environment_place};
 use crate::accel::Bvh;
 use crate::geometry::Ray;
 use crate::geometry::lanes::Level;
-use crate::scene::{Images, Material, Object, Rgb, Scene};
+use crate::scene::{Images, Object, Rgb, Scene};
 
-/// Up to this many objects every ray tries every one. Measured with rays that go alone: with two
-/// solids that is half as fast again as a tree, with six to eleven a tree is 1.2 to 1.7 times as
-/// fast; with eleven and eight rays side by side a tree is 1.1 times as fast.
+/// Up to this many objects are intersected without a tree. Measured with single rays: with two
+/// solids this is 1.5 times as fast as a tree; with six to eleven a tree is 1.2 to 1.7 times as
+/// fast. With packets of eight and eleven solids a tree is 1.1 times as fast.
 pub(super) const FEW: usize = 4;
 
-/// The order of so few.
+/// The order of objects without a tree.
 const FILE_ORDER: [u32; FEW] = [0, 1, 2, 3];
 
-/// A scene and its acceleration structure.
+/// A scene and its acceleration structures.
 #[derive(Clone, Debug)]
 pub(crate) struct World {
     pub(crate) scene: Arc<Scene>,
     pub(crate) textures: Textures,
-    pub(crate) mapped: MappedTextures,
-    /// The lights that have a size.
+    /// The sum of all ambient light.
+    pub(crate) ambient: Rgb,
+    /// The lights with a size.
     pub(crate) sphere_lights: SphereLights,
-    /// The vectors that rays are traced with.
+    /// The vector instructions to trace with.
     pub(crate) level: Level,
     pub(crate) tree: Option<Arc<Bvh>>,
-    /// By place in [`World::order`].
+    /// Indexed by position in [`World::order`].
     pub(crate) spheres: Arc<Spheres>,
     pub(crate) structures: Structures,
-    /// For each object whether it is a mesh that lets no light through anywhere; none at all if
-    /// there is no such mesh.
+    /// For each object, whether it is a mesh that blocks all light; empty without such meshes.
     pub(crate) opaque: Vec<bool>,
 }
 
 impl World {
-    /// Makes a scene ready, keeping the tree of `previous` if its shapes are the same, and the
-    /// structures of the meshes it has as well. `None` if `cancelled` said so.
+    /// Prepares a scene. Keeps the tree of `previous` if the shapes are the same, and the
+    /// structures of its meshes in any case. `None` once `cancelled` returns true.
     pub(crate) fn build(
         scene: Arc<Scene>,
         images: &Images,
@@ -54,7 +53,7 @@ impl World {
         cancelled: impl Fn() -> bool + Sync,
     ) -> Option<Self> {
         let textures = Textures::new(&scene.textures, images);
-        let mapped = MappedTextures::new(&scene.setting.textures, images);
+        let ambient = scene.ambient_light();
         let sphere_lights = SphereLights::new(&scene.lights, &cancelled)?;
         let level = Level::new();
         let opaque = opaque_meshes(&scene);
@@ -63,7 +62,7 @@ impl World {
             return Some(Self {
                 scene,
                 textures,
-                mapped,
+                ambient,
                 sphere_lights,
                 level,
                 tree: previous.tree.clone(),
@@ -96,7 +95,7 @@ impl World {
         Some(Self {
             scene,
             textures,
-            mapped,
+            ambient,
             sphere_lights,
             level,
             tree,
@@ -106,27 +105,27 @@ impl World {
         })
     }
 
-    /// Whether this is the world of the same shapes, which is built with those of the one before.
+    /// Whether both worlds have the same shapes, judging by the structures they share.
     pub(crate) fn has_shapes_of(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.spheres, &other.spheres)
     }
 
-    /// What a ray that meets nothing brings: a camera ray the background at `screen`, a place in the
-    /// unit square, others the environment.
+    /// Returns the radiance of a ray that hits nothing: the background at `screen`, in the unit
+    /// square, for camera rays, and otherwise the environment.
     pub(crate) fn around(&self, ray: &Ray, bounce: u32, screen: DVec2) -> Rgb {
         let setting = &self.scene.setting;
         if bounce == 0 {
-            return self.mapped.colour(setting.background, screen);
+            return self.textures.colour(setting.background, screen);
         }
         let environment = setting.environment;
         if environment.texture.is_none() {
             return environment.colour;
         }
         let place = environment_place(ray.direction);
-        self.mapped.colour(environment, place)
+        self.textures.colour(environment, place)
     }
 
-    /// The numbers of the objects in the order that they are visited in.
+    /// Object numbers in the order of traversal.
     pub(crate) fn order(&self) -> &[u32] {
         match &self.tree {
             Some(tree) => tree.order(),
@@ -134,23 +133,19 @@ impl World {
         }
     }
 
-    /// The part of light that goes through a material.
+    /// The transmitted fraction of light at a material.
     #[inline]
     pub(crate) fn transmission(&self, material: u32) -> f64 {
         transmission(&self.scene, material)
     }
 }
 
-/// The part of light that goes through a material.
+/// The transmitted fraction of light at a material.
 fn transmission(scene: &Scene, material: u32) -> f64 {
-    match &scene.materials[material as usize] {
-        Material::Phong(phong) => phong.transmission,
-        // SPEC of `.xml`: anything blocks.
-        Material::Utah(_) | Material::Flat(_) => 0.0,
-    }
+    scene.materials[material as usize].shadow.transmittance()
 }
 
-/// See [`World::opaque`].
+/// Computes [`World::opaque`].
 fn opaque_meshes(scene: &Scene) -> Vec<bool> {
     let mut opaque = Vec::new();
     for (number, instance) in instances(&scene.objects) {
@@ -164,9 +159,9 @@ fn opaque_meshes(scene: &Scene) -> Vec<bool> {
     opaque
 }
 
-/// The objects whose shapes are others; `None` where they are many, or not as many objects.
+/// Returns the objects whose shapes differ; `None` if too many, or if their counts differ.
 fn changed_shapes(a: &Arc<Scene>, b: &Arc<Scene>) -> Option<Vec<u32>> {
-    /// A tree can follow fewer.
+    /// Beyond this many changes a tree is rebuilt.
     const MANY: usize = 32;
     let mut changed = Vec::new();
     if Arc::ptr_eq(a, b) {

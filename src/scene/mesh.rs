@@ -1,4 +1,4 @@
-//! The meshes of a scene's objects, as values.
+//! The meshes that a scene refers to, as values.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -6,29 +6,29 @@ use std::sync::Arc;
 
 use crate::obj::Model;
 
-/// What became of the meshes that a scene names, by the paths that its text says. One that is
-/// missing here was not read yet.
+/// The meshes of a scene, or the reasons why they cannot be read, by their paths as written in the
+/// text. Paths not read yet are missing.
 ///
-/// Values are equal where they are the same in memory: meshes are too large to be compared.
+/// Equality is by address, since meshes are too large to compare.
 #[derive(Clone, Debug, Default)]
 pub struct Meshes(Arc<HashMap<String, Result<Arc<Model>, NoMesh>>>);
 
-/// Why a mesh can't be read.
+/// Why a mesh cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NoMesh {
-    /// All that is wrong, each as the end of a sentence; at least one.
+    /// The reasons, each completing a sentence; at least one.
     pub reasons: Vec<String>,
-    /// What helps.
+    /// A hint towards a fix.
     pub hint: Option<String>,
 }
 
 impl Meshes {
-    /// The mesh of a path, or why there is none; `None` if it was not read yet.
+    /// Returns the mesh at a path, or why it cannot be read; `None` if it was not read yet.
     pub fn get(&self, path: &str) -> Option<Result<&Arc<Model>, &NoMesh>> {
         self.0.get(path).map(Result::as_ref)
     }
 
-    /// How many of them can't be read.
+    /// The number of meshes that cannot be read.
     pub fn unreadable(&self) -> usize {
         self.0.values().filter(|read| read.is_err()).count()
     }
@@ -58,8 +58,8 @@ impl FromIterator<(String, Result<Arc<Model>, NoMesh>)> for Meshes {
     }
 }
 
-/// The path of a file whose name is relative to the folder of another one: of what a mesh or a
-/// library of materials names, as if the scene's text did. `\` separates as `/` does.
+/// Resolves a name in a mesh or material library against the folder of that file, as if the scene
+/// itself had referred to it. `\` separates like `/`.
 pub fn beside(file: &str, name: &str) -> String {
     let [file, name] = [file, name].map(|path| path.replace('\\', "/"));
     let path = Path::new(&file).with_file_name(name);
@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_relative_to_the_file_that_says_them() {
+    fn names_are_relative_to_the_file_that_contains_them() {
         for (file, name, path) in [
             ("a.obj", "b.mtl", "b.mtl"),
             ("meshes/a.obj", "b.mtl", "meshes/b.mtl"),

@@ -1,5 +1,5 @@
-//! The objects of a scene, in blocks that scenes share: another shape of one among a million copies
-//! its block and no other.
+//! The objects of a scene, in blocks shared between scenes: changing one shape of a million copies
+//! only its block.
 
 use std::ops::Index;
 use std::sync::Arc;
@@ -8,19 +8,19 @@ use rayon::prelude::*;
 
 use super::Object;
 
-/// How many objects a block holds. Lowering reads each block of a `.ray` text without knowing of
-/// those before it, so that equal materials of different blocks are not one.
+/// Objects per block. A text may be parsed block by block without knowledge of earlier blocks, so
+/// equal materials are merged only within a block.
 pub(crate) const BLOCK: usize = 1024;
 
-/// A list of objects. Copies share their blocks until one of them is changed.
+/// A list of objects. Clones share blocks until they are changed.
 #[derive(Clone, Debug, Default)]
 pub struct Objects {
-    /// All full but the last, which is never empty.
+    /// All full except the last, which is never empty.
     blocks: Vec<Arc<[Object]>>,
 }
 
 impl Objects {
-    /// Objects in blocks, all full but the last, which is not empty.
+    /// Creates a list from blocks, all full except the last, which is not empty.
     pub(crate) fn of_blocks(blocks: Vec<Arc<[Object]>>) -> Self {
         debug_assert!(
             blocks
@@ -36,12 +36,12 @@ impl Objects {
         Self { blocks }
     }
 
-    /// The blocks.
+    /// The blocks in order.
     pub(crate) fn blocks(&self) -> &[Arc<[Object]>] {
         &self.blocks
     }
 
-    /// How many there are.
+    /// The number of objects.
     pub fn len(&self) -> usize {
         let Some((last, full)) = self.blocks.split_last() else {
             return 0;
@@ -49,31 +49,31 @@ impl Objects {
         full.len() * BLOCK + last.len()
     }
 
-    /// Whether there are none.
+    /// Whether the list is empty.
     pub fn is_empty(&self) -> bool {
         self.blocks.is_empty()
     }
 
-    /// The object with a number.
+    /// Returns the object at an index.
     pub fn get(&self, number: usize) -> Option<&Object> {
         self.blocks.get(number / BLOCK)?.get(number % BLOCK)
     }
 
-    /// All of them, in order.
+    /// Iterates over all objects in order.
     pub fn iter(&self) -> impl Iterator<Item = &Object> {
         self.blocks.iter().flat_map(|block| block.iter())
     }
 
-    /// All of them with their numbers, in order, side by side.
+    /// Iterates in parallel over all objects and their indices, in order.
     pub(crate) fn par_numbered(&self) -> impl ParallelIterator<Item = (usize, &Object)> {
-        /// Blocks that are a task together, if that is to look at each object.
+        /// Blocks per task of a parallel walk over all objects.
         const TASK: usize = 8;
         let blocks = self.blocks.par_iter().with_min_len(TASK).enumerate();
         blocks.flat_map_iter(|(number, block)| (number * BLOCK..).zip(block.iter()))
     }
 
-    /// The numbers at which two lists differ, as far as both go: those whose objects `is_other` tells
-    /// apart, in order. Blocks that are shared are not looked at.
+    /// Indices at which two lists differ according to `is_other`, in ascending order, up to the
+    /// length of the shorter list. Shared blocks are skipped.
     pub fn differences<'a>(
         &'a self,
         other: &'a Self,
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn a_list_is_what_it_was_made_of() {
+    fn a_list_equals_the_objects_it_was_collected_from() {
         for count in [0, 1, BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK] {
             let plain = objects(count);
             let list: Objects = plain.iter().cloned().collect();
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_change_of_one_list_is_none_of_its_copy() {
+    fn changing_a_clone_does_not_change_the_original() {
         let list: Objects = objects(3 * BLOCK).into_iter().collect();
         let mut copy = list.clone();
         assert!(copy == list);

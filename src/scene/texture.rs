@@ -1,32 +1,66 @@
-//! Textures, and the pictures they show, as values.
+//! Textures and their images, as values.
 
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::Arc;
 
-use glam::DVec2;
+use glam::{DAffine3, DVec2};
 
 use super::{Rgb, Size};
 
-/// A colour at every place uv of a surface.
+/// A colour, optionally multiplied by a texture.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tinted {
+    /// The colour or factor.
+    pub colour: Rgb,
+    /// Index in [`super::Scene::textures`].
+    pub texture: Option<u32>,
+}
+
+/// A colour for each point uv of a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
-    /// How often it repeats over the unit square of uv.
-    pub repeat: DVec2,
-    /// What is repeated.
+    /// Maps (u, v, 0) to pattern coordinates.
+    pub inverse: DAffine3,
+    /// The pattern.
     pub pattern: Pattern,
 }
 
-/// What a texture repeats.
+impl Texture {
+    /// A pattern repeated this many times along u and v of the unit square.
+    pub fn repeated(repeat: DVec2, pattern: Pattern) -> Self {
+        Self {
+            inverse: DAffine3::from_scale(repeat.extend(1.0)),
+            pattern,
+        }
+    }
+}
+
+/// The pattern of a texture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pattern {
-    /// Squares in two colours, one repetition each: the first at uv 0, 0.
-    Checker([Rgb; 2]),
-    /// A picture, by its path as the text says it.
+    /// Alternating squares, the first at (0, 0). Their textures come later in
+    /// [`super::Scene::textures`] and are looked up at the pattern's own coordinates.
+    Checker {
+        /// The colours of the two kinds of squares.
+        squares: [Tinted; 2],
+        /// Edge length.
+        side: Side,
+    },
+    /// An image, by its path as written in the text; fills the unit square.
     Image(String),
 }
 
-/// A picture in memory: red, green, blue of each pixel, row by row from the top left.
+/// The edge length of a checker's squares, and which square its lines belong to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// 1: the first square where ⌊u⌋ + ⌊v⌋ is even.
+    One,
+    /// ½: the first square where the fractional parts of both or neither of u and v are at most ½.
+    Half,
+}
+
+/// A decoded image: red, green, blue of each pixel, in rows from the top left.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Image {
     size: Size,
@@ -34,24 +68,23 @@ pub struct Image {
 }
 
 impl Image {
-    /// A picture of some size; `None` unless there are as many pixels.
+    /// Creates an image; `None` if the size is empty or does not match the number of pixels.
     pub fn new(size: Size, pixels: Vec<[u8; 3]>) -> Option<Self> {
         (0 < size.pixels() && size.pixels() == pixels.len()).then_some(Self { size, pixels })
     }
 
-    /// Its size.
+    /// Width and height.
     pub fn size(&self) -> Size {
         self.size
     }
 
-    /// Red, green, blue of each pixel, row by row from the top left.
+    /// Red, green, blue of each pixel, in rows from the top left.
     pub fn pixels(&self) -> &[[u8; 3]] {
         &self.pixels
     }
 
-    /// The colour at a place, interpolated between the four pixels around it: u goes across and v
-    /// down, 1 over the whole picture, which repeats; a pixel's own colour is at its upper left
-    /// corner. Each channel is its byte over 255.
+    /// The bilinearly interpolated colour at (u, v): u to the right, v down, 1 for the whole image,
+    /// which repeats. A pixel's own colour is at its upper left corner. Channels are bytes / 255.
     pub fn at(&self, u: f64, v: f64) -> Rgb {
         let (left, right, x) = between(u, self.size.width);
         let (top, bottom, y) = between(v, self.size.height);
@@ -71,8 +104,8 @@ impl fmt::Debug for Image {
     }
 }
 
-/// The two neighbours of a place among `count` that repeat, and how far it is from the first to the
-/// second. A place that is not a number is 0.
+/// The two neighbours of a coordinate among `count` that repeat, and its offset between them, 0 to
+/// 1. A coordinate that is not finite counts as 0.
 fn between(place: f64, count: u32) -> (u32, u32, f64) {
     let place = (place - place.floor()) * f64::from(count);
     let place = if place.is_finite() { place } else { 0.0 };
@@ -81,12 +114,12 @@ fn between(place: f64, count: u32) -> (u32, u32, f64) {
     (index, (index + 1) % count, place - first)
 }
 
-/// The pictures of a scene's textures, by the paths that its text says.
+/// The images of a scene's textures, by their paths as written in the text.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Images(Arc<HashMap<String, Arc<Image>>>);
 
 impl Images {
-    /// The picture of a path, if it is there.
+    /// Returns the image at a path, if it has been read.
     pub fn get(&self, path: &str) -> Option<&Arc<Image>> {
         self.0.get(path)
     }
@@ -102,7 +135,7 @@ impl FromIterator<(String, Arc<Image>)> for Images {
 mod tests {
     use super::*;
 
-    /// Two by two: black, red; green, blue.
+    /// 2×2 pixels: black, red; green, blue.
     fn image() -> Image {
         let size = Size {
             width: 2,
@@ -130,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_has_all_its_pixels() {
+    fn an_image_needs_as_many_pixels_as_its_size() {
         let size = Size {
             width: 2,
             height: 1,

@@ -1,11 +1,11 @@
-//! The numbers of errors in messages.
+//! Error numbers in messages.
 
 use std::borrow::Cow;
 
-/// What the standard library puts behind the words of the system, with a number and a parenthesis.
+/// The standard library appends this, a number and a parenthesis to the system's message.
 const CODE: &str = " (os error ";
 
-/// A message without the numbers of the system's errors, which say what the words before them do:
+/// Removes the system's error numbers, which only repeat the words before them:
 /// `Permission denied (os error 13)`.
 pub fn without_codes(message: &str) -> Cow<'_, str> {
     let mut kept = String::new();
@@ -31,7 +31,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_numbers_of_errors_are_left_out() {
+    fn only_error_numbers_are_removed() {
         for (message, shown) in [
             ("a.ray: gone", "a.ray: gone"),
             ("a: Permission denied (os error 13)", "a: Permission denied"),

@@ -1,28 +1,28 @@
-//! What is wrong with a text, where, and what would be right.
+//! Errors and warnings at spans of a text.
 
 use super::Span;
 
-/// How grave a diagnostic is.
+/// The severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// The text has a meaning, though perhaps not the one intended.
+    /// The text is valid, but perhaps not what was intended.
     Warning,
-    /// The text has no meaning; nothing is rendered from it.
+    /// The text is invalid; nothing is rendered.
     Error,
 }
 
-/// One message about one place of a text. File name, line and excerpt are added where it is shown.
+/// A message about one span of a text. File name, line and excerpt are added on display.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// Error or warning.
     pub severity: Severity,
-    /// The offending text; empty where something is missing.
+    /// The offending text; empty if something is missing there.
     pub span: Span,
-    /// What is wrong, with the field named: `object 2 (box) length: must be greater than 0`.
+    /// The problem, with the field: `object 2 (box) length: must be greater than 0`.
     pub message: String,
-    /// What was expected there, to stand under the excerpt: `a number greater than 0`.
+    /// What was expected, shown under the excerpt: `a number greater than 0`.
     pub expected: String,
-    /// The way out, where one is known.
+    /// How to fix it, if known.
     pub hint: Option<String>,
 }
 
@@ -46,7 +46,7 @@ impl Diagnostic {
         }
     }
 
-    /// The same with a hint.
+    /// Adds a hint.
     #[must_use]
     pub fn with_hint(self, hint: impl Into<String>) -> Self {
         Self {
@@ -55,7 +55,7 @@ impl Diagnostic {
         }
     }
 
-    /// Whether it keeps the scene from being rendered.
+    /// Whether this prevents rendering.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }

@@ -1,34 +1,34 @@
-//! Changes of text as values, each with its inverse.
+//! Text edits as values, and their inverses.
 
 use super::Span;
 
-/// Bytes that are compared at once: many times as fast as one by one.
+/// Bytes compared at once, which is many times faster than one by one.
 const BLOCK: usize = 4096;
 
-/// Replaces the text of a span.
+/// A replacement of the text in a span.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edit {
-    /// What is replaced; empty to insert.
+    /// The span to replace; empty to insert.
     pub span: Span,
-    /// What stands there afterwards; empty to delete.
+    /// The new text; empty to delete.
     pub text: String,
 }
 
 impl Edit {
-    /// Where the text it brings stands afterwards.
+    /// The span of the new text after the edit.
     pub fn placed(&self) -> Span {
         let start = self.span.start();
         Span::new(start, start + self.text.len())
     }
 }
 
-/// The smallest span that covers all of the edits' spans.
+/// The smallest span that covers the spans of all edits; `None` if there are none.
 pub fn cover(edits: &[Edit]) -> Option<Span> {
     edits.iter().map(|edit| edit.span).reduce(Span::to)
 }
 
-/// Applies edits, sorted and disjoint, all given in positions of the text before; returns the
-/// edits that undo them, in positions of the text after.
+/// Applies sorted, disjoint edits, whose spans refer to the text before all of them. Returns the
+/// inverse edits, whose spans refer to the text after all of them.
 pub fn apply(text: &mut String, edits: &[Edit]) -> Vec<Edit> {
     debug_assert!(
         edits
@@ -53,8 +53,8 @@ pub fn apply(text: &mut String, edits: &[Edit]) -> Vec<Edit> {
     inverse
 }
 
-/// The smallest single edit that turns `old` into `new` (common ends left alone, cut at character
-/// boundaries), or `None` if they are equal.
+/// The smallest single edit that turns `old` into `new`: everything except their common prefix and
+/// suffix, cut at character boundaries. `None` if they are equal.
 pub fn smallest_edit(old: &str, new: &str) -> Option<Edit> {
     let [span, changed] = difference(old, new)?;
     Some(Edit {
@@ -63,18 +63,18 @@ pub fn smallest_edit(old: &str, new: &str) -> Option<Edit> {
     })
 }
 
-/// What differs of two texts, in either: all but their common ends, cut at character boundaries;
-/// `None` if they are equal.
+/// The differing span of each text: everything except their common prefix and suffix, cut at
+/// character boundaries. `None` if they are equal.
 pub fn difference(old: &str, new: &str) -> Option<[Span; 2]> {
     if old == new {
         return None;
     }
-    let mut head = common_head(old.as_bytes(), new.as_bytes());
+    let mut head = common_prefix(old.as_bytes(), new.as_bytes());
     while !old.is_char_boundary(head) || !new.is_char_boundary(head) {
         head -= 1;
     }
     let (old_rest, new_rest) = (&old[head..], &new[head..]);
-    let mut tail = common_tail(old_rest.as_bytes(), new_rest.as_bytes());
+    let mut tail = common_suffix(old_rest.as_bytes(), new_rest.as_bytes());
     while !old_rest.is_char_boundary(old_rest.len() - tail)
         || !new_rest.is_char_boundary(new_rest.len() - tail)
     {
@@ -83,16 +83,16 @@ pub fn difference(old: &str, new: &str) -> Option<[Span; 2]> {
     Some([old.len(), new.len()].map(|len| Span::new(head, len - tail)))
 }
 
-/// How many bytes two texts begin with alike.
-fn common_head(old: &[u8], new: &[u8]) -> usize {
+/// The length of the common prefix, in bytes.
+fn common_prefix(old: &[u8], new: &[u8]) -> usize {
     let blocks = old.chunks_exact(BLOCK).zip(new.chunks_exact(BLOCK));
     let whole = BLOCK * blocks.take_while(|(old, new)| old == new).count();
     let rest = old[whole..].iter().zip(&new[whole..]);
     whole + rest.take_while(|(old, new)| old == new).count()
 }
 
-/// How many bytes they end with alike.
-fn common_tail(old: &[u8], new: &[u8]) -> usize {
+/// The length of the common suffix, in bytes.
+fn common_suffix(old: &[u8], new: &[u8]) -> usize {
     let blocks = old.rchunks_exact(BLOCK).zip(new.rchunks_exact(BLOCK));
     let whole = BLOCK * blocks.take_while(|(old, new)| old == new).count();
     let (old, new) = (&old[..old.len() - whole], &new[..new.len() - whole]);
@@ -106,7 +106,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn edits_are_given_in_positions_of_the_text_before() {
+    fn spans_of_edits_refer_to_the_text_before() {
         let mut text = "one two three".to_owned();
         let edits = [
             Edit {
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn the_smallest_edit_leaves_common_ends_alone() {
+    fn the_smallest_edit_excludes_common_prefix_and_suffix() {
         let check = |old: &str, new: &str, span: (usize, usize), text: &str| {
             let edit = smallest_edit(old, new).expect("the texts differ");
             assert_eq!(
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn the_smallest_edit_of_a_long_text_is_as_small() {
+    fn the_smallest_edit_is_found_in_long_texts() {
         let old = "a".repeat(3 * BLOCK + 5);
         for at in [0, 5, BLOCK - 1, BLOCK, BLOCK + 5, 3 * BLOCK + 4] {
             for (len, text) in [(1, "b"), (0, "b"), (1, "é"), (2.min(old.len() - at), "")] {
@@ -156,7 +156,7 @@ mod tests {
                 };
                 let mut new = old.clone();
                 apply(&mut new, std::slice::from_ref(&edit));
-                // What is deleted among its like might stand anywhere; the last place is taken.
+                // A deletion among equal letters is ambiguous; the last place is taken.
                 let last = Span::new(old.len() - len, old.len());
                 let span = if text.is_empty() { last } else { span };
                 assert_eq!(smallest_edit(&old, &new), Some(Edit { span, ..edit }));
@@ -166,7 +166,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_smallest_edit_leads_there_and_back(old in "[aé ]{0,9}", new in "[aé ]{0,9}") {
+        fn the_smallest_edit_round_trips(old in "[aé ]{0,9}", new in "[aé ]{0,9}") {
             let mut text = old.clone();
             let edits: Vec<_> = smallest_edit(&old, &new).into_iter().collect();
             let inverse = apply(&mut text, &edits);

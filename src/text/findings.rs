@@ -1,15 +1,15 @@
-//! All that is wrong with a text, as far as it is worth telling.
+//! All diagnostics of a text, up to a limit.
 
 use std::ops::Deref;
 
 use super::{Diagnostic, Severity};
 
-/// More messages than this of one severity say nothing new, and a hostile text could ask for
-/// millions.
+/// Maximum number of diagnostics kept per severity. More tell the user nothing new, and a hostile
+/// text could cause millions.
 const LIMIT: usize = 100;
 
-/// Diagnostics, at most a hundred of each severity, and how many there are in all. It reads as the
-/// list of those kept.
+/// Diagnostics, at most a hundred of each severity, and their total numbers. Dereferences to the
+/// diagnostics kept.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Findings {
     kept: Vec<Diagnostic>,
@@ -18,7 +18,7 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// Adds an error, made only if it is kept.
+    /// Adds an error; `make` is called only if it is kept.
     pub fn error(&mut self, make: impl FnOnce() -> Diagnostic) {
         self.errors += 1;
         if self.errors <= LIMIT {
@@ -26,7 +26,7 @@ impl Findings {
         }
     }
 
-    /// Adds a warning, made only if it is kept.
+    /// Adds a warning; `make` is called only if it is kept.
     pub fn warning(&mut self, make: impl FnOnce() -> Diagnostic) {
         self.warnings += 1;
         if self.warnings <= LIMIT {
@@ -34,7 +34,7 @@ impl Findings {
         }
     }
 
-    /// Adds what was found later, as if one by one.
+    /// Appends later findings, as if added one by one.
     pub fn append(&mut self, later: Self) {
         let more = (later.errors, later.warnings);
         for diagnostic in later.kept {
@@ -44,12 +44,12 @@ impl Findings {
                 self.warning(|| diagnostic);
             }
         }
-        let kept = |count: usize| count.saturating_sub(LIMIT);
-        self.errors += kept(more.0);
-        self.warnings += kept(more.1);
+        let dropped = |count: usize| count.saturating_sub(LIMIT);
+        self.errors += dropped(more.0);
+        self.warnings += dropped(more.1);
     }
 
-    /// The same with every warning as an error.
+    /// Turns every warning into an error.
     #[must_use]
     pub fn strict(mut self) -> Self {
         for diagnostic in &mut self.kept {
@@ -59,22 +59,22 @@ impl Findings {
         self
     }
 
-    /// How many errors there are, kept or not.
+    /// The number of errors, kept or not.
     pub fn errors(&self) -> usize {
         self.errors
     }
 
-    /// How many warnings there are, kept or not.
+    /// The number of warnings, kept or not.
     pub fn warnings(&self) -> usize {
         self.warnings
     }
 
-    /// The first error that is kept.
+    /// The first error kept.
     pub fn first_error(&self) -> Option<&Diagnostic> {
         self.kept.iter().find(|d| d.severity == Severity::Error)
     }
 
-    /// The same in text order.
+    /// Sorts the diagnostics kept by the start of their spans.
     #[must_use]
     pub fn sorted(mut self) -> Self {
         self.kept.sort_by_key(|diagnostic| diagnostic.span.start());
@@ -96,7 +96,7 @@ mod tests {
     use crate::text::Span;
 
     #[test]
-    fn a_hundred_of_each_are_kept_and_all_are_counted() {
+    fn a_hundred_of_each_severity_are_kept_and_all_are_counted() {
         let mut found = Findings::default();
         for at in (0..1000).rev() {
             found.error(|| Diagnostic::error(Span::at(at), "e", ""));

@@ -1,7 +1,9 @@
-//! Where lines begin and end: at a line feed, with all carriage returns directly before it, or at
-//! any other carriage return, as on an old Macintosh.
+//! Line boundaries. A line ends at a line feed, including all carriage returns directly before it,
+//! or at any other carriage return, as on classic Mac OS.
 
-/// Where the line that holds a place begins.
+use super::first_byte;
+
+/// The start of the line that contains offset `at`.
 pub fn line_start(text: &str, at: usize) -> usize {
     let bytes = text.as_bytes();
     let mut in_end = has_line_feed(&bytes[at..]);
@@ -13,31 +15,29 @@ pub fn line_start(text: &str, at: usize) -> usize {
     end.map_or(0, |end| end + 1)
 }
 
-/// Where the line that holds a place ends, before what ends it.
+/// The end of the line that contains offset `at`, without its terminator.
 pub fn line_end(text: &str, at: usize) -> usize {
-    let end = text.as_bytes()[at..]
-        .iter()
-        .position(|&byte| is_line_end(byte));
+    let end = first_byte(&text.as_bytes()[at..], is_line_end);
     end.map_or(text.len(), |len| at + len)
 }
 
-/// Where the line after the one that holds a place begins, or the text ends.
+/// The start of the line after the one that contains offset `at`, or the end of the text.
 pub fn next_line(text: &str, at: usize) -> usize {
     let end = line_end(text, at);
     end + end_len(&text.as_bytes()[end..])
 }
 
-/// Whether a text is the end of a line and nothing else.
+/// Whether a text is exactly one line terminator.
 pub fn is_one_line_end(text: &str) -> bool {
     !text.is_empty() && end_len(text.as_bytes()) == text.len()
 }
 
-/// Whether a byte ends a line, by itself or with others.
+/// Whether a byte is, or is part of, a line terminator.
 pub fn is_line_end(byte: u8) -> bool {
     matches!(byte, b'\n' | b'\r')
 }
 
-/// How many lines end in the bytes before a place.
+/// The number of lines that end before offset `at`.
 pub(super) fn ends_before(bytes: &[u8], at: usize) -> usize {
     let before = &bytes[..at];
     let count = |wanted: u8| {
@@ -60,7 +60,7 @@ pub(super) fn ends_before(bytes: &[u8], at: usize) -> usize {
     ends
 }
 
-/// The length of the line end that bytes begin with.
+/// The length of the line terminator at the start of `bytes`; 0 if there is none.
 fn end_len(bytes: &[u8]) -> usize {
     let returns = bytes.iter().take_while(|&&byte| byte == b'\r').count();
     match bytes.get(returns) {
@@ -69,7 +69,7 @@ fn end_len(bytes: &[u8]) -> usize {
     }
 }
 
-/// Whether bytes begin with a line feed, or with carriage returns before one.
+/// Whether `bytes` start with any number of carriage returns and a line feed.
 fn has_line_feed(bytes: &[u8]) -> bool {
     let rest = bytes.iter().find(|&&byte| byte != b'\r');
     rest == Some(&b'\n')
@@ -80,7 +80,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// The lines of a text, each with its end.
+    /// The lines of a text, each with its terminator.
     fn lines(text: &str) -> Vec<&str> {
         let mut lines = Vec::new();
         let mut at = 0;
@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_ends_at_a_line_feed_or_at_a_carriage_return_without_one() {
+    fn a_line_ends_at_a_line_feed_or_at_a_lone_carriage_return() {
         let cases: [(&str, &[&str]); 7] = [
             ("a\nb", &["a\n", "b"]),
             ("a\r\nb", &["a\r\n", "b"]),
@@ -110,7 +110,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn every_place_is_in_one_line(text in "[ab\r\n]{0,20}") {
+        fn every_offset_is_in_one_line(text in "[ab\r\n]{0,20}") {
             let mut start = 0;
             for (number, line) in lines(&text).into_iter().enumerate() {
                 prop_assert!(is_one_line_end(line.trim_start_matches(['a', 'b'])) || start + line.len() == text.len());

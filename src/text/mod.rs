@@ -1,4 +1,4 @@
-//! Positions and changes in text: spans, edits, numbers, diagnostics. Knows no language.
+//! Spans, edits, numbers and diagnostics of text. Knows no language.
 
 mod codes;
 mod counted;
@@ -8,6 +8,7 @@ mod findings;
 mod lines;
 mod number;
 mod percentage;
+mod seek;
 mod slips;
 mod span;
 mod visible;
@@ -22,6 +23,7 @@ pub use number::{
     NumberError, concise, decimals, is_integer, parse_number, spell_like, without_suffix,
 };
 pub use percentage::percentage;
+pub use seek::first_byte;
 pub use slips::slips;
 pub use span::{Position, Span, mark_len};
 pub use visible::visible;

@@ -1,16 +1,16 @@
-//! Decimal numbers as scene files write them, read and written back in the same style.
+//! Decimal numbers in scene files: parsing, and formatting in the same style.
 
 /// Why a token is not a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NumberError {
-    /// Not of the form: optional sign, digits with optional fraction, optional exponent.
+    /// It lacks the form: optional sign, digits with optional fraction, optional exponent.
     NotANumber,
-    /// Of that form, but beyond the range of `f64`.
+    /// It has that form, but is beyond the range of `f64`.
     Overflow,
 }
 
-/// Reads a number: optional sign, decimal digits with optional fraction, optional exponent. No
-/// hex, `inf` or `nan`. Correctly rounded.
+/// Parses a number: optional sign, decimal digits with optional fraction, optional exponent.
+/// Rejects hexadecimal numbers, `inf` and `nan`. The result is correctly rounded.
 pub fn parse_number(token: &str) -> Result<f64, NumberError> {
     match short_number(token.as_bytes()) {
         Some(value) => Ok(value),
@@ -18,17 +18,17 @@ pub fn parse_number(token: &str) -> Result<f64, NumberError> {
     }
 }
 
-/// The number before the one `f` or `F` at the end of a token, as C writes numbers of single
-/// precision: `0.01f`. `None` of all else.
+/// Strips one trailing `f` or `F` from a number, as C writes single precision: `0.01f`. `None` for
+/// any other token.
 pub fn without_suffix(token: &str) -> Option<&str> {
     let number = token.strip_suffix(['f', 'F'])?;
     (parse_number(number) != Err(NumberError::NotANumber)).then_some(number)
 }
 
-/// The value of a number without exponent in fifteen digits or fewer, which most are; `None` of all
-/// else. Both its digits as an integer and the power of ten below them are exact, so that their
-/// quotient is the one rounding (W. Clinger, "How to read floating point numbers accurately", 1990).
-/// A third of the standard parser's time.
+/// Parses a number without exponent of at most fifteen digits, as most are; `None` for any other.
+/// Its digits as an integer and the power of ten to divide by are both exact, so that only the
+/// division rounds (W. Clinger, "How to read floating point numbers accurately", 1990). Takes a
+/// third of the time of the standard parser.
 #[inline]
 fn short_number(token: &[u8]) -> Option<f64> {
     const DIGITS: usize = 15;
@@ -64,12 +64,12 @@ fn short_number(token: &[u8]) -> Option<f64> {
 }
 
 fn parse_any_number(token: &str) -> Result<f64, NumberError> {
-    // The standard parser takes the same form, and beyond it only words for infinity and NaN.
-    let worded = token
+    // The standard parser accepts the same form, plus only words for infinity and NaN.
+    let has_words = token
         .bytes()
         .any(|b| b.is_ascii_alphabetic() && !matches!(b, b'e' | b'E'));
     let value: f64 = match token.parse() {
-        Ok(value) if !worded => value,
+        Ok(value) if !has_words => value,
         _ => return Err(NumberError::NotANumber),
     };
     if value.is_finite() {
@@ -79,12 +79,12 @@ fn parse_any_number(token: &str) -> Result<f64, NumberError> {
     }
 }
 
-/// Whether a number is spelled as an integer, without fraction and exponent.
+/// Whether a number is written as an integer, without fraction and exponent.
 pub fn is_integer(literal: &str) -> bool {
     !literal.contains(['.', 'e', 'E'])
 }
 
-/// How many digits `literal` has after its decimal point (an exponent does not count).
+/// The number of digits after the decimal point of `literal`, not counting an exponent.
 pub fn decimals(literal: &str) -> usize {
     let mantissa = literal.split(['e', 'E']).next().unwrap_or_default();
     mantissa
@@ -92,9 +92,9 @@ pub fn decimals(literal: &str) -> usize {
         .map_or(0, |(_, fraction)| fraction.len())
 }
 
-/// Spells `value` in the style of the literal it replaces: a leading `+`, a bare `.5`, the
-/// exponent letter and its number of decimals are kept where they can be, an `f` at its end is not;
-/// the result always reads back as exactly `value`.
+/// Formats `value` in the style of the literal it replaces: keeps a leading `+`, a bare `.5`, the
+/// exponent letter and the number of decimals where possible, but not a trailing `f`. The result
+/// always parses to exactly `value`.
 pub fn spell_like(old: &str, value: f64) -> String {
     let old = without_suffix(old).unwrap_or(old);
     let plus = if old.starts_with('+') && value.is_sign_positive() {
@@ -123,7 +123,7 @@ pub fn spell_like(old: &str, value: f64) -> String {
     format!("{sign}{digits}")
 }
 
-/// Spells a value for a message: exactly, and with an exponent only where that is much shorter.
+/// Formats a value exactly for a message, using an exponent only to shorten a long plain form.
 pub fn concise(value: f64) -> String {
     const LONG: usize = 10;
     let (plain, scientific) = (format!("{value}"), format!("{value:e}"));
@@ -134,7 +134,7 @@ pub fn concise(value: f64) -> String {
     }
 }
 
-/// Adds zeros until the number has at least `decimals` digits after its point.
+/// Pads with zeros to at least `wanted` digits after the decimal point.
 fn pad_decimals(number: &str, wanted: usize) -> String {
     let have = decimals(number);
     if have >= wanted {
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn one_f_may_follow_a_number() {
+    fn a_number_may_end_in_one_f() {
         for (token, number) in [
             ("0.01f", Some("0.01")),
             ("-1F", Some("-1")),
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_spelled_like_the_literal_they_replace() {
+    fn numbers_keep_the_style_of_the_literal_they_replace() {
         for (old, value, spelled) in [
             ("0.45", 0.5, "0.50"),
             (".5", 0.51, ".51"),
@@ -212,7 +212,7 @@ mod tests {
 
     #[test]
     fn values_in_messages_are_short() {
-        for (value, said) in [
+        for (value, shown) in [
             (1.5, "1.5"),
             (-0.0001, "-0.0001"),
             (1e6, "1000000"),
@@ -220,13 +220,13 @@ mod tests {
             (-2.5e-9, "-2.5e-9"),
             (0.1 + 0.2, "0.30000000000000004"),
         ] {
-            assert_eq!(concise(value), said);
+            assert_eq!(concise(value), shown);
         }
     }
 
     proptest! {
         #[test]
-        fn short_numbers_are_read_as_others_are(
+        fn short_numbers_parse_like_others(
             token in "[-+]?([0-9]{1,17}|[0-9]{0,9}\\.[0-9]{0,9})(e[0-9])?|[-+.0-9e]{0,6}",
         ) {
             let (read, expected) = (parse_number(&token), parse_any_number(&token));
@@ -234,7 +234,7 @@ mod tests {
         }
 
         #[test]
-        fn spelled_numbers_read_back_exactly(
+        fn formatted_numbers_parse_to_the_same_value(
             old in "[+-]?(0|[1-9][0-9]{0,2})?\\.?[0-9]{1,4}([eE]-?[0-9]{1,2})?",
             value in proptest::num::f64::NORMAL | proptest::num::f64::ZERO,
         ) {
@@ -242,7 +242,7 @@ mod tests {
         }
 
         #[test]
-        fn no_token_makes_the_reader_panic(token in ".{0,12}") {
+        fn no_token_makes_the_parser_panic(token in ".{0,12}") {
             let _ = parse_number(&token);
         }
     }

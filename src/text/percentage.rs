@@ -1,7 +1,7 @@
-/// A share in percent with two digits, as far as hundredths tell them: `13 %`, `1.3 %`, `0.13 %`.
+/// A fraction as a percentage with two digits, but at most two decimals: `13 %`, `1.3 %`, `0.13 %`.
 pub fn percentage(share: f64) -> String {
     let percent = 100.0 * share;
-    // From here on a digit less is shown: what is rounded up to it has one more before the point.
+    // Numbers that round to 10 or 1 have a digit more before the point, so a decimal less.
     let digits = [9.95, 0.995]
         .iter()
         .filter(|&&bound| percent < bound)
@@ -14,7 +14,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn two_digits_are_shown() {
+    fn percentages_have_two_digits() {
         for (share, text) in [
             (0.5, "50 %"),
             (0.0996, "10 %"),

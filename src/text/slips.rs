@@ -1,7 +1,7 @@
-//! How far a word is from another one.
+//! Edit distance.
 
-/// How many characters must be put in, taken out or replaced to get from one word to the other
-/// (Wagner and Fischer, "The string-to-string correction problem", 1974).
+/// The Levenshtein distance in characters: the smallest number of insertions, deletions and
+/// replacements (Wagner and Fischer, "The string-to-string correction problem", 1974).
 pub fn slips(from: &str, to: &str) -> usize {
     let mut row: Vec<usize> = (0..=to.chars().count()).collect();
     for (i, a) in from.chars().enumerate() {

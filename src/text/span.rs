@@ -1,11 +1,11 @@
-//! Byte ranges of a text and the line and column they stand at.
+//! Byte ranges of a text, and lines and columns.
 
 use std::ops::Range;
 
 use super::lines::{ends_before, line_start};
 
-/// A half-open range of bytes of one text. Scene files are under 4 GiB, so that a span of a
-/// million-object scene costs eight bytes.
+/// A half-open range of bytes in a text. Scene files are smaller than 4 GiB, so that a span takes
+/// eight bytes, which matters in scenes of a million objects.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
     start: u32,
@@ -13,7 +13,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// Covers `start..end`, in bytes. The end must not come before the start.
+    /// The span `start..end`, in bytes; `end` must not be less than `start`.
     pub fn new(start: usize, end: usize) -> Self {
         debug_assert!(start <= end, "a span ends at or after its start");
         Self {
@@ -22,48 +22,48 @@ impl Span {
         }
     }
 
-    /// The empty span at one place: where something is missing.
+    /// The empty span at an offset, where something is missing.
     pub fn at(offset: usize) -> Self {
         Self::new(offset, offset)
     }
 
-    /// The same bytes of a text that has so many more before them.
+    /// Moves the span by a number of bytes towards the end.
     #[must_use]
     pub fn later(self, bytes: usize) -> Self {
         Self::new(self.start() + bytes, self.end() + bytes)
     }
 
-    /// The first byte.
+    /// The offset of the first byte.
     pub fn start(self) -> usize {
         self.start as usize
     }
 
-    /// One past the last byte.
+    /// The offset after the last byte.
     pub fn end(self) -> usize {
         self.end as usize
     }
 
-    /// Length in bytes.
+    /// The length in bytes.
     pub fn len(self) -> usize {
         self.end() - self.start()
     }
 
-    /// Whether it covers no byte.
+    /// Whether the span is empty.
     pub fn is_empty(self) -> bool {
         self.start == self.end
     }
 
-    /// The same range, to index a text with.
+    /// The span as a range of indices.
     pub fn range(self) -> Range<usize> {
         self.start()..self.end()
     }
 
-    /// The covered part of `text`; the text must be the one the span was made for.
+    /// The part of `text` in the span, which must have been made for that text.
     pub fn of(self, text: &str) -> &str {
         &text[self.range()]
     }
 
-    /// The smallest span that covers both.
+    /// The smallest span that covers both spans.
     #[must_use]
     pub fn to(self, other: Self) -> Self {
         Self {
@@ -72,30 +72,30 @@ impl Span {
         }
     }
 
-    /// Whether the two share a byte, or one is empty and touches the other.
+    /// Whether the spans overlap or are adjacent.
     pub fn touches(self, other: Self) -> bool {
         self.start <= other.end && other.start <= self.end
     }
 }
 
-/// A place as people count it: line and column from 1, the column in characters.
+/// A human-readable position: line and column, both from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Position {
     /// Line, from 1. Lines end at `\n`, with all `\r` directly before it, or at any other `\r`.
     pub line: usize,
-    /// Column, from 1, in characters (`char`s) of the line; a byte order mark is none of them.
+    /// Column, from 1, in characters (`char`s); a byte order mark does not count.
     pub column: usize,
 }
 
 impl Position {
-    /// The position of a byte offset; an offset past the end counts as the end. Reads the text up
-    /// to the offset.
+    /// The position of a byte offset; offsets past the end are clamped. Reads the text up to the
+    /// offset.
     pub fn of(text: &str, offset: usize) -> Self {
         let before = &text.as_bytes()[..offset.min(text.len())];
         let line_start = line_start(text, before.len());
         let line_start = line_start.max(mark_len(text).min(before.len()));
         let line = ends_before(text.as_bytes(), before.len()) + 1;
-        // A UTF-8 continuation byte begins no character.
+        // UTF-8 continuation bytes start no character.
         let column = before[line_start..]
             .iter()
             .filter(|&&b| b & 0xC0 != 0x80)
@@ -105,7 +105,7 @@ impl Position {
     }
 }
 
-/// Length of the byte order mark that a text begins with, in bytes; 0 where it begins with none.
+/// The length in bytes of the byte order mark at the start of a text; 0 if there is none.
 pub fn mark_len(text: &str) -> usize {
     const MARK: char = '\u{FEFF}';
     if text.starts_with(MARK) {
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn a_byte_order_mark_is_not_a_character_of_its_line() {
+    fn a_byte_order_mark_does_not_count_as_a_column() {
         let text = "\u{FEFF}ab\n\u{FEFF}c";
         let columns = [0, 3, 4, 5, 9].map(|offset| Position::of(text, offset).column);
         assert_eq!(columns, [1, 1, 2, 3, 2]);

@@ -1,13 +1,13 @@
-//! Foreign text made safe to print.
+//! Escapes untrusted text for printing.
 
 use std::borrow::Cow;
 
 use unicode_width::UnicodeWidthChar;
 
-/// Shows what can't be seen: control characters, line breaks, marks that turn the writing
-/// direction and other characters without a form of their own become escapes such as `\u{1b}`, so
-/// that neither a scene nor a file name can drive a terminal. One combining mark may stand on a
-/// character; more become escapes. All else is kept as it is.
+/// Escapes invisible characters, so that neither a scene nor a file name can control the terminal.
+/// Control characters, line breaks, bidirectional formatting characters and others without a glyph
+/// become escapes such as `\u{1b}`, as do combining marks after the first one on a character.
+/// Everything else is unchanged.
 pub fn visible(text: &str) -> Cow<'_, str> {
     if text.bytes().all(|b| matches!(b, b' '..=b'~')) {
         return Cow::Borrowed(text);
@@ -16,7 +16,7 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     let mut may_combine = false;
     for c in text.chars() {
         let combines = c.width() == Some(0);
-        let plain = matches!(c, ' '..='~') || has_form(c) && (may_combine || !combines);
+        let plain = matches!(c, ' '..='~') || has_glyph(c) && (may_combine || !combines);
         if plain {
             shown.push(c);
         } else {
@@ -27,10 +27,10 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// Whether a character can be seen on its own or on the character before it.
-fn has_form(c: char) -> bool {
-    // The standard library's debug form escapes what has no form. At the beginning of a string it
-    // escapes combining marks as well, hence the letter in front.
+/// Whether a character is visible, on its own or on the character before it.
+fn has_glyph(c: char) -> bool {
+    // `escape_debug` escapes characters without a glyph. At the start of a string it also escapes
+    // combining marks, hence the letter in front.
     let mut buffer = [b'a', 0, 0, 0, 0];
     let end = 1 + c.encode_utf8(&mut buffer[1..]).len();
     std::str::from_utf8(&buffer[..end]).is_ok_and(|text| text.escape_debug().count() == 2)
@@ -41,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_drives_a_terminal_is_escaped_and_nothing_else() {
+    fn only_characters_that_control_the_terminal_are_escaped() {
         let cases = [
             ("plain 'text' \"C:\\x\"", "plain 'text' \"C:\\x\""),
             ("\u{1b}]52;c;eA\u{7}", "\\u{1b}]52;c;eA\\u{7}"),

@@ -1,4 +1,4 @@
-//! The thread that reads the files that a scene names, pictures and meshes, and has them watched.
+//! The thread that reads and watches the files that a scene names: pictures and meshes.
 
 use std::io;
 use std::path::PathBuf;
@@ -10,13 +10,13 @@ use super::msg::Msg;
 use crate::assets::{Assets, Wanted};
 use crate::watch::{Method, Watcher};
 
-/// The thread's handle. Its end is not waited for: nothing is lost with it.
+/// Handle of the thread. Nothing waits for its end, as it has no work that could be lost.
 pub(super) struct AssetReader {
     orders: Sender<Wanted>,
 }
 
 impl AssetReader {
-    /// Starts the thread; `send` is called on it, and on that of the watcher.
+    /// Starts the thread. `send` is called on it and on the watcher's thread.
     pub(super) fn start(
         folders: &[PathBuf],
         method: Method,
@@ -36,20 +36,20 @@ impl AssetReader {
         Ok(Self { orders })
     }
 
-    /// Has files read; of several orders that wait, only the last one is carried out.
+    /// Reads files; of several pending orders only the last is carried out.
     pub(super) fn order(&self, wanted: Wanted) -> Result<(), String> {
         let sent = self.orders.send(wanted);
         sent.map_err(|_| "the thread that reads the scene's files has ended".to_owned())
     }
 }
 
-/// What the thread has.
+/// State of the thread.
 struct Work<S> {
     assets: Assets,
     method: Method,
-    /// What `watcher` watches.
+    /// The files that `watcher` watches.
     watched: Vec<PathBuf>,
-    /// Its end is that of the watch.
+    /// Stops watching when dropped.
     watcher: Option<Watcher>,
     send: Arc<S>,
 }
@@ -60,8 +60,8 @@ impl<S: Fn(Msg) + Send + Sync + 'static> Work<S> {
             let wanted = inbox.try_iter().last().unwrap_or(first);
             self.watch(&wanted);
             self.read(&wanted);
-            // Now it is known which libraries of materials the meshes name. They are read again,
-            // for what changed before they were watched.
+            // Reading has revealed the material libraries of the meshes. They are read again,
+            // because they may have changed before they were watched.
             if self.watch(&wanted) {
                 self.read(&wanted);
             }
@@ -73,8 +73,8 @@ impl<S: Fn(Msg) + Send + Sync + 'static> Work<S> {
         (self.send)(Msg::AssetsRead(wanted.clone(), loaded));
     }
 
-    /// Watches the files that matter: what changes from here on is noticed. Whether they are others
-    /// than before, which it is not where they can't be watched: the next order tries again.
+    /// Watches the files of the scene from now on. Returns whether the set of files changed; always
+    /// `false` if they can't be watched, so that the next order tries again.
     fn watch(&mut self, wanted: &Wanted) -> bool {
         let places = self.assets.places(wanted);
         if places == self.watched {

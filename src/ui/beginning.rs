@@ -1,31 +1,31 @@
-//! What comes before the terminal is taken: reading the scene, for a moment.
+//! Starts reading the scene before the terminal is taken.
 
 use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
-use super::Error;
 use super::app::App;
-use super::effects::Event;
+use super::ending::Error;
+use super::event::Event;
 use super::msg::{Effect, Msg};
-use super::reading::Reader;
+use super::reader::Reader;
 
-/// How long the terminal is left alone while the scene is read. Most files are read within it, and
-/// the first screen shows them; after it the first screen shows what is being opened.
+/// Time for which the terminal is left alone while the scene is read. Most files are read by then
+/// and appear on the first screen; otherwise the first screen shows which file is being opened.
 const PATIENCE: Duration = Duration::from_millis(40);
 
 /// The interface before it has a terminal.
 pub(super) struct Beginning {
-    /// What it knows.
+    /// State of the interface.
     pub(super) app: App,
     /// The thread that reads the scene.
     pub(super) reader: Reader,
-    /// What is left to be done once there is a terminal.
+    /// Effects to perform once there is a terminal.
     pub(super) effects: Vec<Effect>,
 }
 
 impl Beginning {
-    /// Has the scene read, and waits for it until it is known to take long. The error is that the
-    /// scene can't be read.
+    /// Starts reading the scene and waits for [`PATIENCE`] at most. Fails if the scene can't be
+    /// read.
     pub(super) fn new(
         app: App,
         effects: Vec<Effect>,
@@ -39,13 +39,13 @@ impl Beginning {
         };
         beginning.perform(effects);
         let deadline = Instant::now() + PATIENCE;
-        while beginning.app.is_opening() {
+        while beginning.app.disk.is_opening() {
             let left = deadline.saturating_duration_since(Instant::now());
             let Ok(Event::Msg(msg)) = inbox.recv_timeout(left) else {
                 break;
             };
             beginning.step(msg);
-            if let Some(error) = beginning.app.unreadable.take() {
+            if let Some(error) = beginning.app.disk.unreadable.take() {
                 return Err(error.into());
             }
         }

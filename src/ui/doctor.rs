@@ -1,4 +1,4 @@
-//! What was detected of the terminal and the machine, and why, as a text.
+//! Reports what was detected about the terminal and the machine, and why.
 
 use std::fmt::Write;
 use std::io::{self, IsTerminal};
@@ -16,14 +16,15 @@ use crate::memory;
 use crate::memory::Available;
 use crate::text::{counted, visible};
 
-/// Synchronized output.
+/// The DEC private mode of synchronized output.
 const SYNCHRONIZED: u16 = 2026;
 
-/// How long tmux may take to answer.
+/// Maximum time to wait for tmux.
 const TMUX_PATIENCE: Duration = Duration::from_secs(1);
 
-/// Examines the surroundings in which the interface would open a scene; the lines end in `\n` and
-/// are safe to print. Asks the terminal if both ends of it are there.
+/// Examines the environment in which the interface would open a scene. The lines of the report end
+/// in `\n` and are safe to print. Queries the terminal if standard input and output are connected
+/// to it.
 pub fn examine(scene: Option<&Path>) -> String {
     let variable = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
     let has_terminal = io::stdin().is_terminal() && io::stdout().is_terminal();
@@ -33,7 +34,7 @@ pub fn examine(scene: Option<&Path>) -> String {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
         _ => PathBuf::from("."),
     };
-    // Each has its label, and then lines of what was found.
+    // The label and the lines of each section.
     let findings = [
         ("terminal", terminal(has_terminal, variable)),
         (
@@ -83,7 +84,7 @@ fn terminal(has_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> Ve
     lines
 }
 
-/// tmux's answer, if there is one in time.
+/// The answer of tmux, if it arrives in time.
 fn behind_tmux() -> Option<bool> {
     let (sender, answer) = mpsc::channel();
     thread::spawn(move || sender.send(tmux::shows_true_colour()));
@@ -169,10 +170,10 @@ fn changes(folder: &Path) -> Vec<String> {
     }]
 }
 
-/// The name of the folder's file system if others may change it without a notice.
+/// The name of the folder's file system if others may change files in it without a notification.
 #[cfg(target_os = "linux")]
 fn network_file_system(folder: &Path) -> Option<&'static str> {
-    // The magic numbers of `statfs(2)`.
+    // Magic numbers of `statfs(2)`.
     match rustix::fs::statfs(folder).ok()?.f_type as u32 {
         0x6969 => Some("NFS"),
         0x517b | 0xfe53_4d42 | 0xff53_4d42 => Some("SMB"),
@@ -209,7 +210,7 @@ fn threads() -> Vec<String> {
     lines
 }
 
-/// The vector instructions that the renderer chooses from.
+/// The vector instructions available to the renderer.
 fn processor() -> String {
     #[cfg(target_arch = "x86_64")]
     {
@@ -227,7 +228,7 @@ fn processor() -> String {
     }
 }
 
-/// What each limit on memory leaves, the one that counts first.
+/// The memory left by each limit, the effective one first.
 fn memory_limits() -> Vec<String> {
     let mut limits = memory::limits();
     limits.sort_by_key(|available| available.bytes);
@@ -278,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_come_with_their_reason_and_cure() {
+    fn colours_are_reported_with_reason_and_remedy() {
         const FAR: &[(&str, &str)] = &[("TERM", "xterm-256color")];
         let cure = "--color 24";
         for (answers, tmux, variables, words, has_cure) in [
@@ -316,7 +317,7 @@ mod tests {
     }
 
     #[test]
-    fn modes_that_the_terminal_does_not_know_are_not_believed() {
+    fn only_modes_that_the_terminal_knows_are_reported() {
         let answers = |state| Answers {
             replies: vec![Reply::Mode {
                 number: SYNCHRONIZED,

@@ -1,10 +1,10 @@
-//! The user's editor: which program it is, and the arguments that open a file at a line.
+//! The user's editor: the program, and the arguments that open a file at a line.
 //!
-//! A scene's name is untrusted: it came with the scene. Whatever it begins with, an editor must
-//! take it for a file: vi runs what follows `+`, ed what follows `!`, emacs calls other hosts for
-//! `/ssh:`. So a name goes out as an absolute path, behind `--` where the editor knows that, in the
-//! form listed for the editor, and no shell reads it. Where a form can't carry a name unharmed, the
-//! line is left out.
+//! The name of a scene is untrusted, because it came with the scene. Editors must take it for a
+//! file whatever its first characters: vi runs what follows `+`, ed what follows `!`, and emacs
+//! calls other hosts for `/ssh:`. So the name is passed as an absolute path, after `--` if the
+//! editor supports it, in the form listed for the editor, and never through a shell. If a form
+//! cannot carry a name safely, the line is omitted.
 
 use std::env::{self, VarError};
 use std::ffi::OsString;
@@ -12,11 +12,11 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::process::{Command, ExitStatus};
 
-/// What is run where neither variable is set.
+/// The editor if neither variable is set.
 const DEFAULT: &str = "vi";
 
-/// How editors are asked for a line, by the first letters of their programs' names: `vim` is also
-/// `vim.basic`, `emacs` also `emacs-nox`.
+/// Argument forms by prefix of the program's name: `vim` also matches `vim.basic`, `emacs` also
+/// `emacs-nox`.
 const FORMS: &[(&[&str], Form)] = &[
     (
         &[
@@ -25,11 +25,11 @@ const FORMS: &[(&[&str], Form)] = &[
         ],
         &[Line, Text("--"), File],
     ),
-    // micro takes a `--` after any other argument for a file.
+    // micro takes `--` after any other argument for a file.
     (&["nano", "rnano", "micro"], &[Text("--"), Line, File]),
     (&["emacs"], &[Line, Text("--"), LocalFile]),
     (&["emacsclient"], &[Text("--"), Line, LocalFile]),
-    // Not every version knows `+LINE`.
+    // Not every version supports `+LINE`.
     (&["ed", "red"], &[File]),
     (&["hx", "helix"], &[Text("--"), FileLine]),
     (&["subl", "sublime", "zed", "zeditor"], &[FileLine]),
@@ -39,10 +39,10 @@ const FORMS: &[(&[&str], Form)] = &[
     ),
 ];
 
-/// What most editors understand.
+/// The form that most editors support.
 const OTHERS: Form = &[Line, File];
 
-/// Arguments in their order.
+/// Arguments in order.
 type Form = &'static [Part];
 
 use Part::{File, FileLine, Line, LocalFile, Text};
@@ -50,20 +50,20 @@ use Part::{File, FileLine, Line, LocalFile, Text};
 /// One argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Part {
-    /// The same for every file.
+    /// A constant.
     Text(&'static str),
     /// `+LINE`.
     Line,
-    /// The file.
+    /// The path of the file.
     File,
-    /// The file, quoted for emacs where the path is of the kind that names another host.
+    /// The path of the file, quoted for emacs if it would name another host.
     LocalFile,
-    /// `FILE:LINE`. With a colon of its own a path may be cut elsewhere, and another file's name
-    /// may be the whole: then it is the file alone, without what stands before.
+    /// `FILE:LINE`. A path that contains a colon may be split at another place, or the whole may be
+    /// the name of another file: then only the file is passed, without the argument before it.
     FileLine,
 }
 
-/// Runs the user's editor on a file at a line, counted from 1, and waits for its end.
+/// Opens the user's editor on a file at a line, from 1, and waits for it to end.
 pub(super) fn run(path: &Path, line: usize) -> Result<(), String> {
     let (program, status) = open(path, line).map_err(|reason| {
         format!("can't start the editor: {reason}; $VISUAL or $EDITOR names another one")
@@ -71,7 +71,7 @@ pub(super) fn run(path: &Path, line: usize) -> Result<(), String> {
     ending(&program, status)
 }
 
-/// Starts the editor and waits; its program, and how it ended.
+/// Starts the editor and waits; returns its program and exit status.
 fn open(path: &Path, line: usize) -> Result<(String, ExitStatus), String> {
     let command = said("VISUAL")?.or(said("EDITOR")?);
     let words = words(command.as_deref().unwrap_or(DEFAULT))?;
@@ -85,7 +85,7 @@ fn open(path: &Path, line: usize) -> Result<(String, ExitStatus), String> {
     Ok((program.clone(), status))
 }
 
-/// What is wrong with how a program ended.
+/// Describes how a program failed.
 fn ending(program: &str, status: ExitStatus) -> Result<(), String> {
     if status.success() {
         return Ok(());
@@ -102,7 +102,7 @@ fn ending(program: &str, status: ExitStatus) -> Result<(), String> {
     })
 }
 
-/// The value of a variable, if it has one.
+/// The value of an environment variable, if set.
 fn said(name: &str) -> Result<Option<String>, String> {
     match env::var(name) {
         Ok(said) => Ok(Some(said).filter(|said| !said.trim().is_empty())),
@@ -111,8 +111,9 @@ fn said(name: &str) -> Result<Option<String>, String> {
     }
 }
 
-/// A program and its arguments, with a shell's quotes and backslashes. A whole path of a program
-/// may have blanks without them; not a relative one, which could come with a scene.
+/// Splits a command into its program and arguments, with a shell's quotes and backslashes. An
+/// absolute path of a program may contain spaces without them; a relative one may not, as it could
+/// come with a scene.
 fn words(said: &str) -> Result<Vec<String>, String> {
     if Path::new(said).is_absolute() && Path::new(said).is_file() {
         return Ok(vec![said.to_owned()]);
@@ -120,10 +121,10 @@ fn words(said: &str) -> Result<Vec<String>, String> {
     shlex::split(said).ok_or_else(|| format!("`{said}` has a quote without its pair"))
 }
 
-/// An absolute path of a file, with single slashes.
+/// The absolute path of a file, with single slashes.
 fn place(path: &Path) -> io::Result<PathBuf> {
     let absolute = match std::path::absolute(path) {
-        // A folder that is gone has no path, but may still be the current one.
+        // A deleted folder has no path but may still be the current one.
         Err(error) if error.kind() == io::ErrorKind::NotFound => Path::new(".").join(path),
         absolute => absolute?,
     };
@@ -131,7 +132,7 @@ fn place(path: &Path) -> io::Result<PathBuf> {
     Ok(parts)
 }
 
-/// What an editor's program gets besides the user's own arguments.
+/// The arguments passed to an editor besides the user's own.
 fn arguments(program: &str, path: &Path, line: usize) -> Vec<OsString> {
     let name = Path::new(program).file_name().unwrap_or_default();
     let name = name.to_str().unwrap_or_default();

@@ -1,5 +1,5 @@
-//! What touches the world: the terminal, the renderers, timers, and the handles of the threads that
-//! read, write, watch and keep files. Nothing here waits for a file.
+//! Performs effects: owns the terminal, the renderers, the timers, and the handles of the threads
+//! that read, write, watch and store files. Nothing here waits for a file.
 
 use std::io;
 use std::num::NonZero;
@@ -9,14 +9,15 @@ use std::sync::mpsc::Sender;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::Options;
 use super::assets::AssetReader;
 use super::editor;
+use super::event::{Event, sending};
 use super::freeing::Freeing;
 use super::heap;
 use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
-use super::reading::Reader;
-use super::recovery::{self, Edits, End, Keeper, Order};
+use super::options::Options;
+use super::reader::Reader;
+use super::recovery::{self, Edits, End, Keeper, Order, Outcome};
 use super::terminal::tmux;
 use super::terminal::{self, Input, Replies, Reply, Terminal};
 #[cfg(unix)]
@@ -24,35 +25,20 @@ use super::terminal::{Signals, suspend_process};
 use super::writing::Writers;
 use crate::render::{Job, Refusal, Renderer, Threads};
 
-/// How long replies of the terminal are waited for before it is handed over: longer than nearly all
+/// Maximum time to wait for replies of the terminal before handing it over; longer than nearly all
 /// round trips.
 const REPLY_PATIENCE: Duration = Duration::from_secs(1);
 
-/// How long memory that pictures have left behind is kept for the next ones.
+/// Time for which memory freed by pictures is kept for the next ones.
 const TRIM_TIME: Duration = Duration::from_secs(30);
 
-/// Something that came in.
-#[derive(Debug)]
-pub(crate) enum Event {
-    /// A message.
-    Msg(Msg),
-    /// A renderer has a newer frame.
-    Ready(Target),
-    /// The renderer of this number traces no more.
-    Ended(Target, u64),
-    /// The terminal has taken all that was drawn.
-    Cleared,
-    /// The terminal replied, at this moment.
-    Replied(Reply, Instant),
-}
-
-/// What outlives a step: the terminal, the renderers, the timers, and the threads that work on
-/// files: scenes and assets read and watched, scenes and pictures written, unsaved edits kept.
+/// State that outlives a step: the terminal, the renderers, the timers, and the threads that read
+/// and watch scenes and assets, write scenes and pictures, and store unsaved edits.
 pub(crate) struct World {
-    // First, because fields are dropped in order: the terminal is given back before renderers and
-    // the watcher end, which may take a moment.
+    // First, because fields are dropped in order: the terminal is restored before renderers and the
+    // watcher end, which may take a moment.
     terminal: Terminal,
-    /// Those that the terminal still owes.
+    /// Replies still expected from the terminal.
     replies: Arc<Replies>,
     input: Input,
     #[cfg(unix)]
@@ -67,28 +53,21 @@ pub(crate) struct World {
     preview: Option<Numbered>,
     trace: Option<Numbered>,
     export: Option<Numbered>,
-    /// How many renderers there were.
+    /// Number of renderers started so far.
     renderers: u64,
     timers: Vec<(Instant, Timer)>,
-    /// When memory that pictures have left behind is given back to the system.
+    /// When memory freed by pictures is returned to the system.
     trim_at: Option<Instant>,
     ended: bool,
 }
 
 impl World {
-    /// Takes the terminal over and starts everything that sends messages.
+    /// Takes over the terminal and starts everything that sends messages.
     pub(crate) fn new(
         options: &Options,
         reader: Reader,
         sender: Sender<Event>,
     ) -> io::Result<Self> {
-        let terminal = {
-            let sender = sender.clone();
-            let cleared = move || {
-                let _ = sender.send(Event::Cleared);
-            };
-            Terminal::enter(options.colours(), options.mouse, cleared)?
-        };
         let replies = Arc::new(Replies::default());
         let sink = |sender: &Sender<Event>| {
             let (sender, replies) = (sender.clone(), Arc::clone(&replies));
@@ -96,20 +75,30 @@ impl World {
                 if let terminal::Event::Reply(reply) = event {
                     replies.came(reply);
                 }
-                // An inbox that is gone belongs to a program that ends.
+                // The inbox is gone only when the program ends.
                 let _ = sender.send(Event::from(event));
             }
+        };
+        // Before the terminal is changed: until then the default actions of signals do no harm.
+        #[cfg(unix)]
+        let signals = Signals::start(sink(&sender))?;
+        let terminal = {
+            let sender = sender.clone();
+            let cleared = move || {
+                let _ = sender.send(Event::Cleared);
+            };
+            Terminal::enter(options.colours(), options.mouse, cleared)?
         };
         Ok(Self {
             terminal,
             replies: Arc::clone(&replies),
             input: Input::start(sink(&sender))?,
             #[cfg(unix)]
-            signals: Signals::start(sink(&sender))?,
+            signals,
             reader,
             freeing: Freeing::start()?,
             writers: Writers::new(sender.clone()),
-            keeper: Keeper::start(sending(&sender))?,
+            keeper: Keeper::start(keeping(&sender))?,
             assets: AssetReader::start(&options.assets, options.watching(), sending(&sender))?,
             threads: options.threads,
             preview: None,
@@ -123,7 +112,7 @@ impl World {
         })
     }
 
-    /// The terminal, to draw on.
+    /// The terminal to draw on.
     pub(crate) fn terminal(&mut self) -> &mut Terminal {
         &mut self.terminal
     }
@@ -133,8 +122,8 @@ impl World {
         self.terminal.is_ours()
     }
 
-    /// Asks the terminal for its colours, and tmux for those of the terminal behind it: answers
-    /// come as [`Event::Replied`], if they come.
+    /// Queries the colours of the terminal and, through tmux, of the terminal behind it. Any
+    /// answers arrive as [`Event::Replied`].
     pub(crate) fn ask_for_colours(&self) -> io::Result<()> {
         self.replies.expect(Reply::Attributes);
         self.terminal.ask_for_colours()?;
@@ -150,12 +139,12 @@ impl World {
         Ok(())
     }
 
-    /// Whether the program is to end.
+    /// Whether the program should end.
     pub(crate) fn is_over(&self) -> bool {
         self.ended
     }
 
-    /// The message of an event; none where its frame was taken before.
+    /// Converts an event to a message; `None` if its frame was already taken.
     pub(crate) fn message(&mut self, event: Event) -> Option<Msg> {
         match event {
             Event::Msg(msg) => Some(msg),
@@ -166,7 +155,7 @@ impl World {
                 Some(Msg::Frame(target, frame))
             }
             Event::Ended(target, number) => {
-                // One that was stopped, or replaced, has ended as it should.
+                // A renderer that was stopped or replaced has ended as expected.
                 let ended = self.numbered(target)?.number == number;
                 ended.then_some(Msg::Ended(target))
             }
@@ -174,8 +163,8 @@ impl World {
         }
     }
 
-    /// Restores the terminal and waits for files being written, each for so long at most; returns
-    /// what became of unsaved edits.
+    /// Restores the terminal and waits for files being written, each within its time limit; returns
+    /// the state of unsaved edits.
     pub(crate) fn close(self, terminal: Duration, files: Duration) -> End {
         let begun = Instant::now();
         self.await_replies(begun + terminal);
@@ -185,7 +174,7 @@ impl World {
         end
     }
 
-    /// Has the terminal reply when all that was sent has arrived.
+    /// Requests a status reply, which arrives after everything sent so far.
     pub(crate) fn ask_status(&self) -> io::Result<()> {
         self.replies.expect(Reply::Status);
         self.terminal.ask_status()
@@ -196,7 +185,7 @@ impl World {
         self.replies.came(Reply::Attributes);
     }
 
-    /// Stops expecting status reports.
+    /// Stops expecting status replies.
     pub(crate) fn give_up_replies(&self) {
         self.replies.forget_statuses();
     }
@@ -215,7 +204,7 @@ impl World {
         timers.chain(self.trim_at).min()
     }
 
-    /// The timers that are due, as messages.
+    /// Takes the timers that are due, as messages.
     pub(crate) fn due(&mut self, now: Instant) -> Vec<Msg> {
         if self.trim_at.take_if(|at| *at <= now).is_some() {
             heap::trim();
@@ -226,7 +215,7 @@ impl World {
             .collect()
     }
 
-    /// Does what a step asks for; what comes of it at once.
+    /// Performs an effect and returns its immediate result, if any.
     pub(crate) fn perform(&mut self, effect: Effect) -> Option<Msg> {
         let outcome = match effect {
             Effect::Trace(target, job) => return Some(self.trace(target, job)),
@@ -267,7 +256,10 @@ impl World {
                 .keeper
                 .order(Order::Keep(revision, Edits { scene, known })),
             Effect::DropRecovery => self.keeper.order(Order::Forget),
-            Effect::LookForKept(sought) => recovery::look_for(sought, sending(&self.sender)),
+            Effect::LookForKept(sought) => {
+                let send = sending(&self.sender);
+                recovery::look_for(sought, move |found| send(Msg::Recovered(found)))
+            }
             Effect::AdoptKept(claim) => self.keeper.order(Order::Adopt(claim)),
             Effect::DropKept(claim) => self.keeper.order(Order::Discard(claim)),
             Effect::OpenEditor { path, line } => {
@@ -325,7 +317,7 @@ impl World {
         };
         let running = slot.get_or_insert_with(&mut start);
         let started = match running.renderer.restart(job.clone()) {
-            // A worker that a panic has ended is replaced: the panic has cost one picture only.
+            // A worker ended by a panic is replaced: the panic costs only one picture.
             Err(Refusal::Ended) => slot.insert(start()).renderer.restart(job),
             started => started,
         };
@@ -341,7 +333,7 @@ impl World {
 
     fn stop(&mut self, target: Target) {
         match target {
-            // It comes to rest by itself.
+            // It stops by itself.
             Target::Preview => {}
             Target::Trace => self.trace = None,
             Target::Export => self.export = None,
@@ -373,7 +365,7 @@ impl World {
         self.input.park();
         let stopped = self.terminal.leave().and_then(|()| suspend_process());
         match stopped {
-            // The event of being continued takes the terminal back, which must not happen twice.
+            // The continue event takes the terminal back, which must not happen twice.
             Ok(true) => Ok(()),
             Ok(false) => self.take_terminal(),
             Err(error) => {
@@ -389,21 +381,13 @@ impl World {
     }
 }
 
-/// Puts messages into the inbox.
-pub(crate) fn sending(sender: &Sender<Event>) -> impl Fn(Msg) + Clone + Send + Sync + 'static {
-    let sender = sender.clone();
-    move |msg| {
-        // An inbox that is gone belongs to a program that ends.
-        let _ = sender.send(Event::Msg(msg));
-    }
-}
-/// A renderer, and which of all it is.
+/// A renderer and its serial number.
 struct Numbered {
     number: u64,
     renderer: Renderer,
 }
 
-/// Announces a renderer's frames, and its worker's end, which drops this.
+/// Announces new frames of a renderer; dropping it announces that the worker has ended.
 struct Waker {
     sender: Sender<Event>,
     target: Target,
@@ -422,26 +406,19 @@ impl Drop for Waker {
     }
 }
 
-fn terminal_outcome(outcome: io::Result<()>) -> Result<(), String> {
-    outcome.map_err(|error| format!("terminal: {error}"))
+/// Announces the results of storing unsaved edits.
+fn keeping(sender: &Sender<Event>) -> impl Fn(Outcome) + Send + 'static {
+    let send = sending(sender);
+    move |outcome| {
+        send(match outcome {
+            Outcome::Kept(revision, outcome) => Msg::Kept(revision, outcome),
+            Outcome::Failed(reason) => Msg::Failed(reason),
+        });
+    }
 }
 
-impl From<terminal::Event> for Event {
-    fn from(event: terminal::Event) -> Self {
-        use terminal::Event as E;
-        Self::Msg(match event {
-            E::Reply(reply) => return Self::Replied(reply, Instant::now()),
-            E::Key(key) => Msg::Key(key),
-            E::Paste(text) => Msg::Paste(text),
-            E::Mouse(event) => Msg::Mouse(event),
-            E::Resize { columns, rows } => Msg::Resize(columns, rows),
-            E::Suspend => Msg::Suspend,
-            E::Continue => Msg::Continued,
-            E::HangUp => Msg::HangUp,
-            E::Terminate { signal } => Msg::Terminate { signal },
-            E::Interrupt => Msg::Interrupt,
-        })
-    }
+fn terminal_outcome(outcome: io::Result<()>) -> Result<(), String> {
+    outcome.map_err(|error| format!("terminal: {error}"))
 }
 
 #[cfg(test)]

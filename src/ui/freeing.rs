@@ -1,5 +1,4 @@
-//! The thread that frees what is no longer needed: of a large scene that takes longer than a key may
-//! wait.
+//! The thread that frees unneeded values: for a large scene this takes longer than a key may wait.
 
 use std::any::Any;
 use std::io;
@@ -7,7 +6,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{self, Sender};
 use std::thread;
 
-/// The thread's handle. Its end is not waited for: nothing is lost with it.
+/// Handle of the thread. Nothing waits for its end, as it has no work that could be lost.
 pub(super) struct Freeing {
     unneeded: Sender<Arc<dyn Any + Send + Sync>>,
 }
@@ -22,7 +21,7 @@ impl Freeing {
         Ok(Self { unneeded })
     }
 
-    /// Has something freed.
+    /// Frees a value on the thread.
     pub(super) fn order(&self, unneeded: Arc<dyn Any + Send + Sync>) -> Result<(), String> {
         let sent = self.unneeded.send(unneeded);
         sent.map_err(|_| "the thread that frees memory has ended".to_owned())

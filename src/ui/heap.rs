@@ -1,24 +1,25 @@
-//! Memory that is free in this process, given back to the system.
+//! Returns free memory of this process to the system.
 //!
-//! glibc keeps what is freed: for each thread an arena of its own, and in each of them all below a
-//! threshold that follows the largest buffer ever freed. Frames are made by one thread and freed by
+//! glibc keeps freed memory in one arena per thread, each retaining everything below a threshold
+//! that follows the largest buffer ever freed. Frames are allocated by one thread and freed by
 //! another, in other sizes after each resize, so that within minutes four fifths of the heap are
-//! holes. Large buffers therefore get mappings of their own, and the rest is trimmed when idle: after
+//! holes. Therefore large buffers get their own mappings, and the rest is trimmed when idle: after
 //! a quarter of an hour of edits the process held 16 MB instead of 33.
 //!
-//! A large scene is read anew in buffers of many megabytes. Mapped each time, every page of them is
-//! cleared and faulted in again, which takes a fifth of the time from a save to its picture; there the
-//! heap keeps them.
+//! Reading a large scene allocates buffers of many megabytes. If each were mapped, all their pages
+//! would be cleared and faulted in again each time, a fifth of the time from a save to its picture;
+//! for large scenes, the heap keeps these buffers.
 
 use std::thread;
 
-/// Makes buffers as large as frames go back to the system as soon as they are freed.
+/// Maps buffers of the size of frames individually, so that they return to the system as soon as
+/// they are freed.
 pub(crate) fn map_large() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     glibc::mallopt(glibc::M_MMAP_THRESHOLD, MAPPED);
 }
 
-/// Makes the heap keep the buffers of a large scene from here on.
+/// Makes the heap keep the buffers of a large scene from now on.
 pub(crate) fn keep_large() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     {
@@ -27,25 +28,25 @@ pub(crate) fn keep_large() {
     }
 }
 
-/// Gives free memory back, on a thread of its own: it takes about as long as a frame.
+/// Returns free memory on another thread, as this takes about as long as a frame.
 pub(crate) fn trim() {
-    // Without the thread it is given back later.
+    // Without the thread it is returned later.
     let _ = thread::Builder::new()
         .name("trim".to_owned())
         .spawn(trim_now);
 }
 
-/// The size in bytes from which a buffer is mapped by itself: glibc's initial threshold, which no
-/// longer adapts once it is set.
+/// Size in bytes from which a buffer gets its own mapping: glibc's initial threshold, which no
+/// longer adapts once set.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 const MAPPED: std::ffi::c_int = 128 << 10;
 
-/// The same with a large scene: as far as glibc's own threshold goes.
+/// The same with a large scene: the maximum of glibc's adaptive threshold.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 const KEPT: std::ffi::c_int = 32 << 20;
 
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
-#[expect(unsafe_code, reason = "no crate offers it otherwise")]
+#[expect(unsafe_code, reason = "no crate offers these calls")]
 mod glibc {
     use std::ffi::c_int;
 
@@ -53,8 +54,8 @@ mod glibc {
     pub(super) const M_MMAP_THRESHOLD: c_int = -3;
 
     unsafe extern "C" {
-        // SAFETY: the signatures are those of malloc.h. Both may be called on any thread at any
-        // time: they touch free memory and parameters only, under the locks of the arenas.
+        // SAFETY: the signatures are those of malloc.h. Both functions may be called on any thread
+        // at any time: they access only free memory and parameters, under the locks of the arenas.
         pub(super) safe fn malloc_trim(pad: usize) -> c_int;
         pub(super) safe fn mallopt(parameter: c_int, value: c_int) -> c_int;
     }
@@ -65,7 +66,7 @@ fn trim_now() {
     glibc::malloc_trim(0);
 }
 
-/// Other allocators give memory back by themselves.
+/// Other allocators return memory by themselves.
 #[cfg(not(all(target_os = "linux", target_env = "gnu")))]
 fn trim_now() {}
 
@@ -73,7 +74,7 @@ fn trim_now() {}
 mod tests {
     use super::*;
 
-    /// The process's resident memory, in kB.
+    /// Resident memory of the process, in kB.
     fn resident() -> usize {
         let status = std::fs::read_to_string("/proc/self/status").expect("Linux has it");
         let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
@@ -81,7 +82,7 @@ mod tests {
         kilobytes.expect("a number")
     }
 
-    /// What trimming 32 MiB of holes below a buffer in use gives back, in kB.
+    /// The memory returned by trimming 32 MiB of holes below a buffer in use, in kB.
     fn trimmed() -> usize {
         let holes: Vec<_> = (0..512).map(|_| vec![1_u8; 1 << 16]).collect();
         let last = vec![1_u8; 1 << 16];
@@ -94,8 +95,8 @@ mod tests {
     }
 
     #[test]
-    fn holes_in_the_heap_go_back_to_the_system() {
-        // Other tests allocate meanwhile, but not each time.
+    fn holes_in_the_heap_are_returned_to_the_system() {
+        // Other tests allocate concurrently, but not every time.
         let most = (0..5).map(|_| trimmed()).max();
         assert!(Some(16_000) < most, "{most:?} kB");
     }

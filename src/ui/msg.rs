@@ -1,4 +1,5 @@
-//! Everything that can happen to the interface, and everything it asks for.
+//! Messages, which report everything that happens to the interface, and effects, which request
+//! everything that it does.
 
 use std::any::Any;
 use std::path::PathBuf;
@@ -15,23 +16,23 @@ use crate::document::Snapshot;
 use crate::file::{ReadError, Version};
 use crate::render::{Frame, Job};
 
-/// Which picture a frame belongs to.
+/// The picture that a frame belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
     /// The preview beside the list.
     Preview,
-    /// The full-size trace of F5.
+    /// The full-size trace started by F5.
     Trace,
-    /// An export in the background.
+    /// A background export.
     Export,
 }
 
-/// Which of the session's exports: a file that is being written when its export is cancelled is
-/// reported later.
+/// Identifies an export of the session. If an export is cancelled while its file is being written,
+/// that file is still reported later.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ExportId(pub u32);
 
-/// Which of the session's saves, from 1; a later one is greater.
+/// Identifies a save of the session; starts at 1 and increases.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct SaveId(pub u32);
 
@@ -42,203 +43,205 @@ pub enum Msg {
     Key(KeyEvent),
     /// Text was pasted.
     Paste(String),
-    /// The mouse did something over a cell.
+    /// A mouse event over a cell.
     Mouse(MouseEvent),
-    /// The terminal has a new size, in cells.
+    /// The new size of the terminal, in cells.
     Resize(u16, u16),
-    /// A picture was begun; its generation.
+    /// Rendering has started; the generation of the picture.
     Started(Target, u64),
-    /// A picture can't be begun; why.
+    /// Rendering cannot start; the reason.
     Refused(Target, String),
-    /// A newer frame is there.
+    /// A newer frame is available.
     Frame(Target, Arc<Frame>),
-    /// The renderer of this picture has ended by itself: it panicked, or could not start threads.
+    /// The renderer of this picture has ended unexpectedly: it panicked or could not start threads.
     Ended(Target),
-    /// Something happened to the scene file.
+    /// The scene file may have changed.
     FileChanged,
-    /// The file of this name was read.
+    /// The result of [`Effect::Read`] for this path.
     Read(PathBuf, Result<Reading, ReadError>),
-    /// The files that the scene names were read.
+    /// The result of [`Effect::ReadAssets`].
     AssetsRead(Wanted, Loaded),
-    /// Something happened to one of their files.
+    /// A file that the scene names may have changed.
     AssetsChanged,
-    /// The time that [`Effect::Later`] asked for has passed.
+    /// The delay set by [`Effect::Later`] has elapsed.
     Elapsed(Timer),
-    /// The scene was written, or not.
+    /// The result of [`Effect::Save`].
     Saved(SaveId, SaveOutcome),
-    /// Copies of the scene's file from before interrupted saves.
+    /// Backups of the scene file left by interrupted saves.
     BackupsFound(Vec<PathBuf>),
-    /// An export ended.
+    /// The result of an export.
     Exported(ExportId, Result<Exported, String>),
     /// The external editor has ended.
     EditorClosed(Result<(), String>),
-    /// Edits of an earlier run that were never saved were found.
+    /// Unsaved edits of an earlier run were found.
     Recovered(Found),
-    /// The text of this revision is kept for the next run; or why not.
+    /// The text of this revision was stored for recovery, or the reason why not.
     Kept(u64, Result<(), String>),
-    /// Someone outside asks the process to stop for a while.
+    /// The process received a request to stop until continued.
     Suspend,
-    /// The process goes on after a stop.
+    /// The process was continued.
     Continued,
-    /// Someone outside interrupts the process.
+    /// The process was interrupted by a signal.
     Interrupt,
-    /// The process was asked to end.
+    /// The process received a signal that requests its end.
     Terminate {
-        /// The number of the signal that asked.
+        /// The signal number.
         signal: u8,
     },
     /// The terminal is gone.
     HangUp,
-    /// The terminal shows fewer colours than pictures have, for all that is known; which.
+    /// The terminal appears to show fewer colours than pictures need; the detected depth.
     FewColours(ColourDepth),
-    /// A worker panicked, or the world around failed otherwise; the message.
+    /// A worker panicked, or the environment failed in another way; the message.
     Failed(String),
 }
 
-/// What a while was awaited for.
+/// Purpose of a timer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Timer {
-    /// The scene file to be quiet.
+    /// The scene file has not changed for a while.
     Settled,
-    /// A second Ctrl-C.
+    /// The time for a second Ctrl-C.
     Interrupt,
-    /// A second click.
+    /// The time for a second click.
     Click,
-    /// More edits, which are kept together; or another try to keep them.
+    /// Collects further edits before storing them for recovery, or retries after a failure.
     Keep,
     /// Files that are being written.
     Writing,
 }
 
-/// What became of a save.
+/// Result of a save.
 #[derive(Debug)]
 pub enum SaveOutcome {
-    /// The file holds this text now.
+    /// The file now holds this text.
     Saved {
-        /// Where.
+        /// Path of the file.
         path: PathBuf,
-        /// What.
+        /// The text written.
         text: Arc<String>,
     },
-    /// The file holds something that neither we wrote nor read: nothing was written.
+    /// The file holds text that this session neither wrote nor read: nothing was written.
     ChangedOnDisk,
-    /// Nothing was written; why.
+    /// Nothing was written; the reason.
     Failed(String),
 }
 
-/// Something that touches the world.
+/// A side effect requested by a step.
 #[derive(Clone, Debug)]
 pub enum Effect {
-    /// Trace this picture from here on: [`Msg::Started`], [`Msg::Frame`]; or [`Msg::Refused`].
+    /// Starts tracing this picture, reported by [`Msg::Started`] and [`Msg::Frame`], or by
+    /// [`Msg::Refused`].
     Trace(Target, Job),
-    /// Trace it no longer.
+    /// Stops tracing this picture.
     Stop(Target),
-    /// Write a frame to a picture file: [`Msg::Exported`].
+    /// Writes a frame to a picture file, reported by [`Msg::Exported`].
     WriteImage(ExportId, Arc<Frame>, Destination),
-    /// Say whether a picture can be written there, if not: [`Msg::Exported`].
+    /// Checks whether a picture can be written there; a failure is reported by [`Msg::Exported`].
     CheckTarget(ExportId, Destination),
-    /// Read the scene file: [`Msg::Read`].
+    /// Reads the scene file, reported by [`Msg::Read`].
     Read(PathBuf, Known),
-    /// Free what is no longer needed: of a large scene that takes longer than a key may wait.
+    /// Frees a value on another thread: for a large scene this takes longer than a key may wait.
     Free(Arc<dyn Any + Send + Sync>),
-    /// Write the scene file: [`Msg::Saved`].
+    /// Writes the scene file, reported by [`Msg::Saved`].
     Save {
-        /// Which.
+        /// Identifies the save.
         id: SaveId,
-        /// Where.
+        /// Path of the file.
         path: PathBuf,
-        /// What.
+        /// The text to write.
         text: Arc<String>,
         /// What may be overwritten.
         guard: Guard,
     },
-    /// Say why no scene can be written there, if so: [`Msg::Failed`].
+    /// Checks whether a scene can be written there; a failure is reported by [`Msg::Failed`].
     CheckPlace(PathBuf),
-    /// Say whether copies are left of what the file held before a save: [`Msg::BackupsFound`].
+    /// Looks for backups left by an interrupted save, reported by [`Msg::BackupsFound`].
     FindBackups(PathBuf),
-    /// Watch this file from here on: [`Msg::FileChanged`].
+    /// Watches this file from now on, reported by [`Msg::FileChanged`].
     Watch(PathBuf),
-    /// Read the files that the scene names and watch them from here on: [`Msg::AssetsRead`],
-    /// [`Msg::AssetsChanged`].
+    /// Reads the files that the scene names and watches them from now on, reported by
+    /// [`Msg::AssetsRead`] and [`Msg::AssetsChanged`].
     ReadAssets(Wanted),
-    /// Send [`Msg::Elapsed`] after a while; the same timer set again restarts.
+    /// Sends [`Msg::Elapsed`] after a delay. Setting the same timer again restarts it.
     Later(Duration, Timer),
-    /// Keep unsaved edits for the next run: [`Msg::Kept`].
+    /// Stores unsaved edits for recovery, reported by [`Msg::Kept`].
     WriteRecovery {
-        /// The scene; `None` is the one without a file.
+        /// Path of the scene; `None` for a scene without a file.
         scene: Option<PathBuf>,
-        /// The text that they started from, and the text under edit.
+        /// The text under edit and the saved text that it derives from.
         known: Snapshot,
-        /// The revision of the text under edit.
+        /// Revision of the text under edit.
         revision: u64,
     },
-    /// Forget what this run has kept for the next one.
+    /// Deletes the recovery data of this run.
     DropRecovery,
-    /// Look for edits that an earlier run kept: [`Msg::Recovered`] if there are any.
+    /// Looks for unsaved edits of an earlier run, reported by [`Msg::Recovered`] if there are any.
     LookForKept(Sought),
-    /// Forget what an earlier run kept once this run's edits are kept or forgotten.
+    /// Deletes the recovery data of an earlier run once the edits of this run are stored or
+    /// discarded.
     AdoptKept(Arc<Claim>),
-    /// Forget what an earlier run kept.
+    /// Deletes the recovery data of an earlier run.
     DropKept(Arc<Claim>),
-    /// Lend the terminal to the user's editor, at a line: [`Msg::EditorClosed`].
+    /// Lends the terminal to the user's editor, reported by [`Msg::EditorClosed`].
     OpenEditor {
-        /// The file.
+        /// File to open.
         path: PathBuf,
-        /// The line, from 1.
+        /// Line number, from 1.
         line: usize,
     },
-    /// Take the mouse or leave it to the terminal.
+    /// Takes the mouse or leaves it to the terminal.
     SetMouse(Mouse),
-    /// Redraw the whole screen.
+    /// Redraws the whole screen.
     Repaint,
-    /// Take the terminal back from the program that ran in between.
+    /// Takes the terminal back from another program.
     TakeTerminal,
-    /// Stop the process until it is continued.
+    /// Stops the process until it is continued.
     Suspend,
-    /// End.
+    /// Ends the program.
     Quit,
 }
 
 /// What a save may overwrite.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Guard {
-    /// A file that holds this text, or none.
+    /// A file with this text; a missing file is created.
     Holding(Arc<String>),
-    /// None.
+    /// Nothing: the file must not exist.
     Absent,
-    /// Any.
+    /// Any file.
     Anything,
 }
 
-/// Where a picture is to be written.
+/// Destination of a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Destination {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// What becomes of a file that is there already.
+    /// How an existing file is treated.
     pub existing: Existing,
     /// The scene's own file, which no picture may replace.
     pub scene: Option<PathBuf>,
-    /// The files that the scene names: no picture may replace them either.
+    /// The files that the scene names, which no picture may replace either.
     pub named: Vec<PathBuf>,
 }
 
 /// A picture that was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exported {
-    /// Where.
+    /// Path of the file.
     pub path: PathBuf,
-    /// The file as it was then; `None` for what is not a file.
+    /// Version of the file after writing; `None` for anything other than a regular file.
     pub version: Option<Version>,
 }
 
-/// What becomes of a file that stands where a picture is to be written.
+/// How an existing file at the destination of a picture is treated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
-    /// It stays, and nothing is written.
+    /// It is kept, and nothing is written.
     Kept,
-    /// The picture takes its place if it still is this version, which this session has written.
+    /// It is replaced if it still has this version, which this session wrote.
     Own(Version),
-    /// The picture takes its place.
+    /// It is replaced.
     Overwritten,
 }

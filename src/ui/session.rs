@@ -1,4 +1,4 @@
-//! The loop: waits for events, takes steps, draws.
+//! The main loop: waits for events, performs steps, draws.
 
 use std::borrow::Cow;
 use std::collections::VecDeque;
@@ -10,19 +10,21 @@ use std::time::{Duration, Instant};
 
 use super::app::App;
 use super::beginning::Beginning;
-use super::effects::{Event, World, sending};
+use super::effects::World;
+use super::ending::{Ending, Error};
+use super::event::{Event, sending};
 use super::msg::{Effect, Msg, Target};
-use super::reading::Reader;
+use super::options::Options;
+use super::reader::Reader;
 use super::recovery::End;
 use super::terminal::{self, Budget, Choice, ColourDepth, Link, Reply, query};
 use super::view::{self, Inks};
-use super::{Ending, Error, Options};
 use crate::text;
 
-/// The least time between two drawings that only bring finer frames.
+/// Minimum time between two drawings that only refine the picture.
 const FRAME_TIME: Duration = Duration::from_millis(33);
 
-/// Runs the interface until it is left.
+/// Runs the interface until it ends.
 pub(crate) fn run(options: &Options, app: App, effects: Vec<Effect>) -> Result<Ending, Error> {
     let (sender, inbox) = mpsc::channel();
     let reader = Reader::start(options.watching(), sending(&sender))?;
@@ -52,31 +54,31 @@ struct Session {
     app: App,
     world: World,
     link: Link,
-    /// When a frame was sent that the terminal has not taken yet, and its bytes.
+    /// When the frame that the terminal has not fully taken yet was sent, and its size in bytes.
     waiting: Option<(Instant, usize)>,
     inks: Inks,
-    /// The colours drawn with, and until when an answer of the terminal counts that there are more.
+    /// The colour depth in use, and the deadline for an answer of the terminal that it has more.
     asked: Option<(ColourDepth, Instant)>,
     inbox: Receiver<Event>,
-    /// When a finer frame was last waited for and drawn.
+    /// When a refined frame was last awaited and drawn.
     refined: Option<Instant>,
     /// Why the program ends.
     ending: Ending,
 }
 
-/// How soon the screen is to be drawn.
+/// How soon the screen must be drawn.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Urgency {
     /// Nothing changed.
     Never,
-    /// A finer frame came.
+    /// The picture was refined.
     Soon,
-    /// The user waits for an answer, of which the first frame of a picture is a part.
+    /// The user is waiting; includes the first frame of a picture.
     Now,
 }
 
 impl Session {
-    /// Asks for colours where neither the user nor the environment has decided.
+    /// Queries the colours unless the user or the environment has decided.
     fn ask_for_colours(&mut self, options: &Options) -> io::Result<()> {
         let variable = |name: &str| std::env::var(name).ok();
         let depth = options.colours();
@@ -90,7 +92,7 @@ impl Session {
         Ok(())
     }
 
-    /// Takes what the terminal replied at this moment. That it has all colours counts only in time.
+    /// Handles a reply of the terminal. A report of 24-bit colour counts only within the deadline.
     fn replied(&mut self, reply: Reply, at: Instant) -> Urgency {
         if reply == Reply::Status {
             self.link.replied(at);
@@ -104,7 +106,7 @@ impl Session {
         Urgency::Now
     }
 
-    /// Names the cure once it is known that no answer comes.
+    /// Shows how to force 24-bit colour once no answer can arrive any more.
     fn give_up_on_colours(&mut self) -> Urgency {
         let now = Instant::now();
         match self.asked.take_if(|&mut (_, until)| until <= now) {
@@ -129,7 +131,7 @@ impl Session {
                 }
                 Urgency::Never => self.rest_at(now),
             };
-            // Frames follow one another: while one is on its way, the next one waits.
+            // One frame is in flight at a time; the next one waits.
             let is_clear = self.world.terminal().is_clear();
             let draw_at = draw_at.filter(|_| is_clear);
             if is_clear && let Some((sent, bytes)) = self.waiting.take() {
@@ -140,7 +142,7 @@ impl Session {
                 self.refined = Some(now);
             }
             if is_clear && self.ask(now).is_err() || is_due && self.draw(urgency).is_err() {
-                // A terminal that can't be written to is gone; what must survive is kept.
+                // A terminal that cannot be written to is gone; what must survive is saved.
                 self.step(Msg::HangUp);
                 return;
             }
@@ -152,12 +154,12 @@ impl Session {
         }
     }
 
-    /// Gives the terminal back, and prints there where unsaved edits went.
+    /// Restores the terminal and prints there what became of unsaved edits.
     fn close(mut self) -> Result<Ending, Error> {
-        let unreadable = self.app.unreadable.take();
-        let path = self.app.path.as_deref();
+        let unreadable = self.app.disk.unreadable.take();
+        let path = self.app.disk.path.as_deref();
         let path = path.map_or_else(String::new, |path| format!(" {}", argument(path)));
-        // The end of the process frees a large scene at once.
+        // The end of the process frees a large scene immediately.
         mem::forget(self.app);
         let (terminal, files) = patience(self.ending);
         let words = match self.world.close(terminal, files) {
@@ -173,7 +175,7 @@ impl Session {
         unreadable.map_or(Ok(self.ending), |error| Err(error.into()))
     }
 
-    /// When the rest of a picture may go over the link, if one is left.
+    /// When the rest of a picture may be sent, if there is one.
     fn rest_at(&self, now: Instant) -> Option<Instant> {
         if !self.app.picture().is_pending() {
             return None;
@@ -181,7 +183,7 @@ impl Session {
         Some(self.link.ready_at(now).unwrap_or(now))
     }
 
-    /// Takes everything that came in, after waiting for it until `deadline` at most.
+    /// Waits for input until `deadline` and handles everything that has arrived.
     fn wait(&mut self, deadline: Option<Instant>, is_clear: bool) -> Urgency {
         let others = [
             self.world.next_timer(),
@@ -230,7 +232,9 @@ impl Session {
 
     fn urgency_of(&self, msg: &Msg) -> Urgency {
         match msg {
-            Msg::Frame(Target::Preview, frame) if self.app.preview.is_first(frame) => Urgency::Now,
+            Msg::Frame(Target::Preview, frame) if self.app.pictures.preview.is_first(frame) => {
+                Urgency::Now
+            }
             Msg::Frame(..) => Urgency::Soon,
             _ => Urgency::Now,
         }
@@ -253,7 +257,7 @@ impl Session {
                 effect,
                 Effect::OpenEditor { .. } | Effect::Suspend | Effect::TakeTerminal
             ) {
-                // How long another program has the terminal says nothing of the link.
+                // The time another program had the terminal is no measure of the link.
                 self.waiting = None;
             }
             if let Some(msg) = self.world.perform(effect) {
@@ -262,7 +266,7 @@ impl Session {
         }
     }
 
-    /// Asks the terminal for a reply if the link is to be measured.
+    /// Requests a reply of the terminal if the link should be measured.
     fn ask(&mut self, now: Instant) -> io::Result<()> {
         if self.world.has_terminal() && self.link.has_question(now) {
             self.world.ask_status()?;
@@ -276,7 +280,7 @@ impl Session {
         let is_limited = self.link.is_limited();
         if let Some((_, size)) = self.app.raster() {
             let allowance = match urgency {
-                // What the user waits for goes first, and by itself.
+                // The part that the user is waiting for is sent first, without the picture.
                 Urgency::Now if is_limited => 0,
                 _ => self.link.allowance(now),
             };
@@ -284,7 +288,7 @@ impl Session {
             let picture = self.app.picture_mut();
             picture.advance(size, marked, allowance);
             let rests = !picture.is_pending() && picture.is_complete();
-            self.app.net = (is_limited && !rests).then(|| self.link.rate(now));
+            self.app.pictures.net = (is_limited && !rests).then(|| self.link.rate(now));
         }
         let (app, inks) = (&self.app, &mut self.inks);
         let mut area = app.terminal;
@@ -304,20 +308,20 @@ impl Session {
     }
 }
 
-/// A path as it is typed behind a command of a shell.
+/// A path quoted for a shell command line.
 fn argument(path: &Path) -> String {
     let mut path = path.to_string_lossy();
     if path.starts_with('-') {
         path = format!("./{path}").into();
     }
-    // Paths hold no zeros, which alone can't be quoted.
+    // Only NUL cannot be quoted, and paths contain none.
     let quoted = shlex::try_quote(&path).unwrap_or(Cow::Borrowed(&path));
     quoted.into_owned()
 }
 
-/// How long the terminal may take to be restored, and files to be written. A user who quits may sit
-/// at the far end of a slow link, but should not wait a second for a terminal that takes nothing;
-/// a file that is being saved gets longer. A terminal that hung up is not waited for.
+/// Time limits for restoring the terminal and for writing files. A user who quits may be at the far
+/// end of a slow link, but should not wait a second for a terminal that takes no output; a file
+/// being saved gets longer. A terminal that hung up is not waited for.
 fn patience(ending: Ending) -> (Duration, Duration) {
     let (terminal, files) = match ending {
         Ending::Quit | Ending::Interrupted => (700, 2000),
@@ -330,7 +334,7 @@ fn patience(ending: Ending) -> (Duration, Duration) {
     )
 }
 
-/// The ending that this message causes if it ends the program.
+/// The ending that results if this message ends the program.
 fn ending(msg: &Msg) -> Ending {
     match msg {
         Msg::Interrupt => Ending::Interrupted,

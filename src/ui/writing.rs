@@ -1,5 +1,5 @@
-//! Scenes and pictures being written. Each has a thread of its own: a disk that does not answer holds
-//! up nothing else.
+//! Writes scenes and pictures, each on its own thread: a disk that does not answer blocks nothing
+//! else.
 
 use std::convert::Infallible;
 use std::io;
@@ -9,23 +9,23 @@ use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 use std::time::Instant;
 
-use super::effects::Event;
+use super::event::Event;
 use super::msg::{Destination, Existing, ExportId, Exported, Guard, Msg, SaveId, SaveOutcome};
 use crate::file;
 use crate::file::{ReadError, Version};
 use crate::image_file;
 use crate::render::Frame;
 
-/// The threads that write.
+/// The writing threads.
 pub(super) struct Writers {
     sender: Sender<Event>,
-    /// Each thread has one until its end.
+    /// Cloned into each thread and dropped when it ends.
     at_work: Sender<Infallible>,
     all_ended: Receiver<Infallible>,
 }
 
 impl Writers {
-    /// None yet.
+    /// Starts without threads.
     pub(super) fn new(sender: Sender<Event>) -> Self {
         let (at_work, all_ended) = mpsc::channel();
         Self {
@@ -35,7 +35,7 @@ impl Writers {
         }
     }
 
-    /// Writes a scene: [`Msg::Saved`].
+    /// Writes a scene, reported by [`Msg::Saved`].
     pub(super) fn save(
         &self,
         id: SaveId,
@@ -53,7 +53,7 @@ impl Writers {
         )
     }
 
-    /// Writes a frame to a picture file: [`Msg::Exported`].
+    /// Writes a frame to a picture file, reported by [`Msg::Exported`].
     pub(super) fn export(
         &self,
         id: ExportId,
@@ -70,7 +70,7 @@ impl Writers {
         )
     }
 
-    /// Says why no picture can be written there, if so: [`Msg::Exported`].
+    /// Checks whether a picture can be written there; a failure is reported by [`Msg::Exported`].
     pub(super) fn check(&self, id: ExportId, to: Destination) -> Result<(), String> {
         let shown = to.path.display();
         let panicked = Err(format!("{shown}: the picture can't be written"));
@@ -81,7 +81,7 @@ impl Writers {
         })
     }
 
-    /// Reports why a scene can't be written there, if it can't: [`Msg::Failed`].
+    /// Checks whether a scene can be written there; a failure is reported by [`Msg::Failed`].
     pub(super) fn check_place(&self, path: PathBuf) -> Result<(), String> {
         let panicked = Msg::Failed(format!("{}: can't be examined", path.display()));
         self.start("check", None, panicked, move || {
@@ -90,8 +90,7 @@ impl Writers {
         })
     }
 
-    /// Says where the content is of a scene that an earlier save has damaged, if so:
-    /// [`Msg::BackupsFound`].
+    /// Looks for backups left by an interrupted save of a scene, reported by [`Msg::BackupsFound`].
     pub(super) fn find_backups(&self, scene: PathBuf) -> Result<(), String> {
         let found = Msg::BackupsFound(Vec::new());
         self.start("backups", None, found, move || {
@@ -99,7 +98,7 @@ impl Writers {
         })
     }
 
-    /// Does work on a thread of its own; the end of the program waits for what holds `at_work`.
+    /// Runs work on its own thread; the end of the program waits for holders of `at_work`.
     fn start(
         &self,
         name: &str,
@@ -121,16 +120,16 @@ impl Writers {
         spawned.map(drop).map_err(|error| error.to_string())
     }
 
-    /// Waits until all is written, or the time has come.
+    /// Waits until everything is written, or until `deadline`.
     pub(super) fn finish(self, deadline: Instant) {
         drop(self.at_work);
         let patience = deadline.saturating_duration_since(Instant::now());
-        // Nothing is ever sent: the last thread's end ends this.
+        // Nothing is ever sent: the end of the last thread ends the wait.
         let _ = self.all_ended.recv_timeout(patience);
     }
 }
 
-/// Sends when it is dropped what became of a file: at first, that of a panic.
+/// Sends the result of writing a file when dropped; initially the result of a panic.
 struct Report {
     sender: Sender<Event>,
     msg: Option<Msg>,
@@ -139,13 +138,13 @@ struct Report {
 impl Drop for Report {
     fn drop(&mut self) {
         if let Some(msg) = self.msg.take() {
-            // An inbox that is gone belongs to a program that ends.
+            // The inbox is gone only when the program ends.
             let _ = self.sender.send(Event::Msg(msg));
         }
     }
 }
 
-/// Writes a scene, unless that would overwrite another program's changes.
+/// Writes a scene unless that would overwrite another program's changes.
 fn save(path: PathBuf, text: Arc<String>, guard: &Guard) -> SaveOutcome {
     let folder = file::directory_of(&path);
     if let Ok(false) = folder.try_exists() {
@@ -165,9 +164,9 @@ fn save(path: PathBuf, text: Arc<String>, guard: &Guard) -> SaveOutcome {
     }
 }
 
-/// Why a scene was not written.
+/// Reason why a scene was not written.
 enum Refusal {
-    /// The file holds something else than what we know.
+    /// The file's text differs from the expected one.
     Changed,
     Other(String),
     Io(io::Error),
@@ -179,7 +178,7 @@ impl From<io::Error> for Refusal {
     }
 }
 
-/// Whether what the file holds may be lost.
+/// Whether the contents of the file may be overwritten.
 fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), Refusal> {
     let held = match guard {
         Guard::Anything => return Ok(()),
@@ -214,7 +213,7 @@ fn export(frame: &Frame, to: Destination) -> Result<Exported, String> {
     }
 }
 
-/// Whether a picture may be written there; else why not.
+/// Checks whether a picture may be written there; the error is the reason why not.
 fn check_target(to: &Destination) -> Result<(), String> {
     let (path, shown) = (&to.path, to.path.display());
     let scene = to.scene.as_deref();
@@ -246,7 +245,7 @@ mod tests {
     use crate::ui::app::tests::pictures::frame;
 
     #[test]
-    fn a_panic_while_a_file_is_written_is_an_outcome() {
+    fn a_panic_while_writing_a_file_is_reported() {
         let (sender, inbox) = mpsc::channel();
         let writers = Writers::new(sender);
         let failed = Msg::Saved(SaveId(3), SaveOutcome::Failed("a.ray: broken".to_owned()));
@@ -262,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_is_not_saved_in_a_folder_that_is_not_there() {
+    fn a_scene_is_not_saved_in_a_missing_folder() {
         let place = tempfile::tempdir().expect("a folder");
         for (path, reason) in [
             (place.path().join("none/x.ray"), "none: no such folder"),
@@ -277,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_is_whole_whichever_call_fails() {
+    fn a_scene_stays_complete_whichever_call_fails() {
         use crate::file::faults::{Fault, during};
         use rustix::io::Errno;
         let place = tempfile::tempdir().expect("a folder");
@@ -306,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_is_not_written_over_a_file_of_its_scene() {
+    fn a_picture_does_not_replace_a_file_of_its_scene() {
         let place = tempfile::tempdir().expect("a folder");
         let texture = place.path().join("bricks.png");
         std::fs::write(&texture, "").expect("the folder is new");
@@ -333,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_that_others_wrote_is_kept() {
+    fn a_picture_written_by_another_program_is_kept() {
         let place = tempfile::tempdir().expect("a folder");
         let path = place.path().join("a.bmp");
         let to = |existing| destination(&path, existing);
@@ -355,7 +354,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_that_others_changed_after_its_export_is_kept() {
+    fn an_export_changed_by_another_program_is_kept() {
         let place = tempfile::tempdir().expect("a folder");
         let path = place.path().join("a.bmp");
         let to = |existing| destination(&path, existing);
@@ -375,7 +374,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_is_not_written_over_its_scene() {
+    fn a_picture_does_not_replace_its_scene() {
         let place = tempfile::tempdir().expect("a folder");
         let (scene, linked) = (place.path().join("a.ray"), place.path().join("a.bmp"));
         std::fs::write(&scene, "").expect("the folder is new");

@@ -1,8 +1,5 @@
-//! An allocator that counts, and fails on purpose.
-#![allow(
-    unsafe_code,
-    reason = "an allocator that can fail is one that is implemented"
-)]
+//! An allocator that counts and fails on purpose.
+#![allow(unsafe_code, reason = "implementing an allocator requires unsafe code")]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::ptr;
@@ -11,33 +8,33 @@ use std::sync::atomic::{AtomicU64, Ordering};
 #[global_allocator]
 static ALLOCATOR: Failing = Failing;
 
-/// How many allocations there were, of all threads.
+/// The number of allocations, on all threads.
 static COUNT: AtomicU64 = AtomicU64::new(0);
 
-/// The first and the last one that fails.
+/// The numbers of the first and last allocations that fail.
 static FIRST: AtomicU64 = AtomicU64::new(u64::MAX);
 static LAST: AtomicU64 = AtomicU64::new(u64::MAX);
 
-/// Bytes that are allocated, and the most that ever were.
+/// The bytes currently allocated, and their maximum so far.
 static BYTES: AtomicU64 = AtomicU64::new(0);
 static MOST: AtomicU64 = AtomicU64::new(0);
 
 /// The system's allocator, except for some allocations.
 struct Failing;
 
-/// Has allocations fail, counted from 1 at this moment.
+/// Makes the allocations from `first` to `last` fail, counted from 1 at this call.
 pub(crate) fn fail(first: u64, last: u64) {
     COUNT.store(0, Ordering::SeqCst);
     LAST.store(last, Ordering::SeqCst);
     FIRST.store(first, Ordering::SeqCst);
 }
 
-/// How many allocations there were since.
+/// The number of allocations since [`fail`].
 pub(crate) fn count() -> u64 {
     COUNT.load(Ordering::SeqCst)
 }
 
-/// The most bytes that ever were allocated at once.
+/// The maximum number of bytes allocated at once.
 pub(crate) fn most_bytes() -> u64 {
     MOST.load(Ordering::SeqCst)
 }
@@ -56,14 +53,14 @@ fn fails() -> bool {
     FIRST.load(Ordering::Relaxed) <= number && number <= LAST.load(Ordering::Relaxed)
 }
 
-// SAFETY: everything is left to the system's allocator; a null pointer means that there is no memory.
+// SAFETY: all calls go to the system's allocator; a null pointer reports that memory is exhausted.
 unsafe impl GlobalAlloc for Failing {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         if fails() {
             return ptr::null_mut();
         }
         grow(layout.size());
-        // SAFETY: the caller's promises are passed on.
+        // SAFETY: the caller upholds the contract, which is the same.
         unsafe { System.alloc(layout) }
     }
 
@@ -72,13 +69,13 @@ unsafe impl GlobalAlloc for Failing {
             return ptr::null_mut();
         }
         grow(layout.size());
-        // SAFETY: the caller's promises are passed on.
+        // SAFETY: the caller upholds the contract, which is the same.
         unsafe { System.alloc_zeroed(layout) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
         shrink(layout.size());
-        // SAFETY: the caller's promises are passed on.
+        // SAFETY: the caller upholds the contract, which is the same.
         unsafe { System.dealloc(pointer, layout) }
     }
 
@@ -86,10 +83,10 @@ unsafe impl GlobalAlloc for Failing {
         if fails() {
             return ptr::null_mut();
         }
-        // Both are there while one is copied.
+        // Both blocks exist during the copy.
         grow(size);
         shrink(layout.size());
-        // SAFETY: the caller's promises are passed on.
+        // SAFETY: the caller upholds the contract, which is the same.
         unsafe { System.realloc(pointer, layout, size) }
     }
 }

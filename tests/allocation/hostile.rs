@@ -1,4 +1,4 @@
-//! Hostile files: each has its message, and takes little memory beside its text.
+//! Hostile files: each gives the expected message and takes little memory besides its text.
 
 use std::fs;
 use std::path::Path;
@@ -7,24 +7,24 @@ use crate::run_in;
 
 const MB: usize = 1 << 20;
 
-/// A text that is read beginning first.
+/// The length in bytes from which the beginning of a text is checked first.
 const LONG: usize = 16 * MB + 1;
 
-/// What every run takes: arguments, tables, messages.
+/// Bytes that every run takes: arguments, tables, messages.
 const BASE: usize = MB;
 
-/// A text of so many bytes at least.
-fn many(of: &str, bytes: usize) -> String {
-    of.repeat(bytes.div_ceil(of.len()))
+/// Repeats a text up to at least `bytes` bytes.
+fn many(text: &str, bytes: usize) -> String {
+    text.repeat(bytes.div_ceil(text.len()))
 }
 
 struct Case {
     name: &'static str,
     content: String,
-    /// The exit code.
+    /// The expected exit code.
     code: i32,
     message: &'static str,
-    /// How much is allocated at most, beside the text and [`BASE`].
+    /// Maximum number of bytes allocated besides the text and [`BASE`].
     most: usize,
 }
 
@@ -172,7 +172,7 @@ fn cases() -> Vec<Case> {
             "unknown record `0.25`: the line is skipped",
             12 * MB,
         )),
-        // Of longer ones the beginning tells enough; the text is not read.
+        // For longer texts only the beginning is read.
         case(
             "numbers.ray",
             many(numbers, LONG),
@@ -195,26 +195,26 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// Checks each file in a process of its own that counts what it allocates.
+/// Checks each file in a separate process that counts what it allocates.
 pub(crate) fn check() {
     let folder = tempfile::tempdir().expect("a folder");
-    let wrong: Vec<_> = cases()
+    let failures: Vec<_> = cases()
         .iter()
-        .filter_map(|case| wrong(folder.path(), case))
+        .filter_map(|case| failure(folder.path(), case))
         .collect();
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// What is wrong with the answer to a file.
-fn wrong(folder: &Path, case: &Case) -> Option<String> {
+/// Checks one file; returns a description if the result is wrong.
+fn failure(folder: &Path, case: &Case) -> Option<String> {
     let Case { name, content, .. } = case;
     fs::write(folder.join(name), content).expect("written");
     let ended = run_in(folder, &format!("check {name}"), u64::MAX, u64::MAX);
-    let told = String::from_utf8_lossy(&ended.stderr);
-    let bytes = told
+    let stderr = String::from_utf8_lossy(&ended.stderr);
+    let bytes = stderr
         .trim_end()
         .strip_suffix(" bytes")
-        .and_then(|told| told.rsplit(' ').next());
+        .and_then(|before| before.rsplit(' ').next());
     let bytes: usize = bytes
         .and_then(|bytes| bytes.parse().ok())
         .expect("a number");
@@ -223,15 +223,15 @@ fn wrong(folder: &Path, case: &Case) -> Option<String> {
     } else {
         0
     };
-    let beside = bytes.saturating_sub(text + BASE);
+    let excess = bytes.saturating_sub(text + BASE);
     let is_right = ended.status.code() == Some(case.code)
-        && told.contains(case.message)
-        && told.lines().count() < 3000
-        && beside <= case.most;
+        && stderr.contains(case.message)
+        && stderr.lines().count() < 3000
+        && excess <= case.most;
     (!is_right).then(|| {
-        let start: String = told.chars().take(200).collect();
+        let start: String = stderr.chars().take(200).collect();
         format!(
-            "{name}: {beside} bytes beside {text}, {:?}: {start}",
+            "{name}: {excess} bytes besides {text}, {:?}: {start}",
             ended.status
         )
     })

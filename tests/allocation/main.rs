@@ -1,13 +1,13 @@
-//! What becomes of the program where an allocation fails: a message and an exit code, or an abort, and
-//! in any case a terminal as before. And how much is allocated for hostile files.
+//! When an allocation fails, the program ends with a message and an exit code, or aborts, and
+//! always restores the terminal. Also limits how much is allocated for hostile files.
 //!
-//! The program that is tested is this one, started again with an allocator that fails at the k-th
-//! allocation, or from there on. It has a `main` of its own for that.
+//! The program under test is this one, started again with an allocator that fails at the k-th
+//! allocation, or from there on. This needs its own `main`.
 
 #[cfg(unix)]
 mod failing;
 #[cfg(unix)]
-#[allow(dead_code, reason = "the harness has more than is needed here")]
+#[allow(dead_code, reason = "not all of the harness is needed here")]
 #[path = "../harness/mod.rs"]
 mod harness;
 #[cfg(unix)]
@@ -52,7 +52,7 @@ mod unix {
     /// Marks this process as the program under test.
     pub(crate) const CHILD: &str = "--child";
 
-    /// Command lines in the folder of scenes, and at how many allocations each fails.
+    /// Command lines in the folder of scenes, and the number of failures to try for each.
     pub(crate) const WORK: [(&str, u64); 2] = [
         ("check default.ray still-life.dat carousel.xml", 12),
         (
@@ -61,7 +61,7 @@ mod unix {
         ),
     ];
 
-    /// How often the interface's allocations fail.
+    /// The number of failures to try for the interface.
     const INTERFACE: u64 = 4;
 
     /// Nothing takes this long.
@@ -69,7 +69,7 @@ mod unix {
 
     const SIGABRT: i32 = 6;
 
-    /// Runs a command line with allocations that fail: `FIRST LAST ARGUMENTS…`.
+    /// Runs `FIRST LAST ARGUMENTS…`: a command line with the range of allocations that fail.
     pub(crate) fn child(mut arguments: impl Iterator<Item = OsString>) -> ExitCode {
         let mut number = || arguments.next()?.to_str()?.parse().ok();
         let (first, last) = number().zip(number()).expect("two numbers");
@@ -94,7 +94,7 @@ mod unix {
         Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/scenes"))
     }
 
-    /// Runs a command line in a folder.
+    /// Runs a command line in a folder, with allocations `first` to `last` failing.
     pub(crate) fn run_in(folder: &Path, arguments: &str, first: u64, last: u64) -> Output {
         let mut command = Command::new(env::current_exe().expect("this program"));
         command.args([CHILD, &first.to_string(), &last.to_string()]);
@@ -107,38 +107,43 @@ mod unix {
         run_in(scenes(), arguments, first, last)
     }
 
-    /// The numbers of allocations to fail out of `count`: the first ones, where little is there yet, and
-    /// some of all others.
+    /// The allocations to fail out of `count`: most of them early, when little is set up yet, and
+    /// some among all others.
     fn samples(count: u64, samples: u64) -> impl Iterator<Item = u64> {
         (1..=samples).map(move |sample| (count * sample * sample).div_ceil(samples * samples))
     }
 
-    /// Each failure ends with an exit code and a message, or an abort that names its reason.
+    /// Every failure ends in an exit code and a message, or in an abort that states its reason.
     pub(crate) fn headless(arguments: &str, failures: u64) {
         let whole = run(arguments, u64::MAX, u64::MAX);
-        let said = String::from_utf8_lossy(&whole.stderr).into_owned();
-        assert!(whole.status.success(), "{arguments}: {said}");
-        let count = said.lines().last().and_then(|line| line.split(' ').next());
+        let stderr = String::from_utf8_lossy(&whole.stderr).into_owned();
+        assert!(whole.status.success(), "{arguments}: {stderr}");
+        let count = stderr
+            .lines()
+            .last()
+            .and_then(|line| line.split(' ').next());
         let count: u64 = count.and_then(|count| count.parse().ok()).expect("a count");
         for first in samples(count, failures) {
             for last in [first, u64::MAX] {
                 let ended = run(arguments, first, last);
-                let said = String::from_utf8_lossy(&ended.stderr);
+                let stderr = String::from_utf8_lossy(&ended.stderr);
                 let what = format!(
-                    "{arguments}: allocations {first} to {last}: {:?}: {said}",
+                    "{arguments}: allocations {first} to {last}: {:?}: {stderr}",
                     ended.status
                 );
                 match (ended.status.code(), ended.status.signal()) {
                     (Some(0), _) => {}
-                    (Some(1 | 65 | 66 | 73), _) => assert!(said.contains("error: "), "{what}"),
-                    (_, Some(SIGABRT)) => assert!(said.contains("memory allocation of "), "{what}"),
+                    (Some(1 | 65 | 66 | 73), _) => assert!(stderr.contains("error: "), "{what}"),
+                    (_, Some(SIGABRT)) => {
+                        assert!(stderr.contains("memory allocation of "), "{what}");
+                    }
                     _ => panic!("{what}"),
                 }
             }
         }
     }
 
-    /// Whatever fails, the terminal is as it was before.
+    /// The terminal is restored after any failure.
     pub(crate) fn interface() {
         let start = |first: u64| {
             let mut command = CommandBuilder::new(env::current_exe().expect("this program"));
@@ -153,7 +158,7 @@ mod unix {
             let deadline = Instant::now() + WATCHDOG;
             let mut has_quit = false;
             while session.ended().is_none() {
-                assert!(Instant::now() < deadline, "it runs on:\n{}", session.text());
+                assert!(Instant::now() < deadline, "timeout:\n{}", session.text());
                 session.read(Duration::from_millis(5));
                 if !has_quit && session.text().contains(" spp") {
                     has_quit = true;
@@ -162,7 +167,7 @@ mod unix {
             }
             let status = session.end();
             session.assert_restored();
-            // An abort prints its reason while the screen is the interface's.
+            // An abort prints its reason while the interface still owns the screen.
             let written = String::from_utf8_lossy(&session.written);
             match (status.exit_code(), status.signal()) {
                 (0, None) => {}
@@ -174,8 +179,8 @@ mod unix {
             }
             session.text()
         };
-        let said = end(start(u64::MAX).0);
-        let count = said
+        let text = end(start(u64::MAX).0);
+        let count = text
             .split_whitespace()
             .next()
             .and_then(|count| count.parse().ok());

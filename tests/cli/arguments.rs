@@ -1,9 +1,9 @@
-//! Arguments, help, and what is refused before any work.
+//! Arguments, help, and errors found before any work.
 
 use super::*;
 
 #[test]
-fn help_and_version_go_to_the_output_stream() {
+fn help_and_version_go_to_standard_output() {
     let place = Place::new();
     for line in ["--help", "-h", "render --help", "check --help", "--version"] {
         let output = place.run(line);
@@ -16,7 +16,7 @@ fn help_and_version_go_to_the_output_stream() {
 }
 
 #[test]
-fn wrong_arguments_end_with_2() {
+fn wrong_arguments_exit_with_2() {
     let place = Place::new();
     for line in [
         "--nonsense",
@@ -45,7 +45,7 @@ fn the_doctor_reports_without_a_terminal() {
     let output = command
         .env_remove("COLORTERM")
         .env("TERM", "xterm-256color");
-    // The colours of a service that runs tests are others than its terminal's.
+    // These variables override the terminal's colours; CI services set the second one.
     let output = output.env_remove("NO_COLOR").env_remove("CI");
     let output = output.output().expect("it starts");
     assert_eq!(output.status.code(), Some(0));
@@ -64,7 +64,7 @@ fn the_doctor_reports_without_a_terminal() {
 
 #[test]
 #[cfg(unix)]
-fn names_cannot_drive_the_terminal() {
+fn file_names_cannot_control_the_terminal() {
     let place = Place::new();
     for name in [
         "\u{1b}[31mnone.ray",
@@ -82,7 +82,7 @@ fn names_cannot_drive_the_terminal() {
 }
 
 #[test]
-fn impossible_sizes_are_refused_with_the_limit() {
+fn impossible_sizes_are_refused_stating_the_limit() {
     let place = Place::new();
     for (size, limit) in [("65536x1", "65535"), ("4294967295x4294967295", "65535")] {
         let stderr = place.stderr(&format!("render ball.ray -o a.bmp --size {size}"), 2);

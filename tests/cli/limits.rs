@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Runs the program where no thread can start: no machine has such a stack for one.
+/// Runs the program with a thread stack size so large that no thread can start.
 fn without_threads(place: &Place, line: &str) -> (Option<i32>, String) {
     let mut command = place.command(line);
     let output = command
@@ -14,7 +14,7 @@ fn without_threads(place: &Place, line: &str) -> (Option<i32>, String) {
 }
 
 #[test]
-fn scenes_are_checked_where_no_thread_can_start() {
+fn scenes_are_checked_even_if_no_thread_can_start() {
     let place = Place::new();
     let (head, ball) = BALL.split_once("1 sphere").expect("a ball");
     let (ball, _) = ball.split_once('\n').expect("a line");
@@ -41,13 +41,13 @@ fn threads_that_cannot_start_are_an_error() {
         "{stderr}"
     );
     assert_eq!(place.names(), ["ball.ray"]);
-    for many in ["0", "1025", "1000000"] {
-        let stderr = place.stderr(&format!("render ball.ray -o a.ppm --threads {many}"), 2);
+    for count in ["0", "1025", "1000000"] {
+        let stderr = place.stderr(&format!("render ball.ray -o a.ppm --threads {count}"), 2);
         assert!(stderr.contains("1..=1024"), "{stderr}");
     }
 }
 
-/// Many spheres side by side, before the view of the ball.
+/// A row of spheres, with the view of the ball.
 #[cfg(target_os = "linux")]
 fn spheres(count: usize) -> String {
     let sphere = |number| format!("sphere {number} 0 0 .1  1 1 1 0 0 0 0 0 0 1 0 0 1\n");
@@ -58,11 +58,11 @@ fn spheres(count: usize) -> String {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn work_under_any_limit_on_memory_succeeds_or_is_refused() {
+fn work_under_any_memory_limit_succeeds_or_is_refused() {
     let place = Place::new();
     place.write("many.ray", spheres(100_000));
     let mut refused = 0;
-    // From too little for the program's threads to more than enough, in kilobytes.
+    // In kilobytes, from too little for the threads to more than enough.
     for limit in (8..=52).step_by(4).map(|limit| limit * 10_000) {
         for line in ["check many.ray", "render many.ray -o -"] {
             let output = in_shell(&place, &format!("ulimit -v {limit}"), line);
@@ -71,9 +71,10 @@ fn work_under_any_limit_on_memory_succeeds_or_is_refused() {
                 Some(0) => {}
                 Some(1) => {
                     refused += 1;
-                    let says = stderr.contains("out of memory: ") || stderr.contains("no threads");
+                    let has_reason = stderr.contains("out of memory: ")
+                        || stderr.contains("cannot start threads");
                     assert!(
-                        says && stderr.contains("error: "),
+                        has_reason && stderr.contains("error: "),
                         "{line} in {limit} kB: {stderr}"
                     );
                 }

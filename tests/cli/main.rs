@@ -1,4 +1,4 @@
-//! The program as a shell sees it: arguments, streams, files and exit codes.
+//! Tests of the program as run from a shell: arguments, streams, files and exit codes.
 
 mod arguments;
 mod limits;
@@ -15,7 +15,7 @@ use tempfile::TempDir;
 
 const BINARY: &str = env!("CARGO_BIN_EXE_halflight");
 
-/// A white ball that fills the middle of the picture, lit by ambient light alone.
+/// A white ball in the middle of the picture, lit only by ambient light.
 const BALL: &str = "\
 1 1 1
 1 0 9 0 0 0 0
@@ -23,7 +23,7 @@ const BALL: &str = "\
 // view: eye 0 0 5 target 0 0 0 up 0 1 0 fov 40 size 8 6
 ";
 
-/// A directory with the ball in `ball.ray`.
+/// A temporary directory that contains [`BALL`] as `ball.ray`.
 struct Place {
     directory: TempDir,
 }
@@ -72,12 +72,12 @@ impl Place {
         command
     }
 
-    /// Runs the program with the words of `line` as arguments, its streams being pipes.
+    /// Runs the program with the words of `line` as arguments and captures its output.
     fn run(&self, line: &str) -> Output {
         self.command(line).output().expect("it starts")
     }
 
-    /// Runs it, expects an exit code, and returns what it wrote to the error stream.
+    /// Runs the program, asserts its exit code, and returns its standard error.
     fn stderr(&self, line: &str, code: i32) -> String {
         let output = self.run(line);
         let stderr = String::from_utf8(output.stderr).expect("UTF-8");
@@ -86,7 +86,7 @@ impl Place {
     }
 }
 
-/// Runs the program from a shell, after other commands there.
+/// Runs the program from a shell after the commands in `before`.
 #[cfg(unix)]
 fn in_shell(place: &Place, before: &str, line: &str) -> Output {
     let script = format!("{before}; exec {BINARY} {line}");
@@ -97,7 +97,7 @@ fn in_shell(place: &Place, before: &str, line: &str) -> Output {
     shell.output().expect("it starts")
 }
 
-/// A ball in the colours of a picture file.
+/// A ball textured with the picture file `skin.ppm`.
 const TEXTURED: &str = "\
 camera perspective 0 0 8  0 0 0  0 1 0  1 0 100
 resolution .02 .02

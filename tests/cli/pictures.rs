@@ -1,9 +1,9 @@
-//! Pictures: their bytes, their formats, and the files they go to.
+//! Rendered pictures: bytes, formats and output files.
 
 use super::*;
 
 #[test]
-fn a_picture_that_cannot_be_created_ends_with_73_before_tracing() {
+fn a_picture_file_that_cannot_be_created_exits_with_73_before_tracing() {
     let place = Place::new();
     fs::create_dir(place.at("dir.bmp")).expect("created");
     for output in ["none/a.bmp", "dir.bmp", "ball.ray/a.bmp"] {
@@ -51,12 +51,12 @@ fn a_picture_never_replaces_a_file_that_its_scene_uses() {
 
 #[test]
 #[cfg(unix)]
-fn a_picture_goes_into_a_pipe_that_somebody_reads() {
+fn a_picture_is_written_to_a_named_pipe_with_a_reader() {
     use rustix::fs::{CWD, FileType, Mode, mknodat};
     let place = Place::new();
     mknodat(CWD, place.at("pipe"), FileType::Fifo, Mode::RWXU, 0).expect("a pipe");
     let stderr = place.stderr("render ball.ray -o pipe --format ppm", 1);
-    assert_eq!(stderr, "error: pipe: nobody reads this pipe\n");
+    assert_eq!(stderr, "error: pipe: no process reads this pipe\n");
     let pipe = place.at("pipe");
     let reader = std::thread::spawn(move || fs::read(pipe));
     assert_eq!(place.stderr("render ball.ray -o pipe --format ppm", 0), "");
@@ -67,15 +67,15 @@ fn a_picture_goes_into_a_pipe_that_somebody_reads() {
 }
 
 #[test]
-fn a_ppm_on_the_output_stream_is_the_picture() {
+fn standard_output_receives_the_ppm() {
     let place = Place::new();
     let output = place.run("render ball.ray -o - --format ppm --spp 1");
     assert_eq!(output.status.code(), Some(0));
     let header = b"P6\n8 6\n255\n";
     let (head, pixels) = output.stdout.split_at(header.len());
     assert_eq!(head, header);
-    // The ball's outline subtends tan(asin(1/5)) = 0.2041 of the eye's distance, the picture's
-    // half height tan(20°) = 0.3640: a circle of radius 1.68 pixels about its centre.
+    // At unit distance, the ball's outline has radius tan(asin(1/5)) = 0.2041 and half the
+    // picture's height is tan(20°) = 0.3640: a circle of radius 1.68 pixels at the centre.
     let white: String = pixels
         .chunks(3)
         .map(|pixel| match pixel {
@@ -92,7 +92,7 @@ fn a_ppm_on_the_output_stream_is_the_picture() {
 }
 
 #[test]
-fn every_way_to_the_same_picture_gives_the_same_bytes() {
+fn threads_and_destination_do_not_change_the_bytes() {
     let place = Place::new();
     let picture = "render ball.ray --spp 4 --size 16x9";
     assert_eq!(
@@ -115,7 +115,7 @@ fn every_way_to_the_same_picture_gives_the_same_bytes() {
 }
 
 #[test]
-fn a_picture_has_the_format_that_is_asked_for() {
+fn a_picture_has_the_requested_format() {
     let place = Place::new();
     for (name, magic) in [
         ("a.tif", &b"II*\0"[..]),

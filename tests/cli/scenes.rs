@@ -1,15 +1,15 @@
-//! Scenes that are read and checked, and those that cannot be.
+//! Reading and checking scenes.
 
 use super::*;
 
 #[test]
-fn a_scene_that_cannot_be_read_ends_with_66() {
+fn an_unreadable_scene_exits_with_66() {
     let place = Place::new();
     fs::create_dir(place.at("dir.ray")).expect("created");
     #[cfg(unix)]
     std::os::unix::fs::symlink("loop.ray", place.at("loop.ray")).expect("linked");
     let long = fs::File::create(place.at("long.ray")).expect("created");
-    long.set_len(1 << 32).expect("it takes no room");
+    long.set_len(1 << 32).expect("a sparse file");
     let cases = [
         ("none.ray", "none.ray: no such file"),
         #[cfg(unix)]
@@ -31,7 +31,7 @@ fn a_scene_that_cannot_be_read_ends_with_66() {
 }
 
 #[test]
-fn the_interface_says_what_is_wrong_with_a_scene_before_it_asks_for_a_terminal() {
+fn the_interface_reports_an_unreadable_scene_before_a_missing_terminal() {
     let place = Place::new();
     place.write("a.ray", "");
     for (name, code, message) in [
@@ -44,7 +44,7 @@ fn the_interface_says_what_is_wrong_with_a_scene_before_it_asks_for_a_terminal()
 }
 
 #[test]
-fn a_file_that_is_not_a_scene_ends_with_65() {
+fn a_file_that_is_not_a_scene_exits_with_65() {
     let place = Place::new();
     place.write("latin.ray", b"1 1 1\n// \xE9\n");
     place.write("notes.txt", "");
@@ -61,7 +61,7 @@ fn a_file_that_is_not_a_scene_ends_with_65() {
 }
 
 #[test]
-fn a_binary_file_ends_with_65() {
+fn a_binary_file_exits_with_65() {
     let place = Place::new();
     place.write("start.ray", [0; 5000]);
     place.write(
@@ -71,17 +71,17 @@ fn a_binary_file_ends_with_65() {
     for (name, line) in [("start.ray", 1), ("late.ray", 5005)] {
         let binary = "is a binary file, not text: NUL bytes from line";
         let stderr = place.stderr(&format!("check {name}"), 65);
-        let said = format!("error: {name}: {binary} {line} on\n");
-        assert!(stderr.starts_with(&said), "{stderr}");
+        let expected = format!("error: {name}: {binary} {line} on\n");
+        assert!(stderr.starts_with(&expected), "{stderr}");
     }
 }
 
 #[test]
-fn strict_takes_warnings_for_errors_and_notes_for_notes() {
+fn strict_turns_warnings_into_errors_but_not_notes() {
     let place = Place::new();
     let odd = BALL.replace("sphere", "Sphere");
     place.write("odd.ray", &odd);
-    for (line, code, said) in [
+    for (line, code, expected) in [
         ("check odd.ray", 0, "0 errors, 1 warning"),
         ("check --strict odd.ray", 65, "1 error, 0 warnings"),
         ("check --strict ball.ray", 0, "0 errors, 0 warnings"),
@@ -93,15 +93,15 @@ fn strict_takes_warnings_for_errors_and_notes_for_notes() {
         (
             "render --strict odd.ray -o strict.ppm",
             65,
-            "no picture was made: the scene has 1 error",
+            "nothing was rendered: the scene has 1 error",
         ),
     ] {
         let stderr = place.stderr(line, code);
-        assert!(stderr.contains(said), "{line}: {stderr}");
+        assert!(stderr.contains(expected), "{line}: {stderr}");
         assert_eq!(code == 65, stderr.contains("error: odd.ray:"), "{stderr}");
     }
     assert_eq!(place.names(), ["ball.ray", "odd.ppm", "odd.ray"]);
-    // Rays that outgrow their budget are noted of the picture.
+    // Samples that exceed their ray budget give a note.
     let shells = (1..9).map(|radius| format!("sphere 0 0 0 {radius} 0 0 0 0 0 0 0 0 0 1 1 1 1\n"));
     let shells: String = shells.collect();
     let view = "// view: eye 0 0 20 target 0 0 0 size 4 3";
@@ -114,7 +114,7 @@ fn strict_takes_warnings_for_errors_and_notes_for_notes() {
 }
 
 #[test]
-fn check_says_what_is_wrong_and_where() {
+fn check_reports_errors_with_their_positions() {
     let place = Place::new();
     place.write("bad.ray", BALL.replace("0 0 0 1  1", "0 0 0 -1  1"));
     assert_eq!(
@@ -146,22 +146,22 @@ fn check_says_what_is_wrong_and_where() {
 }
 
 #[test]
-fn the_backup_of_an_interrupted_save_is_named() {
+fn the_backup_of_an_interrupted_save_is_reported() {
     let place = Place::new();
     place.write(".halflight-backup-0-00c0ffee-ball.ray", "old");
     for line in ["check ball.ray", "render ball.ray -o a.bmp"] {
         let stderr = place.stderr(line, 0);
-        let words = "note: a save of ball.ray was interrupted: the content before it is in ";
+        let words = "note: a save of ball.ray was interrupted: the previous content is in ";
         assert!(stderr.starts_with(words), "{stderr}");
         assert!(
-            stderr.contains(".halflight-backup-0-00c0ffee-ball.ray; delete that if"),
+            stderr.contains(".halflight-backup-0-00c0ffee-ball.ray; delete that file if"),
             "{stderr}"
         );
     }
 }
 
 #[test]
-fn a_wrong_scene_is_not_rendered() {
+fn an_invalid_scene_is_not_rendered() {
     let place = Place::new();
     place.write("bad.ray", BALL.replace("sphere", "sphera"));
     let stderr = place.stderr("render bad.ray -o a.bmp", 65);

@@ -1,4 +1,4 @@
-//! Streams and devices that are closed, full, or a terminal.
+//! Output streams and devices that are closed, full or a terminal.
 
 use std::io::Read;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use super::*;
 
 #[test]
-fn a_reader_that_leaves_early_is_not_an_error() {
+fn a_reader_that_closes_the_pipe_early_is_not_an_error() {
     let place = Place::new();
     let mut child = place
         .command("render ball.ray -o - --size 400x300 --spp 1")
@@ -14,7 +14,7 @@ fn a_reader_that_leaves_early_is_not_an_error() {
         .stderr(Stdio::piped())
         .spawn()
         .expect("it starts");
-    // Far less than the picture, of which the pipe can't hold all.
+    // Far less than the picture, which does not fit into the pipe.
     let mut stdout = child.stdout.take().expect("a pipe");
     stdout.read_exact(&mut [0]).expect("a byte");
     drop(stdout);
@@ -48,7 +48,7 @@ fn a_full_device_is_an_error() {
 
 #[test]
 #[cfg(unix)]
-fn a_closed_output_stream_is_an_error() {
+fn closed_standard_output_is_an_error() {
     let place = Place::new();
     let output = in_shell(&place, "exec >&-", "render ball.ray -o -");
     let stderr = String::from_utf8_lossy(&output.stderr);
@@ -58,14 +58,14 @@ fn a_closed_output_stream_is_an_error() {
         "{stderr}"
     );
     let output = in_shell(&place, "exec >/dev/null", "render ball.ray -o -");
-    assert_eq!(output.status.code(), Some(0), "nobody wants the picture");
+    assert_eq!(output.status.code(), Some(0), "discarding the picture");
     let output = in_shell(&place, "exec >&- 2>&-", "check ball.ray");
-    assert_eq!(output.status.code(), Some(0), "its answer is the code");
+    assert_eq!(output.status.code(), Some(0), "the exit code suffices");
 }
 
 #[test]
 #[cfg(unix)]
-fn a_closed_error_stream_causes_no_panic() {
+fn closed_standard_error_causes_no_panic() {
     let place = Place::new();
     let (reader, writer) = std::io::pipe().expect("a pipe");
     drop(reader);
@@ -74,7 +74,7 @@ fn a_closed_error_stream_causes_no_panic() {
     assert_eq!(status.code(), Some(66));
 }
 
-/// Runs the program with files limited to 1 KiB: writing more fails, as on a full disk.
+/// Runs the program with files limited to 1 KiB, so that writing more fails as on a full disk.
 #[cfg(unix)]
 fn on_a_full_disk(place: &Place, line: &str) -> Output {
     in_shell(place, "ulimit -f 1", line)
@@ -82,7 +82,7 @@ fn on_a_full_disk(place: &Place, line: &str) -> Output {
 
 #[test]
 #[cfg(unix)]
-fn a_full_disk_leaves_the_old_picture() {
+fn a_full_disk_keeps_the_old_picture() {
     let place = Place::new();
     for linked in [false, true] {
         place.write("a.bmp", "the old picture");
@@ -113,7 +113,7 @@ fn a_terminal_is_refused_unless_forced() {
         let mut child = pair.slave.spawn_command(command).expect("it starts");
         drop(pair.slave);
         let mut shown = Vec::new();
-        // The terminal's end is an error on some systems.
+        // On some systems, the end of a terminal is an error.
         let _ = pair
             .master
             .try_clone_reader()

@@ -1,15 +1,15 @@
-//! Picture files that scenes name.
+//! Picture files that scenes reference.
 
 use super::*;
 
-/// The colour in the middle of a PPM.
+/// The colour of the middle pixel of a PPM of 40×30 pixels.
 fn middle(ppm: &[u8]) -> &[u8] {
     let pixels = &ppm[b"P6\n40 30\n255\n".len()..];
     &pixels[3 * (15 * 40 + 20)..][..3]
 }
 
 #[test]
-fn textures_are_read_from_beside_the_scene() {
+fn textures_are_read_from_the_folder_of_the_scene() {
     let place = Place::new();
     place.write("a.dat", TEXTURED);
     place.write("skin.ppm", SKIN);
@@ -22,11 +22,11 @@ fn textures_are_read_from_beside_the_scene() {
 }
 
 #[test]
-fn a_texture_that_cannot_be_read_is_a_warning_and_magenta() {
+fn an_unreadable_texture_gives_a_warning_and_is_magenta() {
     let place = Place::new();
     place.write("a.dat", TEXTURED);
     let stderr = place.stderr("render a.dat -o a.ppm --spp 1", 0);
-    let first = "warning: a.dat:6:24: texture 3 file: no such file; magenta stands for it\n";
+    let first = "warning: a.dat:6:24: texture 3 file: no such file; shown in magenta\n";
     assert!(stderr.starts_with(first), "{stderr}");
     for part in [
         "texture ID 3 image 1 1 skin.ppm",
@@ -54,10 +54,13 @@ fn textures_from_elsewhere_need_permission() {
         TEXTURED.replace("skin.ppm", path.to_str().expect("a plain path")),
     );
     let stderr = place.stderr("render a.dat -o a.ppm --spp 1", 0);
-    assert!(stderr.contains("an absolute path is not read"), "{stderr}");
+    assert!(
+        stderr.contains("absolute paths are not allowed"),
+        "{stderr}"
+    );
     assert_eq!(middle(&place.read("a.ppm")), [255, 0, 255]);
     let folder = elsewhere.directory.path().display();
-    assert!(stderr.contains(&format!("--assets {folder} ")), "{stderr}");
+    assert!(stderr.contains(&format!("--assets {folder}")), "{stderr}");
     for (named, wrong) in [("nowhere", "no such folder"), ("a.dat", "not a folder")] {
         for command in ["check a.dat", "render a.dat -o a.ppm --spp 1"] {
             let stderr = place.stderr(&format!("{command} --assets {named} --assets {folder}"), 66);

@@ -1,4 +1,4 @@
-//! Drives the real binary on a pseudo-terminal: keys in, screens out.
+//! Drives the real binary on a pseudo-terminal: sends keys and reads screens.
 
 use std::ffi::OsStr;
 use std::io::{Read, Write};
@@ -12,39 +12,39 @@ use portable_pty::{Child, CommandBuilder, ExitStatus, MasterPty, PtySize, native
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{Mode, OFlags};
 
-/// Nothing takes this long; a test that waits for more has failed.
+/// Nothing takes this long; a test that waits longer has failed.
 const WATCHDOG: Duration = Duration::from_secs(30);
 
-/// How often it is asked whether the program has ended.
+/// Interval between checks of whether the program has ended.
 const POLL: Duration = Duration::from_millis(2);
 
-/// Begins a frame that the terminal is to show only when all of it is there.
+/// Begins a frame that the terminal shows only once it is complete (synchronized output).
 pub(crate) const BEGIN_FRAME: &[u8] = b"\x1b[?2026h";
 const END_FRAME: &[u8] = b"\x1b[?2026l";
 
-/// Has the whole screen redrawn.
+/// Makes the program redraw the whole screen.
 pub(crate) const CTRL_L: &str = "\x0c";
 
-/// A program on a terminal of its own.
+/// A program on its own pseudo-terminal.
 pub(crate) struct Session {
     child: Box<dyn Child + Send + Sync>,
     master: Option<Box<dyn MasterPty + Send>>,
     keys: Option<Box<dyn Write + Send>>,
     output: Receiver<(Instant, Vec<u8>)>,
     screen: vt100::Parser,
-    /// Whether the terminal waits for the rest of a frame.
-    is_amid_frame: bool,
+    /// Whether the output so far ends within a frame.
+    is_in_frame: bool,
     /// Everything that the program has written.
     pub(crate) written: Vec<u8>,
     termios_before: String,
-    /// Whether the output is to be read no longer.
-    deaf: Arc<AtomicBool>,
+    /// Tells the reading thread to stop.
+    stop: Arc<AtomicBool>,
     has_ended: bool,
 }
 
 impl Session {
-    /// Starts the binary with arguments, in a folder, on a terminal of this size. `environment` is
-    /// added to a clean one of a local truecolour terminal.
+    /// Starts the binary with arguments, in a folder, on a terminal of this size (columns, rows).
+    /// `environment` is added to the clean environment of a local truecolour terminal.
     pub(crate) fn start<A: AsRef<OsStr>>(
         folder: &Path,
         arguments: &[A],
@@ -56,7 +56,7 @@ impl Session {
         Self::run(command, folder, size, environment)
     }
 
-    /// Runs a command as [`Session::start`] runs the binary.
+    /// Runs a command like [`Session::start`] runs the binary.
     pub(crate) fn run(
         mut command: CommandBuilder,
         folder: &Path,
@@ -80,48 +80,48 @@ impl Session {
             .slave
             .spawn_command(command)
             .expect("the command starts");
-        let deaf = Arc::new(AtomicBool::new(false));
+        let stop = Arc::new(AtomicBool::new(false));
         Self {
             child,
-            output: listen(reader.expect("the terminal can be read"), Arc::clone(&deaf)),
+            output: listen(reader.expect("the terminal can be read"), Arc::clone(&stop)),
             keys: Some(keys.expect("the terminal can be written")),
             master: Some(pair.master),
             screen: vt100::Parser::new(size_of(rows), size_of(columns), 0),
-            is_amid_frame: false,
+            is_in_frame: false,
             written: Vec::new(),
             termios_before,
-            deaf,
+            stop,
             has_ended: false,
         }
     }
 
-    /// Types bytes, as the terminal would send them.
+    /// Sends bytes as if typed.
     pub(crate) fn send(&mut self, keys: impl AsRef<[u8]>) {
-        let writer = self.keys.as_mut().expect("the terminal is there");
+        let writer = self.keys.as_mut().expect("the terminal exists");
         writer
             .write_all(keys.as_ref())
             .expect("the terminal takes keys");
         writer.flush().expect("the terminal takes keys");
     }
 
-    /// Changes the terminal's size.
+    /// Resizes the terminal.
     pub(crate) fn resize(&mut self, columns: u16, rows: u16) {
         let resized = self.terminal().resize(size_in_cells(columns, rows));
-        resized.expect("it takes a size");
+        resized.expect("the terminal can be resized");
         self.screen
             .screen_mut()
             .set_size(size_of(rows), size_of(columns));
     }
 
-    /// Reads on until the screen is as asked; returns when the bytes came that made it so. Panics
-    /// with the screen if that does not happen.
+    /// Reads until a condition on the screen holds; returns when the bytes that made it hold
+    /// arrived. Panics with the screen on timeout.
     pub(crate) fn wait(&mut self, what: &str, holds: impl Fn(&vt100::Screen) -> bool) -> Instant {
         let mut at = Instant::now();
         let deadline = at + WATCHDOG;
-        // Half a frame shows neither what was nor what will be.
-        while self.is_amid_frame || !holds(self.screen.screen()) {
+        // Half a frame is neither the old screen nor the new one.
+        while self.is_in_frame || !holds(self.screen.screen()) {
             match self.read(deadline.saturating_duration_since(Instant::now())) {
-                Some(came) => at = came,
+                Some(arrival) => at = arrival,
                 None => panic!(
                     "{what}: not within {WATCHDOG:?}; the screen:\n{}",
                     self.text()
@@ -131,21 +131,21 @@ impl Session {
         at
     }
 
-    /// Reads on until the screen shows a text.
+    /// Reads until the screen shows a text; returns when its bytes arrived.
     pub(crate) fn wait_for(&mut self, text: &str) -> Instant {
         self.wait(&format!("waiting for {text:?}"), |screen| {
             screen.contents().contains(text)
         })
     }
 
-    /// Takes one piece of output, if one comes in time; returns when it came.
+    /// Reads one chunk of output, if one arrives in time; returns its time of arrival.
     pub(crate) fn read(&mut self, patience: Duration) -> Option<Instant> {
         let (at, chunk) = self.take(patience).ok()?;
         self.screen.process(&chunk);
         Some(at)
     }
 
-    /// Takes one piece of output past the screen, for those who look at it later, and when it came.
+    /// Takes one chunk of output with its time of arrival, without updating the screen.
     pub(crate) fn take(
         &mut self,
         patience: Duration,
@@ -154,14 +154,14 @@ impl Session {
         let new = self.written.len().saturating_sub(BEGIN_FRAME.len() - 1);
         self.written.extend(&chunk);
         let new = &self.written[new..];
-        self.is_amid_frame = match (last(BEGIN_FRAME, new), last(END_FRAME, new)) {
-            (None, None) => self.is_amid_frame,
+        self.is_in_frame = match (last(BEGIN_FRAME, new), last(END_FRAME, new)) {
+            (None, None) => self.is_in_frame,
             (begin, end) => end < begin,
         };
         Ok((at, chunk))
     }
 
-    /// Takes all output until there is none for a while; returns how many bytes that was.
+    /// Reads all output until there is none for `quiet`; returns the number of bytes.
     pub(crate) fn drain(&mut self, quiet: Duration) -> usize {
         let before = self.written.len();
         while self.read(quiet).is_some() {}
@@ -173,78 +173,78 @@ impl Session {
         self.screen.screen()
     }
 
-    /// The screen's characters.
+    /// The characters on the screen.
     pub(crate) fn text(&self) -> String {
         self.screen.screen().contents()
     }
 
-    /// The process.
+    /// The ID of the program's process.
     pub(crate) fn process_id(&self) -> u32 {
-        self.child.process_id().expect("it runs")
+        self.child.process_id().expect("it is running")
     }
 
-    /// The process in front, to which keys that stop and interrupt go.
+    /// The leader of the foreground process group, which receives the stop and interrupt keys.
     pub(crate) fn process_in_front(&self) -> u32 {
         let leader = self.terminal().process_group_leader();
-        leader.expect("somebody has the terminal").cast_unsigned()
+        leader.expect("a foreground group").cast_unsigned()
     }
 
-    /// Takes the terminal away, as a lost connection does.
+    /// Closes the terminal, like a lost connection.
     pub(crate) fn hang_up(&mut self) {
-        // The end that is read from is closed too.
+        // The reader must be closed too.
         self.stop_reading();
         self.hang_up_at_once();
     }
 
-    /// Takes a terminal away that is not read any more.
+    /// Closes a terminal that is no longer read.
     pub(crate) fn hang_up_at_once(&mut self) {
         self.keys = None;
         self.master = None;
     }
 
-    /// Whether there is a terminal still.
-    #[allow(dead_code, reason = "most leave it there")]
+    /// Whether the terminal still exists.
+    #[allow(dead_code, reason = "not every test needs it")]
     pub(crate) fn has_terminal(&self) -> bool {
         self.master.is_some()
     }
 
-    /// Reads on after [`Session::hang`].
-    #[allow(dead_code, reason = "not everybody's terminal hangs")]
+    /// Resumes reading after [`Session::hang`].
+    #[allow(dead_code, reason = "not every test needs it")]
     pub(crate) fn read_again(&mut self) {
         let reader = self.terminal().try_clone_reader();
-        self.deaf = Arc::default();
-        self.output = listen(reader.expect("it can be read"), Arc::clone(&self.deaf));
+        self.stop = Arc::default();
+        self.output = listen(reader.expect("it can be read"), Arc::clone(&self.stop));
     }
 
-    /// Reads what is left after [`Session::hang`] and the program's end.
-    #[allow(dead_code, reason = "not everybody's terminal hangs")]
+    /// Reads the remaining output after [`Session::hang`] and the end of the program.
+    #[allow(dead_code, reason = "not every test needs it")]
     pub(crate) fn read_the_rest(&mut self) {
         self.read_again();
         while self.read(WATCHDOG).is_some() {}
     }
 
-    /// Reads no more, as a terminal that hangs, until the program's output finds no room.
-    #[allow(dead_code, reason = "not everybody's terminal hangs")]
+    /// Stops reading, like a terminal that hangs, until the output buffer is full.
+    #[allow(dead_code, reason = "not every test needs it")]
     pub(crate) fn hang(&mut self) {
         self.stop_reading();
-        let name = self.terminal().tty_name().expect("it has a name");
+        let name = self.terminal().tty_name().expect("a name");
         let open = OFlags::WRONLY | OFlags::NOCTTY | OFlags::CLOEXEC;
         let line = rustix::fs::open(name, open, Mode::empty()).expect("it can be opened");
         let deadline = Instant::now() + WATCHDOG;
-        let room = || {
+        let has_room = || {
             let at_once = Some(&Timespec::default());
             poll(&mut [PollFd::new(&line, PollFlags::OUT)], at_once) != Ok(0)
         };
-        while room() {
-            assert!(Instant::now() < deadline, "there is always room");
+        while has_room() {
+            assert!(Instant::now() < deadline, "the buffer is never full");
             self.send(CTRL_L);
             std::thread::sleep(POLL);
         }
     }
 
-    /// Reads one more piece of output and no other.
+    /// Stops the reading thread, which ends after one more chunk of output.
     fn stop_reading(&mut self) {
-        self.deaf.store(true, Ordering::SeqCst);
+        self.stop.store(true, Ordering::SeqCst);
         self.send(CTRL_L);
         let deadline = Instant::now() + WATCHDOG;
         while self.take(WATCHDOG) != Err(RecvTimeoutError::Disconnected) {
@@ -252,13 +252,13 @@ impl Session {
         }
     }
 
-    /// How the program has ended, if it has.
+    /// The exit status of the program, if it has ended.
     pub(crate) fn ended(&mut self) -> Option<ExitStatus> {
         let ended = self.child.try_wait();
         ended.expect("a child can be waited for")
     }
 
-    /// Waits for the program's end, and takes all that it wrote.
+    /// Waits for the end of the program and reads all its output.
     pub(crate) fn end(&mut self) -> ExitStatus {
         let deadline = Instant::now() + WATCHDOG;
         let mut is_open = true;
@@ -269,7 +269,7 @@ impl Session {
                 return status;
             }
             let now = Instant::now();
-            assert!(now < deadline, "it runs on; the screen:\n{}", self.text());
+            assert!(now < deadline, "timeout; the screen:\n{}", self.text());
             if is_open {
                 match self.take(POLL) {
                     Ok((_, chunk)) => self.screen.process(&chunk),
@@ -282,30 +282,30 @@ impl Session {
         }
     }
 
-    /// Whether the terminal's settings are those from before the program ran.
+    /// Whether the terminal's settings are the same as before the program ran.
     pub(crate) fn has_settings_from_before(&self) -> bool {
         format!("{:?}", self.terminal().get_termios()) == self.termios_before
     }
 
-    /// Asserts that the terminal is as it was before the program ran.
+    /// Asserts that the terminal is in the same state as before the program ran.
     pub(crate) fn assert_restored(&self) {
         let settings = format!("{:?}", self.terminal().get_termios());
         assert_eq!(settings, self.termios_before);
         let screen = self.screen();
-        assert!(!screen.alternate_screen(), "the alternate screen is left");
-        assert!(!screen.hide_cursor(), "the cursor is shown");
-        assert!(!screen.bracketed_paste(), "bracketed paste is off");
+        assert!(!screen.alternate_screen(), "still on the alternate screen");
+        assert!(!screen.hide_cursor(), "the cursor is hidden");
+        assert!(!screen.bracketed_paste(), "bracketed paste is on");
         assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::None);
     }
 
     fn terminal(&self) -> &dyn MasterPty {
         let master = self.master.as_deref();
-        master.expect("the terminal is there")
+        master.expect("the terminal exists")
     }
 }
 
-/// The cells of the picture: where each is, its upper pixel and its lower one. A cell whose halves
-/// are alike may be drawn in several ways.
+/// The cells of the picture with their positions and pixels. A cell whose halves are equal may be
+/// drawn in several ways.
 pub(crate) fn picture(screen: &vt100::Screen) -> Vec<Pixels> {
     let (rows, columns) = screen.size();
     (0..rows.get())
@@ -332,9 +332,9 @@ pub(crate) fn picture(screen: &vt100::Screen) -> Vec<Pixels> {
 /// A cell with two pixels of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pixels {
-    /// From 0, at the top.
+    /// Row, from 0 at the top.
     pub(crate) row: u16,
-    /// From 0, at the left.
+    /// Column, from 0 at the left.
     pub(crate) column: u16,
     /// The colour of the upper half.
     pub(crate) upper: vt100::Color,
@@ -345,20 +345,20 @@ pub(crate) struct Pixels {
 impl Drop for Session {
     fn drop(&mut self) {
         if !self.has_ended {
-            // It may have ended by itself.
+            // It may already have ended.
             let _ = self.child.kill();
         }
     }
 }
 
-/// Reads on a thread, until the terminal is gone or the output is no longer wanted.
-fn listen(mut reader: Box<dyn Read + Send>, deaf: Arc<AtomicBool>) -> Receiver<(Instant, Vec<u8>)> {
+/// Reads on a thread until the terminal is closed or `stop` is set.
+fn listen(mut reader: Box<dyn Read + Send>, stop: Arc<AtomicBool>) -> Receiver<(Instant, Vec<u8>)> {
     let (send, output) = mpsc::channel();
     std::thread::spawn(move || {
         let mut chunk = vec![0; 1 << 16];
         while let Ok(length @ 1..) = reader.read(&mut chunk) {
             let sent = send.send((Instant::now(), chunk[..length].to_vec()));
-            if sent.is_err() || deaf.load(Ordering::SeqCst) {
+            if sent.is_err() || stop.load(Ordering::SeqCst) {
                 return;
             }
         }
@@ -366,7 +366,7 @@ fn listen(mut reader: Box<dyn Read + Send>, deaf: Arc<AtomicBool>) -> Receiver<(
     output
 }
 
-/// Where a text begins for the last time.
+/// The start of the last occurrence of `text` in `all`.
 pub(crate) fn last(text: &[u8], all: &[u8]) -> Option<usize> {
     all.windows(text.len()).rposition(|part| part == text)
 }

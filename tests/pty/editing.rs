@@ -1,8 +1,8 @@
-//! Scenes edited, from here and from outside.
+//! Scenes edited in the interface and from outside.
 
 use super::*;
 
-/// A ball that shines by ambient light alone, in the colours of a picture file.
+/// A ball with the colours of a picture file, lit only by ambient light.
 const TEXTURED: &str = "\
 camera perspective 0 0 8  0 0 0  0 1 0  1 0 100
 resolution .02 .02
@@ -14,14 +14,14 @@ use colour ID 0 mat ID 0
 obj sphere ID 0 mat ID 0  0 0 0  2
 ";
 
-/// A triangle that shines by ambient light alone, from a file.
+/// A triangle from a file, lit only by ambient light.
 const MESHED: &str = "<xml><scene><light type='ambient'><intensity value='1'/></light>
   <object type='obj' name='a.obj'/></scene>
   <camera><position z='8'/><target/></camera></xml>
 ";
 
 #[test]
-fn a_scene_is_edited_seen_reloaded_and_exported() {
+fn a_scene_is_edited_shown_reloaded_and_exported() {
     let place = Place::new();
     place.write("default.ray", DEFAULT);
     let mut session = place.start(&["default.ray"], WIDE);
@@ -76,7 +76,7 @@ fn a_scene_is_edited_seen_reloaded_and_exported() {
 }
 
 #[test]
-fn unsaved_edits_and_the_files_changes_are_merged() {
+fn unsaved_edits_are_merged_with_changes_of_the_file() {
     let place = Place::new();
     let mut session = place.open_edited();
     let theirs = |text: &str| text.replacen("0 1 0  0", "0 0 1  0", 1);
@@ -91,7 +91,7 @@ fn unsaved_edits_and_the_files_changes_are_merged() {
 }
 
 #[test]
-fn a_number_changed_on_both_sides_is_asked_for() {
+fn a_number_changed_on_both_sides_causes_a_question() {
     let theirs = BALLS.replacen(".80", "0.5", 1);
     let cases = [
         ("m", edited(), "wrote balls.ray"),
@@ -102,7 +102,7 @@ fn a_number_changed_on_both_sides_is_asked_for() {
         let mut session = place.open_edited();
         place.replace("balls.ray", &theirs);
         session.wait_for("The file changed too");
-        // Put off, it is asked again before anything is written.
+        // If postponed, the question returns before anything is written.
         session.send(ESC);
         session.wait_for("[disk changed]");
         wait_until_gone(&mut session, "The file changed too");
@@ -132,7 +132,7 @@ fn a_scene_with_errors_opens_with_their_list() {
 }
 
 #[test]
-fn the_built_in_scene_is_saved_under_a_name() {
+fn the_embedded_scene_is_saved_under_a_name() {
     let place = Place::new();
     let mut session = place.start(&[], WIDE);
     wait_for_rest(&mut session);
@@ -146,7 +146,7 @@ fn the_built_in_scene_is_saved_under_a_name() {
 }
 
 #[test]
-fn a_pasted_colour_is_one_step() {
+fn a_pasted_colour_is_one_undo_step() {
     let place = Place::new();
     let mut session = place.open();
     session.send("\rjj");
@@ -165,7 +165,7 @@ fn a_pasted_colour_is_one_step() {
 }
 
 #[test]
-fn a_click_selects_what_is_under_it() {
+fn a_click_selects_the_object_under_it() {
     let place = Place::new();
     let mut session = place.open();
     let mode = session.screen().mouse_protocol_mode();
@@ -180,7 +180,7 @@ fn a_click_selects_what_is_under_it() {
 }
 
 #[test]
-fn the_picture_follows_the_files_of_its_textures() {
+fn the_picture_follows_changes_of_its_texture_files() {
     let skin = |colour: &str| format!("P3\n1 1\n255\n{colour}\n");
     let place = Place::new();
     place.write("ball.dat", TEXTURED);
@@ -191,7 +191,7 @@ fn the_picture_follows_the_files_of_its_textures() {
         place.replace("skin.ppm", &skin("0 0 255"));
         wait_for_colour(&mut session, BLUE);
 
-        // Half a picture changes nothing, but is reported.
+        // Half a picture changes nothing but is reported.
         place.write("skin.ppm", "P3\n1 1\n255\n0");
         session.wait_for("1 file can't be read: ! shows why");
         session.send("!");
@@ -204,9 +204,9 @@ fn the_picture_follows_the_files_of_its_textures() {
     }
 }
 
-/// Files that are named by files that the scene names are watched like those.
+/// Files that are named by a scene's files are watched too.
 #[test]
-fn the_picture_follows_meshes_their_libraries_and_pictures() {
+fn the_picture_follows_changes_of_meshes_libraries_and_their_pictures() {
     let mesh = |material: &str| {
         let corners = "v -3 -3 0\nv 3 -3 0\nv 0 3 0";
         format!("mtllib a.mtl\n{corners}\nusemtl {material}\nf 1 2 3\n")
@@ -236,7 +236,7 @@ fn the_picture_follows_meshes_their_libraries_and_pictures() {
     }
 }
 
-/// A relative name goes with the current folder; an absolute one waits for its folder to come back.
+/// A relative path moves with the current folder; an absolute one waits for its folder to return.
 #[test]
 fn a_scene_is_followed_when_its_folder_is_moved() {
     let green = BALLS.replacen("1 0 0  0 0 0", "0 0 1  0 0 0", 1);

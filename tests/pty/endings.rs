@@ -1,4 +1,4 @@
-//! Ways to end, to stop, and to lend the terminal; what is left behind.
+//! Ways to end, to stop and to lend the terminal, and the state of the terminal afterwards.
 
 use super::*;
 
@@ -22,7 +22,7 @@ fn ctrl_c_asks_before_edits_are_lost() {
 }
 
 #[test]
-fn signals_end_it_with_their_codes() {
+fn signals_end_the_program_with_their_exit_codes() {
     for signal in [
         Signal::INT,
         Signal::TERM,
@@ -44,7 +44,22 @@ fn signals_end_it_with_their_codes() {
 }
 
 #[test]
-fn an_abort_gives_the_terminal_back() {
+fn a_signal_at_the_first_byte_restores_the_terminal() {
+    for signal in [Signal::TERM, Signal::HUP, Signal::QUIT] {
+        for _ in 0..5 {
+            let place = Place::new();
+            let mut session = place.start(&["balls.ray"], WIDE);
+            session
+                .read(Duration::from_secs(10))
+                .expect("the program takes the terminal");
+            kill(session.process_id(), signal);
+            assert_end(session, 128 + signal.as_raw().cast_unsigned());
+        }
+    }
+}
+
+#[test]
+fn an_abort_restores_the_terminal() {
     for (signal, words) in [
         (Signal::ABORT, "halflight aborted"),
         (Signal::FPE, "halflight was ended by SIGFPE"),
@@ -58,9 +73,9 @@ fn an_abort_gives_the_terminal_back() {
 }
 
 #[test]
-fn an_abort_tells_of_edits_that_are_kept() {
+fn an_abort_mentions_stored_edits() {
     let place = Place::new();
-    // Without trouble before it, nothing shows when edits are kept.
+    // Without an earlier problem, the screen does not show when edits are stored.
     place.write(".local", "in the way");
     let mut session = place.open_edited();
     session.wait_for("[not kept]");
@@ -75,7 +90,7 @@ fn an_abort_tells_of_edits_that_are_kept() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn memory_that_runs_out_gives_the_terminal_back() {
+fn running_out_of_memory_restores_the_terminal() {
     use rustix::process::{Resource, Rlimit, prlimit};
     let place = Place::new();
     let mut session = place.open();
@@ -85,12 +100,12 @@ fn memory_that_runs_out_gives_the_terminal_back() {
     };
     let process = Pid::from_raw(session.process_id().cast_signed());
     prlimit(process, Resource::As, nothing).expect("a limit can be lowered");
-    // Its cells take more memory than is left over.
+    // Its cells need more memory than is left.
     session.resize(2000, 250);
     assert_aborted(session, "halflight aborted");
 }
 
-/// Expects the death by a signal, and these words alone on a line of the restored screen.
+/// Asserts the death by a signal, and that a line of the restored screen consists of these words.
 fn assert_aborted(mut session: Session, words: &str) {
     let status = session.end();
     session.assert_restored();
@@ -103,7 +118,7 @@ fn assert_aborted(mut session: Session, words: &str) {
 }
 
 #[test]
-fn unsaved_edits_outlive_the_process() {
+fn unsaved_edits_survive_the_process() {
     for signal in [Some(Signal::TERM), Some(Signal::HUP), None] {
         let place = Place::new();
         let mut session = place.open_edited();
@@ -132,11 +147,11 @@ fn unsaved_edits_outlive_the_process() {
 }
 
 #[test]
-fn a_terminal_that_is_gone_ends_it() {
+fn the_program_ends_when_the_terminal_is_gone() {
     let place = Place::new();
     let mut session = place.open();
     session.hang_up();
-    // Whichever comes first: a write that fails, or the hang-up.
+    // Whichever comes first: a failed write or the hang-up.
     assert_eq!(session.end().exit_code(), 129);
 }
 
@@ -144,7 +159,7 @@ fn a_terminal_that_is_gone_ends_it() {
 type End = dyn Fn(&mut Session);
 
 #[test]
-fn a_terminal_that_nobody_reads_holds_up_no_ending() {
+fn a_terminal_that_is_not_read_delays_no_ending() {
     let signal = |signal| move |session: &mut Session| kill(session.process_id(), signal);
     let endings: [(&str, u32, &End); 4] = [
         ("SIGTERM", 143, &signal(Signal::TERM)),
@@ -169,7 +184,7 @@ fn a_terminal_that_nobody_reads_holds_up_no_ending() {
 }
 
 #[test]
-fn an_abort_gives_back_a_terminal_that_nobody_reads() {
+fn an_abort_restores_a_terminal_that_is_not_read() {
     let place = Place::new();
     let mut session = place.open_edited();
     session.hang();
@@ -180,14 +195,14 @@ fn an_abort_gives_back_a_terminal_that_nobody_reads() {
 }
 
 #[test]
-fn it_quits_a_terminal_that_nobody_reads_within_a_second() {
+fn quitting_takes_at_most_a_second_if_the_terminal_is_not_read() {
     let place = Place::new();
     let mut session = place.open();
     session.hang();
     let begun = Instant::now();
     session.send("q");
     assert_eq!(session.end().exit_code(), 0);
-    // Half a second more for a machine that is busy.
+    // Half a second more for a busy machine.
     let taken = begun.elapsed();
     assert!(taken < Duration::from_millis(1500), "{taken:?}");
     assert!(session.has_settings_from_before());
@@ -210,7 +225,7 @@ fn a_terminal_that_is_read_again_shows_everything() {
 }
 
 #[test]
-fn it_stops_and_goes_on_as_a_job_of_a_shell() {
+fn the_program_stops_and_continues_as_a_job_of_a_shell() {
     let place = Place::new();
     let mut command = CommandBuilder::new("/bin/sh");
     let line = "set -m; \"$0\" --color 24 balls.ray; echo ONE; read x; fg; echo TWO; read x; fg";
@@ -240,9 +255,9 @@ fn it_stops_and_goes_on_as_a_job_of_a_shell() {
     assert_eq!(entered.count(), 3, "at the start and after each stop");
 }
 
-/// Keys that come while the terminal is not raw are echoed or held back.
+/// Keys that arrive while the terminal is not raw are echoed or held back.
 #[test]
-fn the_terminal_stays_raw_while_it_is_taken_again() {
+fn the_terminal_stays_raw_while_it_is_taken_back() {
     let place = Place::new();
     let mut session = place.open();
     for _ in 0..200 {
@@ -268,7 +283,7 @@ fn the_editor_gets_the_first_key_and_gives_the_screen_back() {
     let mut session = Session::start(place.directory.path(), &arguments, WIDE, &environment);
     wait_for_rest(&mut session);
     let before = picture(session.screen());
-    // To the second ball, on the fifth line.
+    // Opens line 5, that of the second ball.
     session.send("GE");
     session.wait_for("EDITING +5");
     assert!(!session.screen().alternate_screen());
@@ -283,10 +298,10 @@ fn the_editor_gets_the_first_key_and_gives_the_screen_back() {
     session.assert_restored();
 }
 
-/// A stop from within the editor stops both, as the shell waits for both; an interrupt is for the
-/// editor alone.
+/// A stop from within the editor stops both, as the shell waits for both; an interrupt only affects
+/// the editor.
 #[test]
-fn signals_of_the_keyboard_are_the_editors_while_it_runs() {
+fn keyboard_signals_go_to_the_editor_while_it_runs() {
     let place = Place::new();
     let editor = [
         "trap '' INT QUIT",
@@ -322,9 +337,9 @@ fn signals_of_the_keyboard_are_the_editors_while_it_runs() {
     session.assert_restored();
 }
 
-/// Names that vi would run, that have options, quotes, places and lines in them.
+/// Names that vi would execute, or that contain options, quotes, positions or line numbers.
 #[test]
-fn the_editor_gets_a_name_as_a_file() {
+fn the_editor_receives_any_name_as_a_file() {
     let names = [
         "+sil !touch canary.ray",
         "-c !touch canary.ray",
@@ -357,7 +372,7 @@ fn the_editor_gets_a_name_as_a_file() {
 }
 
 #[test]
-fn a_pipe_is_refused_and_holds_up_no_save() {
+fn a_pipe_is_refused_and_does_not_delay_saving() {
     use rustix::fs::{CWD, FileType, Mode, mknodat};
     let place = Place::new();
     let mut session = place.open_edited();
@@ -375,7 +390,7 @@ fn a_pipe_is_refused_and_holds_up_no_save() {
 }
 
 #[test]
-fn a_picture_that_another_program_wrote_is_not_exported_over() {
+fn an_export_does_not_replace_a_picture_written_by_another_program() {
     let place = Place::new();
     let mut session = place.open();
     let export = ":export a.bmp 8x6 1\r";
@@ -392,9 +407,9 @@ fn a_picture_that_another_program_wrote_is_not_exported_over() {
     quit(session);
 }
 
-/// Relative paths lead into the folder that was moved, whatever is at its old path.
+/// Relative paths lead into the moved folder, regardless of what is at its old path.
 #[test]
-fn a_folder_that_is_moved_away_is_reported() {
+fn a_moved_folder_is_reported() {
     let place = Place::new();
     fs::create_dir(place.at("old")).expect("the folder is new");
     fs::rename(place.at("balls.ray"), place.at("old/balls.ray")).expect("it is there");

@@ -1,11 +1,11 @@
-//! Unsaved edits that outlive the process: after crashes, changes from outside, and trouble with the
-//! folder they are kept in.
+//! Recovery of unsaved edits after crashes, changes from outside, and problems with the recovery
+//! folder.
 
 use super::*;
 
 const QUESTION: &str = "unsaved edits from an earlier run";
 
-/// Makes the green ball's radius another one, as another editor does while the program is not there.
+/// Changes the green ball's radius, like another editor while the program is not running.
 fn change_green(place: &Place, radius: &str) {
     let text = place.read("balls.ray");
     place.replace("balls.ray", &text.replacen("0.8 ", radius, 1));
@@ -18,7 +18,7 @@ fn wait_until_kept(place: &Place, session: &mut Session, text: &str) {
     }
 }
 
-/// Edits the red ball's radius and loses the process once the edit is kept.
+/// Edits the red ball's radius and kills the process once the edit is stored.
 fn crash_with_edits(place: &Place) {
     let mut session = place.open_edited();
     wait_until_kept(place, &mut session, &edited());
@@ -27,7 +27,7 @@ fn crash_with_edits(place: &Place) {
 }
 
 #[test]
-fn edits_outlive_a_crash_and_a_run_that_leaves_them_undecided() {
+fn edits_survive_a_crash_and_a_run_that_leaves_them_undecided() {
     let place = Place::new();
     crash_with_edits(&place);
     let is_kept = || place.kept_texts() == [edited()];
@@ -50,9 +50,9 @@ fn edits_outlive_a_crash_and_a_run_that_leaves_them_undecided() {
     assert_eq!(place.kept_texts(), [] as [String; 0]);
 }
 
-/// The scene is the same one by whatever name it is opened.
+/// The scene is identified regardless of the path it is opened by.
 #[test]
-fn what_others_wrote_since_is_merged_with_restored_edits() {
+fn changes_from_outside_are_merged_with_recovered_edits() {
     for name in ["balls.ray", "x/../balls.ray", "x/link.ray"] {
         let place = Place::new();
         fs::create_dir(place.at("x")).expect("the folder is new");
@@ -76,7 +76,7 @@ fn what_others_wrote_since_is_merged_with_restored_edits() {
 }
 
 #[test]
-fn it_asks_where_others_changed_what_was_edited() {
+fn a_question_is_asked_if_others_changed_the_edited_places() {
     for (answer, radius) in [("m", "2"), ("t", ".90")] {
         let place = Place::new();
         crash_with_edits(&place);
@@ -103,7 +103,7 @@ fn it_asks_where_others_changed_what_was_edited() {
 }
 
 #[test]
-fn the_edits_of_two_windows_are_kept_apart_and_both_offered() {
+fn the_edits_of_two_windows_are_stored_separately_and_both_offered() {
     let place = Place::new();
     let mut first = place.open_edited();
     wait_until_kept(&place, &mut first, &edited());
@@ -134,7 +134,7 @@ fn the_edits_of_two_windows_are_kept_apart_and_both_offered() {
 }
 
 #[test]
-fn edits_are_kept_once_their_folder_can_be_made() {
+fn edits_are_stored_once_their_folder_can_be_created() {
     let place = Place::new();
     fs::create_dir_all(place.at(".local/state")).expect("the folder is new");
     place.write(".local/state/halflight", "in the way");
@@ -149,7 +149,7 @@ fn edits_are_kept_once_their_folder_can_be_made() {
 }
 
 #[test]
-fn a_journal_that_somebody_removed_is_written_again_at_the_end() {
+fn a_deleted_journal_is_written_again_at_the_end() {
     for signal in [Signal::HUP, Signal::TERM] {
         let place = Place::new();
         let mut session = place.open_edited();
@@ -162,7 +162,7 @@ fn a_journal_that_somebody_removed_is_written_again_at_the_end() {
 }
 
 #[test]
-fn a_journal_that_somebody_emptied_is_written_again_at_the_end() {
+fn a_truncated_journal_is_written_again_at_the_end() {
     let place = Place::new();
     let mut session = place.open_edited();
     wait_until_kept(&place, &mut session, &edited());
@@ -206,7 +206,7 @@ fn the_last_intact_edits_of_a_damaged_journal_are_offered() {
 }
 
 #[test]
-fn edits_of_a_file_that_is_gone_are_offered() {
+fn edits_of_a_deleted_file_are_offered() {
     let place = Place::new();
     crash_with_edits(&place);
     fs::remove_file(place.at("balls.ray")).expect("it is there");
@@ -223,7 +223,7 @@ fn edits_of_a_file_that_is_gone_are_offered() {
 }
 
 #[test]
-fn what_stands_in_the_way_of_a_scene_hides_no_edits_of_it() {
+fn an_obstacle_at_the_path_of_a_scene_hides_no_edits_of_it() {
     let place = Place::new();
     crash_with_edits(&place);
     fs::remove_file(place.at("balls.ray")).expect("it is there");
@@ -239,7 +239,7 @@ fn what_stands_in_the_way_of_a_scene_hides_no_edits_of_it() {
 }
 
 #[test]
-fn edits_that_can_t_be_kept_are_reported_as_lost_at_the_end() {
+fn edits_that_can_t_be_stored_are_reported_as_lost_at_the_end() {
     let place = Place::new();
     place.write(".local", "in the way");
     let mut session = place.open_edited();
@@ -251,10 +251,10 @@ fn edits_that_can_t_be_kept_are_reported_as_lost_at_the_end() {
     assert!(text.contains("not all unsaved edits are kept"), "{text}");
 }
 
-/// A disk that is full for a while, as far as one process can have one of its own.
+/// Simulates a temporarily full disk for a single process.
 #[test]
 #[cfg(target_os = "linux")]
-fn edits_are_kept_once_there_is_room_again() {
+fn edits_are_stored_once_there_is_space_again() {
     use rustix::process::{Resource, Rlimit, prlimit};
     for signal in [Signal::HUP, Signal::KILL] {
         let place = Place::new();

@@ -1,4 +1,4 @@
-//! What is on the screen, and what is sent for it.
+//! Contents of the screen, and the bytes sent for it.
 
 use super::*;
 
@@ -22,7 +22,7 @@ fn a_split_escape_sequence_does_no_harm() {
 }
 
 #[test]
-fn any_size_is_survived() {
+fn every_size_works() {
     let place = Place::new();
     let mut session = place.start(&["balls.ray"], (80, 24));
     wait_for_rest(&mut session);
@@ -55,7 +55,7 @@ fn any_size_is_survived() {
 }
 
 #[test]
-fn a_finished_picture_is_left_alone() {
+fn a_finished_picture_is_not_redrawn() {
     let place = Place::new();
     let mut session = place.open();
     let sent = session.written.len();
@@ -81,7 +81,7 @@ fn a_selection_that_changes_no_pixel_sends_no_picture() {
         let arguments = ["--color", colours, "balls.ray"];
         let mut session = Session::start(place.directory.path(), &arguments, size, &[]);
         wait_for_rest(&mut session);
-        // Without the outline of what is selected.
+        // Without the outline of the selected object.
         let before = picture(session.screen());
         session.send("o");
         wait_for_change(&mut session, &before);
@@ -101,7 +101,7 @@ fn a_selection_that_changes_no_pixel_sends_no_picture() {
 }
 
 #[test]
-fn what_cannot_be_opened_leaves_the_terminal_alone() {
+fn a_failure_to_open_leaves_the_terminal_unchanged() {
     let place = Place::new();
     for (name, code) in [("none.ray", 66), ("none.txt", 2), (".", 66)] {
         let mut session = place.start(&[name], (80, 24));
@@ -126,7 +126,7 @@ fn a_dumb_terminal_is_refused() {
 }
 
 #[test]
-fn colours_are_those_the_terminal_has() {
+fn colours_are_limited_to_those_of_the_terminal() {
     let place = Place::new();
     let start = |arguments: &[&str], environment| {
         Session::start(place.directory.path(), arguments, (80, 24), environment)
@@ -154,13 +154,13 @@ fn colours_are_those_the_terminal_has() {
     quit(session);
 }
 
-/// Asks which colour the pen has.
+/// Queries the colour of the pen.
 const QUESTION: &[u8] = b"\x1bP$qm\x1b\\";
 
-/// Reports the one that was set.
+/// Reports the colour that was set.
 const ANSWER: &str = "\x1bP1$r0;38:2::49:73:87m\x1b\\";
 
-/// The hint where nothing answers.
+/// The hint if nothing answers.
 const CURE: &str = "256 colours; if the terminal has 24-bit colour: --color 24";
 
 /// A session as in a login over SSH: the environment promises 256 colours.
@@ -216,7 +216,7 @@ fn a_silent_terminal_gets_the_hint_once() {
 }
 
 #[test]
-fn a_late_answer_is_neither_believed_nor_typed() {
+fn a_late_answer_is_neither_used_nor_typed() {
     let place = Place::new();
     let mut session = start_far(&place);
     session.wait_for(CURE);
@@ -234,7 +234,7 @@ fn a_late_answer_is_neither_believed_nor_typed() {
 }
 
 #[test]
-fn nothing_from_files_reaches_the_terminal_raw() {
+fn file_contents_never_reach_the_terminal_raw() {
     let place = Place::new();
     let evil = "\x1b]52;c;ZXZpbA==\x07\u{9b}31m\u{9d}0;evil\u{9c}\x1b[7;9r\x1bc\x0e";
     let name = format!("a{}.ray", evil.replace('/', ""));
@@ -247,7 +247,7 @@ fn nothing_from_files_reaches_the_terminal_raw() {
     let mut session = Session::start(place.directory.path(), &arguments, WIDE, &environment);
     session.wait_for("1 error");
     session.wait_for("␛]52;c;ZXZpbA==");
-    // What is typed while the editor has the terminal is echoed.
+    // Keys typed while the editor has the terminal are echoed.
     let refused = "can't start the editor";
     session.send("!E");
     session.wait_for(refused);
@@ -274,7 +274,7 @@ fn nothing_from_files_reaches_the_terminal_raw() {
 }
 
 #[test]
-fn the_doctor_reports_what_the_terminal_answers() {
+fn the_doctor_reports_the_answers_of_the_terminal() {
     let place = Place::new();
     let environment = [("COLORTERM", "")];
     let mut session = Session::start(place.directory.path(), &["doctor"], WIDE, &environment);

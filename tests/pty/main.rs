@@ -22,7 +22,7 @@ use vt100::{Color, MouseProtocolMode, Screen};
 
 use harness::{BEGIN_FRAME, CTRL_L, Pixels, Session, last, picture};
 
-/// Two balls that shine by ambient light alone, so that their pixels are of their own colours.
+/// Two balls lit only by ambient light, so that their pixels have their own colours.
 const BALLS: &str = "\
 1 1 1
 1 0 9 0 0 0 0
@@ -36,7 +36,7 @@ const RED: Color = Color::Rgb(255, 0, 0);
 const GREEN: Color = Color::Rgb(0, 255, 0);
 const BLUE: Color = Color::Rgb(0, 0, 255);
 
-/// The keys that make the first ball's radius 2, from the start.
+/// Keys that set the first ball's radius to 2, from the initial state.
 const RADIUS_TO_2: &str = "\rj2\r";
 
 const DEFAULT: &str = include_str!("../../scenes/default.ray");
@@ -46,7 +46,7 @@ const ESC: &str = "\x1b";
 const CTRL_C: &str = "\x03";
 const CTRL_Z: &str = "\x1a";
 
-/// Begins what is on the screen only while the program has it.
+/// Enters the alternate screen, which only the program uses.
 const ENTER_SCREEN: &[u8] = b"\x1b[?1049h";
 
 /// A directory with a scene in `balls.ray`.
@@ -70,7 +70,7 @@ impl Place {
         fs::write(self.at(name), content).expect("written");
     }
 
-    /// Replaces a file at once, as most editors do.
+    /// Replaces a file atomically, like most editors.
     fn replace(&self, name: &str, content: &str) {
         self.write("new~", content);
         fs::rename(self.at("new~"), self.at(name)).expect("renamed");
@@ -100,7 +100,7 @@ impl Place {
         session
     }
 
-    /// The edits that were kept for the next run.
+    /// The recovery files.
     fn recovery_files(&self) -> Vec<PathBuf> {
         let folder = self.at(".local/state/halflight/recovery");
         let entries = fs::read_dir(folder).into_iter().flatten();
@@ -112,13 +112,13 @@ impl Place {
 }
 
 impl Place {
-    /// The texts that journals hold, each by its last edit.
+    /// The text after the last edit of each journal.
     fn kept_texts(&self) -> Vec<String> {
         let journals = self.recovery_files().into_iter();
         let texts = journals.filter_map(|journal| {
             let content = fs::read_to_string(journal).ok()?;
             let edits = content.match_indices("\nedit ");
-            // A torn edit at the end does not count.
+            // An incomplete edit at the end does not count.
             let whole = edits.filter_map(|(at, _)| {
                 let (line, below) = content[at + 1..].split_once('\n')?;
                 let length: usize = line.split(' ').nth(3)?.parse().ok()?;
@@ -131,10 +131,10 @@ impl Place {
     }
 }
 
-/// What is printed at the end where unsaved edits are kept.
+/// Printed at the end if unsaved edits are stored for recovery.
 const KEPT: &str = "unsaved edits are kept; halflight balls.ray offers them";
 
-/// Wide enough for long messages beside the file's name.
+/// Wide enough for long messages beside the file name.
 const WIDE: (u16, u16) = (150, 40);
 
 /// The scene after [`RADIUS_TO_2`].
@@ -153,7 +153,7 @@ fn wait_for_rest(session: &mut Session) {
     session.wait("waiting for the finished picture", is_at_rest);
 }
 
-/// Waits until a finished picture holds a colour; returns a cell that does.
+/// Waits until a finished picture contains a colour; returns a cell with it.
 fn wait_for_colour(session: &mut Session, colour: Color) -> Pixels {
     let find = |screen: &Screen| picture(screen).into_iter().find(|p| p.upper == colour);
     session.wait(&format!("waiting for {colour:?}"), |screen| {
@@ -180,7 +180,7 @@ fn kill(process: u32, signal: Signal) {
     kill_process(process, signal).expect("it can be sent signals");
 }
 
-/// Quits and expects a terminal as before.
+/// Quits and asserts that the terminal is restored.
 fn quit(mut session: Session) {
     session.send("q");
     assert_end(session, 0);
@@ -190,7 +190,7 @@ fn assert_end(session: Session, code: u32) {
     assert_end_with(session, code, "");
 }
 
-/// Expects the end, and only these words on the screen.
+/// Asserts the exit code, and that the screen contains only these words.
 fn assert_end_with(mut session: Session, code: u32, words: &str) {
     let status = session.end();
     session.assert_restored();

@@ -1,13 +1,13 @@
-//! Files that take long to read, and files that can't be.
+//! Files that take long to read, and files that can't be read.
 
 use std::io::Write;
 
 use super::*;
 
-/// Starts with a scene so long that the screen is there before it is read.
+/// Opens a scene so long that the screen appears before it is read.
 fn open_long(place: &Place) -> Session {
     let mut file = fs::File::create(place.at("long.ray")).expect("a file");
-    // It begins as a text would, and the rest is a hole, which takes no room on the disk.
+    // Begins like a text; the rest is a hole, which takes no space on the disk.
     file.write_all(&[b'\n'; 1 << 14]).expect("written");
     file.set_len(1 << 31).expect("a sparse file");
     let mut session = place.start(&["long.ray"], WIDE);
@@ -29,7 +29,7 @@ fn keys_are_answered_while_a_scene_is_read() {
 }
 
 #[test]
-fn signals_end_it_while_a_scene_is_read() {
+fn signals_end_the_program_while_a_scene_is_read() {
     for (signal, code) in [(Signal::INT, 130), (Signal::TERM, 143), (Signal::HUP, 129)] {
         let place = Place::new();
         let session = open_long(&place);
@@ -39,7 +39,7 @@ fn signals_end_it_while_a_scene_is_read() {
 }
 
 #[test]
-fn a_scene_that_cannot_be_read_ends_it_with_its_code() {
+fn an_unreadable_scene_ends_the_program_with_its_exit_code() {
     let place = Place::new();
     fs::write(place.at("latin.ray"), b"// caf\xe9\n").expect("written");
     for (name, code, words) in [
@@ -59,7 +59,7 @@ fn a_scene_that_cannot_be_read_ends_it_with_its_code() {
             session.text()
         );
         assert_eq!(status.exit_code(), code, "{name}");
-        // Reading may have taken so long that there was a screen.
+        // Reading may have taken so long that the screen was entered.
         let is_entered = last(ENTER_SCREEN, &session.written).is_some();
         assert!(!is_entered || name == "latin.ray", "{name}");
         session.assert_restored();

@@ -1,9 +1,9 @@
-//! Folders on the way to the file: they come, go and are replaced.
+//! Folders on the path to the file appear, disappear and are replaced.
 
 use super::*;
 
 #[test]
-fn a_directory_that_goes_and_comes_back_is_watched_again() {
+fn a_directory_that_is_removed_and_recreated_is_watched_again() {
     let before = [Directory("d"), Save("d/s.ray", "old")];
     let mut watched = Watched::new("d/s.ray", Method::Native, &before);
     watched.expect(
@@ -18,7 +18,7 @@ fn a_directory_that_goes_and_comes_back_is_watched_again() {
     watched.expect(&[Save("d/s.ray", "newest")], "newest");
 }
 
-/// A file two folders down, both there.
+/// A file two existing folders down.
 const DEEP: [Step; 3] = [
     Directory("m"),
     Directory("m/deep"),
@@ -26,7 +26,7 @@ const DEEP: [Step; 3] = [
 ];
 
 #[test]
-fn folders_that_are_missing_are_waited_for() {
+fn missing_folders_are_watched_once_they_appear() {
     let mut watched = Watched::new("m/deep/s.ray", Method::Native, &[]);
     watched.expect(
         &[
@@ -39,9 +39,9 @@ fn folders_that_are_missing_are_waited_for() {
     watched.expect(&[Save("m/deep/s.ray", "newer")], "newer");
 }
 
-/// Made faster than they can be watched one by one.
+/// Created faster than they can be watched one by one.
 #[test]
-fn folders_that_come_all_at_once_are_watched() {
+fn folders_that_appear_all_at_once_are_watched() {
     for _ in 0..50 {
         let mut watched = Watched::new("m/deep/er/s.ray", Method::Native, &[]);
         for step in [
@@ -75,7 +75,7 @@ fn folders_that_are_removed_and_created_again_are_watched_again() {
 }
 
 #[test]
-fn folders_that_are_moved_away_are_missed_and_waited_for() {
+fn folders_may_be_moved_away_and_back() {
     let mut watched = Watched::new("m/deep/s.ray", Method::Native, &DEEP);
     watched.take(Rename("m", "x"));
     watched.expect_none();
@@ -93,9 +93,9 @@ fn folders_that_are_moved_away_are_missed_and_waited_for() {
     );
 }
 
-/// Notices are picked by last names.
+/// Notices are filtered by the last component of their paths.
 #[test]
-fn a_folder_is_watched_again_whatever_else_has_its_name() {
+fn a_folder_is_watched_again_even_if_a_file_has_the_same_name() {
     let directory = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).expect("a directory");
     let at = directory.path();
     for step in [Directory("a"), Directory("b"), Directory("b/s")] {

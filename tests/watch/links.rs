@@ -1,4 +1,4 @@
-//! Links to the file, and on the way to it.
+//! Links to the file and on the path to it.
 
 use super::*;
 use Step::Link;
@@ -12,7 +12,7 @@ const LINKED: [Step; 5] = [
 ];
 
 #[test]
-fn what_a_link_leads_to_is_watched() {
+fn the_target_of_a_link_is_watched() {
     let cases: [(&[Step], &str); 5] = [
         (&[Save("e/real.ray", "at the target")], "at the target"),
         (&[Save("s.ray", "through the link")], "through the link"),
@@ -39,7 +39,7 @@ fn what_a_link_leads_to_is_watched() {
 }
 
 #[test]
-fn a_new_target_is_watched_and_a_dangling_link_waited_for() {
+fn the_new_target_of_a_link_is_watched_even_before_it_exists() {
     let mut watched = Watched::new("s.ray", Method::Native, &[Save("s.ray", "old")]);
     watched.expect(
         &[

@@ -1,5 +1,5 @@
-//! Saves as editors make them, step by step: a reader that looks at the file when notified, and only
-//! then, ends with its final content.
+//! Saves of common editors, step by step: a reader that reads the file only when notified must end
+//! up with its final content.
 
 mod folders;
 #[cfg(unix)]
@@ -14,26 +14,26 @@ use std::time::{Duration, SystemTime};
 use halflight::watch::{Method, Watcher};
 use tempfile::TempDir;
 
-/// How long a notice that must come is waited for.
+/// The timeout for a notice that must arrive.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// How long no notice means that none is under way. If a machine is slower, a test sees less; it
-/// does not fail.
+/// The time without a notice after which none is expected. On a slower machine a test checks less
+/// but does not fail.
 const QUIET: Duration = Duration::from_millis(40);
 
-/// More notices than any case here has reason for.
+/// More notices than any case should cause.
 const MANY: usize = 400;
 
 const POLL: Method = Method::Poll(Duration::from_millis(10));
 
-/// One thing an editor does to files, named within the test's directory.
+/// An operation of an editor on files of the test's directory.
 #[derive(Clone, Copy, Debug)]
 enum Step {
-    /// Opens a file, made or emptied, and holds it.
+    /// Creates or truncates a file and keeps it open.
     Open(&'static str),
-    /// Writes more to the held file.
+    /// Appends to the open file.
     Put(&'static str),
-    /// Syncs and closes the held file.
+    /// Syncs and closes the open file.
     Close,
     /// Opens, writes and closes a file.
     Save(&'static str, &'static str),
@@ -42,14 +42,14 @@ enum Step {
     Duplicate(&'static str, &'static str),
     Directory(&'static str),
     RemoveDirectory(&'static str),
-    /// Makes a symbolic link: its target, its name.
+    /// Creates a symbolic link: its target, its name.
     #[cfg(unix)]
     Link(&'static str, &'static str),
 }
 
 use Step::{Close, Directory, Duplicate, Open, Put, Remove, RemoveDirectory, Rename, Save};
 
-/// A watched file `s.ray` in a directory of its own, and a reader that looks when notified.
+/// A watched file in a directory of its own, and a reader that looks when notified.
 struct Watched {
     directory: TempDir,
     path: PathBuf,
@@ -63,14 +63,14 @@ struct Watched {
 impl Watched {
     /// Takes `steps`, then watches `name`.
     fn new(name: &str, method: Method, steps: &[Step]) -> Self {
-        // Not below the directory for temporary files, where some editors save in another way.
+        // Not in the system's temporary directory, where some editors save differently.
         let directory = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).expect("a directory");
         for &step in steps {
             take(directory.path(), &mut None, step);
         }
         let path = directory.path().join(name);
         let (sender, notices) = mpsc::channel();
-        // The receiver may go first when the test ends.
+        // The receiver may be dropped first when the test ends.
         let notify = move || {
             let _ = sender.send(());
         };
@@ -92,19 +92,19 @@ impl Watched {
 
     fn look(&mut self) {
         self.count += 1;
-        assert!(self.count < MANY, "notices do not end");
+        assert!(self.count < MANY, "endless notices");
         self.seen = fs::read_to_string(&self.path).ok();
     }
 
-    /// Looks at every notice until none has come for a while.
+    /// Handles every notice until none has arrived for a while.
     fn settle(&mut self) {
         while self.notices.recv_timeout(QUIET).is_ok() {
             self.look();
         }
     }
 
-    /// Takes steps, settling between them, so that each has to be noticed by itself; then looks at
-    /// every notice until the reader has seen `content`.
+    /// Takes steps, settling after each, so that each must be noticed separately; then handles
+    /// notices until the reader has seen `content`.
     fn expect(&mut self, steps: &[Step], content: &str) {
         for &step in steps {
             self.take(step);
@@ -113,7 +113,7 @@ impl Watched {
         self.wait(Some(content), steps);
     }
 
-    /// Looks at every notice until the file is gone.
+    /// Handles notices until the file is gone.
     fn expect_none(&mut self) {
         self.wait(None, &[]);
     }
@@ -148,7 +148,7 @@ fn take(directory: &Path, held: &mut Option<File>, step: Step) {
     done.unwrap_or_else(|error| panic!("{step:?}: {error}"));
 }
 
-/// Saves of `s.ray` that make its content `new`.
+/// Ways to save `new` to `s.ray`.
 const SAVES: &[&[Step]] = &[
     // vim, backupcopy=no
     &[
@@ -193,12 +193,12 @@ const SAVES: &[&[Step]] = &[
     &[Save("other", "new"), Rename("other", "s.ray")],
     // cp
     &[Save("other", "new"), Duplicate("other", "s.ray")],
-    // deleted and made again
+    // deleted and created again
     &[Remove("s.ray"), Save("s.ray", "new")],
 ];
 
 #[test]
-fn every_editors_save_is_noticed_again_and_again() {
+fn repeated_saves_of_every_editor_are_noticed() {
     for steps in SAVES {
         let mut watched = Watched::new("s.ray", Method::Native, &[Save("s.ray", "old")]);
         watched.expect(steps, "new");
@@ -208,7 +208,7 @@ fn every_editors_save_is_noticed_again_and_again() {
 }
 
 #[test]
-fn polling_notices_every_editors_save() {
+fn polling_notices_the_saves_of_every_editor() {
     for steps in SAVES {
         let mut watched = Watched::new("s.ray", POLL, &[Save("s.ray", "old")]);
         watched.expect(steps, "new");
@@ -217,14 +217,14 @@ fn polling_notices_every_editors_save() {
 }
 
 #[test]
-fn a_file_that_is_not_there_yet_is_noticed_when_it_comes() {
+fn the_creation_of_a_missing_file_is_noticed() {
     for method in [Method::Native, POLL] {
         let mut watched = Watched::new("s.ray", method, &[]);
         watched.expect(&[Save("s.ray", "new")], "new");
     }
 }
 
-/// Watches files of a directory; reports each notice.
+/// Watches files of a directory; the receiver gets each notice.
 fn watch(directory: &Path, names: &[&str], method: Method) -> (Watcher, Receiver<()>) {
     let paths: Vec<_> = names.iter().map(|name| directory.join(name)).collect();
     let (sender, notices) = mpsc::channel();
@@ -241,7 +241,7 @@ fn each_of_several_files_is_noticed() {
         let directory = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).expect("a directory");
         let at = directory.path();
         take(at, &mut None, Directory("d"));
-        // The directory of the last one is yet to come.
+        // The directory of the last one does not exist yet.
         let (_watcher, notices) = watch(at, &["a", "d/b", "e/c"], method);
         for step in [
             Save("a", "1"),
@@ -287,13 +287,13 @@ fn other_files_are_not_noticed() {
 }
 
 #[test]
-fn looking_at_the_file_is_not_noticed() {
+fn reading_the_file_is_not_noticed() {
     let mut watched = Watched::new("s.ray", Method::Native, &[]);
     for content in ["1", "2", "3", "4", "5", "6", "7", "8", "9", "10"] {
         watched.expect(&[Save("s.ray", content)], content);
     }
     watched.settle();
-    // Made or emptied, written, closed: a save is three notices, rarely four.
+    // Created or truncated, written, closed: a save causes three notices, rarely four.
     assert!(watched.count <= 40, "{} notices", watched.count);
     for _ in 0..100 {
         fs::read_to_string(&watched.path).expect("there");
@@ -304,18 +304,18 @@ fn looking_at_the_file_is_not_noticed() {
 }
 
 #[test]
-fn polling_notices_saves_within_a_second_and_dates_that_go_back() {
+fn polling_notices_saves_within_a_second_and_backdated_files() {
     let mut watched = Watched::new("s.ray", POLL, &[Save("s.ray", "0")]);
     for content in ["1", "2", "3"] {
         watched.expect(&[Save("s.ray", content)], content);
     }
-    let old = directory_file_with_date(&watched, "4");
+    let old = file_from_1970(&watched, "4");
     fs::rename(old, &watched.path).expect("renamed");
     watched.expect(&[], "4");
 }
 
-/// A file with a date from 1970.
-fn directory_file_with_date(watched: &Watched, content: &str) -> PathBuf {
+/// Creates a file with a modification time in 1970.
+fn file_from_1970(watched: &Watched, content: &str) -> PathBuf {
     let path = watched.directory.path().join("other");
     fs::write(&path, content).expect("written");
     let file = File::options().write(true).open(&path).expect("opened");

@@ -1,7 +1,7 @@
-//! Fuzzes with nothing but a stable toolchain: mutates what is in the corpora, blindly, on all cores,
-//! and keeps every input that breaks a promise or takes long.
+//! Fuzzes with a stable toolchain: mutates the corpora, without coverage, on all cores, and saves
+//! every input that breaks an invariant or takes long.
 //!
-//! `drive --seconds N --corpus DIR --out DIR [TARGET…]`; prints how many inputs each target took.
+//! `drive --seconds N --corpus DIR --out DIR [TARGET…]`; prints the number of runs of each target.
 
 use std::collections::HashMap;
 use std::fs;
@@ -17,13 +17,13 @@ use std::time::{Duration, Instant};
 
 use halflight_fuzz::{TARGETS, Target};
 
-/// An input that takes longer is a finding.
+/// Inputs that take longer are findings.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// The longest input.
+/// The maximum length of an input, in bytes.
 const LONGEST: usize = 8192;
 
-/// Words of the languages, which chance would not come upon.
+/// Words of the languages, which random mutations would not produce.
 const WORDS: [&[u8]; 40] = [
     b"sphere",
     b"box",
@@ -67,14 +67,14 @@ const WORDS: [&[u8]; 40] = [
     b"99999999999999999999",
 ];
 
-/// A target at work.
+/// A target with its seeds.
 struct Work {
     name: &'static str,
     target: Target,
     seeds: Vec<Vec<u8>>,
 }
 
-/// What is under way on one thread: since when, and which input.
+/// The current work of one thread: start time, target and input.
 type Current = Mutex<Option<(Instant, &'static str, Vec<u8>)>>;
 
 fn main() -> ExitCode {
@@ -89,9 +89,9 @@ fn main() -> ExitCode {
             None => names.push(argument),
         }
     }
-    let option = |name: &str, otherwise: &str| {
-        let said = options.get(name);
-        said.map_or_else(|| otherwise.to_owned(), String::clone)
+    let option = |name: &str, default: &str| {
+        let given = options.get(name);
+        given.map_or_else(|| default.to_owned(), String::clone)
     };
     let Ok(seconds) = option("seconds", "60").parse() else {
         eprintln!("usage: drive [--seconds N] [--corpus DIR] [--out DIR] [TARGET...]");
@@ -128,7 +128,7 @@ fn seeds(folder: &Path) -> Vec<Vec<u8>> {
         .collect()
 }
 
-/// Runs the targets on all cores for a time; how many different findings there were.
+/// Runs the targets on all cores for a time. Returns the number of distinct findings.
 fn fuzz(works: &[Work], time: Duration, out: &Path) -> usize {
     let cores = thread::available_parallelism().map_or(1, NonZero::get);
     let threads = cores.max(works.len());
@@ -163,7 +163,7 @@ fn fuzz(works: &[Work], time: Duration, out: &Path) -> usize {
             *counts.entry(name).or_default() += count;
         }
         is_over.store(true, Ordering::Relaxed);
-        watchdog.join().expect("it only looks");
+        watchdog.join().expect("no panic in it");
         counts
     });
     for work in works {
@@ -172,7 +172,7 @@ fn fuzz(works: &[Work], time: Duration, out: &Path) -> usize {
     fs::read_dir(out).map_or(0, Iterator::count)
 }
 
-/// Runs one target until the time is over; how often.
+/// Runs one target until the time is over. Returns the number of runs.
 fn drive(
     work: &Work,
     thread: usize,
@@ -228,7 +228,7 @@ fn mutate(input: &mut Vec<u8>, seeds: &[Vec<u8>], random: &mut Random) {
     }
 }
 
-/// Keeps an input that is a finding, once.
+/// Saves an input that is a finding, under a name derived from its hash.
 fn keep(out: &Path, name: &str, kind: &str, input: &[u8]) {
     let mut hasher = DefaultHasher::new();
     input.hash(&mut hasher);

@@ -1,15 +1,15 @@
-//! What trees are like.
+//! Tests of built trees.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::super::build::LEVELS;
 use super::super::node::{Bounds, Child, WIDTH};
-use super::super::split::{Extent, Patience, Reference, by_count};
+use super::super::split::{CancelCheck, Extent, Reference, by_count};
 use super::*;
 
-/// Checks a node and all below it: children's boxes lie in `outer` and around what they hold.
-/// Returns the number of levels.
-fn check_node(bvh: &Bvh, boxes: &[Aabb], number: u32, outer: &Bounds, held: &mut [u32]) -> usize {
+/// Checks a subtree: children's boxes lie in `outer` and contain their own boxes. Returns the
+/// number of levels.
+fn check_node(bvh: &Bvh, boxes: &[Aabb], number: u32, outer: &Bounds, counts: &mut [u32]) -> usize {
     let node = &bvh.nodes[number as usize];
     let mut levels = 0;
     for lane in 0..WIDTH {
@@ -20,11 +20,11 @@ fn check_node(bvh: &Bvh, boxes: &[Aabb], number: u32, outer: &Bounds, held: &mut
         assert_eq!(outer.union(&bounds), *outer, "a child leaves its parent");
         match child {
             Child::Inner(child) => {
-                levels = levels.max(check_node(bvh, boxes, child, &bounds, held));
+                levels = levels.max(check_node(bvh, boxes, child, &bounds, counts));
             }
             Child::Leaf { first, count } => {
                 for &index in &bvh.order[first as usize..][..usize::from(count)] {
-                    held[index as usize] += 1;
+                    counts[index as usize] += 1;
                     let own = boxes[index as usize];
                     for axis in 0..3 {
                         let low = f64::from(bounds.low[axis]);
@@ -41,13 +41,13 @@ fn check_node(bvh: &Bvh, boxes: &[Aabb], number: u32, outer: &Bounds, held: &mut
 
 /// Checks the whole tree and returns its number of levels.
 fn check_tree(bvh: &Bvh, boxes: &[Aabb]) -> usize {
-    let mut held = vec![0; boxes.len()];
+    let mut counts = vec![0; boxes.len()];
     let everything = Bounds {
         low: [f32::NEG_INFINITY; 4],
         high: [f32::INFINITY; 4],
     };
-    let levels = check_node(bvh, boxes, 0, &everything, &mut held);
-    assert!(held.iter().all(|&count| count == 1), "each box once");
+    let levels = check_node(bvh, boxes, 0, &everything, &mut counts);
+    assert!(counts.iter().all(|&count| count == 1), "each box once");
     assert!(levels <= LEVELS);
     levels
 }
@@ -65,7 +65,7 @@ fn trees_are_sound() {
     }
 }
 
-/// Each box a tenth of the one before, all sharing a corner: the heuristic peels off a few at a time.
+/// Boxes of geometrically decreasing size: the heuristic splits off a few at a time.
 #[test]
 fn a_tree_of_nested_boxes_stays_within_its_depth() {
     let boxes: Vec<_> = (0..30_000)
@@ -89,7 +89,7 @@ fn division_by_count_halves_along_the_widest_axis() {
             index,
         })
         .collect();
-    let extent = Extent::of(&references, &Patience(&|| false)).expect("nobody cancels");
+    let extent = Extent::of(&references, &CancelCheck(&|| false)).expect("never cancelled");
     assert_eq!(by_count(&mut references, &extent), 500);
     let heights = references
         .iter()
@@ -130,7 +130,7 @@ fn a_tree_follows_boxes_that_move() {
         let moved = random.bits() as u32 % 20_000;
         boxes[moved as usize] = cube(3.0 * random.point(), random.point().abs());
         let refitted = bvh.refitted(&[moved], |index| boxes[index as usize]);
-        bvh = refitted.unwrap_or_else(|| panic!("box {turn} is among many"));
+        bvh = refitted.unwrap_or_else(|| panic!("box {turn} is not refitted"));
         check_tree(&bvh, &boxes);
     }
     assert!(bvh.refitted(&[1], |index| boxes[index as usize]).is_none());
@@ -145,24 +145,27 @@ fn a_tree_follows_boxes_that_move() {
 }
 
 #[test]
-fn a_build_asks_often_and_stops_when_told() {
+fn a_build_checks_often_and_stops_when_cancelled() {
     let boxes = random_boxes(&mut Random(6), 100_000, 1.0, DVec3::ZERO);
-    let asked = AtomicUsize::new(0);
+    let calls = AtomicUsize::new(0);
     assert!(Bvh::build(&boxes, || true).is_none());
     let whole = Bvh::build(&boxes, || {
-        asked.fetch_add(1, Ordering::Relaxed);
+        calls.fetch_add(1, Ordering::Relaxed);
         false
     });
     assert!(whole.is_some());
-    // Each of five binary levels at the least touches every chunk of 8192 boxes.
-    let asked = asked.into_inner();
-    assert!(5 * 12 < asked, "asked {asked} times");
-    for patience in [1, 10, asked / 2, asked - 1] {
-        let left = AtomicUsize::new(patience);
+    // At least five binary levels process every chunk of 8192 boxes.
+    let calls = calls.into_inner();
+    assert!(5 * 12 < calls, "{calls} calls");
+    for checks in [1, 10, calls / 2, calls - 1] {
+        let left = AtomicUsize::new(checks);
         let cancelled = || {
             left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |n| n.checked_sub(1))
                 .is_err()
         };
-        assert!(Bvh::build(&boxes, cancelled).is_none(), "after {patience}");
+        assert!(
+            Bvh::build(&boxes, cancelled).is_none(),
+            "after {checks} checks"
+        );
     }
 }

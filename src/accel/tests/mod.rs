@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::Bvh;
 use crate::geometry::Aabb;
 
-/// The generator of Steele, Lea and Flood (2014): repeatable numbers without a dependency.
+/// `SplitMix64` (Steele, Lea and Flood, 2014): reproducible numbers without a dependency.
 struct Random(u64);
 
 impl Random {
@@ -17,7 +17,7 @@ impl Random {
         x ^ (x >> 31)
     }
 
-    /// In −1..1.
+    /// A number in −1..1.
     fn signed(&mut self) -> f64 {
         (self.bits() >> 11) as f64 * 2f64.powi(-52) - 1.0
     }
@@ -32,7 +32,7 @@ impl Random {
 }
 
 fn build(boxes: &[Aabb]) -> Bvh {
-    Bvh::build(boxes, || false).expect("nobody cancels")
+    Bvh::build(boxes, || false).expect("never cancelled")
 }
 
 fn cube(centre: DVec3, half: DVec3) -> Aabb {
@@ -54,7 +54,7 @@ fn random_boxes(random: &mut Random, count: usize, scale: f64, around: DVec3) ->
     boxes.collect()
 }
 
-/// Bytes on the heap.
+/// The heap memory of a tree, in bytes.
 fn memory(bvh: &Bvh) -> usize {
     size_of_val(bvh.nodes.as_slice()) + size_of_val(bvh.order.as_slice())
 }

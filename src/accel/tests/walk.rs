@@ -1,12 +1,12 @@
-//! What rays visit.
+//! Tests of the boxes that rays visit.
 
 use super::super::node::{Bounds, Child, Node};
 use super::*;
 use crate::geometry::lanes::{Eight, Level, SimdBase, dispatch};
 use crate::geometry::{Ray, Rays};
 
-/// A ray aimed at a point of a box: its centre, a corner, a place in an edge or a face, from inside
-/// or outside, often along an axis.
+/// A ray aimed at a point of a box: the centre, a corner, or the middle of an edge or a face, from
+/// inside or outside, often along an axis.
 fn ray_at(random: &mut Random, target: Aabb, scale: f64) -> Ray {
     let weight = DVec3::from_array([0; 3].map(|_: i32| random.pick(&[0.0, 0.5, 1.0])));
     let aim = target.min * (DVec3::ONE - weight) + target.max * weight;
@@ -22,8 +22,8 @@ fn ray_at(random: &mut Random, target: Aabb, scale: f64) -> Ray {
     }
 }
 
-/// Where a ray is in a box, at distances not below 0. A box that contains the coordinate of a
-/// parallel ray does not bound it.
+/// The interval of a ray inside a box, at distances not below 0. A slab that contains a parallel
+/// ray does not bound it.
 fn span(aabb: &Aabb, ray: &Ray) -> [f64; 2] {
     let (mut enter, mut exit) = (0.0, f64::INFINITY);
     for axis in 0..3 {
@@ -42,11 +42,11 @@ fn span(aabb: &Aabb, ray: &Ray) -> [f64; 2] {
     [enter, exit]
 }
 
-/// Walks with the vectors of the machine; `visit` is told indices.
+/// Traverses with the machine's SIMD level; `visit` gets indices of boxes.
 fn walk(bvh: &Bvh, ray: &Ray, limit: f64, mut visit: impl FnMut(u32) -> f64) {
-    dispatch!(Level::new(), simd => bvh.traverse(simd, ray, limit, |places| {
+    dispatch!(Level::new(), simd => bvh.traverse(simd, ray, limit, |range| {
         let mut limit = limit;
-        for &index in &bvh.order()[places] {
+        for &index in &bvh.order()[range] {
             limit = visit(index);
         }
         limit
@@ -55,8 +55,8 @@ fn walk(bvh: &Bvh, ray: &Ray, limit: f64, mut visit: impl FnMut(u32) -> f64) {
 
 fn visits_at(level: Level, bvh: &Bvh, ray: &Ray, limit: f64) -> Vec<u32> {
     let mut seen = Vec::new();
-    dispatch!(level, simd => bvh.traverse(simd, ray, limit, |places| {
-        seen.extend_from_slice(&bvh.order()[places]);
+    dispatch!(level, simd => bvh.traverse(simd, ray, limit, |range| {
+        seen.extend_from_slice(&bvh.order()[range]);
         limit
     }));
     seen.sort_unstable();
@@ -67,17 +67,17 @@ fn visits(bvh: &Bvh, ray: &Ray, limit: f64) -> Vec<u32> {
     visits_at(Level::new(), bvh, ray, limit)
 }
 
-/// What each of some rays visits that walk side by side, in no order.
+/// The boxes that each ray of a packet visits, unordered.
 fn visits_together(bvh: &Bvh, rays: &[Ray], limit: f64) -> Vec<Vec<u32>> {
     let mut seen = vec![Vec::new(); rays.len()];
     let all = (1 << rays.len()) - 1;
     dispatch!(Level::new(), simd => {
         let packet = Rays::gather(simd, rays);
         let limits = Eight::splat(simd, limit);
-        bvh.traverse_packet(&packet, all, limits, |places, lanes, limits| {
+        bvh.traverse_packet(&packet, all, limits, |range, lanes, limits| {
             for (lane, seen) in seen.iter_mut().enumerate() {
                 if lanes >> lane & 1 == 1 {
-                    seen.extend_from_slice(&bvh.order()[places.clone()]);
+                    seen.extend_from_slice(&bvh.order()[range.clone()]);
                 }
             }
             limits
@@ -87,7 +87,7 @@ fn visits_together(bvh: &Bvh, rays: &[Ray], limit: f64) -> Vec<Vec<u32>> {
 }
 
 #[test]
-fn every_box_that_is_met_is_visited() {
+fn every_box_that_is_hit_is_visited() {
     let mut random = Random(1);
     for scale in [1e-6, 1.0, 1e6] {
         for around in [DVec3::ZERO, DVec3::new(1e6, -3e5, 7.0) * scale] {
@@ -109,7 +109,7 @@ fn every_box_that_is_met_is_visited() {
     }
 }
 
-/// A tree of one box, which is but a point: rounding outward does not help.
+/// A tree of one box, a single point, not rounded outward.
 fn of_point(point: DVec3, spread: f64) -> Bvh {
     let [x, y, z] = point.as_vec3().to_array();
     let planes = [x, y, z, 0.0];
@@ -130,15 +130,15 @@ fn of_point(point: DVec3, spread: f64) -> Bvh {
     }
 }
 
-/// In integers, and so exactly, rays go through a point of single precision at their limits, which
-/// are halves.
+/// Rays with integer coordinates, hence exact, pass through a point of single precision at their
+/// limits, which are multiples of a half.
 #[test]
-fn rounding_hides_nothing_from_a_ray() {
+fn rounding_hides_no_box_from_a_ray() {
     let mut random = Random(24);
     let integer =
         |random: &mut Random, bits: u32| (random.signed() * 2f64.powi(bits as i32)).trunc();
     for round in 0..20_000 {
-        // Down to the least numbers there are.
+        // Down to subnormal numbers of `f32`.
         let scale = random.pick(&[1.0, 2f64.powi(-149)]);
         let point = DVec3::from_array([0; 3].map(|_: i32| integer(&mut random, 24)));
         let limit = 0.5 * integer(&mut random, 24).abs();
@@ -153,7 +153,7 @@ fn rounding_hides_nothing_from_a_ray() {
                 }
             })
             .collect();
-        // Rays are followed to the reference point, or not.
+        // With or without advancing rays to the reference point.
         let spread = random.pick(&[0.0, f64::INFINITY]);
         let bvh = of_point(scale * point, spread);
         let limit = scale * limit;
@@ -166,9 +166,9 @@ fn rounding_hides_nothing_from_a_ray() {
     }
 }
 
-/// Rays from a sky to what is small beneath it meet no more boxes than rays from nearby.
+/// Rays from a far sky toward small objects visit hardly more boxes than rays from nearby.
 #[test]
-fn a_sky_far_away_takes_no_precision() {
+fn rays_from_a_far_sky_keep_their_precision() {
     let mut random = Random(25);
     let mut boxes: Vec<_> = (0..2000)
         .map(|_| cube(4.0 * random.point(), DVec3::splat(0.05)))
@@ -190,8 +190,8 @@ fn a_sky_far_away_takes_no_precision() {
     }
 }
 
-/// Where single precision ends: directions that are almost along an axis, or as long as those in a
-/// mesh of any size, from near and far, at boxes of any size.
+/// At the limits of single precision: directions almost along an axis, or as long as those in the
+/// space of a mesh of any size, from near and far, toward boxes of any size.
 #[test]
 fn no_size_hides_a_box() {
     let mut random = Random(23);
@@ -199,7 +199,7 @@ fn no_size_hides_a_box() {
         let exponent = random.bits() as i32 % (most + 1);
         2f64.powi(exponent)
     };
-    let (mut met, mut boxes) = (0, Vec::new());
+    let (mut hits, mut boxes) = (0, Vec::new());
     for round in 0..4000 {
         if round % 20 == 0 {
             let scale = power(&mut random, 150);
@@ -227,19 +227,19 @@ fn no_size_hides_a_box() {
             for (index, aabb) in (0..).zip(&boxes) {
                 let [enter, exit] = span(aabb, ray);
                 if enter <= exit {
-                    met += 1;
+                    hits += 1;
                     assert!(alone.contains(&index), "{ray:?} misses {aabb:?}");
                     assert!(together.contains(&index), "{ray:?} misses {aabb:?}");
                 }
             }
         }
     }
-    assert!(4000 < met, "rays meet something: {met}");
+    assert!(4000 < hits, "rays hit boxes: {hits}");
 }
 
-/// Rays side by side, as different as they may be, visit no less than each alone must.
+/// The rays of a packet, however different, visit every box that each of them hits.
 #[test]
-fn every_box_that_is_met_is_visited_side_by_side() {
+fn every_box_that_is_hit_is_visited_by_a_packet() {
     let mut random = Random(21);
     for scale in [1e-6, 1.0, 1e6] {
         let boxes = random_boxes(&mut random, 300, scale, DVec3::new(1e6, -3e5, 7.0) * scale);
@@ -263,10 +263,9 @@ fn every_box_that_is_met_is_visited_side_by_side() {
     }
 }
 
-/// The vectors that every machine of its kind has and those that this one has besides make the same
-/// visits.
+/// The baseline SIMD level and this machine's own give the same visits.
 #[test]
-fn visits_are_the_same_with_any_vectors() {
+fn visits_do_not_depend_on_the_simd_level() {
     let mut random = Random(22);
     let boxes = random_boxes(&mut random, 1000, 1.0, DVec3::ZERO);
     let bvh = build(&boxes);
@@ -280,9 +279,9 @@ fn visits_are_the_same_with_any_vectors() {
     }
 }
 
-/// A ray aimed along an axis in integers meets a box exactly, whatever its coordinates.
+/// A ray along an axis with integer coordinates hits a box exactly, wherever the box is.
 #[test]
-fn a_ray_in_a_face_edge_or_corner_meets_the_box() {
+fn a_ray_through_a_face_edge_or_corner_hits_the_box() {
     for offset in [0.0, 3.0, 1e9, -1e15] {
         let target = cube(DVec3::splat(offset), DVec3::new(1.0, 2.0, 0.0));
         let bvh = build(&[target, cube(DVec3::splat(offset + 5.0), DVec3::ONE)]);
@@ -297,9 +296,9 @@ fn a_ray_in_a_face_edge_or_corner_meets_the_box() {
 }
 
 #[test]
-fn nothing_far_beyond_the_limit_is_visited_and_all_up_to_it_is() {
-    // Boxes of one unit at x = 0, 10, 20 …: their leaves' boxes are known to the f32 rounding only
-    // if they are leaves of one box, as in a tree of up to eight.
+fn boxes_up_to_the_limit_are_visited_and_none_far_beyond_it() {
+    // Boxes at x = 0, 10, 20 …: their bounds are exact up to `f32` rounding only in leaves of one
+    // box, as in a tree of up to eight.
     let boxes: Vec<_> = (0..8)
         .map(|i| cube(10.0 * f64::from(i) * DVec3::X, DVec3::ONE))
         .collect();
@@ -321,7 +320,7 @@ fn nothing_far_beyond_the_limit_is_visited_and_all_up_to_it_is() {
     assert!(visits(&bvh, &ray, -1.0).is_empty());
 }
 
-/// Distance at which a ray meets the largest sphere in a box.
+/// The distance at which a ray hits the inscribed sphere of a cube.
 fn sphere(aabb: &Aabb, ray: &Ray) -> f64 {
     let (from, radius) = (ray.origin - aabb.centre(), 0.5 * aabb.size().x);
     let toward = -from.dot(ray.direction);
@@ -341,7 +340,7 @@ fn a_shrinking_limit_finds_the_nearest_sphere() {
         .map(|_| cube(random.point(), DVec3::splat(0.05 * random.signed().abs())))
         .collect();
     let bvh = build(&boxes);
-    let (mut met, mut visited) = (0, 0);
+    let (mut hits, mut visited) = (0, 0);
     for _ in 0..2000 {
         let ray = Ray {
             origin: 2.0 * random.point(),
@@ -358,14 +357,14 @@ fn a_shrinking_limit_finds_the_nearest_sphere() {
             .map(|aabb| sphere(aabb, &ray))
             .fold(f64::INFINITY, f64::min);
         assert_eq!(nearest.to_bits(), expected.to_bits());
-        met += usize::from(nearest < f64::INFINITY);
+        hits += usize::from(nearest < f64::INFINITY);
     }
-    assert!(200 < met, "rays meet something");
+    assert!(200 < hits, "rays hit spheres");
     assert!(visited < 2000 * 20, "most boxes are culled");
 }
 
 #[test]
-fn a_negative_limit_ends_the_walk() {
+fn a_negative_limit_ends_the_traversal() {
     let boxes = vec![cube(DVec3::ZERO, DVec3::ONE); 100];
     let ray = Ray {
         origin: DVec3::ZERO,
@@ -381,7 +380,7 @@ fn a_negative_limit_ends_the_walk() {
 }
 
 #[test]
-fn a_power_of_two_scales_the_visits_away() {
+fn scaling_by_a_power_of_two_keeps_the_visits() {
     let mut random = Random(5);
     let boxes = random_boxes(&mut random, 500, 1.0, DVec3::ONE);
     let rays: Vec<_> = (0..300)
@@ -411,7 +410,7 @@ fn a_power_of_two_scales_the_visits_away() {
 }
 
 #[test]
-fn odd_boxes_do_no_harm() {
+fn degenerate_boxes_and_rays_are_handled() {
     let ray = Ray {
         origin: DVec3::splat(-4.0),
         direction: DVec3::ONE.normalize(),
@@ -434,8 +433,8 @@ fn odd_boxes_do_no_harm() {
     };
     let huge = cube(DVec3::ZERO, DVec3::splat(1e300));
     let aside = cube(DVec3::new(9.0, -9.0, 0.0), DVec3::ONE);
-    let met = cube(DVec3::ONE, DVec3::ONE);
-    let bvh = build(&[Aabb::EMPTY, nan, everywhere, half_space, huge, aside, met]);
+    let hit = cube(DVec3::ONE, DVec3::ONE);
+    let bvh = build(&[Aabb::EMPTY, nan, everywhere, half_space, huge, aside, hit]);
     assert_eq!(visits(&bvh, &ray, all), [1, 2, 3, 4, 6]);
     for broken in [DVec3::NAN, DVec3::INFINITY, DVec3::ZERO] {
         let direction = broken;

@@ -5,8 +5,8 @@ use tempfile::TempDir;
 
 use super::*;
 
-/// `own/scenes/x.dat` with files around it, a folder that may be named, and one that is not. Each
-/// file holds its own name.
+/// `own/scenes/x.dat` with files around it, a folder that may be named, and one that never is. Each
+/// file contains its own name.
 struct Layout {
     directory: TempDir,
 }
@@ -62,7 +62,7 @@ impl Layout {
         Gate::new(&self.at("own/scenes/x.dat"), &folders, home.as_deref())
     }
 
-    /// What a name gives, with the folder of everything as `.`.
+    /// The content or the error for a name, with the layout's folder as `.`.
     fn read(&self, gate: &Gate, name: &str) -> Result<String, String> {
         let own = self.at("").display().to_string();
         let read = gate.read(&name.replace("HERE", own.trim_end_matches('/')), &mut 1000);
@@ -79,8 +79,8 @@ impl Layout {
 }
 
 #[test]
-fn names_lead_to_these_files_and_to_no_others() {
-    const ABSOLUTE: Result<&str, &str> = Err("an absolute path is not read");
+fn only_permitted_files_are_read() {
+    const ABSOLUTE: Result<&str, &str> = Err("absolute paths are not allowed");
     const OUTSIDE: Result<&str, &str> = Err("is outside ./own");
     const MISSING: Result<&str, &str> = Err("no such file");
     const BESIDE: Result<&str, &str> = Err("is outside ./own and ./named");
@@ -110,10 +110,10 @@ fn names_lead_to_these_files_and_to_no_others() {
         ("none.png", same(MISSING)),
         ("a.png/none.png", same(MISSING)),
         ("", same(Err("is a folder, not a file"))),
-        // By links that lead into a named folder, and by names that do.
+        // Links and names that lead into a named folder.
         ("named.png", [OUTSIDE, Ok("named/d.png")]),
         ("../../named/d.png", [OUTSIDE, Ok("named/d.png")]),
-        // Elsewhere than first looked: by the whole name, or its last part.
+        // Files found by a further path: by the whole name, or its last component.
         ("d.png", [MISSING, Ok("named/d.png as ./named/d.png")]),
         (
             "deep\\e.png",
@@ -145,14 +145,14 @@ fn names_lead_to_these_files_and_to_no_others() {
             assert_eq!(read.map_err(String::as_str), expected, "{name}");
         }
     }
-    let told = layout
+    let message = layout
         .read(&gates[0], "loop.png")
         .expect_err("it has no end");
-    assert!(told.contains("symbolic links"), "{told}");
+    assert!(message.contains("symbolic links"), "{message}");
 }
 
 #[test]
-fn the_folder_above_counts_only_where_it_holds_scenes() {
+fn the_root_homes_and_public_folders_hold_more_than_scenes() {
     for (folder, is_public, home, expected) in [
         ("/", false, None, false),
         ("/home/u", false, Some("/home/u"), false),
@@ -167,7 +167,7 @@ fn the_folder_above_counts_only_where_it_holds_scenes() {
 }
 
 #[test]
-fn a_home_and_what_everybody_may_write_are_not_read_around_a_scene() {
+fn a_home_or_a_public_folder_above_a_scene_is_not_read() {
     let layout = Layout::new();
     let refused = |home| {
         layout
@@ -189,16 +189,16 @@ fn a_home_and_what_everybody_may_write_are_not_read_around_a_scene() {
         fs::set_permissions(own, Permissions::from_mode(mode)).expect("its owner");
         assert_eq!(refused(None), *expected, "{mode:o}");
     }
-    // A scene's own folder always is.
+    // A scene's own folder is always read.
     let scenes = layout.at("own/scenes");
     fs::set_permissions(scenes, Permissions::from_mode(0o777)).expect("its owner");
     let gate = layout.gate(&[], Some("own/scenes"));
     assert!(layout.read(&gate, "a.png").is_ok());
 }
 
-/// Tests run in the folder of the manifest, which is above that of the scenes.
+/// Tests run in the folder of the manifest, the parent of the scenes' folder.
 #[test]
-fn the_current_folder_is_looked_into_if_it_may_be_read() {
+fn the_current_folder_is_searched_if_it_may_be_read() {
     let here = env::current_dir().expect("a current folder");
     let near = Gate::new(&here.join("scenes/x.dat"), &[], None);
     let content = near
@@ -210,10 +210,10 @@ fn the_current_folder_is_looked_into_if_it_may_be_read() {
     assert!(far.read("src/lib.rs", &mut (1 << 20)).is_err());
 }
 
-/// Somebody puts a link in a folder's place, and the folder back, again and again.
+/// A folder is exchanged with a link again and again.
 #[test]
 #[cfg(target_os = "linux")]
-fn a_folder_that_is_swapped_for_a_link_does_not_lead_out() {
+fn swapping_a_folder_for_a_link_gives_no_access() {
     use rustix::fs::{CWD, RenameFlags, renameat_with};
     use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -1,9 +1,9 @@
-//! Meshes and their libraries.
+//! Reading meshes and their libraries.
 
 use super::*;
 use crate::obj::Model;
 
-/// A triangle with a library beside it.
+/// A triangle with a library in the same folder.
 const TRIANGLE: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
 
 impl Place {
@@ -22,10 +22,10 @@ fn model(loaded: &Loaded, name: &str) -> Arc<Model> {
     }
 }
 
-fn doubts(loaded: &Loaded, name: &str) -> Vec<String> {
+fn warnings(loaded: &Loaded, name: &str) -> Vec<String> {
     let model = model(loaded, name);
-    let doubts = model.warnings.iter().chain(&model.library_warnings);
-    doubts.map(ToString::to_string).collect()
+    let warnings = model.warnings.iter().chain(&model.library_warnings);
+    warnings.map(ToString::to_string).collect()
 }
 
 #[test]
@@ -40,7 +40,7 @@ fn meshes_are_read_with_their_libraries() {
     let mut assets = Assets::new(&[]);
     assert_eq!(assets.places(&wanted), [place.at(name)]);
     let loaded = assets.read(&wanted);
-    assert_eq!(doubts(&loaded, name), [""; 0]);
+    assert_eq!(warnings(&loaded, name), [""; 0]);
     let model = model(&loaded, name);
     let colours: Vec<_> = model
         .materials
@@ -49,13 +49,13 @@ fn meshes_are_read_with_their_libraries() {
         .map(|m| m.diffuse)
         .collect();
     assert_eq!(colours, [[0.0, 1.0, 0.0]]);
-    // Now it is known what else is to be watched.
+    // The library is known now and watched too.
     let library = place.at("meshes/skins/a.mtl");
     assert_eq!(assets.places(&wanted), [place.at(name), library]);
 }
 
 #[test]
-fn a_mesh_that_cannot_be_read_is_told_with_its_reason() {
+fn a_mesh_that_cannot_be_read_is_reported_with_the_reason() {
     let place = Place::new();
     let elsewhere = tempfile::tempdir().expect("a directory");
     let folder = fs::canonicalize(elsewhere.path()).expect("a place");
@@ -67,8 +67,8 @@ fn a_mesh_that_cannot_be_read_is_told_with_its_reason() {
     place.write("empty.obj", "");
     let long = fs::File::create(place.at("long.obj")).expect("made");
     long.set_len(LIMITS.bytes + 1).expect("a hole");
-    let looked_for = format!("it is looked for as {}", place.at("none.obj").display());
-    let leave = format!("--assets {} lets it be read", folder.display());
+    let looked_for = format!("looked for {}", place.at("none.obj").display());
+    let allow = format!("allow it with --assets {}", folder.display());
     let absolute = outside.to_str().expect("a plain path");
     let outside = format!("is outside {}", place.root().display());
     let refused = |name: &str| match Assets::new(&[])
@@ -84,15 +84,15 @@ fn a_mesh_that_cannot_be_read_is_told_with_its_reason() {
         ("folder.obj", &["is a folder, not a file"], None),
         (
             absolute,
-            &["an absolute path is not read"],
-            Some(leave.clone()),
+            &["absolute paths are not allowed"],
+            Some(allow.clone()),
         ),
-        ("link.obj", &[outside.as_str()], Some(leave)),
+        ("link.obj", &[outside.as_str()], Some(allow)),
         (
             "bad.obj",
             &[
                 "line 2, column 7: v: `x` is not a number",
-                "line 4, column 6: f: expected three corners or more, found 2 corners",
+                "line 4, column 6: f: expected at least three corners, found 2",
             ],
             None,
         ),
@@ -103,7 +103,7 @@ fn a_mesh_that_cannot_be_read_is_told_with_its_reason() {
         ),
         (
             "long.obj",
-            &["the scene's files have more than 512 MiB together"],
+            &["the scene's files have more than 512 MiB in total"],
             None,
         ),
     ] {
@@ -115,23 +115,23 @@ fn a_mesh_that_cannot_be_read_is_told_with_its_reason() {
 }
 
 #[test]
-fn a_library_that_cannot_be_read_is_a_doubt() {
+fn a_library_that_cannot_be_read_is_a_warning() {
     let place = Place::new();
     let elsewhere = tempfile::tempdir().expect("a directory");
     let folder = fs::canonicalize(elsewhere.path()).expect("a place");
     fs::write(folder.join("a.mtl"), "newmtl a\n").expect("written");
     let absolute = folder.join("a.mtl").display().to_string();
     place.write("bad.mtl", "newmtl a\nKd x\n");
-    for (library, doubt) in [
+    for (library, warning) in [
         (
             "none.mtl",
-            "line 1, column 8: `none.mtl` can't be read: no such file".to_owned(),
+            "line 1, column 8: cannot read `none.mtl`: no such file".to_owned(),
         ),
         (
             absolute.as_str(),
             format!(
-                "line 1, column 8: `{absolute}` can't be read: an absolute path is not read \
-                 (--assets {} lets it be read)",
+                "line 1, column 8: cannot read `{absolute}`: absolute paths are not allowed \
+                 (allow it with --assets {})",
                 folder.display()
             ),
         ),
@@ -142,13 +142,13 @@ fn a_library_that_cannot_be_read_is_a_doubt() {
     ] {
         place.write("a.obj", TRIANGLE.replace("a.mtl", library));
         let loaded = Assets::new(&[]).read(&place.wanted_meshes(&["a.obj"]));
-        assert_eq!(doubts(&loaded, "a.obj"), [doubt]);
+        assert_eq!(warnings(&loaded, "a.obj"), [warning]);
         assert_eq!(model(&loaded, "a.obj").materials, [None, None]);
     }
 }
 
 #[test]
-fn meshes_that_are_known_are_not_read_anew() {
+fn known_meshes_are_not_parsed_again() {
     let place = Place::new();
     place.write("a.obj", TRIANGLE);
     place.write("b.obj", TRIANGLE);
@@ -163,7 +163,7 @@ fn meshes_that_are_known_are_not_read_anew() {
     let again = assets.read(&wanted);
     assert_eq!(first.meshes, again.meshes);
 
-    // Other materials, the same triangles.
+    // Different materials, the same triangles.
     place.write("a.mtl", "newmtl a\nKd 0 0 1\n");
     let second = assets.read(&wanted);
     assert_ne!(first.meshes, second.meshes);
@@ -172,9 +172,9 @@ fn meshes_that_are_known_are_not_read_anew() {
     let blue = new.materials[1].as_ref().map(|material| material.diffuse);
     assert_eq!(blue, Some([0.0, 0.0, 1.0]));
     fs::remove_file(place.at("a.mtl")).expect("it is there");
-    assert_eq!(doubts(&assets.read(&wanted), "a.obj").len(), 1);
+    assert_eq!(warnings(&assets.read(&wanted), "a.obj").len(), 1);
     place.write("a.mtl", "newmtl a\nKd 0 0 1\n");
-    assert_eq!(doubts(&assets.read(&wanted), "a.obj"), [""; 0]);
+    assert_eq!(warnings(&assets.read(&wanted), "a.obj"), [""; 0]);
 
     place.write("a.obj", TRIANGLE.replace("1 2 3", "1 3 2"));
     let third = assets.read(&wanted);
@@ -183,7 +183,7 @@ fn meshes_that_are_known_are_not_read_anew() {
 }
 
 #[test]
-fn meshes_that_are_too_much_together_are_refused() {
+fn meshes_beyond_the_limits_are_refused() {
     let place = Place::new();
     for (name, scale) in [
         ("a.obj", "1"),
@@ -197,14 +197,14 @@ fn meshes_that_are_too_much_together_are_refused() {
     let mut assets = Assets::new(&[]);
     assets.limits.triangles = 2;
     let loaded = assets.read(&place.wanted_meshes(&["a.obj", "b.obj", "c.obj", "d.obj"]));
-    // The fourth is the first's twin.
+    // The fourth equals the first.
     assert_eq!(loaded.meshes.unreadable(), 1);
     assert!(matches!(loaded.meshes.get("c.obj"), Some(Err(_))));
 }
 
-/// A mesh that was found elsewhere finds its library there too.
+/// The library of a mesh found in a named folder is found there too.
 #[test]
-fn a_mesh_from_a_named_folder_brings_its_library() {
+fn a_mesh_from_a_named_folder_uses_the_library_there() {
     let place = Place::new();
     let elsewhere = tempfile::tempdir().expect("a directory");
     fs::create_dir(elsewhere.path().join("meshes")).expect("a folder");
@@ -219,7 +219,7 @@ fn a_mesh_from_a_named_folder_brings_its_library() {
     ] {
         let mut assets = Assets::new(&[elsewhere.path().to_owned()]);
         let loaded = assets.read(&place.wanted_meshes(&[name]));
-        assert_eq!(doubts(&loaded, name), [""; 0]);
+        assert_eq!(warnings(&loaded, name), [""; 0]);
         let found: Vec<_> = loaded.elsewhere.values().cloned().collect();
         let mut expected = [mesh, library]
             .map(|name| elsewhere.path().join(name))

@@ -47,7 +47,7 @@ fn values_merge_leaf_by_leaf() {
             "1 // uno",
             "1 {// one|// eins|// uno}",
         ),
-        // Three new values, not a leaf less here and a leaf more there.
+        // Three new values, not a deletion and an insertion.
         ("0 1 2 // v", "0 1 9 // v", "1 2 3 // v", "1 2 {2|9|3} // v"),
         ("0\n1\n2", "0\n1\n9", "1\n2\n3", "1\n2\n{2|9|3}"),
     ]);
@@ -70,17 +70,17 @@ fn white_space_merges_with_values() {
 }
 
 #[test]
-fn objects_come_and_go_beside_edits() {
+fn objects_can_be_added_and_removed_beside_edits() {
     let base = "2 // objects\nsphere 0 0 1 5\nbox 4 0 1 5\n";
     check(&[
-        // Appended, with the count that goes with it; one value edited.
+        // An object appended, with its count; one value edited.
         (
             base,
             "2 // objects\nsphere 0 0 1 7\nbox 4 0 1 5\n",
             "3 // objects\nsphere 0 0 1 5\nbox 4 0 1 5\ncone 6 6 1 5\n",
             "3 // objects\nsphere 0 0 1 7\nbox 4 0 1 5\ncone 6 6 1 5\n",
         ),
-        // The same, the edited value being the last before what was appended.
+        // The same, with the edited value directly before the appended object.
         (
             base,
             "2 // objects\nsphere 0 0 1 5\nbox 4 0 1 6\n",
@@ -96,7 +96,7 @@ fn objects_come_and_go_beside_edits() {
             "1 // objects\nbox 4 0 1 5\n",
             "1 // objects\nbox 4 0 1 6\n",
         ),
-        // One removed, and edited by the other side.
+        // One removed and edited by the other side.
         (
             "a 1 2\nb 3 4\nc 5 6\n",
             "a 1 2\nb 3 7\nc 5 6\n",
@@ -111,7 +111,7 @@ fn objects_come_and_go_beside_edits() {
 }
 
 #[test]
-fn an_insertion_in_doubtful_place_covers_all_its_places() {
+fn an_ambiguous_insertion_covers_all_its_possible_places() {
     check(&[
         // Which of the zeros is new?
         ("7 0 0 8", "7 0 5 8", "7 0 0 0 8", "7{ 0 0 | 0 5 | 0 0 0 }8"),
@@ -124,9 +124,9 @@ fn an_insertion_in_doubtful_place_covers_all_its_places() {
 #[test]
 fn leaves_never_run_together() {
     check(&[
-        // Mine takes the line's end away, theirs opens a comment before it.
+        // Mine removes the line break, theirs opens a comment before it.
         ("1\n2", "1 2", "// x\n2", "{1\n|1 |// x\n}2"),
-        // Mine makes a comment a number, theirs takes the space before it away.
+        // Mine replaces a comment by a number, theirs removes the space before it.
         ("1 // c", "1 5", "1// c", "1{ // c| 5|// c}"),
     ]);
 }
@@ -155,7 +155,7 @@ fn decisions_survive_further_edits() {
 }
 
 #[test]
-fn long_texts_with_no_leaf_in_common_merge() {
+fn long_texts_without_a_common_leaf_merge() {
     let numbers = |from: usize| lines((from..from + 60_000).map(|n| n.to_string()));
     let (base, theirs) = (numbers(0), numbers(1_000_000));
     let mine = base.replacen("\n500\n", "\nx\n", 1);
@@ -167,9 +167,9 @@ fn long_texts_with_no_leaf_in_common_merge() {
     assert_eq!(values, [("500", "x", "1000500")]);
 }
 
-/// Only the lines around what changed are chopped, and more of them where that is too little.
+/// Only the lines around the changes are split into leaves, or more of them if those are too few.
 #[test]
-fn changes_far_apart_merge_as_in_a_short_text() {
+fn distant_changes_merge_as_in_a_short_text() {
     let rows = |first: &str, last: &str| {
         let between = (0..2000).map(|at| format!("{at} 0"));
         let first = std::iter::once(first.to_owned());
@@ -177,17 +177,17 @@ fn changes_far_apart_merge_as_in_a_short_text() {
     };
     let base = rows("1 2", "3 4");
     for (mine, theirs, merged) in [
-        // Each at an end.
+        // One change at each end.
         (["1 9", "3 4"], ["1 2", "8 4"], ["1 9", "8 4"]),
         (["1 2", "8 4"], ["1 9", "3 4"], ["1 9", "8 4"]),
-        // Both at both.
+        // Both sides at both ends.
         (["1 9", "8 4"], ["5 2", "3 6"], ["5 9", "8 6"]),
         (["1 2", "3 8"], ["1 9", "3 7"], ["1 9", "3 {4|8|7}"]),
     ] {
         let [mine, theirs, merged] = [mine, theirs, merged].map(|[first, last]| rows(first, last));
         assert_eq!(marked(&merge(&base, &mine, &theirs)), merged);
     }
-    // Which of many equal lines is new? The question covers all of them.
+    // Which of many equal lines is new? The conflict covers all of them.
     let equal = |count: usize, last: &str| format!("7\n{}{last}\n", "0\n".repeat(count));
     let merge = merge(&equal(5000, "8"), &equal(5001, "8"), &equal(4999, "8"));
     let [conflict] = &merge.conflicts[..] else {
@@ -204,13 +204,13 @@ fn lines(words: impl Iterator<Item = String>) -> String {
     words.flat_map(|word| [word, "\n".to_owned()]).collect()
 }
 
-/// Short texts of few different leaves: the worst to align.
+/// Short texts of few different leaves, the hardest to align.
 fn scene() -> impl Strategy<Value = String> {
     proptest::string::string_regex("((0|1|2|ab|// c\n)( |\n|\r\n|\t)){0,9}(7|// z)?")
         .expect("the pattern is regular")
 }
 
-/// Rows of few different words, so that what is new among them is often in doubt.
+/// Rows of few different words, so that the position of an insertion is often ambiguous.
 fn rows(most: usize) -> impl Strategy<Value = Vec<&'static str>> {
     prop::collection::vec(
         prop::sample::select(vec!["0 0", "0", "1 0", "ab", ""]),
@@ -219,9 +219,9 @@ fn rows(most: usize) -> impl Strategy<Value = Vec<&'static str>> {
 }
 
 proptest! {
-    // What changed is merged by the lines around it, if they are enough to tell, as by all lines.
+    // Merging the lines around the changes, if they suffice, gives the same as merging all lines.
     #[test]
-    fn windows_merge_as_the_whole(
+    fn windows_merge_like_the_whole_text(
         language in prop::sample::select(vec![Language::Ray, Language::Dat]),
         end in prop::sample::select(vec!["\n", "\r\n"]),
         mark in prop::sample::select(vec!["", "\u{FEFF}"]),
@@ -238,9 +238,9 @@ proptest! {
         let theirs = text(&first[2], &second[1]);
         let texts = [&base[..], &mine, &theirs];
         let changes = [&mine, &theirs].map(|other| Change::between(&base, other));
-        let whole = settle(language, texts, changes, usize::MAX);
+        let whole = resolve(language, texts, changes, usize::MAX);
         prop_assert!(whole.is_some());
-        let part = settle(language, texts, changes, margin);
+        let part = resolve(language, texts, changes, margin);
         prop_assert!(part.is_none() || part == whole, "{part:?}, not {whole:?}, of {texts:?}");
     }
 
@@ -267,7 +267,7 @@ proptest! {
     fn changes_of_different_leaves_always_merge(
         leaves in prop::collection::vec((0..3, 0..4), 1..40),
     ) {
-        // Each leaf changes on one side, to a value found nowhere else, or on neither.
+        // Each leaf changes on at most one side, to a unique value.
         let text = |change: &dyn Fn(usize, i32, i32) -> i32| {
             let spelled = leaves.iter().enumerate();
             lines(spelled.map(|(at, &(value, owner))| change(at, value, owner).to_string()))

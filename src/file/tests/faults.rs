@@ -1,4 +1,4 @@
-//! Every call of a write fails once, with every error: what is lost, and what is left behind?
+//! Makes every system call of a write fail in turn, and checks that nothing is lost or left behind.
 
 use rustix::io::Errno;
 
@@ -8,17 +8,17 @@ use crate::file::faults::{Calls, Fault, during};
 pub(super) const OLD: &str = "the old content, which is longer than the new one";
 pub(super) const NEW: &str = "the new content";
 
-/// No write takes as many calls.
+/// More calls than any write makes.
 pub(super) const MOST: usize = 100;
 
 const ERRORS: [Errno; 4] = [Errno::NOSPC, Errno::IO, Errno::DQUOT, Errno::INTR];
 
-/// A file to be written in a folder of its own.
+/// A file to write, in a folder of its own.
 pub(super) struct Case {
     pub(super) name: &'static str,
     pub(super) directory: TempDir,
     pub(super) path: PathBuf,
-    /// What is in the folder from the start.
+    /// The initial names in the folder.
     pub(super) names: Vec<String>,
     pub(super) old: Option<&'static str>,
     pub(super) new: &'static str,
@@ -26,7 +26,7 @@ pub(super) struct Case {
 
 impl Case {
     fn new(name: &'static str, prepare: fn(&Path) -> Option<&'static str>) -> Self {
-        // In memory, where there is such a folder: syncing takes long on a disk.
+        // In memory if possible: syncing to a disk is slow.
         let directory = tempfile::tempdir_in("/dev/shm").unwrap_or_else(|_| directory());
         let old = prepare(directory.path());
         Self {
@@ -39,7 +39,7 @@ impl Case {
         }
     }
 
-    /// Makes one of each kind.
+    /// One case of each kind.
     pub(super) fn all() -> Vec<Self> {
         let mut all = vec![
             Self::new("new", |_| None),
@@ -66,22 +66,22 @@ impl Case {
         all
     }
 
-    /// What is left behind in the folder after one more write there, but for copies that are named.
+    /// What remains in the folder after another write there, except reported backup copies.
     pub(super) fn left_behind(&self) -> Vec<String> {
         let other = self.directory.path().join("other");
         replace_with(&other, "").expect("nothing is wrong by now");
         fs::remove_file(&other).expect("removed");
         replace_with(&self.path, self.new).expect("nothing is wrong by now");
         let mut left = names(self.directory.path());
-        let told = backups(&self.path);
+        let reported = backups(&self.path);
         left.retain(|name| {
             let is_own = self.names.contains(name) || name == "s";
-            !is_own && !told.iter().any(|copy| copy.ends_with(name))
+            !is_own && !reported.iter().any(|copy| copy.ends_with(name))
         });
         left
     }
 
-    /// Writes while faults occur, and looks at the outcome.
+    /// Writes with a fault, and checks the outcome.
     fn write(&self, fault: Fault, at: usize) -> Calls {
         let (outcome, calls) = during(fault, at, || replace_with(&self.path, self.new));
         let case = format!("{}, {fault:?} at {at}: {calls:?}: {outcome:?}", self.name);
@@ -91,16 +91,16 @@ impl Case {
             Ok(()) => assert_eq!(found.as_deref(), Some(self.new), "{case}"),
             Err(error) => {
                 assert!(!fault.is_harmless(), "{case}");
-                // The first thing that went wrong is what is told.
+                // The first error is the one reported.
                 let (Fault::Once(cause) | Fault::Ever(cause)) = fault else {
                     panic!("{case}");
                 };
                 let cause = io::Error::from(cause).to_string();
                 assert!(error.to_string().ends_with(&cause), "{case}");
                 assert!(!error.to_string().contains(".halflight-0"), "{case}");
-                let is_told = error.to_string().contains("is damaged");
-                assert!(is_told || found.as_deref() == self.old, "{case}");
-                if is_told {
+                let is_damaged = error.to_string().contains("is damaged");
+                assert!(is_damaged || found.as_deref() == self.old, "{case}");
+                if is_damaged {
                     let [copy] = copies.as_slice() else {
                         panic!("{case}: {copies:?}");
                     };
@@ -122,8 +122,8 @@ fn hard_linked(folder: &Path) -> &'static str {
     OLD
 }
 
-/// Writes each kind of file anew with the k-th call failing, for every k; returns which calls were
-/// hit.
+/// Writes each kind of file with the fault at the k-th call, for every k. Returns the names of the
+/// affected calls.
 fn fail_each(fault: Fault) -> Vec<&'static str> {
     let mut hit = Vec::new();
     for number in 0..Case::all().len() {
@@ -141,7 +141,7 @@ fn fail_each(fault: Fault) -> Vec<&'static str> {
 }
 
 #[test]
-fn a_call_that_fails_costs_nothing() {
+fn a_failing_call_loses_nothing() {
     for error in ERRORS {
         let hit = fail_each(Fault::Once(error));
         #[cfg(target_os = "linux")]
@@ -164,7 +164,7 @@ fn a_call_that_fails_costs_nothing() {
 }
 
 #[test]
-fn calls_that_go_on_failing_cost_nothing_that_is_not_told() {
+fn persistent_failures_lose_nothing_without_an_error() {
     for error in [Errno::NOSPC, Errno::IO, Errno::DQUOT] {
         fail_each(Fault::Ever(error));
     }
@@ -175,7 +175,7 @@ fn short_writes_are_continued() {
     fail_each(Fault::Short);
 }
 
-/// Runs on a thread that may do what users may who are not the administrator.
+/// Runs `work` on a thread without root privileges.
 #[cfg(target_os = "linux")]
 fn without_privileges<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> T {
     use rustix::process::{Uid, geteuid};
@@ -191,7 +191,7 @@ fn without_privileges<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'stat
 
 #[test]
 #[cfg(target_os = "linux")]
-fn a_file_in_a_folder_that_cannot_be_written_to_is_whole_too() {
+fn a_file_in_a_read_only_folder_is_never_half_written() {
     use std::fs::Permissions;
     use std::os::unix::fs::PermissionsExt;
     let directory = directory();
@@ -220,10 +220,10 @@ fn a_file_in_a_folder_that_cannot_be_written_to_is_whole_too() {
     fs::set_permissions(directory.path(), Permissions::from_mode(0o755)).expect("changed");
 }
 
-/// On file systems that give no name to a file without one, and on systems without such files.
+/// Covers file systems that cannot name unnamed files, and systems without unnamed files.
 #[test]
 #[cfg(target_os = "linux")]
-fn a_file_written_the_other_way_has_all_that_the_old_one_had() {
+fn without_unnamed_files_the_attributes_are_kept_too() {
     use rustix::fs::{XattrFlags, getxattr, setxattr};
     use std::fs::Permissions;
     use std::os::unix::fs::{MetadataExt, PermissionsExt, chown};
@@ -239,7 +239,7 @@ fn a_file_written_the_other_way_has_all_that_the_old_one_had() {
         let calls = during(Fault::Short, MOST, || replace_with(&case.path, NEW)).1;
         let at = calls.names.iter().position(|name| *name == call);
         let Some(at) = at else {
-            // There are no files without a name here.
+            // This file system has no unnamed files.
             continue;
         };
         let (outcome, calls) = during(Fault::Once(error), at, || replace_with(&case.path, "other"));
@@ -257,10 +257,10 @@ fn a_file_written_the_other_way_has_all_that_the_old_one_had() {
     }
 }
 
-/// The system gives the number of a file that is gone to another one.
+/// The system reuses the inode of a deleted file.
 #[test]
 #[cfg(unix)]
-fn a_copy_of_a_file_that_is_gone_is_not_taken_for_that_of_another() {
+fn a_backup_of_a_deleted_file_is_not_mistaken_for_one_of_another_file() {
     use std::os::unix::fs::MetadataExt;
     let directory = directory();
     let place = |name: &str| directory.path().join(name);
@@ -273,7 +273,7 @@ fn a_copy_of_a_file_that_is_gone_is_not_taken_for_that_of_another() {
         match born("s") {
             Ok(born) if born <= copied => fs::remove_file(place("s")).expect("ours"),
             Ok(_) => break,
-            // Here it can't be told.
+            // This file system has no creation times.
             Err(_) => return,
         }
     }
@@ -281,13 +281,13 @@ fn a_copy_of_a_file_that_is_gone_is_not_taken_for_that_of_another() {
     let copy = |name| place(&format!(".halflight-backup-{inode:x}-00c0ffee-{name}"));
     fs::rename(place("copy"), copy("gone")).expect("renamed");
     assert_eq!(backups(&place("s")), [] as [PathBuf; 0]);
-    // Of this name there was a file before, too.
+    // A copy whose name matches too is found.
     fs::rename(copy("gone"), copy("s")).expect("renamed");
     assert_eq!(backups(&place("s")), [copy("s")]);
 }
 
 #[test]
-fn a_copy_left_by_a_save_that_was_cut_off_is_found() {
+fn the_backup_of_an_interrupted_save_is_found() {
     let directory = directory();
     let place = |name: &str| directory.path().join(name);
     fs::write(place("s"), "half of the ne").expect("written");
@@ -299,10 +299,10 @@ fn a_copy_left_by_a_save_that_was_cut_off_is_found() {
     let copy = place(&format!(".halflight-backup-{inode:x}-00c0ffee-s"));
     fs::write(&copy, OLD).expect("written");
     assert_eq!(backups(&place("s")), [copy.as_path()]);
-    // By its other name, too.
+    // Also by the file's other name.
     #[cfg(unix)]
     assert_eq!(backups(&place("t")), [copy.as_path()]);
-    // It is nobody else's to remove, unless it holds nothing new.
+    // Later writes keep the copy unless it equals the content.
     replace_with(&place("s"), NEW).expect("written");
     assert_eq!(backups(&place("s")), [copy.as_path()]);
     replace_with(&place("s"), OLD).expect("written");

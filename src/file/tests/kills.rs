@@ -1,4 +1,4 @@
-//! Writes in a process that is killed at each of their system calls in turn.
+//! Kills a process at each system call of a write in turn.
 
 use std::os::unix::process::ExitStatusExt;
 use std::process::Command;
@@ -7,13 +7,13 @@ use super::faults::{Case, MOST};
 use super::*;
 use crate::file::faults::{Fault, during};
 
-/// Lines: the call that a process is killed at, the file that it writes, the content.
+/// Environment variable with an order: lines with the call to be killed at, the file, the content.
 const ORDER: &str = "HALFLIGHT_TEST_KILL";
 
-/// The test below, which the other process runs with an order.
+/// The path of the test below, which the other process runs with an order.
 const TEST: &str = "file::tests::kills::a_killed_process_leaves_the_old_or_the_new_content";
 
-/// Carries out an order: the part of the process that is killed.
+/// Carries out an order, in the process to be killed.
 fn obey(order: &str) {
     let lines: Vec<_> = order.splitn(3, '\n').collect();
     let [at, path, new] = lines[..] else {
@@ -24,7 +24,7 @@ fn obey(order: &str) {
     outcome.expect("no fault but the kill");
 }
 
-/// Writes a file in another process; returns whether that was killed.
+/// Writes a file in another process that is killed at call `at`. Returns whether it was killed.
 fn write_until(at: usize, case: &Case) -> bool {
     let (path, new) = (case.path.display(), case.new);
     let program = std::env::current_exe().expect("a program");
@@ -68,12 +68,16 @@ fn a_killed_process_leaves_the_old_or_the_new_content() {
             }
             assert!(is_whole || copies.len() == 1, "{shown}: {copies:?}");
             assert_eq!(case.left_behind(), [""; 0], "{shown}");
-            // Later writes in the folder leave copies alone.
+            // Later writes in the folder keep the copies.
             assert_eq!(backups(&case.path), copies, "{shown}");
             !was_killed
         });
         assert!(last.is_some_and(|last| 0 < last), "each call was hit");
         let is_in_place = Case::all()[number].names.contains(&"t".to_owned());
-        assert_eq!(0 < found_in_copies, is_in_place, "only then a file is torn");
+        assert_eq!(
+            0 < found_in_copies,
+            is_in_place,
+            "only files written in place are torn"
+        );
     }
 }

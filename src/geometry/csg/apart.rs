@@ -1,8 +1,8 @@
-//! Lines through a solid made of solids, side by side, where boundaries are far apart.
+//! Packets of lines through a CSG solid, if boundaries are far apart.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use smallvec::SmallVec;
@@ -14,26 +14,25 @@ use crate::geometry::lanes::Lanes;
 use crate::geometry::line::End;
 use crate::geometry::{Aabb, Rays};
 
-/// How many boundaries are kept at most.
+/// The maximum number of boundaries kept.
 const MOST: usize = 32;
 
-/// A crossing of a leaf's surface and several lines, by those that it is a boundary of the solid on.
+/// A crossing of several lines with a leaf's surface, and the lines on which it is a boundary.
 ///
-/// Lists are gone through by reference: by value their copies took an eighth of a picture. Nothing
-/// is sorted: a line is inside a solid after an odd number of its boundaries, wherever these
-/// stand in the list.
+/// Lists are traversed by reference: copies by value took an eighth of a picture's time. They are
+/// not sorted: a line is inside a solid after an odd number of its boundaries, in any order.
 #[derive(Clone, Copy)]
 struct Boundary<N: Lanes> {
     end: End<N>,
-    /// Whether the surface is turned inside out: 1 or 0.
-    turned: f64,
+    /// 1 if the surface is turned inside out, otherwise 0.
+    inverted: f64,
     lines: N::Mask,
 }
 
 struct Apart<'a, N: Lanes> {
     rays: &'a Rays<N>,
     slopes: Slopes<N>,
-    /// The largest coordinate that matters on each line, but for those of the boundaries.
+    /// The largest relevant coordinate on each line, except those of the boundaries.
     scale: N,
     boundaries: SmallVec<[Boundary<N>; MOST]>,
     close: N::Mask,
@@ -42,15 +41,15 @@ struct Apart<'a, N: Lanes> {
 /// The nearest boundary on each of several lines.
 pub(super) struct Nearest<N: Lanes> {
     pub(super) end: End<N>,
-    /// The lines that have one.
-    pub(super) met: N::Mask,
-    /// Lines with boundaries so close that they may be one, of which nothing is known.
+    /// The lines that have a boundary.
+    pub(super) hit: N::Mask,
+    /// Lines whose result is undefined, as two boundaries are so close that they may coincide.
     pub(super) close: N::Mask,
 }
 
 impl Csg {
-    /// The nearest boundary with `0 < t < limit` on each of some lines, of a solid whose leaves are
-    /// all met in one span and used once.
+    /// The nearest boundary with `0 < t < limit` on each of the given lines. All leaves must be
+    /// simple solids, used once.
     #[inline(always)]
     pub(super) fn nearest<N: Lanes>(
         &self,
@@ -73,14 +72,19 @@ impl Csg {
                 t: limits,
                 part: zero,
             },
-            met: none,
+            hit: none,
             close: lists.close,
         };
-        for &Boundary { end, turned, lines } in &lists.boundaries {
-            let part = limits.all(2.0) * end.part + limits.all(turned);
+        for &Boundary {
+            end,
+            inverted,
+            lines,
+        } in &lists.boundaries
+        {
+            let part = limits.all(2.0) * end.part + limits.all(inverted);
             let nearer = lines & end.is_within(nearest.end.t);
             nearest.end = End::select(nearer, End { part, ..end }, nearest.end);
-            nearest.met = nearest.met | nearer;
+            nearest.hit = nearest.hit | nearer;
         }
         nearest
     }
@@ -90,9 +94,9 @@ impl<N: Lanes> Lists for Apart<'_, N> {
     type Lines = N::Mask;
 
     #[inline(always)]
-    fn meet(&self, bounds: &Aabb, lines: N::Mask) -> Option<N::Mask> {
-        let met = lines & self.slopes.meet(bounds);
-        N::any(met).then_some(met)
+    fn may_hit(&self, bounds: &Aabb, lines: N::Mask) -> Option<N::Mask> {
+        let hit = lines & self.slopes.may_hit(bounds);
+        N::any(hit).then_some(hit)
     }
 
     #[inline(always)]
@@ -105,12 +109,12 @@ impl<N: Lanes> Lists for Apart<'_, N> {
         let Some(ends) = leaf.shape.ends(self.rays) else {
             return;
         };
-        let lines = lines & ends.met;
+        let lines = lines & ends.hit;
         if !N::any(lines) {
             return;
         }
         if MOST < self.boundaries.len() + 2 {
-            // As if all that is left out were close to something.
+            // Lines with dropped boundaries count as close.
             self.close = self.close | lines;
             return;
         }
@@ -118,7 +122,7 @@ impl<N: Lanes> Lists for Apart<'_, N> {
             let part = end.part + end.part.all(f64::from(leaf.first_part));
             self.boundaries.push(Boundary {
                 end: End { part, ..end },
-                turned: 0.0,
+                inverted: 0.0,
                 lines,
             });
         }
@@ -150,20 +154,20 @@ impl<N: Lanes> Lists for Apart<'_, N> {
                 Operation::Intersection | Operation::Difference => b.lines & in_first,
             };
             if operation == Operation::Difference {
-                b.turned = 1.0 - b.turned;
+                b.inverted = 1.0 - b.inverted;
             }
         }
         let mut kept = start;
-        for place in start..self.boundaries.len() {
-            if N::any(self.boundaries[place].lines) {
-                self.boundaries[kept] = self.boundaries[place];
+        for index in start..self.boundaries.len() {
+            if N::any(self.boundaries[index].lines) {
+                self.boundaries[kept] = self.boundaries[index];
                 kept += 1;
             }
         }
         self.boundaries.truncate(kept);
     }
 
-    /// No step is shared.
+    /// Does nothing, as no step is shared.
     #[inline(always)]
     fn remember(&mut self, _: u32, _: usize) {}
 

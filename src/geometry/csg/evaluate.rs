@@ -1,8 +1,8 @@
-//! The way through the steps of a solid made of solids, for one line or for several side by side.
+//! Evaluation of the steps of a CSG solid, for single lines and packets.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use smallvec::SmallVec;
@@ -11,43 +11,43 @@ use super::{Csg, Kind, Leaf, Operation};
 use crate::geometry::lanes::{Lanes, Vector};
 use crate::geometry::{Aabb, Rays};
 
-/// Lists of boundaries, one on top of the other: on one line, or on several.
+/// A stack of lists of boundaries, on one line or several.
 pub(super) trait Lists {
-    /// Some of the lines.
+    /// A subset of the lines.
     type Lines: Copy;
 
-    /// Of some lines, those that may meet a box; `None` if none does.
-    fn meet(&self, bounds: &Aabb, lines: Self::Lines) -> Option<Self::Lines>;
-    /// How many boundaries all lists have.
+    /// The given lines that may hit a box; `None` if all miss it.
+    fn may_hit(&self, bounds: &Aabb, lines: Self::Lines) -> Option<Self::Lines>;
+    /// The total number of boundaries.
     fn len(&self) -> usize;
-    /// Puts those of a leaf on top.
+    /// Pushes the boundaries of a leaf.
     fn push(&mut self, leaf: &Leaf, lines: Self::Lines);
-    /// Makes one list of two: one up to a place, the other from there, and both from `start`.
+    /// Merges the lists `start..middle` and `middle..` by an operation.
     fn merge(&mut self, operation: Operation, start: usize, middle: usize);
-    /// Keeps the list from `start` for the next user of a shared step.
+    /// Saves the list `start..` for the next user of a shared step.
     fn remember(&mut self, shared: u32, start: usize);
-    /// Puts the list of a shared step on top, if it is known.
+    /// Pushes the list of a shared step if it was saved.
     fn recall(&mut self, shared: u32) -> bool;
 }
 
-/// What is left to do.
+/// A pending task.
 #[derive(Clone, Copy)]
 enum Task<L> {
-    /// Put the boundaries of a step on top.
+    /// Push the boundaries of a step.
     Step(u32, L),
-    /// The list of the first operand of a step starts here: see whether the second matters.
+    /// Evaluate the second operand of a step if it matters; the list of the first starts here.
     Second(u32, L, usize),
-    /// The lists of both operands start here and there.
+    /// Merge the lists of both operands, which start here and there.
     Merge(Operation, usize, usize),
-    /// Remember the list of a shared step, which starts here.
+    /// Save the list of a shared step, which starts here.
     Remember(u32, usize),
 }
 
 impl Csg {
-    /// Leaves the list of the last step.
+    /// Evaluates the last step, whose list is left on the stack.
     ///
-    /// Steps are done by a list of tasks and not by recursion: a chain of operations may be as long
-    /// as memory. An operand that all lines miss is not looked into.
+    /// Tasks are kept on an explicit stack instead of recursion: a chain of operations may be
+    /// arbitrarily long. An operand that all lines miss is skipped.
     #[inline(always)]
     pub(super) fn evaluate<L: Lists>(&self, lists: &mut L, lines: L::Lines) {
         let mut tasks: SmallVec<[Task<L::Lines>; 16]> = SmallVec::new();
@@ -56,11 +56,11 @@ impl Csg {
             match task {
                 Task::Step(index, lines) => {
                     let step = &self.steps[index as usize];
-                    let met = match &step.bounds {
-                        Some(bounds) => lists.meet(bounds, lines),
+                    let lines = match &step.bounds {
+                        Some(bounds) => lists.may_hit(bounds, lines),
                         None => Some(lines),
                     };
-                    let Some(lines) = met else { continue };
+                    let Some(lines) = lines else { continue };
                     if let Some(shared) = step.shared {
                         if lists.recall(shared) {
                             continue;
@@ -91,13 +91,13 @@ impl Csg {
     }
 }
 
-/// Lines as boxes see them.
+/// Lines prepared for tests against boxes.
 #[derive(Clone, Copy)]
 pub(super) struct Slopes<N> {
     origin: Vector<N>,
     /// The reciprocal of the direction.
-    slowness: Vector<N>,
-    /// Only distances between these count.
+    reciprocal: Vector<N>,
+    /// The interval of distances that count.
     reach: [N; 2],
 }
 
@@ -108,7 +108,7 @@ impl<N: Lanes> Slopes<N> {
         let direction = rays.direction;
         Self {
             origin: rays.origin,
-            slowness: Vector {
+            reciprocal: Vector {
                 x: one / direction.x,
                 y: one / direction.y,
                 z: one / direction.z,
@@ -117,37 +117,36 @@ impl<N: Lanes> Slopes<N> {
         }
     }
 
-    /// Whether lines may meet a box within reach. Errs on the side of meeting: three roundings of a
-    /// distance are within two units in its last place.
+    /// Whether lines may hit a box within reach. Conservative: three roundings of a distance are
+    /// within two ulps.
     #[inline(always)]
-    pub(super) fn meet(&self, Aabb { min, max }: &Aabb) -> N::Mask {
-        let (origin, slowness) = (self.origin, self.slowness);
-        let (reach, x) = narrowed(self.reach, [min.x, max.x], origin.x, slowness.x);
-        let (reach, y) = narrowed(reach, [min.y, max.y], origin.y, slowness.y);
-        let ([low, high], z) = narrowed(reach, [min.z, max.z], origin.z, slowness.z);
+    pub(super) fn may_hit(&self, Aabb { min, max }: &Aabb) -> N::Mask {
+        let (origin, reciprocal) = (self.origin, self.reciprocal);
+        let (reach, x) = narrowed(self.reach, [min.x, max.x], origin.x, reciprocal.x);
+        let (reach, y) = narrowed(reach, [min.y, max.y], origin.y, reciprocal.y);
+        let ([low, high], z) = narrowed(reach, [min.z, max.z], origin.z, reciprocal.z);
         low.up_to(high) & x & y & z
     }
 }
 
-/// The part of `reach` where a coordinate may be between two bounds; and whether it is so anywhere,
-/// if it stays the same.
+/// The part of `reach` where a coordinate may be in bounds, and whether a constant coordinate is.
 #[inline(always)]
 fn narrowed<N: Lanes>(
     [low, high]: [N; 2],
     [min, max]: [f64; 2],
     origin: N,
-    slowness: N,
+    reciprocal: N,
 ) -> ([N; 2], N::Mask) {
     let (min, max) = (origin.all(min), origin.all(max));
-    let (a, b) = ((min - origin) * slowness, (max - origin) * slowness);
-    let rises = origin.all(0.0).below(slowness);
+    let (a, b) = ((min - origin) * reciprocal, (max - origin) * reciprocal);
+    let rises = origin.all(0.0).below(reciprocal);
     let (near, far) = (N::select(rises, a, b), N::select(rises, b, a));
     let rounding = origin.all(2.0 * f64::EPSILON);
     let near = near - rounding * near.abs();
     let far = far + rounding * far.abs();
-    let stays = slowness.abs().equals(origin.all(f64::INFINITY));
+    let stays = reciprocal.abs().equals(origin.all(f64::INFINITY));
     let outside = origin.below(min) | max.below(origin);
-    // What is not a number narrows nothing.
+    // NaN narrows nothing.
     let low = N::select(low.below(near) & !stays, near, low);
     let high = N::select(far.below(high) & !stays, far, high);
     ([low, high], !(stays & outside))

@@ -1,4 +1,4 @@
-//! One line through a solid made of solids, whatever coincides on it.
+//! Single lines through a CSG solid, with coincident boundaries resolved.
 
 use smallvec::SmallVec;
 
@@ -6,7 +6,7 @@ use super::evaluate::{Lists, Slopes};
 use super::{Csg, Leaf, Operation};
 use crate::geometry::{Aabb, Hit, Ray, Spans};
 
-/// Where a line crosses the boundary of a solid, in ascending order; in and out alternate.
+/// Where a line crosses the boundary of a solid, ascending, alternately entering and leaving.
 pub(super) type Boundaries = SmallVec<[Hit; 32]>;
 
 struct Exact<'a> {
@@ -14,16 +14,16 @@ struct Exact<'a> {
     ray: &'a Ray,
     slopes: Slopes<f64>,
     hits: Boundaries,
-    /// The lists of shared steps.
+    /// The saved lists of shared steps.
     known: Vec<Option<Vec<Hit>>>,
-    /// Room for use by the moment.
+    /// Scratch buffer of `merge`.
     merged: Boundaries,
     spans: Spans,
 }
 
 impl Csg {
-    /// Where the ray's line crosses the boundary at distances in `reach`; beyond, boundaries may be
-    /// missing, in pairs.
+    /// The boundaries on the ray's line at distances in `reach`; beyond it pairs of boundaries may
+    /// be missing.
     pub(super) fn boundaries(&self, ray: &Ray, reach: [f64; 2]) -> Boundaries {
         let mut lists = Exact {
             csg: self,
@@ -42,8 +42,8 @@ impl Csg {
 impl Lists for Exact<'_> {
     type Lines = ();
 
-    fn meet(&self, bounds: &Aabb, (): ()) -> Option<()> {
-        self.slopes.meet(bounds).then_some(())
+    fn may_hit(&self, bounds: &Aabb, (): ()) -> Option<()> {
+        self.slopes.may_hit(bounds).then_some(())
     }
 
     fn len(&self) -> usize {

@@ -1,23 +1,23 @@
-//! Two lists of boundaries made one by an operation.
+//! Merging two lists of boundaries by an operation.
 
 use super::exact::Boundaries;
 use super::{Csg, Operation};
 use crate::geometry::{Hit, Ray, ulp};
 
-/// Within how many units in the last place of their scale two boundaries are the same.
+/// The distance, in ulps of their scale, within which two boundaries coincide.
 const SAME: f64 = 64.0;
 
-/// Boundaries farther apart than this part of their scale are never the same: surfaces so close
-/// that a line sees them so far apart meet it at an angle below 2⁻²⁶.
+/// Boundaries farther apart than this fraction of their scale never coincide: a line that crosses
+/// coincident surfaces so far apart meets them at an angle below 2⁻²⁶.
 pub(super) const APART: f64 = 1.0 / (1 << 20) as f64;
 
-/// Normals whose cosine differs from 1 by less are parallel, as of a surface and itself.
+/// Normals whose cosine differs from 1 by less are parallel.
 const PARALLEL: f64 = 1.0 / (1 << 30) as f64;
 
 impl Csg {
-    /// Adds the boundaries of the result. Where those of both operands coincide, the line crosses
-    /// both at once, and the first operand's stands for both: so the states before and after decide
-    /// what is left of faces that touch.
+    /// Appends the boundaries of the result. Where those of both operands coincide, the line
+    /// crosses both at once, and the first operand's stands for both: the states before and after
+    /// decide what remains of touching faces.
     pub(super) fn merge(
         &self,
         ray: &Ray,
@@ -47,10 +47,10 @@ impl Csg {
         }
     }
 
-    /// Whether two boundaries are one but for rounding.
+    /// Whether two boundaries coincide up to rounding.
     ///
-    /// A line that grazes two faces in one plane crosses them as far apart as their rounding over
-    /// the sine of its angle: there the distance along the normal counts.
+    /// A line that grazes two coplanar faces crosses them as far apart as their rounding over the
+    /// sine of its angle: for such lines the distance along the normal counts.
     fn coincide(&self, ray: &Ray, a: Hit, b: Hit) -> bool {
         let apart = (a.t - b.t).abs();
         if a.t == b.t {
@@ -77,7 +77,7 @@ impl Csg {
 }
 
 impl Operation {
-    /// Whether a place is inside the result.
+    /// Whether a point is inside the result.
     fn holds(self, in_first: bool, in_second: bool) -> bool {
         match self {
             Self::Union => in_first || in_second,
@@ -87,7 +87,7 @@ impl Operation {
     }
 }
 
-/// Whether a line is inside after that many boundaries.
+/// Whether a line is inside after `count` boundaries.
 fn is_odd(count: usize) -> bool {
     count % 2 == 1
 }

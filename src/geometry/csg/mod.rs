@@ -1,15 +1,16 @@
-//! Solids made of solids: union, intersection and difference.
+//! Constructive solid geometry: union, intersection and difference.
 //!
-//! S. Roth, "Ray casting for modeling solids", Computer Graphics and Image Processing 18 (1982): a
-//! line is cut into spans by each operand, and the operation is done on the spans. Operations are
-//! regularised: what they leave has volume, and its boundary.
+//! S. Roth, "Ray casting for modeling solids", Computer Graphics and Image Processing 18 (1982):
+//! each operand cuts a line into spans, and the operation is applied to the spans. Operations are
+//! regularised: results have no parts of zero thickness.
 //!
-//! Most lines cross no two surfaces at nearly the same place. These are taken side by side, on lists
-//! without an order ([`apart`]); the others one by one, where it is seen what coincides ([`exact`]).
+//! Most lines cross no two surfaces at nearly the same point. They are evaluated in packets, on
+//! unordered lists ([`apart`]); the others one by one, with coincident boundaries resolved
+//! ([`exact`]).
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 mod apart;
@@ -23,57 +24,57 @@ use super::{Aabb, Chart, Crossings, Hit, Hits, Ray, Rays, Shape, Spans, Surface,
 /// A set operation on two closed solids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
-    /// What is in either.
+    /// All points in either.
     Union,
-    /// What is in both.
+    /// All points in both.
     Intersection,
-    /// What is in the first and not in the second.
+    /// All points in the first and not in the second.
     Difference,
 }
 
-/// A solid in a list of solids, made of earlier ones or of a shape.
+/// A solid in a list: a shape, or an operation on earlier solids.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
-    /// A shape.
+    /// A single shape.
     Leaf {
-        /// It.
+        /// The shape, a solid.
         shape: Shape,
-        /// What its owner knows it by.
+        /// The owner's tag for it.
         tag: u32,
     },
-    /// A solid made of two others.
+    /// An operation on two solids.
     Operation {
-        /// How.
+        /// The operation.
         operation: Operation,
-        /// The place of the first operand in the list, before this one.
+        /// The index of the first operand, below its own.
         first: u32,
-        /// The place of the second operand in the list, before this one.
+        /// The index of the second operand, below its own.
         second: u32,
     },
 }
 
-/// A solid made of shapes by set operations. A part of it is a part of one of the shapes, as it is
-/// or turned inside out.
+/// A solid made of shapes by set operations. Its parts are those of the shapes, each as it is or
+/// turned inside out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Csg {
     steps: Vec<Step>,
     leaves: Vec<Leaf>,
-    /// How many steps are operands more than once.
+    /// The number of steps that are operands more than once.
     shared: u32,
-    /// Whether none is, and each leaf is met in one span.
+    /// Whether no step is shared and all leaves are simple solids, hit in at most one span.
     is_simple: bool,
     bounds: Aabb,
-    /// The largest of the leaves'.
+    /// The largest magnitude of the leaves.
     magnitude: f64,
 }
 
-/// A node ready for rays.
+/// A node prepared for intersection.
 #[derive(Clone, Debug, PartialEq)]
 struct Step {
-    /// The box, widened by more than a leaf's rounding; `None` if other steps' boxes stand for it.
+    /// The box, widened by more than a leaf's rounding; `None` if other boxes make it redundant.
     bounds: Option<Aabb>,
     kind: Kind,
-    /// Which of the shared steps it is, if it is an operand more than once.
+    /// The index among the shared steps, if it is an operand more than once.
     shared: Option<u32>,
 }
 
@@ -89,15 +90,15 @@ enum Kind {
 struct Leaf {
     shape: Shape,
     tag: u32,
-    /// The number of its first part among the parts of all leaves.
+    /// The index of its first part among the parts of all leaves.
     first_part: u32,
     /// The largest finite coordinate of its box.
     magnitude: f64,
 }
 
 impl Csg {
-    /// Makes the last of the nodes. Each operand stands before its users; one may have several, and
-    /// is computed once for all of them. There is a node, and none that the last is not made of.
+    /// Creates the solid of the last node. Operands precede their users; a shared operand is
+    /// evaluated once. `nodes` must not be empty, and the last must use all others.
     pub fn new(nodes: Vec<Node>) -> Self {
         let mut uses = vec![0_u32; nodes.len()];
         for node in &nodes {
@@ -157,18 +158,18 @@ impl Csg {
             });
         }
         csg.is_simple &= csg.shared == 0;
-        csg.ask_once(&boxes);
+        csg.drop_redundant_boxes(&boxes);
         csg
     }
 
-    /// Leaves out boxes that are surely met by a line on which others are: a difference's is that of
-    /// its first operand, and the overlap of two lies in both.
-    fn ask_once(&mut self, boxes: &[Aabb]) {
+    /// Drops boxes that are surely hit by a line that hits another: a difference has the box of its
+    /// first operand, and the overlap of two boxes lies in both.
+    fn drop_redundant_boxes(&mut self, boxes: &[Aabb]) {
         for index in (0..self.steps.len()).rev() {
             let Kind::Operation(operation, operands) = self.steps[index].kind else {
                 continue;
             };
-            let asked: &[u32] = match operation {
+            let redundant: &[u32] = match operation {
                 Operation::Union => &[],
                 Operation::Intersection if boxes[index].is_empty() => &[],
                 Operation::Intersection => &operands,
@@ -177,9 +178,9 @@ impl Csg {
                     None => &operands[..1],
                 },
             };
-            for &operand in asked {
+            for &operand in redundant {
                 let step = &mut self.steps[operand as usize];
-                // Without an end, it would be widened less than the overlap.
+                // An unbounded box may be widened less than the overlap.
                 if step.shared.is_none() && boxes[operand as usize].is_bounded() {
                     step.bounds = None;
                 }
@@ -187,13 +188,13 @@ impl Csg {
         }
     }
 
-    /// A box around the solid, with infinite sides where it may have no end: the operands' combined
-    /// by the operation, the union of both, the overlap of both, or the first.
+    /// A box around the solid, with infinite sides where it may be unbounded: the union of the
+    /// operands' boxes, their overlap, or the first operand's box.
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }
 
-    /// Adds the parts of the ray's line that are inside.
+    /// Adds the parts of the ray's line inside the solid.
     pub fn spans(&self, ray: &Ray, spans: &mut Spans) {
         let boundaries = self.boundaries(ray, [f64::NEG_INFINITY, f64::INFINITY]);
         spans.extend(boundaries.chunks_exact(2).map(|ends| Crossings {
@@ -207,13 +208,13 @@ impl Csg {
         if self.is_simple {
             let nearest = self.nearest(&ray.into(), limit, true);
             if !nearest.close {
-                return nearest.met.then(|| nearest.end.into());
+                return nearest.hit.then(|| nearest.end.into());
             }
         }
         self.exact_hit(ray, limit)
     }
 
-    /// The same for some of eight rays side by side.
+    /// The same for the rays of a packet whose bit in `lanes` is 1.
     #[inline(always)]
     pub fn hits<S: Simd>(
         &self,
@@ -225,44 +226,44 @@ impl Csg {
         let mut hits = Hits::NONE;
         let mut rest = lanes;
         if self.is_simple {
-            // Not inlined: the room for boundaries would be made for every shape.
+            // Not inlined: every shape would reserve stack space for the boundaries.
             simd.vectorize(
                 #[inline(always)]
                 || {
                     let nearest = self.nearest(rays, limits, mask(simd, lanes));
                     rest = bits::<S>(nearest.close);
-                    hits = nearest.end.hits(bits::<S>(nearest.met) & !rest);
+                    hits = nearest.end.hits(bits::<S>(nearest.hit) & !rest);
                 },
             );
         }
         hits.and(rest, |lane| self.exact_hit(&rays.ray(lane), limits[lane]))
     }
 
-    /// The same by way of all boundaries, each looked at for being one with another.
+    /// The same for a single ray, with coincident boundaries resolved.
     pub(super) fn exact_hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
         let boundaries = self.boundaries(ray, [0.0, limit]);
         let mut hits = boundaries.iter();
         hits.find(|hit| 0.0 < hit.t && hit.t < limit).copied()
     }
 
-    /// The surface at a hit; what was taken away is turned inside out.
+    /// The surface at a hit; surfaces of subtracted solids are turned inside out.
     pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
         let (leaf, own) = self.leaf(hit);
         let mut surface = leaf.shape.surface(ray, own);
-        if is_turned(hit) {
+        if is_inverted(hit) {
             surface.normal = -surface.normal;
             surface.shading = -surface.shading;
         }
         surface
     }
 
-    /// The texture coordinates at a hit: the leaf's.
+    /// The texture coordinates of the leaf at a hit.
     pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
         let (leaf, own) = self.leaf(hit);
         leaf.shape.chart(ray, own)
     }
 
-    /// The tags of its leaves.
+    /// The tags of the leaves.
     pub fn tags(&self) -> impl Iterator<Item = u32> {
         self.leaves.iter().map(|leaf| leaf.tag)
     }
@@ -272,14 +273,14 @@ impl Csg {
         self.leaf(hit).0.tag
     }
 
-    /// How many numbers there are for parts: two for each of the leaves'.
+    /// The number of parts: two for each part of a leaf.
     pub(super) fn parts(&self) -> u32 {
         self.leaves
             .last()
             .map_or(0, |last| 2 * (last.first_part + last.shape.parts()))
     }
 
-    /// The leaf that was hit, and the hit as the leaf numbers it.
+    /// The leaf that was hit, and the hit with the leaf's own part number.
     fn leaf(&self, hit: Hit) -> (&Leaf, Hit) {
         let part = hit.part / 2;
         let after = self.leaves.partition_point(|leaf| leaf.first_part <= part);
@@ -292,8 +293,8 @@ impl Csg {
     }
 }
 
-/// Whether the surface is that of a solid taken away.
-fn is_turned(hit: Hit) -> bool {
+/// Whether the surface belongs to a subtracted solid.
+fn is_inverted(hit: Hit) -> bool {
     hit.part % 2 == 1
 }
 

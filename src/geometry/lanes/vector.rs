@@ -1,4 +1,4 @@
-//! Vectors of numbers that stand alone or side by side.
+//! Vectors of single numbers or of lanes.
 
 use std::ops::{Add, Neg, Sub};
 
@@ -9,16 +9,16 @@ use super::{Eight, Lanes, Row, Simd};
 /// Three coordinates, in each lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Vector<N> {
-    /// Along the first axis.
+    /// First coordinate.
     pub x: N,
-    /// Along the second.
+    /// Second coordinate.
     pub y: N,
-    /// Along the third.
+    /// Third coordinate.
     pub z: N,
 }
 
 impl<N: Lanes> Vector<N> {
-    /// The same vector in each lane, of as many as `like` has.
+    /// Broadcasts a vector to all lanes of a number like `like`.
     #[inline(always)]
     pub fn all(like: N, vector: DVec3) -> Self {
         Self {
@@ -28,13 +28,13 @@ impl<N: Lanes> Vector<N> {
         }
     }
 
-    /// The scalar product, summed in the order of the axes.
+    /// The dot product, summed in the order of the axes.
     #[inline(always)]
     pub fn dot(self, other: Self) -> N {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
-    /// Its image on the plane of the first two axes.
+    /// The projection onto the xy plane.
     #[must_use]
     #[inline(always)]
     pub fn flat(self) -> Self {
@@ -78,23 +78,23 @@ impl<N: Lanes> Vector<N> {
         self.length_squared().sqrt()
     }
 
-    /// The vector of unit length in its direction; no number where its square is zero or infinite.
+    /// Scales the vector to unit length; not finite if its squared length underflows or overflows.
     #[must_use]
     #[inline(always)]
     pub fn unit(self) -> Self {
         self.scaled(self.x.all(1.0) / self.length())
     }
 
-    /// Itself, or what is as long as given in its direction if it is longer.
+    /// Shortens the vector to `length` if it is longer.
     #[must_use]
     #[inline(always)]
-    pub fn within(self, length: N) -> Self {
+    pub fn clamp_length_max(self, length: N) -> Self {
         let squared = self.length_squared();
         let short = self.over(squared.sqrt()).scaled(length);
         Self::select((length * length).below(squared), short, self)
     }
 
-    /// Magnitudes.
+    /// The magnitudes of the coordinates.
     #[must_use]
     #[inline(always)]
     pub fn abs(self) -> Self {
@@ -105,7 +105,7 @@ impl<N: Lanes> Vector<N> {
         }
     }
 
-    /// The larger of two numbers along each axis.
+    /// The larger coordinate along each axis.
     #[must_use]
     #[inline(always)]
     pub fn larger(self, other: Self) -> Self {
@@ -116,7 +116,7 @@ impl<N: Lanes> Vector<N> {
         }
     }
 
-    /// The smaller of two numbers along each axis.
+    /// The smaller coordinate along each axis.
     #[must_use]
     #[inline(always)]
     pub fn smaller(self, other: Self) -> Self {
@@ -139,14 +139,14 @@ impl<N: Lanes> Vector<N> {
         self.x + self.y + self.z
     }
 
-    /// The sum of three vectors, each times a coordinate of this, in the order of the axes.
+    /// The sum of three vectors weighted by the coordinates, in the order of the axes.
     #[must_use]
     #[inline(always)]
-    pub fn weigh(self, [u, v, w]: [Self; 3]) -> Self {
+    pub fn combine(self, [u, v, w]: [Self; 3]) -> Self {
         u.scaled(self.x) + v.scaled(self.y) + w.scaled(self.z)
     }
 
-    /// The vector product.
+    /// The cross product.
     #[must_use]
     #[inline(always)]
     pub fn cross(self, other: Self) -> Self {
@@ -157,7 +157,7 @@ impl<N: Lanes> Vector<N> {
         }
     }
 
-    /// The one where the mask is true, the other where it is not.
+    /// Selects `yes` in the lanes where the mask is true, `no` in the others.
     #[must_use]
     #[inline(always)]
     pub fn select(mask: N::Mask, yes: Self, no: Self) -> Self {
@@ -170,7 +170,7 @@ impl<N: Lanes> Vector<N> {
 }
 
 impl<S: Simd> Vector<Eight<S>> {
-    /// The vector in a lane.
+    /// Returns the vector in a lane.
     #[inline(always)]
     pub fn lane(&self, lane: usize) -> DVec3 {
         DVec3::new(self.x[lane], self.y[lane], self.z[lane])
@@ -182,7 +182,7 @@ impl<S: Simd> Vector<Eight<S>> {
         [self.x[lane], self.y[lane], self.z[lane]] = vector.to_array();
     }
 
-    /// Those, as they lie in memory.
+    /// Stores the vectors in memory.
     #[inline(always)]
     pub fn store(self) -> Vector<Row> {
         Vector {
@@ -194,7 +194,7 @@ impl<S: Simd> Vector<Eight<S>> {
 }
 
 impl Vector<Row> {
-    /// The same vector eight times.
+    /// Repeats a vector in all lanes.
     pub fn repeat(vector: DVec3) -> Self {
         Self {
             x: Row::all(vector.x),
@@ -203,19 +203,19 @@ impl Vector<Row> {
         }
     }
 
-    /// The vector of a lane.
+    /// Returns the vector in a lane.
     #[inline(always)]
     pub fn get(&self, lane: usize) -> DVec3 {
         DVec3::new(self.x.0[lane], self.y.0[lane], self.z.0[lane])
     }
 
-    /// Replaces the vector of a lane.
+    /// Replaces the vector in a lane.
     #[inline(always)]
     pub fn set(&mut self, lane: usize, vector: DVec3) {
         [self.x.0[lane], self.y.0[lane], self.z.0[lane]] = vector.to_array();
     }
 
-    /// Those, in vectors.
+    /// Loads the vectors into SIMD registers.
     #[inline(always)]
     pub fn load<S: Simd>(&self, simd: S) -> Vector<Eight<S>> {
         Vector {

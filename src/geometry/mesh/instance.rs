@@ -1,4 +1,4 @@
-//! Where a mesh stands in the world, and how rays meet it.
+//! Meshes placed in the world, and their intersection with rays.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::geometry::transform::{exact_cross, normalise};
 use crate::geometry::triangle::Sheared;
 use crate::geometry::{Aabb, Affine, Chart, Hit, Ray, Surface};
 
-/// How far from the centre of a mesh, in its unit space, lines start at most. The mesh is within √3.
+/// The maximum distance of a line's start from the mesh's centre, in unit space. It is within √3.
 const NEAR: f64 = 4.0;
 
 /// An affine image of a mesh.
@@ -23,19 +23,19 @@ pub struct Instance {
     tags: Vec<u32>,
 }
 
-/// A ray's line in the unit space of a mesh.
+/// A ray in the unit space of a mesh.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshLine<'m> {
     mesh: &'m Mesh,
     line: Ray,
     sheared: Sheared,
-    /// How far along the ray the line starts.
+    /// The distance of the line's start along the ray.
     start: f64,
 }
 
 impl PartialEq for Instance {
     fn eq(&self, other: &Self) -> bool {
-        // A large mesh is seldom compared with its equal that is another.
+        // Equal large meshes are usually the same allocation.
         self.frame == other.frame
             && self.tags == other.tags
             && (Arc::ptr_eq(&self.mesh, &other.mesh) || self.mesh == other.mesh)
@@ -43,8 +43,8 @@ impl PartialEq for Instance {
 }
 
 impl Instance {
-    /// A mesh as seen from a frame. Slot i of its materials is called `tags[i]`; without a tag it is
-    /// called what the whole is.
+    /// Places a mesh in a frame. Material slot i has the tag `tags[i]`; slots beyond the end have
+    /// no tag of their own.
     pub fn new(mesh: Arc<Mesh>, frame: &Affine, tags: Vec<u32>) -> Self {
         let frame = frame.around(mesh.centre, mesh.size);
         Self { mesh, frame, tags }
@@ -55,7 +55,7 @@ impl Instance {
         &self.mesh
     }
 
-    /// An axis-aligned box: around the mesh's own, tight where its edges stay along the axes.
+    /// The axis-aligned box around the image of the mesh's own box, tight if that is axis-aligned.
     pub fn bounds(&self) -> Aabb {
         let [x, y, z] = self.frame.axes();
         let half = self.mesh.half;
@@ -66,10 +66,10 @@ impl Instance {
         }
     }
 
-    /// The ray's line in the space of the mesh, or `None` if the mesh is behind the ray.
+    /// Transforms a ray to the space of the mesh; `None` if the mesh is behind it.
     ///
-    /// It starts near the mesh, wherever the ray does: where the ray itself starts if that is near
-    /// enough, else before all of the mesh.
+    /// The line starts near the mesh: at the ray's own start if that is near enough, otherwise in
+    /// front of the whole mesh.
     #[inline]
     pub fn line(&self, ray: &Ray) -> Option<MeshLine<'_>> {
         let line = self.frame.line(&ray.into());
@@ -82,7 +82,7 @@ impl Instance {
             if start + closest + back < 0.0 {
                 return None;
             }
-            // An error in the distance moves the start along the line only.
+            // An error in the distance only moves the start along the line.
             let step = closest - back;
             origin = DVec3::new(
                 step.mul_add(direction.x, origin.x),
@@ -99,7 +99,7 @@ impl Instance {
         })
     }
 
-    /// The nearest crossing with `0 < t < limit`, found by trying every triangle.
+    /// The nearest hit with `0 < t < limit`, found by testing every triangle.
     pub fn hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
         let line = self.line(ray)?;
         let mut nearest = None;
@@ -116,14 +116,14 @@ impl Instance {
         let weights = self.weights(ray, hit);
         let sides = opposite(corners);
         let across = exact_cross(sides[2], -sides[1]);
-        // Corners in a row leave the plane open: it faces the ray.
+        // Collinear vertices do not determine the plane: it faces the ray.
         let outward = if across == DVec3::ZERO {
             -normalise(self.frame.line(&ray.into()).direction.into()).unwrap_or(DVec3::NEG_Z)
         } else {
             across
         };
         let surface = self.frame.surface(outward.into(), |margin| {
-            // A corner's weight is the place's distance from the side opposite, over the height.
+            // A barycentric coordinate is the distance from the opposite side over the height.
             let margin = margin.largest() / across.length();
             let least = sides.map(|side| (margin * side.length()).min(0.25));
             weighted(inside(weights, least), corners).into()
@@ -136,7 +136,7 @@ impl Instance {
         surface
     }
 
-    /// The texture coordinates at a hit: those of the corners, interpolated.
+    /// The texture coordinates at a hit, interpolated from the vertices.
     pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
         let triangle = self.mesh.triangles[hit.part as usize];
         let values = self.mesh.uvs.at(hit.part, triangle);
@@ -144,7 +144,7 @@ impl Instance {
         let [a, b, c] = self.weights(ray, hit);
         let sides = opposite(self.mesh.corners(triangle));
         let across = exact_cross(sides[2], -sides[1]);
-        // A weight grows from its side, within the plane.
+        // The gradients of the barycentric coordinates, within the plane.
         let slopes = sides.map(|side| {
             let slope = across.cross(side) / across.length_squared();
             if slope.is_finite() {
@@ -166,14 +166,13 @@ impl Instance {
         self.tags.get(self.mesh.slot(hit.part) as usize).copied()
     }
 
-    /// The tags that its triangles have, `None` for those without, in no order and perhaps several
-    /// times.
+    /// The tags of the triangles, `None` for those without, unordered and possibly repeated.
     pub fn tags(&self) -> impl Iterator<Item = Option<u32>> {
         let tag = |slot: u32| self.tags.get(slot as usize).copied();
         self.mesh.slots().map(tag)
     }
 
-    /// What the corners count at a hit.
+    /// The barycentric coordinates at a hit.
     fn weights(&self, ray: &Ray, hit: Hit) -> [f64; 3] {
         let corners = self.mesh.corners(self.mesh.triangles[hit.part as usize]);
         let line = self.line(ray);
@@ -183,24 +182,24 @@ impl Instance {
 }
 
 impl MeshLine<'_> {
-    /// The line in the space of its triangles.
+    /// The line prepared for tests against triangles.
     pub(super) fn sheared(&self) -> &Sheared {
         &self.sheared
     }
 
-    /// The line as a ray, of any speed, among [`Mesh::triangle_bounds`].
+    /// The line as a ray in the space of [`Mesh::triangle_bounds`], its direction of any length.
     pub fn ray(&self) -> &Ray {
         &self.line
     }
 
-    /// How far along [`Self::ray`] anything nearer than `limit` along the world's ray can be.
+    /// The maximum distance along [`Self::ray`] of hits nearer than `limit` along the world's ray.
     pub fn limit(&self, limit: f64) -> f64 {
         (limit - self.start).next_up()
     }
 
-    /// Makes the crossing of a triangle the `nearest`, a distance along [`Self::ray`], if it is up
-    /// to `limit` and before the one so far; of equal ones the first triangle's counts. Returns how
-    /// far there may be a nearer one.
+    /// Updates `nearest`, a distance along [`Self::ray`], if the line crosses a triangle at up to
+    /// `limit` and before the nearest crossing so far; among equal distances the first triangle
+    /// counts. Returns the limit for nearer crossings.
     #[inline]
     pub fn meet(&self, triangle: u32, limit: f64, nearest: &mut Option<Hit>) -> f64 {
         let corners = self.mesh.corners(self.mesh.triangles[triangle as usize]);
@@ -218,19 +217,19 @@ impl MeshLine<'_> {
         best.0
     }
 
-    /// The hit of the world's ray at 0 < t < `limit` that a crossing is.
+    /// Converts a crossing into a hit of the world's ray with t < `limit`.
     pub fn hit(&self, nearest: Hit, limit: f64) -> Option<Hit> {
         let t = self.start + nearest.t;
         (t < limit).then_some(Hit { t, ..nearest })
     }
 }
 
-/// The sides of a triangle opposite its corners, in the order of its corners.
+/// The sides of a triangle, each opposite the vertex of the same index.
 fn opposite([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
     [c - b, a - c, b - a]
 }
 
-/// Weights that add up to 1, none of them below its least.
+/// Raises each weight to its minimum and scales the sum to 1.
 fn inside(weights: [f64; 3], least: [f64; 3]) -> [f64; 3] {
     let raised: [f64; 3] = std::array::from_fn(|i| weights[i].max(least[i]));
     let sum: f64 = raised.iter().sum();

@@ -1,8 +1,8 @@
-//! Rays side by side against a mesh.
+//! Packets of rays against a mesh.
 
 #![expect(
     clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
+    reason = "these must be inlined into callers compiled for wider vectors"
 )]
 
 use super::{Instance, Mesh, MeshLine};
@@ -17,25 +17,25 @@ pub struct MeshLines<'m, S: Simd> {
     lines: [MeshLine<'m>; WIDTH],
     rays: Rays<Eight<S>>,
     sheared: Option<ShearedLines<S>>,
-    /// A bit for each ray that the mesh is not behind of.
+    /// A mask of the rays that the mesh is not behind, lowest bit first.
     pub lanes: u32,
 }
 
 impl Instance {
-    /// The lines of some of eight rays, those whose bit in `lanes` is 1; `None` if the mesh is
-    /// behind them all.
+    /// Transforms the rays whose bit in `lanes` is 1 to the space of the mesh; `None` if the mesh
+    /// is behind all of them.
     #[inline(always)]
     pub fn lines<S: Simd>(&self, rays: &Rays<Eight<S>>, lanes: u32) -> Option<MeshLines<'_, S>> {
         let simd = rays.origin.x.simd;
-        let mut met = 0;
+        let mut hit_lanes = 0;
         let mut lines = [None; WIDTH];
         for (lane, line) in lines.iter_mut().enumerate() {
             if lanes >> lane & 1 == 1 {
                 *line = self.line(&rays.ray(lane));
-                met |= u32::from(line.is_some()) << lane;
+                hit_lanes |= u32::from(line.is_some()) << lane;
             }
         }
-        // One of them stands in for those that are not.
+        // Unused lanes repeat one of the lines.
         let any = lines.into_iter().flatten().next()?;
         let lines = lines.map(|line| line.unwrap_or(any));
         let rays: [Ray; WIDTH] = lines.map(|line| *line.ray());
@@ -44,25 +44,25 @@ impl Instance {
             rays: Rays::gather(simd, &rays),
             sheared: ShearedLines::new(simd, lines.each_ref().map(MeshLine::sheared)),
             lines,
-            lanes: met,
+            lanes: hit_lanes,
         })
     }
 }
 
 impl<'m, S: Simd> MeshLines<'m, S> {
-    /// The lines as rays, of any speed, among [`Mesh::triangle_bounds`].
+    /// The lines as rays in the space of [`Mesh::triangle_bounds`], their directions of any length.
     #[inline(always)]
     pub fn rays(&self) -> &Rays<Eight<S>> {
         &self.rays
     }
 
-    /// The line of a ray that has its bit in [`MeshLines::lanes`].
+    /// The line of a ray whose bit is set in [`MeshLines::lanes`].
     #[inline(always)]
     pub fn line(&self, lane: usize) -> &MeshLine<'m> {
         &self.lines[lane % WIDTH]
     }
 
-    /// How far along [`Self::rays`] anything nearer than the limits along the world's rays can be.
+    /// The maximum distances along [`Self::rays`] of hits nearer than the world rays' limits.
     #[inline(always)]
     pub fn limits(&self, limits: &Eight<S>) -> Eight<S> {
         let mut on_lines = [0.0; WIDTH];
@@ -72,7 +72,7 @@ impl<'m, S: Simd> MeshLines<'m, S> {
         Eight::load_array(limits.simd, on_lines)
     }
 
-    /// Of some lanes, those whose line [`MeshLine::meet`] may find to cross a triangle.
+    /// The given lanes without those whose line surely misses a triangle by [`MeshLine::meet`].
     #[inline(always)]
     pub fn may_meet(&self, triangle: u32, lanes: u32) -> u32 {
         match &self.sheared {

@@ -1,9 +1,8 @@
-//! Meshes of triangles, and their images in the world.
+//! Triangle meshes and their instances.
 //!
-//! A [`Mesh`] is shared: each [`Instance`] of it stands in the world by its own affine frame. Rays go
-//! to the space of the mesh, once for each instance. Which triangles a ray may meet there is not
-//! for this room to know: a caller with a structure over [`Mesh::triangle_bounds`] asks a [`MeshLine`] about
-//! the candidates.
+//! A [`Mesh`] is shared: each [`Instance`] places it in the world by an affine frame. Rays are
+//! transformed to the space of the mesh once per instance. The caller finds the candidate
+//! triangles, usually by a bvh over [`Mesh::triangle_bounds`], and tests them with a [`MeshLine`].
 
 mod instance;
 mod lines;
@@ -16,23 +15,23 @@ use super::Aabb;
 pub use instance::{Instance, MeshLine};
 pub use lines::MeshLines;
 
-/// How much larger than its triangle a box is, in the unit space of the mesh: a line's crossing is
-/// computed from corners seen from at most 6 away, and is off the line by less than half of this.
+/// The margin of a triangle's box, in the unit space of the mesh: a crossing is computed from
+/// vertices at most 6 away from the line's start, and is off the line by less than half of this.
 const MARGIN: f64 = 32.0 * f64::EPSILON;
 
-/// Marks a corner that has no value.
+/// Marks a vertex without a value.
 pub const ABSENT: u32 = u32::MAX;
 
-/// Triangles with shared corners.
+/// Triangles with shared vertices.
 ///
-/// Positions are kept in unit space: relative to the centre of their box, in units of the power of
-/// two at or above half its longest edge. So sizes and places do no harm to the tests, and a mesh
-/// scaled by a power of two is the same.
+/// Positions are stored in unit space: relative to the centre of their box, in units of the least
+/// power of two not below half its longest edge. The tests are therefore independent of size and
+/// location, and a mesh scaled by a power of two gives the same bits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     centre: DVec3,
     size: f64,
-    /// How far it reaches along each axis, in unit space.
+    /// The half extent along each axis, in unit space.
     half: DVec3,
     positions: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
@@ -41,28 +40,29 @@ pub struct Mesh {
     slots: Vec<SlotRun>,
 }
 
-/// What a mesh is made from.
+/// The input of [`Mesh::new`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshParts {
-    /// Places of corners.
+    /// Vertex positions.
     pub positions: Vec<DVec3>,
-    /// Indices in `positions`; a triangle's front is where they turn counter-clockwise.
+    /// Indices into `positions`; counter-clockwise triangles are front-facing.
     pub triangles: Vec<[u32; 3]>,
-    /// Normals of corners, of any length above 0. A triangle that lacks one of its three is flat.
+    /// Vertex normals, of any length above 0. A triangle that lacks one of its three is flat.
     pub normals: Attribute<DVec3>,
-    /// Texture coordinates of corners. A corner that lacks its own has 0, 0.
+    /// Texture coordinates of vertices; 0, 0 if missing.
     pub uvs: Attribute<DVec2>,
-    /// Runs of triangles with the same material slot, in ascending order; slot 0 before the first.
+    /// Runs of triangles with the same material slot, in ascending order; triangles before the
+    /// first run have slot 0.
     pub slots: Vec<SlotRun>,
 }
 
-/// Values at the corners of triangles.
+/// Values at the vertices of triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attribute<T> {
-    /// The values.
+    /// The values, indexed by `corners`.
     pub values: Vec<T>,
-    /// For each triangle the indices in `values`, or [`ABSENT`]; none at all if there are no
-    /// values, or if the indices are those of the positions.
+    /// For each triangle the indices into `values`, or [`ABSENT`]; empty if there are no values or
+    /// the indices equal those of the positions.
     pub corners: Vec<[u32; 3]>,
 }
 
@@ -75,23 +75,23 @@ pub struct SlotRun {
     pub slot: u32,
 }
 
-/// Why there is no mesh.
+/// Why a mesh could not be created.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MeshError {
-    /// It has no triangles.
-    #[error("there are no triangles")]
+    /// There are no triangles.
+    #[error("the mesh has no triangles")]
     Empty,
-    /// More than 2³² − 1 of something.
-    #[error("there are too many triangles")]
+    /// 2³² − 1 or more triangles or positions.
+    #[error("the mesh has too many triangles or positions")]
     TooMany,
-    /// An index beyond what it is an index of, or not as many indices as triangles.
-    #[error("a triangle names a corner that does not exist")]
+    /// An index out of range, or a different number of indices than triangles.
+    #[error("a triangle refers to a missing vertex")]
     Index,
-    /// Runs of material slots that do not ascend.
-    #[error("the runs of materials are out of order")]
+    /// Runs of material slots that are not in ascending order.
+    #[error("the material runs are not in ascending order")]
     Order,
-    /// A number that is not finite, or a size that is not.
-    #[error("a coordinate is out of range")]
+    /// A number or the size of the mesh is not finite.
+    #[error("a coordinate is not finite or too large")]
     Range,
 }
 
@@ -105,14 +105,14 @@ impl<T> Default for Attribute<T> {
 }
 
 impl<T: Copy> Attribute<T> {
-    /// The values at the corners of a triangle with these positions.
+    /// The values at the vertices of a triangle with these position indices.
     fn at(&self, triangle: u32, positions: [u32; 3]) -> [Option<T>; 3] {
         let corners = self.corners.get(triangle as usize);
         let corners = corners.copied().unwrap_or(positions);
         corners.map(|corner| self.values.get(corner as usize).copied())
     }
 
-    /// Drops what says nothing, and checks the rest.
+    /// Validates the indices and drops redundant ones.
     fn checked(mut self, triangles: &[[u32; 3]]) -> Result<Self, MeshError> {
         if self.values.is_empty() {
             return Ok(Self::default());
@@ -134,7 +134,7 @@ impl<T: Copy> Attribute<T> {
 }
 
 impl Mesh {
-    /// Makes a mesh.
+    /// Creates a mesh; fails if an index or a number is out of range.
     pub fn new(parts: MeshParts) -> Result<Self, MeshError> {
         let MeshParts {
             mut positions,
@@ -163,13 +163,13 @@ impl Mesh {
         if !finite {
             return Err(MeshError::Range);
         }
-        // Positions that no triangle has do not count.
+        // Positions that no triangle uses do not count.
         let used = indices.par_iter().map(|&index| positions[index as usize]);
         let ends = used.map(|position| (position, position)).reduce(
             || (DVec3::INFINITY, DVec3::NEG_INFINITY),
             |a, b| (a.0.min(b.0), a.1.max(b.1)),
         );
-        // Of zeros with either sign any may be the least: none keeps its sign.
+        // The order of reduction decides between 0 and −0: make both 0.
         let (min, max) = (ends.0 + 0.0, ends.1 + 0.0);
         let centre = 0.5 * min + 0.5 * max;
         let reach = (max - centre).max(centre - min).max_element();
@@ -196,17 +196,17 @@ impl Mesh {
         Ok(mesh)
     }
 
-    /// How many triangles there are.
+    /// The number of triangles.
     pub fn len(&self) -> usize {
         self.triangles.len()
     }
 
-    /// Whether there are none: no mesh is empty.
+    /// Whether the mesh has no triangles: always false.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty()
     }
 
-    /// The tight axis-aligned box, where it was made.
+    /// The tight axis-aligned box in the mesh's own coordinates.
     pub fn bounds(&self) -> Aabb {
         Aabb {
             min: self.centre - self.size * self.half,
@@ -214,8 +214,8 @@ impl Mesh {
         }
     }
 
-    /// The box of a triangle, in the space of [`MeshLine::ray`]: a line that meets the one meets the
-    /// other.
+    /// The box of a triangle in the space of [`MeshLine::ray`]; a line that crosses the triangle
+    /// crosses the box too.
     pub fn triangle_bounds(&self, triangle: u32) -> Aabb {
         let [a, b, c] = self.corners(self.triangles[triangle as usize]);
         Aabb {
@@ -224,27 +224,27 @@ impl Mesh {
         }
     }
 
-    /// The material slots that triangles have, in no order and perhaps several times.
+    /// The material slots of the triangles, unordered and possibly repeated.
     fn slots(&self) -> impl Iterator<Item = u32> {
         let first = self.slots.first().is_none_or(|run| 0 < run.first);
         let named = self.slots.iter().map(|run| run.slot);
         first.then_some(0).into_iter().chain(named)
     }
 
-    /// The slot of a triangle's material.
+    /// The material slot of a triangle.
     fn slot(&self, triangle: u32) -> u32 {
         let after = self.slots.partition_point(|run| run.first <= triangle);
         after.checked_sub(1).map_or(0, |run| self.slots[run].slot)
     }
 
-    /// The corners of a triangle, in unit space.
+    /// The vertices of a triangle, in unit space.
     #[inline]
     fn corners(&self, triangle: [u32; 3]) -> [DVec3; 3] {
         triangle.map(|corner| self.positions[corner as usize])
     }
 }
 
-/// The least power of two that is not below `x` ≥ 0, or the least normal number.
+/// The least power of two not below `x` ≥ 0, at least the least normal number.
 fn next_power_of_two(x: f64) -> f64 {
     let below = super::transform::power_of_two(x);
     if below < x { 2.0 * below } else { below }

@@ -1,21 +1,22 @@
-//! The axes of a quadratic function, and its centre, in twice the precision.
+//! The axes and the centre of a quadratic function, in twice the precision.
 
 use glam::DVec3;
 
 use super::form::Form;
 use crate::geometry::double_double::{Double, Vector, cross, dot, scaled, sum, vector};
 use crate::geometry::line::FAR;
+use crate::geometry::transform::power_of_two;
 
-/// Eigenvalues and sums below this part of the largest term are the rounding of twice the precision.
+/// Eigenvalues and sums below this fraction of the largest term are rounding errors.
 const NOISE: f64 = 1e-27;
 
-/// Below this part of the largest eigenvalue another may be the rounding of a file's coefficients:
-/// along such an axis a solid looks endless, and its centre, if it has one, may be anywhere.
+/// An eigenvalue below this fraction of the largest may be due to rounded coefficients in the file:
+/// along such an axis a solid looks unbounded, and its centre, if any, may be anywhere.
 const WEAK: f64 = 5e-14;
 
-/// How much an axis that does not curve counts in finding where a line is closest to a solid.
-/// Above 0, or a line along a cylinder would have no closest place; small, or a line across its far
-/// end would be followed to nowhere near it.
+/// The weight of an axis without curvature in finding where a line is closest to a solid. Above 0,
+/// or a line along a cylinder would have no closest point; small, or a line across the cylinder's
+/// far end would be advanced to a point far from it.
 const STRAIGHT: f64 = 1.0 / (1 << 20) as f64;
 
 /// F along its axes: Σ λᵢ zᵢ² + 2 βᵢ zᵢ + constant, zᵢ = axisᵢ · x.
@@ -28,6 +29,40 @@ pub(super) struct Axes {
     largest: Double,
 }
 
+impl Form {
+    /// Transforms A x² + 2B xy + 2C xz + 2D x + E y² + 2F yz + 2G y + H z² + 2I z + J, finite, into
+    /// principal coordinates, in twice the precision: the coefficients of a small solid far from
+    /// the origin hold its size in their last bits.
+    pub(super) fn new(coefficients: [f64; 10]) -> Self {
+        let [xx, xy, xz, x, yy, yz, y, zz, z, constant] = coefficients;
+        let size = |terms: &[f64]| {
+            terms
+                .iter()
+                .fold(0.0, |size, term| f64::max(size, term.abs()))
+        };
+        let square = size(&[xx, xy, xz, yy, yz, zz]);
+        let leading = if square == 0.0 {
+            size(&[x, y, z])
+        } else {
+            square
+        };
+        if leading == 0.0 {
+            return Self::constant(constant);
+        }
+        let factor = power_of_two(leading);
+        let matrix = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+        let matrix = matrix.map(|row| row.map(|term| Double::of(term / factor)));
+        let linear = vector(DVec3::new(x, y, z) / factor);
+        let form = Axes::new(matrix, linear, Double::of(constant / factor)).form();
+        // Coefficients near the limits of `f64` overflow or underflow.
+        if form.is_finite() {
+            form
+        } else {
+            Self::constant(1.0)
+        }
+    }
+}
+
 impl Axes {
     pub(super) fn new(matrix: [[Double; 3]; 3], linear: Vector, constant: Double) -> Self {
         let (mut lambda, mut axes) = eigen(matrix);
@@ -38,14 +73,14 @@ impl Axes {
             }
         }
         let size = dot(linear, linear).sqrt().round();
-        // A parabola drawn along a line: which of the two axes without curvature its slope is
-        // along, rounded eigenvalues cannot say.
+        // A parabolic cylinder: rounded eigenvalues do not determine which of the two axes without
+        // curvature its slope is along.
         let weak = |i: usize| lambda[i].abs().round() <= WEAK * largest.round();
         let sloped = |i: usize| weak(i) && WEAK * size < dot(axes[i], linear).abs().round();
         if (0..3).filter(|&i| weak(i)).count() == 2 && (0..3).any(sloped) {
             lambda = std::array::from_fn(|i| if weak(i) { Double::ZERO } else { lambda[i] });
         }
-        turn_null_space(&mut axes, lambda, linear);
+        rotate_null_space(&mut axes, lambda, linear);
         let beta = axes.map(|axis| {
             let beta = dot(axis, linear);
             if beta.abs().round() <= NOISE * size {
@@ -68,7 +103,7 @@ impl Axes {
         }
     }
 
-    /// Moves to the centre along each axis on which F has one, and scales.
+    /// Moves the origin to the centre along each axis on which F has one, and scales.
     pub(super) fn form(mut self) -> Form {
         let largest = self.largest.round();
         let strong = self
@@ -94,7 +129,7 @@ impl Axes {
                 continue;
             }
             if self.lambda[i].round() == 0.0 {
-                // To the vertex of a paraboloid, unless it is out of sight: then F is as good as
+                // To the vertex of a paraboloid, unless it is so far away that F is practically
                 // constant along this axis.
                 let shift = -self.constant / (self.beta[i] + self.beta[i]);
                 let (parameter, square) = (
@@ -105,7 +140,7 @@ impl Axes {
                     (shifts[i], self.constant) = (shift, Double::ZERO);
                 }
             } else {
-                // To the centre, only if it is much farther away than the solid is long.
+                // To the centre, only if it is much farther away than the length of the solid.
                 let shift = -self.beta[i] / self.lambda[i];
                 let constant = self.constant + shift * self.beta[i];
                 let length = (constant / self.lambda[i]).abs();
@@ -126,12 +161,12 @@ impl Axes {
         } else {
             radius
         };
-        // A cone has no size; nor has a plane, whose β alone is its own parameter.
+        // A cone has no size, nor has a plane, whose only parameter is β.
         let flat = self.lambda.iter().all(|lambda| lambda.round() == 0.0);
         let endless = unit.round() == 0.0 || flat;
         let unit = if endless { Double::of(1.0) } else { unit };
-        let exact = (0..3).fold(vector(DVec3::ZERO), |place, i| {
-            sum(place, scaled(shifts[i], self.directions[i]))
+        let exact = (0..3).fold(vector(DVec3::ZERO), |position, i| {
+            sum(position, scaled(shifts[i], self.directions[i]))
         });
         let centre = rounded(exact);
         let rest = sum(vector(centre), exact.map(|component| -component));
@@ -169,9 +204,9 @@ impl Axes {
     }
 }
 
-/// Eigenvalues and unit eigenvectors of a symmetric matrix, by Jacobi's rotations: G. Golub,
-/// C. Van Loan, "Matrix Computations", 4th edition, section 8.5. They converge quadratically; ten
-/// sweeps are more than any matrix of 106 bits needs.
+/// Eigenvalues and unit eigenvectors of a symmetric matrix by Jacobi rotations: G. Golub,
+/// C. Van Loan, "Matrix Computations", 4th edition, section 8.5. They converge quadratically: ten
+/// sweeps are more than a matrix of 106 bits needs.
 fn eigen(mut matrix: [[Double; 3]; 3]) -> ([Double; 3], [Vector; 3]) {
     let mut axes = DVec3::AXES.map(vector);
     let size = matrix
@@ -208,8 +243,8 @@ fn eigen(mut matrix: [[Double; 3]; 3]) -> ([Double; 3], [Vector; 3]) {
     ([matrix[0][0], matrix[1][1], matrix[2][2]], axes)
 }
 
-/// Where several axes have the eigenvalue 0, turns them so that F is linear along one at most.
-fn turn_null_space(axes: &mut [Vector; 3], lambda: [Double; 3], linear: Vector) {
+/// Rotates axes with eigenvalue 0 so that F has a slope along at most one of them.
+fn rotate_null_space(axes: &mut [Vector; 3], lambda: [Double; 3], linear: Vector) {
     let null = |i: &usize| lambda[*i].round() == 0.0;
     let indices: [usize; 3] = match (0..3).filter(null).count() {
         0 | 1 => return,
@@ -218,7 +253,7 @@ fn turn_null_space(axes: &mut [Vector; 3], lambda: [Double; 3], linear: Vector) 
             [strong, (strong + 1) % 3, (strong + 2) % 3]
         }
         _ => {
-            // Any axis across the slope will do for the first.
+            // Any axis perpendicular to the slope can be the first.
             let least = rounded(linear).abs().min_position();
             let across = cross(linear, vector(DVec3::AXES[least]));
             if let Some(across) = unit(across) {
@@ -240,7 +275,7 @@ fn turn_null_space(axes: &mut [Vector; 3], lambda: [Double; 3], linear: Vector) 
     }
 }
 
-/// d − n · x, as if computed with twice the precision.
+/// Returns d − n · x as if computed in twice the precision.
 pub(super) fn difference(d: f64, n: DVec3, x: DVec3) -> f64 {
     (Double::of(d) - dot(vector(n), vector(x))).round()
 }

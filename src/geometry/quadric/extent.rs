@@ -1,9 +1,8 @@
-//! How far a region extends along the axes of the world.
+//! The bounding box of a region.
 //!
-//! A coordinate is largest where the quadric and some of the planes hold it: where the quadric is
-//! parallel to it, in space, in a plane, or where it crosses the line of two planes, or at the corner
-//! of three. All such places are tried, and those in the region count. Six planes far away close
-//! what has no end.
+//! A coordinate is extreme at a stationary point on the quadric, or on its curve in a plane, where
+//! the quadric crosses the line of two planes, or at the corner of three. All such points are
+//! tested, and those in the region count. Six far planes close unbounded regions.
 
 use glam::DVec3;
 
@@ -11,15 +10,15 @@ use super::form::Form;
 use super::{HalfSpace, roots};
 use crate::geometry::Aabb;
 
-/// How far outside, relative to its terms, a place may be for rounding.
+/// How far outside a point may be due to rounding, relative to its terms.
 const TOLERANCE: f64 = 1.0 / (1 << 30) as f64;
 
-/// Where the six planes stand, in sizes of the solid. A paraboloid is as wide there as the square
-/// root of this, and must still be told from a solid with an end; and a unit in the last place of
-/// this must still be less than a size.
+/// The distance of the six far planes, in sizes of the solid. There the width of a paraboloid is
+/// the square root of this, and must still differ from that of a bounded solid; and an ulp of this
+/// must be less than a size.
 const FAR_AWAY: f64 = (1_u64 << 48) as f64;
 
-/// What extends farther, in sizes of the solid, has no end.
+/// A region that extends farther, in sizes of the solid, is unbounded.
 const ENDLESS: f64 = (1 << 18) as f64;
 
 /// A plane m · p = d in the coordinates of the form, m of unit length.
@@ -30,7 +29,7 @@ struct Plane {
 }
 
 impl Plane {
-    /// Its place closest to the origin.
+    /// The point closest to the origin.
     fn foot(&self) -> DVec3 {
         self.distance * self.normal
     }
@@ -39,16 +38,16 @@ impl Plane {
 struct Region<'a> {
     form: &'a Form,
     planes: Vec<Plane>,
-    /// How large the solid is, or how far its planes are.
+    /// The size of the solid, or the distance of its planes.
     size: f64,
-    /// The largest and the least of each world coordinate so far, relative to the centre.
+    /// The extremes of each world coordinate so far, relative to the centre.
     low: DVec3,
     high: DVec3,
     /// The gradients of the world coordinates.
     rises: [DVec3; 3],
 }
 
-/// The box of the region, or [`Aabb::EMPTY`].
+/// The bounding box of the region, or [`Aabb::EMPTY`].
 pub(super) fn bounds(form: &Form, half_spaces: &[HalfSpace]) -> Aabb {
     let form = &without_rounding(form);
     let mut planes: Vec<_> = half_spaces.iter().map(|half| plane(form, half)).collect();
@@ -70,7 +69,7 @@ pub(super) fn bounds(form: &Form, half_spaces: &[HalfSpace]) -> Aabb {
     }
     let rises = std::array::from_fn(|k| {
         let rise = DVec3::from_array(form.columns.map(|column| column[k]));
-        // What is left of an axis at a right angle is rounding.
+        // The rest of a perpendicular axis is rounding.
         let least = f64::EPSILON * f64::EPSILON * rise.abs().max_element();
         DVec3::select(rise.abs().cmple(DVec3::splat(least)), DVec3::ZERO, rise)
     });
@@ -86,14 +85,14 @@ pub(super) fn bounds(form: &Form, half_spaces: &[HalfSpace]) -> Aabb {
     region.into_box(half_spaces.is_empty())
 }
 
-/// The function without what may be rounding of its coefficients: it would show at the far planes, and
-/// nowhere where there are ends.
+/// The function without terms that may be rounding of its coefficients: they would matter at the
+/// far planes, but nowhere on a bounded region.
 fn without_rounding(form: &Form) -> Form {
     let least = DVec3::splat(8.0 * f64::EPSILON);
-    let meant = |v: DVec3| DVec3::select(v.abs().cmplt(least), DVec3::ZERO, v);
+    let significant = |v: DVec3| DVec3::select(v.abs().cmplt(least), DVec3::ZERO, v);
     Form {
-        squares: meant(form.squares),
-        linear: meant(form.linear),
+        squares: significant(form.squares),
+        linear: significant(form.linear),
         ..*form
     }
 }
@@ -122,7 +121,7 @@ impl Region<'_> {
                 constant,
                 rise.to_array(),
             ) {
-                self.try_place(DVec3::from_array(p));
+                self.try_point(DVec3::from_array(p));
             }
         }
         let planes = self.planes.clone();
@@ -137,19 +136,19 @@ impl Region<'_> {
                         + second.distance * third.normal.cross(first.normal)
                         + third.distance * first.normal.cross(second.normal);
                     if TOLERANCE * TOLERANCE < volume.abs() {
-                        self.try_place(corner / volume);
+                        self.try_point(corner / volume);
                     }
                 }
             }
         }
     }
 
-    /// Where the curve in which the plane meets the quadric is parallel to an axis of the world.
+    /// Tests where a world coordinate is stationary on the curve of the quadric in a plane.
     fn try_plane(&mut self, plane: &Plane) {
         let s = self.form.squares;
         let foot = plane.foot();
         let (mut u, mut v) = plane.normal.any_orthonormal_pair();
-        // One rotation of Jacobi's makes the plane's axes those of the curve.
+        // One Jacobi rotation aligns the plane's axes with those of the curve.
         let off = u.dot(s * v);
         if off != 0.0 {
             let ratio = (v.dot(s * v) - u.dot(s * u)) / (2.0 * off);
@@ -164,12 +163,12 @@ impl Region<'_> {
         for rise in self.rises {
             let level = self.form.value(foot);
             for [x, y] in stationary(squares, in_plane(slope), level, in_plane(rise)) {
-                self.try_place(foot + x * u + y * v);
+                self.try_point(foot + x * u + y * v);
             }
         }
     }
 
-    /// Where the line of two planes meets the quadric.
+    /// Tests where the line of two planes crosses the quadric.
     fn try_line(&mut self, first: &Plane, second: &Plane) {
         let along = first.normal.cross(second.normal);
         let square = along.length_squared();
@@ -183,15 +182,15 @@ impl Region<'_> {
         let b = along.dot(self.form.gradient(foot));
         if a == 0.0 {
             let c = self.form.value(foot);
-            self.try_place(foot - (0.5 * c / b) * along);
+            self.try_point(foot - (0.5 * c / b) * along);
             return;
         }
         self.try_crossings(foot, along, a);
-        // Seen from where the function is flat, far places leave something of the discriminant.
+        // From the line's stationary point the discriminant of far crossings is more precise.
         self.try_crossings(foot - (b / a) * along, along, a);
     }
 
-    /// Where a line meets the quadric, whose function is quadratic by `a` along it.
+    /// Tests where a line crosses the quadric; `a` is the quadratic coefficient along it.
     fn try_crossings(&mut self, from: DVec3, along: DVec3, a: f64) {
         let b = along.dot(self.form.gradient(from));
         let c = self.form.value(from);
@@ -199,23 +198,23 @@ impl Region<'_> {
         if -TOLERANCE * (b * b + (a * c).abs()) <= discriminant {
             for t in roots(a, b, c, discriminant.max(0.0).sqrt()) {
                 let p = from + t * along;
-                self.try_place(p);
-                // Far away little is left of the discriminant of a parabola.
+                self.try_point(p);
+                // Far away the discriminant of a parabola has little precision.
                 let p = self.nearer(self.nearer(p, along), along);
-                self.try_place(p);
+                self.try_point(p);
             }
         }
     }
 
-    /// One step of Newton's toward the quadric.
+    /// One Newton step toward the quadric.
     fn nearer(&self, p: DVec3, along: DVec3) -> DVec3 {
         let slope = along.dot(self.form.gradient(p));
         p - (0.5 * self.form.value(p) / slope) * along
     }
 
-    /// Counts a place if it is in the region. What rounding may have put outside is in: so a box is
-    /// never too small, and too large at places so far away only that it has no end there.
-    fn try_place(&mut self, p: DVec3) {
+    /// Extends the box to a point in the region. A point that may be outside due to rounding
+    /// counts: the box is never too small, and too large only where it is unbounded anyway.
+    fn try_point(&mut self, p: DVec3) {
         if !p.is_finite() {
             return;
         }
@@ -227,18 +226,18 @@ impl Region<'_> {
         } = *self.form;
         let length = p.length();
         let rounding = 2.0 * f64::EPSILON * length;
-        let place = TOLERANCE * length.min(self.size) + rounding;
+        let slack = TOLERANCE * length.min(self.size) + rounding;
         let terms = TOLERANCE * (p.dot(squares.abs() * p) + constant.abs())
             + squares.abs().max_element() * rounding * rounding
             + 2.0 * (squares * p).length() * rounding
-            + 2.0 * linear.length() * place;
+            + 2.0 * linear.length() * slack;
         let inside = self.planes.iter().all(|plane| {
-            plane.normal.dot(p) - plane.distance <= place + TOLERANCE * plane.distance.abs()
+            plane.normal.dot(p) - plane.distance <= slack + TOLERANCE * plane.distance.abs()
         });
         if self.form.value(p) <= terms && inside {
-            let place = DVec3::from_array(self.rises.map(|rise| rise.dot(p - self.form.offset)));
-            self.low = self.low.min(place);
-            self.high = self.high.max(place);
+            let position = DVec3::from_array(self.rises.map(|rise| rise.dot(p - self.form.offset)));
+            self.low = self.low.min(position);
+            self.high = self.high.max(position);
         }
     }
 
@@ -246,7 +245,7 @@ impl Region<'_> {
         if !self.low.cmple(self.high).all() {
             return Aabb::EMPTY;
         }
-        // Without planes no place was within tolerance of one.
+        // Without planes no point was accepted by the tolerance of one.
         let padding = if whole { 4.0 * f64::EPSILON } else { TOLERANCE };
         let mut bounds = Aabb {
             min: DVec3::NEG_INFINITY,
@@ -269,12 +268,12 @@ impl Region<'_> {
     }
 }
 
-/// The places where Σ sᵢ pᵢ² + 2 h · p + k = 0 is parallel to the planes on which g · p is constant,
-/// and the centre, if the function has one. Not all are real; those that are not are not numbers.
+/// The points where g · p is stationary on Σ sᵢ pᵢ² + 2 h · p + k = 0, and the centre, if the
+/// function has one. Points that are not real are NaN.
 ///
-/// With a multiplier μ, pᵢ = (μ gᵢ − hᵢ) / sᵢ, and μ² = (h² + s S) / (g² + s R) for one of the axes,
-/// with the sums of the others S = Σ h²/s − k and R = Σ g²/s. That axis is the one which needs it:
-/// where s is nearly 0, μ g − h cancels, and its product with μ g + h does not.
+/// With a Lagrange multiplier μ, pᵢ = (μ gᵢ − hᵢ) / sᵢ, and μ² = (h² + s S) / (g² + s R) for one of
+/// the axes, with the sums over the others S = Σ h²/s − k and R = Σ g²/s. It is the axis with the
+/// smallest s relative to h: there μ g − h cancels, and its product with μ g + h does not.
 fn stationary<const N: usize>(
     s: [f64; N],
     h: [f64; N],
@@ -311,7 +310,7 @@ fn stationary<const N: usize>(
     let denominator = gw * gw + sw * rises;
     let root = (numerator / denominator).sqrt();
     let root = if parallel { root } else { f64::NAN };
-    let place = move |multiplier: f64| {
+    let position = move |multiplier: f64| {
         std::array::from_fn(|i| {
             let (rise, slope) = (multiplier * g[i], h[i]);
             if missing(i) {
@@ -323,5 +322,5 @@ fn stationary<const N: usize>(
             }
         })
     };
-    [root, -root, 0.0].into_iter().map(place)
+    [root, -root, 0.0].into_iter().map(position)
 }

@@ -1,94 +1,58 @@
-//! Quadratic functions in coordinates of their own.
+//! Quadratic functions in their principal coordinates.
 
 use glam::DVec3;
 
-use super::axes::Axes;
 use crate::geometry::Ray;
-use crate::geometry::double_double::{Double, vector};
-use crate::geometry::transform::power_of_two;
 
-/// A quadratic function F of space, up to a factor above 0: with p = W (x − centre) + offset,
+/// A quadratic function F, up to a positive factor: with p = W (x − centre) + offset,
 /// F = Σ sᵢ pᵢ² + 2 h · p + k.
 ///
-/// The axes of p are orthogonal and scaled so that s is −1, 0 or 1, or so small that it may be meant
-/// to be 0. Where s is ±1, h is 0. What is left of F has size 1: |k| or |h| is 1, unless both are 0,
+/// The axes of p are orthogonal and scaled so that s is −1, 0 or 1, or so small that 0 may be
+/// intended. Where s is ±1, h is 0. The rest of F has size 1: |k| or |h| is 1, unless both are 0,
 /// as for a cone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Form {
-    /// The centre, vertex, or some place on the axis, to the nearest `f64`.
+    /// The centre, the vertex, or a point on the axis, rounded to `f64`.
     pub(super) centre: DVec3,
-    /// The exact centre to `centre`, in the coordinates of p.
+    /// `centre` minus the exact centre, in the coordinates of p.
     pub(super) offset: DVec3,
     /// The rows of W.
     pub(super) rows: [DVec3; 3],
     /// The columns of its inverse.
     pub(super) columns: [DVec3; 3],
-    /// s.
+    /// The squared terms' coefficients s.
     pub(super) squares: DVec3,
-    /// h.
+    /// The linear terms' coefficients h.
     pub(super) linear: DVec3,
-    /// k.
+    /// The constant k.
     pub(super) constant: f64,
-    /// The length in the world of a 1 along the most curved axis: its least semi-axis, or half the
+    /// The world length of a unit along the most curved axis: the least semi-axis, or half the
     /// parameter of a paraboloid.
     pub(super) unit: f64,
-    /// A line that starts no farther from the centre stays where it starts; 0 if no size says what
-    /// far is.
+    /// Lines that start farther from the centre are advanced first; 0 if the solid has no size.
     pub(super) near: f64,
-    /// How much the axes of p count in finding the closest place.
+    /// The weights of the axes of p in finding the closest point.
     pub(super) weights: DVec3,
 }
 
-/// A line in the world, as seen from the centre, and in the coordinates of p. Distances along both
-/// are those along the ray.
+/// A line in the world, relative to the centre, and in the coordinates of p. Distances along both
+/// equal those along the ray.
 #[derive(Clone, Copy)]
 pub(super) struct Line {
-    /// The place at `start` in the world, minus the centre.
-    pub(super) place: DVec3,
+    /// The world position at `start`, minus the centre.
+    pub(super) position: DVec3,
     /// The ray's direction.
     pub(super) direction: DVec3,
-    /// How far along the ray `place` is.
+    /// The distance of `position` along the ray.
     pub(super) start: f64,
-    /// p at `start`.
+    /// The value of p at `start`.
     pub(super) p: DVec3,
     /// The direction of p.
     pub(super) q: DVec3,
 }
 
 impl Form {
-    /// Brings A x² + 2B xy + 2C xz + 2D x + E y² + 2F yz + 2G y + H z² + 2I z + J, finite, into its
-    /// own coordinates, in twice the precision: coefficients of a small solid far from the origin
-    /// hold its size in their last bits.
-    pub(super) fn new(coefficients: [f64; 10]) -> Self {
-        let [xx, xy, xz, x, yy, yz, y, zz, z, constant] = coefficients;
-        let size = |terms: &[f64]| {
-            terms
-                .iter()
-                .fold(0.0, |size, term| f64::max(size, term.abs()))
-        };
-        let square = size(&[xx, xy, xz, yy, yz, zz]);
-        let leading = if square == 0.0 {
-            size(&[x, y, z])
-        } else {
-            square
-        };
-        if leading == 0.0 {
-            return Self::constant(constant);
-        }
-        let factor = power_of_two(leading);
-        let matrix = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-        let matrix = matrix.map(|row| row.map(|term| Double::of(term / factor)));
-        let linear = vector(DVec3::new(x, y, z) / factor);
-        let form = Axes::new(matrix, linear, Double::of(constant / factor)).form();
-        // Coefficients near the ends of the range of `f64` leave nothing to compute with.
-        if form.is_finite() {
-            form
-        } else {
-            Self::constant(1.0)
-        }
-    }
-
-    fn is_finite(&self) -> bool {
+    pub(super) fn is_finite(&self) -> bool {
         [self.centre, self.offset, self.squares, self.linear]
             .iter()
             .chain(&self.rows)
@@ -112,28 +76,28 @@ impl Form {
         }
     }
 
-    /// The ray's line from where it starts, or, if that is far, from about where it is closest.
+    /// The ray's line from its start or, if that is far, from about its closest point.
     #[inline]
     pub(super) fn line(&self, ray: &Ray) -> Line {
-        let place = ray.origin - self.centre;
+        let position = ray.origin - self.centre;
         let line = Line {
-            place,
+            position,
             direction: ray.direction,
             start: 0.0,
-            p: self.turn(place) + self.offset,
-            q: self.turn(ray.direction),
+            p: self.map_vector(position) + self.offset,
+            q: self.map_vector(ray.direction),
         };
-        if self.near * self.near < place.length_squared() {
+        if self.near * self.near < position.length_squared() {
             self.approach(ray, &line)
         } else {
             line
         }
     }
 
-    /// The same line from about where it is closest. The offset is far below what is rounded off.
+    /// Moves the line's start to about its closest point. The offset is far below the rounding.
     fn approach(&self, ray: &Ray, line: &Line) -> Line {
         let Line {
-            place,
+            position,
             direction,
             p,
             q,
@@ -141,29 +105,28 @@ impl Form {
         } = *line;
         let weighted = self.weights * q;
         let start = -p.dot(weighted) / q.dot(weighted);
-        // What the subtraction rounded off, exactly.
-        let kept = place - ray.origin;
-        let rest = (ray.origin - (place - kept)) - (self.centre + kept);
-        let place = DVec3::new(
-            start.mul_add(direction.x, place.x),
-            start.mul_add(direction.y, place.y),
-            start.mul_add(direction.z, place.z),
+        // The exact rounding error of the subtraction.
+        let kept = position - ray.origin;
+        let rest = (ray.origin - (position - kept)) - (self.centre + kept);
+        let position = DVec3::new(
+            start.mul_add(direction.x, position.x),
+            start.mul_add(direction.y, position.y),
+            start.mul_add(direction.z, position.z),
         ) + rest;
         Line {
-            place,
+            position,
             start,
-            p: self.turn(place) + self.offset,
+            p: self.map_vector(position) + self.offset,
             ..*line
         }
     }
 
-    /// F.
+    /// The value of F.
     pub(super) fn value(&self, p: DVec3) -> f64 {
         p.dot(self.squares * p) + 2.0 * self.linear.dot(p) + self.constant
     }
 
-    /// The sum of the magnitudes of F's terms, of which its rounding error is a few units in the
-    /// last place.
+    /// The sum of the magnitudes of F's terms; the rounding error of F is a few ulps of it.
     pub(super) fn terms(&self, p: DVec3) -> f64 {
         p.dot(self.squares.abs() * p) + 2.0 * self.linear.abs().dot(p.abs()) + self.constant.abs()
     }
@@ -173,21 +136,21 @@ impl Form {
         self.squares * p + self.linear
     }
 
-    /// W v.
+    /// Returns W v.
     #[inline]
-    pub(super) fn turn(&self, v: DVec3) -> DVec3 {
+    pub(super) fn map_vector(&self, v: DVec3) -> DVec3 {
         let [x, y, z] = self.rows;
         DVec3::new(x.dot(v), y.dot(v), z.dot(v))
     }
 
-    /// The gradient in the world of a function whose gradient in the coordinates of p this is.
+    /// Transforms a gradient from the coordinates of p to the world.
     pub(super) fn gradient_in_world(&self, gradient: DVec3) -> DVec3 {
         let [x, y, z] = self.rows;
         gradient.x * x + gradient.y * y + gradient.z * z
     }
 
-    /// The place in the world, minus the centre.
-    pub(super) fn place(&self, p: DVec3) -> DVec3 {
+    /// The world position of p, minus the centre.
+    pub(super) fn position(&self, p: DVec3) -> DVec3 {
         let [x, y, z] = self.columns;
         let p = p - self.offset;
         p.x * x + p.y * y + p.z * z

@@ -1,4 +1,4 @@
-//! Solids bounded by a quadric and by planes.
+//! Solids bounded by a quadric and planes.
 
 mod axes;
 mod extent;
@@ -11,13 +11,13 @@ use super::transform::{normalise, power_of_two};
 use super::{Aabb, Chart, Crossings, Hit, Ray, Surface};
 use form::{Form, Line};
 
-/// The curved side; plane i is 1 + i.
+/// The part of the curved side; plane i is part 1 + i.
 const CURVED: u32 = 0;
 
-/// The region where a quadratic function is at most 0, cut by half-spaces: convex or concave, with
-/// ends or without.
+/// The region where a quadratic function is at most 0, clipped by half-spaces: convex or concave,
+/// bounded or unbounded.
 ///
-/// Part 0 is where the function is 0, part 1 + i the boundary of half-space i.
+/// Part 0 is the quadric itself, part 1 + i the boundary plane of half-space i.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quadric {
     form: Form,
@@ -26,22 +26,21 @@ pub struct Quadric {
     has_lost_its_shape: bool,
 }
 
-/// Where normal · (x − centre) ≤ distance, seen from the centre of the form.
+/// The half-space normal · (x − centre) ≤ distance, relative to the centre of the form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct HalfSpace {
-    /// Of a length from 1 to 4: scaled by a power of two, which keeps its bits.
+    /// Scaled by a power of two, which keeps its bits, to a length from 1 to 4.
     normal: DVec3,
     distance: f64,
 }
 
 impl Quadric {
-    /// How many half-spaces a quadric may have: finding its box tries all triples of them.
+    /// The maximum number of half-spaces: the bounding box takes time cubic in it.
     pub const MOST_HALF_SPACES: usize = 64;
 
-    /// The region F ≤ 0 with
-    /// F = A x² + 2B xy + 2C xz + 2D x + E y² + 2F yz + 2G y + H z² + 2I z + J, coefficients in this
-    /// order, where also n · x ≤ d for each of the half-spaces (n, d). All numbers are finite, each
-    /// n is not 0, and there are at most [`Self::MOST_HALF_SPACES`].
+    /// Creates the region A x² + 2B xy + 2C xz + 2D x + E y² + 2F yz + 2G y + H z² + 2I z + J ≤ 0,
+    /// coefficients in this order, clipped by the half-spaces n · x ≤ d, at most
+    /// [`Self::MOST_HALF_SPACES`] pairs n, d. All numbers must be finite, and each n nonzero.
     pub fn new(coefficients: [f64; 10], half_spaces: &[(DVec3, f64)]) -> Self {
         let form = Form::new(coefficients);
         let half_spaces: Vec<_> = half_spaces
@@ -59,24 +58,24 @@ impl Quadric {
         }
     }
 
-    /// An axis-aligned box around the region, with infinite sides where it has no end: tight but
-    /// for a billionth of its size.
+    /// An axis-aligned box around the region, tight to a billionth of its size, with infinite sides
+    /// where the region is unbounded.
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }
 
-    /// Whether the region holds no point.
+    /// Whether the region contains no point.
     pub fn is_empty(&self) -> bool {
         self.bounds.is_empty()
     }
 
-    /// Whether the coefficients, rounded to `f64`, cannot describe a solid so small this far from
-    /// the origin: |centre|² 2⁻⁵² > 1e-4 size².
+    /// Whether the solid is too small for its distance from the origin to be described by
+    /// coefficients in `f64`: |centre|² 2⁻⁵² > 1e-4 size².
     pub fn has_lost_its_shape(&self) -> bool {
         self.has_lost_its_shape
     }
 
-    /// Where the ray's line is inside: two spans at most, in ascending order.
+    /// The spans of the ray's line inside the region, at most two, in ascending order.
     #[inline]
     pub fn crossings(&self, ray: &Ray) -> [Option<Crossings>; 2] {
         let line = self.form.line(ray);
@@ -87,7 +86,7 @@ impl Quadric {
         let Some(clip) = self.clip(&line) else {
             return [None; 2];
         };
-        let clipped = |span: Crossings| span.overlap(clip)?.later(line.start);
+        let clipped = |span: Crossings| span.overlap(clip)?.shifted(line.start);
         [first.and_then(clipped), second.and_then(clipped)]
     }
 
@@ -105,30 +104,30 @@ impl Quadric {
         let t = hit.t - line.start;
         match self.half_spaces.get((hit.part as usize).wrapping_sub(1)) {
             Some(half_space) => {
-                half_space.surface(line.place + t * line.direction, self.form.centre)
+                half_space.surface(line.position + t * line.direction, self.form.centre)
             }
             None => curved_surface(&self.form, line.p + t * line.q),
         }
     }
 
-    /// The texture coordinates at a hit: those of a sphere around the centre, with its poles along z;
-    /// on the planes as well.
+    /// The texture coordinates at a hit: those of a sphere around the centre with its poles along
+    /// z, on the planes too.
     pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
         let line = self.form.line(ray);
-        Chart::of_ball(line.place + (hit.t - line.start) * line.direction)
+        Chart::of_ball(line.position + (hit.t - line.start) * line.direction)
     }
 
-    /// How many parts there are.
+    /// The number of parts.
     pub(super) fn parts(&self) -> u32 {
         1 + self.half_spaces.len() as u32
     }
 
-    /// The line's part inside all half-spaces.
+    /// The interval inside all half-spaces.
     #[inline]
     fn clip(&self, line: &Line) -> Option<Crossings> {
         let mut clip = Crossings::EVERYWHERE;
         for (half_space, part) in self.half_spaces.iter().zip(1..) {
-            let outside = half_space.normal.dot(line.place) - half_space.distance;
+            let outside = half_space.normal.dot(line.position) - half_space.distance;
             let speed = half_space.normal.dot(line.direction);
             if speed == 0.0 {
                 if outside <= 0.0 {
@@ -162,25 +161,25 @@ impl HalfSpace {
         }
     }
 
-    fn surface(&self, place: DVec3, centre: DVec3) -> Surface {
+    fn surface(&self, position: DVec3, centre: DVec3) -> Surface {
         let square = self.normal.length_squared();
-        let outside = self.normal.dot(place) - self.distance;
-        let place = place - (outside / square) * self.normal;
+        let outside = self.normal.dot(position) - self.distance;
+        let position = position - (outside / square) * self.normal;
         let normal = self.normal / square.sqrt();
         Surface {
-            point: centre + place,
+            point: centre + position,
             normal,
             shading: normal,
-            scale: centre.abs().max_element().max(place.abs().max_element()),
+            scale: centre.abs().max_element().max(position.abs().max_element()),
         }
     }
 }
 
-/// Where F ≤ 0 on a line: a t² + 2 b t + c ≤ 0.
+/// The intervals where F ≤ 0 on a line: a t² + 2 b t + c ≤ 0.
 ///
-/// By Lagrange's identity b² − ac is made of the line's moment, p × q, whose square is small where
+/// By Lagrange's identity b² − ac consists of the line's moment, p × q, whose square is small if
 /// the line is close to the centre, and of terms that are 0 for most solids: no difference of large
-/// numbers. Where a = 0 the line is parallel to the side, a generatrix or an asymptote.
+/// numbers. If a = 0 the line is parallel to a generatrix or an asymptote.
 #[inline]
 fn inside(form: &Form, line: &Line) -> [Option<Crossings>; 2] {
     let (p, q) = (line.p, line.q);
@@ -212,8 +211,8 @@ fn inside(form: &Form, line: &Line) -> [Option<Crossings>; 2] {
     }
 }
 
-/// The surface near p: two steps of Newton's along the gradient bring the error of a distance down
-/// to that of F itself. What F is uncertain by, over its slope in the world, is uncertain in place.
+/// The surface near p: two Newton steps along the gradient reduce the error of a distance to that
+/// of F itself. The uncertainty of the position is that of F over its slope in the world.
 fn curved_surface(form: &Form, mut p: DVec3) -> Surface {
     for _ in 0..2 {
         let gradient = form.gradient(p);
@@ -223,16 +222,16 @@ fn curved_surface(form: &Form, mut p: DVec3) -> Surface {
         }
     }
     let slope = form.gradient_in_world(form.gradient(p));
-    let place = form.place(p);
+    let position = form.position(p);
     let scale = form
         .centre
         .abs()
         .max_element()
-        .max(place.abs().max_element());
+        .max(position.abs().max_element());
     let uncertain = 0.5 * form.terms(p) / slope.length();
     let normal = normalise(slope).unwrap_or(DVec3::Z);
     Surface {
-        point: form.centre + place,
+        point: form.centre + position,
         normal,
         shading: normal,
         scale: if uncertain.is_finite() {
@@ -243,8 +242,8 @@ fn curved_surface(form: &Form, mut p: DVec3) -> Surface {
     }
 }
 
-/// The least size that rounded coefficients must hold. Planes have none. Of a cone or a hyperboloid
-/// the waist may be rounding itself, and the region's own size counts.
+/// The least size that rounded coefficients must represent. Planes have none. The waist of a cone
+/// or a hyperboloid may itself be rounding, so the size of the region counts.
 fn size(form: &Form, bounds: Aabb) -> f64 {
     if form.squares == DVec3::ZERO {
         return f64::INFINITY;

@@ -1,4 +1,4 @@
-//! Texture coordinates at known points, and their gradients against differences.
+//! Texture coordinates at known points, and their gradients against finite differences.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use super::random::Random;
 use super::{Frame, KINDS, Kind, Ray, Shape, ray};
 use crate::geometry::{Csg, Hit, Node, Operation, Quadric};
 
-/// A hit at a point, as a ray that starts there sees it.
+/// A hit at a point, by a ray that starts there.
 fn at(point: DVec3, part: u32) -> (Ray, Hit) {
     let ray = Ray {
         origin: point,
@@ -18,7 +18,7 @@ fn at(point: DVec3, part: u32) -> (Ray, Hit) {
 }
 
 #[test]
-fn coordinates_on_paper() {
+fn texture_coordinates_match_hand_computed_values() {
     let origin = DVec3::new(10.0, 20.0, 30.0);
     let lengths = DVec3::new(2.0, 3.0, 4.0);
     let half = 0.5_f64.sqrt();
@@ -40,12 +40,12 @@ fn coordinates_on_paper() {
         (Kind::Cuboid, [0.25, 0.5, 1.], 5, [0.25, 0.5]),
     ];
     let frame = Frame::upright(origin, lengths);
-    for &(kind, place, part, uv) in cases {
-        let (ray, hit) = at(frame.world(DVec3::from_array(place)), part);
+    for &(kind, position, part, uv) in cases {
+        let (ray, hit) = at(frame.world(DVec3::from_array(position)), part);
         let found = frame.shape(kind).chart(&ray, hit).uv;
         assert!(
             (found - glam::DVec2::from_array(uv)).length() < 1e-14,
-            "{kind:?} {place:?}: {found}"
+            "{kind:?} {position:?}: {found}"
         );
     }
     let ball = Frame::upright(origin, DVec3::splat(2.0)).shape(Kind::Sphere);
@@ -53,7 +53,7 @@ fn coordinates_on_paper() {
     assert!((ball.chart(&ray, hit).uv - glam::DVec2::new(0.5, 0.75)).length() < 1e-14);
 }
 
-/// Solids of every kind, the last two made of the others.
+/// A random simple solid, quadric or CSG solid, by index.
 fn solid(random: &mut Random, index: usize) -> (Shape, DVec3) {
     let frame = random.frame();
     let target = frame.origin;
@@ -90,7 +90,7 @@ fn solid(random: &mut Random, index: usize) -> (Shape, DVec3) {
 }
 
 #[test]
-fn gradients_are_differences() {
+fn gradients_match_finite_differences() {
     let mut random = Random(51);
     let mut checked = 0;
     for index in 0..14_000 {
@@ -119,7 +119,7 @@ fn gradients_are_differences() {
             let difference = (uv(step) - uv(-step)) / (2.0 * step);
             for k in 0..2 {
                 let slope = chart.gradients[k].dot(along);
-                // Across the seam, and close to a pole, differences mean nothing.
+                // Differences are meaningless across the seam and close to a pole.
                 if difference[k].abs() < 1e3 && chart.gradients[k].length() < 10.0 {
                     checked += 1;
                     assert!(
@@ -134,7 +134,7 @@ fn gradients_are_differences() {
 }
 
 #[test]
-fn poles_have_numbers() {
+fn coordinates_at_poles_are_finite() {
     let frame = Frame::upright(DVec3::ZERO, DVec3::ONE);
     for (kind, point) in [
         (Kind::Sphere, DVec3::Z),

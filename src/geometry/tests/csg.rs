@@ -1,11 +1,11 @@
-//! Set operations against membership, against each other, and on paper.
+//! Set operations against point membership, set identities and hand-computed values.
 
 use std::sync::Arc;
 
 use glam::DVec3;
 
 use super::quadrics::spans;
-use super::random::{Random, excess, place};
+use super::random::{Random, excess, to_unit};
 use super::{Frame, KINDS, Kind, Ray, Shape, ray};
 use crate::geometry::{Aabb, Csg, Node, Operation, ulp};
 
@@ -15,7 +15,7 @@ const OPERATIONS: [Operation; 3] = [
     Operation::Difference,
 ];
 
-/// A node, as a test knows it.
+/// A node of a test's CSG tree.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Solid {
     Leaf(Kind, Frame),
@@ -37,13 +37,13 @@ pub(super) fn csg(solids: &[Solid]) -> Shape {
     Shape::Csg(Arc::new(Csg::new(nodes.collect())))
 }
 
-/// Whether a point is inside, unless it is too close to the boundary of a leaf to say.
+/// Whether a point is inside; `None` if it is too close to the boundary of a leaf to decide.
 fn contains(solids: &[Solid], point: DVec3) -> Option<bool> {
     let mut inside: Vec<bool> = Vec::with_capacity(solids.len());
     for solid in solids {
         inside.push(match *solid {
             Solid::Leaf(kind, frame) => {
-                let depth = excess(kind, place(&frame, point));
+                let depth = excess(kind, to_unit(&frame, point));
                 if depth.abs() < 1e-9 {
                     return None;
                 }
@@ -62,7 +62,7 @@ fn contains(solids: &[Solid], point: DVec3) -> Option<bool> {
     inside.last().copied()
 }
 
-/// A box, cylinder or other solid somewhere; half of them on a grid, where faces coincide.
+/// A random simple solid; half of them are on a grid, where faces coincide.
 fn leaf(random: &mut Random) -> Solid {
     let kind = KINDS[(random.bits() % 5) as usize];
     let frame = Frame {
@@ -78,7 +78,7 @@ fn leaf(random: &mut Random) -> Solid {
     Solid::Leaf(kind, frame.of(kind))
 }
 
-/// A tree of a depth up to 6, in which a solid may be an operand twice.
+/// A tree of depth up to 6, in which a solid may be an operand twice.
 pub(super) fn tree(random: &mut Random) -> Vec<Solid> {
     let depth = random.bits() % 6 + 1;
     let mut solids = Vec::new();
@@ -92,7 +92,7 @@ pub(super) fn tree(random: &mut Random) -> Vec<Solid> {
         for pair in row.chunks(2) {
             let operation = OPERATIONS[(random.bits() % 3) as usize];
             let first = pair[0];
-            // Everything is reachable but a leaf that another replaces.
+            // Everything is reachable except leaves replaced by a shared operand.
             let shared = random.bits().is_multiple_of(16);
             let second = if shared {
                 first
@@ -108,7 +108,7 @@ pub(super) fn tree(random: &mut Random) -> Vec<Solid> {
 }
 
 #[test]
-fn spans_are_what_is_inside() {
+fn spans_cover_exactly_the_inside() {
     let mut random = Random(31);
     let mut found = 0;
     for index in 0..4_000 {
@@ -149,10 +149,10 @@ fn spans_are_what_is_inside() {
 }
 
 #[test]
-fn identities_hold() {
+fn set_identities_hold() {
     use Operation::{Difference, Intersection, Union};
     let made = Solid::Made;
-    // 0, 1, 2 are A, B, C; each pair is the same solid in two ways.
+    // 0, 1, 2 are A, B, C; each pair describes the same solid in two ways.
     let pairs: &[[&[Solid]; 2]] = &[
         [
             &[made(Union, 1, 2), made(Difference, 0, 3)],
@@ -222,18 +222,18 @@ fn identities_hold() {
     }
 }
 
-/// What becomes of a boundary of one operand, with the other's inside or outside there: by Roth's
-/// table, in either direction.
+/// The fate of a boundary of one operand, inside or outside the other, by Roth's table, in either
+/// direction.
 #[test]
-fn boundaries_by_the_table() {
+fn boundaries_follow_roths_table() {
     use Operation::{Difference, Intersection, Union};
     #[derive(Clone, Copy, PartialEq)]
     enum Fate {
         Gone,
         Kept,
-        Turned,
+        Inverted,
     }
-    use Fate::{Gone, Kept, Turned};
+    use Fate::{Gone, Inverted, Kept};
     let slab = |from: f64, to: f64| {
         Solid::Leaf(
             Kind::Cuboid,
@@ -256,7 +256,7 @@ fn boundaries_by_the_table() {
         (Difference, 0, false, Kept),
         (Difference, 0, true, Gone),
         (Difference, 1, false, Gone),
-        (Difference, 1, true, Turned),
+        (Difference, 1, true, Inverted),
     ] {
         for entering in [true, false] {
             let own = if entering {
@@ -298,7 +298,7 @@ fn boundaries_by_the_table() {
 }
 
 #[test]
-fn boxes_combine() {
+fn boxes_are_combined_by_the_operation() {
     let cube = |at: f64| {
         Solid::Leaf(
             Kind::Cuboid,
@@ -323,7 +323,7 @@ fn boxes_combine() {
 }
 
 #[test]
-fn rays_that_leave_stay_away() {
+fn leaving_rays_do_not_return() {
     let mut random = Random(33);
     let mut surfaces = 0;
     for index in 0..5_000 {
@@ -359,7 +359,7 @@ fn rays_that_leave_stay_away() {
 }
 
 #[test]
-fn chains_and_doublings_end() {
+fn long_chains_and_repeated_sharing_take_bounded_time() {
     let ball = |at: DVec3| Solid::Leaf(Kind::Sphere, Frame::upright(at, DVec3::ONE));
     let across = ray(DVec3::new(-9.0, 0.0, 0.0), DVec3::ZERO);
     for forward in [true, false] {

@@ -1,5 +1,5 @@
-//! Faces that coincide leave no speckle: pictures of solids with such faces against pictures of the
-//! same solids without.
+//! Coincident faces show no speckle: pictures of solids with such faces against pictures of equal
+//! solids without.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use super::random::Random;
 use super::{Frame, Kind, Shape, ray};
 use crate::geometry::Operation::{self, Difference, Intersection, Union};
 
-/// Two solids, and how one is made of the other two: once with faces that coincide, once without.
+/// The operands of a solid, which is made once with and once without coincident faces.
 type Pair = [(Kind, [f64; 3], [f64; 3]); 2];
 
 const PAIRS: &[(&str, Operation, Pair, Operation, Pair)] = &[

@@ -1,18 +1,18 @@
-//! Rays against unit solids by the textbook, in twice the precision.
+//! Textbook ray–solid intersection in twice the precision.
 
 use glam::DVec3;
 
 use super::{Frame, Kind, Ray};
 use crate::geometry::double_double::{Double, Vector, cross, dot, scaled, sum, vector};
 
-/// A solid whose dual basis is known to 106 bits.
+/// A solid with a dual basis of 106 bits.
 pub(super) struct Exact {
     kind: Kind,
     origin: Vector,
     duals: [Vector; 3],
 }
 
-/// An interval of a line, with infinite ends where nothing bounds it.
+/// An interval of a line, with infinite ends where it is unbounded.
 type Span = [Double; 2];
 
 impl Exact {
@@ -35,21 +35,21 @@ impl Exact {
         }
     }
 
-    /// The ends of the line's part that is inside.
+    /// The interval of the line inside the solid.
     pub(super) fn span(&self, ray: &Ray) -> Option<[f64; 2]> {
         let (o, d, start) = self.unit_line(ray);
         let [enter, exit] = self.unit_span(o, d)?;
         Some([(enter + start).round(), (exit + start).round()])
     }
 
-    /// 1 − l², l the least distance of the line from the unit solid's origin.
+    /// Returns 1 − l², where l is the least distance of the line from the unit solid's origin.
     pub(super) fn clearance(&self, ray: &Ray) -> f64 {
         let (o, d, _) = self.unit_line(ray);
         let along = dot(o, d);
         (Double::of(1.0) - dot(o, o) + along * along / dot(d, d)).round()
     }
 
-    /// The line from where it is closest to the solid's origin, and how far along the ray that is.
+    /// The line from its point closest to the solid's origin, and the distance of that point.
     fn unit_line(&self, ray: &Ray) -> (Vector, Vector, Double) {
         let direction = vector(ray.direction);
         let offset = sum(vector(ray.origin), self.origin.map(|component| -component));
@@ -93,7 +93,7 @@ impl Exact {
     }
 }
 
-/// The roots of a t² + 2 b t + c = 0 in ascending order.
+/// The real roots of a t² + 2 b t + c = 0 in ascending order.
 fn below_zero(a: Double, b: Double, c: Double) -> Option<Span> {
     let discriminant = b * b - a * c;
     if discriminant.round() < 0.0 {
@@ -122,7 +122,7 @@ fn slab(o: Double, d: Double) -> Option<Span> {
 }
 
 fn overlap(a: Span, b: Span) -> Option<Span> {
-    // Differences with an infinite end are not numbers; leading parts decide those.
+    // Differences with an infinite end are NaN: compare the leading parts.
     let less = |x: Double, y: Double| {
         let difference = (x - y).round();
         if difference.is_nan() {
@@ -137,7 +137,7 @@ fn overlap(a: Span, b: Span) -> Option<Span> {
 }
 
 #[test]
-fn agrees_with_paper() {
+fn spans_match_hand_computed_values() {
     let frame = Frame::upright(DVec3::ZERO, DVec3::ONE);
     let along_z = super::ray(DVec3::new(0.0, 0.0, -5.0), DVec3::ZERO);
     let spans = [

@@ -1,4 +1,4 @@
-//! Answers known on paper: simple rays, axis cases, and frames that are none.
+//! Hand-computed cases: simple rays, rays along axes, and degenerate frames.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use super::random::Random;
 use super::{Frame, KINDS, Kind, Ray, only_span, ray};
 use crate::geometry::{Aabb, Affine, Hit};
 
-/// A unit solid, a ray, and where it goes in and out: distance and part.
+/// A unit solid, a ray's origin and direction, and where it enters and leaves: distance and part.
 type Case = (Kind, [f64; 3], [f64; 3], Option<[(f64, u32); 2]>);
 
 fn check(cases: &[Case]) {
@@ -21,7 +21,7 @@ fn check(cases: &[Case]) {
         let alike = match (found, expected) {
             (Some(found), Some(expected)) => (0..2).all(|i| {
                 let ((t, part), (on_paper, on_part)) = (found[i], expected[i]);
-                // Relative: a ray that starts on a surface must find it at 0.
+                // Relative: a ray that starts on a surface must hit it at exactly 0.
                 (t - on_paper).abs() <= 2.0 * f64::EPSILON * on_paper.abs() && part == on_part
             }),
             _ => found == expected,
@@ -39,7 +39,7 @@ const Z: [f64; 3] = [0.0, 0.0, 1.0];
 const DOWN: [f64; 3] = [0.0, 0.0, -1.0];
 
 #[test]
-fn balls() {
+fn spheres_match_hand_computed_values() {
     let from_start = |enter, exit| Some([(enter, 0), (exit, 0)]);
     for kind in [Kind::Sphere, Kind::Ellipsoid] {
         check(&[
@@ -58,7 +58,7 @@ fn balls() {
 }
 
 #[test]
-fn cubes() {
+fn cuboids_match_hand_computed_values() {
     let kind = Kind::Cuboid;
     check(&[
         (kind, [-1.0, 0.5, 0.5], X, Some([(1.0, 0), (2.0, 1)])),
@@ -67,7 +67,7 @@ fn cubes() {
         (kind, [0.5, 0.5, 0.5], Z, Some([(-0.5, 4), (0.5, 5)])),
         (kind, [0.5, 0.5, 2.0], Z, Some([(-2.0, 4), (-1.0, 5)])),
         (kind, [0.0, 0.5, 0.5], X, Some([(0.0, 0), (1.0, 1)])),
-        // In the plane of a face, along an edge, beside them.
+        // In the plane of a face, along an edge, and beside them.
         (kind, [-1.0, 0.0, 0.5], X, Some([(1.0, 0), (2.0, 1)])),
         (kind, [-1.0, 1.0, 1.0], X, Some([(1.0, 0), (2.0, 1)])),
         (kind, [0.0, 0.0, 0.5], X, Some([(0.0, 0), (1.0, 1)])),
@@ -78,7 +78,7 @@ fn cubes() {
 }
 
 #[test]
-fn cylinders() {
+fn cylinders_match_hand_computed_values() {
     let kind = Kind::Cylinder;
     let slant = [0.6, 0.0, 0.8];
     check(&[
@@ -95,14 +95,14 @@ fn cylinders() {
         (kind, [-3.0, 0.0, 1.0], X, Some([(2.0, 0), (4.0, 0)])),
         (kind, [-3.0, 0.0, 0.0], X, Some([(2.0, 0), (4.0, 0)])),
         (kind, [-3.0, 0.0, 1.0 + f64::EPSILON], X, None),
-        // In through the base and out through the side.
+        // Entering through the base and leaving through the side.
         (kind, [0.25, 0.0, -1.0], slant, Some([(1.25, 1), (1.25, 0)])),
         (kind, [4.0, 0.0, -1.0], slant, None),
     ]);
 }
 
 #[test]
-fn cones() {
+fn cones_match_hand_computed_values() {
     let kind = Kind::Cone;
     check(&[
         (kind, [0.0, 0.0, -1.0], Z, Some([(1.0, 1), (2.0, 0)])),
@@ -110,7 +110,7 @@ fn cones() {
         (kind, [0.5, 0.0, 3.0], DOWN, Some([(2.5, 0), (3.0, 1)])),
         (kind, [-3.0, 0.0, 0.5], X, Some([(2.5, 0), (3.5, 0)])),
         (kind, [0.0, 0.0, 0.25], X, Some([(-0.75, 0), (0.75, 0)])),
-        // The second nappe is not there, and the apex is one point.
+        // The second nappe is excluded, and the apex is a single point.
         (kind, [-3.0, 0.0, 1.5], X, None),
         (kind, [-3.0, 0.0, 1.0], X, Some([(3.0, 0), (3.0, 0)])),
         (kind, [0.5, 0.0, 1.0], Z, Some([(-1.0, 1), (-0.5, 0)])),
@@ -143,7 +143,7 @@ fn cones() {
 }
 
 #[test]
-fn a_cone_upside_down() {
+fn an_inverted_cone_matches_hand_computed_values() {
     let cone = Frame {
         origin: DVec3::new(0.0, -100.0, 0.0),
         directions: [DVec3::X, DVec3::Z, DVec3::Y],
@@ -170,7 +170,7 @@ fn a_cone_upside_down() {
 }
 
 #[test]
-fn nearest_is_ahead_and_within_the_limit() {
+fn the_nearest_hit_is_ahead_and_within_the_limit() {
     let sphere = Frame::upright(DVec3::ZERO, DVec3::ONE).shape(Kind::Sphere);
     for (z, limit, expected) in [
         (-5.0, f64::INFINITY, Some(4.0)),
@@ -192,7 +192,7 @@ fn nearest_is_ahead_and_within_the_limit() {
 }
 
 #[test]
-fn frames_without_volume() {
+fn degenerate_frames_are_rejected() {
     let frame = |directions| Affine::new(DVec3::ZERO, directions, DVec3::ONE);
     let [x, y, z] = DVec3::AXES;
     for directions in [
@@ -218,7 +218,7 @@ fn frames_without_volume() {
 }
 
 #[test]
-fn extreme_sizes_give_numbers_or_nothing() {
+fn extreme_sizes_give_finite_hits_or_none() {
     let mut random = Random(6);
     let sizes = [5e-324, 1e-310, 1e-300, 1e-150, 1.0, 1e150, 1e300, f64::MAX];
     for index in 0..20_000 {
@@ -255,7 +255,7 @@ fn the_apex_has_a_normal() {
 }
 
 #[test]
-fn boxes_without_ends() {
+fn box_operations_handle_unbounded_boxes() {
     let [low, high] = [-1.0, 3.0].map(DVec3::splat);
     let finite = Aabb {
         min: low,

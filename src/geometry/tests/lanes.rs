@@ -1,4 +1,4 @@
-//! Eight rays side by side meet what each meets alone, to the bit, with any vectors.
+//! Packets of eight rays give the same bits as single rays, at every SIMD level.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use super::{Frame, KINDS, unit};
 use crate::geometry::lanes::{Eight, Level, SimdBase, WIDTH, dispatch};
 use crate::geometry::{Hit, Hits, Ray, Rays, Shape, Surface, Surfaces, ulp};
 
-/// The vectors that this machine can be asked to use.
+/// The SIMD levels that this machine supports.
 fn levels() -> Vec<Level> {
     let best = Level::new();
     let mut levels = vec![Level::baseline(), best];
@@ -20,7 +20,7 @@ fn levels() -> Vec<Level> {
     levels
 }
 
-/// What each ray meets, side by side.
+/// The hit of each ray, traced as a packet.
 fn together(level: Level, shape: &Shape, rays: &[Ray; WIDTH], limit: f64) -> Vec<Option<Hit>> {
     let hits = dispatch!(level, simd => {
         let packet = Rays::gather(simd, rays);
@@ -32,7 +32,7 @@ fn together(level: Level, shape: &Shape, rays: &[Ray; WIDTH], limit: f64) -> Vec
         .collect()
 }
 
-/// The surfaces where rays meet a shape, side by side.
+/// The surfaces at the hits of a packet.
 fn surfaces(level: Level, shape: &Shape, rays: &[Ray; WIDTH], hits: &Hits) -> Vec<Surface> {
     dispatch!(level, simd => {
         let packet = Rays::gather(simd, rays);
@@ -46,7 +46,7 @@ fn surfaces(level: Level, shape: &Shape, rays: &[Ray; WIDTH], hits: &Hits) -> Ve
     })
 }
 
-/// From inside, near or far, toward a place of the solid or past it, often along an axis of it.
+/// A ray from inside, near or far, toward a point in the solid or past it, often along an axis.
 fn ray_at(random: &mut Random, frame: &Frame) -> Ray {
     let target = frame.world(1.1 * random.in_cube());
     let direction = match random.bits() % 4 {
@@ -62,9 +62,9 @@ fn ray_at(random: &mut Random, frame: &Frame) -> Ray {
 }
 
 #[test]
-fn lanes_meet_what_each_meets_alone() {
+fn packets_and_single_rays_have_the_same_hits() {
     let mut random = Random(31);
-    let mut met = 0;
+    let mut count = 0;
     for round in 0..400 {
         let mut frame = random.frame();
         if round % 4 == 0 {
@@ -77,18 +77,18 @@ fn lanes_meet_what_each_meets_alone() {
             let rays = [(); WIDTH].map(|()| ray_at(&mut random, &frame));
             let limit = [f64::INFINITY, 3.0][round % 2];
             let alone: Vec<_> = rays.iter().map(|ray| shape.hit(ray, limit)).collect();
-            met += alone.iter().flatten().count();
+            count += alone.iter().flatten().count();
             for level in levels() {
                 let hits = together(level, &shape, &rays, limit);
                 assert_eq!(hits, alone, "{kind:?} {level:?} {rays:?}");
             }
         }
     }
-    assert!(4000 < met, "{met} rays met something");
+    assert!(4000 < count, "{count} hits");
 }
 
 #[test]
-fn lanes_come_to_the_surfaces_that_each_comes_to() {
+fn packets_and_single_rays_have_the_same_surfaces() {
     let mut random = Random(32);
     for _ in 0..200 {
         let frame = random.frame();
@@ -108,9 +108,9 @@ fn lanes_come_to_the_surfaces_that_each_comes_to() {
     }
 }
 
-/// Between 2⁻¹⁰²² and 2⁻¹⁰²⁰ it may be twice that.
+/// Between 2⁻¹⁰²² and 2⁻¹⁰²⁰ it may be twice the gap.
 #[test]
-fn a_unit_in_the_last_place_is_the_gap_to_the_next_number() {
+fn an_ulp_is_the_gap_to_the_next_number() {
     let mut random = Random(33);
     let powers = (-1074..1024).map(|exponent| match exponent {
         ..-1022 => f64::from_bits(1 << (exponent + 1074)),
@@ -127,20 +127,20 @@ fn a_unit_in_the_last_place_is_the_gap_to_the_next_number() {
     }
 }
 
-/// Trees of up to 32 leaves, with faces that coincide, leaves used twice, and more boundaries than
-/// there is room for.
+/// Trees of up to 32 leaves, with coincident faces, shared leaves, and more boundaries than are
+/// kept.
 #[test]
-fn lanes_meet_what_a_tree_has() {
+fn packets_and_single_rays_have_the_same_hits_with_csg() {
     let mut random = Random(32);
     let around = Frame::upright(DVec3::ZERO, DVec3::splat(2.5));
-    let mut met = 0;
+    let mut count = 0;
     for round in 0..2000 {
         let shape = csg(&tree(&mut random));
         let Shape::Csg(tree) = &shape else { continue };
         let rays = [(); WIDTH].map(|()| ray_at(&mut random, &around));
         let limit = [f64::INFINITY, 3.0][round % 2];
         let exact = rays.each_ref().map(|ray| tree.exact_hit(ray, limit));
-        met += exact.iter().flatten().count();
+        count += exact.iter().flatten().count();
         let alone = rays.each_ref().map(|ray| shape.hit(ray, limit));
         assert_eq!(alone, exact, "{rays:?}");
         for level in levels() {
@@ -148,5 +148,5 @@ fn lanes_meet_what_a_tree_has() {
             assert_eq!(hits, exact, "{level:?} {rays:?}");
         }
     }
-    assert!(1500 < met, "{met} rays met something");
+    assert!(1500 < count, "{count} hits");
 }

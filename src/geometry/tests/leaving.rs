@@ -1,4 +1,4 @@
-//! Rays that leave a surface do not hit it again, after the test of the same purpose in
+//! Rays that leave a surface do not hit it again, modelled on the test in
 //! M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 4th edition, section 6.8.6.
 
 use glam::DVec3;
@@ -11,8 +11,8 @@ use crate::geometry::{Shape, Surface};
 const SURFACES: u64 = 1000;
 const DIRECTIONS: u64 = 1000;
 
-/// A frame of any size, place and skew that `f64` can resolve: a flat one loses as many digits as
-/// its determinant is small, and stays near the origin.
+/// A frame of any size, position and skew that `f64` can resolve: a flat one loses digits in
+/// proportion to its small determinant, and stays near the origin.
 pub(super) fn frame(random: &mut Random, index: u64) -> Frame {
     let size = random.magnitude(-4.0, 4.0);
     let aspect = random.magnitude(-1.0, 0.0);
@@ -33,8 +33,8 @@ pub(super) fn frame(random: &mut Random, index: u64) -> Frame {
     }
 }
 
-/// A surface of a random solid, as a ray from outside, near or far, or from inside finds it. Every
-/// fifth ray aims at an edge, and misses it one way or the other.
+/// A surface of a random solid, hit by a ray from outside, near or far, or from inside. Every fifth
+/// ray aims at an edge, and may pass it on either side.
 fn surface(random: &mut Random, kind: Kind, index: u64) -> Option<(Shape, Surface)> {
     let frame = frame(random, index).of(kind);
     let shape = frame.shape(kind);
@@ -95,10 +95,10 @@ fn leaving_rays_do_not_return() {
     }
 }
 
-/// The shadow of a ball of radius 1e-3 that touches a floor of 2e6: a ray that starts too far off
-/// the floor would pass under the ball or beside the tip of its shadow.
+/// The shadow of a ball of radius 1e-3 on a floor of 2e6: a ray that starts too far off the floor
+/// would pass under the ball or beside the tip of its shadow.
 #[test]
-fn a_tiny_ball_shadows_a_vast_floor() {
+fn a_tiny_ball_casts_an_exact_shadow_on_a_vast_floor() {
     let floor = Frame::upright(DVec3::splat(-1e6), DVec3::new(2e6, 2e6, 1e6)).shape(Kind::Cuboid);
     let radius = 1e-3;
     let ball_frame = Frame::upright(radius * DVec3::Z, DVec3::splat(radius));
@@ -108,21 +108,21 @@ fn a_tiny_ball_shadows_a_vast_floor() {
     let mut random = Random(12);
     let mut shadowed = 0;
     for index in 0..100_000 {
-        let place = 4.0 * radius * random.in_cube().with_z(0.0);
+        let point = 4.0 * radius * random.in_cube().with_z(0.0);
         let eye = 10_f64.powi(index % 6) * DVec3::new(-1.0, 0.5, 1.0);
-        let incoming = ray(eye, place);
+        let incoming = ray(eye, point);
         let hit = floor
             .hit(&incoming, f64::INFINITY)
-            .expect("the floor is there");
+            .expect("the ray hits the floor");
         let surface = floor.surface(&incoming, hit);
-        // The ideal ray starts at the same place, where the floor really is.
+        // The ideal ray starts at the same point, exactly on the floor.
         let ideal = ray(surface.point.with_z(0.0), light);
         if exact.clearance(&ideal).abs() < 1e-4 {
             continue;
         }
         let start = surface.leave(light - surface.point);
         let in_shadow = ball.hit(&ray(start, light), f64::INFINITY).is_some();
-        assert_eq!(in_shadow, exact.span(&ideal).is_some(), "at {place}");
+        assert_eq!(in_shadow, exact.span(&ideal).is_some(), "at {point}");
         shadowed += u32::from(in_shadow);
     }
     assert!((1_000..50_000).contains(&shadowed), "{shadowed} shadowed");

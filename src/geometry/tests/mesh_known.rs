@@ -1,4 +1,4 @@
-//! What a mesh says about a triangle, against numbers known on paper.
+//! Meshes of few triangles against hand-computed values.
 
 use std::sync::Arc;
 
@@ -9,8 +9,8 @@ use crate::geometry::{
     ABSENT, Affine, Attribute, Hit, Instance, Mesh, MeshError, MeshParts, Shape, SlotRun, ulp,
 };
 
-/// Two triangles in z = 0 that share the edge from (4, 0) to (0, 4); the second has neither normals
-/// nor, at one corner, texture coordinates.
+/// Two triangles in z = 0 that share the edge from (4, 0) to (0, 4). One vertex of the second lacks
+/// a normal, another its texture coordinates.
 fn parts() -> MeshParts {
     MeshParts {
         positions: vec![
@@ -37,12 +37,12 @@ fn parts() -> MeshParts {
 }
 
 fn placed(parts: MeshParts, columns: [DVec3; 3], tags: &[u32]) -> Shape {
-    let mesh = Arc::new(Mesh::new(parts).expect("the mesh is sound"));
+    let mesh = Arc::new(Mesh::new(parts).expect("the mesh is valid"));
     let frame = Affine::of_matrix(columns, DVec3::ZERO).expect("a volume");
     Shape::Mesh(Box::new(Instance::new(mesh, &frame, tags.to_vec())))
 }
 
-/// A ray down on a place of z = 0.
+/// A ray straight down onto z = 0.
 fn down(x: f64, y: f64) -> Ray {
     Ray {
         origin: DVec3::new(x, y, 2.0),
@@ -57,7 +57,7 @@ fn near(a: DVec3, b: DVec3) -> bool {
 #[test]
 fn normals_and_texture_coordinates_are_interpolated() {
     let shape = placed(parts(), DVec3::AXES, &[]);
-    // Weights ½, ¼, ¼.
+    // Barycentric coordinates ½, ¼, ¼.
     let incoming = down(1.0, 1.0);
     let hit = shape.hit(&incoming, f64::INFINITY).expect("it is hit");
     assert_eq!((hit.t, hit.part), (2.0, 0));
@@ -72,7 +72,7 @@ fn normals_and_texture_coordinates_are_interpolated() {
     assert_eq!(chart.uv, DVec2::splat(0.25));
     assert!(near(chart.gradients[0], 0.25 * DVec3::X));
     assert!(near(chart.gradients[1], 0.25 * DVec3::Y));
-    // The second triangle, from below: weights ¼ at (4, 0), ½ at (4, 4), ¼ at (0, 4).
+    // The second triangle, from below: ¼ at (4, 0), ½ at (4, 4), ¼ at (0, 4).
     let incoming = Ray {
         origin: DVec3::new(3.0, 3.0, -5.0),
         direction: DVec3::Z,
@@ -85,7 +85,7 @@ fn normals_and_texture_coordinates_are_interpolated() {
 }
 
 #[test]
-fn normals_go_by_the_inverse_transpose() {
+fn normals_are_transformed_by_the_inverse_transpose() {
     let corner = MeshParts {
         positions: DVec3::AXES.to_vec(),
         triangles: vec![[0, 1, 2]],
@@ -120,7 +120,7 @@ fn normals_go_by_the_inverse_transpose() {
 }
 
 #[test]
-fn materials_go_by_runs_of_triangles() {
+fn runs_of_triangles_select_the_material() {
     let tags = |tags: &[u32]| {
         let shape = placed(parts(), DVec3::AXES, tags);
         [down(1.0, 1.0), down(3.0, 3.0)].map(|ray| {
@@ -146,7 +146,7 @@ fn the_first_of_coincident_triangles_is_hit() {
 }
 
 #[test]
-fn a_box_is_tight_and_ignores_corners_without_triangles() {
+fn a_box_is_tight_and_ignores_unused_positions() {
     let mut parts = parts();
     parts.positions.push(DVec3::splat(1e9));
     let shape = placed(parts, [DVec3::X, 2.0 * DVec3::Y, DVec3::NEG_Z], &[]);
@@ -155,9 +155,9 @@ fn a_box_is_tight_and_ignores_corners_without_triangles() {
     assert_eq!(bounds.max, DVec3::new(4.0, 8.0, 0.0));
 }
 
-/// Triangles without an area do no harm.
+/// Triangles without area are handled.
 #[test]
-fn corners_in_a_row_have_a_normal() {
+fn degenerate_triangles_have_a_normal() {
     let needle = MeshParts {
         positions: vec![DVec3::ZERO, DVec3::X, 0.5 * DVec3::X],
         triangles: vec![[0, 1, 2], [0, 0, 0], [0, 0, 1]],
@@ -174,9 +174,10 @@ fn corners_in_a_row_have_a_normal() {
     assert_eq!(shape.hit(&down(0.25, 1e-9), f64::INFINITY), None);
 }
 
-/// Most files number normals as they do positions; a million such triangles need no second list.
+/// In most files normals and positions have equal indices; a million such triangles need no second
+/// list.
 #[test]
-fn corners_that_are_those_of_the_positions_are_kept_once() {
+fn indices_equal_to_those_of_the_positions_are_stored_once() {
     let with = |corners: Vec<[u32; 3]>| {
         let mut parts = parts();
         parts.uvs.values = vec![DVec2::X; 4];
@@ -188,7 +189,7 @@ fn corners_that_are_those_of_the_positions_are_kept_once() {
 }
 
 #[test]
-fn a_mesh_that_is_none_is_refused() {
+fn an_invalid_mesh_is_rejected() {
     let whole = parts;
     let refused = |change: &dyn Fn(&mut MeshParts)| {
         let mut parts = whole();

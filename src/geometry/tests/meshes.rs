@@ -1,4 +1,4 @@
-//! Meshes have no gaps, and rays that leave them do not return.
+//! Meshes are watertight, and rays that leave them do not return.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ fn mesh(positions: &[DVec3], triangles: &[[u32; 3]]) -> Arc<Mesh> {
         triangles: triangles.to_vec(),
         ..MeshParts::default()
     };
-    Arc::new(Mesh::new(parts).expect("the mesh is sound"))
+    Arc::new(Mesh::new(parts).expect("the mesh is valid"))
 }
 
 fn placed(mesh: &Arc<Mesh>, frame: &Affine) -> Shape {
@@ -27,7 +27,7 @@ fn identity() -> Affine {
     Affine::of_matrix(DVec3::AXES, DVec3::ZERO).expect("the axes span a volume")
 }
 
-/// Twelve triangles; every ray along an axis runs in the planes of some, and many meet a diagonal.
+/// Twelve triangles; every ray along an axis is parallel to some, and many hit a diagonal.
 fn cube() -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let corner = |i: u32| DVec3::from_array([0, 1, 2].map(|axis| f64::from(i >> axis & 1) - 0.5));
     let quads = [
@@ -42,7 +42,7 @@ fn cube() -> (Vec<DVec3>, Vec<[u32; 3]>) {
     ((0..8).map(corner).collect(), halves.concat())
 }
 
-/// Twenty triangles in general position, with a slope or two close to the ray's.
+/// Twenty triangles in general position.
 fn ball(random: &mut Random) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let (long, short) = (0.85, 0.525);
     let corners = [
@@ -67,8 +67,8 @@ fn ball(random: &mut Random) -> (Vec<DVec3>, Vec<[u32; 3]>) {
             for k in j + 1..12 {
                 if is_near(i, j) && is_near(j, k) && is_near(k, i) {
                     let [a, b, c] = [i, j, k].map(|corner| positions[corner]);
-                    let turned = (b - a).cross(c - a).dot(a) < 0.0;
-                    let [j, k] = if turned { [k, j] } else { [j, k] };
+                    let inverted = (b - a).cross(c - a).dot(a) < 0.0;
+                    let [j, k] = if inverted { [k, j] } else { [j, k] };
                     triangles.push([i, j, k].map(|corner| corner as u32));
                 }
             }
@@ -78,8 +78,8 @@ fn ball(random: &mut Random) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (positions, triangles)
 }
 
-/// A frame for the watertightness of an image: as it is, scaled by powers of two, moved far, of
-/// unequal lengths, mirrored, sheared.
+/// A frame for an instance: the identity, scaled by a power of two, moved far away, of unequal
+/// lengths, mirrored, or sheared.
 fn image(random: &mut Random, index: u64) -> Affine {
     let [x, y, z] = DVec3::AXES;
     let (columns, translation) = match index % 6 {
@@ -99,15 +99,16 @@ fn image(random: &mut Random, index: u64) -> Affine {
     Affine::of_matrix(columns, translation).expect("the columns span a volume")
 }
 
-/// Where a frame takes a point.
+/// Maps a point to the world.
 fn world(frame: &Affine, point: DVec3) -> DVec3 {
     let [x, y, z] = frame.axes();
     frame.origin() + (point.x * x + point.y * y + point.z * z)
 }
 
-/// A million rays, from inside or through the inside: at random, and at corners and edges.
+/// A million rays, from inside or through the inside: in random directions, and at vertices and
+/// edges.
 #[test]
-fn closed_meshes_have_no_gaps() {
+fn closed_meshes_are_watertight() {
     let mut random = Random(21);
     let mut rays = 0;
     for index in 0..120 {
@@ -116,13 +117,13 @@ fn closed_meshes_have_no_gaps() {
         } else {
             ball(&mut random)
         };
-        // Every fifth is flat, its triangles slivers.
+        // Every fifth is flattened to slivers.
         let (squeeze, farthest) = if index % 5 == 0 {
             (DVec3::new(1.0, 1e-7, 30.0), 1.0)
         } else {
             (DVec3::ONE, 6.0)
         };
-        // In the file the mesh may stand anywhere.
+        // The mesh may be anywhere in its own coordinates.
         let away =
             [DVec3::ZERO, DVec3::splat(100.0), DVec3::new(0.0, -1e5, 7.0)][index as usize % 3];
         let moved: Vec<_> = positions.iter().map(|p| squeeze * p + away).collect();
@@ -147,7 +148,7 @@ fn closed_meshes_have_no_gaps() {
                     ray(world(&frame, away + far), inside)
                 }
             };
-            // What is too far for `f64` to hold the way to the mesh is not aimed at it.
+            // Skip rays whose origin overflows.
             let aimed = incoming.origin.is_finite();
             rays += u32::from(aimed);
             assert!(
@@ -159,9 +160,9 @@ fn closed_meshes_have_no_gaps() {
     assert!(1_000_000 < rays);
 }
 
-/// Axis-parallel rays through corners, edges and diagonals, in whole and half numbers.
+/// Axis-parallel rays through vertices, edges and diagonals, at multiples of 1/16.
 #[test]
-fn a_cube_has_no_gaps_along_its_axes() {
+fn a_cube_is_watertight_along_its_axes() {
     let (positions, triangles) = cube();
     let shape = placed(&mesh(&positions, &triangles), &identity());
     for direction in DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]) {
@@ -180,12 +181,12 @@ fn a_cube_has_no_gaps_along_its_axes() {
     }
 }
 
-/// A ray misses what it passes by, however little.
+/// A ray that passes beside an edge misses, however close.
 #[test]
 fn edges_are_sharp() {
     let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let shape = placed(&mesh(&corners, &[[0, 1, 2]]), &identity());
-    let meets = |x: f64, y: f64| {
+    let hits = |x: f64, y: f64| {
         let origin = DVec3::new(x, y, 1.0);
         let direction = DVec3::NEG_Z;
         shape
@@ -193,12 +194,12 @@ fn edges_are_sharp() {
             .is_some()
     };
     let tiny = f64::EPSILON;
-    assert!(meets(0.0, 0.0) && meets(1.0, 0.0) && meets(0.0, 1.0) && meets(0.5, 0.5));
-    assert!(meets(0.25, tiny) && meets(0.5 - tiny, 0.5 - tiny));
-    assert!(!meets(0.25, -tiny) && !meets(-tiny, 0.25) && !meets(0.5 + tiny, 0.5));
+    assert!(hits(0.0, 0.0) && hits(1.0, 0.0) && hits(0.0, 1.0) && hits(0.5, 0.5));
+    assert!(hits(0.25, tiny) && hits(0.5 - tiny, 0.5 - tiny));
+    assert!(!hits(0.25, -tiny) && !hits(-tiny, 0.25) && !hits(0.5 + tiny, 0.5));
 }
 
-/// A ball squeezed along two axes: needles, at sharp edges.
+/// A ball squeezed along two axes: needles and sharp edges.
 fn needles(random: &mut Random) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let (mut positions, triangles) = ball(random);
     let squeeze = DVec3::new(
@@ -212,14 +213,14 @@ fn needles(random: &mut Random) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (positions, triangles)
 }
 
-/// A flat sheet of eight triangles, which a ray that leaves any of them may graze.
+/// A flat sheet of eight triangles, which leaving rays may graze.
 fn sheet() -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let at = |i: u32| DVec3::new(f64::from(i % 3) - 1.0, f64::from(i / 3) - 1.0, 0.0);
     let quads = [0, 1, 3, 4].map(|i| [[i, i + 1, i + 4], [i, i + 4, i + 3]]);
     ((0..9).map(at).collect(), quads.concat())
 }
 
-/// The surface of an image where a ray that aims at a triangle, or one of its corners, meets it.
+/// The surface of an instance hit by a ray that aims at a triangle, or one of its vertices.
 fn surface(
     random: &mut Random,
     (positions, triangles): &(Vec<DVec3>, Vec<[u32; 3]>),
@@ -248,13 +249,13 @@ fn surface(
     Some((shape, hit, surface))
 }
 
-/// A thousand rays leave each of a thousand places: outward from a convex mesh none meets anything,
-/// inward none meets the triangle it leaves; from a flat sheet none returns at all.
+/// A thousand rays leave each of a thousand points: outward from a convex mesh none hits anything,
+/// inward none hits the triangle it leaves; from a flat sheet none returns at all.
 #[test]
 fn rays_that_leave_a_mesh_do_not_return() {
     for kind in 0..4 {
         let mut random = Random(31 + kind);
-        let mut places = 0;
+        let mut points = 0;
         let mut returned = Vec::new();
         for index in 0..2000 {
             let parts = match kind {
@@ -266,7 +267,7 @@ fn rays_that_leave_a_mesh_do_not_return() {
             let Some((shape, own, surface)) = surface(&mut random, &parts, index) else {
                 continue;
             };
-            places += 1;
+            points += 1;
             let Shape::Mesh(instance) = &shape else {
                 unreachable!("a mesh was placed")
             };
@@ -286,11 +287,11 @@ fn rays_that_leave_a_mesh_do_not_return() {
                 };
                 returned.extend(again.map(|hit| (index, outward, own.part, hit)));
             }
-            if places == 1000 {
+            if points == 1000 {
                 break;
             }
         }
-        assert_eq!(places, 1000, "kind {kind}");
+        assert_eq!(points, 1000, "kind {kind}");
         assert!(
             returned.is_empty(),
             "kind {kind}: {} returned, first {:?}",
@@ -300,7 +301,7 @@ fn rays_that_leave_a_mesh_do_not_return() {
     }
 }
 
-/// Refracted at a corner or an edge, a ray goes on inside the mesh.
+/// A ray refracted at a vertex or an edge continues inside the mesh.
 #[test]
 fn rays_that_enter_at_an_edge_are_inside() {
     let mut random = Random(41);
@@ -323,7 +324,7 @@ fn rays_that_enter_at_an_edge_are_inside() {
 }
 
 #[test]
-fn a_power_of_two_changes_no_bit() {
+fn scaling_by_a_power_of_two_changes_no_bit() {
     let mut random = Random(51);
     for index in 0..500 {
         let (positions, triangles) = ball(&mut random);
@@ -350,23 +351,23 @@ fn a_power_of_two_changes_no_bit() {
                     origin: size * incoming.origin,
                     ..incoming
                 };
-                let met = scaled.hit(&far, f64::INFINITY).expect("aimed inside");
+                let found = scaled.hit(&far, f64::INFINITY).expect("aimed inside");
                 let expected = Hit {
                     t: size * hit.t,
                     ..hit
                 };
-                assert_eq!(met, expected);
-                assert_eq!(scaled.surface(&far, met).leave(direction), size * start);
+                assert_eq!(found, expected);
+                assert_eq!(scaled.surface(&far, found).leave(direction), size * start);
             }
         }
     }
 }
 
-/// The image of a mesh is the mesh of the images of its corners.
+/// An instance equals a mesh of the transformed vertices.
 #[test]
-fn an_instance_is_the_mesh_baked_into_the_world() {
+fn an_instance_equals_the_mesh_baked_into_the_world() {
     let mut random = Random(61);
-    let mut met = 0;
+    let mut hits = 0;
     for index in 0..60 {
         let (positions, triangles) = ball(&mut random);
         let frame = image(&mut random, 6 * index + [0, 2, 3, 4, 5][index as usize % 5]);
@@ -385,10 +386,10 @@ fn an_instance_is_the_mesh_baked_into_the_world() {
                 assert_eq!(a.is_some(), b.is_some(), "{index}");
                 continue;
             };
-            met += 1;
+            hits += 1;
             assert_eq!(a.part, b.part, "{index}");
             let [a, b] = [(&instance, a), (&baked, b)].map(|(s, hit)| s.surface(&incoming, hit));
-            // Mirrored corners turn the other way round; a normal stays outward.
+            // Mirroring reverses the winding; a normal stays outward.
             let normal = if mirrored { -b.normal } else { b.normal };
             assert!(a.normal.distance(normal) < 1e-6, "{index}: {a:?} {b:?}");
             let scale = a.scale.max(b.scale).max(incoming.origin.length());
@@ -398,5 +399,5 @@ fn an_instance_is_the_mesh_baked_into_the_world() {
             );
         }
     }
-    assert!(4000 < met, "{met} rays met the mesh");
+    assert!(4000 < hits, "{hits} hits");
 }

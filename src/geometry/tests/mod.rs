@@ -1,4 +1,4 @@
-//! What the shapes promise, checked against paper, against twice the precision, and by properties.
+//! Tests of the shapes against hand-computed values, twice the precision, and properties.
 
 mod charts;
 mod csg;
@@ -25,7 +25,7 @@ use super::{
     Aabb, Affine, Cone, Crossings, Cuboid, Cylinder, Ellipsoid, Ray, Shape, Spans, Sphere,
 };
 
-/// The solids there are.
+/// The simple solids.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     Sphere,
@@ -43,7 +43,7 @@ const KINDS: [Kind; 5] = [
     Kind::Cone,
 ];
 
-/// What a scene file says about where a solid stands. A sphere reads the first length only.
+/// A frame as in a scene file. A sphere uses the first length only.
 #[derive(Clone, Copy, Debug)]
 struct Frame {
     origin: DVec3,
@@ -78,7 +78,7 @@ impl Frame {
         }
     }
 
-    /// The frame that a solid of this kind has.
+    /// The frame as used by a solid of this kind.
     fn of(self, kind: Kind) -> Self {
         if kind == Kind::Sphere {
             Self::upright(self.origin, DVec3::splat(self.lengths.x))
@@ -87,11 +87,11 @@ impl Frame {
         }
     }
 
-    /// A unit solid's point in the world.
-    fn world(&self, place: DVec3) -> DVec3 {
+    /// Maps a unit solid's point to the world.
+    fn world(&self, position: DVec3) -> DVec3 {
         let mut point = self.origin;
         for axis in 0..3 {
-            point += place[axis] * self.lengths[axis] * unit(self.directions[axis]);
+            point += position[axis] * self.lengths[axis] * unit(self.directions[axis]);
         }
         point
     }
@@ -108,7 +108,7 @@ fn ray(origin: DVec3, toward: DVec3) -> Ray {
     }
 }
 
-/// The one span of a line in a convex solid.
+/// The only span of a line in a convex solid.
 fn only_span(shape: &Shape, ray: &Ray) -> Option<Crossings> {
     let mut spans = Spans::new();
     shape.spans(ray, &mut spans);

@@ -1,4 +1,4 @@
-//! The square on paper, and rays that leave it.
+//! Squares against hand-computed values, and rays that leave them.
 
 use glam::{DVec2, DVec3};
 
@@ -13,8 +13,8 @@ fn plane(columns: [DVec3; 3], translation: DVec3) -> Shape {
 }
 
 #[test]
-fn a_square_is_met_from_both_sides_up_to_its_edges() {
-    // Twice as wide, turned to face +y, one up.
+fn a_square_is_hit_from_both_sides_up_to_its_edges() {
+    // Twice as wide, rotated to face +y, and moved up by 1.
     let shape = plane(
         [2.0 * DVec3::X, DVec3::NEG_Z, DVec3::Y],
         DVec3::new(0.0, 1.0, 0.0),
@@ -50,7 +50,7 @@ fn a_square_is_met_from_both_sides_up_to_its_edges() {
 }
 
 #[test]
-fn a_ray_in_the_plane_of_a_square_misses_it_and_it_holds_nothing() {
+fn a_square_is_missed_in_its_plane_and_has_no_inside() {
     let shape = plane(DVec3::AXES, DVec3::ZERO);
     let along = Ray {
         origin: DVec3::new(-5.0, 0.0, 0.0),
@@ -65,7 +65,7 @@ fn a_ray_in_the_plane_of_a_square_misses_it_and_it_holds_nothing() {
 #[test]
 fn rays_that_leave_a_square_do_not_return() {
     let mut random = Random(71);
-    let mut places = 0;
+    let mut surfaces = 0;
     for index in 0..1200 {
         let frame = frame(&mut random, index);
         let shape = Shape::Plane(Box::new(Plane(frame.affine().expect("a volume"))));
@@ -79,7 +79,7 @@ fn rays_that_leave_a_square_do_not_return() {
         let Some(hit) = shape.hit(&incoming, f64::INFINITY) else {
             continue;
         };
-        places += 1;
+        surfaces += 1;
         let surface = shape.surface(&incoming, hit);
         for _ in 0..1000 {
             let direction = random.direction();
@@ -88,12 +88,12 @@ fn rays_that_leave_a_square_do_not_return() {
             assert_eq!(again, None, "{index}");
         }
     }
-    assert!(1000 < places, "{places} places");
+    assert!(1000 < surfaces, "{surfaces} surfaces");
 }
 
-/// Radius 1 at the origin, scaled by (2, 1, 1) and sheared x += y: (x, y, z) → (2x + y, y, z).
+/// The unit sphere scaled by (2, 1, 1), sheared x += y and mirrored: (x, y, z) → (2x + y, y, −z).
 #[test]
-fn a_sphere_has_any_affine_image() {
+fn an_ellipsoid_may_be_sheared_and_mirrored() {
     let columns = [2.0 * DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::NEG_Z];
     let frame = Affine::of_matrix(columns, DVec3::ZERO).expect("a volume");
     let shape = Shape::Ellipsoid(Box::new(Ellipsoid(frame)));
@@ -120,7 +120,7 @@ fn a_sphere_has_any_affine_image() {
 }
 
 #[test]
-fn a_matrix_spans_a_volume() {
+fn a_matrix_must_span_a_volume() {
     let [x, y, z] = DVec3::AXES;
     let makes = |columns| Affine::of_matrix(columns, DVec3::ZERO).is_some();
     assert!(makes([1e-9 * x, y, 1e9 * z]));

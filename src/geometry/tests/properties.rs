@@ -1,12 +1,12 @@
-//! Properties of spans, normals and bounds, for solids and rays of all kinds.
+//! Properties of spans, normals and bounds for random solids and rays.
 
 use glam::DVec3;
 
 use super::exact::Exact;
-use super::random::{Random, excess, extremes, place};
+use super::random::{Random, excess, extremes, to_unit};
 use super::{Aabb, Frame, KINDS, Kind, Ray, only_span, ray};
 
-/// A ray toward a random solid, that may start inside it or miss it.
+/// A ray toward a random solid; it may start inside or miss.
 fn encounter(random: &mut Random, kind: Kind) -> (Frame, Ray) {
     let frame = random.frame().of(kind);
     let target = frame.world(1.5 * random.inside(kind));
@@ -15,12 +15,12 @@ fn encounter(random: &mut Random, kind: Kind) -> (Frame, Ray) {
 }
 
 #[test]
-fn spans_are_what_is_inside() {
+fn spans_cover_exactly_the_inside() {
     let mut random = Random(8);
     for index in 0..20_000 {
         let kind = KINDS[index % KINDS.len()];
         let (frame, ray) = encounter(&mut random, kind);
-        let depth = |t: f64| excess(kind, place(&frame, ray.at(t)));
+        let depth = |t: f64| excess(kind, to_unit(&frame, ray.at(t)));
         let Some(crossings) = only_span(&frame.shape(kind), &ray) else {
             let around = (frame.origin - ray.origin).dot(ray.direction);
             for step in -20..20 {
@@ -61,7 +61,7 @@ fn spans_agree_with_twice_the_precision() {
             continue;
         };
         for (hit, exact) in [(found.enter, enter), (found.exit, exit)] {
-            // An error of the coordinates is one of the distance over the cosine.
+            // An error of the coordinates becomes one of the distance, divided by the cosine.
             let cosine = shape.surface(&ray, hit).normal.dot(ray.direction).abs();
             let bound = 1e-14 * (10.0 + ray.origin.length()) / cosine;
             let error = (hit.t - exact).abs();
@@ -87,7 +87,7 @@ fn normals_are_gradients() {
         let surface = shape.surface(&ray, hit);
         let on_ray = ray.at(hit.t);
         assert!((surface.point - on_ray).length() < 1e-9 * (1.0 + hit.t));
-        let value = |p: DVec3| excess(kind, place(&frame, p));
+        let value = |p: DVec3| excess(kind, to_unit(&frame, p));
         assert!(value(surface.point).abs() < 1e-12, "{kind:?} {index}");
         let step = 1e-6;
         let slope = |h: f64| {
@@ -114,14 +114,14 @@ fn normals_are_gradients() {
 fn bounds_are_tight() {
     let mut random = Random(11);
     for kind in KINDS {
-        let places = extremes(kind);
+        let extremes = extremes(kind);
         for _ in 0..20 {
             let frame = random.frame().of(kind);
             let bounds = frame.shape(kind).bounds();
             let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-            for place in &places {
-                min = min.min(frame.world(*place));
-                max = max.max(frame.world(*place));
+            for extreme in &extremes {
+                min = min.min(frame.world(*extreme));
+                max = max.max(frame.world(*extreme));
             }
             let tolerance = 1e-12;
             assert!((min - bounds.min).min_element() > -tolerance, "{kind:?}");
@@ -132,11 +132,11 @@ fn bounds_are_tight() {
     }
 }
 
-/// However thin a solid is, it is met where its box is, but for rounding.
+/// All hits are in the box up to rounding, however thin the solid.
 #[test]
-fn what_is_met_is_in_the_box() {
+fn hits_are_in_the_box() {
     let mut random = Random(12);
-    let mut met = 0;
+    let mut hits = 0;
     for index in 0..4_000 {
         let kind = KINDS[index % KINDS.len()];
         let mut frame = random.frame();
@@ -151,7 +151,7 @@ fn what_is_met_is_in_the_box() {
             let origin = random.magnitude(0.0, 3.0) * random.direction();
             let ray = ray(origin, frame.world(1.5 * random.inside(kind)));
             if let Some(hit) = shape.hit(&ray, f64::INFINITY) {
-                met += 1;
+                hits += 1;
                 let outside = (min - ray.at(hit.t)).max(ray.at(hit.t) - max);
                 let rounding = 1e-13 * (origin.length() + hit.t);
                 assert!(
@@ -163,14 +163,14 @@ fn what_is_met_is_in_the_box() {
             }
         }
     }
-    assert!(20_000 < met, "{met} met");
+    assert!(20_000 < hits, "{hits} hits");
 }
 
-/// However long a solid is, and however far off its frame begins: what is near by is met.
+/// The nearby part of a solid is hit, however long the solid and however far away its origin.
 #[test]
-fn long_solids_are_met_at_their_ends() {
+fn long_solids_are_hit_at_their_ends() {
     let mut random = Random(13);
-    let mut met = 0;
+    let mut hits = 0;
     for index in 0..20_000 {
         let kind = KINDS[1 + index % (KINDS.len() - 1)];
         let mut frame = random.frame();
@@ -178,7 +178,7 @@ fn long_solids_are_met_at_their_ends() {
             frame.directions = DVec3::AXES;
         }
         frame.lengths[index % 3] = random.magnitude(2.0, 6.0);
-        // A place of the surface comes to stand near the origin of the world.
+        // Moves a point of the surface near the origin of the world.
         let middle = random.inside(kind);
         let outward = random.direction();
         let (mut inside, mut outside) = (0.0, 4.0);
@@ -190,9 +190,9 @@ fn long_solids_are_met_at_their_ends() {
                 outside = reach;
             }
         }
-        let place = middle + inside * outward;
-        frame.origin += random.in_cube() - frame.world(place);
-        let target = frame.world(place);
+        let point = middle + inside * outward;
+        frame.origin += random.in_cube() - frame.world(point);
+        let target = frame.world(point);
         let ray = ray(
             target + random.magnitude(-1.0, 1.0) * random.direction(),
             target,
@@ -200,10 +200,10 @@ fn long_solids_are_met_at_their_ends() {
         if let Some([enter, exit]) = Exact::new(kind, &frame).span(&ray)
             && 1e-6 < exit - enter
         {
-            met += 1;
+            hits += 1;
             let found = only_span(&frame.shape(kind), &ray);
             assert!(found.is_some(), "{kind:?} {index}: {enter} to {exit}");
         }
     }
-    assert!(5_000 < met, "{met} met");
+    assert!(5_000 < hits, "{hits} hits");
 }

@@ -1,20 +1,21 @@
-//! The boxes of quadrics against paper and against what rays find.
+//! Bounding boxes of quadrics against hand-computed values and points on rays.
 
 use glam::{DMat3, DVec3};
 
 use super::quadrics::{
     BALL, BOWL, CONE, CUBE, CYLINDER, HALF, IMAGINARY, INFINITY, NOTHING, OUTSIDE_OF_BALL, Planes,
-    QUARTERS, SLAB, SPACE, TWO_SHEETS, UNIT_HEIGHT, WAIST, around, cut, quadric, squares,
+    QUARTERS, SLAB, SPACE, TWO_SHEETS, UNIT_HEIGHT, WAIST, around, quadric, random_quadric,
+    squares,
 };
 use super::random::Random;
 use super::ray;
 use crate::geometry::{Aabb, Quadric};
 
-/// Coefficients, planes, and the least and the greatest coordinates.
+/// Coefficients, planes, and the minimum and maximum corners.
 type Case<'a> = ([f64; 10], Planes<'a>, [f64; 3], [f64; 3]);
 
 #[test]
-fn bounds_on_paper() {
+fn bounds_match_hand_computed_values() {
     let (inf, root) = (INFINITY, 2_f64.sqrt());
     let tilted = [0.5, 0.5, 0., 0., 0.5, 0., 0., 0., 0., -1.];
     let shifted = around(DVec3::new(1., 2., 3.), DMat3::IDENTITY, DVec3::ZERO, -4.0);
@@ -96,7 +97,7 @@ fn bounds_on_paper() {
     }
 }
 
-/// Whether a place is in a region by more than rounding.
+/// Whether a point is inside a region by more than rounding.
 fn is_inside(coefficients: [f64; 10], planes: &[(DVec3, f64)], p: DVec3) -> bool {
     let [xx, xy, xz, x, yy, yz, y, zz, z, constant] = coefficients;
     let terms = [
@@ -119,15 +120,15 @@ fn is_inside(coefficients: [f64; 10], planes: &[(DVec3, f64)], p: DVec3) -> bool
         })
 }
 
-/// What is in the region is in the box, near by and far away.
+/// The box contains all points of the region, near and far.
 #[test]
-fn bounds_hold_the_region() {
+fn bounds_contain_the_region() {
     let mut random = Random(23);
     let (mut bounded, mut inside) = (0, 0);
     for index in 0..3_000 {
-        let (mut coefficients, planes) = cut(&mut random);
+        let (mut coefficients, planes) = random_quadric(&mut random);
         if index % 2 == 0 {
-            // A slab, which only planes can close.
+            // A slab, which only planes can bound.
             let axes = [DVec3::AXES, random.rotation()][index / 2 % 2];
             let matrix = squares(axes, [0.0, 0.1, 0.0]);
             coefficients = around(3.0 * random.in_cube(), matrix, DVec3::ZERO, -1.0);
@@ -137,25 +138,25 @@ fn bounds_hold_the_region() {
         for _ in 0..100 {
             let ray = ray(5.0 * random.in_cube(), 5.0 * random.in_cube());
             for step in -20..=20 {
-                let place = ray.at(0.05 * f64::from(step * step * step));
-                if is_inside(coefficients, &planes, place) {
+                let point = ray.at(0.05 * f64::from(step * step * step));
+                if is_inside(coefficients, &planes, point) {
                     inside += 1;
-                    let slack = 1e-8 * (1.0 + place.length());
+                    let slack = 1e-8 * (1.0 + point.length());
                     assert!(
-                        (bounds.min - slack).cmple(place).all()
-                            && place.cmple(bounds.max + slack).all(),
-                        "{index}: {place} is outside {bounds:?}: {coefficients:?} {planes:?}"
+                        (bounds.min - slack).cmple(point).all()
+                            && point.cmple(bounds.max + slack).all(),
+                        "{index}: {point} is outside {bounds:?}: {coefficients:?} {planes:?}"
                     );
                 }
             }
         }
     }
     assert!(200 < bounded, "{bounded} bounded");
-    assert!(100_000 < inside, "{inside} places");
+    assert!(100_000 < inside, "{inside} points");
 }
 
 #[test]
-fn coefficients_that_cannot_hold_a_shape_are_known() {
+fn coefficients_too_imprecise_for_a_shape_are_detected() {
     let ball = |distance: f64| around(distance * DVec3::X, DMat3::IDENTITY, DVec3::ZERO, -1.0);
     assert!(!Quadric::new(ball(5e5), &[]).has_lost_its_shape());
     assert!(Quadric::new(ball(1e6), &[]).has_lost_its_shape());

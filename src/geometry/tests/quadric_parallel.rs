@@ -1,5 +1,5 @@
-//! Lines along the sides of quadrics, or nearly: where the square term of the equation is 0 or
-//! rounding, against twice the precision.
+//! Lines parallel or nearly parallel to generatrices, where the quadratic term is 0 or rounding,
+//! against twice the precision.
 
 use glam::{DMat3, DVec3};
 
@@ -7,9 +7,9 @@ use super::quadrics::{around, exact_hit, quadric, spans, squares};
 use super::random::Random;
 use super::{Ray, Shape, unit};
 
-/// What the squares along the axes count, the slope along the third, and the constant.
+/// The coefficients of the squares along the axes, the slope along the third, and the constant.
 const KINDS: [([f64; 3], f64, f64); 6] = [
-    // A cylinder, an elliptic one, a cone, a waist, a bowl and a slab.
+    // A cylinder, an elliptic cylinder, a cone, a hyperboloid, a paraboloid and a slab.
     ([1.0, 1.0, 0.0], 0.0, -1.0),
     ([1.0, 4.0, 0.0], 0.0, -1.0),
     ([1.0, 1.0, -1.0], 0.0, 0.0),
@@ -19,7 +19,7 @@ const KINDS: [([f64; 3], f64, f64); 6] = [
 ];
 
 #[test]
-fn lines_along_the_sides_meet_what_they_should() {
+fn lines_along_the_sides_hit_as_in_twice_the_precision() {
     let mut random = Random(27);
     let (mut hits, mut misses) = (0, 0);
     for index in 0..120_000 {
@@ -34,7 +34,7 @@ fn lines_along_the_sides_meet_what_they_should() {
         let matrix: DMat3 = squares(axes, s);
         let coefficients = around(DVec3::ZERO, matrix, slope * z, constant);
         let shape = Shape::Quadric(Box::new(quadric(coefficients, &[])));
-        // The axis, and lines on a cone.
+        // The axis, or a generatrix of the cone.
         let along = if s[2] < 0.0 { unit(x + z) } else { z };
         let off = match index % 4 {
             0 => 0.0,

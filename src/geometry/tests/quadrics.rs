@@ -1,4 +1,4 @@
-//! Quadrics against paper, against twice the precision, and against the shapes they can stand for.
+//! Quadrics against hand-computed values, twice the precision, and equivalent shapes.
 
 use glam::{DMat3, DVec3};
 
@@ -9,7 +9,7 @@ use crate::geometry::{Quadric, Spans, ulp};
 
 pub(super) const INFINITY: f64 = f64::INFINITY;
 
-/// Planes n · x ≤ d.
+/// Half-spaces n · x ≤ d.
 pub(super) type Planes<'a> = &'a [([f64; 3], f64)];
 
 pub(super) fn quadric(coefficients: [f64; 10], planes: Planes) -> Quadric {
@@ -20,7 +20,7 @@ pub(super) fn quadric(coefficients: [f64; 10], planes: Planes) -> Quadric {
     Quadric::new(coefficients, &planes)
 }
 
-/// Coefficients of (x − centre)ᵀ M (x − centre) + 2 slope · (x − centre) + level.
+/// The coefficients of (x − centre)ᵀ M (x − centre) + 2 slope · (x − centre) + level.
 pub(super) fn around(centre: DVec3, matrix: DMat3, slope: DVec3, level: f64) -> [f64; 10] {
     let m = matrix;
     let linear = slope - m * centre;
@@ -31,7 +31,7 @@ pub(super) fn around(centre: DVec3, matrix: DMat3, slope: DVec3, level: f64) -> 
     ]
 }
 
-/// Σ sᵢ (axisᵢ · x)².
+/// The matrix of Σ sᵢ (axisᵢ · x)².
 pub(super) fn squares(axes: [DVec3; 3], s: [f64; 3]) -> DMat3 {
     let columns = DMat3::from_cols_array_2d(&axes.map(|axis| axis.to_array()));
     columns * DMat3::from_diagonal(DVec3::from_array(s)) * columns.transpose()
@@ -47,17 +47,17 @@ pub(super) const BALL: [f64; 10] = [1., 0., 0., 0., 1., 0., 0., 1., 0., -1.];
 pub(super) const OUTSIDE_OF_BALL: [f64; 10] = [-1., 0., 0., 0., -1., 0., 0., -1., 0., 1.];
 pub(super) const CYLINDER: [f64; 10] = [1., 0., 0., 0., 1., 0., 0., 0., 0., -1.];
 pub(super) const CONE: [f64; 10] = [1., 0., 0., 0., 1., 0., 0., -1., 0., 0.];
-/// z ≥ x² + y².
+/// The region z ≥ x² + y².
 pub(super) const BOWL: [f64; 10] = [1., 0., 0., 0., 1., 0., 0., 0., -0.5, 0.];
-/// x² + y² − z² ≤ 1.
+/// The region x² + y² − z² ≤ 1.
 pub(super) const WAIST: [f64; 10] = [1., 0., 0., 0., 1., 0., 0., -1., 0., -1.];
-/// x² + y² + 1 ≤ z².
+/// The region x² + y² + 1 ≤ z².
 pub(super) const TWO_SHEETS: [f64; 10] = [1., 0., 0., 0., 1., 0., 0., -1., 0., 1.];
-/// x y ≤ 0.
+/// The region x y ≤ 0.
 pub(super) const QUARTERS: [f64; 10] = [0., 0.5, 0., 0., 0., 0., 0., 0., 0., 0.];
-/// |x| ≤ 1.
+/// The region |x| ≤ 1.
 pub(super) const SLAB: [f64; 10] = [1., 0., 0., 0., 0., 0., 0., 0., 0., -1.];
-/// x ≤ 2.
+/// The region x ≤ 2.
 pub(super) const HALF: [f64; 10] = [0., 0., 0., 0.5, 0., 0., 0., 0., 0., -2.];
 pub(super) const SPACE: [f64; 10] = [0., 0., 0., 0., 0., 0., 0., 0., 0., -1.];
 pub(super) const NOTHING: [f64; 10] = [0., 0., 0., 0., 0., 0., 0., 0., 0., 1.];
@@ -72,7 +72,7 @@ pub(super) const CUBE: Planes = &[
     ([0., 0., -1e-3], 0.),
 ];
 
-/// Coefficients, planes, a ray's origin and direction, and where its line is inside.
+/// Coefficients, planes, a ray's origin and direction, and the spans of its line.
 type Case<'a> = (
     [f64; 10],
     Planes<'a>,
@@ -83,7 +83,7 @@ type Case<'a> = (
 
 #[test]
 #[allow(clippy::too_many_lines, reason = "a table")]
-fn spans_on_paper() {
+fn spans_match_hand_computed_values() {
     let (x, z) = ([1., 0., 0.], [0., 0., 1.]);
     let all = [(-INFINITY, 0), (INFINITY, 0)];
     let half = 0.5_f64.sqrt();
@@ -115,7 +115,7 @@ fn spans_on_paper() {
             z,
             &[[(3., 2), (4., 0)], [(6., 0), (7., 1)]],
         ),
-        // Along the axis, inside, on and outside the side; and across.
+        // Along the axis: inside, on and outside the side; and across.
         (CYLINDER, &[], [0.5, 0.5, -5.], z, &[all]),
         (CYLINDER, &[], [1., 0., 7.], z, &[all]),
         (CYLINDER, &[], [1., 1e-7, 7.], z, &[]),
@@ -127,7 +127,7 @@ fn spans_on_paper() {
             &[[(1e6, 1), (1e6 + 1., 2)]],
         ),
         (CYLINDER, &[], [-3., 0., 1e9], x, &[[(2., 0), (4., 0)]]),
-        // Both nappes; along a generatrix; along a parallel to one; through the apex.
+        // Both nappes; along a generatrix; parallel to one; through the apex.
         (
             CONE,
             &[],
@@ -221,8 +221,8 @@ fn spans_on_paper() {
     }
 }
 
-/// Whether F is at most 0 anywhere on the line, in twice the precision. The line is followed first
-/// to where F is least: from there b is nearly 0, and b² − ac no difference.
+/// Whether F is at most 0 anywhere on the line, in twice the precision. The line is first advanced
+/// to the extremum of F, where b is nearly 0 and b² − ac does not cancel.
 pub(super) fn exact_hit(coefficients: [f64; 10], ray: &Ray) -> bool {
     let [xx, xy, xz, x, yy, yz, y, zz, z, k] = coefficients;
     let rows = [
@@ -246,7 +246,7 @@ pub(super) fn exact_hit(coefficients: [f64; 10], ray: &Ray) -> bool {
 }
 
 #[test]
-fn quadric_world() {
+fn quadrics_hit_as_in_twice_the_precision() {
     const SIDE: u32 = 256;
     let mut random = Random(21);
     let needle = 1e6;
@@ -264,7 +264,7 @@ fn quadric_world() {
             let axes = random.rotation();
             let matrix = squares(axes, s);
             let distance = 10_f64.powi(exponent);
-            // The solid stands away from the origin, or the eye, or both do.
+            // The solid, the eye or both are far from the origin.
             let needles = s.iter().any(|s| needle < *s);
             let away = if needles { 0.0 } else { distance };
             let centre = [0.0, away, 0.3 * away][exponent as usize % 3] * random.direction();
@@ -292,8 +292,8 @@ fn quadric_world() {
     assert!(500_000 < hits, "{hits} hits");
 }
 
-/// The quadric and planes of a unit solid in an orthogonal frame.
-fn twin(kind: Kind, frame: &Frame) -> Shape {
+/// The quadric equivalent to a unit solid in an orthogonal frame.
+fn as_quadric(kind: Kind, frame: &Frame) -> Shape {
     let axes = frame.directions;
     let [x, y, z] = axes;
     let DVec3 { x: l, y: m, z: n } = frame.lengths;
@@ -327,7 +327,7 @@ fn twin(kind: Kind, frame: &Frame) -> Shape {
 }
 
 #[test]
-fn twins_agree() {
+fn simple_solids_and_equivalent_quadrics_agree() {
     let mut random = Random(22);
     let mut different = 0;
     let rays = 100_000;
@@ -338,7 +338,7 @@ fn twins_agree() {
             ..random.frame()
         }
         .of(kind);
-        let (shape, twin) = (frame.shape(kind), twin(kind, &frame));
+        let (shape, as_quadric) = (frame.shape(kind), as_quadric(kind, &frame));
         for _ in 0..10 {
             let target = frame.world(1.2 * random.inside(kind));
             let incoming = ray(
@@ -347,17 +347,17 @@ fn twins_agree() {
             );
             let (Some(hit), Some(other)) = (
                 shape.hit(&incoming, INFINITY),
-                twin.hit(&incoming, INFINITY),
+                as_quadric.hit(&incoming, INFINITY),
             ) else {
                 different += usize::from(
                     shape.hit(&incoming, INFINITY).is_some()
-                        != twin.hit(&incoming, INFINITY).is_some(),
+                        != as_quadric.hit(&incoming, INFINITY).is_some(),
                 );
                 continue;
             };
             let (ours, theirs) = (
                 shape.surface(&incoming, hit),
-                twin.surface(&incoming, other),
+                as_quadric.surface(&incoming, other),
             );
             let scale = incoming
                 .origin
@@ -366,11 +366,11 @@ fn twins_agree() {
                 .max(hit.t);
             let cosine = ours.normal.dot(incoming.direction).abs();
             if ours.normal.dot(theirs.normal) < 1.0 - 1e-9 || cosine < 1e-4 {
-                // At an edge, or nearly a silhouette.
+                // At an edge, or close to a silhouette.
                 different += usize::from(1e-4 <= cosine);
                 continue;
             }
-            // The twin's coefficients are rounded at |origin|².
+            // The quadric's coefficients are rounded at |origin|².
             let bound = 64.0 * ulp(scale) * scale / cosine;
             let apart = (ours.point - theirs.point).length();
             assert!(apart < bound, "{kind:?} {index}: {apart} {bound}");
@@ -379,8 +379,8 @@ fn twins_agree() {
     assert!(different * 10_000 <= 10 * rays, "{different} differ");
 }
 
-/// A random quadric of any kind, cut by a few random planes, some of them parallel.
-pub(super) fn cut(random: &mut Random) -> ([f64; 10], Vec<(DVec3, f64)>) {
+/// A random quadric of any kind, clipped by a few random planes, some of them parallel.
+pub(super) fn random_quadric(random: &mut Random) -> ([f64; 10], Vec<(DVec3, f64)>) {
     let mut pick = || [-1.0, 0.0, 0.3, 1.0, 2.0][(random.bits() % 5) as usize];
     let s = [pick(), pick(), pick()];
     let slope = 0.5 * DVec3::new(pick(), pick(), pick());
@@ -410,11 +410,11 @@ pub(super) fn cut(random: &mut Random) -> ([f64; 10], Vec<(DVec3, f64)>) {
 }
 
 #[test]
-fn rays_that_leave_stay_away() {
+fn leaving_rays_do_not_return() {
     let mut random = Random(24);
     let mut surfaces = 0;
     for index in 0..20_000 {
-        let (coefficients, planes) = cut(&mut random);
+        let (coefficients, planes) = random_quadric(&mut random);
         let shape = Shape::Quadric(Box::new(Quadric::new(coefficients, &planes)));
         let incoming = ray(
             random.magnitude(0.0, 4.0) * random.direction(),
@@ -447,7 +447,7 @@ fn rays_that_leave_stay_away() {
 }
 
 #[test]
-fn extreme_coefficients_give_numbers_or_nothing() {
+fn extreme_coefficients_give_ordered_spans_or_none() {
     let mut random = Random(25);
     let sizes = [
         0.0,
@@ -490,7 +490,7 @@ fn extreme_coefficients_give_numbers_or_nothing() {
 fn powers_of_two_scale_exactly() {
     let mut random = Random(26);
     for _ in 0..2_000 {
-        let (coefficients, planes) = cut(&mut random);
+        let (coefficients, planes) = random_quadric(&mut random);
         let shape = Shape::Quadric(Box::new(Quadric::new(coefficients, &planes)));
         let incoming = ray(
             random.magnitude(0.0, 4.0) * random.direction(),

@@ -1,4 +1,4 @@
-//! Seeded random numbers, frames and places.
+//! Seeded random numbers, frames and points.
 
 use std::f64::consts::{PI, TAU};
 
@@ -48,14 +48,14 @@ impl Random {
         }
     }
 
-    /// Orthogonal directions.
+    /// Random orthonormal directions.
     pub(super) fn rotation(&mut self) -> [DVec3; 3] {
         let u = self.direction();
         let v = unit(u.cross(self.direction()));
         [u, v, u.cross(v)]
     }
 
-    /// Directions at any angles, with a determinant of about `volume` or more.
+    /// Directions at random angles, with a determinant of at least half of `volume`.
     pub(super) fn skewed(&mut self, volume: f64) -> [DVec3; 3] {
         loop {
             let [u, v] = [self.direction(), self.direction()];
@@ -66,7 +66,7 @@ impl Random {
         }
     }
 
-    /// A frame of moderate size somewhere near the origin, orthogonal or skewed.
+    /// A frame of moderate size near the origin, orthogonal or skewed.
     pub(super) fn frame(&mut self) -> Frame {
         let directions = if self.bits().is_multiple_of(2) {
             self.rotation()
@@ -84,37 +84,37 @@ impl Random {
         }
     }
 
-    /// A place inside the unit solid.
+    /// A point inside the unit solid.
     pub(super) fn inside(&mut self, kind: Kind) -> DVec3 {
         loop {
-            let place = match kind {
+            let point = match kind {
                 Kind::Sphere | Kind::Ellipsoid => self.in_cube(),
                 Kind::Cuboid => 0.5 * (self.in_cube() + 1.0),
                 Kind::Cylinder | Kind::Cone => {
-                    let place = self.in_cube();
-                    place.with_z(0.5 * (place.z + 1.0))
+                    let point = self.in_cube();
+                    point.with_z(0.5 * (point.z + 1.0))
                 }
             };
-            if excess(kind, place) < 0.0 {
-                return place;
+            if excess(kind, point) < 0.0 {
+                return point;
             }
         }
     }
 }
 
 /// The implicit function of a unit solid: below 0 inside, above 0 outside.
-pub(super) fn excess(kind: Kind, place: DVec3) -> f64 {
-    let DVec3 { x, y, z } = place;
+pub(super) fn excess(kind: Kind, point: DVec3) -> f64 {
+    let DVec3 { x, y, z } = point;
     match kind {
         Kind::Sphere | Kind::Ellipsoid => x * x + y * y + z * z - 1.0,
-        Kind::Cuboid => ((place - 0.5).abs() - 0.5).max_element(),
+        Kind::Cuboid => ((point - 0.5).abs() - 0.5).max_element(),
         Kind::Cylinder => (x * x + y * y - 1.0).max(-z).max(z - 1.0),
         Kind::Cone => (x * x + y * y - (1.0 - z) * (1.0 - z)).max(-z).max(z - 1.0),
     }
 }
 
-/// A point of the world in the space of the unit solid, by Cramer's rule.
-pub(super) fn place(frame: &Frame, point: DVec3) -> DVec3 {
+/// Maps a world point to the space of the unit solid by Cramer's rule.
+pub(super) fn to_unit(frame: &Frame, point: DVec3) -> DVec3 {
     let [u, v, w] = frame.directions.map(unit);
     let p = point - frame.origin;
     let determinant = |a: DVec3, b: DVec3, c: DVec3| a.dot(b.cross(c));
@@ -126,8 +126,7 @@ pub(super) fn place(frame: &Frame, point: DVec3) -> DVec3 {
     numerators / determinant(u, v, w) / frame.lengths
 }
 
-/// Places of a unit solid's surface among which are the extreme ones, or nearly: edges, if it has
-/// any.
+/// Points on a unit solid's surface that include its extremes, or nearly: its edges, if it has any.
 pub(super) fn extremes(kind: Kind) -> Vec<DVec3> {
     let circle = |radius: f64, z: f64| {
         (0..256).map(move |i| {

@@ -1,4 +1,4 @@
-//! No absolute length anywhere: a scene scaled by a power of two is the same to the bit.
+//! No absolute lengths: a scene scaled by a power of two gives the same bits.
 
 use super::random::Random;
 use super::{Frame, KINDS, Ray, only_span, ray};
@@ -61,7 +61,7 @@ fn scaled(crossings: Crossings, size: f64) -> Crossings {
 }
 
 #[test]
-fn units_in_the_last_place() {
+fn ulps_match_hand_computed_values() {
     for (x, expected) in [
         (1.0, f64::EPSILON),
         (-1.0, f64::EPSILON),

@@ -1,4 +1,4 @@
-//! Which rays hit, and where, against the same rays in twice the precision.
+//! Hits and misses near silhouettes against twice the precision.
 
 use glam::DVec3;
 
@@ -9,7 +9,7 @@ use crate::geometry::ulp;
 
 const SIDE: u32 = 256;
 
-/// A square of rays from `eye` that fills a window around `target`, whose half edges are given.
+/// A grid of rays from `eye` through a window around `target` with the given half edges.
 fn window(eye: DVec3, target: DVec3, right: DVec3, up: DVec3) -> impl Iterator<Item = Ray> {
     let fraction = |i: u32| (2.0 * f64::from(i) + 1.0) / f64::from(SIDE) - 1.0;
     (0..SIDE * SIDE).map(move |i| {
@@ -21,7 +21,7 @@ fn window(eye: DVec3, target: DVec3, right: DVec3, up: DVec3) -> impl Iterator<I
 struct Comparison {
     hits: u32,
     wrong: u32,
-    /// The largest difference of a distance.
+    /// The largest error of a distance.
     error: f64,
 }
 
@@ -49,13 +49,13 @@ fn compare(kind: Kind, frame: &Frame, rays: impl Iterator<Item = Ray>) -> Compar
 }
 
 #[test]
-fn far_sphere() {
+fn far_spheres_are_exact() {
     let mut random = Random(1);
     for exponent in 1..=9 {
         let distance = 10_f64.powi(exponent);
         let [right, up, back] = random.rotation();
         let away = distance * back;
-        // The sphere stands at the origin for one half of the distances, the eye for the other.
+        // The sphere is at the origin for half of the distances, the eye for the others.
         let (centre, eye) = if exponent % 2 == 0 {
             (DVec3::ZERO, away)
         } else {
@@ -78,7 +78,7 @@ fn far_sphere() {
     }
 }
 
-/// Needles and discs of 1 : `ratio`, seen from the side, along their axis and from between.
+/// Needles and discs of 1 : `ratio`, seen from the side and along their axis.
 fn needles(kind: Kind, ratio: f64, distance: f64, seed: u64) {
     let mut random = Random(seed);
     let rod = DVec3::new(1.0 / ratio, 1.0 / ratio, 1.0);
@@ -104,21 +104,21 @@ fn needles(kind: Kind, ratio: f64, distance: f64, seed: u64) {
 }
 
 #[test]
-fn ellipsoid_needle() {
+fn thin_ellipsoids_are_exact() {
     for (ratio, distance) in [(1e3, 1e2), (1e6, 4.0), (1e6, 60.0), (1e6, 1e5)] {
         needles(Kind::Ellipsoid, ratio, distance, 2);
     }
 }
 
 #[test]
-fn cylinder_and_cone_needle() {
+fn thin_cylinders_and_cones_are_exact() {
     for kind in [Kind::Cylinder, Kind::Cone] {
         needles(kind, 1e6, 1e4, 3);
     }
 }
 
 #[test]
-fn far_solids() {
+fn other_far_solids_are_exact() {
     let mut random = Random(4);
     for kind in [Kind::Ellipsoid, Kind::Cuboid, Kind::Cylinder, Kind::Cone] {
         let frame = Frame {
@@ -137,12 +137,12 @@ fn far_solids() {
     }
 }
 
-/// Rays within 1e-12 of a tangent. With l the least distance from the centre, computed from
-/// coordinates up to D, the error of 1 − l² is at most 8 (1 + D) half units in the last place of 1
-/// (three products, their sums, the direction's component along itself); rays from far are moved
-/// close first, and D is 1.
+/// Rays within 1e-12 of a tangent. If l is the least distance from the centre, computed from
+/// coordinates up to D, the error of 1 − l² is at most 8 (1 + D) half ulps of 1 (three products,
+/// their sums, the direction's component along itself); rays from far away are advanced first, and
+/// D is 1.
 #[test]
-fn grazing() {
+fn grazing_rays_are_decided_as_in_twice_the_precision() {
     let mut random = Random(5);
     let frame = Frame::upright(DVec3::ZERO, DVec3::ONE);
     let shape = frame.shape(Kind::Sphere);

@@ -1,5 +1,5 @@
-//! The grammar of `.dat`: records as the table of fields lists them, one a line. A record that
-//! makes no sense costs itself only.
+//! The grammar of `.dat`: one record per line, according to the table of fields. Invalid records do
+//! not affect others.
 
 mod camera;
 mod line;
@@ -18,24 +18,25 @@ use crate::geometry::{Operation, Shape};
 use crate::language::Lowered;
 use crate::language::report::{nearest_word, quoted};
 use crate::language::table::Category;
-use crate::scene::{Light, Material, Phong, Rgb, Scene, Setting, Source, Texture};
+use crate::language::words::Words;
+use crate::scene::{Light, Material, Rgb, Scene, Setting, Texture};
 use crate::text::{Diagnostic, Findings, Position, Span};
 use line::Line;
 
-/// Numbers of things that a message lists at most.
+/// Maximum number of IDs listed in a message.
 const NAMED: usize = 8;
 
-/// The errors of a text that begins with these records, whatever follows them.
+/// Returns the errors of every text that begins with these records.
 pub(super) fn errors_of_beginning(text: &str, tree: &Tree) -> Findings {
     let mut reader = Reader::new(text, tree);
-    // The last one may be cut.
+    // The last record may be incomplete.
     for record in 0..tree.records.len().saturating_sub(1) {
         reader.record(record);
     }
     reader.report
 }
 
-/// Reads a scene.
+/// Lowers a text.
 pub(super) fn lower(text: &str, tree: &Tree) -> (Origins, Lowered) {
     let mut reader = Reader::new(text, tree);
     for record in 0..tree.records.len() {
@@ -43,15 +44,11 @@ pub(super) fn lower(text: &str, tree: &Tree) -> (Origins, Lowered) {
     }
     let objects = reader.drawn();
     let camera = reader.camera(&objects);
-    let ambient = |light: &Light| match light.source {
-        Source::Everywhere => light.colour,
-        Source::Point { .. } | Source::Distant(_) => Rgb::ZERO,
-    };
     let scene = (reader.report.errors() == 0).then(|| Scene {
         camera,
-        ambient: reader.lights.iter().map(ambient).sum(),
+        ambient: Rgb::ZERO,
         lights: reader.lights,
-        materials: reader.materials.into_iter().map(Material::Phong).collect(),
+        materials: reader.materials,
         textures: reader.textures,
         objects: objects.into_iter().collect(),
         setting: Setting::default(),
@@ -65,45 +62,45 @@ pub(super) fn lower(text: &str, tree: &Tree) -> (Origins, Lowered) {
 
 /// An object of the text.
 enum Solid {
-    /// A shape of its own.
-    Shape(Shape),
-    /// Others combined; its operands are the origin's.
+    /// A simple shape, and the index of its material.
+    Shape(Shape, u32),
+    /// A combination; its operands are in the origins.
     Combined(Operation),
-    /// An object with errors: something is known by its number all the same.
+    /// An object with errors; it still has an ID.
     Faulty,
 }
 
-/// What was read so far.
+/// A reader with its results so far.
 struct Reader<'a> {
     text: &'a str,
     tree: &'a Tree,
     report: Findings,
     origins: Origins,
     camera: camera::Said,
-    /// Of all records, those with errors included: their indices are the origins'.
+    /// From all records, including those with errors: indices are those of the origins.
     lights: Vec<Light>,
-    materials: Vec<Phong>,
+    materials: Vec<Material>,
     textures: Vec<Texture>,
     solids: Vec<Solid>,
-    /// The index of each thing that is known by a number.
+    /// The index of each node with an ID.
     ids: HashMap<(Category, i64), usize>,
-    /// The smallest of these numbers in each category, in order: at most [`NAMED`].
+    /// The smallest IDs of each category, ascending, at most [`NAMED`].
     smallest: [Vec<i64>; 4],
-    /// The last record of each such thing, looked for once a message asks for it.
+    /// The last record that defines each ID; computed when a message first needs it.
     definitions: OnceCell<HashMap<(Category, i64), usize>>,
-    /// What was done to each material, by its index: the place in the origins.
+    /// The uses of textures by each material, by its index: indices in the origins.
     used: HashMap<(usize, UseKind), usize>,
-    /// What the last `render` draws.
+    /// The objects drawn according to the last `render`.
     drawn: Drawn,
 }
 
-/// Which objects are drawn.
+/// The objects to draw.
 enum Drawn {
-    /// Those that are not operands, for want of a record.
+    /// All except operands, by default.
     Results,
-    /// All of them; where the text says so.
+    /// All, as requested at this place.
     All(Span),
-    /// Those with these numbers.
+    /// Those with these IDs.
     Listed(Vec<(i64, Span)>),
 }
 
@@ -130,13 +127,14 @@ impl<'a> Reader<'a> {
 
 impl Reader<'_> {
     fn record(&mut self, record: usize) {
-        let tokens = self.tree.tokens_of(record);
+        let tokens = &self.tree.tokens_of(self.text, record);
         let Some(kind) = self.kind(tokens) else {
             return;
         };
-        if let Some(at) = VIEW.iter().position(|&view| view == kind) {
-            let before = self.origins.view[at].replace(record);
-            self.warn_of_repetition(before, tokens[0]);
+        if let Some(at) = VIEW.iter().position(|&view| view == kind)
+            && let Some(before) = self.origins.view[at].replace(record)
+        {
+            self.warn_of_repetition(before, tokens.clone().next());
         }
         match kind {
             RecordKind::Camera | RecordKind::Resolution | RecordKind::Viewport => {
@@ -148,16 +146,18 @@ impl Reader<'_> {
             RecordKind::Texture(kind) => self.texture(record, kind, tokens),
             RecordKind::Use(kind) => self.texture_use(record, kind, tokens),
             RecordKind::Render => {
-                let before = self.origins.render.replace(record);
-                self.warn_of_repetition(before, tokens[0]);
+                if let Some(before) = self.origins.render.replace(record) {
+                    self.warn_of_repetition(before, tokens.clone().next());
+                }
                 self.render_list(tokens);
             }
         }
     }
 
-    /// Which record the first words say; `None`, with a message, if none.
-    fn kind(&mut self, tokens: &[Span]) -> Option<RecordKind> {
-        let first = *tokens.first()?;
+    /// The kind of record identified by the first words; `None`, with a message, if unknown.
+    fn kind(&mut self, tokens: &Words<'_>) -> Option<RecordKind> {
+        let mut rest = tokens.clone();
+        let first = rest.next()?;
         let word = first.of(self.text);
         let Some((_, heads)) = RECORDS.iter().find(|(known, _)| *known == word) else {
             self.report.warning(|| unknown_record(first, word));
@@ -165,8 +165,8 @@ impl Reader<'_> {
         };
         let known = match heads {
             Heads::One(RecordKind::Texture(_)) => {
-                // The pattern follows the number: texture ID n image.
-                let is_image = tokens.get(3).is_some_and(|at| at.of(self.text) == "image");
+                // The pattern follows the ID: texture ID n image.
+                let is_image = rest.nth(2).is_some_and(|at| at.of(self.text) == "image");
                 let kind = if is_image {
                     TextureKind::Image
                 } else {
@@ -177,7 +177,7 @@ impl Reader<'_> {
             Heads::One(kind) => return Some(*kind),
             Heads::Two(known) => *known,
         };
-        let second = tokens.get(1).copied();
+        let second = rest.next();
         let word = second.map_or("", |at| at.of(self.text));
         if let Some((_, kind)) = known.iter().find(|(known, _)| *known == word) {
             return Some(*kind);
@@ -203,10 +203,9 @@ impl Reader<'_> {
         None
     }
 
-    fn warn_of_repetition(&mut self, before: Option<usize>, word: Span) {
-        let Some(before) = before else {
-            return;
-        };
+    /// Warns of a record that replaces the one at index `before`.
+    fn warn_of_repetition(&mut self, before: usize, word: Option<Span>) {
+        let word = word.unwrap_or_default();
         self.report.warning(|| {
             let line = Position::of(self.text, self.tree.span_of(before).start()).line;
             let message = format!("{}: said in line {line} already", word.of(self.text));
@@ -215,8 +214,8 @@ impl Reader<'_> {
         });
     }
 
-    /// The number by which a record is known, in `line`; warns of one that is taken, whose record
-    /// is dropped then. `None` if it is, or is not a number.
+    /// Registers the ID of a record, read in `line`. `None` if it is malformed, or, with a warning,
+    /// if it is taken; then the record is dropped.
     fn know(&mut self, category: Category, line: &Line<'_>, index: usize) -> Option<i64> {
         let (id, span) = line.id?;
         match self.ids.entry((category, id)) {
@@ -242,7 +241,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The thing that a reference names; `None`, and an error, if there is none above.
+    /// The node that a reference names; `None`, with an error, if it is not defined above.
     fn known(&mut self, category: Category, reference: Option<(i64, Span)>) -> Option<usize> {
         let (id, span) = reference?;
         let found = self.ids.get(&(category, id)).copied();
@@ -272,11 +271,11 @@ impl Reader<'_> {
     }
 }
 
-/// The last record that begins as if it defined each thing.
+/// The last record that appears to define each ID.
 fn definitions_of(text: &str, tree: &Tree) -> HashMap<(Category, i64), usize> {
     let definition = |record: usize| {
-        let tokens = tree.tokens_of(record);
-        let said = |at: usize| tokens.get(at).map(|token| token.of(text));
+        let tokens = tree.tokens_of(text, record);
+        let said = |at: usize| Some(tokens.clone().nth(at)?.of(text));
         let (category, place) = match said(0)? {
             "light" => (Category::Light, 2),
             "mat" => (Category::Material, 2),
@@ -289,7 +288,7 @@ fn definitions_of(text: &str, tree: &Tree) -> HashMap<(Category, i64), usize> {
     (0..tree.records.len()).filter_map(definition).collect()
 }
 
-/// The words that records begin with.
+/// The first words of records, for messages.
 fn known_records() -> String {
     let words: Vec<_> = RECORDS.iter().map(|(word, _)| *word).collect();
     words.join(", ")

@@ -1,20 +1,29 @@
-//! The fields of `.dat`, record by record.
+//! The table of fields of `.dat`, record by record.
 
-use crate::language::table::{Category, Field, Kind, Range};
+mod parts;
 
-/// What stands at a place of a record, after the words that say which record it is.
+use crate::language::at::{At, is_same};
+use crate::language::table::Field;
+use parts::{
+    BOX, CAMERA, CHECKER, CSG, CYLINDER, ELLIPSOID, IMAGE, LIGHT, MATERIAL, QUADRIC, RESOLUTION,
+    SPHERE, USE_BUMP, USE_COLOUR, VIEWPORT,
+};
+
+pub(super) use parts::HALF_SPACE;
+
+/// A part of a record, after the words that identify its kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Part {
-    /// Just this word.
+    /// A fixed word.
     Word(&'static str),
-    /// The number by which other records know this one.
+    /// The ID by which other records refer to this one.
     Id,
     /// A field.
     Field(Field),
 }
 
 impl Part {
-    /// How many tokens it takes.
+    /// The number of tokens.
     pub(super) const fn tokens(&self) -> usize {
         match self {
             Self::Word(_) | Self::Id => 1,
@@ -23,10 +32,10 @@ impl Part {
     }
 }
 
-/// The kinds of record.
+/// The kinds of records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum RecordKind {
-    /// Where the camera stands and how it sees.
+    /// The camera: its position, direction and lens.
     Camera,
     /// World units per pixel.
     Resolution,
@@ -40,57 +49,57 @@ pub(super) enum RecordKind {
     Object(ObjectKind),
     /// A texture.
     Texture(TextureKind),
-    /// What a texture does to a material.
+    /// A use of a texture by a material.
     Use(UseKind),
-    /// Which objects are drawn.
+    /// The list of objects to draw.
     Render,
 }
 
-/// The kinds of object.
+/// The kinds of objects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum ObjectKind {
     /// A sphere.
     Sphere,
-    /// An ellipsoid along the axes of the world.
+    /// An axis-aligned ellipsoid.
     Ellipsoid,
-    /// A closed round cylinder.
+    /// A closed circular cylinder.
     Cylinder,
     /// A box.
     Box,
-    /// Two objects combined.
+    /// A combination of two objects.
     Csg,
-    /// A general quadric cut by half-spaces.
+    /// A general quadric clipped by half-spaces.
     Quadric,
 }
 
-/// The kinds of texture.
+/// The kinds of textures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum TextureKind {
-    /// Two colours in squares.
+    /// A checkerboard of two colours.
     Checker,
     /// A picture from a file.
     Image,
 }
 
-/// What a texture is used for.
+/// The uses of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum UseKind {
-    /// Its colour multiplies the material's.
+    /// The texture multiplies the material's colour.
     Colour,
-    /// Its brightness is a height.
+    /// The texture's brightness is a height.
     Bump,
 }
 
-/// The words that may follow the first word of a record.
+/// The words that identify the kind of a record.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Heads {
-    /// The first word says it all.
+    /// The first word alone.
     One(RecordKind),
-    /// The second word says which kind it is.
+    /// The first word and one of these.
     Two(&'static [(&'static str, RecordKind)]),
 }
 
-/// The words that a record may begin with.
+/// The first words of records.
 pub(super) const RECORDS: &[(&str, Heads)] = &[
     ("camera", Heads::One(RecordKind::Camera)),
     ("resolution", Heads::One(RecordKind::Resolution)),
@@ -121,16 +130,21 @@ const OBJECTS: &[(&str, RecordKind)] = &[
     ("quadric", RecordKind::Object(ObjectKind::Quadric)),
 ];
 
-/// The words by which a record says how the camera sees.
+/// The projections of a camera.
 pub(super) const PROJECTIONS: &[&str] = &["perspective", "orthographic"];
-/// The words by which a light says what it is.
+/// The types of lights.
 pub(super) const SOURCES: &[&str] = &["pnt", "inf", "amb"];
-/// The words by which a light says whether it casts shadows.
+/// Whether a light casts shadows.
 pub(super) const SHADOWS: &[&str] = &["shadow_on", "shadow_off"];
-/// The words by which an object says how two others are combined.
+/// The operations that combine two objects.
 pub(super) const OPERATIONS: &[&str] = &["union", "intersection", "difference"];
 
 impl ObjectKind {
+    /// The position of the numbers of the field with this key.
+    pub(super) const fn at<const N: usize>(self, key: &str) -> At<N> {
+        RecordKind::Object(self).at(key)
+    }
+
     /// The word after `obj`.
     pub(super) fn keyword(self) -> &'static str {
         OBJECTS
@@ -141,8 +155,8 @@ impl ObjectKind {
 }
 
 impl RecordKind {
-    /// What follows the words that begin the record. A quadric's half-spaces and the objects that
-    /// `render` lists come on top: as many as the text says.
+    /// The parts after the words that identify the kind. A quadric's half-spaces and the objects
+    /// listed by `render` follow, as many as the text declares.
     pub(super) const fn parts(self) -> &'static [Part] {
         match self {
             Self::Camera => CAMERA,
@@ -164,7 +178,20 @@ impl RecordKind {
         }
     }
 
-    /// How many words say which record it is.
+    /// The number of numbers in its fields.
+    pub(super) const fn numbers(self) -> usize {
+        let parts = self.parts();
+        let (mut at, mut numbers) = (0, 0);
+        while at < parts.len() {
+            if let Part::Field(field) = &parts[at] {
+                numbers += field.kind.components();
+            }
+            at += 1;
+        }
+        numbers
+    }
+
+    /// The number of words that identify the kind.
     pub(super) const fn heads(self) -> usize {
         match self {
             Self::Object(_) | Self::Use(_) => 2,
@@ -172,7 +199,23 @@ impl RecordKind {
         }
     }
 
-    /// Its fields, in the order of the text.
+    /// The position of the numbers of the field with this key.
+    pub(super) const fn at<const N: usize>(self, key: &str) -> At<N> {
+        let parts = self.parts();
+        let (mut at, mut before) = (0, 0);
+        while at < parts.len() {
+            if let Part::Field(field) = &parts[at] {
+                if is_same(field.key, key) {
+                    return At::after(before, field);
+                }
+                before += field.kind.components();
+            }
+            at += 1;
+        }
+        panic!("the record has such a field")
+    }
+
+    /// Its fields, in text order.
     pub(super) fn fields(self) -> impl Iterator<Item = &'static Field> + Clone {
         self.parts().iter().filter_map(|part| match part {
             Part::Field(field) => Some(field),
@@ -181,365 +224,12 @@ impl RecordKind {
     }
 }
 
-const fn choice(key: &'static str, words: &'static [&'static str], doc: &'static str) -> Part {
-    Part::Field(Field {
-        kind: Kind::Choice(words),
-        ..Field::point(key, doc)
-    })
-}
-
-const fn reference(key: &'static str, category: Category, doc: &'static str) -> Part {
-    Part::Field(Field {
-        kind: Kind::Reference(category),
-        allowed: Range::Identity,
-        usual: Range::Identity,
-        step: 1.0,
-        ..Field::point(key, doc)
-    })
-}
-
-const fn point(key: &'static str, doc: &'static str) -> Part {
-    Part::Field(Field::point(key, doc))
-}
-
-const fn direction(key: &'static str, doc: &'static str) -> Part {
-    Part::Field(Field::direction(key, doc))
-}
-
-const fn axis(key: &'static str, doc: &'static str) -> Part {
-    Part::Field(Field {
-        kind: Kind::Axis,
-        ..Field::direction(key, doc)
-    })
-}
-
-const fn colour(key: &'static str, doc: &'static str) -> Part {
-    Part::Field(Field::colour(key, doc))
-}
-
-const fn size(key: &'static str, doc: &'static str) -> Part {
-    Part::Field(Field::size(key, doc))
-}
-
-const fn number(key: &'static str, usual: Range, step: f64, doc: &'static str) -> Part {
-    Part::Field(Field::number(key, usual, step, doc))
-}
-
-const fn share(key: &'static str, doc: &'static str) -> Part {
-    number(key, Range::Unit, 0.05, doc)
-}
-
-const fn coefficient(key: &'static str, doc: &'static str) -> Part {
-    number(key, Range::Any, 0.1, doc)
-}
-
-const fn pair(field: Field) -> Field {
-    Field {
-        kind: Kind::Pair,
-        ..field
-    }
-}
-
-const ID: Part = Part::Word("ID");
-
-const MATERIAL_ID: Part = reference("mat", Category::Material, "The material, by its ID.");
-
-const CAMERA: &[Part] = &[
-    choice(
-        "projection",
-        PROJECTIONS,
-        "Rays from the eye (perspective), or side by side (orthographic).",
-    ),
-    point("eye", "Where the camera stands."),
-    point("look", "The point the camera looks at."),
-    point("up", "Which way is up in the picture; of any length."),
-    size(
-        "focal",
-        "From the eye to the image plane; orthographic pictures do not depend on it.",
-    ),
-    number(
-        "near",
-        Range::Any,
-        0.1,
-        "The picture shows nothing nearer, measured along the view; below 0 counts as 0.",
-    ),
-    number(
-        "far",
-        Range::Any,
-        1.0,
-        "The picture shows nothing farther, measured along the view.",
-    ),
-];
-
-const RESOLUTION: &[Part] = &[Part::Field(Field {
-    step: 0.001,
-    ..pair(Field::size(
-        "resolution",
-        "World units per pixel on the image plane, across and up.",
-    ))
-})];
-
-const VIEWPORT: &[Part] = &[Part::Field(Field {
-    kind: Kind::Pixels,
-    allowed: Range::Count,
-    usual: Range::Count,
-    step: 10.0,
-    unit: "pixels",
-    ..Field::point("viewport", "Width and height of the output picture.")
-})];
-
-const LIGHT: &[Part] = &[
-    ID,
-    Part::Id,
-    choice(
-        "source",
-        SOURCES,
-        "From a point (pnt), from infinitely far (inf), from everywhere (amb).",
-    ),
-    point("position", "Where a point light stands."),
-    point(
-        "direction",
-        "Where the light goes; all zero for a point light that sends the same everywhere.",
-    ),
-    colour("colour", "What the light sends."),
-    number(
-        "a0",
-        Range::NotNegative,
-        0.1,
-        "Falloff: 1 / (a0 + a1 d + a2 d²) at distance d.",
-    ),
-    number("a1", Range::NotNegative, 0.01, "Falloff with the distance."),
-    number(
-        "a2",
-        Range::NotNegative,
-        0.001,
-        "Falloff with the distance squared.",
-    ),
-    Part::Field(
-        Field::number(
-            "aa",
-            Range::NotNegative,
-            1.0,
-            "Falloff with the angle from the direction: the exponent of its cosine; 0 for none.",
-        )
-        .reading_as(0.0),
-    ),
-    choice(
-        "shadow",
-        SHADOWS,
-        "Whether objects keep this light from others.",
-    ),
-];
-
-const MATERIAL: &[Part] = &[
-    ID,
-    Part::Id,
-    Part::Field(Field::coefficients(
-        "RGB",
-        "The colour that Ka, Kd and Ks multiply, and textures as well.",
-    )),
-    share(
-        "Ka",
-        "Ambient coefficient: share of ambient light sent back.",
-    ),
-    share(
-        "Kd",
-        "Diffuse coefficient: share of light sent back evenly.",
-    ),
-    number(
-        "Ks",
-        Range::NotNegative,
-        0.05,
-        "Specular coefficient: strength of the highlight, in the material's colour.",
-    ),
-    Part::Field(
-        Field::number(
-            "ns",
-            Range::NotNegative,
-            1.0,
-            "Specular exponent: how small the highlight is; below 0 reads as 0.",
-        )
-        .reading_as(0.0),
-    ),
-    share(
-        "Kt",
-        "Transmission coefficient: weight of what is seen through it.",
-    ),
-    share("Kr", "Reflection coefficient: weight of what is mirrored."),
-    Part::Field(
-        Field::number(
-            "ior",
-            Range::NotNegative,
-            0.05,
-            "Index of refraction; 0 or less reads as 1.",
-        )
-        .reading_as(1.0),
-    ),
-];
-
-const SPHERE: &[Part] = &[
-    ID,
-    Part::Id,
-    Part::Word("mat"),
-    ID,
-    MATERIAL_ID,
-    point("centre", "The sphere's centre."),
-    size("radius", "The sphere's radius."),
-];
-
-const ELLIPSOID: &[Part] = &[
-    ID,
-    Part::Id,
-    Part::Word("mat"),
-    ID,
-    MATERIAL_ID,
-    point("centre", "The ellipsoid's centre."),
-    size("rx", "Semi-axis along x."),
-    size("ry", "Semi-axis along y."),
-    size("rz", "Semi-axis along z."),
-];
-
-const CYLINDER: &[Part] = &[
-    ID,
-    Part::Id,
-    Part::Word("mat"),
-    ID,
-    MATERIAL_ID,
-    point("centre", "The middle of the axis."),
-    direction("axis", "Direction of the axis."),
-    size("radius", "The cylinder's radius."),
-    size("length", "From one end to the other."),
-];
-
-const BOX: &[Part] = &[
-    ID,
-    Part::Id,
-    Part::Word("mat"),
-    ID,
-    MATERIAL_ID,
-    point("centre", "The box's centre."),
-    axis("u", "Direction of the first edges."),
-    axis("v", "Direction of the second edges."),
-    axis("w", "Direction of the third edges, u × v."),
-    size("uw", "Full width along u, in lengths of u."),
-    size("vw", "Full width along v, in lengths of v."),
-    size("ww", "Full width along w, in lengths of w."),
-];
-
-const CSG: &[Part] = &[
-    ID,
-    Part::Id,
-    choice(
-        "operator",
-        OPERATIONS,
-        "Both together, what both share, or the first without the second.",
-    ),
-    ID,
-    reference("first", Category::Object, "The first object, by its ID."),
-    ID,
-    reference("second", Category::Object, "The second object, by its ID."),
-];
-
-const QUADRIC: &[Part] = &[
-    ID,
-    Part::Id,
-    Part::Word("mat"),
-    ID,
-    MATERIAL_ID,
-    coefficient(
-        "A",
-        "Inside is Ax² + 2Bxy + 2Cxz + 2Dx + Ey² + 2Fyz + 2Gy + Hz² + 2Iz + J ≤ 0.",
-    ),
-    coefficient("B", "Of 2xy."),
-    coefficient("C", "Of 2xz."),
-    coefficient("D", "Of 2x."),
-    coefficient("E", "Of y²."),
-    coefficient("F", "Of 2yz."),
-    coefficient("G", "Of 2y."),
-    coefficient("H", "Of z²."),
-    coefficient("I", "Of 2z."),
-    coefficient("J", "The constant."),
-];
-
-/// A face that cuts a quadric.
-pub(super) const HALF_SPACE: &Field = &Field {
-    kind: Kind::HalfSpace,
-    ..Field::point(
-        "cut",
-        "Only what has n·x ≤ d stays; the normal n is of any length above 0.",
-    )
-};
-
-const REPEAT: Part = Part::Field(Field {
-    step: 1.0,
-    ..pair(Field::point(
-        "repeat",
-        "How often it repeats over the unit square of uv.",
-    ))
-});
-
-const CHECKER: &[Part] = &[
-    ID,
-    Part::Id,
-    Part::Word("checker"),
-    REPEAT,
-    Part::Field(Field::coefficients(
-        "first",
-        "The colour of the square at uv 0, 0.",
-    )),
-    Part::Field(Field::coefficients(
-        "second",
-        "The colour of the squares beside it.",
-    )),
-];
-
-const IMAGE: &[Part] = &[
-    ID,
-    Part::Id,
-    Part::Word("image"),
-    REPEAT,
-    Part::Field(Field {
-        kind: Kind::Word,
-        ..Field::point("file", "The picture's path, from the scene's folder.")
-    }),
-];
-
-const USE_COLOUR: &[Part] = &[
-    ID,
-    reference(
-        "texture",
-        Category::Texture,
-        "The texture that multiplies the colour, by its ID.",
-    ),
-    Part::Word("mat"),
-    ID,
-    MATERIAL_ID,
-];
-
-const USE_BUMP: &[Part] = &[
-    ID,
-    reference(
-        "bump",
-        Category::Texture,
-        "The texture whose brightness is a height, by its ID.",
-    ),
-    Part::Word("mat"),
-    ID,
-    MATERIAL_ID,
-    number(
-        "height",
-        Range::Any,
-        0.01,
-        "How high the brightest places stand, in world units.",
-    ),
-];
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn records_take_as_many_tokens_as_the_format_says() {
+    fn records_have_the_number_of_tokens_that_the_format_defines() {
         let tokens =
             |kind: RecordKind| kind.heads() + kind.parts().iter().map(Part::tokens).sum::<usize>();
         for (line, kind) in [

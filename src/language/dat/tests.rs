@@ -1,4 +1,4 @@
-//! What `.dat` texts mean, as data.
+//! Tests of the meaning of `.dat` texts.
 
 mod cameras;
 mod errors;
@@ -11,9 +11,9 @@ mod views;
 
 use crate::language::tests::{read_as, shown};
 use crate::language::{Language, Lowered, Source};
-use crate::scene::{Material, Meshes, Phong, Scene};
+use crate::scene::{Meshes, Scene};
 
-/// The three records of a view, on three lines.
+/// The three records of a view.
 const VIEW: &str = "camera perspective 0 0 5  0 0 0  0 1 0  1 0 100
 resolution 0.01 0.01
 viewport 80 60
@@ -22,8 +22,8 @@ viewport 80 60
 /// The numbers of a material.
 const MAT: &str = "1 1 1  0.1 0.8 0.1 5  0 0 1";
 
-/// A text in which `VIEW` stands for the records above, `MAT` for a material, its ID first,
-/// `BALL` for a sphere up to its radius and `AXES` for the directions of a right-handed frame.
+/// A text with `VIEW` replaced by the records above, `MAT` by a material after its ID, `BALL` by a
+/// sphere up to its radius and `AXES` by the directions of a right-handed frame.
 fn spelled(text: &str) -> String {
     text.replace("VIEW\n", VIEW)
         .replace("MAT", MAT)
@@ -31,19 +31,11 @@ fn spelled(text: &str) -> String {
         .replace("AXES", "1 0 0  0 1 0  0 0 1")
 }
 
-/// The one kind of material that the language has.
-fn phong(material: &Material) -> &Phong {
-    match material {
-        Material::Phong(phong) => phong,
-        _ => panic!("no other kind is in this language"),
-    }
-}
-
 fn read(text: &str) -> (Source, Lowered) {
     read_as(Language::Dat, text, &Meshes::default())
 }
 
-/// The meaning of a text that must be free of errors and warnings.
+/// The scene of a text without errors and warnings.
 fn scene(text: &str) -> Scene {
     let (_, lowered) = read(text);
     assert_eq!(shown(text, &lowered), [""; 0], "{text}");

@@ -1,17 +1,45 @@
-//! A camera as the `camera`, `resolution` and `viewport` records of a `.dat` text.
+//! Conversion between cameras and the `camera`, `resolution` and `viewport` records.
+
+use glam::DVec3;
 
 use super::origins::{Origins, VIEW};
 use super::table::RecordKind;
 use super::tree::Tree;
-use crate::language::table::Field;
-use crate::language::view::{Numbers, beginning, differ, line_ending, literal};
-use crate::scene::{Camera, Lens, Size};
+use crate::language::at::At;
+use crate::language::table::{Field, Kind};
+use crate::language::view::{Numbers, beginning, differ, line_ending, literal, take};
+use crate::scene::{Camera, Focus, Lens, Size};
 use crate::text::{Edit, Span, spell_like};
 
-/// What a text says that shows everything: `.dat` has no number for infinitely far.
+/// The far distance written for an unlimited view: `.dat` cannot express infinity.
 const FARTHEST: f64 = 1e30;
 
-/// The words that begin each record of [`VIEW`].
+/// The default size of the picture.
+pub(super) const DEFAULT_SIZE: Size = Size {
+    width: 800,
+    height: 600,
+};
+
+/// Number of numbers in the records of [`VIEW`].
+const COUNT: usize = RecordKind::Camera.numbers()
+    + RecordKind::Resolution.numbers()
+    + RecordKind::Viewport.numbers();
+
+const PROJECTION: At<1> = RecordKind::Camera.at("projection");
+pub(super) const EYE: At<3> = RecordKind::Camera.at("eye");
+pub(super) const LOOK: At<3> = RecordKind::Camera.at("look");
+pub(super) const UP: At<3> = RecordKind::Camera.at("up");
+const FOCAL: At<1> = RecordKind::Camera.at("focal");
+const NEAR: At<1> = RecordKind::Camera.at("near");
+pub(super) const FAR: At<1> = RecordKind::Camera.at("far");
+const RESOLUTION: At<2> = RecordKind::Resolution
+    .at("resolution")
+    .later(RecordKind::Camera.numbers());
+const VIEWPORT: At<2> = RecordKind::Viewport
+    .at("viewport")
+    .later(COUNT - RecordKind::Viewport.numbers());
+
+/// The first word of each record of [`VIEW`].
 const WORDS: [&str; 3] = ["camera", "resolution", "viewport"];
 
 /// The fields of the view.
@@ -19,39 +47,130 @@ pub(super) fn fields() -> impl Iterator<Item = &'static Field> {
     VIEW.into_iter().flat_map(RecordKind::fields)
 }
 
-/// A camera's numbers, in the order of [`fields`]. An angle of view is said by the focal length,
-/// which leaves the resolution as it is; the height of an orthographic view by the resolution.
-pub(super) fn numbers(camera: &Camera, origins: &Origins) -> Numbers {
-    let rows = f64::from(camera.size.height);
-    let (projection, focal, up) = match camera.lens {
-        Lens::Perspective(angle) => {
-            let up = origins.resolution[1];
-            let focal = 0.5 * rows * up / libm::tan(0.5 * angle.to_radians());
-            (0.0, plain(focal), up)
-        }
-        Lens::Orthographic(height) => (1.0, origins.focal, plain(height / rows)),
-    };
-    let across = if camera.pixel_aspect == 1.0 {
-        up
-    } else {
-        plain(up * camera.pixel_aspect)
-    };
-    let [near, far] = camera.depths;
-    vec![
-        vec![projection],
-        camera.eye.to_array().into(),
-        camera.target.to_array().into(),
-        camera.up.to_array().into(),
-        vec![focal],
-        vec![near],
-        vec![far.min(FARTHEST)],
-        vec![across, up],
-        vec![camera.size.width.into(), rows],
-    ]
+/// The content of the records of the view.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    pub(super) is_perspective: bool,
+    pub(super) eye: DVec3,
+    pub(super) look: DVec3,
+    pub(super) up: DVec3,
+    /// The distance from the eye to the image plane.
+    pub(super) focal: f64,
+    /// The range of depths in the picture.
+    pub(super) depths: [f64; 2],
+    /// World units per pixel, across and up.
+    pub(super) resolution: [f64; 2],
+    pub(super) size: Size,
 }
 
-/// The number that people would write: one of fifteen digits where that is the same but for the
-/// rounding of the few operations that lead from a camera's numbers to the text's and back.
+impl View {
+    /// The camera it describes.
+    pub(super) fn camera(&self) -> Camera {
+        let [across, up] = self.resolution;
+        let height = up * f64::from(self.size.height);
+        let [near, far] = self.depths;
+        Camera {
+            eye: self.eye,
+            target: self.look,
+            up: self.up,
+            lens: if self.is_perspective {
+                Lens::Perspective(2.0 * libm::atan(0.5 * height / self.focal).to_degrees())
+            } else {
+                Lens::Orthographic(height)
+            },
+            pixel_aspect: across / up,
+            depths: [near.max(0.0), far],
+            focus: Focus::PINHOLE,
+            size: self.size,
+        }
+    }
+
+    /// The view that describes a camera. An angle of view is expressed by the focal length, with
+    /// the resolution unchanged; the height of an orthographic view by the resolution.
+    fn of(camera: &Camera, origins: &Origins) -> Self {
+        let rows = f64::from(camera.size.height);
+        let (focal, up) = match camera.lens {
+            Lens::Perspective(angle) => {
+                let up = origins.resolution[1];
+                let focal = 0.5 * rows * up / libm::tan(0.5 * angle.to_radians());
+                (plain(focal), up)
+            }
+            Lens::Orthographic(height) => (origins.focal, plain(height / rows)),
+        };
+        let across = if camera.pixel_aspect == 1.0 {
+            up
+        } else {
+            plain(up * camera.pixel_aspect)
+        };
+        let [near, far] = camera.depths;
+        Self {
+            is_perspective: matches!(camera.lens, Lens::Perspective(_)),
+            eye: camera.eye,
+            look: camera.target,
+            up: camera.up,
+            focal,
+            depths: [near, far.min(FARTHEST)],
+            resolution: [across, up],
+            size: camera.size,
+        }
+    }
+
+    /// The view with these numbers in its `camera` record.
+    pub(super) fn said(numbers: &[f64]) -> Self {
+        Self {
+            is_perspective: PROJECTION.choice(numbers) == 0,
+            eye: EYE.vector(numbers),
+            look: LOOK.vector(numbers),
+            up: UP.vector(numbers),
+            focal: FOCAL.number(numbers),
+            depths: [NEAR, FAR].map(|at| at.number(numbers)),
+            resolution: [1.0; 2],
+            size: DEFAULT_SIZE,
+        }
+    }
+
+    /// The view with these numbers in its three records, in the order of [`fields`].
+    fn said_by_all(numbers: &[f64]) -> Self {
+        Self {
+            resolution: RESOLUTION.get(numbers),
+            size: size(VIEWPORT.get(numbers)),
+            ..Self::said(numbers)
+        }
+    }
+
+    /// The numbers of the view, in the order of [`fields`].
+    fn numbers(&self) -> Numbers {
+        let mut numbers = vec![0.0; COUNT];
+        PROJECTION.put(&mut numbers, [f64::from(!self.is_perspective)]);
+        EYE.put(&mut numbers, self.eye.into());
+        LOOK.put(&mut numbers, self.look.into());
+        UP.put(&mut numbers, self.up.into());
+        FOCAL.put(&mut numbers, [self.focal]);
+        let [near, far] = self.depths;
+        NEAR.put(&mut numbers, [near]);
+        FAR.put(&mut numbers, [far]);
+        RESOLUTION.put(&mut numbers, self.resolution);
+        let Size { width, height } = self.size;
+        VIEWPORT.put(&mut numbers, [width.into(), height.into()]);
+        numbers
+    }
+}
+
+/// A picture size from integers.
+pub(super) fn size([width, height]: [f64; 2]) -> Size {
+    Size {
+        width: width as u32,
+        height: height as u32,
+    }
+}
+
+/// The numbers of a camera, in the order of [`fields`].
+pub(super) fn numbers(camera: &Camera, origins: &Origins) -> Numbers {
+    View::of(camera, origins).numbers()
+}
+
+/// Returns the number as a person would write it: one of fifteen digits, if that is equal up to the
+/// rounding of the few operations from a camera's numbers to the text's and back.
 fn plain(number: f64) -> f64 {
     let short = format!("{number:.14e}").parse().unwrap_or(number);
     if (short - number).abs() <= 8.0 * f64::EPSILON * number.abs() {
@@ -61,55 +180,48 @@ fn plain(number: f64) -> f64 {
     }
 }
 
-/// The camera of which these are the numbers; `base` is one of the same text.
+/// The camera described by these numbers; `base` is a camera of the same text. Parts whose numbers
+/// agree with `base` are kept bit for bit.
 pub(super) fn camera(numbers: &Numbers, base: &Camera, origins: &Origins) -> Camera {
-    let vector = |at: usize| glam::DVec3::from_slice(&numbers[at]);
-    let [across, up] = [numbers[7][0], numbers[7][1]];
-    let extent = numbers[8][1] * up;
-    let before = self::numbers(base, origins);
-    let (projection, focal) = (numbers[0][0], numbers[4][0]);
+    let before = View::said_by_all(&self::numbers(base, origins));
+    let view = View::said_by_all(numbers);
+    let camera = view.camera();
     let lens = match base.lens {
-        // Seen from the target, the picture keeps its size.
-        Lens::Orthographic(height) if projection == 0.0 => {
+        // The picture keeps its size at the target.
+        Lens::Orthographic(height) if view.is_perspective => {
             let distance = (base.eye - base.target).length();
             Lens::Perspective(2.0 * libm::atan(0.5 * height / distance).to_degrees())
         }
-        Lens::Perspective(angle) if projection != 0.0 => {
+        Lens::Perspective(angle) if !view.is_perspective => {
             let distance = (base.eye - base.target).length();
             Lens::Orthographic(2.0 * distance * libm::tan(0.5 * angle.to_radians()))
         }
-        lens if before[4] == numbers[4] && before[7] == numbers[7] && before[8] == numbers[8] => {
+        lens if before.focal == view.focal
+            && before.resolution == view.resolution
+            && before.size == view.size =>
+        {
             lens
         }
-        Lens::Perspective(_) => {
-            Lens::Perspective(2.0 * libm::atan(0.5 * extent / focal).to_degrees())
-        }
-        Lens::Orthographic(_) => Lens::Orthographic(extent),
+        _ => camera.lens,
     };
     Camera {
-        eye: vector(1),
-        target: vector(2),
-        up: vector(3),
         lens,
-        pixel_aspect: if before[7] == numbers[7] {
+        pixel_aspect: if before.resolution == view.resolution {
             base.pixel_aspect
         } else {
-            across / up
+            camera.pixel_aspect
         },
-        depths: if before[5..7] == numbers[5..7] {
+        depths: if before.depths == view.depths {
             base.depths
         } else {
-            [numbers[5][0].max(0.0), numbers[6][0]]
+            camera.depths
         },
         focus: base.focus,
-        size: Size {
-            width: numbers[8][0] as u32,
-            height: numbers[8][1] as u32,
-        },
+        ..camera
     }
 }
 
-/// The edits after which the text, whose camera is `before`, says `camera`.
+/// Returns the edits that change the text's camera from `before` to `camera`.
 pub(super) fn edits(
     text: &str,
     tree: &Tree,
@@ -120,34 +232,27 @@ pub(super) fn edits(
     let (old, new) = (numbers(before, origins), numbers(camera, origins));
     let mut edits = Vec::new();
     let mut missing = String::new();
-    let mut index = 0;
+    let mut behind = 0;
     for ((record, kind), word) in origins.view.iter().zip(VIEW).zip(WORDS) {
-        let fields: Vec<_> = kind.fields().collect();
-        let own = index..index + fields.len();
-        index = own.end;
+        let own = behind..behind + kind.numbers();
+        behind = own.end;
         let (old, new) = (&old[own.clone()], &new[own]);
-        // A missing resolution follows the focal length, so a new lens must pin it.
+        // A missing resolution depends on the focal length, so a new lens must pin it.
         let is_moved = kind == RecordKind::Resolution && before.lens != camera.lens;
         match record {
             Some(record) => {
-                let spans = tree.tokens_of(*record).get(1..).unwrap_or_default();
-                let numbers =
-                    fields
-                        .iter()
-                        .zip(old.iter().zip(new))
-                        .flat_map(|(field, (old, new))| {
-                            old.iter().zip(new).map(move |pair| (*field, pair))
-                        });
-                let changed = numbers
-                    .zip(spans)
-                    .filter(|((_, (old, new)), _)| differ(**old, **new));
-                edits.extend(changed.map(|((field, (_, &number)), &span)| Edit {
+                let fields = kind.fields();
+                let fields = fields.flat_map(|at| std::iter::repeat_n(at, at.kind.components()));
+                let spans = tree.tokens_of(text, *record).skip(1);
+                let numbers = fields.zip(spans).zip(old.iter().zip(new));
+                let changed = numbers.filter(|(_, (old, new))| differ(**old, **new));
+                edits.extend(changed.map(|((field, span), (_, &number))| Edit {
                     span,
                     text: respelled(span.of(text), field, number),
                 }));
             }
             None if old != new || is_moved => {
-                missing.push_str(&record_of(word, &fields, new));
+                missing.push_str(&record_of(word, kind, new));
                 missing.push_str(line_ending(text));
             }
             None => {}
@@ -163,21 +268,19 @@ pub(super) fn edits(
     edits
 }
 
-/// A number spelled like the literal it replaces, if that is one.
+/// Formats a number in the style of the literal it replaces, if that is a number.
 fn respelled(old: &str, field: &Field, number: f64) -> String {
     match field.kind {
-        crate::language::table::Kind::Choice(_) => literal(field, number),
+        Kind::Choice(_) => literal(field, number),
         _ => spell_like(old, number + 0.0),
     }
 }
 
-/// A whole record.
-fn record_of(word: &str, fields: &[&'static Field], numbers: &[Vec<f64>]) -> String {
-    let parts = fields.iter().zip(numbers).map(|(field, numbers)| {
-        let literals: Vec<_> = numbers
-            .iter()
-            .map(|&number| literal(field, number))
-            .collect();
+/// Formats a whole record.
+fn record_of(word: &str, kind: RecordKind, mut numbers: &[f64]) -> String {
+    let parts = kind.fields().map(|field| {
+        let own = take(&mut numbers, field);
+        let literals: Vec<_> = own.iter().map(|&number| literal(field, number)).collect();
         literals.join(" ")
     });
     let parts: Vec<_> = parts.collect();

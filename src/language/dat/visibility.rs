@@ -1,4 +1,4 @@
-//! Which objects are drawn, as edits of the text: the `render` record of `.dat`, which lists them.
+//! Edits that show or hide objects, in the `render` record of `.dat`.
 
 use super::origins::Origins;
 use super::tree::Tree;
@@ -6,12 +6,11 @@ use crate::language::Visibility;
 use crate::language::view::line_ending;
 use crate::text::{Edit, Span};
 
-/// The edits after which the text shows or hides an object, by index, and does with all others as
-/// before.
+/// Returns the edits that show or hide an object, by index, and leave all others as they are.
 ///
 /// # Errors
 ///
-/// Why no text can say that.
+/// Fails with the reason if no text can express that.
 pub(super) fn edits(
     text: &str,
     tree: &Tree,
@@ -39,8 +38,9 @@ pub(super) fn edits(
             .collect();
         words.join(" ")
     };
-    let tokens = origins.render.map(|record| tree.tokens_of(record));
-    let Some([_, count, entries @ ..]) = tokens else {
+    let record = origins.render.map(|record| tree.tokens_of(text, record));
+    let tokens: Option<Vec<_>> = record.map(Iterator::collect);
+    let Some([_, count, entries @ ..]) = tokens.as_deref() else {
         let ending = line_ending(text);
         let record = format!("render {}", listed());
         let line = if text.is_empty() || text.ends_with(['\n', '\r']) {
@@ -63,7 +63,7 @@ pub(super) fn edits(
             edit(Span::at(last[1].end()), entry),
         ]);
     }
-    // Each goes with the white space before it.
+    // Each is removed with the white space before it.
     let before = std::iter::once(*count).chain(entries.iter().map(|entry| entry[1]));
     let hidden: Vec<_> = before
         .zip(entries)
@@ -82,7 +82,7 @@ mod tests {
     use crate::scene::Meshes;
     use crate::text::apply;
 
-    /// Three balls and what the first two have in common; the objects' lines end as said.
+    /// Three spheres and the intersection of the first two, followed by `render`.
     fn scene(render: &str) -> String {
         format!(
             "mat ID 1 1 1 1 .1 .5 .4 9 0 0 1\n\
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn the_list_of_what_is_drawn_says_it() {
+    fn the_render_record_lists_what_is_drawn() {
         use Visibility::{Hidden, Shown};
         for (before, id, wanted, after) in [
             ("", 6, Hidden, "render 1 ID 9\n"),
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn something_stays_in_the_picture() {
+    fn the_last_object_cannot_be_hidden() {
         let one = scene("render 1 ID 6\n");
         assert!(changed(&one, 6, Visibility::Hidden).is_err());
     }

@@ -1,5 +1,5 @@
-//! What a long `.ray` text means after the edit of a number of an object, from what it meant before:
-//! only that object's block is read. Where anything else may have changed, nothing comes of it.
+//! Incremental lowering of a long `.ray` text after a number of an object has changed: only the
+//! block of that object is read again. Gives up wherever anything else may have changed.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::scene::objects::BLOCK;
 use crate::scene::{Object, Objects, Scene};
 use crate::text::{Diagnostic, Findings, Span};
 
-/// Reads a text after an edit, of which `changed` is what it put in the place of the bytes `old`.
+/// Lowers a text after an edit that replaced the bytes `old` by `changed`.
 pub(super) fn lower(
     text: &str,
     tree: &Tree,
@@ -23,8 +23,9 @@ pub(super) fn lower(
     before: &Before<'_>,
     [old, changed]: [Span; 2],
 ) -> Option<(Origins, Lowered)> {
-    // With the same tokens but for one, which is plain, all others are what they were.
-    let is_same = origins.tokens == tree.tokens.len() && origins.comments == tree.comments.len();
+    // If only one token has changed and is plain, all other tokens keep their meaning.
+    let is_same =
+        origins.tokens == tree.tokens.len() && origins.view_comments == tree.tokens.views().count();
     let is_plain = |byte: u8| byte.is_ascii_digit() || b"+-.eE".contains(&byte);
     if !is_same || changed.is_empty() || !changed.of(text).bytes().all(is_plain) {
         return None;
@@ -38,19 +39,20 @@ pub(super) fn lower(
     let Some(Node::Object(object)) = origins.node_of_token(token) else {
         return None;
     };
-    // Other views follow from all objects.
+    // A view without eye or target depends on all objects.
     if !origins.view.is_some_and(|view| says_place(&view.parts)) {
         return None;
     }
     let first = object - object % BLOCK;
     let of_block = |at: usize| origins.objects.get(at).map(|place| place.token as usize);
     let end = of_block(first + BLOCK).unwrap_or(tree.tokens.len());
-    let spans = tree.tokens.range(of_block(first)?..end);
+    let range = of_block(first)?..end;
     let Block {
         materials,
         objects,
         report,
-    } = block(text, &spans, first)?;
+    } = block(text, &tree.tokens, range.clone(), first)?;
+    let spans = tree.tokens.range(range);
     let moved = Moved { old, changed };
     let lowered = Lowered {
         diagnostics: findings(before.diagnostics, &moved, &spans, report)?,
@@ -64,7 +66,7 @@ pub(super) fn lower(
     Some((origins, lowered))
 }
 
-/// Where things stand after an edit.
+/// Maps places in the old text to the new one.
 struct Moved {
     old: Span,
     changed: Span,
@@ -93,7 +95,7 @@ impl Moved {
     }
 }
 
-/// What is wrong after an edit; `None` if some of it was or would be left out.
+/// The findings after an edit; `None` if some were omitted or would be.
 fn findings(before: &Findings, moved: &Moved, block: &[Span], found: Findings) -> Option<Findings> {
     if before.errors() != 0 || before.len() != before.warnings() {
         return None;
@@ -101,7 +103,7 @@ fn findings(before: &Findings, moved: &Moved, block: &[Span], found: Findings) -
     let mut report = Findings::default();
     for diagnostic in before.iter() {
         let span = moved.span(diagnostic.span);
-        // What is told of a block's objects is told at one of its tokens.
+        // Findings about objects of a block are reported at one of its tokens.
         let of_block = block.binary_search_by_key(&span.start(), |token| token.start());
         if of_block.is_err() {
             report.warning(|| Diagnostic {
@@ -114,7 +116,7 @@ fn findings(before: &Findings, moved: &Moved, block: &[Span], found: Findings) -
     (report.len() == report.warnings()).then(|| report.sorted())
 }
 
-/// A scene with a block of objects that is another one.
+/// The scene with one block of objects replaced.
 fn scene(
     before: &Scene,
     first: usize,
@@ -133,7 +135,7 @@ fn scene(
     });
     blocks[first / BLOCK] = based.collect();
     let after = &mut blocks[first / BLOCK + 1..];
-    // Small scenes do without threads.
+    // Threads do not pay off for small scenes.
     if more != 0 && !after.is_empty() {
         after.par_iter_mut().for_each(|block| {
             for object in Arc::make_mut(block) {

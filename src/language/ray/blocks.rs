@@ -1,6 +1,7 @@
-//! The objects of long `.ray` texts, read by blocks side by side. Only what is regular is read so:
-//! after the lights nothing but objects, as many as the text says, none with an error.
+//! The objects of long `.ray` texts, read in parallel blocks. Only regular texts are read this way:
+//! after the lights there are only objects, as many as declared, none with an error.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -13,21 +14,21 @@ use crate::scene::objects::BLOCK;
 use crate::scene::{Material, Object, Objects};
 use crate::text::{Findings, Span};
 
-/// A block of objects as it was read; its materials count from 0.
+/// A block of objects; its material indices count from 0.
 pub(super) struct Block {
     pub(super) materials: Vec<Material>,
     pub(super) objects: Vec<Object>,
     pub(super) report: Findings,
 }
 
-/// Reads a text of several blocks; what was read, the objects, and where their number stands. Gives
-/// the findings so far back if it must be read in order.
+/// Reads a text of several blocks. Returns a reader, the objects and the place of their count, or
+/// the findings so far if the text must be read in order.
 pub(super) fn read<'a>(
     text: &'a str,
-    tokens: &Tokens,
+    tokens: &'a Tokens,
     report: Findings,
 ) -> Result<(Reader<'a>, Objects, Span), Findings> {
-    // Small scenes do without threads.
+    // Threads do not pay off for small scenes.
     if tokens.len() <= BLOCK * (1 + LEAST_NUMBERS) {
         return Err(report);
     }
@@ -39,14 +40,13 @@ pub(super) fn read<'a>(
         return Err(report);
     };
     let numbers = (0..places.len().div_ceil(BLOCK)).into_par_iter();
-    // A thread that is done early finds some left to take over.
-    let blocks = numbers.with_max_len(4).map_init(Vec::new, |spans, number| {
+    // Small tasks, so that a thread that finishes early can take over more.
+    let blocks = numbers.with_max_len(4).map(|number| {
         let first = number * BLOCK;
         let end = places.get(first + BLOCK);
         let end = end.map_or(tokens.len(), |next| next.token as usize);
-        spans.clear();
-        tokens.append_to(spans, places[first].token as usize..end);
-        let read = block(text, spans, first)?;
+        let range = places[first].token as usize..end;
+        let read = block(text, tokens, range, first)?;
         Some((read.materials, Arc::from(read.objects), read.report))
     });
     let Some(blocks) = blocks.collect::<Option<Vec<(_, Arc<[Object]>, _)>>>() else {
@@ -74,7 +74,7 @@ pub(super) fn read<'a>(
     Ok((reader, objects, count))
 }
 
-/// Where each keyword stands, with the numbers that a whole object has.
+/// The places of all keywords, with the number of numbers of a complete object.
 fn places(text: &str, tokens: &Tokens) -> Vec<ObjectPlace> {
     let places = tokens.words().filter_map(|(token, word)| {
         let kind = ShapeKind::of_word(word.of(text))?;
@@ -87,44 +87,35 @@ fn places(text: &str, tokens: &Tokens) -> Vec<ObjectPlace> {
     places.collect()
 }
 
-/// Reads what stands before the first object, if that and the number of objects is as it should be.
+/// Reads the text before the first object; `None` if it is not regular or miscounts the objects.
 fn header<'a>(
     text: &'a str,
-    tokens: &Tokens,
+    tokens: &'a Tokens,
     places: &[ObjectPlace],
 ) -> Option<(Reader<'a>, Span)> {
     let first = places[0].token as usize;
-    // Whether a word begins an object is told by the numbers behind it.
-    let spans = tokens.range(0..first + 1 + LEAST_NUMBERS);
-    let mut reader = Reader::new(text, &spans, Findings::default());
+    // Whether a word begins an object depends on the numbers after it.
+    let known = 0..first + 1 + LEAST_NUMBERS;
+    let mut reader = Reader::new(text, tokens, known, Findings::default());
     let count = reader.header()?;
     let is_regular =
         reader.report.errors() == 0 && reader.at == first && count.declared == places.len() as u64;
-    let Reader {
-        report,
-        origins,
-        ambient,
-        lights,
-        ..
-    } = reader;
-    let reader = Reader {
-        report,
-        origins,
-        ambient,
-        lights,
-        ..Reader::new(text, &[], Findings::default())
-    };
     is_regular.then_some((reader, count.token))
 }
 
-/// Reads a block whose first object has `first` ones before it, if it is regular.
-pub(super) fn block(text: &str, tokens: &[Span], first: usize) -> Option<Block> {
-    let mut reader = Reader::new(text, tokens, Findings::default());
+/// Reads a block of these tokens, with `first` objects before it; `None` if it is not regular.
+pub(super) fn block(
+    text: &str,
+    tokens: &Tokens,
+    range: Range<usize>,
+    first: usize,
+) -> Option<Block> {
+    let mut reader = Reader::new(text, tokens, range, Findings::default());
     reader.before = first;
     reader.objects.reserve(BLOCK);
-    while let Some(token) = tokens.get(reader.at) {
+    while let Some(token) = reader.token() {
         let kind = ShapeKind::of_word(token.of(text))?;
-        if !reader.object(kind, None) {
+        if !reader.object(token, kind, None) {
             return None;
         }
     }

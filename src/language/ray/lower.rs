@@ -1,26 +1,28 @@
-//! The grammar of `.ray`: ambient light, lights, objects, as the table of fields lists them.
+//! The grammar of `.ray`: ambient light, lights, objects, according to the table of fields.
 //!
-//! After an error the reader goes on where the text makes sense again: after a token that is not a
-//! number at the next token, everywhere else at the next object keyword.
+//! After an error the reader resumes where the text makes sense again: after a malformed number at
+//! the next token, otherwise at the next object keyword.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::blocks;
 use super::objects::nearest_kind;
 use super::origins::{ObjectPlace, Origins};
 use super::table::{AMBIENT, LIGHT, ShapeKind};
-use super::tree::Tree;
-use super::view_comment::{View, camera, find};
+use super::tree::{Tokens, Tree, Window};
+use super::view_comment::{ViewComment, camera, find};
 use crate::language::Lowered;
+use crate::language::at::At;
 use crate::language::record::{Record, what};
 use crate::language::report::Name;
 use crate::language::report::{no_number, number, quoted};
 use crate::language::table;
-use crate::language::table::{Field, Range};
+use crate::language::table::Field;
 use crate::scene::{Light, Material, Object, Objects, Rgb, Scene, Setting, bounds};
 use crate::text::{Diagnostic, Findings, Severity, Span, counted, is_integer, parse_number};
 
-/// The most numbers that any record holds.
+/// The number of numbers of the longest record.
 pub(super) const LONGEST: usize = {
     let (mut longest, mut at) = (0, 0);
     while at < ShapeKind::ALL.len() {
@@ -33,71 +35,68 @@ pub(super) const LONGEST: usize = {
     longest
 };
 
-/// Numbers of the smallest object: where fewer follow a word, it does not begin an object.
+/// Number of numbers of the smallest object: a word with fewer after it does not begin an object.
 pub(super) const LEAST_NUMBERS: usize = ShapeKind::Sphere.numbers();
 
-/// Reads a scene.
+/// Lowers a text.
 pub(super) fn lower(text: &str, tree: &Tree) -> (Origins, Lowered) {
     let blocks = |report| blocks::read(text, &tree.tokens, report);
     lower_by(text, tree, blocks)
 }
 
-/// Reads a scene whose text need not be regular.
+/// Lowers a text that need not be regular.
 #[cfg(test)]
 pub(super) fn lower_in_order(text: &str, tree: &Tree) -> (Origins, Lowered) {
     lower_by(text, tree, Err)
 }
 
-/// The errors of a text that begins with these tokens, whatever follows them.
+/// Returns the errors of every text that begins with these tokens.
 pub(super) fn errors_of_beginning(text: &str, tree: &Tree) -> Findings {
-    /// No word of the language is longer.
+    /// Longer than any word of the language.
     const LONGEST_WORD: usize = 1 << 10;
-    let mut tokens = tree.tokens.all();
-    // The last one may be cut; a long one that begins with a letter is wrong whatever follows.
-    let is_hopeless = |last: &mut Span| {
-        LONGEST_WORD < last.len() && last.of(text).starts_with(|c: char| c.is_ascii_alphabetic())
-    };
-    if tokens.pop_if(|last| !is_hopeless(last)).is_none()
-        && let Some(&last) = tokens.last()
+    let mut report = Findings::default();
+    // The last token may be incomplete.
+    let whole = tree.tokens.len().saturating_sub(1);
+    if let Some(last) = tree.tokens.get(whole)
+        && LONGEST_WORD < last.len()
+        && is_word(last.of(text))
     {
-        let mut report = Findings::default();
         report.error(|| {
             let message = format!("a word of more than {LONGEST_WORD} bytes");
             Diagnostic::error(last, message, "a number or the type of an object")
         });
         return report;
     }
-    let mut reader = Reader::new(text, &tokens, Findings::default());
+    let mut reader = Reader::new(text, &tree.tokens, 0..whole, report);
     reader.is_beginning = true;
     reader.read();
     reader.report
 }
 
-/// Reads a scene by blocks, or else in order.
+/// Lowers a text by blocks if possible, otherwise in order.
 fn lower_by<'a>(
     text: &'a str,
-    tree: &Tree,
+    tree: &'a Tree,
     blocks: impl FnOnce(Findings) -> Result<(Reader<'a>, Objects, Span), Findings>,
 ) -> (Origins, Lowered) {
     let mut report = Findings::default();
-    let view = find(text, &tree.comments, &mut report);
-    let tokens: Vec<Span>;
+    let view = find(text, &tree.tokens, &mut report);
     let (mut reader, objects, count) = match blocks(report) {
         Ok(read) => read,
         Err(report) => {
-            tokens = tree.tokens.all();
-            let mut reader = Reader::new(text, &tokens, report);
+            let all = 0..tree.tokens.len();
+            let mut reader = Reader::new(text, &tree.tokens, all, report);
             let count = reader.read();
             let objects = std::mem::take(&mut reader.objects);
             (reader, objects.into_iter().collect(), count)
         }
     };
-    reader.origins.view = view.as_ref().map(View::place);
+    reader.origins.view = view.as_ref().map(ViewComment::place);
     reader.origins.objects = Arc::new(std::mem::take(&mut reader.places));
     reader.origins.tokens = tree.tokens.len();
-    reader.origins.comments = tree.comments.len();
-    // A view that says both eye and target can be judged though the objects are not all known.
-    let judged = reader.report.errors() == 0 || view.as_ref().is_some_and(View::is_placed);
+    reader.origins.view_comments = tree.tokens.views().count();
+    // A view with both eye and target can be checked even if not all objects are known.
+    let judged = reader.report.errors() == 0 || view.as_ref().is_some_and(ViewComment::is_placed);
     let camera = judged.then(|| {
         let bounds = || bounds(objects.iter());
         camera(view.as_ref(), bounds, count, &mut reader.report)
@@ -118,53 +117,66 @@ fn lower_by<'a>(
     (reader.origins, lowered)
 }
 
-/// A count as the text declares it. Nothing is ever allocated by it.
+/// A declared count. Nothing is ever allocated by it.
 #[derive(Clone, Copy)]
 pub(super) struct Count {
     pub(super) token: Span,
     pub(super) declared: u64,
 }
 
+/// A buffer for the numbers of a record and their tokens.
+#[derive(Default)]
+pub(super) struct Numbers {
+    values: [f64; LONGEST],
+    spans: [Span; LONGEST],
+    len: usize,
+}
+
 /// The tokens before the first object.
 struct Run {
     len: usize,
-    /// The object's token, or `None` where the text ends first.
+    /// The object's token; `None` if the text ends first.
     object: Option<Span>,
 }
 
-/// What was read so far.
+/// A reader with its results so far.
 pub(super) struct Reader<'a> {
     pub(super) text: &'a str,
-    pub(super) tokens: &'a [Span],
-    /// Whether others follow that are not known: that the tokens end is not an error then.
+    pub(super) tokens: Window<'a>,
+    /// Whether the text is only a beginning, so that the end of the tokens is not an error.
     pub(super) is_beginning: bool,
     /// Index of the next token.
     pub(super) at: usize,
     pub(super) report: Findings,
     pub(super) origins: Origins,
-    /// Where the objects stand.
+    /// The places of the objects.
     pub(super) places: Vec<ObjectPlace>,
-    /// How many objects there are before the tokens.
+    /// Number of objects before these tokens.
     pub(super) before: usize,
     pub(super) ambient: Rgb,
     pub(super) lights: Vec<Light>,
     pub(super) materials: Vec<Material>,
-    /// The first material of the present block of objects.
+    /// The first material of the current block of objects.
     pub(super) of_block: usize,
-    /// How the last few materials are spelled that have nothing wrong.
+    /// The texts of the last few materials without findings, and their indices.
     pub(super) spellings: Vec<(&'a str, u32)>,
     /// Complete up to the first error.
     pub(super) objects: Vec<Object>,
 }
 
 impl<'a> Reader<'a> {
-    /// A reader of tokens.
-    pub(super) fn new(text: &'a str, tokens: &'a [Span], report: Findings) -> Self {
+    /// A reader for a range of a text's tokens.
+    pub(super) fn new(
+        text: &'a str,
+        tokens: &'a Tokens,
+        range: Range<usize>,
+        report: Findings,
+    ) -> Self {
         Self {
             text,
-            tokens,
+            at: range.start,
+            tokens: Window::new(tokens, range),
             is_beginning: false,
-            at: 0,
             report,
             origins: Origins::default(),
             places: Vec::new(),
@@ -178,7 +190,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reads everything; returns where the number of objects stands.
+    /// Reads everything; returns the place of the number of objects.
     fn read(&mut self) -> Span {
         if self.is_at_end() {
             self.report.error(|| {
@@ -199,20 +211,20 @@ impl<'a> Reader<'a> {
         count.map_or_else(|| Span::at(0), |count| count.token)
     }
 
-    /// Reads ambient light and lights; returns the number of objects, if it could be read. Stops
-    /// at the first object.
+    /// Reads ambient light and lights; returns the number of objects, if readable. Stops at the
+    /// first object.
     pub(super) fn header(&mut self) -> Option<Count> {
-        let mut values = [0.0; LONGEST];
-        let ambient = self.record(Name::Ambient, AMBIENT.iter(), &mut values);
+        let mut numbers = Numbers::default();
+        let ambient = self.record(Name::Ambient, AMBIENT.iter(), &mut numbers);
         self.origins.ambient = ambient.values.len();
         if ambient.values.len() < table::numbers(AMBIENT) {
             self.short(&ambient, AMBIENT.iter());
             self.at += self.run(None).len;
             return None;
         }
-        self.ambient = ambient.gather(AMBIENT.iter()).colours[0];
+        self.ambient = const { At::<3>::of(AMBIENT, "colour") }.vector(ambient.values);
         let lights = self.count("nLights");
-        let at_end = self.at == self.tokens.len();
+        let at_end = self.at == self.tokens.end();
         let lights_known = self.lights(lights);
         if !lights_known || (lights.is_none() && at_end) {
             return None;
@@ -220,14 +232,14 @@ impl<'a> Reader<'a> {
         self.count("nObjects")
     }
 
-    /// Reads the lights; whether the number of objects is where it should be after them.
+    /// Reads the lights; returns whether the number of objects follows where it should.
     fn lights(&mut self, count: Option<Count>) -> bool {
         let each = table::numbers(LIGHT);
         let due = count.map(|count| {
             usize::try_from(count.declared).map_or(usize::MAX, |lights| lights.saturating_mul(each))
         });
         let run = self.run(due.map(|due| due.saturating_add(1)));
-        // The last number before the first object counts the objects, those before it are lights'.
+        // The last number before the first object is their count, the others belong to lights.
         let whole = run.object.is_some() && run.len % each == 1;
         let (take, known) = match due {
             Some(due) if whole && run.len - 1 != due => (run.len - 1, true),
@@ -244,14 +256,14 @@ impl<'a> Reader<'a> {
         }
         let (first, end) = (self.at, self.at + take);
         while self.at < end {
-            let mut values = [0.0; LONGEST];
+            let mut numbers = Numbers::default();
             let name = Name::Light((self.at - first) / each);
-            let light = self.record(name, LIGHT.iter(), &mut values);
-            let gathered = light.gather(LIGHT.iter());
+            let light = self.record(name, LIGHT.iter(), &mut numbers);
             // Without objects there is no scene for them.
-            if run.object.is_some() {
-                self.lights
-                    .push(Light::point(gathered.points[0], gathered.colours[0]));
+            if run.object.is_some() && light.values.len() == each {
+                let position = const { At::<3>::of(LIGHT, "position") }.vector(light.values);
+                let colour = const { At::<3>::of(LIGHT, "colour") }.vector(light.values);
+                self.lights.push(Light::point(position, colour));
             }
         }
         self.origins.lights = (first, take);
@@ -261,7 +273,7 @@ impl<'a> Reader<'a> {
         known
     }
 
-    /// Reports a number of lights that is not the one that follows.
+    /// Reports a declared number of lights that differs from the lights that follow.
     fn wrong_lights(&mut self, count: Count, numbers: usize, run: &Run) {
         let each = table::numbers(LIGHT);
         let (whole, rest) = (numbers / each, numbers % each);
@@ -284,26 +296,28 @@ impl<'a> Reader<'a> {
         });
     }
 
-    /// The tokens from here to the first object. A word that is not a keyword counts as an object at
-    /// `due`, where one should begin; elsewhere it stands for a number.
+    /// The tokens from here to the first object. A word that is not a keyword counts as an object
+    /// at `due`, where one should begin; elsewhere it counts as a number.
     fn run(&self, due: Option<usize>) -> Run {
-        let rest = &self.tokens[self.at..];
-        let begins = |&offset: &usize| {
-            let at = self.at + offset;
-            self.begins_object(at)
-                || (due == Some(offset) && is_word(self.tokens[at].of(self.text)))
-        };
-        let first = (0..rest.len()).find(begins);
+        // Keywords begin with an ASCII letter.
+        let mut words = self.tokens.words_from(self.at);
+        let begins = |&(at, token): &(usize, Span)| self.begins_object(at, token);
+        let due = due.and_then(|due| {
+            let at = self.at.checked_add(due)?;
+            let token = self.tokens.get(at)?;
+            is_word(token.of(self.text)).then_some((at, token))
+        });
+        let first = words.find(begins).into_iter().chain(due).min();
         Run {
-            len: first.unwrap_or(rest.len()),
-            object: first.map(|offset| rest[offset]),
+            len: first.map_or_else(|| self.tokens.end(), |(at, _)| at) - self.at,
+            object: first.map(|(_, token)| token),
         }
     }
 
-    /// Reads how many there are of something; `None`, and an error, if that is not said.
+    /// Reads a declared count; `None`, with an error, if there is none.
     fn count(&mut self, key: &str) -> Option<Count> {
-        let expected = Range::Count.words();
-        let Some(&token) = self.tokens.get(self.at) else {
+        let expected = table::Range::Count.words();
+        let Some(token) = self.token() else {
             let end = self.end();
             if self.is_at_end() {
                 self.report.error(|| {
@@ -314,7 +328,7 @@ impl<'a> Reader<'a> {
             return None;
         };
         let word = token.of(self.text);
-        if self.begins_object(self.at) {
+        if self.begins_object(self.at, token) {
             self.report.error(|| {
                 let message = format!("{key}: missing before {}", quoted(word));
                 Diagnostic::error(token, message, expected)
@@ -323,8 +337,8 @@ impl<'a> Reader<'a> {
         }
         self.at += 1;
         let problem = match parse_number(word) {
-            Ok(value) if Range::Count.contains(value) && is_integer(word) => {
-                // A count beyond all integers saturates: no text holds that many.
+            Ok(value) if table::Range::Count.contains(value) && is_integer(word) => {
+                // A count beyond the integers saturates: no text holds that many.
                 let declared = value as u64;
                 return Some(Count { token, declared });
             }
@@ -338,39 +352,63 @@ impl<'a> Reader<'a> {
         None
     }
 
-    /// Reads the numbers of `fields` into `values` and checks them; NaN stands for a token that is
-    /// no number. Stops early where an object begins or the text ends.
-    pub(super) fn record<'v>(
+    /// Reads and checks the numbers of `fields`; NaN stands for a malformed number. Stops early
+    /// where an object begins or the text ends.
+    pub(super) fn record<'n>(
         &mut self,
         name: Name,
         fields: impl Iterator<Item = &'static Field> + Clone,
-        values: &'v mut [f64; LONGEST],
-    ) -> Record<'v>
-    where
-        'a: 'v,
-    {
-        let start = self.at;
+        numbers: &'n mut Numbers,
+    ) -> Record<'n> {
         let due = fields.clone().map(|field| field.kind.components()).sum();
-        if self.numbers(&mut values[..due]) {
+        if self.numbers(due, numbers) {
             self.at += due;
-            let record = Record {
-                name,
-                values: &values[..due],
-                spans: &self.tokens[start..self.at],
-            };
-            record.check(fields, &mut self.report);
-            return record;
+        } else {
+            self.numbers_one_by_one(name, fields.clone(), numbers);
         }
-        'fields: for field in fields.clone() {
+        let record = Record {
+            name,
+            values: &numbers.values[..numbers.len],
+            spans: &numbers.spans[..numbers.len],
+        };
+        record.check(fields, &mut self.report);
+        record
+    }
+
+    /// Reads `due` numbers from here without advancing; returns whether all are well-formed.
+    fn numbers(&mut self, due: usize, numbers: &mut Numbers) -> bool {
+        self.tokens.slide(self.at);
+        let Some(tokens) = self.tokens.ahead(self.at, due) else {
+            return false;
+        };
+        for (value, token) in numbers.values.iter_mut().zip(tokens) {
+            match parse_number(token.of(self.text)) {
+                Ok(number) => *value = number,
+                Err(_) => return false,
+            }
+        }
+        numbers.spans[..due].copy_from_slice(tokens);
+        numbers.len = due;
+        true
+    }
+
+    /// Reads numbers one of which is malformed or missing.
+    fn numbers_one_by_one(
+        &mut self,
+        name: Name,
+        fields: impl Iterator<Item = &'static Field>,
+        numbers: &mut Numbers,
+    ) {
+        for field in fields {
             for component in field.kind.component_names() {
-                let Some(&token) = self.tokens.get(self.at) else {
-                    break 'fields;
+                let Some(token) = self.token() else {
+                    return;
                 };
                 let word = token.of(self.text);
                 let what = || what(name, field, component);
-                values[self.at - start] = match number(token, word, &mut self.report, what) {
+                let value = match number(token, word, &mut self.report, what) {
                     Ok(value) => value,
-                    Err(_) if self.begins_object(self.at) => break 'fields,
+                    Err(_) if self.begins_object(self.at, token) => return,
                     Err(error) => {
                         self.report.error(|| {
                             let expected = field.allowed.words();
@@ -379,31 +417,12 @@ impl<'a> Reader<'a> {
                         f64::NAN
                     }
                 };
+                numbers.values[numbers.len] = value;
+                numbers.spans[numbers.len] = token;
+                numbers.len += 1;
                 self.at += 1;
             }
         }
-        let record = Record {
-            name,
-            values: &values[..self.at - start],
-            spans: &self.tokens[start..self.at],
-        };
-        record.check(fields, &mut self.report);
-        record
-    }
-
-    /// Reads as many numbers from here as are due; whether there are so many. Moves nowhere.
-    fn numbers(&self, due: &mut [f64]) -> bool {
-        let tokens = self.tokens.get(self.at..self.at + due.len());
-        tokens.is_some_and(|tokens| {
-            let mut pairs = due.iter_mut().zip(tokens);
-            pairs.all(|(value, token)| match parse_number(token.of(self.text)) {
-                Ok(number) => {
-                    *value = number;
-                    true
-                }
-                Err(_) => false,
-            })
-        })
     }
 
     /// Reports a record that breaks off here, before an object or the end of the text.
@@ -420,7 +439,7 @@ impl<'a> Reader<'a> {
             return;
         }
         let due: usize = fields.map(|field| field.kind.components()).sum();
-        let next = self.tokens.get(self.at).copied();
+        let next = self.token();
         let end = self.end();
         self.report.error(|| {
             let what = what(record.name, field, component);
@@ -434,44 +453,50 @@ impl<'a> Reader<'a> {
         });
     }
 
-    /// Whether an object begins at a token: at a keyword, or at a word much like one that has an
-    /// object's numbers after it.
-    pub(super) fn begins_object(&self, at: usize) -> bool {
-        let word = self.tokens[at].of(self.text);
+    /// Whether an object begins at a token: a keyword, or a similar word followed by an object's
+    /// numbers.
+    pub(super) fn begins_object(&self, at: usize, token: Span) -> bool {
+        let word = token.of(self.text);
         ShapeKind::of_word(word).is_some()
             || (is_word(word) && self.numbers_follow(at) && nearest_kind(word).is_some())
     }
 
-    /// Whether as many tokens follow that could be numbers as the smallest object takes.
+    /// Whether enough tokens for the smallest object follow that could be numbers.
     pub(super) fn numbers_follow(&self, at: usize) -> bool {
-        self.tokens
-            .get(at + 1..=at + LEAST_NUMBERS)
-            .is_some_and(|follow| follow.iter().all(|token| !is_word(token.of(self.text))))
+        let is_number = |token: Span| !is_word(token.of(self.text));
+        (at + 1..=at + LEAST_NUMBERS).all(|at| self.tokens.get(at).is_some_and(is_number))
     }
 
-    /// Whether the text ends here.
+    /// The next token.
+    pub(super) fn token(&mut self) -> Option<Span> {
+        self.tokens.slide(self.at);
+        self.tokens.get(self.at)
+    }
+
+    /// Whether this is the end of the text.
     pub(super) fn is_at_end(&self) -> bool {
-        self.at == self.tokens.len() && !self.is_beginning
+        self.at == self.tokens.end() && !self.is_beginning
     }
 
-    /// Whether the tokens end here, but not the text.
+    /// Whether the tokens end here but the text goes on.
     pub(super) fn is_cut(&self) -> bool {
-        self.at == self.tokens.len() && self.is_beginning
+        self.at == self.tokens.end() && self.is_beginning
     }
 
-    /// The empty span behind the last token.
+    /// The empty span after the last token.
     fn end(&self) -> Span {
-        let last = self.tokens.last();
-        Span::at(last.map_or(0, |token| token.end()))
+        let last = self.tokens.end().checked_sub(1);
+        let last = last.and_then(|last| self.tokens.get(last));
+        Span::at(last.map_or(0, Span::end))
     }
 }
 
-/// Whether a token is rather a word than a number gone wrong.
+/// Whether a token is a word rather than a malformed number.
 pub(super) fn is_word(token: &str) -> bool {
     token.chars().next().is_some_and(char::is_alphabetic)
 }
 
-/// The field, and the name of its component, that the number at `index` is.
+/// The field and the component name of the number at `index`.
 pub(super) fn component(
     fields: impl Iterator<Item = &'static Field>,
     index: usize,

@@ -1,13 +1,12 @@
-//! The objects of a `.ray` text, and whether they are as many as it says.
+//! Reads the objects of a `.ray` text and checks their declared number.
 
-use super::lower::LONGEST;
-use super::lower::{Count, LEAST_NUMBERS, Reader, component, is_word};
-use glam::DVec3;
+use super::lower::{Count, LEAST_NUMBERS, Numbers, Reader, component, is_word};
 
 use super::origins::ObjectPlace;
 use super::table::{MATERIAL, ShapeKind};
 use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
-use crate::language::record::{Gathered, Record};
+use crate::language::at::At;
+use crate::language::record::Record;
 use crate::language::report::Name;
 use crate::language::report::{nearest_word, quoted};
 use crate::language::table;
@@ -15,26 +14,26 @@ use crate::scene::objects::BLOCK;
 use crate::scene::{Material, Object};
 use crate::text::{Diagnostic, Span, counted};
 
-/// The most materials that one is compared with. Colours come from short lists, or are all different.
+/// Number of materials a new one is compared with. Colours come from short lists, or all differ.
 const MOST_COMPARED: usize = 32;
 
-/// The most spellings of materials that one is compared with.
+/// Number of material texts a new one is compared with.
 const SPELLINGS: usize = 8;
 
-/// The words an object may begin with.
+/// The keywords of objects, for messages.
 const TYPES: &str = "sphere, ellipsoid, box, cylinder or cone";
 
 impl<'a> Reader<'a> {
-    /// Reads objects to the end of the text, and compares their number with the declared one.
+    /// Reads objects to the end of the text and compares their number with the declared one.
     pub(super) fn objects(&mut self, count: Option<Count>) {
-        let left = self.tokens.len() - self.at;
+        let left = self.tokens.end() - self.at;
         let declared = count.map_or(u64::MAX, |count| count.declared);
         let holds = left / (1 + LEAST_NUMBERS);
         self.objects.reserve(holds.min(declared as usize));
         let mut seen = 0;
-        // Where the text made no sense for a while, the number of objects says nothing.
+        // After text that made no sense, the number of objects cannot be checked.
         let mut lost = false;
-        while let Some(&token) = self.tokens.get(self.at) {
+        while let Some(token) = self.token() {
             let word = token.of(self.text);
             let kind = ShapeKind::of_word(word);
             if kind.is_none() && seen == declared {
@@ -43,8 +42,9 @@ impl<'a> Reader<'a> {
             }
             if let Some(kind) = kind {
                 seen += 1;
-                let complete = self.object(kind, count.filter(|count| seen <= count.declared));
-                lost |= !complete && self.at == self.tokens.len();
+                let complete =
+                    self.object(token, kind, count.filter(|count| seen <= count.declared));
+                lost |= !complete && self.at == self.tokens.end();
                 continue;
             }
             lost = true;
@@ -73,7 +73,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reports a number of objects that is not the one that was found.
+    /// Reports a declared number of objects that differs from the number found.
     fn miscounted(&mut self, count: Count, truth: &str) {
         let found = self.places.len();
         let says = quoted(count.token.of(self.text));
@@ -88,11 +88,10 @@ impl<'a> Reader<'a> {
         });
     }
 
-    /// Reads one object; whether all its numbers are there. `count` is the number of objects, if
-    /// it counts this one.
-    pub(super) fn object(&mut self, kind: ShapeKind, count: Option<Count>) -> bool {
+    /// Reads one object from its keyword, which is the next token; returns whether all its numbers
+    /// are there. `count` is the declared number of objects, if it includes this one.
+    pub(super) fn object(&mut self, token: Span, kind: ShapeKind, count: Option<Count>) -> bool {
         let keyword = self.at;
-        let token = self.tokens[keyword];
         let word = token.of(self.text);
         if word != kind.keyword() {
             self.report.warning(|| {
@@ -109,27 +108,27 @@ impl<'a> Reader<'a> {
         let findings = self.findings();
         let spelling = self.spelling(kind);
         let known = spelling.and_then(|spelling| self.known(spelling));
-        // The numbers of a material that is known are not read again.
+        // The numbers of a known material are not read again.
         let due = match known {
             Some(_) => kind.geometry().len(),
             None => kind.fields().count(),
         };
-        let mut values = [0.0; LONGEST];
-        let record = self.record(name, kind.fields().take(due), &mut values);
-        let mut numbers = record.values.len();
-        if known.is_some() && numbers == table::numbers(kind.geometry()) {
-            numbers = kind.numbers();
-            self.at = keyword + 1 + numbers;
+        let mut numbers = Numbers::default();
+        let record = self.record(name, kind.fields().take(due), &mut numbers);
+        let mut found = record.values.len();
+        if known.is_some() && found == table::numbers(kind.geometry()) {
+            found = kind.numbers();
+            self.at = keyword + 1 + found;
         }
         self.places.push(ObjectPlace {
             token: keyword as u32,
             kind,
-            numbers: numbers as u8,
+            numbers: found as u8,
         });
         record.check_frame(kind.geometry().iter(), &mut self.report);
-        if numbers < kind.numbers() {
+        if found < kind.numbers() {
             match count {
-                Some(count) if self.at == self.tokens.len() => self.cut(&record, kind, count),
+                Some(count) if self.at == self.tokens.end() => self.cut(&record, kind, count),
                 _ => self.short(&record, kind.fields()),
             }
             return false;
@@ -146,21 +145,21 @@ impl<'a> Reader<'a> {
         true
     }
 
-    /// How many findings there are.
+    /// The number of findings.
     fn findings(&self) -> usize {
         self.report.errors() + self.report.warnings()
     }
 
-    /// The text where the material of an object has its numbers, if there are so many tokens.
+    /// The text of an object's material; `None` if there are too few tokens.
     fn spelling(&self, kind: ShapeKind) -> Option<&'a str> {
         let first = self.at + table::numbers(kind.geometry());
         let last = first + table::numbers(MATERIAL) - 1;
-        let span = self.tokens.get(first)?.to(*self.tokens.get(last)?);
+        let span = self.tokens.get(first)?.to(self.tokens.get(last)?);
         Some(span.of(self.text))
     }
 
-    /// The material that is spelled like that, if it is among the last ones of its block: spelled the
-    /// same it means the same. A million objects of few materials are read in half the time.
+    /// Returns the material with this text, if it is among the last ones of its block: the same
+    /// text has the same meaning. This halves the time for a million objects with few materials.
     fn known(&self, spelling: &str) -> Option<u32> {
         let first = self.first_compared();
         let mut known = self.spellings.iter().rev();
@@ -168,7 +167,7 @@ impl<'a> Reader<'a> {
         (first <= known as usize).then_some(known)
     }
 
-    /// Notes how a material is spelled that has nothing wrong.
+    /// Remembers the text of a material without findings.
     fn note(&mut self, spelling: &'a str, material: u32) {
         if self.spellings.len() == SPELLINGS {
             self.spellings.remove(0);
@@ -179,7 +178,7 @@ impl<'a> Reader<'a> {
     /// Adds an object without errors to the scene. Its material is read unless it is `known`.
     fn keep(&mut self, record: Record, kind: ShapeKind, known: Option<u32>) {
         let (geometry, material) = record.split_at(table::numbers(kind.geometry()));
-        let Some(shape) = shape(&geometry.gather(kind.geometry().iter()), kind) else {
+        let Some(shape) = shape(geometry.values, kind) else {
             let span = geometry.spans[0].to(geometry.spans[geometry.spans.len() - 1]);
             self.report.error(|| {
                 let message = format!("{}: its directions span no volume", record.name);
@@ -189,12 +188,12 @@ impl<'a> Reader<'a> {
         };
         let material = known.unwrap_or_else(|| {
             let material = material.gather(MATERIAL.iter()).material();
-            self.material(Material::Phong(material))
+            self.material(material.into())
         });
         self.objects.push(Object { shape, material });
     }
 
-    /// The index of a material: of an equal one, if that is among the last ones of its block.
+    /// Adds a material unless an equal one is among the last ones of its block; returns the index.
     fn material(&mut self, material: Material) -> u32 {
         let first = self.first_compared();
         let known = self.materials[first..]
@@ -207,13 +206,13 @@ impl<'a> Reader<'a> {
         at as u32
     }
 
-    /// The first of the materials that one is compared with.
+    /// The first material to compare a new one with.
     fn first_compared(&self) -> usize {
         let last = self.materials.len().saturating_sub(MOST_COMPARED);
         self.of_block.max(last)
     }
 
-    /// Reports an object that the text's end cuts short.
+    /// Reports an object cut short by the end of the text.
     fn cut(&mut self, record: &Record, kind: ShapeKind, count: Count) {
         let Some((field, component)) = component(kind.fields(), record.values.len()) else {
             return;
@@ -233,8 +232,8 @@ impl<'a> Reader<'a> {
         });
     }
 
-    /// Reports a word that names no type and passes over what follows it; whether that may have
-    /// been an object.
+    /// Reports an unknown type and skips what follows it; returns whether that may have been an
+    /// object.
     fn unknown_type(&mut self, token: Span) -> bool {
         let word = token.of(self.text);
         self.report.error(|| {
@@ -248,20 +247,21 @@ impl<'a> Reader<'a> {
         });
         self.at += 1;
         let from = self.at;
-        while self.at < self.tokens.len() && !self.resumes(self.at) {
+        while self.token().is_some_and(|token| !self.resumes(token)) {
             self.at += 1;
         }
         from < self.at
     }
 
-    /// Reports numbers that stand where an object should begin, and passes over them.
+    /// Reports and skips numbers where an object should begin.
     fn surplus(&mut self, first: Span) {
         let from = self.at;
-        while self.at < self.tokens.len() && !is_word(self.tokens[self.at].of(self.text)) {
+        let mut span = first;
+        while let Some(token) = self.token().filter(|token| !is_word(token.of(self.text))) {
+            span = first.to(token);
             self.at += 1;
         }
         let surplus = self.at - from;
-        let span = first.to(self.tokens[self.at - 1]);
         let previous = self.places.last().map(|object| object.kind);
         let is_cut = self.is_cut();
         self.report.error(|| {
@@ -287,7 +287,7 @@ impl<'a> Reader<'a> {
     /// Warns of text after the last object.
     fn left_over(&mut self, token: Span) {
         let word = token.of(self.text);
-        let ignored = counted(self.tokens.len() - self.at, "token");
+        let ignored = counted(self.tokens.end() - self.at, "token");
         self.report.warning(|| {
             let message = format!("{ignored} after the last object ignored");
             let diagnostic = Diagnostic::warning(token, message, "the end of the text");
@@ -298,20 +298,20 @@ impl<'a> Reader<'a> {
         });
     }
 
-    /// Whether reading can go on at a token after text that made no sense: where an object
-    /// begins, of a known type or of one more that is unknown.
-    fn resumes(&self, at: usize) -> bool {
-        self.begins_object(at)
-            || (is_word(self.tokens[at].of(self.text)) && self.numbers_follow(at))
+    /// Whether reading can resume at the next token after text that made no sense: where an object
+    /// begins, of a known type or another unknown one.
+    fn resumes(&self, token: Span) -> bool {
+        self.begins_object(self.at, token)
+            || (is_word(token.of(self.text)) && self.numbers_follow(self.at))
     }
 }
 
-/// What an object is called.
+/// The name of an object.
 fn object_name(places: &[ObjectPlace], index: usize) -> String {
     Name::Object(index, places[index].kind.keyword()).to_string()
 }
 
-/// The kind whose keyword a word is most like, if a slip or two of the hand lie between them.
+/// Returns the kind with the keyword closest to a word, if at most one or two typing slips apart.
 pub(super) fn nearest_kind(word: &str) -> Option<ShapeKind> {
     const LONGEST: usize = 12;
     if LONGEST < word.len() || !word.is_ascii() {
@@ -322,27 +322,71 @@ pub(super) fn nearest_kind(word: &str) -> Option<ShapeKind> {
     nearest_word(&word, keywords).and_then(ShapeKind::of_word)
 }
 
-/// The shape these numbers describe, or `None` if its directions span no volume.
-fn shape(said: &Gathered, kind: ShapeKind) -> Option<Shape> {
-    let [first, second, third, ..] = said.numbers;
-    let point = said.points[0];
-    let frame = || {
-        let lengths = DVec3::new(first, second, third);
-        Affine::new(point, said.directions, lengths)
-    };
+/// The shape described by these numbers; `None` if its directions span no volume.
+fn shape(numbers: &[f64], kind: ShapeKind) -> Option<Shape> {
+    const ELLIPSOID: Frame = Frame::of(
+        ShapeKind::Ellipsoid,
+        "centre",
+        ["v1", "v2", "v3"],
+        ["l1", "l2", "l3"],
+    );
+    const BOX: Frame = Frame::of(
+        ShapeKind::Box,
+        "corner",
+        ["vl", "vw", "vh"],
+        ["length", "width", "height"],
+    );
+    const CYLINDER: Frame = Frame::of(
+        ShapeKind::Cylinder,
+        "base",
+        ["a1", "a2", "axis"],
+        ["l1", "l2", "height"],
+    );
+    const CONE: Frame = Frame::of(
+        ShapeKind::Cone,
+        "base",
+        ["a1", "a2", "axis"],
+        ["l1", "l2", "height"],
+    );
     Some(match kind {
         ShapeKind::Sphere => Shape::Sphere(Sphere {
-            centre: point,
-            radius: first,
+            centre: const { ShapeKind::Sphere.at("centre") }.vector(numbers),
+            radius: const { ShapeKind::Sphere.at("radius") }.number(numbers),
         }),
-        ShapeKind::Ellipsoid => Shape::Ellipsoid(Box::new(Ellipsoid(frame()?))),
-        ShapeKind::Box => Shape::Cuboid(Box::new(Cuboid(frame()?))),
-        ShapeKind::Cylinder => Shape::Cylinder(Box::new(Cylinder(frame()?))),
-        ShapeKind::Cone => Shape::Cone(Box::new(Cone(frame()?))),
+        ShapeKind::Ellipsoid => Shape::Ellipsoid(Box::new(Ellipsoid(ELLIPSOID.affine(numbers)?))),
+        ShapeKind::Box => Shape::Cuboid(Box::new(Cuboid(BOX.affine(numbers)?))),
+        ShapeKind::Cylinder => Shape::Cylinder(Box::new(Cylinder(CYLINDER.affine(numbers)?))),
+        ShapeKind::Cone => Shape::Cone(Box::new(Cone(CONE.affine(numbers)?))),
     })
 }
 
-/// How many numbers a kind of object takes, in words.
+/// The positions of the fields of a shape with a frame.
+struct Frame {
+    origin: At<3>,
+    directions: [At<3>; 3],
+    lengths: [At<1>; 3],
+}
+
+impl Frame {
+    const fn of(kind: ShapeKind, origin: &str, directions: [&str; 3], lengths: [&str; 3]) -> Self {
+        let ([a, b, c], [along_a, along_b, along_c]) = (directions, lengths);
+        Self {
+            origin: kind.at(origin),
+            directions: [kind.at(a), kind.at(b), kind.at(c)],
+            lengths: [kind.at(along_a), kind.at(along_b), kind.at(along_c)],
+        }
+    }
+
+    fn affine(&self, numbers: &[f64]) -> Option<Affine> {
+        Affine::new(
+            self.origin.vector(numbers),
+            self.directions.map(|direction| direction.vector(numbers)),
+            self.lengths.map(|length| length.number(numbers)).into(),
+        )
+    }
+}
+
+/// Describes how many numbers a kind of object takes.
 fn takes(kind: ShapeKind) -> String {
     let article = if kind == ShapeKind::Ellipsoid {
         "an"
@@ -360,7 +404,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_typing_slip_is_known_by_its_keyword() {
+    fn misspelt_keywords_are_recognised() {
         for (word, kind) in [
             ("spere", Some(ShapeKind::Sphere)),
             ("Shpere", Some(ShapeKind::Sphere)),

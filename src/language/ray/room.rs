@@ -1,4 +1,4 @@
-//! How much memory a `.ray` text takes: its tree, and its scene.
+//! Estimates of the memory that a `.ray` text takes: for its tree and its scene.
 
 use rayon::prelude::*;
 
@@ -6,7 +6,7 @@ use super::blocks;
 use super::lower::LEAST_NUMBERS;
 use super::origins::ObjectPlace;
 use super::table::ShapeKind;
-use super::tree::{Comment, Tree};
+use super::tree::Tree;
 use crate::geometry::Affine;
 use crate::language::room::{Counts, each};
 use crate::memory::{self, Need, OutOfMemory, megabytes};
@@ -14,30 +14,27 @@ use crate::scene::objects::BLOCK;
 use crate::scene::{Material, Object};
 use crate::text::{Span, counted};
 
-/// The most that an object takes besides its material: in lists that grow it has up to twice the room
-/// it needs.
+/// Upper bound of the bytes of an object without its material: growing lists have up to twice the
+/// capacity they need.
 const OBJECT: usize =
     2 * size_of::<Object>() + 2 * size_of::<ObjectPlace>() + 2 * size_of::<Affine>();
 
-/// Blocks of objects that are read to see how many materials there are.
+/// Number of blocks of objects read to estimate the number of materials.
 const SAMPLED: usize = 8;
 
-/// About how many bytes a tree of so many leaves takes while it is made.
+/// Estimates the bytes needed to build a tree with these counts.
 pub(in crate::language) fn tree_bytes(counts: &Counts) -> u64 {
-    each(counts.tokens, 3)
-        + each(counts.words, 16)
-        + each(counts.comments, 2 * size_of::<Comment>())
+    each(counts.tokens, 3) + each(counts.words, 16) + each(counts.comments, 8)
 }
 
-/// Refuses a tree whose scene does not fit into memory.
+/// Fails if the tree's scene does not fit into memory.
 pub(super) fn fits(text: &str, tree: &Tree) -> Result<(), OutOfMemory> {
-    let tokens = each(tree.tokens.len() as u64, size_of::<Span>());
     let objects = tree.tokens.len() / (1 + LEAST_NUMBERS);
-    let most = tokens + each(objects as u64, OBJECT + 3 * size_of::<Material>());
+    let most = each(objects as u64, OBJECT + 3 * size_of::<Material>());
     memory::check(most, || of_objects(text, tree))
 }
 
-/// What the objects of a `.ray` text need.
+/// The memory needed by the objects of a text.
 fn of_objects(text: &str, tree: &Tree) -> Need {
     let kinds = || {
         tree.tokens
@@ -53,13 +50,10 @@ fn of_objects(text: &str, tree: &Tree) -> Need {
         each(count as u64, places + size_of::<Object>()) + each(boxed as u64, size_of::<Affine>());
     let materials = match materials(text, tree, count) {
         Some(materials) => each(materials as u64, 3 * size_of::<Material>()),
-        // It is read in order, for it has errors.
-        None => {
-            each(tree.tokens.len() as u64, size_of::<Span>())
-                + each(count as u64, size_of::<Object>())
-        }
+        // Texts with errors are read in order.
+        None => each(count as u64, size_of::<Object>()),
     };
-    // What is not much of its objects is called by its size.
+    // A text that is mostly something other than objects is described by its size.
     let most_is_objects = tree.tokens.len() <= count * 10 * LEAST_NUMBERS;
     Need {
         what: if most_is_objects {
@@ -71,18 +65,17 @@ fn of_objects(text: &str, tree: &Tree) -> Need {
     }
 }
 
-/// About how many materials there are, as some blocks of objects tell; `None` if one is not regular.
+/// Estimates the number of materials from some blocks of objects; `None` if one is not regular.
 fn materials(text: &str, tree: &Tree, count: usize) -> Option<usize> {
     let mut found = 0;
     let mut objects = 0;
     for sample in 0..SAMPLED {
         let from = tree.tokens.len() / SAMPLED * sample;
-        let mut spans = tree.tokens.range(from..from + BLOCK * (1 + LEAST_NUMBERS));
+        let spans = tree.tokens.range(from..from + BLOCK * (1 + LEAST_NUMBERS));
         let begins = |span: &Span| ShapeKind::of_word(span.of(text)).is_some();
         let first = spans.iter().position(begins)?;
         let end = spans.iter().rposition(begins)?;
-        let block = blocks::block(text, spans.get(first..end)?, 0)?;
-        spans.clear();
+        let block = blocks::block(text, &tree.tokens, from + first..from + end, 0)?;
         found += block.materials.len();
         objects += block.objects.len();
     }
@@ -95,7 +88,7 @@ mod tests {
     use crate::language::ray::tree::parse;
 
     #[test]
-    fn materials_that_differ_are_needed_each() {
+    fn distinct_materials_are_all_counted() {
         let text = |alike: bool| {
             let object = |number: usize| {
                 let red = if alike { 5 } else { number };

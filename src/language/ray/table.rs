@@ -1,8 +1,9 @@
-//! The fields of `.ray`.
+//! The table of fields of `.ray`.
 
+use crate::language::at::At;
 use crate::language::table::{Field, Kind, Range, numbers};
 
-/// The camera, as a view comment holds it.
+/// The camera, in a view comment.
 pub(super) const VIEW: &[Field; 5] = &[
     Field::point("eye", "Where the camera stands."),
     Field::point("target", "The point the camera looks at."),
@@ -37,7 +38,7 @@ pub(super) const LIGHT: &[Field; 2] = &[
     Field::colour("colour", "What the light sends, at any distance."),
 ];
 
-/// What every object is made of; follows its shape's fields.
+/// The material of every object, after the fields of its shape.
 pub(super) const MATERIAL: &[Field; 7] = &[
     Field::coefficients(
         "ka",
@@ -121,23 +122,23 @@ const CONE: &[Field; 7] = &[
     Field::size("height", "From the base to the apex along the axis."),
 ];
 
-/// The kinds of object.
+/// The kinds of objects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum ShapeKind {
     /// A sphere.
     Sphere,
-    /// An ellipsoid with any three axes.
+    /// An ellipsoid with arbitrary semi-axes.
     Ellipsoid,
-    /// A box with any three edges.
+    /// A box with arbitrary edges.
     Box,
-    /// A closed cylinder on an elliptic base.
+    /// A closed cylinder with an elliptic base.
     Cylinder,
-    /// A closed cone on an elliptic base.
+    /// A closed cone with an elliptic base.
     Cone,
 }
 
 impl ShapeKind {
-    /// All of them.
+    /// All kinds.
     pub(super) const ALL: [Self; 5] = [
         Self::Sphere,
         Self::Ellipsoid,
@@ -146,7 +147,7 @@ impl ShapeKind {
         Self::Cone,
     ];
 
-    /// The word that begins such an object.
+    /// The keyword that begins such an object.
     pub(super) const fn keyword(self) -> &'static str {
         match self {
             Self::Sphere => "sphere",
@@ -157,14 +158,14 @@ impl ShapeKind {
         }
     }
 
-    /// The kind a word names, in any case.
+    /// The kind for a keyword, ignoring case.
     pub(super) fn of_word(word: &str) -> Option<Self> {
         Self::ALL
             .into_iter()
             .find(|kind| kind.keyword().eq_ignore_ascii_case(word))
     }
 
-    /// The fields of its shape, in the order of the text.
+    /// The fields of the shape, in text order.
     pub(super) const fn geometry(self) -> &'static [Field] {
         match self {
             Self::Sphere => SPHERE,
@@ -175,12 +176,17 @@ impl ShapeKind {
         }
     }
 
-    /// All fields of such an object, in the order of the text: its shape's, then its material's.
+    /// All fields of such an object, in text order: those of the shape, then of the material.
     pub(super) fn fields(self) -> impl Iterator<Item = &'static Field> + Clone {
         self.geometry().iter().chain(MATERIAL)
     }
 
-    /// How many numbers follow its keyword.
+    /// The position of the numbers of the shape's field with this key.
+    pub(super) const fn at<const N: usize>(self, key: &str) -> At<N> {
+        At::of(self.geometry(), key)
+    }
+
+    /// The number of numbers after the keyword.
     pub(super) const fn numbers(self) -> usize {
         numbers(self.geometry()) + numbers(MATERIAL)
     }
@@ -191,7 +197,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn objects_take_as_many_numbers_as_the_format_says() {
+    fn objects_have_the_number_of_numbers_that_the_format_defines() {
         let counts = ShapeKind::ALL.map(|kind| (kind.keyword(), kind.numbers()));
         assert_eq!(
             counts,
@@ -210,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn keywords_are_known_in_any_case() {
+    fn keywords_are_case_insensitive() {
         for kind in ShapeKind::ALL {
             assert_eq!(ShapeKind::of_word(kind.keyword()), Some(kind));
             assert_eq!(

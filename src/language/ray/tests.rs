@@ -1,4 +1,4 @@
-//! What `.ray` texts mean, as data.
+//! Tests of the meaning of `.ray` texts.
 
 mod blocks;
 mod errors;
@@ -13,13 +13,13 @@ use crate::scene::{Meshes, Scene};
 /// Ambient light and one light.
 const HEAD: &str = "1 1 1  1  0 5 5  1 1 1";
 
-/// The material's numbers.
+/// The numbers of a material.
 const MAT: &str = "0.1 0.1 0.1  0.5 0.5 0.5  0.2 0.2 0.2  5 0 0 1";
 
 /// The directions of a right-handed frame.
 const AXES: &str = "1 0 0  0 1 0  0 0 1";
 
-/// A text in which `HEAD`, `MAT` and `AXES` stand for the numbers above.
+/// A text with `HEAD`, `MAT` and `AXES` replaced by the numbers above.
 fn spelled(text: &str) -> String {
     text.replace("HEAD", HEAD)
         .replace("MAT", MAT)
@@ -30,7 +30,7 @@ fn read(text: &str) -> (Source, Lowered) {
     read_as(Language::Ray, text, &Meshes::default())
 }
 
-/// The meaning of a text that must be free of errors.
+/// The scene of an error-free text.
 fn scene(text: &str) -> Scene {
     let (_, lowered) = read(text);
     let said = shown(text, &lowered);

@@ -1,79 +1,79 @@
-//! The `.ray` language: a stream of tokens separated by white space, with comments.
+//! The tree of a `.ray` text: tokens separated by white space, and comments.
 
 mod scan;
 mod tokens;
+mod window;
 
-use crate::language::white_space;
-use crate::text::Span;
+use crate::language::words::{skip_white_space, trim_end};
+use crate::language::written::Follow;
+use crate::text::{Span, line_end, next_line};
 
 pub(super) use tokens::Tokens;
+pub(super) use window::Window;
 
-/// The tokens and comments of a text, each in order.
+/// The tokens of a text. Comments are found in the text on demand.
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
-    /// Words and numbers.
+    /// Words and numbers, and the places of view comments.
     pub tokens: Tokens,
-    /// Comments, from their marker to before the line's end.
-    pub comments: Vec<Comment>,
 }
 
-/// A comment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Comment {
-    /// The whole comment with its marker, without white space at its end.
-    pub span: Span,
-    /// How it begins.
-    pub marker: Marker,
-}
-
-/// What a comment begins with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Marker {
-    /// `//`
-    Slashes,
-    /// `\\\\`
-    Backslashes,
-}
-
-/// Reads tokens and comments. White space is ASCII's, the no-break space and the byte order mark.
+/// Splits a text into tokens. White space is ASCII's, the no-break space and the byte order mark.
 pub(super) fn parse(text: &str) -> Tree {
     scan::scan(text, scan::PIECE)
 }
 
 impl Tree {
-    /// Tokens, and comments whole, in order.
-    pub fn leaves(&self) -> Vec<Span> {
-        let comments = self.comments.iter().map(|comment| comment.span);
-        let mut leaves: Vec<_> = self.tokens.all().into_iter().chain(comments).collect();
+    /// Tokens and whole comments, in order.
+    pub fn leaves(&self, text: &str) -> Vec<Span> {
+        let mut leaves = self.tokens.range(0..self.tokens.len());
+        leaves.extend(comments(text));
         leaves.sort_unstable();
         leaves
     }
+}
 
-    /// Becomes the tree of the text after an edit, of which `changed` is what it put in the place of
-    /// the bytes `old`. Only the lines around it are read.
-    pub fn follow(&mut self, text: &str, old: Span, changed: Span) {
+impl Follow for Tree {
+    /// Only the lines around the edit are read again.
+    fn follow(&mut self, text: &str, [old, changed]: [Span; 2]) {
         scan::follow(self, text, old, changed, scan::PIECE);
     }
 }
 
-/// The words inside `span` of `text`, separated by white space: how the inside of a comment is
-/// read.
-pub(super) fn words(text: &str, span: Span) -> Vec<Span> {
-    let bytes = &text.as_bytes()[..span.end()];
-    let mut words = Vec::new();
-    let mut at = span.start();
-    while at < bytes.len() {
-        if let Some(width) = white_space(&bytes[at..]) {
-            at += width;
-            continue;
-        }
-        let start = at;
-        while at < bytes.len() && white_space(&bytes[at..]).is_none() {
-            at += 1;
-        }
-        words.push(Span::new(start, at));
+/// The comment on the rest of a line from a place outside comments: from its marker, without
+/// trailing white space.
+pub(super) fn comment_of_line(text: &str, from: usize) -> Option<Span> {
+    let line = Span::new(from, line_end(text, from));
+    let mut pairs = line.of(text).as_bytes().windows(2);
+    let start = from + pairs.position(begins_comment)?;
+    Some(trim_end(text, Span::new(start, line.end())))
+}
+
+/// The part of a view comment after `view:`; `None` for other comments.
+pub(super) fn view_comment(text: &str, comment: Span) -> Option<Span> {
+    if comment.len() < "//view:".len() {
+        return None;
     }
-    words
+    let bytes = comment.of(text).as_bytes();
+    let key = skip_white_space(bytes, bytes.strip_prefix(b"//").map(|_| 2)?);
+    let body = bytes[key..].strip_prefix(b"view:")?;
+    Some(Span::new(comment.end() - body.len(), comment.end()))
+}
+
+/// Whether bytes outside a comment begin one.
+fn begins_comment(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"//") || bytes.starts_with(br"\\")
+}
+
+/// The comments of a text.
+fn comments(text: &str) -> impl Iterator<Item = Span> {
+    let mut at = 0;
+    let lines = std::iter::from_fn(move || {
+        let start = (at < text.len()).then_some(at)?;
+        at = next_line(text, at);
+        Some(start)
+    });
+    lines.filter_map(|line| comment_of_line(text, line))
 }
 
 #[cfg(test)]
@@ -82,20 +82,13 @@ mod tests {
     use proptest::prelude::*;
 
     fn tokens(text: &str) -> Vec<&str> {
-        parse(text)
-            .tokens
-            .all()
-            .iter()
-            .map(|span| span.of(text))
-            .collect()
+        let tokens = parse(text).tokens;
+        let spans = tokens.range(0..tokens.len());
+        spans.iter().map(|span| span.of(text)).collect()
     }
 
     fn comments(text: &str) -> Vec<&str> {
-        parse(text)
-            .comments
-            .iter()
-            .map(|comment| comment.span.of(text))
-            .collect()
+        super::comments(text).map(|span| span.of(text)).collect()
     }
 
     #[test]
@@ -125,13 +118,18 @@ mod tests {
     }
 
     #[test]
-    fn words_of_a_comment() {
-        let text = "// view: eye\u{A0}1";
-        let words: Vec<_> = words(text, Span::new(2, text.len()))
-            .iter()
-            .map(|w| w.of(text))
-            .collect();
-        assert_eq!(words, ["view:", "eye", "1"]);
+    fn view_comments_begin_with_view() {
+        for (comment, body) in [
+            ("// view: eye 1", Some(" eye 1")),
+            ("//\u{A0}\tview:up", Some("up")),
+            ("//view:", Some("")),
+            ("///view:", None),
+            ("// the view:", None),
+            (r"\\ view: eye 1", None),
+        ] {
+            let found = view_comment(comment, Span::new(0, comment.len()));
+            assert_eq!(found.map(|span| span.of(comment)), body, "{comment}");
+        }
     }
 
     proptest! {
@@ -139,8 +137,7 @@ mod tests {
         fn every_character_is_a_token_a_comment_or_white_space(text in "[01a/\\\\\n\r \u{A0}\u{FEFF}é]{0,40}") {
             let tree = parse(&text);
             let mut covered = vec![false; text.len()];
-            let spans = tree.tokens.all().into_iter().chain(tree.comments.iter().map(|c| c.span));
-            for span in spans {
+            for span in tree.leaves(&text) {
                 prop_assert!(!span.is_empty());
                 for at in span.range() {
                     prop_assert!(!covered[at], "two leaves share a byte");

@@ -1,12 +1,15 @@
-//! A camera as the view comment of a `.ray` text.
+//! Conversion between cameras and view comments.
 
 use std::fmt::Write;
 
+use glam::DVec3;
+
 use super::origins::Origins;
 use super::table::VIEW;
-use crate::language::table::Field;
-use crate::language::view::{Numbers, beginning, differ, line_ending, literal};
-use crate::scene::{Camera, Lens, Size};
+use crate::language::at::At;
+use crate::language::table::{self, Field};
+use crate::language::view::{Numbers, beginning, differ, line_ending, literal, take};
+use crate::scene::{Camera, Focus, Lens, Size};
 use crate::text::{Edit, Span, spell_like};
 
 /// The fields of the view.
@@ -14,44 +17,123 @@ pub(super) fn fields() -> impl Iterator<Item = &'static Field> {
     VIEW.iter()
 }
 
-/// A camera's numbers, in the order of [`VIEW`].
-pub(super) fn numbers(camera: &Camera) -> Numbers {
-    let (Lens::Perspective(angle) | Lens::Orthographic(angle)) = camera.lens;
-    let Size { width, height } = camera.size;
-    vec![
-        camera.eye.to_array().into(),
-        camera.target.to_array().into(),
-        camera.up.to_array().into(),
-        vec![angle],
-        vec![width.into(), height.into()],
-    ]
+/// The content of a view comment, with defaults for missing parts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    pub(super) eye: DVec3,
+    pub(super) target: DVec3,
+    pub(super) up: DVec3,
+    pub(super) fov: f64,
+    pub(super) size: Size,
 }
 
-/// The camera of which these are the numbers; `base` is one of the same text.
-pub(super) fn camera(numbers: &Numbers, base: &Camera) -> Camera {
-    let vector = |at: usize| glam::DVec3::from_slice(&numbers[at]);
-    Camera {
-        eye: vector(0),
-        target: vector(1),
-        up: vector(2),
-        lens: Lens::Perspective(numbers[3][0]),
+const EYE: At<3> = At::of(VIEW, "eye");
+const TARGET: At<3> = At::of(VIEW, "target");
+const UP: At<3> = At::of(VIEW, "up");
+const FOV: At<1> = At::of(VIEW, "fov");
+const SIZE: At<2> = At::of(VIEW, "size");
+
+impl View {
+    /// Defaults for missing parts, except eye and target.
+    const DEFAULT: Self = Self {
+        eye: DVec3::ZERO,
+        target: DVec3::ZERO,
+        up: DVec3::Y,
+        fov: 45.0,
         size: Size {
-            width: numbers[4][0] as u32,
-            height: numbers[4][1] as u32,
+            width: 800,
+            height: 600,
         },
-        ..*base
+    };
+
+    /// The camera it describes.
+    pub(super) fn camera(&self) -> Camera {
+        Camera {
+            eye: self.eye,
+            target: self.target,
+            up: self.up,
+            lens: Lens::Perspective(self.fov),
+            pixel_aspect: 1.0,
+            depths: Camera::ALL_DEPTHS,
+            focus: Focus::PINHOLE,
+            size: self.size,
+        }
+    }
+
+    /// The view that describes a camera.
+    fn of(camera: &Camera) -> Self {
+        let (Lens::Perspective(fov) | Lens::Orthographic(fov)) = camera.lens;
+        Self {
+            eye: camera.eye,
+            target: camera.target,
+            up: camera.up,
+            fov,
+            size: camera.size,
+        }
+    }
+
+    /// The view with these numbers, in the order of [`VIEW`].
+    fn said(numbers: &[f64]) -> Self {
+        let [width, height] = SIZE.get(numbers);
+        Self {
+            eye: EYE.vector(numbers),
+            target: TARGET.vector(numbers),
+            up: UP.vector(numbers),
+            fov: FOV.number(numbers),
+            size: Size {
+                width: width as u32,
+                height: height as u32,
+            },
+        }
+    }
+
+    /// The view with these parts, each the numbers of its field in [`VIEW`], or defaults.
+    pub(super) fn said_by_parts<'p>(parts: impl Iterator<Item = Option<&'p [f64]>>) -> Self {
+        let mut numbers = Self::DEFAULT.numbers();
+        let mut rest = &mut numbers[..];
+        for (field, part) in VIEW.iter().zip(parts) {
+            let (own, behind) = rest.split_at_mut(field.kind.components());
+            if let Some(part) = part {
+                own.copy_from_slice(part);
+            }
+            rest = behind;
+        }
+        Self::said(&numbers)
+    }
+
+    /// The numbers of the view, in the order of [`VIEW`].
+    fn numbers(&self) -> Numbers {
+        let mut numbers = vec![0.0; table::numbers(VIEW)];
+        EYE.put(&mut numbers, self.eye.into());
+        TARGET.put(&mut numbers, self.target.into());
+        UP.put(&mut numbers, self.up.into());
+        FOV.put(&mut numbers, [self.fov]);
+        let Size { width, height } = self.size;
+        SIZE.put(&mut numbers, [width.into(), height.into()]);
+        numbers
     }
 }
 
-/// The edits after which the text, whose camera is `before`, says `camera`.
+/// The numbers of a camera, in the order of [`VIEW`].
+pub(super) fn numbers(camera: &Camera) -> Numbers {
+    View::of(camera).numbers()
+}
+
+/// The camera described by these numbers.
+pub(super) fn camera(numbers: &Numbers) -> Camera {
+    View::said(numbers).camera()
+}
+
+/// Returns the edits that change the text's camera from `before` to `camera`.
 pub(super) fn edits(text: &str, origins: &Origins, before: &Camera, camera: &Camera) -> Vec<Edit> {
     let (old, new) = (numbers(before), numbers(camera));
     let parts = origins.view.map_or([None; VIEW.len()], |view| view.parts);
     let mut edits = Vec::new();
     let mut missing = String::new();
-    for (index, field) in VIEW.iter().enumerate() {
-        let (old, new) = (&old[index], &new[index]);
-        if let Some(spans) = parts[index] {
+    let (mut old, mut new) = (&old[..], &new[..]);
+    for (field, part) in VIEW.iter().zip(parts) {
+        let (old, new) = (take(&mut old, field), take(&mut new, field));
+        if let Some(spans) = part {
             let changed = old
                 .iter()
                 .zip(new)
@@ -62,7 +144,7 @@ pub(super) fn edits(text: &str, origins: &Origins, before: &Camera, camera: &Cam
                 text: spell_like(span.of(text), value + 0.0),
             }));
         } else if old != new || (field.key == "eye" && before.lens != camera.lens) {
-            // A missing eye follows the angle of view, so a new angle must pin it.
+            // A missing eye depends on the angle of view, so a new angle must pin it.
             write_part(&mut missing, field, new);
         }
     }
@@ -79,7 +161,7 @@ pub(super) fn edits(text: &str, origins: &Origins, before: &Camera, camera: &Cam
     edits
 }
 
-/// A view comment as the text's first line, ended as its lines are.
+/// Inserts a view comment as the text's first line, with the text's line ending.
 fn new_comment(text: &str, parts: &str) -> Edit {
     Edit {
         span: Span::at(beginning(text)),

@@ -1,36 +1,39 @@
-//! The view comment of a `.ray` text, invisible to other readers of the format:
+//! The view comment of a `.ray` text, which other readers of the format skip:
 //! `// view: eye x y z target x y z up x y z fov deg size w h`, any subset, in any order.
 
 use glam::DVec3;
 
 use super::origins::ViewPlace;
 use super::table::VIEW;
-use super::tree::{self, Comment, Marker};
+use super::tree::{Tokens, comment_of_line, view_comment};
+use super::view::View;
 use crate::geometry::{Aabb, normalise};
+use crate::language::at::index_of;
 use crate::language::camera::{Places, check, default_eye_and_target};
 use crate::language::record::what;
 use crate::language::report::Name;
 use crate::language::report::{no_number, number, quoted};
 use crate::language::table::{Field, Kind};
-use crate::scene::{Camera, Focus, Lens, Size};
+use crate::language::words::Words;
+use crate::scene::Camera;
 use crate::text::{Diagnostic, Findings, Severity, Span, is_integer, parse_number};
 
-/// Places in [`VIEW`].
-const EYE: usize = 0;
-const TARGET: usize = 1;
-const UP: usize = 2;
+/// Indices in [`VIEW`].
+const EYE: usize = index_of(VIEW, "eye");
+const TARGET: usize = index_of(VIEW, "target");
+const UP: usize = index_of(VIEW, "up");
 
-/// From where the default view looks, seen from the centre of the scene.
+/// The direction of the default eye from the centre of the scene.
 const DEFAULT_SIDE: DVec3 = DVec3::new(0.4, 0.3, 1.0);
 
-/// What a view comment says.
+/// The content of a view comment.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct View {
+pub(super) struct ViewComment {
     comment: Span,
     parts: [Option<Part>; VIEW.len()],
 }
 
-/// The numbers of one field; of the arrays, as many entries as the field has components.
+/// The numbers of one field; the arrays are filled up to its number of components.
 #[derive(Clone, Copy, Debug, Default)]
 struct Part {
     spans: [Span; 3],
@@ -43,8 +46,8 @@ impl Part {
     }
 }
 
-impl View {
-    /// Where it stands.
+impl ViewComment {
+    /// The places of its parts.
     pub(super) fn place(&self) -> ViewPlace {
         ViewPlace {
             comment: self.comment,
@@ -52,12 +55,12 @@ impl View {
         }
     }
 
-    /// Whether it says both where the camera stands and where it looks.
+    /// Whether it states both eye and target.
     pub(super) fn is_placed(&self) -> bool {
         says_place(&self.parts)
     }
 
-    /// The text of a part, or of the whole comment if the part is missing.
+    /// The span of a part, or of the whole comment if the part is missing.
     fn span(&self, part: usize) -> Span {
         self.parts[part].map_or(self.comment, |found| {
             found.spans[0].to(found.spans[VIEW[part].kind.components() - 1])
@@ -65,21 +68,23 @@ impl View {
     }
 }
 
-/// Whether these parts of a view say both where the camera stands and where it looks.
+/// Whether these parts of a view include both eye and target.
 pub(super) fn says_place<T>(parts: &[Option<T>; VIEW.len()]) -> bool {
     parts[EYE].is_some() && parts[TARGET].is_some()
 }
 
-/// The first well-formed view comment. Warns of malformed ones, which are ignored whole, and of
-/// well-formed ones after the first.
-pub(super) fn find(text: &str, comments: &[Comment], report: &mut Findings) -> Option<View> {
+/// Finds the first well-formed view comment. Warns of malformed ones, which are ignored entirely,
+/// and of well-formed ones after the first.
+pub(super) fn find(text: &str, tokens: &Tokens, report: &mut Findings) -> Option<ViewComment> {
     let mut found = None;
-    for comment in comments {
-        let Some(body) = body(text, comment) else {
+    for start in tokens.views() {
+        let comment = comment_of_line(text, start);
+        let Some((comment, body)) = comment.and_then(|at| Some((at, view_comment(text, at)?)))
+        else {
             continue;
         };
         let mut read_over = Findings::default();
-        match read(text, comment.span, body, &mut read_over) {
+        match read(text, comment, body, &mut read_over) {
             Err(malformed) => report.warning(|| Diagnostic {
                 message: format!("{}; the whole comment is ignored", malformed.message),
                 ..malformed
@@ -90,32 +95,22 @@ pub(super) fn find(text: &str, comments: &[Comment], report: &mut Findings) -> O
             }
             Ok(_) => report.warning(|| {
                 let message = "view: said before, this comment is ignored";
-                Diagnostic::warning(comment.span, message, "one view comment")
+                Diagnostic::warning(comment, message, "one view comment")
             }),
         }
     }
     found
 }
 
-/// What follows `view:` in a comment that begins so.
-fn body(text: &str, comment: &Comment) -> Option<Span> {
-    const BLANK: [char; 7] = [' ', '\t', '\r', '\x0B', '\x0C', '\u{A0}', '\u{FEFF}'];
-    if comment.marker != Marker::Slashes {
-        return None;
-    }
-    let said = comment.span.of(text).strip_prefix("//")?;
-    let body = said.trim_start_matches(BLANK).strip_prefix("view:")?;
-    Some(Span::new(
-        comment.span.end() - body.len(),
-        comment.span.end(),
-    ))
-}
-
-/// Reads the parts of a view comment; the error is a warning. What is read over is reported.
-fn read(text: &str, comment: Span, body: Span, report: &mut Findings) -> Result<View, Diagnostic> {
+/// Reads the parts of a view comment; an error is a warning for the text. Reports what is skipped.
+fn read(
+    text: &str,
+    comment: Span,
+    body: Span,
+    report: &mut Findings,
+) -> Result<ViewComment, Diagnostic> {
     let mut parts = [None; VIEW.len()];
-    let words = tree::words(text, body);
-    let mut rest = words.iter().copied();
+    let mut rest = Words::new(text, body);
     while let Some(key) = rest.next() {
         let word = key.of(text);
         let Some(index) = VIEW.iter().position(|field| field.key == word) else {
@@ -128,7 +123,7 @@ fn read(text: &str, comment: Span, body: Span, report: &mut Findings) -> Result<
         }
         parts[index] = Some(read_part(text, field, &mut rest, comment.end(), report)?);
     }
-    Ok(View { comment, parts })
+    Ok(ViewComment { comment, parts })
 }
 
 fn unknown_word(span: Span, word: &str) -> Diagnostic {
@@ -193,48 +188,30 @@ fn read_part(
     Ok(part)
 }
 
-/// The camera: what the view says, and defaults for what it does not. `bounds` is asked for only
-/// if a default needs it. Reports a camera that cannot be used at the view or, without one, at
-/// `otherwise`.
+/// Returns the camera of the view, with defaults for missing parts. `bounds` is called only if a
+/// default needs it. Reports an unusable camera at the view or, without one, at `otherwise`.
 pub(super) fn camera(
-    view: Option<&View>,
+    comment: Option<&ViewComment>,
     bounds: impl FnOnce() -> Aabb,
     otherwise: Span,
     report: &mut Findings,
 ) -> Camera {
-    let [eye, target, up, fov, size] = view.map_or([None; VIEW.len()], |view| view.parts);
-    let fov = fov.map_or(45.0, |fov| fov.values[0]);
-    let (eye, target) = match (eye, target) {
-        (Some(eye), Some(target)) => (eye.vector(), target.vector()),
-        (eye, target) => {
-            let (default_eye, centre) = default_eye_and_target(bounds(), fov, DEFAULT_SIDE);
-            (
-                eye.map_or(default_eye, |eye| eye.vector()),
-                target.map_or(centre, |target| target.vector()),
-            )
+    let said = |part: usize| comment.is_some_and(|comment| comment.parts[part].is_some());
+    let mut view = View::said_by_parts(VIEW.iter().enumerate().map(|(at, field)| {
+        let part = comment?.parts[at].as_ref()?;
+        Some(&part.values[..field.kind.components()])
+    }));
+    if !(said(EYE) && said(TARGET)) {
+        let (eye, centre) = default_eye_and_target(bounds(), view.fov, DEFAULT_SIDE);
+        if !said(EYE) {
+            view.eye = eye;
         }
-    };
-    let camera = Camera {
-        eye,
-        target,
-        up: up.map_or(DVec3::Y, |up| up.vector()),
-        lens: Lens::Perspective(fov),
-        pixel_aspect: 1.0,
-        depths: Camera::ALL_DEPTHS,
-        focus: Focus::PINHOLE,
-        size: size.map_or(
-            Size {
-                width: 800,
-                height: 600,
-            },
-            |size| Size {
-                width: size.values[0] as u32,
-                height: size.values[1] as u32,
-            },
-        ),
-    };
-    let part = |part| view.map_or(otherwise, |view: &View| view.span(part));
-    let said = |part: usize| view.is_some_and(|view| view.parts[part].is_some());
+        if !said(TARGET) {
+            view.target = centre;
+        }
+    }
+    let camera = view.camera();
+    let part = |part| comment.map_or(otherwise, |comment: &ViewComment| comment.span(part));
     let [eye, target] = match (said(EYE), said(TARGET)) {
         (true, true) => [part(EYE), part(TARGET)],
         (false, true) => [part(TARGET); 2],

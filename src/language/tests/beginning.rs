@@ -1,4 +1,4 @@
-//! What the beginning of a text tells of the whole.
+//! Errors in the beginning of a text that hold for the whole.
 
 use std::fs;
 use std::path::Path;
@@ -30,7 +30,7 @@ fn scenes() -> Vec<(Language, String)> {
 }
 
 #[test]
-fn a_scene_has_no_error_wherever_it_is_cut() {
+fn valid_scenes_have_no_error_wherever_they_are_cut() {
     for (language, text) in scenes() {
         let cuts = (0..text.len()).step_by(1 + text.len() / 250);
         for cut in cuts.filter(|&cut| text.is_char_boundary(cut)) {
@@ -42,7 +42,7 @@ fn a_scene_has_no_error_wherever_it_is_cut() {
 }
 
 #[test]
-fn what_is_wrong_with_a_beginning_is_wrong_with_the_whole() {
+fn errors_of_a_beginning_are_errors_of_the_whole() {
     let mut found = 0;
     for (language, text) in scenes() {
         let boundary = |at: &usize| text.is_char_boundary(*at) && text.is_char_boundary(at + 1);
@@ -75,7 +75,7 @@ fn what_is_wrong_with_a_beginning_is_wrong_with_the_whole() {
 }
 
 #[test]
-fn a_beginning_without_hope_says_so() {
+fn hopeless_beginnings_are_errors() {
     use Language::{Dat, Ray, Xml};
     let nested = "<a>".repeat(200_000);
     let blank = " \n".repeat(5000);
@@ -90,7 +90,7 @@ fn a_beginning_without_hope_says_so() {
         "sphere 0 0 0 1 0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n".repeat(50)
     );
     let cases: &[(Language, &str, Option<&str>)] = &[
-        // Comments, white space and unknown records may stand before any scene.
+        // Comments, white space and unknown records may precede any scene.
         (Ray, &blank, None),
         (Xml, &blank, None),
         (Ray, &cut, None),

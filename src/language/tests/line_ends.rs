@@ -1,4 +1,4 @@
-//! Lines may end in any way: scenes mean the same, and messages name the same places.
+//! Line endings of any kind: scenes and the places of messages are the same.
 
 use super::{read_as, shown};
 use crate::language::Language;
@@ -53,7 +53,7 @@ const XML: &str = "\
 </xml>
 ";
 
-/// The meaning of a text, and what is wrong with it.
+/// The meaning and the diagnostics of a text.
 fn read(language: Language, text: &str) -> (Option<Scene>, Vec<String>) {
     let (_, lowered) = read_as(language, text, &Meshes::default());
     let said = shown(text, &lowered);
@@ -90,7 +90,7 @@ fn line_ends_of_any_kind_mean_the_same() {
                 let leaves = read_as(language, &text, &Meshes::default()).0.leaves();
                 damage(&mut text, &leaves, &words, &mut random);
                 text = text.replace('\r', " ");
-                // In an attribute of .xml line ends are blanks, each of them.
+                // In an attribute of `.xml` each line end is a blank.
                 if language == Language::Xml && lines < text.matches('\n').count() {
                     break;
                 }

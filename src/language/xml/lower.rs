@@ -1,7 +1,8 @@
-//! The grammar of `.xml`: elements with attributes as the table of fields lists them. What makes no
-//! sense costs itself only, and what the table does not know is skipped.
+//! The grammar of `.xml`: elements with attributes, according to the table of fields. Invalid parts
+//! do not affect others, and unknown ones are skipped.
 //!
-//! All walks are loops over the flat tree: elements may be nested as deep as a text is long.
+//! The flat tree is traversed without recursion: elements may be nested as deep as the text is
+//! long.
 
 mod camera;
 mod meshes;
@@ -16,10 +17,10 @@ use std::collections::{HashMap, HashSet};
 use super::origins::Origins;
 use super::tree::Tree;
 use crate::language::Lowered;
-use crate::scene::{Light, Material, Meshes, Object, Rgb, Scene, Setting, Source};
+use crate::scene::{Light, Material, Meshes, Object, Rgb, Scene, Setting, Texture};
 use crate::text::{Diagnostic, Findings, Span};
 
-/// Reads a scene.
+/// Lowers a text.
 pub(super) fn lower(text: &str, tree: &Tree, meshes: &Meshes) -> (Origins, Lowered) {
     let mut reader = Reader {
         text,
@@ -29,6 +30,7 @@ pub(super) fn lower(text: &str, tree: &Tree, meshes: &Meshes) -> (Origins, Lower
         origins: Origins::default(),
         lights: Vec::new(),
         materials: Vec::new(),
+        textures: Vec::new(),
         named: HashMap::new(),
         white: None,
         met: HashSet::new(),
@@ -47,7 +49,7 @@ pub(super) fn lower(text: &str, tree: &Tree, meshes: &Meshes) -> (Origins, Lower
     (reader.origins, lowered)
 }
 
-/// What was read so far.
+/// A reader with its results so far.
 struct Reader<'a> {
     text: &'a str,
     tree: &'a Tree,
@@ -56,20 +58,21 @@ struct Reader<'a> {
     origins: Origins,
     lights: Vec<Light>,
     materials: Vec<Material>,
+    textures: Vec<Texture>,
     /// The index of each material by its name.
     named: HashMap<&'a str, usize>,
-    /// The index of the material of what has none.
+    /// Index of the default material.
     white: Option<usize>,
-    /// The meshes that were met, by name.
+    /// The meshes seen so far, by name.
     met: HashSet<&'a str>,
-    /// The indices of the materials that meshes bring along, by name and slot.
+    /// Indices of the materials that meshes define, by mesh name and slot.
     slots: HashMap<&'a str, Vec<u32>>,
     objects: Vec<Object>,
     setting: Setting,
 }
 
 impl Reader<'_> {
-    /// Reads everything; `None` where there is nothing to read.
+    /// Reads everything; `None` if there is nothing to read.
     fn read(&mut self) -> Option<Scene> {
         self.find_roles();
         self.origins.root?;
@@ -82,16 +85,12 @@ impl Reader<'_> {
             self.material(index);
         }
         self.place_objects();
-        let ambient = |light: &Light| match light.source {
-            Source::Everywhere => light.colour,
-            Source::Point { .. } | Source::Distant(_) => Rgb::ZERO,
-        };
         Some(Scene {
             camera,
-            ambient: self.lights.iter().map(ambient).sum(),
+            ambient: Rgb::ZERO,
             lights: std::mem::take(&mut self.lights),
             materials: std::mem::take(&mut self.materials),
-            textures: Vec::new(),
+            textures: std::mem::take(&mut self.textures),
             objects: std::mem::take(&mut self.objects).into_iter().collect(),
             setting: std::mem::take(&mut self.setting),
         })

@@ -1,25 +1,26 @@
-//! The fields of `.xml`: what each element is called, which attributes it has, and what is read
-//! where they are missing.
+//! The table of fields of `.xml`: the names of elements, their attributes, and the defaults of
+//! missing ones.
 
 mod kinds;
 
+use crate::language::at::is_same;
 use crate::language::table::{Category, Field, Kind, Range};
 pub(super) use kinds::{LightKind, MaterialKind, ObjectKind};
 
-/// An element that says something of the one around it.
+/// An element that sets a property of its parent.
 #[derive(Debug, PartialEq)]
 pub(super) struct Parameter {
     /// Its name.
     pub element: &'static str,
     /// How its attributes are read.
     pub reading: Reading,
-    /// What its numbers read as if they are missing in it.
+    /// The default of numbers missing in the element.
     pub inside: &'static str,
-    /// What they read as if it is missing itself.
+    /// The defaults if the element itself is missing.
     pub missing: &'static [&'static str],
-    /// Its field where `value` is missing, and always if that is its only attribute.
+    /// Its field if `value` is missing, or is the only attribute.
     pub field: Field,
-    /// Its field where `value` multiplies the others.
+    /// Its field if `value` multiplies the other attributes.
     pub scaled: Field,
     /// Further attributes, each a field of its own.
     pub extras: &'static [Extra],
@@ -27,7 +28,7 @@ pub(super) struct Parameter {
     pub texture: Texturing,
 }
 
-/// How the attributes of an element are read.
+/// How an element's attributes are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Reading {
     /// x, y, z, times `value`.
@@ -36,25 +37,25 @@ pub(super) enum Reading {
     Colour,
     /// `value`.
     Number,
-    /// The axis x, y, z, and `angle`, or `value` where that is missing.
+    /// An axis x, y, z and an `angle`, or `value` if that is missing.
     Rotation,
 }
 
-/// A number beside those of an element.
+/// A further number of an element.
 #[derive(Debug, PartialEq)]
 pub(super) struct Extra {
-    /// The attribute.
+    /// The name of the attribute.
     pub attribute: &'static str,
-    /// What it reads as if it is missing.
+    /// Its default.
     pub missing: &'static str,
-    /// The same in scenes for path tracing.
+    /// Its default in scenes for path tracing.
     pub missing_srgb: &'static str,
     /// Its field.
     pub field: Field,
 }
 
 impl Extra {
-    /// What it reads as if it is missing.
+    /// Its default for this kind of scene.
     pub(super) fn missing(&self, is_srgb: bool) -> &'static str {
         if is_srgb {
             self.missing_srgb
@@ -64,27 +65,26 @@ impl Extra {
     }
 }
 
-/// An attribute that is a word.
+/// An attribute whose value is a word.
 #[derive(Debug, PartialEq)]
 pub(super) struct Word {
     /// Its field; the key is the attribute's name.
     pub field: Field,
-    /// What stands for it if it is missing.
+    /// Its default.
     pub missing: &'static str,
 }
 
 /// Whether an element may have a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Texturing {
-    /// It may not.
+    /// No texture.
     No,
-    /// It may.
+    /// An optional texture.
     Yes,
 }
 
 impl Reading {
-    /// The attributes, in order; the last of a vector and a colour is what the others are
-    /// multiplied by.
+    /// The attributes, in order; the last one of a vector or a colour multiplies the others.
     pub(super) const fn attributes(self) -> &'static [&'static str] {
         match self {
             Self::Vector => &["x", "y", "z", "value"],
@@ -166,7 +166,7 @@ impl Parameter {
         Self { inside, ..self }
     }
 
-    /// What one of its attributes reads as if it is missing in the element.
+    /// The default of an attribute missing in the element.
     pub(super) fn inside(&self, attribute: &str) -> &'static str {
         match (self.reading, attribute) {
             (Reading::Vector | Reading::Colour, "value") => "1",
@@ -197,7 +197,7 @@ const fn at_least_0(key: &'static str, step: f64, doc: &'static str) -> Field {
     }
 }
 
-/// What a camera has.
+/// The parameters of a camera.
 pub(super) static CAMERA: [Parameter; 8] = [
     Parameter::vector("position", ZERO, "Where the camera stands."),
     Parameter::vector("target", &["0", "0", "-1"], "The point it looks at."),
@@ -232,7 +232,7 @@ pub(super) static CAMERA: [Parameter; 8] = [
     Parameter::number(side("height", "How high the picture is."), &["150"]),
 ];
 
-/// The camera's attribute.
+/// The `gamma` attribute of a camera.
 pub(super) static GAMMA: Word = word(
     "gamma",
     Kind::Choice(&["linear", "sRGB"]),
@@ -240,24 +240,33 @@ pub(super) static GAMMA: Word = word(
     "sRGB: the picture is path traced, and its values go through the sRGB curve.",
 );
 
-/// Places in [`CAMERA`].
-pub(super) const POSITION: usize = 0;
-/// Of what the camera looks at.
-pub(super) const TARGET: usize = 1;
-/// Of the direction up.
-pub(super) const UP: usize = 2;
-/// Of the angle of view.
-pub(super) const FOV: usize = 3;
-/// Of the distance that is sharp.
-pub(super) const FOCAL_DISTANCE: usize = 4;
-/// Of the radius of the lens.
-pub(super) const LENS: usize = 5;
-/// Of the picture's width.
-pub(super) const WIDTH: usize = 6;
-/// Of its height.
-pub(super) const HEIGHT: usize = 7;
+/// Index in [`CAMERA`] of the position.
+pub(super) const POSITION: usize = place_in_camera("position");
+/// Index of the point the camera looks at.
+pub(super) const TARGET: usize = place_in_camera("target");
+/// Index of the up direction.
+pub(super) const UP: usize = place_in_camera("up");
+/// Index of the angle of view.
+pub(super) const FOV: usize = place_in_camera("fov");
+/// Index of the distance in focus.
+pub(super) const FOCAL_DISTANCE: usize = place_in_camera("focaldist");
+/// Index of the lens radius.
+pub(super) const LENS: usize = place_in_camera("dof");
+/// Index of the picture's width.
+pub(super) const WIDTH: usize = place_in_camera("width");
+/// Index of the picture's height.
+pub(super) const HEIGHT: usize = place_in_camera("height");
 
-/// What misses everything, seen by the camera.
+/// The index in [`CAMERA`] of the element with this name; an unknown name does not compile.
+const fn place_in_camera(element: &str) -> usize {
+    let mut at = 0;
+    while !is_same(CAMERA[at].element, element) {
+        at += 1;
+    }
+    at
+}
+
+/// The background seen by camera rays.
 pub(super) static BACKGROUND: Parameter = Parameter::colour(
     "background",
     ZERO,
@@ -265,7 +274,7 @@ pub(super) static BACKGROUND: Parameter = Parameter::colour(
 )
 .textured();
 
-/// What misses everything, seen otherwise.
+/// The background seen by all other rays.
 pub(super) static ENVIRONMENT: Parameter = Parameter::colour(
     "environment",
     ZERO,
@@ -273,7 +282,7 @@ pub(super) static ENVIRONMENT: Parameter = Parameter::colour(
 )
 .textured();
 
-/// How something is moved; what is listed first acts first.
+/// The transforms, applied in the order of the text.
 pub(super) static TRANSFORMS: [Parameter; 3] = [
     Parameter {
         inside: "1",
@@ -294,7 +303,7 @@ pub(super) static TRANSFORMS: [Parameter; 3] = [
     Parameter::vector("translate", ZERO, "How far it is moved."),
 ];
 
-/// What a checkerboard has beside transforms.
+/// The parameters of a checkerboard besides transforms.
 pub(super) static CHECKER: [Parameter; 2] = [
     Parameter::colour("color1", ZERO, "The squares at uv 0, 0.").textured(),
     Parameter::colour("color2", ONE, "The other squares.").textured(),
@@ -338,7 +347,7 @@ const ABSORPTION: Parameter = Parameter::colour(
 const EMISSION: Parameter =
     Parameter::colour("emission", ZERO, "What shines by itself.").textured();
 
-/// What a blinn or phong material has.
+/// The parameters of a blinn or phong material.
 pub(super) static MATERIAL: [Parameter; 7] = [
     Parameter::colour("diffuse", HALF, "The colour of light sent back evenly.").textured(),
     Parameter::colour(
@@ -364,7 +373,7 @@ pub(super) static MATERIAL: [Parameter; 7] = [
     EMISSION,
 ];
 
-/// What a microfacet material has.
+/// The parameters of a microfacet material.
 pub(super) static MICROFACET: [Parameter; 7] = [
     Parameter::colour("color", HALF, "Its colour.").textured(),
     Parameter::number(
@@ -399,10 +408,10 @@ pub(super) static MICROFACET: [Parameter; 7] = [
 const INTENSITY: Parameter =
     Parameter::colour("intensity", ZERO, "How bright it is, and in which colour.");
 
-/// What an ambient light has.
+/// The parameters of an ambient light.
 pub(super) static AMBIENT: [Parameter; 1] = [INTENSITY];
 
-/// What a direct light has.
+/// The parameters of a direct light.
 pub(super) static DIRECT: [Parameter; 2] = [
     INTENSITY,
     Parameter::vector(
@@ -412,7 +421,7 @@ pub(super) static DIRECT: [Parameter; 2] = [
     ),
 ];
 
-/// What a point light has.
+/// The parameters of a point light.
 pub(super) static POINT: [Parameter; 4] = [
     INTENSITY,
     Parameter::vector("position", ZERO, "Where it stands."),
@@ -474,7 +483,7 @@ pub(super) static LIGHT_WORDS: [Word; 2] = [
     word("name", Kind::Word, "none", "What it is called."),
 ];
 
-/// What a texture is: `checkerboard`, or a file.
+/// The name of a texture: `checkerboard`, or a file.
 pub(super) static TEXTURE: Field = word(
     "texture",
     Kind::Word,

@@ -1,4 +1,4 @@
-//! What `.xml` texts mean, as data.
+//! Tests of the meaning of `.xml` texts.
 
 mod edits;
 mod errors;
@@ -10,13 +10,13 @@ use crate::language::tests::{read_as, shown};
 use crate::language::{Language, Lowered, Source};
 use crate::scene::{Meshes, Scene};
 
-/// The course's own example.
+/// The example of the course.
 const EXAMPLE: &str = include_str!("../../../scenes/spheres.xml");
 
-/// A camera that stands somewhere.
+/// A camera with a position.
 const CAMERA: &str = "<camera><position z='5'/><target/></camera>";
 
-/// A text of what is in the scene.
+/// A text with this content of the scene.
 fn around(scene: &str) -> String {
     format!("<xml><scene>{scene}</scene>{CAMERA}</xml>")
 }
@@ -29,7 +29,7 @@ fn read_with(text: &str, meshes: &Meshes) -> (Source, Lowered) {
     read_as(Language::Xml, text, meshes)
 }
 
-/// The meaning of a text that must be free of errors.
+/// The scene of an error-free text.
 fn scene(text: &str) -> Scene {
     let (_, lowered) = read(text);
     let said = shown(text, &lowered);

@@ -1,7 +1,7 @@
-//! The `.xml` language: elements with attributes, one inside the other.
+//! The tree of an `.xml` text: nested elements with attributes.
 //!
-//! The tree is flat, in document order, and every walk over it is a loop: a text may nest elements
-//! a hundred thousand deep.
+//! The tree is flat, in document order, and traversed without recursion: elements may be nested a
+//! hundred thousand deep.
 
 mod fault;
 mod scan;
@@ -13,28 +13,25 @@ use std::ops::Range;
 
 use roxmltree::{Document, Error, Node, NodeType, ParsingOptions};
 
-use crate::language::white_space;
+use crate::language::words::{skip_white_space, white_space};
+use crate::language::written::Follow;
 use crate::text::{Diagnostic, Span};
 
-/// The elements and comments of a text, each in order.
+/// The elements and comments of a text, each in text order.
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
-    /// Elements, in the order of their start tags: each stands before what is in it.
+    /// Elements, in the order of their start tags: each precedes its descendants.
     pub elements: Vec<Element>,
     /// The attributes of all elements.
     pub attributes: Vec<Attribute>,
-    /// Comments, with their marks.
+    /// Comments, with their delimiters.
     pub comments: Vec<Span>,
-    /// Text between tags, without the white space around it, and the element that it is in.
+    /// Text between tags, without surrounding white space, and the element it is in.
     pub words: Vec<(Span, u32)>,
-    /// Why the text is not XML; there are no elements then.
+    /// The error if the text is not XML; then there are no elements.
     pub fault: Option<Diagnostic>,
-    /// What is one leaf although it may hold white space: values, comments, instructions.
+    /// Spans that are one leaf even if they contain white space: values, comments, instructions.
     whole: Vec<Span>,
-    /// How long the text is.
-    end: usize,
-    /// The white space between leaves where it is not known what they are.
-    gaps: Vec<Span>,
 }
 
 /// An element.
@@ -46,18 +43,18 @@ pub struct Element {
     pub tag: Span,
     /// From the start tag to the end tag.
     pub whole: Span,
-    /// Where one more attribute goes.
+    /// Where to insert another attribute.
     pub attributes_end: u32,
-    /// Where the end tag begins; the end of the start tag if that ends the element.
+    /// Start of the end tag; for an empty-element tag, the end of the tag.
     pub close: u32,
-    /// The line end before the element and the white space that indents it; empty if anything else
-    /// stands before it in its line.
+    /// The line end before the element and its indentation; empty if anything else precedes it on
+    /// its line.
     pub lead: Span,
-    /// The element that it is in.
+    /// Index of the element it is in.
     pub parent: Option<u32>,
-    /// How many elements it is in.
+    /// Number of elements it is in.
     pub depth: u32,
-    /// Index after that of the last element in it.
+    /// Index after its last descendant.
     pub end: u32,
     first_attribute: u32,
     end_attribute: u32,
@@ -68,14 +65,14 @@ pub struct Element {
 pub struct Attribute {
     /// Its name.
     pub name: Span,
-    /// What stands between the quotes.
+    /// The text between the quotes.
     pub value: Span,
-    /// What that says, where references or line ends make it another text.
+    /// The value, if references or line ends make it differ from the text.
     said: Option<Box<str>>,
 }
 
 impl Element {
-    /// Whether its start tag is all of it.
+    /// Whether it is an empty-element tag.
     pub fn is_empty_tag(&self) -> bool {
         self.tag == self.whole
     }
@@ -94,7 +91,7 @@ impl Attribute {
 }
 
 impl Tree {
-    /// The elements right inside another one, in order.
+    /// The direct children of an element, in order.
     pub fn children(&self, parent: usize) -> impl Iterator<Item = usize> + '_ {
         let end = self.elements.get(parent).map_or(0, |element| element.end);
         let mut next = parent + 1;
@@ -105,7 +102,7 @@ impl Tree {
         })
     }
 
-    /// The first attribute of an element with a name.
+    /// The first attribute of an element with this name.
     pub fn attribute(&self, text: &str, element: usize, name: &str) -> Option<&Attribute> {
         let own = self
             .attributes
@@ -114,7 +111,7 @@ impl Tree {
         own.find(|attribute| attribute.name.of(text) == name)
     }
 
-    /// What the value that stands at a span says.
+    /// The attribute value whose text is at a span, with references resolved.
     pub fn said<'t>(&'t self, text: &'t str, value: Span) -> &'t str {
         let at = self
             .attributes
@@ -125,7 +122,7 @@ impl Tree {
         }
     }
 
-    /// The innermost element whose text holds `span`.
+    /// The innermost element whose text contains `span`.
     pub fn element_at(&self, span: Span) -> Option<usize> {
         let holds = |element: &Element| {
             element.whole.start() <= span.start() && span.end() <= element.whole.end()
@@ -140,8 +137,8 @@ impl Tree {
         Some(at)
     }
 
-    /// The leaves: tags, parts of tags and words, but values, comments and instructions whole.
-    pub(super) fn leaves(&self) -> Vec<Span> {
+    /// The leaves: tags, parts of tags and words, but whole values, comments and instructions.
+    pub(super) fn leaves(&self, text: &str) -> Vec<Span> {
         let mut leaves = Vec::new();
         let mut start = 0;
         let mut close = |start: usize, end: usize| {
@@ -149,13 +146,13 @@ impl Tree {
                 leaves.push(Span::new(start, end));
             }
         };
-        let mut gaps = self.gaps.iter().copied().peekable();
-        for whole in self.whole.iter().copied().chain([Span::at(self.end)]) {
+        let mut gaps = gaps(text).peekable();
+        for whole in self.whole.iter().copied().chain([Span::at(text.len())]) {
             while let Some(gap) = gaps.next_if(|gap| gap.start() < whole.start()) {
                 close(start, gap.start());
                 start = gap.end();
             }
-            // White space inside is its own.
+            // White space inside belongs to the leaf.
             while gaps.next_if(|gap| gap.start() < whole.end()).is_some() {}
             close(start, whole.start());
             close(whole.start(), whole.end());
@@ -165,13 +162,15 @@ impl Tree {
     }
 }
 
-/// Reads elements and comments. Document type declarations, and with them entities, are refused.
+impl Follow for Tree {
+    fn follow(&mut self, text: &str, _: [Span; 2]) {
+        *self = parse(text);
+    }
+}
+
+/// Parses elements and comments. Refuses document type declarations, and entities with them.
 pub(super) fn parse(text: &str) -> Tree {
-    let mut tree = Tree {
-        end: text.len(),
-        gaps: gaps(text),
-        ..Tree::default()
-    };
+    let mut tree = Tree::default();
     let scan = scan::scan(text);
     if let Some(refused) = scan.refused {
         tree.fault = Some(refused);
@@ -184,17 +183,17 @@ pub(super) fn parse(text: &str) -> Tree {
     tree
 }
 
-/// Why no text that begins like this is XML, if that can be told.
+/// Returns an error if no text with this beginning can be XML.
 pub(super) fn fault_of_beginning(text: &str) -> Option<Diagnostic> {
-    /// An error this near to the end may be one of where the text is cut: longer than any reference
-    /// and any mark that begins a comment or the like.
+    /// An error this close to the end may be caused by the cut: longer than any reference, and than
+    /// any delimiter of a comment or the like.
     const NEAR: usize = 64;
     let scan = scan::scan(text);
     if scan.refused.is_some() {
         return scan.refused;
     }
     match document(text) {
-        // What follows may close what is open.
+        // What follows may close open elements.
         Ok(_) | Err(Error::NoRootNode | Error::UnclosedRootNode | Error::UnexpectedEndOfStream) => {
             None
         }
@@ -213,7 +212,7 @@ fn document(text: &str) -> Result<Document<'_>, Error> {
     Document::parse_with_options(text, options)
 }
 
-/// The quote that ends a value.
+/// The quote that delimits a value.
 pub(super) fn quote(text: &str, value: Span) -> char {
     if text[value.end()..].starts_with('\'') {
         '\''
@@ -222,8 +221,8 @@ pub(super) fn quote(text: &str, value: Span) -> char {
     }
 }
 
-/// What stands between two of `quote` to say `value`.
-pub(in crate::language) fn spelled(value: &str, quote: char) -> Cow<'_, str> {
+/// Escapes `value` for use between two of `quote`.
+pub(super) fn spelled(value: &str, quote: char) -> Cow<'_, str> {
     let special = |c: char| c == quote || matches!(c, '&' | '<' | '\t' | '\n' | '\r');
     if !value.contains(special) {
         return Cow::Borrowed(value);
@@ -235,7 +234,7 @@ pub(in crate::language) fn spelled(value: &str, quote: char) -> Cow<'_, str> {
             '<' => spelled.push_str("&lt;"),
             '"' if c == quote => spelled.push_str("&quot;"),
             '\'' if c == quote => spelled.push_str("&apos;"),
-            // As themselves they would be read as blanks.
+            // Unescaped, they would be read as blanks.
             '\t' => spelled.push_str("&#9;"),
             '\n' => spelled.push_str("&#10;"),
             '\r' => spelled.push_str("&#13;"),
@@ -250,7 +249,7 @@ impl Tree {
         let mut open: Vec<(roxmltree::NodeId, u32)> = Vec::new();
         for node in document.descendants() {
             let range = node.range();
-            // What was open and holds this no longer is closed.
+            // Open elements that do not contain this node are closed.
             while let Some(&(id, element)) = open.last() {
                 if node.parent().is_some_and(|parent| parent.id() == id) {
                     break;
@@ -296,7 +295,7 @@ impl Tree {
         let mut attributes_end = name_end;
         for attribute in node.attributes() {
             let range = attribute.range();
-            // Not by the lengths that the parser keeps, for it counts only so far.
+            // The parser's own lengths saturate, so they are measured in the text.
             let written = &text[range.clone()];
             let name = written.find([' ', '\t', '\r', '\n', '=']).unwrap_or(0);
             let quote = written.find(['"', '\'']).unwrap_or(0);
@@ -312,7 +311,7 @@ impl Tree {
             }
             attributes_end = range.end;
         }
-        // Declared names of name spaces are none of the attributes.
+        // Namespace declarations are not among the attributes.
         let tag_end = scan::tag_end(text, attributes_end);
         let inner = text[name_end..tag_end].trim_end_matches('>');
         let inner = inner.strip_suffix('/').unwrap_or(inner).trim_end();
@@ -338,7 +337,7 @@ impl Tree {
     }
 }
 
-/// The line end before a place and what indents it, if nothing else stands between.
+/// The line end before an offset and the indentation after it, if nothing else stands between.
 fn lead(text: &str, at: usize) -> Span {
     let before = text[..at].trim_end_matches([' ', '\t']);
     let line = match before.strip_suffix('\n') {
@@ -349,20 +348,12 @@ fn lead(text: &str, at: usize) -> Span {
 }
 
 /// The runs of white space in a text.
-fn gaps(text: &str) -> Vec<Span> {
+fn gaps(text: &str) -> impl Iterator<Item = Span> {
     let bytes = text.as_bytes();
-    let mut gaps: Vec<Span> = Vec::new();
     let mut at = 0;
-    while at < bytes.len() {
-        let Some(width) = white_space(&bytes[at..]) else {
-            at += 1;
-            continue;
-        };
-        match gaps.last_mut() {
-            Some(gap) if gap.end() == at => *gap = Span::new(gap.start(), at + width),
-            _ => gaps.push(Span::new(at, at + width)),
-        }
-        at += width;
-    }
-    gaps
+    std::iter::from_fn(move || {
+        let start = (at..bytes.len()).find(|&at| white_space(&bytes[at..]).is_some())?;
+        at = skip_white_space(bytes, start);
+        Some(Span::new(start, at))
+    })
 }

@@ -1,18 +1,21 @@
-//! A camera as the `camera` element of a `.xml` text.
+//! Conversion between cameras and the `camera` element.
+
+use glam::DVec3;
 
 use super::Source;
 use super::origins::Origins;
 use super::table::{CAMERA, FOCAL_DISTANCE, FOV, HEIGHT, LENS, POSITION, TARGET, UP, WIDTH};
-use crate::language::placed::{self, Placed};
+use crate::language::Answers;
+use crate::language::placed::Placed;
 use crate::language::table::Field;
-use crate::language::view::{Numbers, differ, literal};
+use crate::language::view::{Numbers, differ, literal, take};
 use crate::scene::{Camera, Focus, Lens, Size};
 use crate::text::{Edit, spell_like};
 
-/// The vectors, in the order of [`Origins::factors`].
+/// Indices of the vectors, in the order of [`Origins::factors`].
 const VECTORS: [usize; 3] = [POSITION, TARGET, UP];
 
-/// The fields of the view that are the camera's.
+/// The fields of the view that belong to the camera.
 pub(super) fn fields(origins: &Origins) -> impl Iterator<Item = &'static Field> {
     let factors = origins.factors;
     CAMERA
@@ -24,57 +27,109 @@ pub(super) fn fields(origins: &Origins) -> impl Iterator<Item = &'static Field> 
         })
 }
 
-/// A camera's numbers, in the order of [`fields`]. A vector that the text multiplies by a number
-/// keeps that, unless it can't.
+/// The content of the camera element, with defaults for missing parts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    pub(super) position: DVec3,
+    pub(super) target: DVec3,
+    pub(super) up: DVec3,
+    pub(super) fov: f64,
+    pub(super) focus: Focus,
+    pub(super) size: Size,
+}
+
+impl View {
+    /// The camera it describes.
+    pub(super) fn camera(&self) -> Camera {
+        Camera {
+            eye: self.position,
+            target: self.target,
+            up: self.up,
+            lens: Lens::Perspective(self.fov),
+            pixel_aspect: 1.0,
+            depths: Camera::ALL_DEPTHS,
+            focus: self.focus,
+            size: self.size,
+        }
+    }
+
+    /// The view that describes a camera.
+    fn of(camera: &Camera) -> Self {
+        let (Lens::Perspective(fov) | Lens::Orthographic(fov)) = camera.lens;
+        Self {
+            position: camera.eye,
+            target: camera.target,
+            up: camera.up,
+            fov,
+            focus: camera.focus,
+            size: camera.size,
+        }
+    }
+
+    /// The view with these numbers of its fields.
+    fn said(numbers: &[&[f64]]) -> Self {
+        let vector = |at: usize| {
+            let factor = numbers[at].get(3).copied().unwrap_or(1.0);
+            factor * DVec3::from_slice(numbers[at])
+        };
+        Self {
+            position: vector(POSITION),
+            target: vector(TARGET),
+            up: vector(UP),
+            fov: numbers[FOV][0],
+            focus: Focus {
+                distance: numbers[FOCAL_DISTANCE][0],
+                lens_radius: numbers[LENS][0],
+            },
+            size: Size {
+                width: numbers[WIDTH][0] as u32,
+                height: numbers[HEIGHT][0] as u32,
+            },
+        }
+    }
+
+    /// The numbers of the view's fields. A vector keeps the factor that the text multiplies it by,
+    /// if possible.
+    fn numbers(&self, origins: &Origins) -> Vec<Vec<f64>> {
+        let mut numbers = vec![Vec::new(); CAMERA.len()];
+        let vectors = [self.position, self.target, self.up];
+        for ((at, vector), factor) in VECTORS.into_iter().zip(vectors).zip(origins.factors) {
+            let Some(factor) = factor else {
+                numbers[at] = vector.to_array().into();
+                continue;
+            };
+            let parts = vector / factor;
+            let (parts, factor) = if parts * factor == vector {
+                (parts, factor)
+            } else {
+                (vector, 1.0)
+            };
+            numbers[at] = vec![parts.x, parts.y, parts.z, factor];
+        }
+        numbers[FOV] = vec![self.fov];
+        numbers[FOCAL_DISTANCE] = vec![self.focus.distance];
+        numbers[LENS] = vec![self.focus.lens_radius];
+        numbers[WIDTH] = vec![self.size.width.into()];
+        numbers[HEIGHT] = vec![self.size.height.into()];
+        numbers
+    }
+}
+
+/// The numbers of a camera, in the order of [`fields`].
 pub(super) fn numbers(camera: &Camera, origins: &Origins) -> Numbers {
-    let (Lens::Perspective(angle) | Lens::Orthographic(angle)) = camera.lens;
-    let mut numbers = vec![Vec::new(); CAMERA.len()];
-    let vectors = [camera.eye, camera.target, camera.up];
-    for ((at, vector), factor) in VECTORS.into_iter().zip(vectors).zip(origins.factors) {
-        let Some(factor) = factor else {
-            numbers[at] = vector.to_array().into();
-            continue;
-        };
-        let parts = vector / factor;
-        let (parts, factor) = if parts * factor == vector {
-            (parts, factor)
-        } else {
-            (vector, 1.0)
-        };
-        numbers[at] = vec![parts.x, parts.y, parts.z, factor];
-    }
-    numbers[FOV] = vec![angle];
-    numbers[FOCAL_DISTANCE] = vec![camera.focus.distance];
-    numbers[LENS] = vec![camera.focus.lens_radius];
-    numbers[WIDTH] = vec![camera.size.width.into()];
-    numbers[HEIGHT] = vec![camera.size.height.into()];
-    numbers
+    View::of(camera).numbers(origins).concat()
 }
 
-/// The camera of which these are the numbers; `base` is one of the same text.
-pub(super) fn camera(numbers: &Numbers, base: &Camera) -> Camera {
-    let vector = |at: usize| {
-        let factor = numbers[at].get(3).copied().unwrap_or(1.0);
-        factor * glam::DVec3::from_slice(&numbers[at])
-    };
-    Camera {
-        eye: vector(POSITION),
-        target: vector(TARGET),
-        up: vector(UP),
-        lens: Lens::Perspective(numbers[FOV][0]),
-        focus: Focus {
-            distance: numbers[FOCAL_DISTANCE][0],
-            lens_radius: numbers[LENS][0],
-        },
-        size: Size {
-            width: numbers[WIDTH][0] as u32,
-            height: numbers[HEIGHT][0] as u32,
-        },
-        ..*base
-    }
+/// The camera described by these numbers.
+pub(super) fn camera(numbers: &Numbers, origins: &Origins) -> Camera {
+    let mut rest = &numbers[..];
+    let numbers: Vec<_> = fields(origins)
+        .map(|field| take(&mut rest, field))
+        .collect();
+    View::said(&numbers).camera()
 }
 
-/// The edits after which the text, whose camera is `before`, says `camera`. `fields` are the view's.
+/// Returns the edits that turn the text's camera `before` into `camera`. `fields` are the view's.
 pub(super) fn edits(
     source: &Source,
     fields: &[Placed],
@@ -82,9 +137,9 @@ pub(super) fn edits(
     camera: &Camera,
 ) -> Vec<Edit> {
     let (text, origins) = (&source.text, &source.origins);
-    let (mut old, new) = (numbers(before, origins), numbers(camera, origins));
+    let [mut old, new] = [before, camera].map(|camera| View::of(camera).numbers(origins));
     for (at, factor) in VECTORS.into_iter().zip(origins.factors) {
-        // What the text multiplies by 0 it can say by other numbers only.
+        // A vector that the text multiplies by 0 needs another factor.
         if factor.is_some_and(|factor| differ(factor, old[at][3])) && old[at] != new[at] {
             old[at] = vec![f64::NAN; 4];
         }
@@ -105,5 +160,5 @@ pub(super) fn edits(
             (placed, spelled.collect())
         })
         .collect();
-    placed::edits(source, &wanted)
+    source.edits(&wanted)
 }

@@ -1,10 +1,10 @@
-//! Rays of the camera against the formulas of `.dat`: an image plane of `resolution` units a pixel,
-//! at the focal length before the eye.
+//! Camera rays against the formulas of an image plane: `resolution` units per pixel, at the focal
+//! length in front of the eye.
 
 use super::*;
 use crate::render::camera::Projection;
 
-/// How a camera sees whose image plane has this height at this distance.
+/// The lens of a camera whose image plane has this height at this distance.
 fn lens(is_perspective: bool, height: f64, focal: f64) -> Lens {
     if is_perspective {
         Lens::Perspective(2.0 * (0.5 * height / focal).atan().to_degrees())
@@ -58,7 +58,7 @@ fn pixels_lie_on_the_image_plane() {
     }
 }
 
-/// Another size keeps what the image plane shows from top to bottom, and the shape of the pixels.
+/// Another size keeps the vertical extent of the image plane and the shape of the pixels.
 #[test]
 fn another_size_keeps_the_height_of_the_image_plane() {
     let mut camera = scene(&[], &[]).camera;
@@ -90,11 +90,11 @@ fn panes() -> Scene {
 }
 
 #[test]
-fn what_is_too_near_or_too_far_is_not_seen() {
+fn surfaces_beyond_the_depth_limits_are_invisible() {
     for (depths, expected) in [
         ([0.0, 9.0], 0.1),
         ([0.5, 9.0], 0.1),
-        // Behind what is cut off the rest is seen; inside a pane its back is.
+        // Clipping reveals what is behind, or the back face when inside a pane.
         ([1.5, 9.0], 0.2),
         ([0.995, 9.0], 0.1),
         ([2.5, 9.0], 0.3),
@@ -108,7 +108,7 @@ fn what_is_too_near_or_too_far_is_not_seen() {
             scene.camera.lens = lens;
             let projection = Projection::new(&scene.camera, scene.camera.size);
             let world = world(scene);
-            // In the corner as in the middle: depths are measured along the view.
+            // Corners are like the middle: depths are measured along the view.
             for (x, y) in [(20.0, 15.0), (0.5, 0.5), (39.5, 0.5)] {
                 let (ray, reach) = projection.ray(x, y, || None);
                 let seen = tracer(&world, 8).radiance(&centred(ray, reach));
@@ -118,15 +118,15 @@ fn what_is_too_near_or_too_far_is_not_seen() {
     }
 }
 
-/// Rays that go on are not cut: a mirror shows what is nearer than the nearest distance, and what
-/// is cut off throws its shadow.
+/// Secondary rays are not clipped: a mirror shows objects in front of the near limit, and clipped
+/// objects cast shadows.
 #[test]
-fn only_rays_from_the_eye_are_cut() {
-    let mirror = Phong {
+fn only_camera_rays_are_clipped() {
+    let mirror = Coefficients {
         reflection: 1.0,
         ..BLACK
     };
-    let floor = Phong {
+    let floor = Coefficients {
         diffuse: Rgb::ONE,
         ..BLACK
     };

@@ -1,5 +1,5 @@
-//! Edits of materials and of lights' colours: what is traced anew, and what is kept, make the picture
-//! that tracing all of it would.
+//! Edits of materials and of lights' colours: retracing only dependent pixels gives the same
+//! picture as tracing all of it.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
@@ -14,11 +14,9 @@ use super::super::{Aov, Progress};
 use super::meshes::{mesh, square};
 use super::*;
 use crate::geometry::{Csg, Instance, Node, Operation};
-use crate::scene::{
-    Falloff, Finish, Gloss, Image, Pattern, Shadows, Source, Texture, Textured, Tinted, Utah,
-};
+use crate::scene::{Dielectric, Emitter, Faces, Falloff, Gloss, Highlight, Image, Mirror, Shadows};
 
-/// A job under way, a step at a time.
+/// A job in progress, taken step by step.
 struct Easel {
     job: Job,
     world: World,
@@ -38,7 +36,7 @@ impl Easel {
         }
     }
 
-    /// Goes on with another job, keeping what it may.
+    /// Continues with another job, reusing what it can.
     fn turn_to(&mut self, job: Job) {
         let before = Some(&self.world);
         let world = World::build(Arc::clone(&job.scene), &job.images, before, || false);
@@ -52,7 +50,7 @@ impl Easel {
         self.counts = Counts::default();
     }
 
-    /// Traces until it was asked so often whether to stop; whether it came to the end.
+    /// Traces until cancellation has been polled `patience` times; returns whether it completed.
     fn trace(&mut self, patience: u64) -> bool {
         let asked = AtomicU64::new(0);
         let cancelled = || patience <= asked.fetch_add(1, Ordering::Relaxed);
@@ -74,7 +72,7 @@ impl Easel {
         true
     }
 
-    /// All that is shown of it.
+    /// Everything displayed.
     fn shows(&self) -> impl PartialEq + std::fmt::Debug + use<> {
         let spp = self.job.settings.spp;
         let mut pixels = Vec::new();
@@ -96,65 +94,66 @@ fn colour(random: &mut Random) -> Rgb {
     0.5 * (random.point(1.0) + 1.0)
 }
 
-/// Any material of any kind.
+/// A random material.
 fn material(random: &mut Random) -> Material {
-    let tinted = |colour| Tinted {
-        colour,
-        texture: None,
-    };
     let glass = one_of(&[0.0, 0.0, 0.7], random);
     let mirror = one_of(&[0.0, 0.0, 0.5], random);
     match one_of(&[0, 1, 1, 1, 1, 2, 2, 3], random) {
-        0 => Material::Flat(colour(random)),
-        1 => Material::Phong(Phong {
-            ambient: Rgb::splat(0.1),
-            diffuse: colour(random),
-            specular: Rgb::splat(0.3),
-            exponent: 10.0,
-            reflection: mirror,
-            transmission: glass,
-            index: 1.3,
-            colour_texture: one_of(&[None, None, Some(0)], random),
-            bump: None,
-        }),
+        0 => Material::unlit(colour(random)),
+        1 => {
+            let material = Coefficients {
+                ambient: Rgb::splat(0.1),
+                diffuse: colour(random),
+                specular: Rgb::splat(0.3),
+                exponent: 10.0,
+                reflection: mirror,
+                transmission: glass,
+                index: 1.3,
+            };
+            let texture = one_of(&[None, None, Some(0)], random);
+            painted(material, texture)
+        }
         kind => {
-            let finish = if kind == 2 {
-                Finish::Blinn(Gloss {
-                    diffuse: tinted(colour(random)),
-                    specular: tinted(Rgb::splat(0.5)),
-                    glossiness: Textured {
-                        value: 20.0,
-                        texture: None,
-                    },
+            let diffuse = colour(random);
+            let highlight = if kind == 2 {
+                Highlight::Blinn(Gloss {
+                    specular: Rgb::splat(0.5),
+                    exponent: 20.0,
                 })
             } else {
-                Finish::Microfacet {
-                    colour: tinted(colour(random)),
-                    roughness: Textured {
-                        value: random.next(),
-                        texture: None,
-                    },
-                    metallic: Textured {
-                        value: random.next(),
-                        texture: None,
-                    },
+                Highlight::Microfacet {
+                    roughness: random.next(),
+                    metallic: random.next(),
                 }
             };
-            Material::Utah(Box::new(Utah {
-                finish,
-                reflection: tinted(Rgb::splat(mirror)),
-                reflection_spread: one_of(&[0.0, 0.2], random),
-                refraction: tinted(Rgb::splat(glass)),
-                refraction_spread: 0.0,
-                index: 1.3,
-                absorption: colour(random),
-                emission: tinted(one_of(&[Rgb::ZERO, Rgb::splat(0.2)], random)),
-            }))
+            let spread = one_of(&[0.0, 0.2], random);
+            Material {
+                diffuse,
+                highlight,
+                mirror: Mirror {
+                    tint: Rgb::splat(mirror),
+                    spread,
+                    faces: Faces::Front,
+                },
+                dielectric: Dielectric {
+                    tint: Rgb::splat(glass),
+                    index: 1.3,
+                    absorption: colour(random),
+                    ..Dielectric::OPAQUE
+                },
+                emission: one_of(&[Rgb::ZERO, Rgb::splat(0.2)], random),
+                lit: if glass == 0.0 {
+                    Faces::Both
+                } else {
+                    Faces::Front
+                },
+                ..Material::BLACK
+            }
         }
     }
 }
 
-/// A leaning square of two triangles, called by two tags.
+/// A slanted square of two triangles with different tags.
 fn leaf(centre: DVec3, size: f64, tags: [u32; 2]) -> Shape {
     let columns = [DVec3::new(1.0, 0.0, 1.0), DVec3::Y, DVec3::Z];
     let frame = Affine::of_matrix(columns.map(|column| size * column), centre);
@@ -165,7 +164,7 @@ fn leaf(centre: DVec3, size: f64, tags: [u32; 2]) -> Shape {
     )))
 }
 
-/// A ball without a bite, each of a tag.
+/// A ball minus another, each with its own tag.
 fn bitten(centre: DVec3, size: f64, tags: [u32; 2]) -> Shape {
     let ball = |off: f64, tag| Node::Leaf {
         shape: sphere((centre + off * size).to_array(), size),
@@ -182,7 +181,7 @@ fn bitten(centre: DVec3, size: f64, tags: [u32; 2]) -> Shape {
     ])))
 }
 
-/// A floor and solids of all kinds above it, each of a material of its own or of two.
+/// A floor with solids of all kinds above it, each with one or two materials of its own.
 fn still(count: usize, random: &mut Random) -> Scene {
     let materials: Vec<_> = (0..count + 2).map(|_| material(random)).collect();
     let mut objects = vec![Object {
@@ -212,12 +211,13 @@ fn still(count: usize, random: &mut Random) -> Scene {
         let lamp = Light::point(from, colour(random));
         match one_of(&[0, 1, 2, 3, 4], random) {
             0 => Light {
-                source: Source::Distant(from.normalize()),
+                emitter: Emitter::Distant(from.normalize()),
                 ..lamp
             },
             1 => Light {
-                source: Source::Point {
+                emitter: Emitter::Point {
                     position: from,
+                    radius: 0.0,
                     falloff,
                 },
                 ..lamp
@@ -227,7 +227,11 @@ fn still(count: usize, random: &mut Random) -> Scene {
                 ..lamp
             },
             3 => Light {
-                radius: 0.5,
+                emitter: Emitter::Point {
+                    position: from,
+                    radius: 0.5,
+                    falloff: Falloff::NONE,
+                },
                 ..lamp
             },
             _ => lamp,
@@ -237,16 +241,13 @@ fn still(count: usize, random: &mut Random) -> Scene {
     Scene {
         materials,
         objects: objects.into_iter().collect(),
-        textures: vec![Texture {
-            repeat: DVec2::splat(8.0),
-            pattern: Pattern::Checker([Rgb::ZERO, Rgb::ONE]),
-        }],
+        textures: vec![checker(DVec2::splat(8.0), [Rgb::ZERO, Rgb::ONE])],
         ambient: Rgb::splat(0.5),
         ..scene(&[], &lights)
     }
 }
 
-/// The scene with another material or two, or light of another colour.
+/// The scene with one or two materials, or the colour of a light, changed.
 fn edited(scene: &Scene, random: &mut Random) -> Scene {
     let mut scene = scene.clone();
     if random.next() < 0.15 {
@@ -262,7 +263,7 @@ fn edited(scene: &Scene, random: &mut Random) -> Scene {
 }
 
 #[test]
-fn a_thousand_edits_make_the_pictures_that_tracing_all_would() {
+fn a_thousand_edits_match_complete_renders() {
     let mut random = Random(51);
     let (mut edits, mut traced, mut all) = (0, 0, 0);
     while edits < 1000 {
@@ -290,7 +291,7 @@ fn a_thousand_edits_make_the_pictures_that_tracing_all_would() {
             edits += 1;
             let patience = (200.0 * random.next()) as u64;
             if random.next() < 0.4 && !easel.trace(patience) {
-                // The next edit comes before its picture.
+                // The next edit comes before this picture.
                 continue;
             }
             easel.trace(u64::MAX);
@@ -304,10 +305,10 @@ fn a_thousand_edits_make_the_pictures_that_tracing_all_would() {
     assert!(2 * traced < all, "{traced} rays of {all}");
 }
 
-/// Nested glass that mirrors, where rays double until there are too many, beside a matte ball.
+/// Nested reflective glass, whose rays double until they exceed the budget, beside a matte ball.
 #[test]
 fn samples_over_their_budget_are_counted_once() {
-    let splitting = Phong {
+    let splitting = Coefficients {
         reflection: 1.0,
         transmission: 1.0,
         index: 1.0,
@@ -322,11 +323,11 @@ fn samples_over_their_budget_are_counted_once() {
     };
     let job_with = |levels: [f64; 2]| {
         let mut scene = scene(&balls, &[]);
-        scene.materials[0] = Material::Phong(Phong {
+        scene.materials[0] = Material::from(Coefficients {
             ambient: Rgb::splat(levels[0]),
             ..splitting
         });
-        scene.materials[6] = Material::Phong(grey(levels[1]));
+        scene.materials[6] = Material::from(grey(levels[1]));
         job(&Arc::new(scene), settings)
     };
     let mut easel = Easel::new(job_with([0.0, 0.5]));
@@ -342,7 +343,7 @@ fn samples_over_their_budget_are_counted_once() {
 }
 
 #[test]
-fn a_renderer_keeps_what_an_edit_does_not_touch() {
+fn a_renderer_keeps_pixels_that_an_edit_does_not_affect() {
     let mut random = Random(52);
     let (renderer, woken) = renderer(2);
     let settings = settings(61, 37, 5);
@@ -351,7 +352,7 @@ fn a_renderer_keeps_what_an_edit_does_not_touch() {
     finish(&renderer, &woken, first);
     let (mut traced, mut all) = (0, 0);
     for _ in 0..12 {
-        // One is cancelled by the next as soon as it shows something.
+        // Each is cancelled by the next as soon as it has shown a frame.
         scene = Arc::new(edited(&scene, &mut random));
         restart(&renderer, job(&scene, settings));
         woken.recv().expect("a first frame");
@@ -377,7 +378,7 @@ fn a_renderer_keeps_what_an_edit_does_not_touch() {
 }
 
 #[test]
-fn other_edits_begin_anew() {
+fn other_edits_trace_everything_again() {
     let mut random = Random(53);
     let scene = still(8, &mut random);
     let before = Easel::new(job(&Arc::new(scene.clone()), settings(8, 6, 1)));
@@ -418,9 +419,14 @@ fn other_edits_begin_anew() {
         |job: &mut Job| job.images = [("red".to_owned(), Arc::clone(&red))].into_iter().collect();
     assert_eq!(of_job(&images), None);
     assert_eq!(of_scene(&|scene| scene.ambient.x += 0.1), None);
-    assert_eq!(of_scene(&|scene| scene.lights[0].radius += 1.0), None);
+    assert_eq!(of_scene(&|scene| scene.lights[0].scale += 1.0), None);
+    let elsewhere = |scene: &mut Scene| scene.lights[0].emitter = Emitter::Ambient;
+    assert_eq!(of_scene(&elsewhere), None);
     assert_eq!(of_scene(&|scene| scene.lights.truncate(1)), None);
-    assert_eq!(of_scene(&|scene| scene.textures[0].repeat.x = 3.0), None);
+    assert_eq!(
+        of_scene(&|scene| scene.textures[0].inverse.matrix3.x_axis.x = 3.0),
+        None
+    );
     let fewer = |scene: &mut Scene| {
         scene.objects = scene.objects.iter().take(3).cloned().collect();
     };
@@ -431,12 +437,12 @@ fn other_edits_begin_anew() {
     assert_eq!(of_scene(&moved), None);
     let dimmed = |scene: &mut Scene| scene.lights[1].colour *= 0.5;
     assert_eq!(of_scene(&dimmed), Some(Touched::light(1)));
-    // The floor's material under another number is the same.
+    // Renumbering the floor's material changes nothing.
     let renumbered = |scene: &mut Scene| {
         scene.objects[0].material = scene.materials.len() as u32;
         scene.materials.push(scene.materials[0].clone());
     };
     assert_eq!(of_scene(&renumbered), Some(Touched::default()));
-    let other = |scene: &mut Scene| scene.materials[0] = Material::Flat(Rgb::new(0.1, 0.2, 0.3));
+    let other = |scene: &mut Scene| scene.materials[0] = Material::unlit(Rgb::new(0.1, 0.2, 0.3));
     assert_eq!(of_scene(&other), Some(Touched::object(0)));
 }

@@ -1,22 +1,25 @@
 //! Lights of every kind against their formulas at random points.
 
 use super::*;
-use crate::scene::{Falloff, Shadows, Source};
+use crate::scene::{Emitter, Falloff, Shadows};
 
-const TINTED: Phong = Phong {
+const TINTED: Coefficients = Coefficients {
     diffuse: Rgb::new(0.5, 0.25, 0.125),
     specular: Rgb::new(0.25, 1.0, 4.0),
     exponent: 3.0,
     ..BLACK
 };
 
+/// A white light at the origin, which tests modify.
+const WHITE: Light = Light::point(DVec3::ZERO, Rgb::ONE);
+
 /// A floor with its top in the plane y = 0.
-fn floor() -> (Shape, Phong) {
+fn floor() -> (Shape, Coefficients) {
     (cuboid([-100.0, -1.0, -100.0], [200.0, 1.0, 200.0]), TINTED)
 }
 
-/// The radiance of a point of the floor in one light.
-fn lit(light: Light, point: DVec3, eye: DVec3, objects: &[(Shape, Phong)]) -> Rgb {
+/// The radiance of a point of the floor under one light.
+fn lit(light: Light, point: DVec3, eye: DVec3, objects: &[(Shape, Coefficients)]) -> Rgb {
     let mut all = vec![floor()];
     all.extend_from_slice(objects);
     let mut scene = scene(&all, &[light]);
@@ -26,7 +29,7 @@ fn lit(light: Light, point: DVec3, eye: DVec3, objects: &[(Shape, Phong)]) -> Rg
         .radiance
 }
 
-/// Phong's model on the floor for light from a direction.
+/// Phong's model for the floor and light from a direction.
 fn phong(point: DVec3, eye: DVec3, to_light: DVec3) -> Rgb {
     let view = (eye - point).normalize();
     let mirrored = DVec3::new(-to_light.x, to_light.y, -to_light.z);
@@ -57,8 +60,9 @@ fn point_lights_fall_off_with_distance_and_angle() {
         let direction = random.direction();
         let colour = DVec3::new(1.0, 0.5, 2.0);
         let light = Light {
-            source: Source::Point {
+            emitter: Emitter::Point {
                 position,
+                radius: 0.0,
                 falloff: Falloff {
                     radial,
                     spot: is_spot.then_some((direction, exponent)),
@@ -66,7 +70,7 @@ fn point_lights_fall_off_with_distance_and_angle() {
             },
             colour,
             shadows: Shadows::Cast,
-            radius: 0.0,
+            ..WHITE
         };
         let way = point - position;
         let distance = way.length();
@@ -88,9 +92,9 @@ fn point_lights_fall_off_with_distance_and_angle() {
     assert!(500 < dark, "{dark} behind a spot light");
 }
 
-/// Where a0 + a1 d + a2 d² is not above 0 the light does not fall off.
+/// Light does not fall off where a0 + a1 d + a2 d² is not positive.
 #[test]
-fn without_a_denominator_there_is_no_falloff() {
+fn a_denominator_that_is_not_positive_disables_falloff() {
     for (radial, share) in [
         ([0.0, 0.0, 0.0], 1.0),
         ([-1.0, 0.0, 0.0], 1.0),
@@ -98,15 +102,16 @@ fn without_a_denominator_there_is_no_falloff() {
         ([4.0, -1.0, 0.0], 0.5),
         ([0.0, 0.0, 0.25], 1.0),
     ] {
-        let source = Source::Point {
+        let emitter = Emitter::Point {
             position: DVec3::new(0.0, 2.0, 0.0),
+            radius: 0.0,
             falloff: Falloff { radial, spot: None },
         };
         let light = Light {
-            source,
+            emitter,
             colour: Rgb::ONE,
             shadows: Shadows::Cast,
-            radius: 0.0,
+            ..WHITE
         };
         let eye = DVec3::new(1.0, 3.0, 0.0);
         let expected = share * phong(DVec3::ZERO, eye, DVec3::Y);
@@ -122,10 +127,10 @@ fn distant_lights_are_the_same_everywhere() {
         let eye = point + random.in_cube().with_y(1.5);
         let toward = random.direction();
         let light = Light {
-            source: Source::Distant(toward),
+            emitter: Emitter::Distant(toward),
             colour: Rgb::ONE,
             shadows: Shadows::Cast,
-            radius: 0.0,
+            ..WHITE
         };
         let expected = if 0.0 < toward.y {
             phong(point, eye, toward)
@@ -136,37 +141,38 @@ fn distant_lights_are_the_same_everywhere() {
     }
 }
 
-/// Each light says for itself whether things stand in its way; what is far behind a point light
-/// does not, but no light is behind a distant one.
+/// Shadows can be turned off per light. Objects beyond a point light do not block it, but nothing
+/// is beyond a distant light.
 #[test]
-fn shadows_are_each_lights_own() {
-    let point = Source::Point {
+fn shadows_are_set_per_light() {
+    let point = Emitter::Point {
         position: DVec3::new(0.0, 4.0, 0.0),
+        radius: 0.0,
         falloff: Falloff::NONE,
     };
     let ball = |height: f64, transmission| {
-        let material = Phong {
+        let material = Coefficients {
             transmission,
             ..BLACK
         };
         (sphere([0.0, height, 0.0], 0.5), material)
     };
-    for (source, shadows, height, transmission, share) in [
+    for (emitter, shadows, height, transmission, share) in [
         (point, Shadows::Cast, 2.0, 0.0, 0.0),
         (point, Shadows::Cast, 2.0, 0.25, 0.25),
         (point, Shadows::Off, 2.0, 0.0, 1.0),
         (point, Shadows::Cast, 6.0, 0.0, 1.0),
-        (Source::Distant(DVec3::Y), Shadows::Cast, 6.0, 0.0, 0.0),
-        (Source::Distant(DVec3::Y), Shadows::Cast, 1e9, 0.0, 0.0),
-        (Source::Distant(DVec3::Y), Shadows::Cast, 6.0, 0.25, 0.25),
-        (Source::Distant(DVec3::Y), Shadows::Off, 6.0, 0.0, 1.0),
-        (Source::Everywhere, Shadows::Cast, 6.0, 0.0, 0.0),
+        (Emitter::Distant(DVec3::Y), Shadows::Cast, 6.0, 0.0, 0.0),
+        (Emitter::Distant(DVec3::Y), Shadows::Cast, 1e9, 0.0, 0.0),
+        (Emitter::Distant(DVec3::Y), Shadows::Cast, 6.0, 0.25, 0.25),
+        (Emitter::Distant(DVec3::Y), Shadows::Off, 6.0, 0.0, 1.0),
+        (Emitter::Ambient, Shadows::Cast, 6.0, 0.0, 0.0),
     ] {
         let light = Light {
-            source,
+            emitter,
             colour: Rgb::ONE,
             shadows,
-            radius: 0.0,
+            ..WHITE
         };
         let eye = DVec3::new(2.0, 1.0, 0.0);
         let expected = share * phong(DVec3::ZERO, eye, DVec3::Y);

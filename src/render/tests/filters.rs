@@ -1,13 +1,13 @@
-//! What a pixel takes of its surroundings.
+//! Pixel filters.
 
 use std::f64::consts::PI;
 
 use super::*;
 
-/// Where the white half of the picture begins; pixels are one unit wide.
+/// Where the white half of the picture begins, in pixels, which are one unit wide.
 const EDGE: f64 = 0.3;
 
-/// A picture of a straight edge, eight pixels across, black to the left of it.
+/// A picture of a vertical edge, eight pixels wide, black to its left.
 fn edge(filter: Filter, spp: u32) -> Arc<Frame> {
     let white = cuboid([EDGE, -50.0, -1.0], [100.0, 100.0, 1.0]);
     let mut scene = scene(&[(white, grey(1.0))], &[]);
@@ -32,7 +32,7 @@ fn edge(filter: Filter, spp: u32) -> Arc<Frame> {
     finish(&renderer, &woken, generation)
 }
 
-/// The share of a filter beyond `from`, by its weights at the middles of many parts.
+/// The fraction of a filter beyond `from`, integrated over midpoints of its weights.
 fn beyond(from: f64, weight: impl Fn(f64) -> f64) -> f64 {
     const PARTS: u32 = 30_000;
     let sum = |from: f64| -> f64 {
@@ -42,7 +42,7 @@ fn beyond(from: f64, weight: impl Fn(f64) -> f64) -> f64 {
     sum(from) / sum(-1.5)
 }
 
-/// The weights are written as the definitions have them.
+/// The weights are written as in the definitions.
 #[test]
 fn an_edge_is_as_wide_as_the_filter() {
     let gaussian = |x: f64| (-x * x / (2.0 * 0.25)).exp();
@@ -66,9 +66,9 @@ fn an_edge_is_as_wide_as_the_filter() {
     check(Filter::BlackmanHarris, &window);
 }
 
-/// The first sample is each pixel's centre, whatever the filter.
+/// The first sample is at each pixel's centre with every filter.
 #[test]
-fn one_sample_is_the_same_by_every_filter() {
+fn one_sample_is_the_same_with_every_filter() {
     let boxed = edge(Filter::Box, 1);
     for filter in [Filter::Gaussian, Filter::BlackmanHarris] {
         assert_eq!(edge(filter, 1).pixels, boxed.pixels, "{filter:?}");

@@ -1,4 +1,4 @@
-//! Pictures of what is seen first, apart from light.
+//! AOVs of the first surface.
 
 use super::*;
 use crate::render::Aov;
@@ -8,9 +8,9 @@ const SIZE: Size = Size {
     height: 31,
 };
 
-/// What the pixels of two balls are made of, and the picture.
+/// A frame of two balls with the values of an AOV.
 fn values(aov: Aov, spp: u32) -> Arc<Frame> {
-    let tinted = |red| Phong {
+    let tinted = |red| Coefficients {
         diffuse: Rgb::new(red, 0.5, 2.0),
         ..grey(1.0)
     };
@@ -22,7 +22,7 @@ fn values(aov: Aov, spp: u32) -> Arc<Frame> {
         &[],
     );
     scene.camera.size = SIZE;
-    // What is skipped before the nearest surface counts as way.
+    // The part before the near limit counts toward the distance.
     scene.camera.depths = [1.5, 100.0];
     let (renderer, woken) = renderer(2);
     let job = Job {
@@ -45,7 +45,7 @@ fn at(x: usize, y: usize) -> usize {
 
 const CENTRE: usize = 15 * 41 + 20;
 
-/// From (0, 0, 5) the unit ball's points are at the roots of |o + t d| = 1.
+/// From (0, 0, 5), hits on the unit ball are at the roots of |o + t d| = 1.
 #[test]
 fn depth_is_the_distance_from_the_eye() {
     let frame = values(Aov::Depth, 1);
@@ -71,7 +71,7 @@ fn depth_is_the_distance_from_the_eye() {
 }
 
 #[test]
-fn normals_objects_and_albedos_are_the_first_surface_s() {
+fn normals_objects_and_albedos_belong_to_the_first_surface() {
     for spp in [1, 4] {
         let normals = values(Aov::Normal, spp);
         if spp == 1 {
@@ -94,7 +94,7 @@ fn normals_objects_and_albedos_are_the_first_surface_s() {
 }
 
 #[test]
-fn light_is_told_unclamped_where_it_is_asked_for() {
+fn radiance_is_returned_unclamped_on_request() {
     let bright = scene(&[(sphere([0.0; 3], 1.0), grey(3.5))], &[]);
     let (renderer, woken) = renderer(1);
     for (frames, told) in [(Frames::LastWithValues, true), (Frames::Last, false)] {

@@ -1,11 +1,11 @@
-//! What holds of any scene: the order of coincident surfaces, and pictures of scenes that are
-//! scaled or moved.
+//! Invariants of all scenes: the order of coincident surfaces, and pictures of scaled or moved
+//! scenes.
 
 use super::*;
 use crate::geometry::lanes::Level;
 use crate::geometry::{Cone, Cylinder, Ellipsoid, ulp};
 
-/// A solid of any kind, before it is placed.
+/// A solid of any kind, before transformation.
 #[derive(Clone, Copy, Debug)]
 struct Solid {
     kind: u32,
@@ -26,11 +26,11 @@ impl Solid {
         }
     }
 
-    /// One of a few whose faces often coincide, but for rounding, with those of others.
+    /// A solid whose faces often coincide with those of others, up to rounding.
     fn stacked(random: &mut Random) -> Self {
         let mut place = || f64::from((4.0 * random.next()) as i32 - 2);
         let (x, y, z) = (place(), place(), place());
-        // A turned lattice: its coordinates have no short binary fractions.
+        // A rotated lattice, whose coordinates have no short binary fractions.
         let [along, up, across] = [
             DVec3::new(0.8, 0.0, -0.6),
             DVec3::Y,
@@ -60,9 +60,9 @@ impl Solid {
     }
 }
 
-/// Solids of all kinds, matte, mirrors and glass, and two lights.
+/// Solids of all kinds, matte, mirroring and glass, and two lights.
 struct Still {
-    solids: Vec<(Solid, Phong)>,
+    solids: Vec<(Solid, Coefficients)>,
     lights: [DVec3; 2],
 }
 
@@ -70,7 +70,7 @@ impl Still {
     fn random(random: &mut Random) -> Self {
         let count = 3 + (9.0 * random.next()) as usize;
         let mut solid = || {
-            let material = Phong {
+            let material = Coefficients {
                 diffuse: 0.5 * (random.point(1.0) + 1.0),
                 specular: Rgb::splat(0.3),
                 exponent: 10.0,
@@ -87,7 +87,7 @@ impl Still {
         }
     }
 
-    /// The scene enlarged about the origin, then moved.
+    /// The scene scaled about the origin, then moved.
     fn placed(&self, size: f64, by: DVec3) -> Arc<Scene> {
         let place = |point: DVec3| size * point + by;
         let objects: Vec<_> = self
@@ -113,7 +113,7 @@ fn picture(scene: &Arc<Scene>) -> Arc<Frame> {
 
 /// SPEC: of the hits within 64 ulp of the least distance the first object of the file wins.
 #[test]
-fn of_hits_that_are_one_the_first_in_the_file_is_met() {
+fn of_coincident_hits_the_first_in_the_file_wins() {
     let mut random = Random(11);
     let mut ties = 0;
     for round in 0..60 {
@@ -148,10 +148,10 @@ fn of_hits_that_are_one_the_first_in_the_file_is_met() {
     assert!(1000 < ties, "the test saw {ties} ties");
 }
 
-/// Camera samples bring the same, to the bit, with the vectors that every machine of its kind has and
-/// with those that this one has besides, side by side and each alone.
+/// Camera samples have bitwise the same results with baseline vectors and with the best ones of
+/// this machine, in packets and alone.
 #[test]
-fn radiance_is_the_same_with_any_vectors_and_in_any_company() {
+fn radiance_does_not_depend_on_vectors_or_packets() {
     let mut random = Random(14);
     for _ in 0..40 {
         let scene = Still::random(&mut random).placed(1.0, DVec3::ZERO);
@@ -163,7 +163,7 @@ fn radiance_is_the_same_with_any_vectors_and_in_any_company() {
                 centred(Ray { origin, direction }, f64::INFINITY)
             })
             .collect();
-        // Which of several objects blocks a shadow ray, and is touched, depends on its company.
+        // Which of several objects blocks a shadow ray, and is recorded, depends on the packet.
         let brought = |seen: &Seen| (seen.radiance, seen.object);
         let mut best = Vec::new();
         tracer(&world, 8).trace(&samples, &mut best);
@@ -178,9 +178,9 @@ fn radiance_is_the_same_with_any_vectors_and_in_any_company() {
     }
 }
 
-/// SPEC: a scene scaled by 2^k is the same picture to the bit.
+/// SPEC: scaling a scene by 2^k leaves the picture bitwise the same.
 #[test]
-fn a_scene_scaled_by_a_power_of_two_is_the_same_picture() {
+fn scaling_a_scene_by_a_power_of_two_keeps_the_picture() {
     let mut random = Random(12);
     for _ in 0..12 {
         let still = Still::random(&mut random);
@@ -194,10 +194,10 @@ fn a_scene_scaled_by_a_power_of_two_is_the_same_picture() {
     }
 }
 
-/// SPEC: a scene moved by 1e6 differs in at most 0.1 % of pixels by more than 1 level, all of them
-/// at edges.
+/// SPEC: moving a scene by 1e6 changes at most 0.1 % of the pixels by more than 1 level, all of
+/// them at edges.
 #[test]
-fn a_scene_moved_far_away_is_nearly_the_same_picture() {
+fn moving_a_scene_far_away_nearly_keeps_the_picture() {
     let mut random = Random(13);
     for _ in 0..30 {
         let still = Still::random(&mut random);

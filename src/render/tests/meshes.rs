@@ -1,4 +1,4 @@
-//! Meshes in scenes: their structures, materials, normals and shadows.
+//! Meshes in scenes: structures, materials, normals and shadows.
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,8 +8,8 @@ use crate::geometry::{Attribute, Instance, Mesh, MeshParts, Plane, SlotRun};
 use crate::render::structures::{Search, Structures};
 use crate::scene::Objects;
 
-/// A closed, bumpy ball of `rings` rings with a place of its own for each corner, its poles fans of
-/// many needles.
+/// A closed, bumpy ball of `rings` rings with separate positions for each corner; its poles are
+/// fans of many needles.
 fn ball(rings: u32) -> MeshParts {
     let around = 2 * rings;
     let corner = |ring: u32, step: u32| match ring {
@@ -58,7 +58,7 @@ fn as_shape(instance: &Instance) -> Shape {
     Shape::Mesh(Box::new(instance.clone()))
 }
 
-/// One upright square of two triangles around the origin, of edge 2, with slots 0 and 1.
+/// An upright square of two triangles around the origin, with edge 2 and slots 0 and 1.
 pub(super) fn square() -> MeshParts {
     let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     MeshParts {
@@ -74,7 +74,7 @@ pub(super) fn square() -> MeshParts {
     }
 }
 
-/// Columns and translations that rays are tried with: none, long and far, mirrored and sheared.
+/// Columns and translations of test transforms: identity, large and distant, mirrored and sheared.
 fn images() -> [([DVec3; 3], DVec3); 3] {
     let [x, y, z] = DVec3::AXES;
     [
@@ -85,7 +85,7 @@ fn images() -> [([DVec3; 3], DVec3); 3] {
 }
 
 #[test]
-fn the_structure_finds_what_every_triangle_tried_finds() {
+fn the_structure_matches_brute_force() {
     let mut random = Random(1);
     let mesh = mesh(ball(12));
     for (columns, translation) in images() {
@@ -107,7 +107,7 @@ fn the_structure_finds_what_every_triangle_tried_finds() {
     }
 }
 
-/// From inside, at random, at corners and at edges.
+/// Rays from inside, in random directions and through corners and edges.
 #[test]
 fn a_closed_mesh_has_no_gaps() {
     let mut random = Random(2);
@@ -168,7 +168,7 @@ fn instances_share_a_structure_and_edits_keep_it() {
     );
     let trees: Vec<_> = first.trees().cloned().collect();
     assert_eq!(trees.len(), 2);
-    // Moved, and in another order; the other mesh has gone.
+    // Moved and reordered; the other mesh has gone.
     let edited = build(&objects(vec![at(&round, 1.0)]), Some(&first));
     let kept: Vec<_> = edited.trees().collect();
     assert!(kept.len() == 1 && Arc::ptr_eq(kept[0], &trees[0]));
@@ -204,16 +204,16 @@ fn each_triangle_has_its_material() {
     }
 }
 
-/// A light straight ahead of a flat square whose normals lean by 60° all over: cosine ½ in front,
-/// and behind, where the normal is turned, cosine ½ of a light straight behind.
+/// A flat square whose normals are all tilted by 60°: the cosine is ½ for a light straight ahead,
+/// and on the back face, where the normal is flipped, for a light straight behind.
 #[test]
-fn light_falls_on_the_normals_of_the_corners() {
+fn light_uses_the_normals_of_the_corners() {
     let mut parts = square();
     parts.normals = Attribute {
         values: vec![DVec3::new(0.75_f64.sqrt(), 0.0, 0.5)],
         corners: vec![[0; 3]; 2],
     };
-    let matte = Phong {
+    let matte = Coefficients {
         diffuse: Rgb::ONE,
         ..BLACK
     };
@@ -229,19 +229,18 @@ fn light_falls_on_the_normals_of_the_corners() {
     }
 }
 
-/// An opaque mesh keeps light off, whichever of its triangles is in the way; a clear one lets its
-/// part through once.
+/// An opaque mesh blocks light with any of its triangles; a transparent one attenuates it once.
 #[test]
 fn meshes_cast_shadows() {
     let floor = Affine::of_matrix([4.0 * DVec3::X, 4.0 * DVec3::Y, DVec3::Z], -DVec3::Z);
     let floor = Shape::Plane(Box::new(Plane(floor.expect("a volume"))));
-    let matte = Phong {
+    let matte = Coefficients {
         diffuse: Rgb::ONE,
         ..BLACK
     };
     let mesh = mesh(ball(8));
     for (transmission, expected) in [(0.0, 0.0), (0.5, 0.5)] {
-        let veil = Phong {
+        let veil = Coefficients {
             transmission,
             ..BLACK
         };
@@ -262,9 +261,9 @@ fn meshes_cast_shadows() {
     }
 }
 
-/// Everywhere but at outlines.
+/// Equal except at outlines.
 #[test]
-fn an_instance_looks_like_the_mesh_baked_into_the_world() {
+fn an_instance_looks_like_a_transformed_mesh() {
     let columns = [DVec3::X, 0.6 * DVec3::Y - 0.8 * DVec3::Z, 0.8 * DVec3::Y];
     let moved = DVec3::new(0.3, -0.2, 0.1);
     let parts = ball(10);
@@ -273,7 +272,7 @@ fn an_instance_looks_like_the_mesh_baked_into_the_world() {
         let [x, y, z] = columns;
         *place = moved + place.x * x + place.y * y + place.z * z;
     }
-    let material = Phong {
+    let material = Coefficients {
         diffuse: Rgb::splat(0.7),
         specular: Rgb::splat(0.3),
         exponent: 20.0,

@@ -1,10 +1,12 @@
-//! Pictures whose pixels are known on paper.
+//! Tests of pixels whose values are known analytically.
 
 mod cameras;
 mod edits;
 mod falloff;
 mod filters;
 mod first_hits;
+mod glass;
+mod highlights;
 mod invariance;
 mod meshes;
 mod noise;
@@ -13,8 +15,8 @@ mod paths;
 mod progress;
 mod shading;
 mod solids;
+mod spread;
 mod textures;
-mod utah;
 mod visibility;
 
 use std::sync::Arc;
@@ -29,10 +31,11 @@ use super::tracer::Tracer;
 use super::world::World;
 use super::{Filter, Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
 use crate::geometry::{Affine, Cone, Cuboid, Ellipsoid, Ray, Shape, Sphere};
+use crate::language::coefficients::Coefficients;
 use crate::language::{Language, Source};
 use crate::scene::{
-    Camera, Focus, Images, Integrator, Lens, Light, Material, Meshes, Object, Phong, Rgb, Scene,
-    Setting, Size, Transfer,
+    Camera, Focus, Images, Integrator, Lens, Light, Maps, Material, Meshes, Object, Pattern, Rgb,
+    Scene, Setting, Side, Size, Texture, Tinted, Transfer,
 };
 
 impl<C: Fn() -> bool> Tracer<'_, C> {
@@ -61,7 +64,7 @@ impl Random {
     }
 }
 
-const BLACK: Phong = Phong {
+const BLACK: Coefficients = Coefficients {
     ambient: Rgb::ZERO,
     diffuse: Rgb::ZERO,
     specular: Rgb::ZERO,
@@ -69,17 +72,42 @@ const BLACK: Phong = Phong {
     reflection: 0.0,
     transmission: 0.0,
     index: 1.0,
-    colour_texture: None,
-    bump: None,
 };
 
-/// A material that only sends back this share of ambient light, which is 1 in [`scene`]: it shows
-/// as its own grey wherever it is seen, lit or not.
-fn grey(level: f64) -> Phong {
-    Phong {
+/// A material that only reflects this fraction of ambient light, which is 1 in [`scene`]: its grey
+/// is the same wherever it is visible.
+fn grey(level: f64) -> Coefficients {
+    Coefficients {
         ambient: Rgb::splat(level),
         ..BLACK
     }
+}
+
+/// A material with one texture in all slots of its own colours.
+fn painted(material: impl Into<Material>, texture: Option<u32>) -> Material {
+    let maps = Maps {
+        ambient: texture,
+        diffuse: texture,
+        specular: texture,
+        ..Maps::default()
+    };
+    Material {
+        maps: maps.boxed(),
+        ..material.into()
+    }
+}
+
+/// A checker in two colours, repeated over the unit square.
+fn checker(repeat: DVec2, colours: [Rgb; 2]) -> Texture {
+    let plain = |colour| Tinted {
+        colour,
+        texture: None,
+    };
+    let pattern = Pattern::Checker {
+        squares: colours.map(plain),
+        side: Side::One,
+    };
+    Texture::repeated(repeat, pattern)
 }
 
 fn sphere(centre: [f64; 3], radius: f64) -> Shape {
@@ -89,15 +117,15 @@ fn sphere(centre: [f64; 3], radius: f64) -> Shape {
     })
 }
 
-/// A box along the axes.
+/// An axis-aligned box.
 fn cuboid(corner: [f64; 3], size: [f64; 3]) -> Shape {
     let frame = Affine::new(corner.into(), [DVec3::X, DVec3::Y, DVec3::Z], size.into());
     Shape::Cuboid(Box::new(Cuboid(frame.expect("the axes span a volume"))))
 }
 
 /// A scene in white ambient light, seen from (0, 0, 5) toward the origin.
-fn scene(objects: &[(Shape, Phong)], lights: &[Light]) -> Scene {
-    let material = |(index, (shape, _)): (usize, &(Shape, Phong))| Object {
+fn scene(objects: &[(Shape, Coefficients)], lights: &[Light]) -> Scene {
+    let material = |(index, (shape, _)): (usize, &(Shape, Coefficients))| Object {
         shape: shape.clone(),
         material: index as u32,
     };
@@ -119,7 +147,7 @@ fn scene(objects: &[(Shape, Phong)], lights: &[Light]) -> Scene {
         lights: lights.to_vec(),
         materials: objects
             .iter()
-            .map(|(_, phong)| Material::Phong(*phong))
+            .map(|(_, coefficients)| Material::from(*coefficients))
             .collect(),
         textures: Vec::new(),
         objects: objects.iter().enumerate().map(material).collect(),
@@ -127,12 +155,12 @@ fn scene(objects: &[(Shape, Phong)], lights: &[Light]) -> Scene {
     }
 }
 
-/// A scene of `.xml`, without a camera of its own.
+/// Parses a scene of XML elements, without its own camera.
 fn xml(scene: &str) -> Scene {
     xml_seen_by("<camera/>", scene)
 }
 
-/// A scene of `.xml` with its camera.
+/// Parses a scene of XML elements, with this camera.
 fn xml_seen_by(camera: &str, scene: &str) -> Scene {
     let text = format!("<xml><scene>{scene}</scene>{camera}</xml>");
     let mut source = Source::new(Language::Xml, Arc::new(text.clone()));
@@ -160,12 +188,12 @@ fn ray(origin: [f64; 3], toward: [f64; 3]) -> Ray {
     }
 }
 
-/// A tracer by Whitted's rays.
+/// Creates a Whitted tracer.
 fn tracer(world: &World, depth: u32) -> Tracer<'_, impl Fn() -> bool> {
     Tracer::new(world, Integrator::Whitted, depth, || false)
 }
 
-/// The sample of a ray that takes the middle of everything.
+/// The sample of a ray at the centre of all distributions.
 fn centred(ray: Ray, reach: f64) -> Sample {
     Sample {
         ray,
@@ -175,7 +203,7 @@ fn centred(ray: Ray, reach: f64) -> Sample {
     }
 }
 
-/// What one ray sees, and the tracer's count of samples over budget.
+/// The result of one ray, and the number of samples over budget.
 fn look(scene: Scene, depth: u32, ray: Ray) -> (Seen, u64) {
     let world = world(scene);
     let mut tracer = tracer(&world, depth);
@@ -183,7 +211,7 @@ fn look(scene: Scene, depth: u32, ray: Ray) -> (Seen, u64) {
     (seen, tracer.counts().over_budget)
 }
 
-/// Grey level that a ray sees.
+/// The grey level along a ray.
 fn level(scene: Scene, depth: u32, ray: Ray) -> f64 {
     let radiance = look(scene, depth, ray).0.radiance;
     assert!(
@@ -193,7 +221,7 @@ fn level(scene: Scene, depth: u32, ray: Ray) -> f64 {
     radiance.x
 }
 
-/// Numbers that are spread evenly, in any number of dimensions: multiples of roots of primes.
+/// A low-discrepancy sequence in any number of dimensions: multiples of roots of primes.
 struct Numbers {
     index: f64,
     taken: usize,
@@ -263,7 +291,7 @@ fn job(scene: &Arc<Scene>, settings: Settings) -> Job {
     }
 }
 
-/// A renderer, and what it wakes.
+/// A renderer, and the receiver of its wake-ups.
 fn renderer(threads: usize) -> (Renderer, mpsc::Receiver<()>) {
     let (wake, woken) = mpsc::channel();
     let renderer = Renderer::new(Threads::Exactly(threads), move || {
@@ -272,7 +300,7 @@ fn renderer(threads: usize) -> (Renderer, mpsc::Receiver<()>) {
     (renderer, woken)
 }
 
-/// Gives the renderer a job; its generation.
+/// Gives the renderer a job and returns its generation.
 fn restart(renderer: &Renderer, job: Job) -> u64 {
     renderer.restart(job).expect("the worker runs")
 }

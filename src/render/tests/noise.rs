@@ -1,4 +1,4 @@
-//! How far pictures say that they are from the one with no noise.
+//! Noise estimates.
 
 use glam::DVec2;
 
@@ -6,20 +6,14 @@ use super::super::Aov;
 use super::super::noise::Doubling;
 use super::super::steps::Step;
 use super::*;
-use crate::scene::{Pattern, Texture};
 
-/// A wall of squares in two greys, so many a pixel that each sample has either at random.
+/// A wall of squares in two greys, with so many per pixel that samples are random.
 fn wall() -> Arc<Scene> {
     let wall = cuboid([-20.0, -15.0, -1.0], [40.0, 30.0, 1.0]);
-    let material = Phong {
-        colour_texture: Some(0),
-        ..grey(1.0)
-    };
-    let mut scene = scene(&[(wall, material)], &[]);
-    scene.textures = vec![Texture {
-        repeat: DVec2::new(40.0 * 161.803_398_9, 30.0 * 141.421_356_2),
-        pattern: Pattern::Checker([Rgb::splat(0.2), Rgb::splat(0.8)]),
-    }];
+    let mut scene = scene(&[(wall, BLACK)], &[]);
+    scene.materials = vec![painted(grey(1.0), Some(0))];
+    let repeat = DVec2::new(40.0 * 161.803_398_9, 30.0 * 141.421_356_2);
+    scene.textures = vec![checker(repeat, [Rgb::splat(0.2), Rgb::splat(0.8)])];
     scene.camera.lens = Lens::Orthographic(30.0);
     Arc::new(scene)
 }
@@ -34,9 +28,9 @@ fn traced(settings: Settings, threads: usize) -> Arc<Frame> {
     finish(&renderer, &woken, generation)
 }
 
-/// Means of n samples that are 0.2 or 0.8 are off their mean of 0.5 by 0.3 / √n.
+/// Means of n samples that are 0.2 or 0.8 deviate from 0.5 by 0.3 / √n.
 #[test]
-fn noise_is_what_theory_and_the_picture_say_and_falls() {
+fn noise_matches_theory_and_the_picture_and_decreases() {
     for spp in [2, 4, 8, 16, 32] {
         let frame = traced(settings(40, 30, spp), 2);
         let noise = frame.progress.noise.expect("the samples were doubled");
@@ -49,15 +43,15 @@ fn noise_is_what_theory_and_the_picture_say_and_falls() {
 }
 
 #[test]
-fn noise_is_the_same_number_for_any_threads() {
+fn noise_does_not_depend_on_the_number_of_threads() {
     let alone = traced(settings(40, 30, 8), 1).progress.noise;
     assert_eq!(traced(settings(40, 30, 8), 4).progress.noise, alone);
-    // What a last pass adds that does not double leaves the number.
+    // A last pass that does not double the samples keeps the estimate.
     assert_eq!(traced(settings(40, 30, 9), 2).progress.noise, alone);
 }
 
 #[test]
-fn noise_is_not_told_of_one_sample_nor_of_what_is_not_light() {
+fn noise_is_unknown_for_one_sample_and_for_aovs() {
     assert_eq!(traced(settings(40, 30, 1), 1).progress.noise, None);
     let albedo = Settings {
         aov: Some(Aov::Albedo),
@@ -66,7 +60,7 @@ fn noise_is_not_told_of_one_sample_nor_of_what_is_not_light() {
     assert_eq!(traced(albedo, 1).progress.noise, None);
 }
 
-/// The squared error's root of a pixel, by its sums before and after so many more samples.
+/// The estimated error of a pixel, from its sums before and after a step.
 fn error(step: &Step, transfer: Transfer, before: [f64; 3], after: [f64; 3]) -> f64 {
     let settings = Settings {
         transfer,
@@ -82,9 +76,9 @@ fn an_error_is_half_the_difference_of_displayed_halves() {
         let error = error(&Step::Samples(4..8), Transfer::Linear, before, after);
         assert_eq!(error, expected, "{before:?} {after:?}");
     };
-    // Means of 4 samples: 0.25 and 0.75 in red, alike in the others.
+    // Means of 4 samples: 0.25 and 0.75 in red, equal in the other channels.
     check([1.0, 4.0, 0.0], [4.0, 8.0, 0.0], 0.25);
-    // What is beyond white is white.
+    // Values above white are displayed as white.
     check([4.0, 8.0, 400.0], [40.0, 800.0, 1000.0], 0.0);
     check([0.0; 3], [0.0, 0.0, f64::INFINITY], 0.5);
     check([0.0; 3], [f64::NAN; 3], 0.0);

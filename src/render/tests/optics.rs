@@ -3,11 +3,10 @@
 use super::super::optics::{power, refract};
 use super::*;
 
-/// Between two mirrors that glow with level a and reflect the part r, a ray sees a Σ rᵏ, k from 0
-/// to the depth.
+/// Between two mirrors with emission a and reflectance r, a ray sees a Σ rᵏ, k from 0 to the depth.
 #[test]
 fn depth_counts_bounces() {
-    let glow = Phong {
+    let glow = Coefficients {
         reflection: 0.5,
         ..grey(0.25)
     };
@@ -26,12 +25,12 @@ fn depth_counts_bounces() {
     }
 }
 
-/// R = d − 2(d·N)N: a ray at 45° on a mirror floor goes up at 45° and meets the wall as high as far.
+/// R = d − 2(d·N)N: a ray that hits a mirror floor at 45° leaves at 45°, to a wall as high as far.
 #[test]
-fn mirrored_rays_leave_at_the_angle_they_came() {
+fn reflected_rays_leave_at_the_angle_of_incidence() {
     let floor = (
         cuboid([-50.0, -1.0, -50.0], [100.0, 1.0, 100.0]),
-        Phong {
+        Coefficients {
             reflection: 1.0,
             ..BLACK
         },
@@ -72,7 +71,7 @@ fn refraction_follows_snells_law() {
     }
 }
 
-/// The critical angle of glass to air is asin(1/1.5).
+/// The critical angle from glass to air is asin(1/1.5).
 #[test]
 fn total_internal_reflection_begins_at_the_critical_angle() {
     let critical = (1.0f64 / 1.5).asin();
@@ -81,18 +80,18 @@ fn total_internal_reflection_begins_at_the_critical_angle() {
     assert!(at(critical + 1e-9).is_none());
 }
 
-/// A slab of thickness T displaces a ray sideways by T (tan a − tan b), sin b = sin a / n, and
-/// leaves its direction.
+/// A slab of thickness T displaces a ray by T (tan a − tan b), sin b = sin a / n, and preserves its
+/// direction.
 #[test]
-fn a_slab_displaces_what_is_seen_through_it() {
-    let glass = Phong {
+fn a_slab_displaces_the_view_through_it() {
+    let glass = Coefficients {
         transmission: 1.0,
         index: 1.5,
         ..BLACK
     };
     let slab = (cuboid([-50.0, -1.0, -50.0], [100.0, 1.0, 100.0]), glass);
     let (a, b) = (45f64.to_radians(), (45f64.to_radians().sin() / 1.5).asin());
-    // The ray enters at x = 0 and meets the plane y = −3 two units below the slab.
+    // The ray enters at x = 0 and hits the plane y = −3 two units below the slab.
     let arrives = b.tan() + 2.0 * a.tan();
     for (offset, expected) in [(0.0, 0.5), (0.02, 0.0), (-0.02, 0.0)] {
         let mark = (
@@ -108,17 +107,17 @@ fn a_slab_displaces_what_is_seen_through_it() {
     }
 }
 
-/// Inside glass beyond the critical angle, the transmitted part is mirrored too: kr + kt of what
-/// the mirrored ray sees.
+/// In glass beyond the critical angle, the transmitted part is reflected too: kr + kt times the
+/// radiance of the reflected ray.
 #[test]
 fn total_internal_reflection_carries_both_weights() {
-    let glass = Phong {
+    let glass = Coefficients {
         reflection: 0.25,
         transmission: 0.5,
         index: 1.5,
         ..BLACK
     };
-    // The ray starts inside, meets the block's top at 60°, and there goes down to the lamp inside.
+    // The ray starts inside, hits the block's top at 60°, and is reflected to the lamp inside.
     let block = (cuboid([-50.0, -9.0, -50.0], [100.0, 9.0, 100.0]), glass);
     let lamp = (sphere([3f64.sqrt() * 2.0, -2.0, 0.0], 0.1), grey(1.0));
     let seen = level(
@@ -129,11 +128,11 @@ fn total_internal_reflection_carries_both_weights() {
     assert_near(seen, 0.75, 1e-15);
 }
 
-/// An index of 0 or less reads as 1: rays go straight on.
+/// An index of 0 or less counts as 1: rays are not refracted.
 #[test]
-fn an_index_of_nothing_bends_nothing() {
+fn an_index_of_0_or_less_does_not_refract() {
     for index in [0.0, -2.0, 1.0] {
-        let glass = Phong {
+        let glass = Coefficients {
             transmission: 1.0,
             index,
             ..BLACK
@@ -154,11 +153,11 @@ fn an_index_of_nothing_bends_nothing() {
     }
 }
 
-/// r = t = 1 at depth 30 would be a tree of 2³¹ rays. Each ray sees the ball's own grey 1e-3 at
-/// least, so the sum counts the rays that hit: no more than the budget of 4096.
+/// r = t = 1 at depth 30 would be a tree of 2³¹ rays. Each ray sees at least the ball's own grey
+/// 1e-3, so the sum counts the rays that hit: at most the budget of 4096.
 #[test]
 fn a_ray_tree_ends_with_its_budget() {
-    let glass = Phong {
+    let glass = Coefficients {
         reflection: 1.0,
         transmission: 1.0,
         index: 1.0,
@@ -188,7 +187,7 @@ fn a_ray_tree_ends_with_its_budget() {
 
 /// Repeated squaring against exact products of small powers of two, and against the general power.
 #[test]
-fn whole_powers() {
+fn integer_powers() {
     for exponent in 0..=64 {
         assert_eq!(
             power(0.5, f64::from(exponent)),

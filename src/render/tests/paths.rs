@@ -1,13 +1,14 @@
-//! Path tracing against closed forms, and against sums over fine grids that know nothing of it.
+//! Path tracing against closed forms and independent numerical integration.
 
 use std::f64::consts::{PI, TAU};
 
 use super::super::lobes::Lobes;
-use super::super::probe::{Matter, Point};
+use super::super::probe::Point;
 use super::super::sampler::Use;
+use super::highlights::GROUND;
 use super::*;
 
-/// The means of a ray's radiance over `samples`, one for each of some seeds.
+/// The means of a ray's radiance over `samples`, one for each of `seeds` seeds.
 fn means(scene: Scene, depth: u32, ray: Ray, samples: u32, seeds: u32) -> Vec<Rgb> {
     let world = world(scene);
     let mut tracer = Tracer::new(&world, Integrator::Path, depth, || false);
@@ -28,7 +29,7 @@ fn mean(scene: Scene, depth: u32, ray: Ray, samples: u32) -> f64 {
     means(scene, depth, ray, samples, 1)[0].x
 }
 
-/// Asserts that the mean over 64 seeds is within three standard errors of what is expected.
+/// Asserts that the mean over 64 seeds is within three standard errors of the expected value.
 fn assert_unbiased(scene: &Scene, depth: u32, ray: Ray, expected: f64, case: &str) {
     let means = means(scene.clone(), depth, ray, 64, 64);
     let mean = means.iter().map(|mean| mean.x).sum::<f64>() / 64.0;
@@ -41,7 +42,7 @@ fn assert_unbiased(scene: &Scene, depth: u32, ray: Ray, expected: f64, case: &st
         (mean - expected).abs() <= 3.0 * error + 1e-9,
         "{case}: {mean} ± {error} is not {expected}"
     );
-    // A test that is passed by noise alone tells nothing.
+    // Too much noise would let any value pass.
     assert!(error < 0.01 * expected, "{case}: {error}");
 }
 
@@ -63,12 +64,12 @@ fn white_furnace() {
     }
 }
 
-/// The same of Phong's model, which nothing emits in: a light at the middle of a ball lights all of
-/// it straight on by kd, and what is mirrored besides sees just as much.
+/// The same for Phong's model without emission: a light at the centre of a ball lights all of it at
+/// normal incidence by kd, and the reflected light is equal.
 #[test]
 fn furnace_around_a_light() {
     for (diffuse, reflection, transmission) in [(0.5, 0.0, 0.0), (0.3, 0.4, 0.0), (0.3, 0.1, 0.3)] {
-        let material = Phong {
+        let material = Coefficients {
             ambient: Rgb::ONE,
             diffuse: Rgb::splat(diffuse),
             reflection,
@@ -79,7 +80,7 @@ fn furnace_around_a_light() {
             &[(sphere([0.0; 3], 1.0), material)],
             &[white_light([0.0; 3])],
         );
-        // What goes through is lost.
+        // Transmitted light is lost.
         let kept = diffuse + reflection;
         for depth in [0, 1, 3, 64] {
             let expected = diffuse * (1.0 - f64::powf(kept, f64::from(depth + 1))) / (1.0 - kept);
@@ -90,10 +91,10 @@ fn furnace_around_a_light() {
     }
 }
 
-/// A light of radius r at height h above a white floor: it sends back E / π with E = π L (r / h)², and
-/// L = π I / (π r²), the factor π of scenes not made for paths included. That is I / h², whatever r.
+/// A light of radius r at height h above a white floor: the floor reflects E / π, E = π L (r / h)²,
+/// and L = π I / (π r²), with the factor π of scenes not made for path tracing: I / h² for any r.
 #[test]
-fn lights_with_a_size_shine_as_their_intensity_says() {
+fn lights_with_a_size_match_their_intensity() {
     for radius in [0.1, 1.0, 3.9] {
         for gamma in ["", " gamma='sRGB'"] {
             let scene = xml_seen_by(
@@ -106,17 +107,15 @@ fn lights_with_a_size_shine_as_their_intensity_says() {
             );
             let expected = if gamma.is_empty() { 0.5 } else { 0.5 / PI };
             let down = ray([0.5, 0.0, 0.05], [0.0; 3]);
-            // By asking the light alone, and by both ways of finding it.
+            // By next event estimation alone, and with multiple importance sampling.
             assert_unbiased(&scene, 0, down, expected, "asked");
             assert_unbiased(&scene, 1, down, expected, "asked and met");
         }
     }
 }
 
-const GROUND: &str = "<object type='plane' material='m'><scale value='100'/></object>";
-
 #[test]
-fn lights_with_a_size_are_seen() {
+fn lights_with_a_size_are_visible() {
     let lamp = |z: f64| {
         format!(
             "<light type='point'><intensity value='12'/><position z='{z}'/><size value='2'/></light>"
@@ -134,14 +133,14 @@ fn lights_with_a_size_are_seen() {
     assert_near(mean(xml(&hidden), 4, up, 16), 7.0, 1e-12);
 }
 
-/// The radiance that a point of the ground sends toward `view` for light of `radiance` from all
-/// directions, by a sum over a fine grid of them: ∫ BRDF cos L dω.
+/// The radiance that a point of the ground sends toward `view` when lit by `radiance` from all
+/// directions, integrated over a fine grid: ∫ BRDF cos L dω.
 fn gathered(brdf: impl Fn(DVec3) -> f64, radiance: impl Fn(DVec3) -> f64) -> f64 {
     const FINE: usize = 700;
     let middle = |i: usize| (i as f64 + 0.5) / FINE as f64;
     let mut sum = 0.0;
     for i in 0..FINE {
-        // Even in cos², which is even in cos θ dω.
+        // Uniform in cos², and thus in cos θ dω.
         let cosine = middle(i).sqrt();
         let sine = (1.0 - cosine * cosine).sqrt();
         for j in 0..FINE {
@@ -153,7 +152,7 @@ fn gathered(brdf: impl Fn(DVec3) -> f64, radiance: impl Fn(DVec3) -> f64) -> f64
     PI * sum / (FINE * FINE) as f64
 }
 
-/// BRDFs as SPEC §6 writes them, straight from the page: normal +z, the eye at 45°.
+/// BRDFs as written in SPEC §6: normal +z, the eye at 45°.
 fn brdf(kind: &str, toward: DVec3) -> f64 {
     let view = DVec3::new(0.5f64.sqrt(), 0.0, 0.5f64.sqrt());
     let halfway = (toward + view).normalize();
@@ -161,7 +160,7 @@ fn brdf(kind: &str, toward: DVec3) -> f64 {
     match kind {
         "blinn" => 0.25 / PI + 0.5 * 12.0 / (8.0 * PI) * halfway.z.powi(10),
         "phong" => 0.25 / PI + 0.5 * 11.0 / TAU * mirrored.dot(toward).max(0.0).powi(10),
-        // Roughness ½: α = ¼; half metal of colour ½, index 1.5: F0 = .27, kd = .25.
+        // Roughness ½: α = ¼; half metallic with colour ½, index 1.5: F0 = .27, kd = .25.
         _ => {
             let square = 0.0625;
             let spread = square / (PI * (halfway.z * halfway.z * (square - 1.0) + 1.0).powi(2));
@@ -191,10 +190,10 @@ fn material(kind: &str) -> &'static str {
     }
 }
 
-/// A glowing ball of radius 2 at (−1, 2, 4), an even environment of ½, and a ball of light: each
-/// met by its own rays.
+/// A glowing ball of radius 2 at (−1, 2, 4), a uniform environment of ½, and a light with a size:
+/// each is hit by different rays.
 #[test]
-fn every_brdf_gathers_what_the_sum_over_all_directions_says() {
+fn every_brdf_matches_numerical_integration() {
     let from = ray([1.0, 0.0, 1.0], [0.0; 3]);
     let meets = |centre: DVec3, radius: f64, direction: DVec3| {
         let along = centre.dot(direction);
@@ -249,10 +248,10 @@ fn every_brdf_gathers_what_the_sum_over_all_directions_says() {
     }
 }
 
-/// A matt floor and a matt ball lit by a lamp: what it sends to the floor, and what the ball sends
-/// there, by a sum over the directions that meet it.
+/// A matte floor and a matte ball lit by a lamp: direct light on the floor, plus that reflected by
+/// the ball, integrated over the directions that hit it.
 #[test]
-fn light_goes_from_one_surface_to_another() {
+fn light_is_reflected_between_surfaces() {
     let lamp = DVec3::new(4.0, 0.0, 1.0);
     let ball = DVec3::new(0.0, 0.0, 2.0);
     let at = DVec3::new(1.2, 0.0, 0.0);
@@ -271,7 +270,7 @@ fn light_goes_from_one_surface_to_another() {
         }
         let point = at + (along - square.sqrt()) * direction;
         let normal = point - ball;
-        // A convex body does not hide its own lit side.
+        // A convex body does not occlude its own lit side.
         10.0 * normal.dot((lamp - point).normalize()).max(0.0)
     };
     let indirect = gathered(|_| 0.8 / PI, sent);
@@ -282,10 +281,10 @@ fn light_goes_from_one_surface_to_another() {
     assert!(0.02 * direct < indirect, "{indirect} tells nothing");
 }
 
-/// Where every bounce is mirrored or goes straight to a light, paths bring what Whitted's rays do,
-/// ambient light apart; a matt surface must not see itself again.
+/// Where every bounce is specular or goes straight to a light, both integrators agree except for
+/// ambient light; a matte surface must not see itself again.
 #[test]
-fn paths_are_whitteds_rays_where_nothing_scatters() {
+fn paths_match_whitted_rays_without_scattering() {
     let glassy = |glass: &str| {
         xml(&format!(
             "<object type='sphere' material='glass'/>
@@ -298,21 +297,22 @@ fn paths_are_whitteds_rays_where_nothing_scatters() {
              <attenuation value='.5'/></light>"
         ))
     };
-    let mirror = Phong {
+    let mirror = Coefficients {
         reflection: 0.8,
         transmission: 0.3,
         index: 1.3,
         ..BLACK
     };
-    let shiny = Phong {
+    let shiny = Coefficients {
         ambient: Rgb::ZERO,
         specular: Rgb::new(0.5, 0.6, 0.7),
         exponent: 12.0,
         ..BLACK
     };
     let mut lamp = Light::point(DVec3::new(2.0, 3.0, 6.0), Rgb::new(1.0, 0.9, 0.8));
-    lamp.source = crate::scene::Source::Point {
+    lamp.emitter = crate::scene::Emitter::Point {
         position: DVec3::new(2.0, 3.0, 6.0),
+        radius: 0.0,
         falloff: crate::scene::Falloff {
             radial: [1.0, 0.1, 0.01],
             spot: None,
@@ -329,7 +329,7 @@ fn paths_are_whitteds_rays_where_nothing_scatters() {
     let [middle, rim, beside] = [[0.3, 0.2, 0.0], [0.95, 0.0, 0.0], [2.5, 0.0, -3.0]];
     let mirrors = glassy("<reflection r='.9' g='.8' b='.7'/>");
     let absorbs = "<refraction value='.9' index='1.5'/><absorption r='.2' g='.5' b='0'/>";
-    // Beyond the bounces that a way needs, the matt floor would gather light by chance.
+    // With more bounces than a path needs, the matte floor would receive indirect light.
     for (case, scene, depth, ways) in [
         ("beside", mirrors.clone(), 0, vec![beside]),
         ("mirror", mirrors, 1, vec![middle, rim]),
@@ -340,7 +340,7 @@ fn paths_are_whitteds_rays_where_nothing_scatters() {
             vec![middle, rim],
         ),
         ("absorbing glass", glassy(absorbs), 2, vec![middle]),
-        (".ray and .dat", phong, 6, vec![middle, rim, beside]),
+        ("constant reflectance", phong, 6, vec![middle, rim, beside]),
     ] {
         for toward in ways {
             let way = ray(from, toward);
@@ -371,9 +371,7 @@ fn point_seen_from(view: DVec3) -> Point {
     let nearest = world
         .nearest(&seen, f64::INFINITY)
         .expect("the plane is met");
-    let (point, matter) = world.arrive(&seen, nearest);
-    assert!(matches!(matter, Matter::Utah(_)));
-    point
+    world.arrive(&seen, nearest).0
 }
 
 /// The lobes of a material at a point.
@@ -384,13 +382,10 @@ fn lobes_of(material: &str, point: &Point) -> Lobes {
     let nearest = world
         .nearest(&down, f64::INFINITY)
         .expect("the plane is met");
-    match world.arrive(&down, nearest).1 {
-        Matter::Utah(shading) => Lobes::of(point, &shading).0,
-        other => panic!("{other:?}"),
-    }
+    Lobes::of(point, &world.arrive(&down, nearest).1).0
 }
 
-/// Points whose normal is +z, but for one whose interpolated normal leans past the eye.
+/// Points with normal +z, except one whose interpolated normal leans away from the eye.
 fn points() -> Vec<Point> {
     let seen_at = |tilt: f64| point_seen_from(DVec3::new(tilt.sin(), 0.0, tilt.cos()));
     let mut points: Vec<_> = [0.0, 0.7, 1.3].map(seen_at).to_vec();
@@ -400,7 +395,7 @@ fn points() -> Vec<Point> {
     points
 }
 
-/// What a point sends back in all of many samples of its lobes, on average, and how many of them lead
+/// The mean reflectance of a point over many samples of its lobes, and the fraction of samples
 /// above the surface.
 fn sampled(lobes: &Lobes, point: &Point, count: u32) -> (f64, f64) {
     let (mut sent, mut above) = (0.0, 0.0);
@@ -417,16 +412,16 @@ fn sampled(lobes: &Lobes, point: &Point, count: u32) -> (f64, f64) {
     (sent / f64::from(count), above / f64::from(count))
 }
 
-/// Directions come as often as their density says: the mean of value over density is the integral of
-/// the value, and as many are above the surface as the density has there.
+/// Samples match their density: the mean of value over density is the integral of the value, and
+/// the fraction above the surface is the integral of the density there.
 #[test]
-fn directions_are_chosen_by_their_density() {
+fn directions_match_their_density() {
     let mirrors = "<material type='microfacet' name='m'><color value='1'/>
         <roughness value='.6'/><metallic value='1'/></material>";
     for kind in [material("blinn"), material("phong"), material(""), mirrors] {
         for point in points() {
             let lobes = lobes_of(kind, &point);
-            // cos θ dω is what the grid is even in.
+            // The grid is uniform in cos θ dω.
             let integral = gathered(
                 |direction| lobes.scatter(&point, direction).value.x / direction.z,
                 |_| 1.0,
@@ -442,9 +437,9 @@ fn directions_are_chosen_by_their_density() {
     }
 }
 
-/// Little mirrors that reflect all lose but what bounces among them; hardly rough ones nothing.
+/// Perfectly reflecting microfacets lose only interreflections; nearly smooth ones lose nothing.
 #[test]
-fn little_mirrors_send_back_no_more_than_comes() {
+fn microfacets_reflect_no_more_than_they_receive() {
     for (roughness, least) in [(0.1, 0.99), (0.5, 0.85), (1.0, 0.3)] {
         let kind = format!(
             "<material type='microfacet' name='m'><color value='1'/>
@@ -461,9 +456,9 @@ fn little_mirrors_send_back_no_more_than_comes() {
     }
 }
 
-/// One light behind another brings nothing; beside it, all; wherever in the world they are.
+/// A light behind another adds nothing, one beside it everything, at any place in the world.
 #[test]
-fn lights_with_a_size_hide_each_other() {
+fn lights_with_a_size_occlude_each_other() {
     for far in [0.0, 1e6, 1e7] {
         let lamp = |x: f64, z: f64, size: f64, intensity: f64| {
             format!(
@@ -477,7 +472,7 @@ fn lights_with_a_size_hide_each_other() {
              <material name='m'><diffuse value='1'/><specular value='0'/></material>"
         );
         let down = ray([far, 0.0, 0.5], [far, 0.0, 0.0]);
-        // A dark light of radius 2 at half the height hides all of the bright one, whose cosines are
+        // A dark light of radius 2 at half the height hides the bright one completely; cosines are
         // those of lights straight above.
         for (x, expected) in [(0.0, 0.0), (50.0, 0.5)] {
             let lights = lamp(0.0, 4.0, 1.0, 8.0) + &lamp(x, 2.5, 2.0, 0.0);
@@ -490,10 +485,10 @@ fn lights_with_a_size_hide_each_other() {
     }
 }
 
-/// The way to a light counts as any other: through a ball that absorbs half in every unit, to a light
-/// of radius ½ in its middle, at 1½ from its surface.
+/// Absorption applies on the way to a light: in a ball that absorbs half per unit, to a light of
+/// radius ½ at its centre, 1½ from its surface.
 #[test]
-fn lights_are_seen_through_what_absorbs() {
+fn light_is_absorbed_on_the_way_from_lights() {
     let absorption = 2.0f64.ln();
     let scene = xml(&format!(
         "<object type='sphere' material='m'><scale value='2'/></object>
@@ -505,9 +500,9 @@ fn lights_are_seen_through_what_absorbs() {
     assert_near(seen, 4.0 * 0.5f64.powf(1.5), 1e-12);
 }
 
-/// Whatever numbers a text says, there is a picture.
+/// Extreme numbers still give finite pixels.
 #[test]
-fn numbers_out_of_all_proportion_give_numbers() {
+fn extreme_numbers_give_finite_radiance() {
     for material in [
         "<material type='microfacet' name='m'><roughness value='1e100'/></material>",
         "<material type='microfacet' name='m'><roughness value='0'/><metallic value='1'/></material>",
@@ -528,9 +523,9 @@ fn numbers_out_of_all_proportion_give_numbers() {
     }
 }
 
-/// However small a light is, it shines as a point does.
+/// A tiny light acts like a point light.
 #[test]
-fn tiny_lights_are_points() {
+fn tiny_lights_act_like_points() {
     for size in ["1e-9", "1e-150", "1e-300", "5e-324"] {
         let scene = xml(&format!(
             "{GROUND}<material name='m'><diffuse value='1'/><specular value='0'/></material>
@@ -541,9 +536,9 @@ fn tiny_lights_are_points() {
     }
 }
 
-/// Pictures made by paths are the same bits for any number of threads.
+/// Path traced pictures have the same bits for any number of threads.
 #[test]
-fn threads_leave_no_trace_in_paths() {
+fn paths_do_not_depend_on_the_number_of_threads() {
     let scene = Arc::new(xml_seen_by(
         "<camera gamma='sRGB'><position y='-6' z='3'/><target z='1'/><up z='1'/><dof value='.1'/>
          <focaldist value='6'/></camera>",

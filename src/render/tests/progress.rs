@@ -1,4 +1,4 @@
-//! The way to a finished picture: grids, passes, threads, cancelling.
+//! Progress toward a finished picture: grids, passes, threads, cancellation.
 
 use std::cell::Cell;
 
@@ -15,7 +15,7 @@ const TONE: Tone = Tone::Colour(Transfer::Linear);
 
 /// Glass, a mirror and a matte ball on a floor.
 fn still() -> Arc<Scene> {
-    let matte = Phong {
+    let matte = Coefficients {
         diffuse: Rgb::new(0.7, 0.3, 0.2),
         specular: Rgb::splat(0.4),
         exponent: 20.5,
@@ -24,21 +24,21 @@ fn still() -> Arc<Scene> {
     let objects = [
         (
             cuboid([-9.0, -2.0, -9.0], [18.0, 1.0, 18.0]),
-            Phong {
+            Coefficients {
                 diffuse: Rgb::splat(0.6),
                 ..grey(0.1)
             },
         ),
         (
             sphere([-1.1, 0.0, 0.0], 1.0),
-            Phong {
+            Coefficients {
                 reflection: 0.8,
                 ..grey(0.05)
             },
         ),
         (
             sphere([1.0, 0.0, 1.0], 0.9),
-            Phong {
+            Coefficients {
                 transmission: 0.9,
                 index: 1.5,
                 ..matte
@@ -74,13 +74,13 @@ fn passes_double() {
     assert_eq!(samples(1), []);
     assert_eq!(samples(8), [1..2, 2..4, 4..8]);
     assert_eq!(samples(11), [1..2, 2..4, 4..8, 8..11]);
-    // Nobody looks at coarse grids of what is not shown before it is done.
+    // Coarse grids are skipped if no intermediate frames are shown.
     let unseen = steps(3, Frames::Last);
     assert_eq!(unseen, [0..1, 1..2, 2..3].map(Step::Samples));
 }
 
 #[test]
-fn any_number_of_threads_gives_the_same_bits() {
+fn pictures_do_not_depend_on_the_number_of_threads() {
     let scene = still();
     let alone = trace(&scene, settings(61, 37, 6), 1);
     for threads in [2, 8] {
@@ -92,13 +92,13 @@ fn any_number_of_threads_gives_the_same_bits() {
 }
 
 #[test]
-fn cancelled_jobs_leave_no_trace() {
+fn cancelled_jobs_do_not_affect_later_ones() {
     let scene = still();
     let alone = trace(&scene, settings(40, 30, 4), 2);
     let (renderer, woken) = renderer(2);
     for spp in [512, 64, 300, 2, 1000] {
         restart(&renderer, job(&scene, settings(40, 30, spp)));
-        // Each is under way when the next one comes: its first frame is there.
+        // Each job has shown a frame before the next one starts.
         woken.recv().expect("a frame of every job");
         renderer.latest();
     }
@@ -106,7 +106,7 @@ fn cancelled_jobs_leave_no_trace() {
     assert_eq!(finish(&renderer, &woken, generation).pixels, alone.pixels);
 }
 
-/// The sample at each pixel's centre is the first of any number of samples.
+/// The sample at each pixel's centre is the first at any number of samples.
 #[test]
 fn one_sample_is_the_pixel_centre() {
     let scene = still();
@@ -128,7 +128,7 @@ fn one_sample_is_the_pixel_centre() {
 }
 
 #[test]
-fn frames_tell_how_far_they_are() {
+fn frames_contain_their_progress() {
     let scene = still();
     let frame = trace(&scene, settings(30, 20, 5), 2);
     assert_eq!(
@@ -144,15 +144,15 @@ fn frames_tell_how_far_they_are() {
         (progress.done, progress.complete, progress.over_budget),
         (1.0, true, 0)
     );
-    // Two lights: at least the camera rays, and not more than the budget allows.
+    // Two lights: at least the camera rays, and no more than the budget.
     assert!(30 * 20 * 5 <= progress.rays);
 }
 
-/// A matte ball that fills the picture, lit by both of two lights everywhere.
+/// A matte ball that fills the picture, fully lit by two lights.
 #[test]
 fn rays_are_counted_by_kind() {
     let lights = [-1.0, 1.0].map(|x| Light::point(DVec3::new(x, 0.0, 40.0), Rgb::ONE));
-    let matte = Phong {
+    let matte = Coefficients {
         diffuse: Rgb::splat(0.5),
         ..BLACK
     };
@@ -172,9 +172,9 @@ fn rays_are_counted_by_kind() {
     }
 }
 
-/// The shape of tiles depends on the picture's, the pixels do not: each is its own samples' mean.
+/// Tiles adapt to the shape of the picture, but each pixel is the mean of its own samples.
 #[test]
-fn pictures_narrower_or_lower_than_a_tile_are_whole() {
+fn pictures_smaller_than_a_tile_are_complete() {
     let scene = still();
     for (width, height) in [
         (1, 1),
@@ -207,9 +207,9 @@ fn pictures_narrower_or_lower_than_a_tile_are_whole() {
     }
 }
 
-/// What of its tiles lies beyond a picture's edges takes little memory, whatever its shape.
+/// Tiles waste little memory beyond the edges of pictures of any shape.
 #[test]
-fn tiles_hold_few_pixels_more_than_the_picture() {
+fn tiles_waste_few_pixels() {
     for (width, height) in [
         (1, 1),
         (1 << 22, 1),
@@ -225,9 +225,9 @@ fn tiles_hold_few_pixels_more_than_the_picture() {
     }
 }
 
-/// A picture that no machine has memory for is refused, not tried.
+/// A picture too large for any machine is refused without being tried.
 #[test]
-fn a_picture_without_memory_is_refused() {
+fn a_picture_that_does_not_fit_into_memory_is_refused() {
     let (renderer, woken) = renderer(1);
     let huge = settings(u32::MAX, u32::MAX, 1);
     let refused = renderer.restart(job(&still(), huge));
@@ -239,7 +239,7 @@ fn a_picture_without_memory_is_refused() {
     finish(&renderer, &woken, generation);
 }
 
-/// Dropping a renderer whose picture would take hours ends it.
+/// Dropping a renderer ends a picture that would take hours.
 #[test]
 fn dropping_a_renderer_cancels_its_work() {
     let (renderer, woken) = renderer(1);
@@ -248,10 +248,9 @@ fn dropping_a_renderer_cancels_its_work() {
     drop(renderer);
 }
 
-/// A scene with other colours but the same shapes keeps its tree; the picture is that of the new
-/// colours.
+/// A scene with other colours but equal shapes keeps its tree and shows the new colours.
 #[test]
-fn an_edit_of_a_colour_shows_at_once_in_the_next_picture() {
+fn an_edited_colour_appears_in_the_next_picture() {
     let many = |level: f64| {
         let ball = |k: u32| {
             (
@@ -271,9 +270,9 @@ fn an_edit_of_a_colour_shows_at_once_in_the_next_picture() {
     }
 }
 
-/// A panic on the way to a picture ends the worker, and is not waited for in vain.
+/// A panic during rendering ends the worker, and callers do not wait forever.
 #[test]
-fn a_worker_that_panicked_says_so() {
+fn a_panicked_worker_refuses_jobs() {
     let mut broken = Scene::clone(&still());
     broken.materials.clear();
     let (renderer, woken) = renderer(1);
@@ -283,10 +282,10 @@ fn a_worker_that_panicked_says_so() {
     assert_eq!(refused, Err(Refusal::Ended));
 }
 
-/// Of a job that shows its last frame only, frames before that carry nothing but the progress, and
-/// that one tells no objects.
+/// If a job shows only its last frame, earlier frames contain only the progress, and the last one
+/// has no objects.
 #[test]
-fn pixels_that_nobody_watches_are_not_developed() {
+fn unwatched_pixels_are_not_developed() {
     let scene = still();
     let (renderer, woken) = renderer(1);
     let last = Job {
@@ -307,9 +306,9 @@ fn pixels_that_nobody_watches_are_not_developed() {
     assert_eq!(live.objects.len(), size.pixels());
 }
 
-/// Memory is touched and pixels are made bit by bit, and asked about in between.
+/// Memory is touched and pixels are developed in parts, with cancellation polled in between.
 #[test]
-fn a_film_takes_memory_as_it_is_traced_and_stops_developing_when_told_to() {
+fn a_film_touches_memory_while_tracing_and_developing_can_be_cancelled() {
     let size = Size {
         width: 2000,
         height: 1000,
@@ -339,11 +338,10 @@ fn a_film_takes_memory_as_it_is_traced_and_stops_developing_when_told_to() {
     assert_eq!(raster.pixels.len(), size.pixels());
 }
 
-/// Of many samples that are traced at once none begins once tracing is to stop, whichever way light
-/// is gathered.
+/// Once tracing is cancelled, none of many samples traced together begins, with either integrator.
 #[test]
-fn samples_are_left_when_told_to() {
-    let shiny = Phong {
+fn cancellation_skips_remaining_samples() {
+    let shiny = Coefficients {
         reflection: 1.0,
         ..BLACK
     };
@@ -358,17 +356,17 @@ fn samples_are_left_when_told_to() {
     }
 }
 
-/// A sample that asks ten thousand lights does not go on to the last one.
+/// A sample that sums ten thousand lights stops early when cancelled.
 #[test]
-fn light_is_left_when_told_to() {
+fn cancellation_skips_remaining_lights() {
     let lights: Vec<_> = (0..10_000).map(|_| white_light([0.0, 5.0, 5.0])).collect();
-    let matte = Phong {
+    let matte = Coefficients {
         diffuse: Rgb::ONE,
         ..BLACK
     };
     let world = world(scene(&[(sphere([0.0; 3], 1.0), matte)], &lights));
     for integrator in [Integrator::Whitted, Integrator::Path] {
-        // It may go on when it asks for the first time, not after that.
+        // Continues at the first poll only.
         let asked = Cell::new(false);
         let mut tracer = Tracer::new(&world, integrator, 0, || asked.replace(true));
         tracer.radiance(&centred(ray([0.0, 0.0, 5.0], [0.0; 3]), f64::INFINITY));

@@ -1,10 +1,10 @@
-//! Ambient light, Phong's model, shadows.
+//! Ambient light, Phong's model and shadows.
 
 use super::*;
 
 /// A floor whose top is the plane y = 0, with the coefficients of SPEC §9.
-fn floor(exponent: f64) -> (Shape, Phong) {
-    let material = Phong {
+fn floor(exponent: f64) -> (Shape, Coefficients) {
+    let material = Coefficients {
         ambient: Rgb::splat(0.1),
         diffuse: Rgb::splat(0.9),
         specular: Rgb::splat(0.9),
@@ -17,7 +17,7 @@ fn floor(exponent: f64) -> (Shape, Phong) {
     )
 }
 
-/// The level of the floor at the origin for an eye and lights at these places.
+/// The level of the floor at the origin, for these positions of the eye and the lights.
 fn floor_level(exponent: f64, eye: [f64; 3], lights: &[[f64; 3]]) -> f64 {
     let lights: Vec<_> = lights
         .iter()
@@ -51,7 +51,7 @@ fn phong_at_a_point() {
             0.1,
         ),
     ] {
-        // Half a power of cos 45°: (½)¹⁰⁰ is nothing beside the 1e-12 asked for.
+        // At 45° the highlight is (√½)²⁰⁰ = (½)¹⁰⁰, negligible beside the tolerance of 1e-12.
         let seen = floor_level(200.0, eye, &[light]);
         assert!(
             (seen - expected).abs() < 1e-12,
@@ -68,7 +68,7 @@ fn lights_add_up() {
     assert_near(both, one + two - 0.1, 1e-15);
 }
 
-/// With the eye at an angle a to the mirror direction the highlight is cosⁿ a, by the general power.
+/// With the eye at an angle a to the mirror direction the highlight is cosⁿ a, by general power.
 #[test]
 fn highlights_are_powers_of_the_cosine() {
     for (exponent, read_as) in [
@@ -99,7 +99,7 @@ fn highlights_are_powers_of_the_cosine() {
 
 /// With exponent 0 the highlight is 1 up to a right angle from the mirrored light, 0 beyond.
 #[test]
-fn the_highlight_ends_where_the_cosine_turns_negative() {
+fn the_highlight_ends_where_the_cosine_becomes_negative() {
     let light = [[-5.0, 5.0, 0.0]];
     let diffuse = 0.1 + 0.9 * 0.5f64.sqrt();
     assert_near(floor_level(0.0, [-2.0, 1.9, 0.0], &light), diffuse, 1e-12);
@@ -110,11 +110,10 @@ fn the_highlight_ends_where_the_cosine_turns_negative() {
     );
 }
 
-/// Both faces of a solid are shaded alike: from inside a glass ball, its far wall is lit by a light
-/// inside.
+/// Both faces of a solid are shaded alike: in a glass ball, the far wall is lit by a light inside.
 #[test]
 fn inner_faces_are_lit_from_inside() {
-    let glass = Phong {
+    let glass = Coefficients {
         diffuse: Rgb::splat(0.5),
         ..BLACK
     };
@@ -128,20 +127,20 @@ fn inner_faces_are_lit_from_inside() {
 }
 
 #[test]
-fn shadows_take_the_product_of_transmissions_each_solid_once() {
+fn shadows_multiply_transmissions_once_per_solid() {
     let pane = |height: f64, transmission: f64| {
         (
             cuboid([-1.0, height, -1.0], [2.0, 0.1, 2.0]),
-            Phong {
+            Coefficients {
                 transmission,
                 ..BLACK
             },
         )
     };
-    let lit = |panes: &[(Shape, Phong)]| {
+    let lit = |panes: &[(Shape, Coefficients)]| {
         let mut objects = vec![(
             floor(1.0).0,
-            Phong {
+            Coefficients {
                 diffuse: Rgb::ONE,
                 ..BLACK
             },
@@ -155,7 +154,7 @@ fn shadows_take_the_product_of_transmissions_each_solid_once() {
     };
     assert_near(lit(&[]), 1.0, 1e-12);
     assert_near(lit(&[pane(1.0, 0.0)]), 0.0, 0.0);
-    // The way goes in and out of each pane, which counts it once.
+    // The ray enters and leaves each pane, which counts once.
     assert_near(lit(&[pane(1.0, 0.5)]), 0.5, 1e-12);
     assert_near(lit(&[pane(1.0, 0.5), pane(2.0, 0.4)]), 0.2, 1e-12);
     assert_near(
@@ -164,11 +163,11 @@ fn shadows_take_the_product_of_transmissions_each_solid_once() {
         0.0,
     );
     assert_near(lit(&[pane(5.0, 0.0)]), 1.0, 1e-12);
-    // The light stands inside the pane: one surface is crossed.
+    // The light is inside the pane: one surface is crossed.
     assert_near(
         lit(&[(
             cuboid([-1.0, 3.0, -1.0], [2.0, 2.0, 2.0]),
-            Phong {
+            Coefficients {
                 transmission: 0.3,
                 ..BLACK
             },
@@ -178,10 +177,10 @@ fn shadows_take_the_product_of_transmissions_each_solid_once() {
     );
 }
 
-/// A light on the floor's far side lights the inside of a glass block through its own wall once.
+/// A light outside lights the inside of a glass block through its own wall, which counts once.
 #[test]
-fn a_solid_shadows_itself_where_the_way_crosses_it_again() {
-    let block = Phong {
+fn a_solid_shadows_itself_where_the_ray_crosses_it_again() {
+    let block = Coefficients {
         diffuse: Rgb::ONE,
         transmission: 0.25,
         ..BLACK
@@ -190,8 +189,8 @@ fn a_solid_shadows_itself_where_the_way_crosses_it_again() {
         &[(cuboid([-1.0; 3], [2.0; 3]), block)],
         &[white_light([0.0, 3.0, 0.0])],
     );
-    // Seen from inside, the floor of the block: its normal is turned up, the light comes through
-    // the block's top.
+    // Seen from inside, the normal of the block's floor is flipped upward, and the light comes
+    // through its top.
     assert_near(
         level(inside, 0, ray([0.0; 3], [0.0, -1.0, 0.0])),
         0.25,
@@ -199,7 +198,7 @@ fn a_solid_shadows_itself_where_the_way_crosses_it_again() {
     );
 }
 
-/// A light that lies on a surface is not blocked by it, whatever way rounding takes its place.
+/// A light on a surface is not blocked by it, regardless of rounding.
 #[test]
 fn a_light_on_a_surface_is_not_blocked_by_it() {
     for step in 0..1000 {
@@ -209,7 +208,7 @@ fn a_light_on_a_surface_is_not_blocked_by_it() {
         let lamp = (sphere([1.3, 2.0, 0.0], radius), BLACK);
         let floor = (
             floor(1.0).0,
-            Phong {
+            Coefficients {
                 diffuse: Rgb::ONE,
                 ..BLACK
             },

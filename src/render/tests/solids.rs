@@ -1,4 +1,4 @@
-//! Solids made of solids, and such as have no end, among others.
+//! CSG solids and unbounded solids among others.
 
 use super::*;
 use crate::geometry::{Csg, Node, Operation, Quadric};
@@ -21,9 +21,9 @@ fn made(operation: Operation, first: Shape, second: Shape) -> Shape {
     ])))
 }
 
-/// A solid without bounds among many that have some: the ground y ≤ 0 under balls.
+/// An unbounded solid among many bounded ones: the ground y ≤ 0 under balls.
 #[test]
-fn unbounded_solids_are_seen_among_others() {
+fn unbounded_solids_are_visible_among_others() {
     let ground = Quadric::new([0., 0., 0., 0., 0., 0., 0.5, 0., 0., 0.], &[]);
     let mut objects = vec![(Shape::Quadric(Box::new(ground)), grey(0.5))];
     for ball in 1..=8 {
@@ -43,15 +43,15 @@ fn unbounded_solids_are_seen_among_others() {
     }
 }
 
-const GLASS: Phong = Phong {
+const GLASS: Coefficients = Coefficients {
     transmission: 0.5,
     index: 1.5,
     ..BLACK
 };
 
-/// A wall behind a solid of glass, or behind none, in a light before both.
+/// A wall behind a glass solid, or none, with a light in front of both.
 fn behind_glass(glass: Option<Shape>) -> Scene {
-    let wall = Phong {
+    let wall = Coefficients {
         ambient: Rgb::splat(0.1),
         diffuse: Rgb::splat(0.9),
         ..BLACK
@@ -62,7 +62,7 @@ fn behind_glass(glass: Option<Shape>) -> Scene {
         objects.push((shape, GLASS));
     }
     let mut scene = scene(&objects, &[white_light([0.2, 0.1, 9.0])]);
-    // The leaves of a combined solid name material 0.
+    // The leaves of a CSG solid refer to material 0.
     scene.materials.rotate_left(index);
     for number in 0..scene.objects.len() {
         let object = &mut scene.objects[number];
@@ -71,10 +71,10 @@ fn behind_glass(glass: Option<Shape>) -> Scene {
     scene
 }
 
-/// Shadows and refraction through a combined solid: a slab of two halves that touch is one slab,
-/// and so is a larger one cut to size.
+/// Shadows and refraction through CSG solids: two touching halves of a slab act as one slab, and so
+/// does a larger one cut to size.
 #[test]
-fn light_goes_through_combined_solids_as_through_their_like() {
+fn csg_solids_transmit_light_like_equal_simple_solids() {
     let slab = |z: f64, depth: f64| cuboid([-6.0, -6.0, z], [12.0, 12.0, depth]);
     let larger = cuboid([-7.0, -7.0, -1.0], [14.0, 14.0, 2.0]);
     let outside = [
@@ -103,18 +103,18 @@ fn light_goes_through_combined_solids_as_through_their_like() {
             assert_near(of(like), of(&plain), 1e-9);
         }
     }
-    // Straight down the slab takes half of the view at each face, and half of the light.
+    // Vertically, the slab transmits half of the view at each face, and half of the light.
     let down = ray([0.0, 0.0, 8.0], [0.0; 3]);
     let open = level(behind_glass(None), 8, down);
     let through = level(behind_glass(Some(slab(-1.0, 2.0))), 8, down);
     assert_near(through, 0.25 * (0.1 + 0.5 * (open - 0.1)), 1e-9);
 }
 
-/// An index of 0 bends nothing, and what is not transparent is not entered.
+/// An index of 0 does not refract, and opaque solids are not entered.
 #[test]
-fn an_index_of_0_is_that_of_air() {
+fn an_index_of_0_counts_as_air() {
     for (index, transmission, expected) in [(0.0, 1.0, 0.6), (1.0, 1.0, 0.6), (0.0, 0.0, 0.0)] {
-        let ball = Phong {
+        let ball = Coefficients {
             transmission,
             index,
             ..BLACK

@@ -1,27 +1,23 @@
-//! Textures on solids: colours at known places, bumps against finite differences.
+//! Textures on solids: colours at known points, and bumps against finite differences.
 
 use glam::DVec2;
 
+use super::highlights::{assert_colour, brings};
 use super::*;
 use crate::geometry::{Cylinder, Hit};
 use crate::render::texture::Textures;
-use crate::scene::{Image, Pattern, Texture};
+use crate::scene::{Bump, Dielectric, Emitter, Gloss, Highlight, Image, Mirror};
 
 const RED: Rgb = Rgb::new(1.0, 0.0, 0.0);
 const BLUE: Rgb = Rgb::new(0.0, 0.0, 1.0);
 
-fn checker(repeat: [f64; 2]) -> Texture {
-    Texture {
-        repeat: DVec2::from_array(repeat),
-        pattern: Pattern::Checker([RED, BLUE]),
-    }
+fn red_and_blue(repeat: [f64; 2]) -> Texture {
+    checker(DVec2::from_array(repeat), [RED, BLUE])
 }
 
 fn picture(repeat: [f64; 2]) -> Texture {
-    Texture {
-        repeat: DVec2::from_array(repeat),
-        pattern: Pattern::Image("a picture".to_owned()),
-    }
+    let pattern = Pattern::Image("a picture".to_owned());
+    Texture::repeated(DVec2::from_array(repeat), pattern)
 }
 
 fn images(width: u32, height: u32, pixel: impl Fn(u32, u32) -> [u8; 3]) -> Images {
@@ -33,13 +29,10 @@ fn images(width: u32, height: u32, pixel: impl Fn(u32, u32) -> [u8; 3]) -> Image
         .collect()
 }
 
-/// The world of a solid that shows its texture as it is.
-fn painted(shape: Shape, texture: Texture, images: &Images) -> World {
-    let material = Phong {
-        colour_texture: Some(0),
-        ..grey(1.0)
-    };
-    let mut scene = scene(&[(shape, material)], &[]);
+/// The world of a solid that shows its texture unlit.
+fn shown(shape: Shape, texture: Texture, images: &Images) -> World {
+    let mut scene = scene(&[(shape, BLACK)], &[]);
+    scene.materials = vec![painted(grey(1.0), Some(0))];
     scene.textures = vec![texture];
     World::build(Arc::new(scene), images, None, || false).expect("nothing cancels the building")
 }
@@ -54,9 +47,9 @@ fn colour(world: &World, from: DVec3, toward: DVec3) -> Rgb {
 /// The face z = 1 of the unit cube has u = x and v = y.
 #[test]
 fn checkers_change_colour_at_their_seams() {
-    let world = painted(
+    let world = shown(
         cuboid([0.0; 3], [1.0; 3]),
-        checker([4.0, 2.0]),
+        red_and_blue([4.0, 2.0]),
         &Images::default(),
     );
     let edge = 1e-9;
@@ -75,12 +68,12 @@ fn checkers_change_colour_at_their_seams() {
     }
 }
 
-/// On a ball the seam of u is where y changes its sign at x < 0: there u goes from 0 to 1.
+/// On a ball the seam of u is where y changes sign at x < 0; u jumps from 0 to 1.
 #[test]
-fn a_ball_has_its_seam_behind() {
-    let world = painted(
+fn the_seam_of_a_ball_is_behind_it() {
+    let world = shown(
         sphere([0.0; 3], 1.0),
-        checker([3.0, 1.0]),
+        red_and_blue([3.0, 1.0]),
         &Images::default(),
     );
     for (degrees, expected) in [
@@ -103,12 +96,12 @@ fn a_ball_has_its_seam_behind() {
 }
 
 #[test]
-fn a_picture_is_seen_by_its_pixels() {
-    // 4 by 3, with colours that name their column and row; a pixel's own is at its upper left.
+fn an_image_shows_its_pixels() {
+    // 4×3 pixels whose colours encode column and row; a pixel's own colour is at its upper left.
     let own = |column: u32, row: u32| [60 * column as u8, 100 * row as u8, 51];
     let images = images(4, 3, own);
-    let world = painted(cuboid([0.0; 3], [1.0; 3]), picture([1.0, 1.0]), &images);
-    let twice = painted(cuboid([0.0; 3], [1.0; 3]), picture([2.0, 2.0]), &images);
+    let world = shown(cuboid([0.0; 3], [1.0; 3]), picture([1.0, 1.0]), &images);
+    let twice = shown(cuboid([0.0; 3], [1.0; 3]), picture([2.0, 2.0]), &images);
     for column in 0..4 {
         for row in 0..3 {
             let (u, v) = (f64::from(column) / 4.0, f64::from(row) / 3.0);
@@ -122,7 +115,7 @@ fn a_picture_is_seen_by_its_pixels() {
             assert!((again - expected).length() < 1e-10, "{again} {expected}");
         }
     }
-    // Half way between columns 1 and 2; and from the last column back to the first.
+    // Halfway between columns 1 and 2, and between the last column and the first.
     for (u, red) in [(1.5 / 4.0, 90.0), (3.5 / 4.0, 90.0), (3.25 / 4.0, 135.0)] {
         let place = DVec3::new(u, 1e-12, 1.0);
         let seen = colour(&world, place + DVec3::Z, place).x;
@@ -131,19 +124,19 @@ fn a_picture_is_seen_by_its_pixels() {
 }
 
 #[test]
-fn a_picture_that_is_not_there_is_magenta() {
+fn a_missing_image_is_magenta() {
     let shape = cuboid([0.0; 3], [1.0; 3]);
-    let world = painted(shape, picture([1.0, 1.0]), &Images::default());
+    let world = shown(shape, picture([1.0, 1.0]), &Images::default());
     let place = DVec3::new(0.5, 0.5, 1.0);
     let seen = colour(&world, place + DVec3::Z, place);
     assert_eq!(seen, Rgb::new(1.0, 0.0, 1.0));
 }
 
-/// All of a material's colours are multiplied, and no other share.
+/// All of a material's own colours are multiplied, but no other weights.
 #[test]
-fn a_texture_tints_all_that_is_the_materials_own() {
-    let textures = Textures::new(&[checker([1.0, 1.0])], &Images::default());
-    let plain = Phong {
+fn a_texture_tints_all_own_colours_of_a_material() {
+    let textures = Textures::new(&[red_and_blue([1.0, 1.0])], &Images::default());
+    let plain = Coefficients {
         ambient: Rgb::splat(0.1),
         diffuse: Rgb::splat(0.5),
         specular: Rgb::splat(2.0),
@@ -151,27 +144,63 @@ fn a_texture_tints_all_that_is_the_materials_own() {
         reflection: 0.25,
         transmission: 0.5,
         index: 1.5,
-        colour_texture: Some(0),
-        bump: None,
     };
     let shape = cuboid([0.0; 3], [1.0; 3]);
     let down = ray([0.3, 0.3, 5.0], [0.3, 0.3, 0.0]);
     let hit = shape.hit(&down, f64::INFINITY).expect("the face is below");
-    let (mut material, mut normal) = (plain, DVec3::Z);
-    textures.apply(&shape.chart(&down, hit), &mut material, &mut normal);
-    let expected = Phong {
+    let material = painted(plain, Some(0));
+    let maps = material.maps.as_ref().expect("it is painted");
+    let expected = Coefficients {
         ambient: 0.1 * RED,
         diffuse: 0.5 * RED,
         specular: 2.0 * RED,
         ..plain
     };
-    assert_eq!((material, normal), (expected, DVec3::Z));
+    let found = textures.applied(maps, &material, shape.chart(&down, hit).uv);
+    assert_eq!(found, expected.into());
 }
 
-/// g − ∇h, with the slope of h in the picture by central differences of half a texel, and how fast
-/// its coordinates change by differences along the surface.
+/// Values without maps are unchanged, and each slot has its own map.
 #[test]
-fn bumps_tilt_the_normal_as_raised_surfaces_do() {
+fn each_slot_has_its_own_texture() {
+    let grey = |level: f64| checker(DVec2::ONE, [Rgb::splat(level); 2]);
+    let levels = [0.5, 0.25, 0.125, 2.0, 4.0];
+    let textures = Textures::new(&levels.map(grey), &Images::default());
+    let with = |level: [f64; 5]| Material {
+        diffuse: Rgb::splat(level[0]),
+        highlight: Highlight::Blinn(Gloss {
+            specular: Rgb::splat(level[1]),
+            exponent: level[2],
+        }),
+        mirror: Mirror {
+            tint: Rgb::splat(level[3]),
+            ..Mirror::default()
+        },
+        dielectric: Dielectric {
+            tint: Rgb::splat(level[4]),
+            ..Dielectric::OPAQUE
+        },
+        emission: Rgb::splat(3.0),
+        ..Material::BLACK
+    };
+    let maps = Maps {
+        diffuse: Some(0),
+        specular: Some(1),
+        exponent: Some(2),
+        mirror: Some(3),
+        dielectric: Some(4),
+        ..Maps::default()
+    };
+    assert_eq!(
+        textures.applied(&maps, &with([1.0; 5]), DVec2::ZERO),
+        with(levels)
+    );
+}
+
+/// g − ∇h, with the slope of h in the image from central differences of half a texel, and the
+/// derivatives of uv from differences along the surface.
+#[test]
+fn bumps_tilt_normals_like_a_displaced_surface() {
     let images = images(16, 8, |column, row| {
         let wave = (column * 37 + row * 91 + column * row * 13) % 200;
         [wave as u8, (wave / 2) as u8, 255 - wave as u8]
@@ -203,12 +232,11 @@ fn bumps_tilt_the_normal_as_raised_surfaces_do() {
         let surface = shape.surface(&incoming, hit);
         let chart = shape.chart(&incoming, hit);
         let amount = random.between(-0.5, 0.5);
-        let mut material = Phong {
-            bump: Some((0, amount)),
-            ..BLACK
+        let bump = Bump {
+            texture: 0,
+            height: amount,
         };
-        let mut normal = surface.normal;
-        textures.apply(&chart, &mut material, &mut normal);
+        let normal = textures.raised(bump, &chart, surface.normal);
         let place = DVec2::from_array(repeat) * chart.uv;
         let grows = DVec2::new(
             bright(place.x + half.x, place.y) - bright(place.x - half.x, place.y),
@@ -228,7 +256,7 @@ fn bumps_tilt_the_normal_as_raised_surfaces_do() {
             let [before, after] = [-step, step].map(|h| place_at(surface.point + h * along));
             slope += amount * grows.dot(after - before) / (2.0 * step) * along;
         }
-        // Across the seam and close to a pole differences mean nothing.
+        // Across the seam and near a pole differences are meaningless.
         if 10.0 < slope.length() {
             continue;
         }
@@ -242,41 +270,123 @@ fn bumps_tilt_the_normal_as_raised_surfaces_do() {
     assert!(1_000 < checked, "{checked} checked");
 }
 
-/// A picture that is a plane slope raises a face as a plane does: known on paper.
+/// An image with a constant slope tilts a face like a plane, as computed by hand.
 #[test]
-fn a_slope_of_grey_is_a_slope() {
-    // 255 columns from black to white: brightness grows by 1/255 in 1/256 of the width.
+fn a_constant_gradient_is_a_constant_tilt() {
+    // 255 columns from black to white: brightness grows by 1/255 per 1/256 of the width.
     let images = images(256, 1, |column, _| [column as u8; 3]);
     let textures = Textures::new(&[picture([1.0, 1.0])], &images);
-    // A face 2 wide: u grows by 1/2 in a unit of the world.
+    // A face of width 2: u grows by 1/2 per world unit.
     let shape = cuboid([0.0; 3], [2.0, 2.0, 1.0]);
     for amount in [0.5, -0.5] {
         let down = ray([0.7, 0.3, 5.0], [0.7, 0.3, 0.0]);
         let hit = shape.hit(&down, f64::INFINITY).expect("the face is below");
-        let mut material = Phong {
-            bump: Some((0, amount)),
-            ..BLACK
+        let bump = Bump {
+            texture: 0,
+            height: amount,
         };
-        let mut normal = DVec3::Z;
-        textures.apply(&shape.chart(&down, hit), &mut material, &mut normal);
+        let normal = textures.raised(bump, &shape.chart(&down, hit), DVec3::Z);
         let slope = amount * 0.5 * 256.0 / 255.0;
         let expected = DVec3::new(-slope, 0.0, 1.0).normalize();
         assert!((normal - expected).length() < 1e-12, "{normal} {expected}");
     }
 }
 
-/// A checker bumps nothing, and which side is seen is not for bumps to say.
+/// The same slope on materials of several kinds, lit from straight above by the cosine alone.
 #[test]
-fn bumps_do_not_turn_a_surface() {
-    let textures = Textures::new(&[checker([8.0, 8.0])], &Images::default());
+fn bumps_tilt_normals_with_every_highlight() {
+    let images = images(256, 1, |column, _| [column as u8; 3]);
+    let light = Light {
+        emitter: Emitter::Distant(DVec3::Z),
+        ..white_light([0.0; 3])
+    };
+    let none = Gloss::default();
+    for highlight in [
+        Highlight::None,
+        Highlight::Phong(none),
+        Highlight::ModifiedPhong(none),
+        Highlight::Blinn(none),
+    ] {
+        let mut scene = scene(&[(cuboid([0.0; 3], [2.0, 2.0, 1.0]), BLACK)], &[light]);
+        let bump = Bump {
+            texture: 0,
+            height: 0.5,
+        };
+        let maps = Maps {
+            bump: Some(bump),
+            ..Maps::default()
+        };
+        scene.materials = vec![Material {
+            diffuse: Rgb::ONE,
+            highlight,
+            maps: maps.boxed(),
+            ..Material::BLACK
+        }];
+        scene.textures = vec![picture([1.0, 1.0])];
+        scene.ambient = Rgb::ZERO;
+        let world = World::build(Arc::new(scene), &images, None, || false);
+        let world = world.expect("nothing cancels the building");
+        let place = DVec3::new(0.7, 0.3, 1.0);
+        let seen = colour(&world, place + DVec3::Z, place).x;
+        let slope = 0.5 * 0.5 * 256.0 / 255.0;
+        assert_near(seen, 1.0 / f64::hypot(1.0, slope), 1e-12);
+    }
+}
+
+/// A checker has no slope, and bumps do not affect which side is seen.
+#[test]
+fn bumps_do_not_flip_a_surface() {
+    let textures = Textures::new(&[red_and_blue([8.0, 8.0])], &Images::default());
     let shape = cuboid([0.0; 3], [1.0; 3]);
     let down = ray([0.125, 0.3, 5.0], [0.125, 0.3, 0.0]);
     let hit = shape.hit(&down, f64::INFINITY).expect("the face is below");
-    let mut material = Phong {
-        bump: Some((0, 1e6)),
-        ..BLACK
+    let bump = Bump {
+        texture: 0,
+        height: 1e6,
     };
-    let mut normal = DVec3::Z;
-    textures.apply(&shape.chart(&down, hit), &mut material, &mut normal);
+    let normal = textures.raised(bump, &shape.chart(&down, hit), DVec3::Z);
     assert_eq!(normal, DVec3::Z);
+}
+
+/// Plane: ((x + 1) / 2, (y + 1) / 2); sphere: longitude and latitude. Squares of half the width.
+#[test]
+fn uv_on_planes_and_spheres() {
+    let board = "<material name='m'><diffuse value='0'/><specular value='0'/>
+        <emission texture='checkerboard'><color1 r='1' g='0' b='0'/><color2 r='0' g='0' b='1'/>
+        </emission></material>";
+    let (red, blue) = (Rgb::X, Rgb::Z);
+    for (shape, from, to, expected) in [
+        ("plane", [-0.5, -0.5, 1.0], [-0.5, -0.5, 0.0], red),
+        ("plane", [0.5, -0.5, 1.0], [0.5, -0.5, 0.0], blue),
+        ("plane", [0.5, 0.5, -1.0], [0.5, 0.5, 0.0], red),
+        // −y is at longitude u < ½; below the equator v < ½.
+        ("sphere", [3.0, -3.0, -1.0], [0.0; 3], red),
+        ("sphere", [3.0, -3.0, 1.0], [0.0; 3], blue),
+        ("sphere", [3.0, 3.0, 1.0], [0.0; 3], red),
+    ] {
+        let scene = format!("<object type='{shape}' material='m'/>{board}");
+        let seen = brings(&scene, 0, ray(from, to));
+        assert_colour(seen, expected, &format!("{shape} {to:?} from {from:?}"));
+    }
+}
+
+/// A checker over the whole picture: quarters of it, looked up per pixel.
+#[test]
+fn the_background_is_looked_up_per_pixel() {
+    let scene = xml_seen_by(
+        "<camera><width value='4'/><height value='2'/></camera>",
+        "<background texture='checkerboard'><color1 value='0'/><color2 value='1'/></background>",
+    );
+    let scene = Arc::new(scene);
+    let (renderer, woken) = renderer(1);
+    for spp in [1, 4] {
+        let generation = restart(&renderer, job(&scene, settings(4, 2, spp)));
+        let frame = finish(&renderer, &woken, generation);
+        let row = frame
+            .pixels
+            .iter()
+            .map(|pixel| pixel[0])
+            .collect::<Vec<_>>();
+        assert_eq!(row, [0, 0, 255, 255, 255, 255, 0, 0], "{spp}");
+    }
 }

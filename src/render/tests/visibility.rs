@@ -1,9 +1,9 @@
-//! Which object a ray meets: ties, trees, contact shadows, the background.
+//! Nearest hits: ties, trees, contact shadows, the background.
 
 use super::*;
 
 #[test]
-fn nothing_is_black() {
+fn a_ray_that_hits_nothing_is_black() {
     let (seen, _) = look(
         scene(&[(sphere([0.0; 3], 1.0), grey(1.0))], &[]),
         8,
@@ -19,9 +19,8 @@ fn nothing_is_black() {
     );
 }
 
-/// Two boxes share the plane of their tops, off the axes so that rounding differs between them.
-/// Every ray onto the shared part sees the one that comes first in the file, with and without a
-/// tree.
+/// Two boxes share the plane of their tops, off the axes so that their rounding differs. Every ray
+/// onto the shared part sees the first in the file, with and without a tree.
 #[test]
 fn of_coincident_faces_the_first_in_the_file_is_seen() {
     let turned = |corner: DVec3, size: f64| {
@@ -36,7 +35,7 @@ fn of_coincident_faces_the_first_in_the_file_is_seen() {
     };
     let low = (turned(DVec3::new(-1.7, -0.3, -0.9), 3.3), grey(0.25));
     let high = (turned(DVec3::new(-1.1, 0.39, -0.4), 1.0), grey(0.75));
-    // Tops at −0.3 + 0.99 and at 0.39 + 0.3, which rounding may tell apart.
+    // Tops at −0.3 + 0.99 and at 0.39 + 0.3, which may round differently.
     let crowd = (0..20).map(|k| {
         (
             sphere([50.0 + 3.0 * f64::from(k), 0.0, 0.0], 1.0),
@@ -68,9 +67,9 @@ fn of_coincident_faces_the_first_in_the_file_is_seen() {
     }
 }
 
-/// A hundred copies of one ball are one ball: the first.
+/// Of a hundred copies of one ball, the first is seen.
 #[test]
-fn of_many_copies_the_first_is_seen() {
+fn of_identical_objects_the_first_in_the_file_is_seen() {
     let mut objects = vec![(sphere([9.0, 0.0, 0.0], 1.0), grey(0.0))];
     objects.extend((0..100).map(|_| (sphere([0.1, 0.2, 0.3], 1.0), grey(0.5))));
     let world = world(scene(&objects, &[]));
@@ -85,9 +84,9 @@ fn of_many_copies_the_first_is_seen() {
     }
 }
 
-/// The tree finds what trying every object finds, be it thinner than all rounding.
+/// The tree agrees with testing every object, even for objects thinner than rounding errors.
 #[test]
-fn the_tree_finds_what_every_object_tried_finds() {
+fn the_tree_matches_brute_force() {
     let mut random = Random(1);
     let objects: Vec<_> = (0..300)
         .map(|k| {
@@ -127,15 +126,15 @@ fn the_tree_finds_what_every_object_tried_finds() {
     }
 }
 
-/// Points of a floor of 10⁶ next to a ball of radius r that rests on it, lit from above at an
-/// angle: the verdict is that of the exact geometry, whatever the ball's size.
+/// Points of a floor of size 10⁶ next to a ball of radius r resting on it, lit from above at an
+/// angle: shadows agree with exact geometry for all sizes of the ball.
 #[test]
 fn contact_shadows() {
     for radius in [1.0, 1e-3] {
         let floor = cuboid([-5e5, -1.0, -5e5], [1e6, 1.0, 1e6]);
         let ball = sphere([0.0, radius, 0.0], radius);
         let light = DVec3::new(3e3, 4e3, 0.0);
-        let matte = Phong {
+        let matte = Coefficients {
             diffuse: Rgb::ONE,
             ..BLACK
         };
@@ -147,15 +146,15 @@ fn contact_shadows() {
         let mut random = Random(5);
         let mut shadowed = 0;
         for _ in 0..20_000 {
-            // Within 2 r of the contact; the eye looks straight down on the point from below the
-            // ball's reach where it can.
+            // Within 2 r of the contact; the eye looks straight down at the point, from below the
+            // ball where possible.
             let place =
                 DVec3::new(random.next() * 4.0 - 3.0, 0.0, random.next() * 4.0 - 2.0) * radius;
             let to_light = light - place;
             let centre = DVec3::new(0.0, radius, 0.0) - place;
             let along = centre.dot(to_light) / to_light.length();
             let off = (centre.length_squared() - along * along).max(0.0).sqrt();
-            // Rounding of the independent formula leaves these undecided.
+            // Rounding of the reference formula leaves these undecided.
             if (off / radius - 1.0).abs() < 1e-6 {
                 continue;
             }

@@ -1,157 +1,179 @@
-//! The files that the scene names, pictures and meshes: which are wanted, and which have come.
+//! The pictures and meshes that the scene names: which are requested, and which have arrived.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use super::App;
 use crate::assets;
 use crate::assets::{Loaded, Troubles, Wanted};
+use crate::language::Source;
 use crate::scene::{Images, Meshes};
-use crate::text::{Findings, counted};
+use crate::text::{Findings, Severity, counted};
 use crate::ui::msg::Effect;
 
-/// Said where a picture would lack what is still being read.
+/// Shown when a picture would lack files that are still being read.
 pub(super) const STILL_READING: &str = "the scene's files are still being read";
 
-/// How the files that the scene names stand.
+/// The state of the files that the scene names.
 #[derive(Debug, Default)]
-pub(super) struct Assets {
-    /// What was asked for last: the files of the last text that had no errors.
+pub struct Assets {
+    /// The pictures of its textures that have been read.
+    pub images: Images,
+    /// The meshes of its objects that have been read.
+    pub meshes: Meshes,
+    /// The files requested last: those of the last text without errors.
     asked: Option<Wanted>,
-    /// It is yet to be asked for.
+    /// Whether the request is still to be made.
     due: bool,
-    /// Among it are files of which nothing has come yet.
+    /// Whether any requested file is still awaited.
     awaited: bool,
-    /// What is wrong with pictures; what is with meshes, the meshes say.
+    /// Problems with pictures; those with meshes are in `meshes`.
     troubles: Troubles,
-    /// Where files were found that were looked for elsewhere first, by name: each was said.
+    /// Where files were found other than where first looked for, by name; each was announced.
     elsewhere: BTreeMap<String, PathBuf>,
-    /// Where those that were read stand.
+    /// The paths of the files that were read.
     files: Vec<PathBuf>,
 }
 
-impl App {
-    /// Whether files that the scene names are yet to come.
-    pub fn awaits_assets(&self) -> bool {
-        self.assets.awaited
+/// Changes brought by files that were read.
+pub(super) struct News {
+    /// Whether pictures have changed.
+    pub(super) images: bool,
+    /// Whether the lowered scene or its diagnostics may have changed.
+    pub(super) meaning: bool,
+    pub(super) notice: Option<Notice>,
+}
+
+/// What to tell the user about files that were read.
+pub(super) enum Notice {
+    /// Different files can't be read than before: [`Assets::faults`].
+    Faults,
+    /// Where files were found, other than where first looked for.
+    Elsewhere(String),
+    /// Files have changed.
+    Reloaded,
+}
+
+impl Assets {
+    /// Whether files that the scene names have yet to arrive.
+    pub fn are_awaited(&self) -> bool {
+        self.awaited
     }
 
-    /// Adds what is wrong with the files that a text without errors names, and wants them.
-    pub(super) fn with_files(&mut self, found: Findings) -> Findings {
-        let files = self.source().files();
-        if found.errors() == 0 {
-            let wanted = self.path.as_ref().filter(|_| !files.is_empty());
-            self.want(wanted.map(|path| Wanted::new(path, &files)));
-        }
-        assets::report(&self.assets.troubles, &files, found)
+    /// The paths of the scene's files that were read.
+    pub(super) fn files(&self) -> &[PathBuf] {
+        &self.files
     }
 
-    /// The files that the scene names, as far as they are read.
-    pub(super) fn named_files(&self) -> &[PathBuf] {
-        &self.assets.files
-    }
-
-    /// Whether nothing is known yet of a mesh that the scene names.
-    pub(super) fn lacks_meshes(&self) -> bool {
+    /// Whether a mesh that the scene names has neither been read nor failed to be.
+    pub(super) fn lack_meshes(&self) -> bool {
         let is_missing = |name: &String| self.meshes.get(name).is_none();
-        let asked = self.assets.asked.as_ref();
+        let asked = self.asked.as_ref();
         asked.is_some_and(|asked| asked.meshes.iter().any(is_missing))
     }
 
+    /// Adds the problems with the files of a text, and requests the files if it has no errors.
+    pub(super) fn report(
+        &mut self,
+        path: Option<&Path>,
+        source: &Source,
+        found: Findings,
+    ) -> Findings {
+        let files = source.files();
+        if found.errors() == 0 {
+            let path = path.filter(|_| !files.is_empty());
+            self.want(path.map(|path| Wanted::new(path, &files)));
+        }
+        assets::report(&self.troubles, &files, found)
+    }
+
     fn want(&mut self, wanted: Option<Wanted>) {
-        let assets = &mut self.assets;
-        if assets.asked == wanted {
+        if self.asked == wanted {
             return;
         }
-        let is_known = match (&assets.asked, &wanted) {
+        let is_known = match (&self.asked, &wanted) {
             (Some(asked), Some(wanted)) => wanted.is_among(asked),
             (None, Some(_)) => false,
             (_, None) => true,
         };
-        // What was awaited and is still wanted goes on being awaited.
-        assets.awaited = wanted.is_some() && (assets.awaited || !is_known);
-        assets.due = wanted.is_some();
+        // An awaited file that is still wanted remains awaited.
+        self.awaited = wanted.is_some() && (self.awaited || !is_known);
+        self.due = wanted.is_some();
         if wanted.is_none() {
             self.images = Images::default();
             self.meshes = Meshes::default();
-            assets.troubles.clear();
-            assets.files.clear();
+            self.troubles.clear();
+            self.files.clear();
         }
-        assets.asked = wanted;
+        self.asked = wanted;
     }
 
-    /// Has the files read that are wanted since the last step.
-    pub(super) fn follow_assets(&mut self) -> Vec<Effect> {
-        if std::mem::take(&mut self.assets.due) {
-            self.read_assets()
+    /// Reads the files if others were requested in this step.
+    pub(super) fn follow(&mut self) -> Vec<Effect> {
+        if std::mem::take(&mut self.due) {
+            self.read()
         } else {
             Vec::new()
         }
     }
 
-    /// Has the files read, which may have changed.
-    pub(super) fn read_assets(&self) -> Vec<Effect> {
-        let asked = self.assets.asked.iter().cloned();
+    /// Reads the files, which may have changed.
+    pub(super) fn read(&self) -> Vec<Effect> {
+        let asked = self.asked.iter().cloned();
         asked.map(Effect::ReadAssets).collect()
     }
 
-    /// Takes what was read, unless something else is wanted by now.
-    pub(super) fn assets_read(&mut self, wanted: &Wanted, loaded: Loaded) {
-        if self.assets.asked.as_ref() != Some(wanted) {
-            return;
+    /// Takes files that were read, unless others have been requested since.
+    pub(super) fn take(&mut self, wanted: &Wanted, loaded: Loaded) -> Option<News> {
+        if self.asked.as_ref() != Some(wanted) {
+            return None;
         }
-        let is_first = std::mem::take(&mut self.assets.awaited);
-        let are_meshes_new = self.meshes != loaded.meshes;
-        let are_faults_new = self.assets.troubles != loaded.troubles
-            || are_meshes_new && 0 < self.meshes.unreadable() + loaded.meshes.unreadable();
-        let are_images_new = self.images != loaded.images;
+        let is_first = std::mem::take(&mut self.awaited);
+        let meshes = self.meshes != loaded.meshes;
+        let images = self.images != loaded.images;
+        let unreadable = self.meshes.unreadable() + loaded.meshes.unreadable();
+        let faults = self.troubles != loaded.troubles || meshes && 0 < unreadable;
+        let elsewhere = self.found_elsewhere(loaded.elsewhere);
+        let reloaded = (!is_first && (meshes || images)).then_some(Notice::Reloaded);
+        let notice = match elsewhere {
+            _ if faults => Some(Notice::Faults),
+            Some(words) => Some(Notice::Elsewhere(words)),
+            None => reloaded,
+        };
         self.images = loaded.images;
-        self.pending.scene |= are_images_new;
         self.meshes = loaded.meshes;
-        self.assets.troubles = loaded.troubles;
-        self.assets.files = loaded.files;
-        if are_meshes_new || are_faults_new {
-            // Meshes may name pictures, which are wanted then.
-            self.relower();
-        }
-        let found = self.found_elsewhere(loaded.elsewhere);
-        if are_faults_new {
-            self.tell_of_files();
-        } else if let Some(words) = found {
-            self.say(words);
-        } else if !is_first && (are_meshes_new || are_images_new) {
-            self.say("files reloaded");
-        }
+        self.troubles = loaded.troubles;
+        self.files = loaded.files;
+        Some(News {
+            images,
+            meaning: meshes || faults,
+            notice,
+        })
     }
 
-    /// The notice about files found elsewhere than first looked for.
     fn found_elsewhere(&mut self, found: BTreeMap<String, PathBuf>) -> Option<String> {
-        let said = &self.assets.elsewhere;
+        let announced = &self.elsewhere;
         let mut new = found
             .iter()
-            .filter(|(name, place)| said.get(*name) != Some(place));
+            .filter(|(name, place)| announced.get(*name) != Some(place));
         let (name, place) = new.next()?;
         let more = match new.count() {
             0 => String::new(),
             count => format!(" (and {} from elsewhere)", counted(count, "more file")),
         };
         let words = format!("{name} is read from {}{more}", place.display());
-        self.assets.elsewhere.extend(found);
+        self.elsewhere.extend(found);
         Some(words)
     }
 
-    fn tell_of_files(&mut self) {
+    /// The message that counts the unreadable files, and its severity.
+    pub(super) fn faults(&self) -> (Option<Severity>, String) {
         let meshes = self.meshes.unreadable();
-        match meshes + self.assets.troubles.len() {
-            0 => self.say("all files can be read now"),
-            count => {
-                let words = format!("{} can't be read: ! shows why", counted(count, "file"));
-                if meshes == 0 {
-                    self.warn(words);
-                } else {
-                    self.fail(words);
-                }
-            }
+        let count = meshes + self.troubles.len();
+        let words = format!("{} can't be read: ! shows why", counted(count, "file"));
+        match (count, meshes) {
+            (0, _) => (None, "all files can be read now".to_owned()),
+            (_, 0) => (Some(Severity::Warning), words),
+            _ => (Some(Severity::Error), words),
         }
     }
 }

@@ -1,19 +1,21 @@
-//! The line after `:`.
+//! The command line after `:`: one table of commands, shared by the parser, the help and the
+//! README, and what each command does.
 
 use std::path::{Path, PathBuf};
 
-use super::{App, Disk, Help, PromptKind};
+use super::{App, Help, OnDisk, PromptKind};
 use crate::image_file::ImageFormat;
 use crate::language::Language;
 use crate::render::MAX_SPP;
 use crate::scene::{Camera, Size};
 use crate::text::slips;
+use crate::ui::keymap::{self, HelpLine};
 use crate::ui::msg::{Effect, Existing, Guard};
 
-/// What a command line means.
+/// A parsed command line.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Command {
-    /// Save, here or in another file.
+enum Command {
+    /// Save, optionally to another file.
     Write(Option<PathBuf>, Force),
     /// Quit.
     Quit(Force),
@@ -21,20 +23,15 @@ pub(super) enum Command {
     WriteQuit,
     /// Read the file again.
     Reread,
-    /// Write a picture.
-    Export {
-        path: Option<PathBuf>,
-        size: Option<Size>,
-        spp: Option<u32>,
-        force: Force,
-    },
+    /// Export a picture.
+    Export(Picture, Force),
     /// Cancel the export.
     ExportCancel,
     /// Trace at full size.
     Render,
     /// Write the working view into the text.
     ViewSave,
-    /// Go back to the text's view.
+    /// Return to the text's view.
     ViewReset,
     /// Set the size of the output picture.
     Size(Size),
@@ -42,66 +39,118 @@ pub(super) enum Command {
     Help,
 }
 
-/// Whether a command ends in `!`.
+/// Whether a command ends with `!`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Force {
+enum Force {
     No,
     Yes,
 }
 
-/// Every command as it is written, for the message about an unknown one.
-const NAMES: [&str; 13] = [
-    "w",
-    "w!",
-    "q",
-    "q!",
-    "wq",
-    "e",
-    "export",
-    "export!",
-    "render",
-    "view save",
-    "view reset",
-    "size",
-    "help",
-];
+/// The picture to export; fields that are `None` are taken from the scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Picture {
+    path: Option<PathBuf>,
+    size: Option<Size>,
+    spp: Option<u32>,
+}
 
-/// Parses a command line; the error names what is expected.
-pub(super) fn parse(line: &str) -> Result<Command, String> {
-    let line = line.trim();
-    let (name, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
-    let rest = rest.trim();
-    let file = (!rest.is_empty()).then(|| PathBuf::from(rest));
-    let alone = |command| match rest {
-        "" => Ok(command),
-        _ => Err(format!("{name} takes nothing after it")),
-    };
-    match name {
-        "w" | "write" => Ok(Command::Write(file, Force::No)),
-        "w!" | "write!" => Ok(Command::Write(file, Force::Yes)),
-        "q" | "quit" => alone(Command::Quit(Force::No)),
-        "q!" | "quit!" => alone(Command::Quit(Force::Yes)),
-        "wq" | "x" => alone(Command::WriteQuit),
-        "e" | "reread" => alone(Command::Reread),
-        "render" => alone(Command::Render),
-        "help" => alone(Command::Help),
-        "export" if rest == "cancel" => Ok(Command::ExportCancel),
-        "export" => export(rest, Force::No),
-        "export!" => export(rest, Force::Yes),
-        "size" => Size::parse(rest)
-            .map(Command::Size)
-            .ok_or_else(|| "size takes two whole numbers: size 800x600".to_owned()),
-        "view" => match rest {
-            "save" => Ok(Command::ViewSave),
-            "reset" => Ok(Command::ViewReset),
-            _ => Err("view save, or view reset?".to_owned()),
-        },
-        _ => Err(unknown(name)),
+/// A row of the table: the spelling of a command and its meaning.
+struct Form {
+    /// One or two words, and alternative spellings.
+    names: &'static [&'static str],
+    arguments: Arguments,
+    /// Description for the help.
+    words: &'static str,
+}
+
+/// The arguments of a command, and how they form its meaning.
+enum Arguments {
+    Nothing(Command),
+    File(fn(Option<PathBuf>) -> Command),
+    Picture(fn(Picture) -> Command),
+    Size(fn(Size) -> Command),
+}
+
+const fn form(names: &'static [&'static str], arguments: Arguments, words: &'static str) -> Form {
+    Form {
+        names,
+        arguments,
+        words,
     }
 }
 
-/// `FILE [WxH] [spp]`; the file's name may hold blanks.
-fn export(rest: &str, force: Force) -> Result<Command, String> {
+use Arguments as A;
+use Command as C;
+
+/// All commands.
+#[rustfmt::skip]
+const TABLE: &[Form] = &[
+    form(&["w", "write"], A::File(|file| C::Write(file, Force::No)), "save the scene, or under another name"),
+    form(&["w!", "write!"], A::File(|file| C::Write(file, Force::Yes)), "save over changes of the file"),
+    form(&["q", "quit"], A::Nothing(C::Quit(Force::No)), "quit"),
+    form(&["q!", "quit!"], A::Nothing(C::Quit(Force::Yes)), "quit without asking"),
+    form(&["wq", "x"], A::Nothing(C::WriteQuit), "save and quit"),
+    form(&["e", "reread"], A::Nothing(C::Reread), "read the file again"),
+    form(&["export"], A::Picture(|picture| C::Export(picture, Force::No)), "write a picture of what is shown"),
+    form(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "write it over a file that is there"),
+    form(&["export cancel"], A::Nothing(C::ExportCancel), "stop writing it"),
+    form(&["render"], A::Nothing(C::Render), "trace at full size"),
+    form(&["view save"], A::Nothing(C::ViewSave), "write the view into the scene"),
+    form(&["view reset"], A::Nothing(C::ViewReset), "back to the scene's view"),
+    form(&["size"], A::Size(C::Size), "size of the picture in the scene"),
+    form(&["help"], A::Nothing(C::Help), "this page"),
+];
+
+impl Form {
+    /// The spelling with arguments: `:size WxH`.
+    fn usage(&self) -> String {
+        let name = self.names[0];
+        let arguments = match self.arguments {
+            A::Nothing(_) => "",
+            A::File(_) => " [FILE]",
+            A::Picture(_) => " [FILE] [WxH] [SPP]",
+            A::Size(_) => " WxH",
+        };
+        format!(":{name}{arguments}")
+    }
+
+    /// Parses the arguments; the error says what is expected.
+    fn parse(&self, rest: &str) -> Result<Command, String> {
+        let name = self.names[0];
+        match &self.arguments {
+            A::Nothing(command) if rest.is_empty() => Ok(command.clone()),
+            A::Nothing(_) => Err(format!("{name} takes nothing after it")),
+            A::File(command) => Ok(command((!rest.is_empty()).then(|| PathBuf::from(rest)))),
+            A::Picture(command) => picture(rest).map(command),
+            A::Size(command) => Size::parse(rest)
+                .map(command)
+                .ok_or_else(|| format!("{name} takes two whole numbers: {name} 800x600")),
+        }
+    }
+}
+
+/// Parses a command line; the error says what is expected.
+fn parse(line: &str) -> Result<Command, String> {
+    let line = line.trim();
+    let (name, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+    let rest = rest.trim();
+    let called = |name: &str| TABLE.iter().find(|form| form.names.contains(&name));
+    if let Some(form) = called(&format!("{name} {rest}")) {
+        return form.parse("");
+    }
+    if let Some(form) = called(name) {
+        return form.parse(rest);
+    }
+    let names = TABLE.iter().map(|form| form.names[0]);
+    let longer = names.filter(|longer| longer.split(' ').next() == Some(name));
+    match longer.collect::<Vec<_>>().as_slice() {
+        [] => Err(unknown(name)),
+        longer => Err(format!("{}?", longer.join(", or "))),
+    }
+}
+
+/// Parses `[FILE] [WxH] [SPP]`; the file name may contain blanks.
+fn picture(rest: &str) -> Result<Picture, String> {
     let mut words: Vec<_> = rest.split_whitespace().collect();
     let mut spp = None;
     if let Some(count) = words.last().and_then(|word| word.parse().ok()) {
@@ -119,15 +168,10 @@ fn export(rest: &str, force: Force) -> Result<Command, String> {
         return Err(wrong);
     }
     let path = (!words.is_empty()).then(|| PathBuf::from(words.join(" ")));
-    Ok(Command::Export {
-        path,
-        size,
-        spp,
-        force,
-    })
+    Ok(Picture { path, size, spp })
 }
 
-/// What is wrong with the word behind a picture's name, if one is left there.
+/// Finds fault with a word left after the picture's name.
 fn wrong_word(words: &[&str]) -> Option<String> {
     let is_picture = |word: &&str| ImageFormat::of_path(Path::new(word)).is_some();
     let word = match words.iter().rposition(is_picture) {
@@ -150,20 +194,29 @@ fn wrong_word(words: &[&str]) -> Option<String> {
 }
 
 fn unknown(name: &str) -> String {
-    let nearest = NAMES
-        .iter()
-        .min_by_key(|known| slips(name, known))
-        .filter(|known| slips(name, known) <= 2);
-    match nearest {
+    let names: Vec<_> = TABLE.iter().map(|form| form.names[0]).collect();
+    let nearest = names.iter().min_by_key(|known| slips(name, known));
+    match nearest.filter(|known| slips(name, known) <= 2) {
         Some(nearest) => format!("{name} is not a command; did you mean {nearest}?"),
         None => format!(
             "{name} is not a command; the commands are {}",
-            NAMES.join(", ")
+            names.join(", ")
         ),
     }
 }
 
 impl App {
+    /// The lines of the help page.
+    pub fn help_lines(&self) -> Vec<HelpLine> {
+        let search = self
+            .overlays
+            .help
+            .as_ref()
+            .map_or("", |help| help.search.value());
+        let commands = TABLE.iter().map(|form| (form.usage(), form.words));
+        keymap::help(search, self.mode, commands.collect())
+    }
+
     /// Runs a command line.
     pub(super) fn command(&mut self, line: &str) -> Vec<Effect> {
         if line.trim().is_empty() {
@@ -172,7 +225,7 @@ impl App {
         match parse(line) {
             Ok(command) => self.run(command),
             Err(reason) => {
-                self.fail(reason);
+                self.overlays.fail(reason);
                 Vec::new()
             }
         }
@@ -181,7 +234,7 @@ impl App {
     fn run(&mut self, command: Command) -> Vec<Effect> {
         match command {
             Command::Quit(_) | Command::Help => {}
-            _ if self.is_opening() => {
+            _ if self.disk.is_opening() => {
                 self.warn_of_opening();
                 return Vec::new();
             }
@@ -192,19 +245,14 @@ impl App {
             Command::Quit(Force::No) => return self.quit(),
             Command::Quit(Force::Yes) => return self.quit_anyway(),
             Command::WriteQuit => {
-                self.pending.quit = self.path.is_some();
-                if self.pending.quit && !self.document.is_dirty() && self.disk == Disk::Known {
+                self.jobs.quit = self.disk.path.is_some();
+                if self.jobs.quit && !self.document.is_dirty() && self.disk.state == OnDisk::Known {
                     return self.quit_when_done();
                 }
                 return self.save();
             }
             Command::Reread => return self.reread(),
-            Command::Export {
-                path,
-                size,
-                spp,
-                force,
-            } => {
+            Command::Export(Picture { path, size, spp }, force) => {
                 let path = path.unwrap_or_else(|| self.export_path());
                 let existing = match force {
                     Force::No => Existing::Kept,
@@ -215,9 +263,9 @@ impl App {
             Command::ExportCancel => return self.cancel_export(),
             Command::Render => return self.start_trace(),
             Command::ViewSave => self.save_view(),
-            Command::ViewReset => self.reset_view(),
+            Command::ViewReset => self.pictures.reset_view(),
             Command::Size(size) => self.set_size(size),
-            Command::Help => self.help = Some(Help::default()),
+            Command::Help => self.overlays.help = Some(Help::default()),
         }
         Vec::new()
     }
@@ -229,19 +277,21 @@ impl App {
         {
             let extension = own.extension();
             let name = path.with_extension(extension);
-            self.open_prompt(PromptKind::Command, &format!("w {}", name.display()));
+            self.overlays
+                .open_prompt(PromptKind::Command, &format!("w {}", name.display()));
             let shown = path.display();
-            self.fail(format!("{shown}: the name must end in .{extension}"));
-            // What stands there may be no file at all.
+            self.overlays
+                .fail(format!("{shown}: the name must end in .{extension}"));
+            // The path may not even name a file.
             return vec![Effect::CheckPlace(path.clone())];
         }
-        match (file.or_else(|| self.path.clone()), force) {
-            (Some(path), Force::Yes) => self.save_to(path, Guard::Anything),
-            (Some(path), Force::No) if !self.is_own_path(&path) => {
+        match (file.or_else(|| self.disk.path.clone()), force) {
+            (Some(path), Force::Yes) => self.save_to(&path, Guard::Anything),
+            (Some(path), Force::No) if !self.disk.is_own(&path) => {
                 if self.refuses_errors(&path) {
                     return Vec::new();
                 }
-                self.save_to(path, Guard::Absent)
+                self.save_to(&path, Guard::Absent)
             }
             (_, Force::No | Force::Yes) => self.save(),
         }
@@ -249,7 +299,8 @@ impl App {
 
     fn set_size(&mut self, size: Size) {
         let Some(scene) = self.scene.clone().filter(|_| self.error_count() == 0) else {
-            self.fail("the size can't be written while the scene has errors");
+            self.overlays
+                .fail("the size can't be written while the scene has errors");
             return;
         };
         let camera = Camera {
@@ -258,7 +309,7 @@ impl App {
         };
         self.document.end_step();
         if let Err(refused) = self.write_camera(&camera, &scene.camera) {
-            self.fail(refused.message);
+            self.overlays.fail(refused.message);
         }
         self.document.end_step();
     }
@@ -267,24 +318,32 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ui::app::Mode;
-    use crate::ui::keymap::{HelpLine, help};
 
     #[test]
-    fn every_command_is_in_the_help() {
-        let lines = help("", Mode::Select);
-        let listed: Vec<_> = lines
+    fn every_command_is_in_the_readme() {
+        let readme = include_str!("../../../README.md");
+        let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+        let forms: Vec<_> = TABLE
             .iter()
-            .filter_map(|line| match line {
-                HelpLine::Entry { keys, .. } => Some(keys.split("  ")),
-                HelpLine::Heading(_) => None,
-            })
-            .flatten()
-            .filter_map(|form| form.strip_prefix(':'))
+            .map(|form| format!("`{}`", form.usage()))
             .collect();
-        for name in NAMES {
-            let matches = |form: &&str| *form == name || form.starts_with(&format!("{name} "));
-            assert!(listed.iter().any(matches), "{name} is not in {listed:?}");
+        let list = format!("Commands: {}. ", forms.join(", "));
+        assert!(words(readme).contains(&list), "{list}");
+    }
+
+    #[test]
+    fn commands_are_found_by_every_name() {
+        for (index, form) in TABLE.iter().enumerate() {
+            for name in form.names {
+                let argument = if let A::Size(_) = form.arguments {
+                    " 8x6"
+                } else {
+                    ""
+                };
+                assert!(parse(&format!(" {name}{argument} ")).is_ok(), "{name}");
+                let mut others = TABLE[..index].iter().flat_map(|form| form.names);
+                assert!(others.all(|other| other != name), "{name}");
+            }
         }
     }
 }

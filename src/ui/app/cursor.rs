@@ -1,36 +1,231 @@
-//! The cursor while the text changes under it.
+//! The cursor: the selected node, its fields, the current component, and the value typed into it.
 
 use std::sync::Arc;
 
-use super::App;
-use crate::language::Placed;
-use crate::text::{Edit, Span};
+use tui_input::Input;
 
-/// Where the cursor was before a text came from outside.
+use crate::language::{Node, Placed, Source};
+use crate::text::{Diagnostic, Edit, Span};
+use crate::ui::keymap::Stride;
+use crate::ui::layout::{self, Areas};
+
+/// The maximum number of parts listed for a combined object.
+const MOST_PARTS: usize = 32;
+
+/// The selection in the list and in the fields.
+#[derive(Debug)]
+pub struct Cursor {
+    selected: Node,
+    /// The fields of the selected node in the current text.
+    fields: Vec<Placed>,
+    parts: Vec<(usize, Node)>,
+    /// The first row of the list that is shown.
+    pub list_top: usize,
+    /// The index of the selected field.
+    pub field: usize,
+    /// The index of the first field shown.
+    pub field_top: usize,
+    /// The selected component of that field.
+    pub component: usize,
+    /// The size of a nudge.
+    pub stride: Stride,
+    /// A value being typed.
+    pub typing: Option<Typing>,
+    /// The last search in the list.
+    pub(super) searched: String,
+    /// The component clicked a moment ago.
+    clicked: Option<(usize, usize)>,
+}
+
+/// A value being typed into a component.
+#[derive(Debug, Default)]
+pub struct Typing {
+    /// The text and its cursor.
+    pub input: Input,
+    /// Why the last attempt was refused: the parser's own message.
+    pub refused: Option<Diagnostic>,
+}
+
+/// The cursor before the text was replaced from outside.
 #[derive(Debug)]
 pub(super) struct Held {
-    /// The text it was in.
+    /// The text that it was in.
     pub(super) text: Arc<String>,
-    /// The field it was on, and the place of its component where the text says it.
+    /// The key of its field, and the span of its component if the text has it.
     field: Option<(&'static str, Option<Span>)>,
 }
 
-impl App {
-    /// Notes where the cursor is.
-    pub(super) fn hold(&self) -> Held {
-        let field = self.placed().get(self.field).map(|placed| {
-            let span = placed.spans.get(self.component).copied();
-            (placed.field.key, span)
-        });
-        Held {
-            text: self.document.shared_text(),
-            field,
+impl Default for Cursor {
+    fn default() -> Self {
+        Self {
+            selected: Node::View,
+            fields: Vec::new(),
+            parts: Vec::new(),
+            list_top: 0,
+            field: 0,
+            field_top: 0,
+            component: 0,
+            stride: Stride::default(),
+            typing: None,
+            searched: String::new(),
+            clicked: None,
+        }
+    }
+}
+
+impl Cursor {
+    /// The selected node.
+    pub fn selected(&self) -> Node {
+        self.selected
+    }
+
+    /// The fields of the selected node, with their spans in the text.
+    pub fn fields(&self) -> &[Placed] {
+        &self.fields
+    }
+
+    /// The parts of the selected object in order, each with its depth below it; at most the first
+    /// `MOST_PARTS`. Empty unless the object is a combination.
+    pub fn parts(&self) -> &[(usize, Node)] {
+        &self.parts
+    }
+
+    /// The selected field, if there is one.
+    pub(super) fn current(&self) -> Option<&Placed> {
+        self.fields.get(self.field)
+    }
+
+    /// Selects a node.
+    pub fn select(&mut self, node: Node, source: &Source) {
+        self.typing = None;
+        if node != self.selected {
+            self.field = 0;
+            self.component = 0;
+            self.field_top = 0;
+            self.stand_on(node, source);
         }
     }
 
-    /// Puts the cursor back on the number that it was on before an edit, and keeps what is typed
-    /// there; whether that had to be dropped because the field is gone.
-    pub(super) fn follow_cursor(&mut self, held: &Held, edit: Option<&Edit>) -> bool {
+    /// Updates the cursor after the text has changed; the selection stays on an existing node.
+    pub fn renew(&mut self, source: &Source) {
+        let nodes = source.nodes();
+        let row = row_of(source, self.selected);
+        self.stand_on(nodes.get(row).unwrap_or(self.selected), source);
+        self.keep();
+    }
+
+    fn stand_on(&mut self, node: Node, source: &Source) {
+        self.selected = node;
+        self.fields = source.fields(node);
+        self.parts = match node {
+            Node::Object(object) => source.parts(object, 1 + MOST_PARTS).split_off(1),
+            _ => Vec::new(),
+        };
+    }
+
+    /// Keeps the cursor on an existing component.
+    fn keep(&mut self) {
+        self.field = self.field.min(self.fields.len().saturating_sub(1));
+        let field = self.fields.get(self.field);
+        let components = field.map_or(1, |placed| placed.field.kind.components());
+        self.component = self.component.min(components - 1);
+    }
+
+    /// Returns the node `rows` further down the list.
+    pub(super) fn row_after(&self, rows: isize, source: &Source) -> Option<Node> {
+        let nodes = source.nodes();
+        nodes.get(moved(row_of(source, self.selected), rows, nodes.len()))
+    }
+
+    /// Moves the cursor to a component of a field.
+    pub(super) fn focus(&mut self, field: usize, component: usize) {
+        if let Some(placed) = self.fields.get(field) {
+            self.field = field;
+            self.component = component.min(placed.field.kind.components() - 1);
+        }
+    }
+
+    /// The field with a value at this span of the text.
+    pub(super) fn field_at(&self, span: Span) -> Option<usize> {
+        let touches = |placed: &Placed| placed.spans.iter().any(|at| at.touches(span));
+        self.fields.iter().position(touches)
+    }
+
+    /// Records a click; returns whether it is the second within a moment on the same component.
+    pub(super) fn click(&mut self, at: (usize, usize)) -> bool {
+        let is_second = self.clicked.take() == Some(at);
+        self.clicked = (!is_second).then_some(at);
+        is_second
+    }
+
+    pub(super) fn forget_click(&mut self) {
+        self.clicked = None;
+    }
+
+    /// Moves to another component, wrapping around.
+    pub(super) fn next_component(&mut self, step: isize) {
+        let counts = self.fields.iter();
+        let counts: Vec<_> = counts
+            .map(|placed| placed.field.kind.components())
+            .collect();
+        let count: usize = counts.iter().sum();
+        if count == 0 {
+            return;
+        }
+        let before: usize = counts[..self.field].iter().sum();
+        let at = (before + self.component) as isize + step;
+        let mut at = at.rem_euclid(count as isize) as usize;
+        self.field = 0;
+        while counts[self.field] <= at {
+            at -= counts[self.field];
+            self.field += 1;
+        }
+        self.component = at;
+    }
+
+    /// Decreases or increases the stride and returns its description.
+    pub(super) fn change_stride(&mut self, step: isize) -> &'static str {
+        self.stride = match (self.stride, step < 0) {
+            (Stride::Coarse, true) | (Stride::Fine, false) => Stride::Plain,
+            (_, true) => Stride::Fine,
+            (_, false) => Stride::Coarse,
+        };
+        match self.stride {
+            Stride::Fine => "nudges are a tenth of a step",
+            Stride::Plain => "nudges are one step",
+            Stride::Coarse => "nudges are ten steps",
+        }
+    }
+
+    pub(super) fn type_value(&mut self, input: Input) {
+        self.typing = Some(Typing {
+            input,
+            refused: None,
+        });
+    }
+
+    /// Scrolls so that the cursors are visible.
+    pub(super) fn scroll(&mut self, areas: &Areas, source: &Source) {
+        let fields = usize::from(layout::field_rows(areas.fields).height);
+        let count = self.fields.len();
+        self.field_top = layout::first_shown(self.field_top, self.field, count, fields);
+        let rows = usize::from(layout::contents(areas.list).height);
+        let row = row_of(source, self.selected);
+        self.list_top = layout::first_shown(self.list_top, row, source.nodes().len(), rows);
+    }
+
+    /// Records the cursor's position in a text.
+    pub(super) fn hold(&self, text: Arc<String>) -> Held {
+        let field = self.current().map(|placed| {
+            let span = placed.spans.get(self.component).copied();
+            (placed.field.key, span)
+        });
+        Held { text, field }
+    }
+
+    /// Returns the cursor to the number that it was on before an edit, keeping a value typed there;
+    /// returns whether that had to be dropped because the field is gone.
+    pub(super) fn follow(&mut self, held: &Held, edit: Option<&Edit>, source: &Source) -> bool {
         let Some((key, span)) = held.field else {
             return self.typing.take().is_some();
         };
@@ -42,27 +237,35 @@ impl App {
                 (span.end() <= edit.span.start()).then_some(span)
             }
         });
-        let node = moved.and_then(|span| self.source().node_at(span));
         let component = self.component;
-        if let Some(node) = node
+        if let Some(node) = moved.and_then(|span| source.node_at(span))
             && node != self.selected
         {
-            self.selected = node;
+            self.stand_on(node, source);
         }
-        let placed = self.placed();
-        // Several fields may have one name.
+        // Several fields may have the same key.
         let holds = |place: &Placed| moved.is_some_and(|span| place.spans.contains(&span));
-        let called = |place: &&Placed| place.field.key == key;
-        let field = placed
-            .iter()
-            .position(holds)
-            .or_else(|| placed.iter().position(|place| called(&place)));
+        let mut fields = self.fields.iter();
+        let field = fields.position(holds).or_else(|| {
+            let mut fields = self.fields.iter();
+            fields.position(|place| place.field.key == key)
+        });
         if let Some(field) = field {
-            self.field = field;
-            self.component = component.min(placed[field].field.kind.components() - 1);
+            self.focus(field, component);
             return false;
         }
-        self.keep_cursor();
+        self.keep();
         self.typing.take().is_some()
     }
+}
+
+/// The list's row of a node, or the nearest one if the text no longer has it.
+pub(super) fn row_of(source: &Source, node: Node) -> usize {
+    let nodes = source.nodes();
+    nodes.before(node).min(nodes.len().saturating_sub(1))
+}
+
+/// Moves an index, limited to `count` entries.
+pub(super) fn moved(at: usize, by: isize, count: usize) -> usize {
+    at.saturating_add_signed(by).min(count.saturating_sub(1))
 }

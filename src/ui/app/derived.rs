@@ -1,27 +1,41 @@
-//! What follows from the state: read by drawing and by the steps alike.
+//! Values derived from the state, for drawing and for steps alike.
 
 use ratatui::layout::Rect;
 
+use super::App;
+use super::cursor::row_of;
+use super::disk::OnDisk;
+use super::overlays::Dialog;
 use super::picture::Picture;
-use super::{App, Disk, FieldRow, Mode, Outline, Provenance, Stride};
-use crate::language::Placed;
+use super::pictures::Outline;
 use crate::language::table::Field;
 use crate::language::{Node, Nodes, Source};
-use crate::scene::{Camera, Size};
-use crate::text::Findings;
-use crate::ui::view::layout::{Areas, Zoom, arrange, raster};
+use crate::scene::{Camera, Integrator, Size};
+use crate::ui::errors::{self, Panel, Wrong};
+use crate::ui::keymap::{Context, Mode, Stride};
+use crate::ui::layout::{Areas, Zoom, arrange, raster};
 
-/// The size of a picture of nothing.
+/// The picture size without a scene.
 const NO_SCENE: Size = Size {
     width: 4,
     height: 3,
 };
 
-/// The most parts of a combined object that are listed.
-const MOST_PARTS: usize = 32;
-
 impl App {
-    /// How much of the screen the picture takes now.
+    /// The context whose keys are active; keys typed into a line take precedence.
+    pub fn context(&self) -> Context {
+        match &self.overlays.dialog {
+            Some(Dialog::Quit) => Context::Quit,
+            Some(Dialog::Conflict { .. }) => Context::Conflict,
+            Some(Dialog::Recover(_)) => Context::Recover,
+            None if self.overlays.help.is_some() => Context::Help,
+            None if self.overlays.errors.is_some() => Context::Errors,
+            None if self.disk.is_opening() => Context::Opening,
+            None => Context::In(self.mode),
+        }
+    }
+
+    /// How much of the screen the picture currently takes.
     pub fn zoom_now(&self) -> Zoom {
         match self.mode {
             Mode::Trace => Zoom::Picture,
@@ -29,40 +43,50 @@ impl App {
         }
     }
 
-    /// Where everything is on the screen.
+    /// The layout of the screen.
     pub fn areas(&self) -> Areas {
         self.areas_at(self.zoom_now())
     }
 
-    /// The cells of the picture on screen and its size in pixels; `None` where there is no room.
+    /// The cells of the picture on screen and its size in pixels; `None` if there is no room.
     pub fn raster(&self) -> Option<(Rect, Size)> {
         raster(self.areas().picture, self.output())
     }
 
-    /// As [`App::raster`], for the preview even while the full-size trace is on screen.
+    /// Like [`App::raster`], but for the preview even while the full-size trace is on screen.
     pub(super) fn preview_size(&self) -> Option<Size> {
         raster(self.areas_at(self.zoom).picture, self.output()).map(|(_, size)| size)
     }
 
     /// The picture on screen.
     pub fn picture(&self) -> &Picture {
-        match (self.mode, &self.trace) {
-            (Mode::Trace, Some(trace)) => trace,
-            _ => &self.preview,
-        }
+        self.pictures.seen(self.mode)
     }
 
-    /// The picture on screen, to bring newer rows to it.
+    /// The picture on screen, mutable in order to advance it.
     pub fn picture_mut(&mut self) -> &mut Picture {
-        match (self.mode, &mut self.trace) {
-            (Mode::Trace, Some(trace)) => trace,
-            _ => &mut self.preview,
-        }
+        self.pictures.seen_mut(self.mode)
     }
 
-    /// From where the pictures are seen: the working view, or the scene's own camera.
+    /// The camera of the pictures: the working view, otherwise the scene's own.
     pub fn camera(&self) -> Option<Camera> {
-        self.view.or_else(|| Some(self.scene.as_ref()?.camera))
+        self.pictures.camera(self.own_camera())
+    }
+
+    /// The scene's camera.
+    pub(super) fn own_camera(&self) -> Option<Camera> {
+        self.scene.as_ref().map(|scene| scene.camera)
+    }
+
+    /// Whether the integrator differs from the scene's choice.
+    pub fn is_integrator_changed(&self) -> bool {
+        let own = self.scene.as_ref().map(|scene| scene.setting.integrator);
+        self.integrator() != own.unwrap_or_default()
+    }
+
+    /// The integrator: the user's choice, otherwise the scene's.
+    pub fn integrator(&self) -> Integrator {
+        self.pictures.integrator(self.scene.as_deref())
     }
 
     /// Size of the output picture.
@@ -70,33 +94,43 @@ impl App {
         self.camera().map_or(NO_SCENE, |camera| camera.size)
     }
 
-    /// How many errors the text as it stands has; the picture is stale if there are any.
+    /// The number of errors in the current text; the picture is stale if there are any.
     pub fn error_count(&self) -> usize {
         self.diagnostics.errors()
     }
 
-    /// The errors and warnings to be shown, and the text they are in: those of the file on disk
-    /// where it is what is wrong.
-    pub fn wrong(&self) -> (&str, &Findings) {
-        match &self.broken {
-            Some(broken) if self.is_disk_wrong() => (&broken.text, &broken.diagnostics),
+    /// The errors and warnings to show and the text that they refer to: the file on disk if that is
+    /// what has errors.
+    pub(crate) fn wrong(&self) -> Wrong<'_> {
+        let (text, findings) = match &self.disk.broken {
+            Some(broken) if self.is_disk_wrong() => (&**broken.text, &broken.diagnostics),
             _ => (self.document.text(), &self.diagnostics),
+        };
+        Wrong {
+            text,
+            findings,
+            at: self.overlays.errors,
         }
+    }
+
+    /// The list of errors and warnings over the picture, if there are any to show.
+    pub(crate) fn errors_panel(&self, area: Rect) -> Option<Panel> {
+        errors::panel(&self.wrong(), &self.disk.name(), area)
     }
 
     /// Whether the file on disk has errors while the text has none.
     pub fn is_disk_wrong(&self) -> bool {
-        self.disk == Disk::Broken && self.broken.is_some() && self.error_count() == 0
+        self.disk.state == OnDisk::Broken && self.disk.broken.is_some() && self.error_count() == 0
     }
 
-    /// What would be lost if the program ended now, in words; `None` is nothing.
+    /// Describes what would be lost by quitting now; `None` if nothing.
     pub fn losses(&self) -> Option<String> {
-        let edits = format!("{} has edits that are not saved", self.file_name());
-        let export = self.export.as_ref().map(|export| {
+        let edits = format!("{} has edits that are not saved", self.disk.name());
+        let export = self.jobs.export.as_ref().map(|export| {
             let name = export.destination.path.display();
             format!("the export to {name} is not done")
         });
-        let save = self.file_being_saved();
+        let save = self.jobs.file_being_saved();
         let save = save.map(|path| format!("{} is still being written", path.display()));
         match (self.document.is_dirty(), export) {
             (false, export) => export.or(save),
@@ -105,80 +139,52 @@ impl App {
         }
     }
 
-    /// How far one nudge of a field goes now.
+    /// The size of one nudge of a field.
     pub fn step(&self, field: &Field) -> f64 {
-        match self.stride {
+        match self.cursor.stride {
             Stride::Fine => field.step / 10.0,
             Stride::Plain => field.step,
             Stride::Coarse => field.step * 10.0,
         }
     }
 
-    /// The object whose outline is to be marked in the picture.
+    /// The object to outline in the picture.
     pub fn marked_object(&self) -> Option<u32> {
-        let marks = self.mode == Mode::Select && self.outline == Outline::Marked;
-        match self.selected {
+        let marks = self.mode == Mode::Select && self.pictures.outline == Outline::Marked;
+        match self.cursor.selected() {
             Node::Object(index) if marks && self.error_count() == 0 => self.source().drawn(index),
             _ => None,
         }
     }
 
-    /// What the scene is called on screen.
-    pub fn file_name(&self) -> String {
-        self.path.as_ref().map_or_else(
-            || "(no file)".to_owned(),
-            |path| {
-                path.file_name()
-                    .unwrap_or(path.as_os_str())
-                    .to_string_lossy()
-                    .into_owned()
-            },
-        )
-    }
-
-    /// The text as it stands, and where its things stand in it.
+    /// The current text with its parsed structure.
     pub fn source(&self) -> &Source {
         self.document.source()
     }
 
-    /// The things of the text as it stands: the list's rows.
+    /// The nodes of the current text: the rows of the list.
     pub fn nodes(&self) -> Nodes {
         self.source().nodes()
     }
 
-    /// The list's row of a node; the nearest one if the text no longer has it.
-    pub fn row_of(&self, node: Node) -> usize {
-        let nodes = self.nodes();
-        nodes.before(node).min(nodes.len().saturating_sub(1))
+    /// The list's row of the selected node.
+    pub fn selected_row(&self) -> usize {
+        row_of(self.source(), self.cursor.selected())
     }
 
-    /// The fields of the selected thing as they are shown.
+    /// The fields of the selected node as shown.
     pub fn fields(&self) -> Vec<FieldRow> {
-        let placed = self.placed();
-        placed
-            .iter()
-            .enumerate()
-            .map(|(index, placed)| self.field_row(index, placed))
-            .collect()
+        let fields = 0..self.cursor.fields().len();
+        fields.filter_map(|index| self.field_row(index)).collect()
     }
 
-    /// The fields of the selected thing and where they stand in the text.
-    pub(super) fn placed(&self) -> Vec<Placed> {
-        self.source().fields(self.selected)
-    }
-
-    /// What the selected object combines, in order, each with how deep it lies below it: the first
-    /// ones, if they are many. Nothing where it is not a combination.
-    pub fn parts(&self) -> Vec<(usize, Node)> {
-        match self.selected {
-            Node::Object(object) => self.source().parts(object, 1 + MOST_PARTS).split_off(1),
-            _ => Vec::new(),
-        }
-    }
-
-    /// Where everything is in an area of the screen.
+    /// The layout of an area of the screen.
     pub fn areas_in(&self, area: Rect, zoom: Zoom) -> Areas {
-        arrange(area, zoom, self.placed().len() + self.parts().len())
+        arrange(
+            area,
+            zoom,
+            self.cursor.fields().len() + self.cursor.parts().len(),
+        )
     }
 
     fn areas_at(&self, zoom: Zoom) -> Areas {
@@ -186,7 +192,8 @@ impl App {
         self.areas_in(Rect::new(0, 0, columns, rows), zoom)
     }
 
-    fn field_row(&self, index: usize, placed: &Placed) -> FieldRow {
+    pub(super) fn field_row(&self, index: usize) -> Option<FieldRow> {
+        let placed = self.cursor.fields().get(index)?;
         let source = self.source();
         let said = (0..).zip(&placed.spans).map(|(component, span)| {
             let said = || source.said(*span).to_owned();
@@ -207,12 +214,13 @@ impl App {
             literals.into_iter().nth(index).unwrap_or_default()
         };
         let scene = self.scene.as_ref();
-        if let (Node::View, Some(view), Some(scene)) = (self.selected, &self.view, scene)
+        if let (Node::View, Some(view), Some(scene)) =
+            (self.cursor.selected(), &self.pictures.view, scene)
             && shown(view) != shown(&scene.camera)
         {
-            return row(shown(view), Provenance::WorkingView);
+            return Some(row(shown(view), Provenance::WorkingView));
         }
-        match scene {
+        Some(match scene {
             Some(scene) if said.is_empty() => row(shown(&scene.camera), Provenance::Default),
             None if said.is_empty() => row(
                 vec!["?".to_owned(); placed.field.kind.components()],
@@ -223,6 +231,35 @@ impl App {
                 literals: said,
                 sources,
             },
-        }
+        })
     }
+}
+
+/// A field of the selected node as shown; see [`App::fields`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct FieldRow {
+    /// Its description in the language's table.
+    pub field: &'static Field,
+    /// One literal per component.
+    pub literals: Vec<String>,
+    /// The provenance of each literal.
+    pub sources: Vec<Provenance>,
+}
+
+impl FieldRow {
+    /// Whether all literals have this provenance.
+    pub fn is_all(&self, source: Provenance) -> bool {
+        self.sources.iter().all(|&of| of == source)
+    }
+}
+
+/// The provenance of a field's literal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Provenance {
+    /// It is in the text.
+    Text,
+    /// It is a default, absent from the text.
+    Default,
+    /// It is from the working view, which differs from the text here.
+    WorkingView,
 }

@@ -1,21 +1,44 @@
-//! Changing fields: every change is an edit of the text, and one that makes an error is refused.
+//! Changing fields: every change is an edit of the text, and edits that cause errors are refused.
 
-use super::{App, Mode};
-use crate::language::Node;
+use super::App;
+use super::assets::Notice;
+use crate::assets::{Loaded, Wanted};
 use crate::language::table::Field;
-use crate::language::{Before, Lowered, Visibility};
+use crate::language::{Before, Lowered, Node, Visibility};
 use crate::scene::Camera;
 use crate::text::{Diagnostic, Edit, Span};
+use crate::ui::keymap::Mode;
 
 impl App {
-    /// Reads the text's meaning again.
+    /// Takes files of the scene that were read.
+    pub(super) fn assets_read(&mut self, wanted: &Wanted, loaded: Loaded) {
+        let Some(news) = self.assets.take(wanted, loaded) else {
+            return;
+        };
+        self.pictures.due |= news.images;
+        if news.meaning {
+            // Meshes may name pictures, which are requested then.
+            self.relower();
+        }
+        match news.notice {
+            Some(Notice::Faults) => {
+                let (severity, words) = self.assets.faults();
+                self.overlays.show(severity, words);
+            }
+            Some(Notice::Elsewhere(words)) => self.overlays.say(words),
+            Some(Notice::Reloaded) => self.overlays.say("files reloaded"),
+            None => {}
+        }
+    }
+
+    /// Lowers the text again.
     pub(super) fn relower(&mut self) {
         let lowered = self.lowered();
         self.install(lowered);
     }
 
-    /// What the text means after an edit, of which `changed` is what it put in the place of the bytes
-    /// `old`. What is known of the text is what it meant before.
+    /// Lowers the text after an edit that replaced the bytes `old` by `changed`, reusing what is
+    /// known from before the edit.
     fn lowered_again(&mut self, old: Span, changed: Span) -> Lowered {
         let sound = self.error_count() == 0;
         let Some(scene) = self.scene.as_ref().filter(|_| sound) else {
@@ -27,62 +50,43 @@ impl App {
         };
         let lowered = self
             .document
-            .lower_again(&self.meshes, before, [old, changed]);
+            .lower_again(&self.assets.meshes, before, [old, changed]);
         lowered.unwrap_or_else(|refused| Lowered::refused(&refused))
     }
 
-    /// What the text means; nothing but an error where there is no memory for it.
+    /// Lowers the text. If there is not enough memory, the result is only an error.
     pub(super) fn lowered(&mut self) -> Lowered {
-        let lowered = self.document.lower(&self.meshes);
+        let lowered = self.document.lower(&self.assets.meshes);
         lowered.unwrap_or_else(|refused| Lowered::refused(&refused))
     }
 
-    /// Takes what the text means now.
+    /// Installs the new meaning of the text.
     pub(super) fn install(&mut self, lowered: Lowered) {
-        self.diagnostics = self.with_files(lowered.diagnostics);
-        // A scene that lacks a mesh may yet have an error.
-        if let Some(scene) = lowered.scene.filter(|_| !self.lacks_meshes()) {
-            if let Some(view) = &mut self.view {
-                view.size = scene.camera.size;
-            }
-            if self.view == Some(scene.camera) {
-                self.view = None;
-            }
-            let before = self.scene.as_ref().map(|scene| scene.objects.len());
-            if before.is_some_and(|count| count != scene.objects.len()) {
-                self.preview.forget_objects();
-            }
-            if self.scene.as_deref() != Some(&scene) {
-                self.scene = Some(scene.into());
-                self.pending.scene = true;
-            }
+        let (path, source) = (self.disk.path.as_deref(), self.document.source());
+        self.diagnostics = self.assets.report(path, source, lowered.diagnostics);
+        // A scene that lacks a mesh may still have an error.
+        if let Some(scene) = lowered.scene.filter(|_| !self.assets.lack_meshes())
+            && self.pictures.follow(self.scene.as_deref(), &scene)
+        {
+            self.scene = Some(scene.into());
         }
         self.keep_selection();
     }
 
-    /// Keeps the selection on a thing that is there, and the cursor on a component of it.
-    pub(super) fn keep_selection(&mut self) {
-        if let Some(node) = self.nodes().get(self.row_of(self.selected)) {
-            self.selected = node;
-        }
-        self.keep_cursor();
+    /// Updates the cursor. EDIT mode ends if there is no field.
+    fn keep_selection(&mut self) {
+        self.cursor.renew(self.document.source());
+        self.keep_mode();
     }
 
-    /// Keeps the cursor on a component that is there.
-    pub(super) fn keep_cursor(&mut self) {
-        let placed = self.placed();
-        self.field = self.field.min(placed.len().saturating_sub(1));
-        let components = placed
-            .get(self.field)
-            .map_or(1, |placed| placed.field.kind.components());
-        self.component = self.component.min(components - 1);
-        if placed.is_empty() && self.mode == Mode::Edit {
+    pub(super) fn keep_mode(&mut self) {
+        if self.cursor.fields().is_empty() && self.mode == Mode::Edit {
             self.mode = Mode::Select;
         }
     }
 
-    /// Makes edits, unless they leave more errors than there were or one where they were made:
-    /// that one comes back, and the text is as before.
+    /// Makes edits. If they add errors, or an error touches one of them, returns that error and
+    /// leaves the text as before.
     pub(super) fn try_edits(&mut self, edits: &[Edit]) -> Result<(), Diagnostic> {
         let said = self.said_view_parts();
         let errors = self.error_count();
@@ -101,7 +105,7 @@ impl App {
         if refused.is_none() && errors < found.errors() {
             refused = found.first_error();
         }
-        // What is wrong in a view comment is a warning, but the whole view goes with it.
+        // An error in a view comment is only a warning, but it disables the whole view.
         if refused.is_none() && self.said_view_parts() < said {
             refused = found.iter().find(touches).or_else(|| found.first());
         }
@@ -120,23 +124,21 @@ impl App {
 
     /// Sets components of the current field.
     pub(super) fn assign(&mut self, values: &[(usize, String)]) -> Result<(), Diagnostic> {
-        let placed = self.placed();
-        let Some(placed) = placed.get(self.field) else {
+        let Some(placed) = self.cursor.current() else {
             return Ok(());
         };
-        let is_camera = self
-            .scene
-            .as_ref()
-            .is_some_and(|scene| self.field < self.source().view_literals(&scene.camera).len());
-        let works = self.view.is_some() && is_camera && !placed.field.kind.is_size();
-        if self.selected == Node::View && (works || placed.spans.is_empty()) {
+        let is_camera = self.scene.as_ref().is_some_and(|scene| {
+            self.cursor.field < self.source().view_literals(&scene.camera).len()
+        });
+        let works = self.pictures.view.is_some() && is_camera && !placed.field.kind.is_size();
+        if self.cursor.selected() == Node::View && (works || placed.spans.is_empty()) {
             return self.assign_view(placed.field, values);
         }
         let edits = placed.edits(&**self.source(), values);
         self.try_edits(&edits)
     }
 
-    /// Sets components of the working view, or of a part of the view that the text does not say.
+    /// Sets components of the working view, or of a part of the view that the text omits.
     fn assign_view(&mut self, field: &Field, values: &[(usize, String)]) -> Result<(), Diagnostic> {
         let refuse = |said: &str| {
             let message = format!("view {}: {said}", field.key);
@@ -146,12 +148,12 @@ impl App {
         let (Some(scene), Some(camera)) = (scene, self.camera()) else {
             return Err(refuse("can't be set while the scene has errors"));
         };
-        // The picture's size is the text's alone: setting it must not write the working view.
+        // The picture's size exists only in the text: setting it must not write the working view.
         let is_size = field.kind.is_size();
         let camera = if is_size { scene.camera } else { camera };
         let mut camera = camera;
         for (component, literal) in values {
-            let place = (self.field, *component);
+            let place = (self.cursor.field, *component);
             camera = self
                 .source()
                 .view_saying(&camera, place, literal)
@@ -160,14 +162,14 @@ impl App {
         if camera.eye == camera.target {
             return Err(refuse("eye and target must differ"));
         }
-        if self.view.is_some() && !is_size {
-            self.set_view(camera);
+        if self.pictures.view.is_some() && !is_size {
+            self.pictures.set_view(camera, Some(scene.camera));
             return Ok(());
         }
         self.write_camera(&camera, &scene.camera)
     }
 
-    /// Makes the text say a camera where it differs from the text's own.
+    /// Writes a camera into the text where it differs from the text's own.
     pub(super) fn write_camera(
         &mut self,
         camera: &Camera,
@@ -177,10 +179,10 @@ impl App {
         self.try_edits(&edits)
     }
 
-    /// Draws the selected object no longer, or again.
+    /// Hides the selected object, or shows it again.
     pub(super) fn toggle_visibility(&mut self) {
-        let Node::Object(object) = self.selected else {
-            self.fail("only objects are shown or hidden");
+        let Node::Object(object) = self.cursor.selected() else {
+            self.overlays.fail("only objects are shown or hidden");
             return;
         };
         let (wanted, done) = match self.source().drawn(object) {
@@ -195,8 +197,11 @@ impl App {
         });
         self.document.end_step();
         match outcome {
-            Ok(()) => self.say(format!("{} is {done}", self.source().name(self.selected))),
-            Err(reason) => self.fail(reason),
+            Ok(()) => self.overlays.say(format!(
+                "{} is {done}",
+                self.source().name(self.cursor.selected())
+            )),
+            Err(reason) => self.overlays.fail(reason),
         }
     }
 
@@ -212,39 +217,34 @@ impl App {
         self.show_change(length, changed, "redone", "nothing to redo");
     }
 
-    /// Reads the text again, which had this length before, goes to the thing that changed and says
-    /// which it is.
+    /// Lowers the text after an undo or redo, selects the changed node and reports it. `length` is
+    /// the text's length before.
     fn show_change(&mut self, length: usize, changed: Option<Span>, done: &str, otherwise: &str) {
         let Some(span) = changed else {
-            self.say(otherwise);
+            self.overlays.say(otherwise);
             return;
         };
-        // As much is behind the change as was before it.
+        // The text after the change is as long as before.
         let behind = self.document.text().len() - span.end();
         let old = Span::new(span.start(), length - behind);
         let lowered = self.lowered_again(old, span);
         self.install(lowered);
         if let Some(node) = self.source().node_at(span)
-            && node != self.selected
+            && node != self.cursor.selected()
         {
             self.select(node);
         }
-        if let Some(field) = self
-            .placed()
-            .iter()
-            .position(|placed| placed.spans.iter().any(|s| s.touches(span)))
-        {
-            self.field = field;
-            self.keep_cursor();
+        if let Some(field) = self.cursor.field_at(span) {
+            self.cursor.focus(field, self.cursor.component);
         }
         match self.place_name(span) {
-            Some(place) => self.say(format!("{done}: {place}")),
-            None => self.say(done),
+            Some(place) => self.overlays.say(format!("{done}: {place}")),
+            None => self.overlays.say(done),
         }
     }
 }
 
-/// Where edits stand in the text after they were made.
+/// The spans of edits in the text after they are made.
 fn spans_after(edits: &[Edit]) -> Vec<Span> {
     let (mut removed, mut inserted) = (0, 0);
     edits

@@ -1,9 +1,9 @@
-//! Keys typed into a line.
+//! Editing a line of input.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::{Input, InputRequest};
 
-/// Changes a line as the key says; keys that mean nothing in a line do nothing.
+/// Applies a key to a line; keys without a meaning there are ignored.
 pub(super) fn edit(input: &mut Input, key: KeyEvent) {
     use InputRequest as R;
     let control = key.modifiers.contains(KeyModifiers::CONTROL);
@@ -28,7 +28,7 @@ pub(super) fn edit(input: &mut Input, key: KeyEvent) {
     input.handle(request);
 }
 
-/// Inserts a pasted text; line breaks become blanks.
+/// Inserts pasted text, replacing line breaks with blanks.
 pub(super) fn insert(input: &mut Input, text: &str) {
     for character in text.trim_end().chars() {
         let character = if character.is_control() {

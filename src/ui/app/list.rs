@@ -1,48 +1,41 @@
-//! Moving cursors: through the list, the fields, the help, the errors; searching and picking.
+//! Moving cursors: in the list, the fields, the help and the errors; searching and picking.
 
-use super::{App, Dialog, Mode};
+use super::App;
+use super::cursor::moved;
 use crate::language::Node;
-use crate::ui::keymap;
-use crate::ui::keymap::Context;
-use crate::ui::view::layout;
+use crate::ui::keymap::{Context, Mode};
+use crate::ui::layout::{self, Areas};
 
 impl App {
-    /// Selects a thing.
+    /// Selects a node.
     pub(super) fn select(&mut self, node: Node) {
         self.document.end_step();
-        self.typing = None;
-        if node != self.selected {
-            self.selected = node;
-            self.field = 0;
-            self.component = 0;
-            self.field_top = 0;
-        }
+        self.cursor.select(node, self.document.source());
     }
 
     pub(super) fn move_cursor(&mut self, context: Context, rows: isize) {
         match context {
             Context::In(Mode::Select) => {
-                let row = moved(self.row_of(self.selected), rows, self.nodes().len());
-                if let Some(node) = self.nodes().get(row) {
+                if let Some(node) = self.cursor.row_after(rows, self.source()) {
                     self.select(node);
                 }
             }
             Context::In(Mode::Edit) => {
-                let count = self.placed().len();
-                self.focus_field(moved(self.field, rows, count), self.component);
+                let count = self.cursor.fields().len();
+                self.focus_field(moved(self.cursor.field, rows, count), self.cursor.component);
             }
             Context::Errors => {
-                let at = self.errors.unwrap_or(0);
-                self.errors = Some(moved(at, rows, self.wrong().1.len()));
+                let at = self.overlays.errors.unwrap_or(0);
+                self.overlays.errors = Some(moved(at, rows, self.wrong().findings.len()));
             }
             Context::Help => {
-                if let Some(help) = &mut self.help {
-                    let lines = keymap::help(help.search.value(), self.mode).len();
+                let lines = self.help_lines().len();
+                if let Some(help) = &mut self.overlays.help {
                     help.top = moved(help.top, rows, lines);
                 }
             }
             Context::Conflict => {
-                if let Some(Dialog::Conflict { merge, at, .. }) = &mut self.dialog {
+                if let Some((merge, at, _)) = self.overlays.conflict() {
                     *at = moved(*at, rows, merge.conflicts.len());
                 }
             }
@@ -50,7 +43,7 @@ impl App {
         }
     }
 
-    /// Lines that go by with one Page Down.
+    /// The number of lines that Page Down moves.
     pub(super) fn page(&self, context: Context) -> isize {
         let areas = self.areas();
         let panel = match context {
@@ -61,31 +54,21 @@ impl App {
         (layout::contents(panel).height as isize - 1).max(1)
     }
 
-    /// Puts the cursor on a component of a field.
+    /// Moves the cursor to a component of a field.
     pub(super) fn focus_field(&mut self, field: usize, component: usize) {
         self.document.end_step();
-        let placed = self.placed();
-        if let Some(placed) = placed.get(field) {
-            self.field = field;
-            self.component = component.min(placed.field.kind.components() - 1);
-        }
+        self.cursor.focus(field, component);
     }
 
-    /// Keeps the cursors among what is shown.
-    pub(super) fn scroll(&mut self) {
-        let wrong = self.wrong().1.len();
-        self.errors = self.errors.filter(|_| 0 < wrong);
-        self.errors = self.errors.map(|at| at.min(wrong - 1));
-        let areas = self.areas();
-        let fields = usize::from(layout::field_rows(areas.fields).height);
-        let count = self.placed().len();
-        self.field_top = layout::first_shown(self.field_top, self.field, count, fields);
-        let rows = usize::from(layout::contents(areas.list).height);
-        let row = self.row_of(self.selected);
-        self.list_top = layout::first_shown(self.list_top, row, self.nodes().len(), rows);
+    /// Scrolls so that the cursors are visible.
+    pub(super) fn scroll(&mut self, areas: &Areas) {
+        let wrong = self.wrong().findings.len();
+        let errors = self.overlays.errors.filter(|_| 0 < wrong);
+        self.overlays.errors = errors.map(|at| at.min(wrong - 1));
+        self.cursor.scroll(areas, self.document.source());
     }
 
-    /// Selects the next light or object, or the one before, and around.
+    /// Selects the next or previous light or object, wrapping around.
     pub(super) fn cycle(&mut self, step: isize) {
         let nodes = self.nodes();
         let first = nodes.before(Node::Light(0));
@@ -93,7 +76,7 @@ impl App {
         if count == 0 {
             return;
         }
-        let row = match self.row_of(self.selected).checked_sub(first) {
+        let row = match self.selected_row().checked_sub(first) {
             Some(at) => (at as isize + step).rem_euclid(count as isize) as usize,
             None if step < 0 => count - 1,
             None => 0,
@@ -103,15 +86,15 @@ impl App {
         }
     }
 
-    /// Selects the next thing whose name or comment holds what was searched for, or the one before.
+    /// Selects the next or previous node whose name or comment contains the text searched for.
     pub(super) fn search(&mut self, step: isize) {
-        let wanted = self.searched.to_lowercase();
+        let wanted = self.cursor.searched.to_lowercase();
         let nodes = self.nodes();
         let count = nodes.len() as isize;
         if wanted.is_empty() || count == 0 {
             return;
         }
-        let from = self.row_of(self.selected) as isize;
+        let from = self.selected_row() as isize;
         let called = |&row: &usize| {
             let node = nodes.get(row);
             node.is_some_and(|node| self.is_called(node, &wanted))
@@ -123,36 +106,39 @@ impl App {
                 if let Some(node) = nodes.get(found[at]) {
                     self.select(node);
                 }
-                self.say(format!("{} of {}", at + 1, found.len()));
+                self.overlays.say(format!("{} of {}", at + 1, found.len()));
             }
-            None => self.fail(format!("no match for {}", self.searched)),
+            None => self
+                .overlays
+                .fail(format!("no match for {}", self.cursor.searched)),
         }
     }
 
-    /// Whether a thing's name or comment holds a word in lower case.
+    /// Whether a node's name or comment contains a word in lower case.
     fn is_called(&self, node: Node, word: &str) -> bool {
         let holds = |said: &str| said.to_lowercase().contains(word);
         holds(&self.source().name(node)) || self.source().comment(node).is_some_and(holds)
     }
 
     pub(super) fn toggle_errors(&mut self) {
-        self.errors = match self.errors {
+        self.overlays.errors = match self.overlays.errors {
             Some(_) => None,
-            None if self.wrong().1.is_empty() => {
-                self.say("no errors, no warnings");
+            None if self.wrong().findings.is_empty() => {
+                self.overlays.say("no errors, no warnings");
                 None
             }
             None => Some(0),
         };
     }
 
-    /// Selects the thing that the diagnostic under the cursor is about.
+    /// Selects the node to which the selected diagnostic refers.
     pub(super) fn go_to_error(&mut self) {
-        let Some(at) = self.errors else {
+        let Some(at) = self.overlays.errors else {
             return;
         };
         if self.is_disk_wrong() {
-            self.warn("it is in the file on disk: E opens the editor at the line");
+            self.overlays
+                .warn("it is in the file on disk: E opens the editor at the line");
             return;
         }
         let Some(span) = self.diagnostics.get(at).map(|diagnostic| diagnostic.span) else {
@@ -160,26 +146,25 @@ impl App {
         };
         match self.source().node_at(span) {
             Some(node) => {
-                self.errors = None;
+                self.overlays.errors = None;
                 self.select(node);
-                let placed = self.placed();
-                let field = placed
-                    .iter()
-                    .position(|placed| placed.spans.iter().any(|s| s.touches(span)));
+                let field = self.cursor.field_at(span);
                 self.focus_field(field.unwrap_or(0), 0);
             }
-            None => self.warn("nothing to select there: E opens the editor at the line"),
+            None => self
+                .overlays
+                .warn("nothing to select there: E opens the editor at the line"),
         }
     }
 
-    /// Begins to pick, in the middle of the picture or where the last pick was.
+    /// Starts picking, in the middle of the picture or where the last pick was.
     pub(super) fn start_pick(&mut self) {
         let Some((cells, _)) = self.raster() else {
-            self.fail("there is no room for a picture");
+            self.overlays.fail("there is no room for a picture");
             return;
         };
-        if self.cross == (0, 0) {
-            self.cross = (cells.width / 2, cells.height / 2);
+        if self.pictures.cross == (0, 0) {
+            self.pictures.cross = (cells.width / 2, cells.height / 2);
         }
         self.mode = Mode::Pick;
         self.move_cross(0, 0);
@@ -192,19 +177,19 @@ impl App {
         let moved = |at: u16, by: i32, cells: u16| {
             (i32::from(at) + by).clamp(0, i32::from(cells.max(1)) - 1) as u16
         };
-        self.cross = (
-            moved(self.cross.0, right, cells.width),
-            moved(self.cross.1, down, cells.height),
+        self.pictures.cross = (
+            moved(self.pictures.cross.0, right, cells.width),
+            moved(self.pictures.cross.1, down, cells.height),
         );
     }
 
     pub(super) fn pick_cross(&mut self) {
-        let (column, row) = self.cross;
+        let (column, row) = self.pictures.cross;
         self.pick(u32::from(column), 2 * u32::from(row));
     }
 
-    /// What lies under a pixel of the picture on screen, or why that can't be said: objects are
-    /// known by their number in the scene that is shown, which need not be the text's.
+    /// The node under a pixel of the picture on screen. Fails if it can't be determined: objects
+    /// are known by their numbers in the scene shown, which may differ from the text's.
     pub fn node_under(&self, x: u32, y: u32) -> Result<Option<Node>, &'static str> {
         if 0 < self.error_count() {
             return Err("the text has errors: the picture is of the last scene without");
@@ -216,7 +201,7 @@ impl App {
         Ok(object.map(|object| Node::Object(self.source().object(object))))
     }
 
-    /// Selects what lies under a pixel of the picture on screen, and has then done with picking.
+    /// Selects the node under a pixel of the picture on screen, and ends picking.
     pub(super) fn pick(&mut self, x: u32, y: u32) {
         match self.node_under(x, y) {
             Ok(Some(node)) => {
@@ -225,13 +210,8 @@ impl App {
                     self.mode = Mode::Select;
                 }
             }
-            Ok(None) => self.say("nothing is there"),
-            Err(reason) => self.warn(reason),
+            Ok(None) => self.overlays.say("nothing is there"),
+            Err(reason) => self.overlays.warn(reason),
         }
     }
-}
-
-/// A cursor after a move, kept among `count` places.
-fn moved(at: usize, by: isize, count: usize) -> usize {
-    at.saturating_add_signed(by).min(count.saturating_sub(1))
 }

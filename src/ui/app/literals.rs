@@ -1,16 +1,16 @@
-//! Numbers and words as people type, paste and nudge them.
+//! Numbers and words as they are typed, pasted and nudged.
 
 use crate::language::table::Kind;
 use crate::text::{decimals, parse_number, spell_like, without_suffix};
 
-/// The literal after adding `change`, a multiple of `step`, spelled like the old one. It has the
-/// decimals of the old number or of the step, whichever has more, so that no trace of binary
-/// fractions appears. `None` if it is not a number.
+/// Adds `change`, a multiple of `step`, to a literal and spells the sum like the literal. It has
+/// the decimals of the old number or of the step, whichever has more, so that no trace of binary
+/// fractions appears. `None` if the literal is not a number.
 pub(super) fn nudged(literal: &str, change: f64, step: f64) -> Option<String> {
     let old = parse_number(plain(literal)).ok()?;
     let places = decimals(&old.to_string()).max(decimals(&step.to_string()));
     let sum: f64 = format!("{:.places$}", old + change).parse().ok()?;
-    // The sum with 0 is the same number, and 0 for −0.
+    // Adding 0 turns −0 into 0 and changes nothing else.
     sum.is_finite().then(|| {
         if sum.to_bits() == old.to_bits() {
             literal.to_owned()
@@ -20,8 +20,8 @@ pub(super) fn nudged(literal: &str, change: f64, step: f64) -> Option<String> {
     })
 }
 
-/// The word some steps after `literal`, and around; the first if that is none of them. `None` if
-/// there are no words.
+/// Returns the word some steps after `literal`, wrapping around, or the first if `literal` is none
+/// of them. `None` if there are no words.
 pub(super) fn next(words: &[impl AsRef<str>], literal: &str, steps: i8) -> Option<String> {
     let place = words.iter().position(|word| word.as_ref() == literal);
     let next = place.map_or(0, |place| {
@@ -30,7 +30,7 @@ pub(super) fn next(words: &[impl AsRef<str>], literal: &str, steps: i8) -> Optio
     words.get(next).map(|word| word.as_ref().to_owned())
 }
 
-/// The word that a text is the beginning of, if it is of one only; in any case.
+/// Completes an unambiguous prefix of a word, ignoring case.
 pub(super) fn word_meant<'w>(words: &[&'w str], said: &str) -> Option<&'w str> {
     let begins = |word: &&&str| {
         let start = word.get(..said.len());
@@ -41,12 +41,12 @@ pub(super) fn word_meant<'w>(words: &[&'w str], said: &str) -> Option<&'w str> {
     meant.next().is_none().then_some(*first)
 }
 
-/// A number without the `f` that may end it; all else as it is.
+/// Strips the `f` that a number may end in; other text is returned unchanged.
 pub(super) fn plain(literal: &str) -> &str {
     without_suffix(literal).unwrap_or(literal)
 }
 
-/// Whether a text can stand for one number or word: whether it is one is for the parser to say.
+/// Whether a text may be a single number or word; the parser decides whether it is.
 pub(super) fn is_one(said: &str) -> bool {
     !said.is_empty()
         && !said.contains(|c: char| c.is_whitespace() || c.is_control())
@@ -54,9 +54,9 @@ pub(super) fn is_one(said: &str) -> bool {
         && !said.contains("\\\\")
 }
 
-/// The literals of all components of a field with more than one: `0.1 0.2 0.3` with blanks or
-/// commas between, `#rrggbb` for a colour, `800x600` for a size. Of a vector that a number multiplies
-/// three will do.
+/// Splits a text into the literals of a field with several components: `0.1 0.2 0.3` separated by
+/// blanks or commas, `#rrggbb` for a colour, `800x600` for a size. For a scaled vector the first
+/// three suffice.
 pub(super) fn all_of(kind: Kind, said: &str) -> Option<Vec<String>> {
     match (kind, said.strip_prefix('#')) {
         (Kind::Colour, Some(digits)) => return colour(digits),
@@ -75,7 +75,7 @@ pub(super) fn all_of(kind: Kind, said: &str) -> Option<Vec<String>> {
         .map(|word| if kind.is_size() { word } else { plain(word) }.to_owned())
         .collect();
     let numbers = words.iter().all(|word| parse_number(word).is_ok());
-    // What multiplies a vector may stay, and so may the angle about an axis.
+    // The factor of a scaled vector, or the angle about an axis, may be omitted and stays.
     let is_scaled = matches!(
         kind,
         Kind::ScaledVector | Kind::ScaledColour | Kind::Rotation
@@ -84,7 +84,7 @@ pub(super) fn all_of(kind: Kind, said: &str) -> Option<Vec<String>> {
     (1 < words.len() && is_all && numbers).then_some(words)
 }
 
-/// Six hexadecimal digits as shares of 1, to four decimals: finer than a 255th.
+/// Converts six hexadecimal digits to numbers from 0 to 1 with four decimals, finer than 1/255.
 fn colour(digits: &str) -> Option<Vec<String>> {
     if digits.len() != 6 || !digits.bytes().all(|b| b.is_ascii_hexdigit()) {
         return None;
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn words_follow_each_other_around() {
+    fn words_are_cycled() {
         let words = ["pnt", "inf", "amb"];
         for (literal, steps, expected) in [
             ("pnt", 1, "inf"),
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn the_beginning_of_a_word_is_enough() {
+    fn unambiguous_prefixes_of_words_are_completed() {
         let words = ["shadow_on", "shadow_off", "point"];
         for (said, meant) in [
             ("p", Some("point")),

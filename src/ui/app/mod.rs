@@ -1,44 +1,53 @@
-//! What the interface knows, and how it changes: a pure step from (state, message) to (state,
+//! The interface's state and its transitions: a pure step from (state, message) to (state,
 //! effects).
 //!
-//! The step is split by concern; nothing here touches files, threads or clocks.
+//! [`App`] is the text and one part for each concern: cursor, disk, assets, pictures, overlays,
+//! jobs. A part owns its state and knows no other; the steps, which handle messages, pass between
+//! them what they need. Nothing here touches files, threads or clocks.
 
 mod assets;
+mod camera;
 mod command;
 mod cursor;
 mod derived;
 mod disk;
 mod edit;
 mod jobs;
-mod keeping;
+mod journal;
 mod line;
 mod list;
 mod literals;
-mod making;
 mod model;
-mod navigate;
 mod opening;
+mod overlays;
 mod picture;
+mod pictures;
 mod places;
 mod pointer;
 mod quit;
-mod recovering;
+mod recover;
+mod reload;
 mod saving;
 #[cfg(test)]
 pub(super) mod tests;
+mod tracing;
 mod typing;
 mod update;
+mod viewing;
 
 use std::time::Duration;
 
-pub use model::{
-    App, Broken, Dialog, Disk, Export, FieldRow, Help, HelpFocus, Message, Mode, Outline, Outside,
-    Prompt, PromptKind, Provenance, Quality, Stage, Stride, Typing,
-};
-pub use opening::{Opening, OpeningText, Unread};
+pub use cursor::{Cursor, Typing};
+pub use derived::{FieldRow, Provenance};
+pub use disk::{Disk, OnDisk, Unread};
+pub use jobs::{Export, Jobs, Stage};
+pub use model::App;
+pub use opening::{Opening, OpeningText};
+pub use overlays::{Dialog, Help, HelpFocus, Message, Outside, Overlays, Prompt, PromptKind};
 pub use picture::{Picture, Shown};
+pub use pictures::{Pictures, Quality};
 
-/// How soon a second Ctrl-C ends the program.
+/// A second Ctrl-C within this time ends the program.
 const INTERRUPT_AGAIN: Duration = Duration::from_secs(2);
-/// How soon a second click is the same as the first one's.
+/// A second click within this time counts as a double click.
 const DOUBLE_CLICK: Duration = Duration::from_millis(400);

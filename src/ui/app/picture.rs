@@ -1,4 +1,4 @@
-//! A picture on screen, and the newer one that replaces it as fast as the link allows.
+//! The picture on screen, and the newer one that replaces it as fast as the link allows.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -6,45 +6,45 @@ use std::sync::Arc;
 use crate::render::{Frame, NO_OBJECT, Progress};
 use crate::scene::Size;
 
-/// What a changed cell costs on the way to the terminal, in bytes, as a mean.
+/// Mean cost of sending one changed cell to the terminal, in bytes.
 const BYTES_PER_CELL: usize = 24;
 
-/// How far a channel of an unfinished picture may be off before it is sent over a slow link.
+/// Channel error up to which pixels of an unfinished picture are not sent over a slow link.
 const HYSTERESIS: u8 = 3;
 
 /// A picture of a scene: what is on screen, and the newest frame.
 #[derive(Debug, Default)]
 pub struct Picture {
-    /// The generation that was asked for last, as older frames show an older scene; `None` when
-    /// nothing is running, before a start or after a stop.
+    /// The generation requested last; older frames show an older scene. `None` while nothing is
+    /// running, before a start or after a stop.
     pub wanted: Option<u64>,
-    /// The size that was asked for last.
+    /// The size requested last.
     pub asked: Option<Size>,
     /// The newest frame.
     pub latest: Option<Arc<Frame>>,
-    /// What is on screen.
+    /// The picture on screen.
     pub shown: Shown,
     target: Shown,
-    /// The cell to look at next, from the top left along the rows.
+    /// The cell to compare next, in row-major order.
     cursor: usize,
-    /// How many cells are yet to be compared with the target.
+    /// The number of cells not yet compared with the target.
     left: usize,
-    /// The object whose outline the target has.
+    /// The object outlined in the target.
     marked: Option<u32>,
-    /// The cells in which the outline changes. They are sent first: they answer a key.
+    /// The cells in which the outline changes. They are sent first, because they answer a key.
     outline: VecDeque<usize>,
 }
 
-/// Pixels as they are on screen: two a cell, one above the other.
+/// Pixels as shown on screen: each cell has two, one above the other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Shown {
-    /// Their number: what [`raster`](crate::ui::view::layout::raster) gave for the picture's area.
+    /// Size in pixels, as [`raster`](crate::ui::layout::raster) computed it for the picture's area.
     pub size: Size,
-    /// Red, green, blue, row by row.
+    /// RGB, row by row.
     pub pixels: Vec<[u8; 3]>,
     /// The object under each pixel, or [`NO_OBJECT`].
     pub objects: Vec<u32>,
-    /// Whether each pixel is part of the outline of the selected object; empty where none is.
+    /// Whether each pixel is on the outline of the selected object; empty without an outline.
     pub outline: Vec<bool>,
 }
 
@@ -63,7 +63,7 @@ impl Default for Shown {
 }
 
 impl Shown {
-    /// The object under a pixel.
+    /// Returns the object under a pixel.
     pub fn object_at(&self, x: u32, y: u32) -> Option<u32> {
         if self.size.width <= x {
             return None;
@@ -73,13 +73,13 @@ impl Shown {
         (object != NO_OBJECT).then_some(object)
     }
 
-    /// Whether a pixel, given by its index, is part of the outline.
+    /// Whether the pixel with this index is on the outline.
     pub fn is_outlined(&self, at: usize) -> bool {
         self.outline.get(at) == Some(&true)
     }
 
-    /// The outline of an object: its pixels with a neighbour that is not. The picture's edge is not a
-    /// border: an object that goes on beyond it is not framed by it.
+    /// Computes the outline of an object: its pixels that border on others. The edge of the picture
+    /// does not count as a border, so that an object extending beyond it is not framed there.
     fn outline_of(&self, object: u32) -> Vec<bool> {
         let Size { width, height } = self.size;
         let is_object = |x: u32, y: u32| {
@@ -102,8 +102,8 @@ impl Shown {
             .collect()
     }
 
-    /// The same picture at another size, without an outline: means going down, the nearest pixels
-    /// going up.
+    /// Resamples the picture, without its outline: averages when shrinking, repeats the nearest
+    /// pixels when enlarging.
     #[must_use]
     pub fn resampled(&self, size: Size) -> Self {
         resample(&self.pixels, &self.objects, self.size, size)
@@ -111,7 +111,7 @@ impl Shown {
 }
 
 impl Picture {
-    /// Takes a frame. Frames come in the order in which they were made.
+    /// Takes a frame. Frames must arrive in the order in which they were made.
     pub fn take(&mut self, frame: Arc<Frame>) {
         self.latest = Some(frame);
         self.target = Shown::default();
@@ -123,7 +123,7 @@ impl Picture {
         latest.is_none_or(|latest| latest.generation != frame.generation)
     }
 
-    /// How far the newest frame is, if it is one of what was asked for last.
+    /// Progress of the newest frame, unless it is of an older generation than requested.
     pub fn progress(&self) -> Option<&Progress> {
         self.latest
             .as_ref()
@@ -131,30 +131,29 @@ impl Picture {
             .map(|frame| &frame.progress)
     }
 
-    /// Whether the newest frame shows an older scene than the one that was asked for last. What
-    /// lies under its pixels has that scene's numbers.
+    /// Whether the newest frame shows an older scene than requested. The objects under its pixels
+    /// are numbered as in that scene.
     pub fn is_outdated(&self) -> bool {
         let latest = self.latest.as_ref();
         latest.is_some_and(|frame| self.wanted.is_some_and(|wanted| wanted != frame.generation))
     }
 
-    /// Forgets what lies under the pixels on screen until a newer frame says so: the objects have
-    /// other numbers now, and another one than the chosen would be outlined.
+    /// Forgets the objects under the pixels on screen until a newer frame arrives: after
+    /// renumbering, the outline would mark an object that is not selected.
     pub fn forget_objects(&mut self) {
         self.shown.objects.fill(NO_OBJECT);
         self.mark(None);
     }
 
-    /// Whether every sample of what was asked for last is taken and on its way to the screen.
+    /// Whether every requested sample has been taken and is on its way to the screen.
     pub fn is_complete(&self) -> bool {
         self.progress().is_some_and(|progress| progress.complete)
     }
 
-    /// Brings cells of the newest frame to the screen, with the outline of the object `marked`,
-    /// until `budget` bytes are used up; goes on next time where it stopped. With `usize::MAX` the
-    /// whole frame. Changes of the outline go first.
-    /// Over a limited link pixels of an unfinished frame that are almost right are left alone; a
-    /// finished one is shown exactly.
+    /// Copies cells of the newest frame, with the outline of `marked`, to the screen until `budget`
+    /// bytes are spent, and continues there next time; `usize::MAX` copies the whole frame. Changes
+    /// of the outline go first. Over a limited link, pixels of an unfinished frame that are almost
+    /// right are skipped; a finished frame is shown exactly.
     pub fn advance(&mut self, size: Size, marked: Option<u32>, budget: usize) {
         self.aim(size, marked);
         let tolerance = match budget {
@@ -209,7 +208,7 @@ impl Picture {
         if self.target.size != size {
             is_stale = true;
             self.target = resample(&frame.pixels, &frame.objects, frame.size, size);
-            // What lies under a pixel costs nothing to send.
+            // The objects under the pixels cost nothing to send.
             self.shown.objects.clone_from(&self.target.objects);
             self.left = cells(size);
         }
@@ -218,7 +217,7 @@ impl Picture {
         }
     }
 
-    /// Gives the target the outline of an object.
+    /// Sets the outline of the target.
     fn mark(&mut self, marked: Option<u32>) {
         self.marked = marked;
         self.target.outline = marked.map_or_else(Vec::new, |object| self.shown.outline_of(object));
@@ -229,7 +228,7 @@ impl Picture {
         self.outline = (0..cells(self.shown.size)).filter(changes).collect();
     }
 
-    /// The indices of the pixels of a cell; the last row of cells may have no lower ones.
+    /// The indices of a cell's pixels; the last row of cells may lack the lower ones.
     fn pixels_of(&self, cell: usize) -> impl Iterator<Item = usize> + use<> {
         let width = self.shown.size.width as usize;
         let pixels = self.shown.pixels.len();
@@ -239,7 +238,7 @@ impl Picture {
             .filter(move |&at| at < pixels)
     }
 
-    /// Brings the two pixels of a cell to the screen; whether that changed any.
+    /// Copies the pixels of a cell to the screen and returns whether any changed.
     fn bring_cell(&mut self, cell: usize, tolerance: u8) -> bool {
         let mut changed = false;
         for at in self.pixels_of(cell) {
@@ -260,7 +259,7 @@ impl Picture {
     }
 }
 
-/// How many cells show a picture of this size.
+/// The number of cells of a picture of this size.
 fn cells(size: Size) -> usize {
     size.width as usize * size.height.div_ceil(2) as usize
 }
@@ -306,7 +305,7 @@ fn resample(pixels: &[[u8; 3]], objects: &[u32], from: Size, to: Size) -> Shown 
     shown
 }
 
-/// The pixels of `from` that pixel `at` of `to` covers: at least one.
+/// The pixels of `from` that pixel `at` of `to` covers, at least one.
 fn covered(at: u32, to: u32, from: u32) -> std::ops::Range<usize> {
     let scaled = |at: u32| (u64::from(at) * u64::from(from) / u64::from(to)) as usize;
     let start = scaled(at);
@@ -325,7 +324,7 @@ mod tests {
         Size { width, height }
     }
 
-    /// A frame of one colour.
+    /// A frame of a single colour.
     fn frame(generation: u64, size: Size, pixel: [u8; 3], complete: bool) -> Arc<Frame> {
         Arc::new(Frame {
             generation,
@@ -348,7 +347,7 @@ mod tests {
         })
     }
 
-    /// How many pixels of each row are on screen, from the top.
+    /// The number of pixels on screen in each row, from the top.
     fn rows_shown(picture: &Picture, pixel: [u8; 3]) -> Vec<usize> {
         let rows = picture
             .shown
@@ -359,7 +358,7 @@ mod tests {
     }
 
     #[test]
-    fn a_budget_brings_cells_in_turn_and_the_next_one_goes_on() {
+    fn a_budget_copies_cells_in_order_and_the_next_one_continues() {
         let size = size(10, 6);
         let mut picture = Picture::default();
         picture.take(frame(1, size, GREY, true));
@@ -374,7 +373,7 @@ mod tests {
     }
 
     #[test]
-    fn a_newer_frame_goes_on_where_the_superseded_one_stopped() {
+    fn a_newer_frame_continues_where_the_superseded_one_stopped() {
         let size = size(10, 6);
         let newer = [200; 3];
         let mut picture = Picture::default();
@@ -439,9 +438,9 @@ mod tests {
         assert_eq!(outline(&picture), "........");
     }
 
-    /// A selection is answered by its text; the cells of its outline wait for the link.
+    /// The selection itself answers as text; the cells of its outline wait for the link.
     #[test]
-    fn the_outline_goes_before_the_picture_but_not_without_a_budget() {
+    fn the_outline_precedes_the_picture_but_needs_a_budget() {
         let mut picture = Picture::default();
         picture.take(half(true));
         picture.advance(size(4, 2), None, usize::MAX);
@@ -460,7 +459,7 @@ mod tests {
     }
 
     #[test]
-    fn smaller_pictures_are_means_and_larger_ones_repeat_pixels() {
+    fn shrinking_averages_and_enlarging_repeats_pixels() {
         let shown = Shown {
             size: size(2, 2),
             pixels: vec![[0, 0, 0], [100, 0, 0], [0, 50, 0], [101, 51, 8]],
@@ -477,7 +476,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_of_a_full_size_trace_is_shown_at_the_size_of_the_screen() {
+    fn a_full_size_trace_is_shown_at_the_size_of_the_screen() {
         let mut picture = Picture::default();
         picture.take(frame(1, size(640, 480), GREY, true));
         picture.advance(size(64, 48), None, usize::MAX);

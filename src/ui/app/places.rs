@@ -1,21 +1,20 @@
-//! What a place of the text is called.
+//! Names of places in the text.
 
 use super::App;
-use crate::language::Node;
-use crate::language::Source;
+use crate::language::{Node, Source};
 use crate::text::{Position, Span};
 
-/// How many things are named before they are only counted.
+/// Up to this many nodes are named; more are counted.
 const NAMED: usize = 2;
 
 impl App {
-    /// What a place of the text is called: `object 4 (sphere) centre x`, or the things that it
-    /// covers; `None` where none is.
+    /// The name of a place in the text, such as `object 4 (sphere) centre x`, or of the nodes that
+    /// it covers; `None` if there are none.
     pub fn place_name(&self, span: Span) -> Option<String> {
         name_of(self.source(), span)
     }
 
-    /// Says how many errors a text has and where the first one is.
+    /// Describes how many errors the text has and where the first one is.
     pub(super) fn error_place(&self) -> Option<String> {
         let first = self.diagnostics.first_error()?;
         let line = Position::of(self.document.text(), first.span.start()).line;
@@ -26,9 +25,9 @@ impl App {
     }
 }
 
-/// What a place of any text is called.
+/// The name of a place in any text.
 pub(super) fn name_of(source: &Source, span: Span) -> Option<String> {
-    // Its comment may stand inside another node's text.
+    // The view comment may be inside the text of another node.
     let view = source.span(Node::View);
     if view.start() <= span.start() && span.end() <= view.end() && !view.is_empty() {
         return Some(name_in(source, Node::View, span));
@@ -53,7 +52,7 @@ pub(super) fn name_of(source: &Source, span: Span) -> Option<String> {
     }
 }
 
-/// A node's name, with the field and the component where the span overlaps just one.
+/// A node's name, with the field and component if the span overlaps only one.
 fn name_in(source: &Source, node: Node, span: Span) -> String {
     let overlaps = |place: &Span| {
         if span.is_empty() {
@@ -93,7 +92,7 @@ mod tests {
     use crate::scene::Meshes;
 
     #[test]
-    fn places_are_called_by_what_stands_there() {
+    fn places_are_named_after_their_nodes() {
         let text = "\
 .1 .1 .1 // view: eye 0 0 9 fov 40
 1 5 5 5 1 1 1

@@ -1,14 +1,14 @@
-//! Leaving: asked first where something would be lost, later where something is under way.
+//! Quitting: asks first if something would be lost, and waits for work under way.
 
 use super::{App, Dialog};
 use crate::ui::msg::{Effect, Timer};
 
 impl App {
-    /// `w`: also the answer that saves before it quits.
+    /// `w`, which in the quit dialog saves and then quits.
     pub(super) fn save_key(&mut self) -> Vec<Effect> {
-        if let Some(Dialog::Quit) = self.dialog {
-            self.dialog = None;
-            self.pending.quit = true;
+        if let Some(Dialog::Quit) = self.overlays.dialog {
+            self.overlays.dialog = None;
+            self.jobs.quit = true;
             if !self.document.is_dirty() {
                 return self.quit_when_done();
             }
@@ -16,39 +16,42 @@ impl App {
         self.save()
     }
 
-    /// Whether unsaved edits, an export or a save would be lost with the program.
+    /// Whether quitting would lose unsaved edits, an export or a save.
     fn would_lose(&self) -> bool {
-        self.document.is_dirty() || self.export.is_some() || self.file_being_saved().is_some()
+        self.document.is_dirty()
+            || self.jobs.export.is_some()
+            || self.jobs.file_being_saved().is_some()
     }
 
     pub(super) fn quit(&mut self) -> Vec<Effect> {
         if self.would_lose() {
-            self.dialog = Some(Dialog::Quit);
+            self.overlays.dialog = Some(Dialog::Quit);
             return Vec::new();
         }
         self.leave()
     }
 
-    /// Quits whatever is lost. Edits that are being saved are kept in the journal: the save may
-    /// never end.
+    /// Quits regardless of losses. Edits that are being saved are kept in the journal, because the
+    /// save may never end.
     pub(super) fn quit_anyway(&mut self) -> Vec<Effect> {
-        if self.file_being_saved().is_some() {
+        if self.jobs.file_being_saved().is_some() {
             self.quit_keeping_edits()
         } else {
             self.leave()
         }
     }
 
-    /// Quits, once nothing is lost, as was asked for before a save or an export was done.
+    /// Performs a pending quit once saves and the export are done and nothing would be lost.
     pub(super) fn quit_when_done(&mut self) -> Vec<Effect> {
-        if !self.pending.quit {
+        if !self.jobs.quit {
             return Vec::new();
         }
-        if self.export.is_some() {
-            self.say("quits when the export is written; x cancels it");
+        if self.jobs.export.is_some() {
+            self.overlays
+                .say("quits when the export is written; x cancels it");
             return Vec::new();
         }
-        self.pending.quit = false;
+        self.jobs.quit = false;
         if self.document.is_dirty() {
             return Vec::new();
         }
@@ -56,11 +59,23 @@ impl App {
     }
 
     pub(super) fn interrupt(&mut self) -> Vec<Effect> {
-        if self.pending.interrupt || !self.would_lose() {
+        if self.jobs.interrupt || !self.would_lose() {
             return self.quit_keeping_edits();
         }
-        self.pending.interrupt = true;
-        self.dialog = Some(Dialog::Quit);
+        self.jobs.interrupt = true;
+        self.overlays.dialog = Some(Dialog::Quit);
         vec![Effect::Later(super::INTERRUPT_AGAIN, Timer::Interrupt)]
+    }
+
+    /// Quits and discards the journal.
+    fn leave(&mut self) -> Vec<Effect> {
+        let forgotten = self.disk.journal.forget();
+        forgotten.into_iter().chain([Effect::Quit]).collect()
+    }
+
+    /// Quits with unsaved edits kept, written once more in case the journal was removed.
+    pub(super) fn quit_keeping_edits(&mut self) -> Vec<Effect> {
+        let kept = self.keep_the_rest();
+        kept.into_iter().chain([Effect::Quit]).collect()
     }
 }

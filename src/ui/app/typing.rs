@@ -1,17 +1,18 @@
-//! Values from the keyboard: nudged, typed, pasted.
+//! Entering values: nudging, typing, pasting.
 
 use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
-use super::{App, Mode, Stride, Typing, line, literals};
-use crate::language::table::{Field, Kind, place_of};
+use super::{App, line, literals};
+use crate::language::table::{Field, Kind};
 use crate::text::{Diagnostic, Span};
+use crate::ui::keymap::{Mode, Stride};
 
 impl App {
-    /// The literal of the current component as it is shown.
+    /// The current component's field and its literal as shown.
     fn current(&self) -> Option<(&'static Field, String)> {
-        let row = self.fields().into_iter().nth(self.field)?;
-        let literal = row.literals.get(self.component)?.clone();
+        let row = self.field_row(self.cursor.field)?;
+        let literal = row.literals.get(self.cursor.component)?.clone();
         Some((row.field, literal))
     }
 
@@ -19,9 +20,9 @@ impl App {
         let Some((field, literal)) = self.current() else {
             return;
         };
-        // A key that is held down beside says more than the stride set before.
+        // A modifier key takes precedence over the stride set before.
         let stride = match stride {
-            Stride::Plain => self.stride,
+            Stride::Plain => self.cursor.stride,
             held => held,
         };
         let step = match stride {
@@ -31,11 +32,13 @@ impl App {
         };
         let nudged = match field.kind {
             Kind::Choice(words) => {
-                let word = place_of(words, &literal).map_or(&literal[..], |at| words[at]);
+                let word = field
+                    .chosen(&literal)
+                    .map_or(&literal[..], |(_, word)| word);
                 literals::next(words, word, steps)
             }
             Kind::Reference(category) => {
-                let known = self.source().identities(self.selected, category);
+                let known = self.source().identities(self.cursor.selected(), category);
                 let known: Vec<_> = known.iter().map(i64::to_string).collect();
                 literals::next(&known, &literal, steps)
             }
@@ -47,75 +50,37 @@ impl App {
         };
         let Some(nudged) = nudged else {
             let expected = field.expected();
-            self.fail(format!(
-                "{literal} has nothing next to it: {expected} is typed"
-            ));
+            self.overlays
+                .fail(format!("{literal} has no next value; type {expected}"));
             return;
         };
         if nudged == literal {
-            self.warn(match field.kind {
+            self.overlays.warn(match field.kind {
                 Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => "there is no other",
                 _ => "the number is too large for this step",
             });
-        } else if let Err(refused) = self.assign(&[(self.component, nudged)]) {
-            self.fail(refused.message);
+        } else if let Err(refused) = self.assign(&[(self.cursor.component, nudged)]) {
+            self.overlays.fail(refused.message);
         }
-    }
-
-    pub(super) fn change_stride(&mut self, step: isize) {
-        self.stride = match (self.stride, step < 0) {
-            (Stride::Coarse, true) | (Stride::Fine, false) => Stride::Plain,
-            (_, true) => Stride::Fine,
-            (_, false) => Stride::Coarse,
-        };
-        self.say(match self.stride {
-            Stride::Fine => "nudges are a tenth of a step",
-            Stride::Plain => "nudges are one step",
-            Stride::Coarse => "nudges are ten steps",
-        });
     }
 
     pub(super) fn next_component(&mut self, step: isize) {
         self.document.end_step();
-        let counts: Vec<_> = self
-            .placed()
-            .iter()
-            .map(|placed| placed.field.kind.components())
-            .collect();
-        let count: usize = counts.iter().sum();
-        if count == 0 {
-            return;
-        }
-        let before: usize = counts[..self.field].iter().sum();
-        let at = (before + self.component) as isize + step;
-        let mut at = at.rem_euclid(count as isize) as usize;
-        self.field = 0;
-        while counts[self.field] <= at {
-            at -= counts[self.field];
-            self.field += 1;
-        }
-        self.component = at;
+        self.cursor.next_component(step);
     }
 
     pub(super) fn type_current(&mut self) {
         if let Some((_, literal)) = self.current() {
-            self.type_value(Input::from(literal));
+            self.cursor.type_value(Input::from(literal));
         }
     }
 
-    pub(super) fn type_value(&mut self, input: Input) {
-        self.typing = Some(Typing {
-            input,
-            refused: None,
-        });
-    }
-
     pub(super) fn typing_key(&mut self, key: KeyEvent) {
-        let Some(typing) = &mut self.typing else {
+        let Some(typing) = &mut self.cursor.typing else {
             return;
         };
         match key.code {
-            KeyCode::Esc => self.typing = None,
+            KeyCode::Esc => self.cursor.typing = None,
             KeyCode::Enter => {
                 self.commit();
             }
@@ -132,9 +97,9 @@ impl App {
         }
     }
 
-    /// Takes the typed value; whether it was not refused.
+    /// Accepts the typed value; returns whether it was valid.
     fn commit(&mut self) -> bool {
-        let Some(typing) = &self.typing else {
+        let Some(typing) = &self.cursor.typing else {
             return true;
         };
         let said = typing.input.value().trim().to_owned();
@@ -152,20 +117,20 @@ impl App {
             Err(Diagnostic::error(Span::at(0), message, expected))
         };
         match outcome {
-            Ok(()) => self.typing = None,
+            Ok(()) => self.cursor.typing = None,
             Err(mut refused) => {
                 if let Some(hint) = refused.hint.take() {
                     refused.message = format!("{}; {hint}", refused.message);
                 }
-                if let Some(typing) = &mut self.typing {
+                if let Some(typing) = &mut self.cursor.typing {
                     typing.refused = Some(refused);
                 }
             }
         }
-        self.typing.is_none()
+        self.cursor.typing.is_none()
     }
 
-    /// As [`App::assign`], as a step of its own.
+    /// Like [`App::assign`], as an undo step of its own.
     fn assign_whole(&mut self, values: &[(usize, String)]) -> Result<(), Diagnostic> {
         self.document.end_step();
         let outcome = self.assign(values);
@@ -173,18 +138,18 @@ impl App {
         outcome
     }
 
-    /// What a typed or pasted text sets: the current component, or all of the current field's.
+    /// The components that a typed or pasted text sets: the current one, or all of the field.
     fn literals_of(&self, said: &str) -> Option<Vec<(usize, String)>> {
-        let placed = self.placed();
-        let kind = placed.get(self.field)?.field.kind;
+        let field = self.cursor.current()?.field;
+        let kind = field.kind;
         if let Some(all) = literals::all_of(kind, said) {
             return Some(all.into_iter().enumerate().collect());
         }
         if let Kind::Choice(words) = kind
-            && place_of(words, said).is_none()
+            && field.chosen(said).is_none()
             && let Some(word) = literals::word_meant(words, said)
         {
-            return Some(vec![(self.component, word.to_owned())]);
+            return Some(vec![(self.cursor.component, word.to_owned())]);
         }
         let is_number = !matches!(
             kind,
@@ -195,40 +160,42 @@ impl App {
         } else {
             said
         };
-        literals::is_one(said).then(|| vec![(self.component, said.to_owned())])
+        literals::is_one(said).then(|| vec![(self.cursor.component, said.to_owned())])
     }
 
     pub(super) fn paste(&mut self, text: &str) {
         let said = text.trim();
-        if let Some(prompt) = &mut self.prompt {
+        if let Some(prompt) = &mut self.overlays.prompt {
             line::insert(&mut prompt.input, text);
             return;
         }
-        if self.dialog.is_some() || self.help.is_some() {
+        if self.overlays.dialog.is_some() || self.overlays.help.is_some() {
             return;
         }
-        if self.is_opening() {
+        if self.disk.is_opening() {
             self.warn_of_opening();
             return;
         }
         if self.mode != Mode::Edit {
-            self.say("values are pasted into fields: e edits the selected thing's");
+            self.overlays
+                .say("values are pasted into fields: e edits the selected thing's");
             return;
         }
         let values = self.literals_of(said);
         let is_whole = values.as_ref().is_some_and(|values| 1 < values.len());
-        if let (Some(typing), false) = (&mut self.typing, is_whole) {
+        if let (Some(typing), false) = (&mut self.cursor.typing, is_whole) {
             typing.refused = None;
             line::insert(&mut typing.input, text);
             return;
         }
         let Some(values) = values else {
-            self.fail("what was pasted is not one number, nor one for each component");
+            self.overlays
+                .fail("what was pasted is not one number, nor one for each component");
             return;
         };
-        self.typing = None;
+        self.cursor.typing = None;
         if let Err(refused) = self.assign_whole(&values) {
-            self.fail(refused.message);
+            self.overlays.fail(refused.message);
         }
     }
 }

@@ -1,23 +1,24 @@
-//! The step from one state to the next: who takes a message.
+//! The step from one state to the next: dispatches messages.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
 use super::assets::STILL_READING;
-use super::{App, Help, HelpFocus, Message, Mode, Outline, Prompt, PromptKind, line};
-use crate::text::{Severity, without_codes};
-use crate::ui::keymap::{self, Action, Context};
+use super::camera::{dollied, panned, stepped, widened};
+use super::{App, Help, HelpFocus, PromptKind, line};
+use crate::ui::keymap::{self, Action, Context, Mode};
+use crate::ui::layout::Zoom;
 use crate::ui::msg::{Effect, Msg, Timer};
 use crate::ui::terminal::Mouse;
-use crate::ui::view::layout::Zoom;
 
 impl App {
-    /// Takes a message; returns what is to be done about it.
+    /// Processes a message and returns the resulting effects.
     pub fn update(&mut self, msg: Msg) -> Vec<Effect> {
         let mut effects = self.take(msg);
-        self.scroll();
+        let areas = self.areas();
+        self.scroll(&areas);
         effects.extend(self.follow());
-        effects.extend(self.follow_edits());
+        effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
         effects
     }
@@ -28,68 +29,66 @@ impl App {
             Msg::Paste(text) => self.paste(&text),
             Msg::Mouse(event) => return self.pointer(event),
             Msg::Resize(columns, rows) => self.terminal = (columns, rows),
-            Msg::Started(target, generation) => self.started(target, generation),
+            Msg::Started(target, generation) => self.pictures.want(target, Some(generation)),
             Msg::Frame(target, frame) => return self.frame(target, frame),
             Msg::Refused(target, reason) => self.ended(target, reason),
             Msg::Ended(target) => self.ended(target, "the picture can't be traced to its end"),
             Msg::FileChanged => return self.read_again(),
-            // The answer may come after the scene got another name.
-            Msg::Read(path, read) if !self.is_own_path(&path) => drop(read),
-            Msg::Read(_, read) if self.is_opening() => return self.opened(read),
+            // The scene may have been given another name since the request.
+            Msg::Read(path, read) if !self.disk.is_own(&path) => drop(read),
+            Msg::Read(_, read) if self.disk.is_opening() => return self.opened(read),
             Msg::Read(_, read) => return self.was_read(read),
             Msg::AssetsRead(wanted, loaded) => self.assets_read(&wanted, loaded),
-            Msg::AssetsChanged => return self.read_assets(),
+            Msg::AssetsChanged => return self.assets.read(),
             Msg::Elapsed(Timer::Settled) => return self.settled(),
-            Msg::Elapsed(Timer::Interrupt) => self.pending.interrupt = false,
-            Msg::Elapsed(Timer::Click) => self.pending.click = None,
-            Msg::Elapsed(Timer::Keep) => return self.keep_edits(),
+            Msg::Elapsed(Timer::Interrupt) => self.jobs.interrupt = false,
+            Msg::Elapsed(Timer::Click) => self.cursor.forget_click(),
+            Msg::Elapsed(Timer::Keep) => return self.keep_edits().into_iter().collect(),
             Msg::Elapsed(Timer::Writing) => return self.tick(),
             Msg::Saved(id, outcome) => return self.was_saved(id, outcome),
             Msg::BackupsFound(copies) => self.backups_found(&copies),
             Msg::Exported(id, outcome) => return self.exported(id, outcome),
             Msg::EditorClosed(outcome) => return self.editor_closed(outcome),
             Msg::Recovered(found) => self.found_kept(found),
-            Msg::Kept(revision, outcome) => return self.kept(revision, outcome),
+            Msg::Kept(revision, outcome) => {
+                return self.kept(revision, outcome).into_iter().collect();
+            }
             Msg::Suspend => return vec![Effect::Suspend],
             Msg::Continued => return vec![Effect::TakeTerminal],
             Msg::Interrupt => return self.interrupt(),
             Msg::Terminate { .. } | Msg::HangUp => return self.quit_keeping_edits(),
-            Msg::FewColours(depth) => self.suggest(depth.cure()),
-            Msg::Failed(reason) => self.fail_too(&reason),
+            Msg::FewColours(depth) => self.overlays.suggest(depth.cure()),
+            Msg::Failed(reason) => self.overlays.fail_too(&reason),
         }
         Vec::new()
     }
 
     fn key(&mut self, key: KeyEvent) -> Vec<Effect> {
-        self.clear_message();
-        let context = keymap::context(self);
+        self.overlays.clear_message();
+        let context = self.context();
         let action = keymap::action(context, key);
-        let is_line = self.typing.is_some()
-            || self.prompt.is_some()
-            || self
-                .help
-                .as_ref()
-                .is_some_and(|h| h.focus == HelpFocus::Search);
+        let is_line = self.cursor.typing.is_some() || self.overlays.has_line();
         let controls = key.modifiers.contains(KeyModifiers::CONTROL);
         let reserved = matches!(
             action,
             Some(Action::Interrupt | Action::Suspend | Action::Repaint)
         );
-        // Only a dialog comes before a line that is being typed.
-        if is_line && self.dialog.is_none() && !(reserved && controls) {
+        // Only a dialog takes precedence over a line being typed.
+        if is_line && self.overlays.dialog.is_none() && !(reserved && controls) {
             return self.type_key(key);
         }
-        let second_g = self.pending.prefix.take() == Some(Action::G);
+        let second_g = self.prefix.take() == Some(Action::G);
         match action {
             Some(Action::G) if second_g => self.act(Action::First, context),
             Some(action) => self.act(action, context),
-            None if self.dialog.is_some() => {
-                // A user who types on without having seen the question learns why nothing happens.
+            None if self.overlays.dialog.is_some() => {
+                // A user who types on without noticing the question learns why nothing happens.
                 let keys: Vec<_> = keymap::hints(context)
                     .into_iter()
                     .map(|(key, _)| key)
                     .collect();
-                self.warn(format!("the question comes first: {}", keys.join(", ")));
+                self.overlays
+                    .warn(format!("the question comes first: {}", keys.join(", ")));
                 Vec::new()
             }
             None if context == Context::Opening => {
@@ -100,23 +99,23 @@ impl App {
         }
     }
 
-    /// A digit or a sign begins to type a value; `.` makes the steps larger.
+    /// Starts typing a value on a digit or a sign, but not on `.`, which increases the step.
     fn start_typing_with(&mut self, context: Context, key: KeyEvent) -> Vec<Effect> {
         if let (Context::In(Mode::Edit), KeyCode::Char(first)) = (context, key.code)
             && (first.is_ascii_digit() || matches!(first, '-' | '+'))
         {
-            self.type_value(Input::from(first.to_string()));
+            self.cursor.type_value(Input::from(first.to_string()));
         }
         Vec::new()
     }
 
     fn type_key(&mut self, key: KeyEvent) -> Vec<Effect> {
-        if self.prompt.is_some() {
+        if self.overlays.prompt.is_some() {
             return self.prompt_key(key);
         }
-        if self.typing.is_some() {
+        if self.cursor.typing.is_some() {
             self.typing_key(key);
-        } else if let Some(help) = &mut self.help {
+        } else if let Some(help) = &mut self.overlays.help {
             match key.code {
                 KeyCode::Enter | KeyCode::Esc => help.focus = HelpFocus::Lines,
                 _ => line::edit(&mut help.search, key),
@@ -127,20 +126,20 @@ impl App {
     }
 
     fn prompt_key(&mut self, key: KeyEvent) -> Vec<Effect> {
-        let Some(prompt) = &mut self.prompt else {
+        let Some(prompt) = &mut self.overlays.prompt else {
             return Vec::new();
         };
         match key.code {
             KeyCode::Esc => self.close_prompt(),
-            // As in other programs: rubbing out nothing closes the line.
+            // As in other programs, Backspace in an empty line closes it.
             KeyCode::Backspace if prompt.input.value().is_empty() => self.close_prompt(),
             KeyCode::Enter => {
                 let (kind, said) = (prompt.kind, prompt.input.value().to_owned());
-                self.prompt = None;
+                self.overlays.prompt = None;
                 match kind {
                     PromptKind::Command => return self.command(&said),
                     PromptKind::Search => {
-                        self.searched = said;
+                        self.cursor.searched = said;
                         self.search(1);
                     }
                 }
@@ -156,26 +155,29 @@ impl App {
             Action::Page(pages) => self.move_cursor(context, pages * self.page(context)),
             Action::First => self.move_cursor(context, isize::MIN),
             Action::Last => self.move_cursor(context, isize::MAX),
-            Action::G => self.pending.prefix = Some(action),
+            Action::G => self.prefix = Some(action),
             Action::Cycle(step) => self.cycle(step),
             Action::Go(mode) => return self.go(mode),
             Action::Back => return self.back(context),
             Action::Accept => return self.accept(context),
             Action::No => return self.decline(),
-            Action::Search => self.open_search(),
+            Action::Search => self.overlays.open_search(),
             Action::SearchAgain(step) => self.search(step),
-            Action::Command => self.open_prompt(PromptKind::Command, ""),
-            Action::Outline => self.toggle_outline(),
+            Action::Command => self.overlays.open_prompt(PromptKind::Command, ""),
+            Action::Outline => self.pictures.toggle_outline(),
             Action::Visibility => self.toggle_visibility(),
             Action::Type => self.type_current(),
             Action::Nudge(steps, stride) => self.nudge(steps, stride),
-            Action::Stride(step) => self.change_stride(step),
+            Action::Stride(step) => {
+                let words = self.cursor.change_stride(step);
+                self.overlays.say(words);
+            }
             Action::Component(step) => self.next_component(step),
-            Action::Orbit(left, up) => self.orbit_steps(left, up),
-            Action::Pan(left, up) => self.pan(left, up),
-            Action::Dolly(steps) => self.dolly(steps),
-            Action::Widen(steps) => self.widen(steps),
-            Action::ResetView => self.reset_view(),
+            Action::Orbit(left, up) => self.move_camera(|now| stepped(now, left, up)),
+            Action::Pan(left, up) => self.move_camera(|now| panned(now, left, up)),
+            Action::Dolly(steps) => self.move_camera(|now| dollied(now, steps)),
+            Action::Widen(steps) => self.move_camera(|now| widened(now, steps)),
+            Action::ResetView => self.pictures.reset_view(),
             Action::FrameSelected => self.frame_selected(),
             Action::SaveView => self.save_view(),
             Action::Cross(right, down) => self.move_cross(right, down),
@@ -185,11 +187,14 @@ impl App {
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),
             Action::Errors => self.toggle_errors(),
-            Action::Message => self.show_past_message(),
-            Action::Help => self.help = Some(Help::default()),
+            Action::Message => self.overlays.show_past_message(),
+            Action::Help => self.overlays.help = Some(Help::default()),
             Action::Zoom => self.toggle_zoom(),
-            Action::Show(aov) => self.show(aov),
-            Action::Integrator => self.toggle_integrator(),
+            Action::Show(aov) => self.overlays.say(self.pictures.show(aov)),
+            Action::Integrator => {
+                let words = self.pictures.toggle_integrator(self.scene.as_deref());
+                self.overlays.say(words);
+            }
             Action::Stop => return self.stop(),
             Action::Export => return self.export_default(),
             Action::Save => return self.save_key(),
@@ -208,33 +213,35 @@ impl App {
         match mode {
             Mode::Trace => return self.start_trace(),
             Mode::View | Mode::Pick if self.scene.is_none() => {
-                self.fail(if self.awaits_assets() {
+                self.overlays.fail(if self.assets.are_awaited() {
                     STILL_READING
                 } else {
                     "there is no picture: the scene has errors"
                 });
             }
-            Mode::Edit if self.placed().is_empty() => self.fail("nothing to edit here"),
+            Mode::Edit if self.cursor.fields().is_empty() => {
+                self.overlays.fail("nothing to edit here");
+            }
             Mode::Pick => self.start_pick(),
             Mode::Select | Mode::View | Mode::Edit => self.mode = mode,
         }
         Vec::new()
     }
 
-    /// Leaves a line without taking it; a quit that waited for the name in it is off.
+    /// Closes a line without accepting it, and cancels a quit that waited for a file name.
     fn close_prompt(&mut self) {
-        self.prompt = None;
-        self.pending.quit = false;
+        self.overlays.prompt = None;
+        self.jobs.quit = false;
     }
 
     fn back(&mut self, context: Context) -> Vec<Effect> {
         match context {
-            Context::Help => self.help = None,
-            Context::Errors => self.errors = None,
+            Context::Help => self.overlays.help = None,
+            Context::Errors => self.overlays.errors = None,
             Context::Conflict | Context::Quit | Context::Recover => return self.put_off(),
             Context::Opening => {}
             Context::In(Mode::Trace) => {
-                self.mode = self.pending.before_trace.take().unwrap_or(Mode::Select);
+                self.mode = self.pictures.mode_before();
             }
             Context::In(_) => {
                 self.document.end_step();
@@ -256,13 +263,6 @@ impl App {
         Vec::new()
     }
 
-    fn toggle_outline(&mut self) {
-        self.outline = match self.outline {
-            Outline::Marked => Outline::Hidden,
-            Outline::Hidden => Outline::Marked,
-        };
-    }
-
     fn toggle_zoom(&mut self) {
         self.zoom = match self.zoom {
             Zoom::Panels => Zoom::Picture,
@@ -276,73 +276,7 @@ impl App {
             Mouse::Off => (Mouse::On, "mouse on: hold Shift to select text"),
         };
         self.mouse = mouse;
-        self.say(words);
+        self.overlays.say(words);
         vec![Effect::SetMouse(mouse)]
-    }
-
-    pub(super) fn open_prompt(&mut self, kind: PromptKind, said: &str) {
-        self.prompt = Some(Prompt {
-            kind,
-            input: Input::from(said),
-        });
-    }
-
-    fn open_search(&mut self) {
-        match &mut self.help {
-            Some(help) => help.focus = HelpFocus::Search,
-            None => self.open_prompt(PromptKind::Search, ""),
-        }
-    }
-
-    /// Shows a message unless another one is shown already.
-    fn suggest(&mut self, text: impl Into<String>) {
-        if self.message.is_none() {
-            self.say(text);
-        }
-    }
-
-    pub(super) fn say(&mut self, text: impl Into<String>) {
-        self.show_message(None, text);
-    }
-
-    pub(super) fn warn(&mut self, text: impl Into<String>) {
-        self.show_message(Some(Severity::Warning), text);
-    }
-
-    /// Says that something failed beside what may have failed before: of two errors the first one is
-    /// usually the other's cause.
-    fn fail_too(&mut self, text: &str) {
-        let text = &*without_codes(text);
-        let before = self.message.as_ref();
-        let before = before.filter(|before| before.severity == Some(Severity::Error));
-        let both = before.map(|before| {
-            if before.text.contains(text) {
-                before.text.clone()
-            } else {
-                format!("{}; {text}", before.text)
-            }
-        });
-        self.fail(both.unwrap_or_else(|| text.to_owned()));
-    }
-
-    pub(super) fn fail(&mut self, text: impl Into<String>) {
-        self.show_message(Some(Severity::Error), text);
-    }
-
-    fn show_message(&mut self, severity: Option<Severity>, text: impl Into<String>) {
-        let text = without_codes(&text.into()).into_owned();
-        self.message = Some(Message { severity, text });
-    }
-
-    /// Takes the message off the screen; it can be asked for again.
-    pub(super) fn clear_message(&mut self) {
-        if let Some(message) = self.message.take() {
-            self.past_message = Some(message);
-        }
-    }
-
-    fn show_past_message(&mut self) {
-        self.message = self.past_message.take();
-        self.suggest("there was no message yet");
     }
 }

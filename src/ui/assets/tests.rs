@@ -6,7 +6,7 @@ use super::*;
 
 /// A folder that may be searched but not listed can't be watched.
 #[test]
-fn what_could_not_be_watched_is_tried_again() {
+fn files_that_could_not_be_watched_are_retried() {
     let directory = tempfile::tempdir().expect("a directory");
     let allow = |mode| {
         let permissions = Permissions::from_mode(mode);

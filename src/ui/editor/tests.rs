@@ -1,6 +1,6 @@
 use super::*;
 
-/// Names that an editor, a shell or a parser of places might take for something else.
+/// Names that an editor, a shell or a parser of positions might misinterpret.
 const NAMES: &[&str] = &[
     "plain.ray",
     "+sil !id>canary.ray",
@@ -36,7 +36,8 @@ const NAMES: &[&str] = &[
     "ssh:host:b.ray",
 ];
 
-/// What each editor gets for `/d/NAME` at line 7, and for a name with a colon where that differs.
+/// The arguments each editor gets for `/d/NAME` at line 7, and for a name with a colon if they
+/// differ.
 const EDITORS: &[(&str, &str, Option<&str>)] = &[
     ("vi", "+7 -- FILE", None),
     ("/usr/bin/vim", "+7 -- FILE", None),
@@ -79,7 +80,7 @@ fn every_name_reaches_every_editor_as_a_file() {
 }
 
 #[test]
-fn names_become_absolute_and_have_single_slashes() {
+fn paths_become_absolute_with_single_slashes() {
     let here = env::current_dir().expect("a current folder");
     for name in NAMES {
         let expected = here.join(name);
@@ -98,7 +99,7 @@ fn names_become_absolute_and_have_single_slashes() {
 }
 
 #[test]
-fn emacs_is_not_sent_to_another_host() {
+fn emacs_does_not_contact_another_host() {
     for (file, expected) in [
         ("/ssh:host:/a.ray", "/:/ssh:host:/a.ray"),
         ("/sudo::b/a.ray", "/:/sudo::b/a.ray"),
@@ -113,7 +114,7 @@ fn emacs_is_not_sent_to_another_host() {
 
 /// helix takes an existing `a.ray:7` for the file itself.
 #[test]
-fn a_file_whose_name_ends_in_the_line_is_not_opened_instead() {
+fn a_file_whose_name_ends_in_the_line_number_is_not_opened_instead() {
     let place = tempfile::tempdir().expect("a folder");
     let scene = place.path().join("a.ray");
     std::fs::write(place.path().join("a.ray:7"), "").expect("the folder is new");
@@ -122,7 +123,7 @@ fn a_file_whose_name_ends_in_the_line_is_not_opened_instead() {
 }
 
 #[test]
-fn commands_are_split_as_a_shell_does() {
+fn commands_are_split_like_in_a_shell() {
     let cases: &[(&str, &[&str])] = &[
         ("vim", &["vim"]),
         (" code  --wait ", &["code", "--wait"]),
@@ -145,7 +146,7 @@ fn commands_are_split_as_a_shell_does() {
 }
 
 #[test]
-fn only_an_absolute_path_may_have_blanks_without_quotes() {
+fn only_absolute_paths_may_contain_unquoted_spaces() {
     let place = tempfile::tempdir().expect("a folder");
     let program = place.path().join("my editor");
     let said = program.to_str().expect("a plain path");

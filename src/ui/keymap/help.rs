@@ -1,25 +1,29 @@
-//! The table of keys as text: the page of help, and the line of hints.
+//! The key bindings as text: the help page and the line of hints.
 
-use super::{A, Action, Binding, Chord, Context, Edit, Pick, Plain, Select, TABLE, Trace, View};
-use super::{ALL, EVERYWHERE, SCENELESS};
+use super::action::{Action, Context, Mode, Stride};
+use super::chord::Chord;
+use super::table::{Binding, Scope, TABLE};
 use crate::render::Aov;
-use crate::ui::app::Mode;
 
-/// A line of help.
+use Action as A;
+use Mode::{Edit, Pick, Select, Trace, View};
+use Stride::Plain;
+
+/// One line of help.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum HelpLine {
-    /// Where the lines below it hold: `SELECT`, `anywhere`.
+    /// Context of the lines below: `SELECT`, `anywhere`.
     Heading(&'static str),
-    /// What does what.
+    /// An input and its effect.
     Entry {
-        /// The keys, or what else is typed or done: `j ↓`.
+        /// The keys or other input: `j ↓`.
         keys: String,
-        /// What they do.
+        /// Description of the effect.
         words: &'static str,
     },
 }
 
-/// Groups of help after the keys that mean something anywhere, by name.
+/// Sections of help that follow the keys valid anywhere, by name.
 const MODES: [(&str, Context); 5] = [
     ("SELECT", Context::In(Select)),
     ("EDIT", Context::In(Edit)),
@@ -35,27 +39,7 @@ const DIALOGS: [(&str, Context); 5] = [
     ("when edits were found", Context::Recover),
 ];
 
-/// What can be typed after `:`.
-const COMMANDS: [(&str, &str); 13] = [
-    (":w  :w FILE", "save the scene, or under another name"),
-    (":w!", "save over changes of the file"),
-    (":q  :q!", "quit; with ! without asking"),
-    (":wq", "save and quit"),
-    (":e", "read the file again"),
-    (
-        ":export [FILE] [WxH] [spp]",
-        "write a picture of what is shown",
-    ),
-    (":export! FILE", "write it over a file that is there"),
-    (":export cancel", "stop writing it"),
-    (":render", "trace at full size"),
-    (":view save", "write the view into the scene"),
-    (":view reset", "back to the scene's view"),
-    (":size WxH", "size of the picture in the scene"),
-    (":help", "this page"),
-];
-
-/// What the program is started with.
+/// Command line arguments.
 const START: [(&str, &str); 2] = [
     (
         "--color 24",
@@ -73,12 +57,15 @@ const MOUSE: [(&str, &str); 6] = [
     ("wheel", "scroll; in VIEW nearer or farther"),
 ];
 
-/// Help for someone in `mode`, whose keys come first: groups of lines whose keys, words or heading
-/// hold `search`, in any case.
-pub fn help(search: &str, mode: Mode) -> Vec<HelpLine> {
+/// An input and its description.
+pub type Entry = (String, &'static str);
+
+/// Returns the help for someone in `mode`, whose keys come first: sections of lines whose keys,
+/// description or heading contain `search`, ignoring case.
+pub fn help(search: &str, mode: Mode, commands: Vec<Entry>) -> Vec<HelpLine> {
     let search = search.to_lowercase();
     let mut lines = Vec::new();
-    let mut add = |heading: &'static str, entries: Vec<(String, &'static str)>| {
+    let mut add = |heading: &'static str, entries: Vec<Entry>| {
         let all = holds(heading, &search);
         let found = entries
             .into_iter()
@@ -90,7 +77,7 @@ pub fn help(search: &str, mode: Mode) -> Vec<HelpLine> {
             lines.insert(start, HelpLine::Heading(heading));
         }
     };
-    let of = |context: Context| entries(|row| !is_common(row) && row.contexts.contains(&context));
+    let of = |context: Context| entries(|row| !is_common(row) && row.scope.holds(context));
     let here = |&(_, context): &(&str, Context)| context == Context::In(mode);
     for (heading, context) in MODES.into_iter().filter(here) {
         add(heading, of(context));
@@ -103,13 +90,13 @@ pub fn help(search: &str, mode: Mode) -> Vec<HelpLine> {
         add(heading, of(context));
     }
     let owned = |(keys, words): &(&str, &'static str)| ((*keys).to_owned(), *words);
-    add("commands", COMMANDS.iter().map(owned).collect());
+    add("commands", commands);
     add("mouse", MOUSE.iter().map(owned).collect());
     add("starting it", START.iter().map(owned).collect());
     lines
 }
 
-/// The keys for the line of hints, the most useful first. A dialog's are all its own.
+/// Returns the hints for a context, the most useful first. A dialog shows only its own keys.
 pub fn hints(context: Context) -> Vec<(String, &'static str)> {
     let own: &[Hint] = match context {
         Context::In(Select) => SELECT_HINTS,
@@ -122,8 +109,8 @@ pub fn hints(context: Context) -> Vec<(String, &'static str)> {
         Context::Help | Context::Conflict | Context::Quit | Context::Recover => {
             return TABLE
                 .iter()
-                .filter(|row| row.contexts.contains(&context) && !is_common(row))
-                .filter(|row| row.contexts.len() == 1 || matches!(row.action, A::Move(_)))
+                .filter(|row| row.scope.holds(context) && !is_common(row))
+                .filter(|row| is_alone(row) || matches!(row.action, A::Move(_)))
                 .map(|row| (first_key(row), row.words))
                 .collect();
         }
@@ -142,7 +129,7 @@ pub fn hints(context: Context) -> Vec<(String, &'static str)> {
         .collect()
 }
 
-/// Actions whose keys are shown together, and what they do in a word or two.
+/// Actions whose keys are shown together, and their description in a word or two.
 type Hint = (&'static [Action], &'static str);
 
 const SELECT_HINTS: &[Hint] = &[
@@ -201,7 +188,7 @@ const TRACE_HINTS: &[Hint] = &[
             A::Show(Some(Aov::Object)),
             A::Show(Some(Aov::Albedo)),
         ],
-        "light or else",
+        "channel",
     ),
 ];
 const ERROR_HINTS: &[Hint] = &[
@@ -223,18 +210,23 @@ fn holds(text: &str, lower_case: &str) -> bool {
     text.to_lowercase().contains(lower_case)
 }
 
-/// Whether a key means the same wherever it means anything.
+/// Whether a binding is active in all modes.
 fn is_common(row: &Binding) -> bool {
-    [EVERYWHERE.len(), SCENELESS.len(), ALL.len()].contains(&row.contexts.len())
+    !matches!(row.scope, Scope::These(_))
+}
+
+/// Whether a binding is active in only one context.
+fn is_alone(row: &Binding) -> bool {
+    matches!(row.scope, Scope::These([_]))
 }
 
 fn binding(context: Context, action: Action) -> Option<&'static Binding> {
     TABLE
         .iter()
-        .find(|row| row.action == action && row.contexts.contains(&context))
+        .find(|row| row.action == action && row.scope.holds(context))
 }
 
-fn entries(shown: impl Fn(&Binding) -> bool) -> Vec<(String, &'static str)> {
+fn entries(shown: impl Fn(&Binding) -> bool) -> Vec<Entry> {
     let rows = TABLE.iter().filter(|row| shown(row));
     rows.map(|row| (keys(row), row.words)).collect()
 }
@@ -259,6 +251,10 @@ fn first_key(row: &Binding) -> String {
 mod tests {
     use super::*;
 
+    fn lines(search: &str, mode: Mode) -> Vec<HelpLine> {
+        help(search, mode, vec![(":export [WxH]".to_owned(), "write")])
+    }
+
     fn headings(lines: &[HelpLine]) -> Vec<&'static str> {
         let heading = |line: &HelpLine| match line {
             HelpLine::Heading(heading) => Some(*heading),
@@ -275,8 +271,8 @@ mod tests {
     }
 
     #[test]
-    fn the_keys_of_the_mode_come_first_and_every_key_is_there() {
-        let lines = help("", View);
+    fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
+        let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
         assert_eq!(headings(&lines).len(), 14);
         assert!(lines.contains(&entry("gg", "first")));
@@ -286,13 +282,13 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_found_by_any_part() {
-        let undo = help("UNDO", Select);
+    fn search_matches_any_part_of_a_line() {
+        let undo = lines("UNDO", Select);
         assert_eq!(undo, [HelpLine::Heading("anywhere"), entry("u", "undo")]);
-        assert!(help("ctrl-r", Select).contains(&entry("Ctrl-R", "redo")));
-        assert_eq!(headings(&help("mouse", Edit)), ["anywhere", "mouse"]);
-        assert_eq!(headings(&help("[wxh]", Edit)), ["commands"]);
-        assert!(help("no such words", Select).is_empty());
+        assert!(lines("ctrl-r", Select).contains(&entry("Ctrl-R", "redo")));
+        assert_eq!(headings(&lines("mouse", Edit)), ["anywhere", "mouse"]);
+        assert_eq!(headings(&lines("[wxh]", Edit)), ["commands"]);
+        assert!(lines("no such words", Select).is_empty());
     }
 
     #[test]
@@ -307,7 +303,7 @@ mod tests {
     }
 
     #[test]
-    fn a_question_shows_its_answers_only() {
+    fn a_question_shows_only_its_answers() {
         let keys: Vec<_> = hints(Context::Quit)
             .into_iter()
             .map(|hint| hint.0)

@@ -1,4 +1,4 @@
-//! Journals that no other process uses: claimed by a lock that ends with the process at the latest.
+//! Journals claimed for one process by a lock, which ends with the process at the latest.
 
 use std::fs::File;
 use std::io;
@@ -9,21 +9,21 @@ use super::folder::Folder;
 use super::identity::Identity;
 use crate::file::{Lock, lock};
 
-/// The most damaged journals of one name.
+/// The maximum number of damaged journals with one name.
 const MOST_DAMAGED: u32 = 1000;
 
-/// A journal's file, locked.
+/// A locked journal file.
 #[derive(Debug)]
 pub struct Claim {
     folder: Arc<Folder>,
     name: String,
     file: File,
-    /// Whether it may hold more than what can be read of it.
+    /// Whether it may hold more than can be read.
     is_damaged: bool,
 }
 
 impl Claim {
-    /// Makes an empty file under the first name that is free.
+    /// Creates an empty file under the first free name.
     pub(super) fn new(folder: &Arc<Folder>, scene: &Identity) -> io::Result<Self> {
         for name in scene.names() {
             match folder.create(&name) {
@@ -36,7 +36,7 @@ impl Claim {
                         file,
                         is_damaged: false,
                     };
-                    // A process that looks for journals may have taken it for one left behind.
+                    // Another process may have claimed it, taking it for one left behind.
                     if lock(&claim.file) != Lock::Busy && claim.is_there() {
                         return Ok(claim);
                     }
@@ -46,8 +46,8 @@ impl Claim {
         Err(io::Error::other("too many journals of the scene"))
     }
 
-    /// Claims a file that an earlier run left behind; `None` if there is none. An error if there is
-    /// something else, or its run may go on: where files can't be locked, it can't be told.
+    /// Claims a file that an earlier run left behind; `None` if it is missing or in use. Fails
+    /// unless it is a regular file of our own, and without file locks, as its run may go on.
     pub(super) fn take(folder: &Arc<Folder>, name: String) -> io::Result<Option<Self>> {
         let Some(file) = folder.open(&name)? else {
             return Ok(None);
@@ -59,7 +59,7 @@ impl Claim {
             is_damaged: false,
         };
         match lock(&claim.file) {
-            // Once it is locked, nobody gives its name to another file. It may have lost it before.
+            // A locked file's name is not given to another file, but it may have lost it before.
             Lock::Taken => Ok(claim.is_there().then_some(claim)),
             Lock::Busy => Ok(None),
             Lock::Unknown => {
@@ -73,17 +73,17 @@ impl Claim {
         }
     }
 
-    /// Its name.
+    /// The name of the journal.
     pub(crate) fn name(&self) -> &str {
         &self.name
     }
 
-    /// The file.
+    /// The open file.
     pub(super) fn file(&self) -> &File {
         &self.file
     }
 
-    /// Where it is.
+    /// The path of the file.
     pub(super) fn place(&self) -> PathBuf {
         self.folder.place(&self.name)
     }
@@ -93,13 +93,13 @@ impl Claim {
         self.folder.has(&self.name, &self.file).unwrap_or(false)
     }
 
-    /// Whether the file is as long as it was left, and still nobody else's.
+    /// Whether the file still has this length and belongs to nobody else.
     pub(super) fn is_as_left(&self, length: u64) -> bool {
         let found = self.file.metadata();
         found.is_ok_and(|found| found.len() == length && Folder::refusal(&found).is_none())
     }
 
-    /// The same, known to hold more than what can be read of it.
+    /// Marks it as holding more than can be read.
     pub(super) fn damaged(self) -> Self {
         Self {
             is_damaged: true,
@@ -107,12 +107,12 @@ impl Claim {
         }
     }
 
-    /// Whether it may hold more than what can be read of it.
+    /// Whether it may hold more than can be read.
     pub(super) fn is_damaged(&self) -> bool {
         self.is_damaged
     }
 
-    /// Puts another content in place of the file's: at every moment one of the two is there whole.
+    /// Replaces the content atomically: at any time the old or the new content is there in full.
     pub(super) fn replace(&mut self, content: &[u8]) -> io::Result<()> {
         let name = format!("{}.new", self.name);
         // Left behind by an earlier run under the same name, which is ours now.
@@ -131,7 +131,7 @@ impl Claim {
         Ok(())
     }
 
-    /// Fills the file, which is empty and new.
+    /// Fills the file, which is new and empty.
     pub(super) fn fill(&self, content: &[u8]) -> io::Result<()> {
         write(&self.file, content)?;
         self.folder.sync();
@@ -150,13 +150,13 @@ impl Claim {
         Ok(())
     }
 
-    /// Gives the file a name that it is not looked for under, and nothing else has; where it is then.
+    /// Gives the file an unused name that is not searched, and returns its new path.
     pub(super) fn set_aside(&self) -> io::Result<PathBuf> {
         let name = |number: u32| match number {
             1 => format!("{}.damaged", self.name),
             _ => format!("{}.damaged-{number}", self.name),
         };
-        // Only who has the claim gives out these names.
+        // Only the holder of the claim assigns these names.
         let free = (1..MOST_DAMAGED)
             .map(name)
             .find(|name| !self.folder.holds(name));

@@ -1,9 +1,9 @@
-//! The folder of the journals, `halflight/recovery` in `$XDG_STATE_HOME` or in `~/.local/state`.
+//! The journal folder: `halflight/recovery` in `$XDG_STATE_HOME` or in `~/.local/state`.
 //!
-//! It is held open and all names are looked up in it, so that another folder in its place changes
-//! nothing. Neither it nor the one around it may be a link or be writable by others: whoever could
-//! write there might plant links and edits. Others may write in the state folder only as they may
-//! in `/tmp`, where nobody can move away what is not theirs.
+//! The folder is held open and all names are resolved relative to it, so that replacing it has no
+//! effect. Neither it nor its parent may be a link or be writable by others: anyone who could write
+//! there might plant links and edits. In the state folder itself others may write only as in
+//! `/tmp`, where nobody can move files that belong to somebody else.
 
 use std::env;
 use std::ffi::OsString;
@@ -16,19 +16,19 @@ use plain as system;
 #[cfg(unix)]
 use unix as system;
 
-/// The folders below the state folder, each in the one before.
+/// The folders below the state folder, outermost first.
 const NAMES: [&str; 2] = ["halflight", "recovery"];
 
 const NOT_REGULAR: &str = "is not a regular file";
 
-/// The folder, held open.
+/// The journal folder, held open.
 #[derive(Debug)]
 pub(super) struct Folder {
     path: PathBuf,
     held: system::Held,
 }
 
-/// Where journals are kept; the error is why none can be.
+/// The path of the journal folder. Fails if no journals can be kept there.
 pub(crate) fn place() -> io::Result<PathBuf> {
     let state = state()?;
     Folder::find(&state)?;
@@ -41,13 +41,13 @@ fn path_in(state: &Path) -> PathBuf {
         .fold(state.to_owned(), |path, name| path.join(name))
 }
 
-/// Where programs keep their state, by the environment.
+/// The state folder that the environment defines.
 pub(super) fn state() -> io::Result<PathBuf> {
     state_by(|name| env::var_os(name))
 }
 
 fn state_by(set: impl Fn(&str) -> Option<OsString>) -> io::Result<PathBuf> {
-    // What is not absolute would mean something else in every folder, and is to be ignored.
+    // A relative path would depend on the current folder; the specification says to ignore it.
     let set = |name| {
         set(name)
             .map(PathBuf::from)
@@ -59,7 +59,7 @@ fn state_by(set: impl Fn(&str) -> Option<OsString>) -> io::Result<PathBuf> {
 }
 
 impl Folder {
-    /// Opens the folder in the state folder; makes it where it is missing.
+    /// Opens the journal folder in a state folder, creating it if it is missing.
     pub(super) fn make(state: &Path) -> io::Result<Self> {
         let mut builder = DirBuilder::new();
         #[cfg(unix)]
@@ -71,7 +71,7 @@ impl Folder {
         Self::open_in(state, system::Missing::Made)
     }
 
-    /// Opens the folder in the state folder, if it is there.
+    /// Opens the journal folder in a state folder; `None` if it is missing.
     pub(super) fn find(state: &Path) -> io::Result<Option<Self>> {
         match Self::open_in(state, system::Missing::Refused) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
@@ -85,23 +85,23 @@ impl Folder {
         Ok(Self { path, held })
     }
 
-    /// Whether it still is where it was, and nobody else can write in it.
+    /// Whether the folder is still at its path and nobody else can write to it.
     pub(super) fn is_sound(&self) -> bool {
         self.held.is_sound(&self.path).unwrap_or(false)
     }
 
-    /// Whether a name in it is that of an open file.
+    /// Whether a name in the folder refers to this open file.
     pub(super) fn has(&self, name: &str, file: &File) -> io::Result<bool> {
         self.held.has(&self.path, name, file)
     }
 
-    /// Makes a file, to be written; there must be none of that name, nor a link.
+    /// Creates a file for writing. Fails if the name exists, even as a link.
     pub(super) fn create(&self, name: &str) -> io::Result<File> {
         let made = self.held.create(&self.path, name);
         made.map_err(|error| at(&self.path, &error))
     }
 
-    /// Opens a file to read it, if there is one; an error if it is no regular one of our own.
+    /// Opens a file for reading, if it exists. Fails unless it is a regular file of our own.
     pub(super) fn open(&self, name: &str) -> io::Result<Option<File>> {
         let place = self.place(name);
         let refused = |reason| {
@@ -111,7 +111,7 @@ impl Folder {
         let file = match self.held.open(&self.path, name) {
             Ok(file) => file,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-            // Such as a link, which is not followed.
+            // For example a link, which is not followed.
             Err(_) if place.symlink_metadata().is_ok_and(|found| !found.is_file()) => {
                 return Err(refused(NOT_REGULAR));
             }
@@ -123,23 +123,23 @@ impl Folder {
         }
     }
 
-    /// Why a file is not taken for one that we have written, in words that follow its name.
+    /// Why a file can't be one of ours, phrased to follow its name.
     pub(super) fn refusal(metadata: &Metadata) -> Option<&'static str> {
         let not_regular = Some(NOT_REGULAR).filter(|_| !metadata.is_file());
         not_regular.or_else(|| system::suspicion(metadata))
     }
 
-    /// Whether a name in it is taken, as far as that can be told.
+    /// Whether a name in the folder is taken; `false` if that can't be determined.
     pub(super) fn holds(&self, name: &str) -> bool {
         self.place(name).symlink_metadata().is_ok()
     }
 
-    /// Gives a file the name of another one, which is replaced.
+    /// Renames a file, replacing any file of the new name.
     pub(super) fn rename(&self, from: &str, to: &str) -> io::Result<()> {
         self.held.rename(&self.path, from, to)
     }
 
-    /// Removes a file, if there is one.
+    /// Removes a file, if it exists.
     pub(super) fn remove(&self, name: &str) -> io::Result<()> {
         match self.held.remove(&self.path, name) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
@@ -147,12 +147,12 @@ impl Folder {
         }
     }
 
-    /// Has the names outlive a crash of the system, where folders can be synchronized.
+    /// Makes names survive a system crash, where folders can be synchronized.
     pub(super) fn sync(&self) {
         self.held.sync();
     }
 
-    /// Where a file of this name is.
+    /// The path of a file with this name.
     pub(super) fn place(&self, name: &str) -> PathBuf {
         self.path.join(name)
     }
@@ -177,21 +177,21 @@ mod unix {
 
     use super::{NAMES, at};
 
-    /// What becomes of a folder that is missing.
+    /// What to do about a missing folder.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub(super) enum Missing {
         Made,
         Refused,
     }
 
-    /// The permissions of a group and of others to write.
+    /// The write permissions of the group and of others.
     const WRITABLE: Mode = Mode::WGRP.union(Mode::WOTH);
 
     #[derive(Debug)]
     pub(super) struct Held(OwnedFd);
 
     impl Held {
-        /// Opens the folder name by name, so that nothing can be put in the way meanwhile.
+        /// Opens the folder one component at a time, so that nothing can be slipped in meanwhile.
         pub(super) fn of(state: &Path, missing: Missing) -> io::Result<Self> {
             let flags = OFlags::RDONLY | OFlags::DIRECTORY | OFlags::CLOEXEC;
             let opened = openat(CWD, state, flags, Mode::empty());
@@ -248,12 +248,12 @@ mod unix {
         }
 
         pub(super) fn sync(&self) {
-            // Not all file systems can, and the names are there for all but a crash of the system.
+            // Not all file systems support this, and only a system crash would lose the names.
             let _ = fsync(&self.0);
         }
     }
 
-    /// Why a file may be written by somebody else, in words that follow its name.
+    /// Why a file may have been written by somebody else, phrased to follow its name.
     pub(super) fn suspicion(metadata: &Metadata) -> Option<&'static str> {
         if metadata.uid() != geteuid().as_raw() {
             return Some("belongs to another user");
@@ -267,7 +267,7 @@ mod unix {
         (one.st_dev, one.st_ino) == (other.st_dev, other.st_ino)
     }
 
-    /// Whether a folder is ours, and nobody else can write in it.
+    /// Fails unless a folder is ours and nobody else can write to it.
     fn check(stat: &Stat, path: &Path) -> io::Result<()> {
         let path = path.display();
         if stat.st_uid != geteuid().as_raw() {
@@ -280,8 +280,8 @@ mod unix {
         Ok(())
     }
 
-    /// Whether nobody else can put another folder in the place of ours. A group may be allowed to
-    /// write: on many systems each user has one of their own.
+    /// Fails if somebody else could replace our folder. Group write permission is accepted: on many
+    /// systems each user has a group of their own.
     fn check_around(stat: &Stat, path: &Path) -> io::Result<()> {
         let path = path.display();
         let mode = Mode::from_raw_mode(stat.st_mode);
@@ -295,7 +295,7 @@ mod unix {
         Ok(())
     }
 
-    /// Why a name can't be opened as a folder.
+    /// Explains why a name can't be opened as a folder.
     fn obstacle(folder: impl AsFd, name: &str, path: &Path, error: Errno) -> io::Error {
         let found = statat(folder, name, AtFlags::SYMLINK_NOFOLLOW);
         let kind = found.map(|stat| FileType::from_raw_mode(stat.st_mode));
@@ -317,14 +317,14 @@ mod unix {
     }
 }
 
-/// Systems without users and links that matter here.
+/// Systems without the users and links that matter here.
 #[cfg(not(unix))]
 mod plain {
     use std::fs::{self, File, Metadata, OpenOptions};
     use std::io;
     use std::path::Path;
 
-    /// What becomes of a folder that is missing.
+    /// What to do about a missing folder.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub(super) enum Missing {
         Made,

@@ -1,23 +1,22 @@
-//! Which scene a journal belongs to.
+//! The scene that a journal belongs to.
 
 use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::record::fnv1a;
 use crate::file;
 use crate::language::Language;
 
-/// The stem of the journals of the scene without a file.
+/// The stem of journals of the scene without a file.
 const NAMELESS: &str = "unsaved";
 
-/// The most journals of one scene.
+/// The maximum number of journals of one scene.
 const MOST: usize = 100;
 
-/// A scene under all its names.
+/// A scene, independent of the name that it is opened by.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Identity {
-    /// What its journals' names begin with.
+    /// The common prefix of its journals' names.
     stem: String,
     /// The extension of its language.
     pub(super) extension: &'static str,
@@ -26,7 +25,7 @@ pub(super) struct Identity {
 }
 
 impl Identity {
-    /// The scene at a path, or the one without a file.
+    /// Identifies the scene at a path, or the one without a file.
     pub(super) fn of(scene: Option<&Path>, language: Language) -> Self {
         let extension = language.extension();
         let Some(path) = scene.map(canonical) else {
@@ -47,16 +46,16 @@ impl Identity {
         }
     }
 
-    /// The names that its journals may have.
+    /// The possible names of its journals.
     pub(super) fn names(&self) -> impl Iterator<Item = String> + use<'_> {
         (0..MOST).map(|number| format!("{}-{number}.{}", self.stem, self.extension))
     }
 }
 
-/// The path without links, `.` and `..`, as far as it exists.
+/// Resolves links, `.` and `..` as far as the path exists.
 fn canonical(path: &Path) -> PathBuf {
     let in_folder = || {
-        // A link may lead to a file that is gone.
+        // A link may lead to a missing file.
         let path = file::end_of_links(path).ok()?;
         let folder = path.parent()?;
         let folder = Some(folder).filter(|folder| !folder.as_os_str().is_empty());
@@ -70,9 +69,30 @@ fn canonical(path: &Path) -> PathBuf {
         .unwrap_or_else(|| path.to_owned())
 }
 
+/// The 64-bit FNV-1a hash (Fowler, Noll, Vo). Unlike the standard library's, it is the same in
+/// every build.
+pub(super) fn fnv1a<'b>(bytes: impl IntoIterator<Item = &'b u8>) -> u64 {
+    let bytes = bytes.into_iter();
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_hash_matches_the_published_test_vectors() {
+        // From the authors' test vectors.
+        for (text, hash) in [
+            ("", 0xcbf2_9ce4_8422_2325),
+            ("a", 0xaf63_dc4c_8601_ec8c),
+            ("foobar", 0x8594_4171_f739_67e8),
+        ] {
+            assert_eq!(fnv1a(text.as_bytes()), hash, "{text}");
+        }
+    }
 
     #[test]
     fn scenes_are_distinguished_by_path_and_language() {
@@ -104,7 +124,7 @@ mod tests {
         for name in ["x/../b.ray", "./b.ray", "x/link.ray", "y/link.ray"] {
             assert_eq!(of(name), of("b.ray"), "{name}");
         }
-        // A file that is not there yet, or no longer.
+        // A file that does not exist, or no longer does.
         assert_eq!(of("y/none.ray"), of("x/none.ray"));
         assert_ne!(of("none.ray"), of("x/none.ray"));
         let before = of("b.ray");

@@ -1,4 +1,4 @@
-//! The edits of this run, as they are kept for the next one.
+//! The edits of this run, kept for the next one.
 
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -11,19 +11,19 @@ use super::record;
 use crate::document::Snapshot;
 use crate::language::Language;
 
-/// Edits that are out of date may take as many bytes as the text, or as this.
+/// Outdated edits may take this many bytes, or as many as the text if it is longer.
 const WASTE: u64 = 1 << 20;
 
 /// A text to keep.
 #[derive(Clone, Debug)]
 pub(crate) struct Edits {
-    /// The scene; `None` is the one without a file.
+    /// The scene's path; `None` for the scene without a file.
     pub(crate) scene: Option<PathBuf>,
-    /// The text that the edits started from, and the text under edit.
+    /// The text that the edits are based on, and the edited text.
     pub(crate) known: Snapshot,
 }
 
-/// This run's journal, once there is something to keep.
+/// This run's journal, created once there is something to keep.
 #[derive(Debug)]
 pub(super) struct Journal {
     state: PathBuf,
@@ -38,21 +38,21 @@ struct Held {
     language: Language,
     identity: Identity,
     base: Arc<String>,
-    /// What edits are sealed with.
+    /// The checksum that seals the edits.
     seal: u64,
-    /// Where the first edit begins.
+    /// The offset of the first edit.
     first: u64,
-    /// Where the last edit ends; `None` once it is not known what stands there.
+    /// The offset of the end of the last edit; `None` if the content there is unknown.
     end: Option<u64>,
 }
 
 impl Journal {
-    /// The journal of a run with this state folder.
+    /// Creates the journal of a run with this state folder.
     pub(super) fn new(state: PathBuf) -> Self {
         Self { state, held: None }
     }
 
-    /// Keeps a text in place of the last one. If that fails the last one is kept.
+    /// Keeps a text instead of the last one. If that fails, the last one remains.
     pub(super) fn write(&mut self, edits: &Edits) -> io::Result<()> {
         let fits = |held: &&mut Held| {
             held.scene == edits.scene && held.language == edits.known.language && held.is_found()
@@ -72,7 +72,7 @@ impl Journal {
         self.held.take().map_or(Ok(()), |held| held.claim.remove())
     }
 
-    /// Whether anything is kept where the next run looks for it.
+    /// Whether anything is kept where the next run will look for it.
     pub(super) fn is_kept(&self) -> bool {
         self.held.as_ref().is_some_and(Held::is_kept)
     }
@@ -105,12 +105,12 @@ impl Held {
         })
     }
 
-    /// Whether the next run would find the journal: it may have been removed, or moved away.
+    /// Whether the next run would find the journal, which may have been removed or moved away.
     fn is_found(&self) -> bool {
         self.folder.is_sound() && self.claim.is_there()
     }
 
-    /// Whether the next run would find in it what was written last.
+    /// Whether the next run would find the last text in the journal.
     fn is_kept(&self) -> bool {
         let is_as_left = |end| self.claim.is_as_left(end);
         self.is_found() && self.end.is_some_and(is_as_left)
@@ -154,9 +154,9 @@ impl Held {
 /// A journal with one edit.
 struct Beginning {
     content: Vec<u8>,
-    /// Where the edit begins.
+    /// The offset of the edit.
     first: u64,
-    /// What further ones are sealed with.
+    /// The checksum that seals further edits.
     seal: u64,
 }
 

@@ -1,4 +1,4 @@
-//! The thread that keeps unsaved edits: no save and no other work on files is in its way.
+//! The thread that keeps unsaved edits, so that neither saves nor other file work delay it.
 
 use std::collections::VecDeque;
 use std::io;
@@ -10,33 +10,41 @@ use std::time::Instant;
 use super::claim::Claim;
 use super::folder;
 use super::journal::{Edits, Journal};
-use crate::ui::msg::Msg;
 
-/// Work for the thread.
+/// An order for the thread.
 #[derive(Debug)]
 pub(crate) enum Order {
-    /// Keep a text, which is that of this revision: [`Msg::Kept`].
+    /// Keep the text of this revision; answered by [`Outcome::Kept`].
     Keep(u64, Edits),
     /// Forget what this run has kept.
     Forget,
-    /// Forget what an earlier run kept once this one keeps or forgets something.
+    /// Forget an earlier run's journal once this run keeps or forgets something.
     Adopt(Arc<Claim>),
-    /// Forget what an earlier run kept.
+    /// Forget an earlier run's journal.
     Discard(Arc<Claim>),
 }
 
-/// What is left of unsaved edits at the end.
+/// The outcome of an order.
+#[derive(Debug)]
+pub(crate) enum Outcome {
+    /// The text of this revision is kept, or the reason why not.
+    Kept(u64, Result<(), String>),
+    /// The reason why kept edits can't be removed.
+    Failed(String),
+}
+
+/// The state of unsaved edits at the end.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum End {
-    /// Nothing was to be kept.
+    /// There was nothing to keep.
     Nothing,
-    /// The last text that was to be kept is.
+    /// The last text is kept.
     Kept,
-    /// It is not; why.
+    /// The last text is not kept, for this reason.
     Lost(String),
 }
 
-/// The thread's handle.
+/// A handle to the thread.
 pub(crate) struct Keeper {
     orders: Sender<Order>,
     end: Receiver<End>,
@@ -45,13 +53,13 @@ pub(crate) struct Keeper {
 }
 
 impl Keeper {
-    /// Starts the thread; `send` is called on it.
-    pub(crate) fn start(send: impl Fn(Msg) + Send + 'static) -> io::Result<Self> {
+    /// Starts the thread, which calls `report`.
+    pub(crate) fn start(report: impl Fn(Outcome) + Send + 'static) -> io::Result<Self> {
         let (orders, inbox) = mpsc::channel();
         let (tell, end) = mpsc::channel();
         let work = move || {
-            // A program that has lost its patience is gone.
-            let _ = tell.send(follow(&inbox, send));
+            // Fails only if the program has stopped waiting.
+            let _ = tell.send(follow(&inbox, report));
         };
         thread::Builder::new()
             .name("journal".to_owned())
@@ -63,8 +71,7 @@ impl Keeper {
         })
     }
 
-    /// Has something done after what was ordered before; of several texts that wait only the last is
-    /// kept.
+    /// Queues an order. Of several waiting texts only the last is kept.
     pub(crate) fn order(&mut self, order: Order) -> Result<(), String> {
         match order {
             Order::Keep(..) => self.keeps = true,
@@ -75,7 +82,7 @@ impl Keeper {
         sent.map_err(|_| "the thread that keeps edits has ended".to_owned())
     }
 
-    /// Waits until all is done, until `deadline` at most.
+    /// Waits until all orders are done, at most until `deadline`.
     pub(crate) fn finish(self, deadline: Instant) -> End {
         drop(self.orders);
         let lost = |reason: &str| End::Lost(reason.to_owned());
@@ -91,8 +98,8 @@ impl Keeper {
     }
 }
 
-/// Carries orders out until there will be no more.
-fn follow(inbox: &Receiver<Order>, send: impl Fn(Msg)) -> End {
+/// Executes orders until the channel is closed.
+fn follow(inbox: &Receiver<Order>, report: impl Fn(Outcome)) -> End {
     let mut journal = folder::state().map(Journal::new);
     let mut waiting = VecDeque::new();
     let mut adopted = Vec::new();
@@ -104,10 +111,10 @@ fn follow(inbox: &Receiver<Order>, send: impl Fn(Msg)) -> End {
                     Ok(journal) => journal.write(&edits).map_err(|error| error.to_string()),
                     Err(error) => Err(error.to_string()),
                 };
-                // The interface copies a text that others hold when it edits on.
+                // While others hold a text, the interface has to copy it for its next edit.
                 drop(edits);
                 trouble = done.as_ref().err().cloned();
-                send(Msg::Kept(revision, done));
+                report(Outcome::Kept(revision, done));
                 if trouble.is_some() {
                     continue;
                 }
@@ -125,7 +132,9 @@ fn follow(inbox: &Receiver<Order>, send: impl Fn(Msg)) -> End {
             Order::Discard(claim) => claim.remove(),
         };
         if let Err(error) = removed {
-            send(Msg::Failed(format!("kept edits can't be removed: {error}")));
+            report(Outcome::Failed(format!(
+                "kept edits can't be removed: {error}"
+            )));
         }
     }
     match trouble {
@@ -139,7 +148,7 @@ fn remove_all(claims: &mut Vec<Arc<Claim>>) -> io::Result<()> {
     claims.drain(..).try_for_each(|claim| claim.remove())
 }
 
-/// The next order worth carrying out; `None` at the end.
+/// The next order worth executing; `None` at the end.
 fn next(inbox: &Receiver<Order>, waiting: &mut VecDeque<Order>) -> Option<Order> {
     if waiting.is_empty() {
         waiting.push_back(inbox.recv().ok()?);
@@ -161,7 +170,7 @@ mod tests {
     use crate::language::Language;
 
     #[test]
-    fn of_texts_that_wait_only_the_last_is_kept() {
+    fn only_the_last_waiting_text_is_kept() {
         let keep = |revision| {
             let known = Document::new(Language::Ray, String::new()).snapshot();
             let edits = Edits { scene: None, known };

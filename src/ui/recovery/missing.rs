@@ -1,4 +1,4 @@
-//! Edits kept of a scene whose path does not lead to a scene any more.
+//! Edits kept of a scene that can't be opened any more.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -10,13 +10,12 @@ use super::offer::{left_behind, limit, read};
 use super::record::{self, Content};
 use crate::language::Language;
 
-/// The text that the newest edits kept of a scene started from: what is left of it where its file is
-/// missing.
+/// The base of the newest edits kept of a scene: what is left of it if its file is missing.
 pub(crate) fn base_of(path: &Path, language: Language) -> Option<String> {
     base_in(&folder::state().ok()?, path, language)
 }
 
-/// What is to be said besides why a scene can't be opened, if edits of it are kept.
+/// The addition to the message that a scene can't be opened, if edits of it are kept.
 pub(crate) fn note(path: &Path, is_missing: bool) -> Option<String> {
     note_in(&folder::state().ok()?, path, is_missing)
 }
@@ -48,7 +47,7 @@ pub(super) fn note_in(state: &Path, path: &Path, is_missing: bool) -> Option<Str
     })
 }
 
-/// The journals of a scene whose runs are over and that hold anything, the newest one last.
+/// Claims the non-empty journals of a scene whose runs have ended, oldest first.
 fn claims(state: &Path, scene: &Identity) -> Vec<Claim> {
     let Ok(Some(folder)) = Folder::find(state) else {
         return Vec::new();

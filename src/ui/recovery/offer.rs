@@ -1,4 +1,4 @@
-//! What runs that are over have kept of a scene, and what taking it would make of the text.
+//! The edits that earlier runs kept of a scene, and what restoring them would change.
 
 use std::fmt::Display;
 use std::io;
@@ -15,34 +15,33 @@ use crate::file;
 use crate::language::Language;
 use crate::memory::megabytes;
 use crate::text::{Edit, smallest_edit};
-use crate::ui::msg::Msg;
 
-/// A journal may be as long as this, whatever the scene's length.
+/// The size, in bytes, that a journal may have regardless of the scene's length.
 const ALWAYS: u64 = 64 << 20;
 
-/// How many times as long as the scene's text a journal may be: it holds the text that the edits
-/// started from, edits as long as the text, and one that makes them longer. Texts grow and shrink.
+/// The maximum length of a journal as a multiple of the scene's: it holds the base, edits as long
+/// as the text, and one that makes them longer. Texts grow and shrink.
 const TIMES: u64 = 8;
 
-/// Whose edits are looked for.
+/// The scene whose kept edits are looked for.
 #[derive(Clone, Debug)]
 pub struct Sought {
-    /// The scene; `None` is the one without a file.
+    /// The scene's path; `None` for the scene without a file.
     pub scene: Option<PathBuf>,
     /// Its language.
     pub language: Language,
-    /// The text that they would be taken into.
+    /// The text that the edits would be restored into.
     pub text: Arc<String>,
-    /// The names of journals that are not to be offered again.
+    /// The names of journals that must not be offered again.
     pub put_off: Vec<String>,
 }
 
-/// What was found.
+/// The result of a search.
 #[derive(Debug, Default)]
 pub struct Found {
-    /// The newest edits that the text does not have.
+    /// The newest edits that the text does not contain.
     pub offer: Option<Box<Offer>>,
-    /// What is wrong with the folder, or where journals are that can't be read.
+    /// Problems with the folder, and the locations of unreadable journals.
     pub complaints: Vec<String>,
 }
 
@@ -51,44 +50,47 @@ pub struct Found {
 pub struct Offer {
     /// Their journal, which no other run is offered meanwhile.
     pub claim: Arc<Claim>,
-    /// The text that they would be taken into.
+    /// The text that they would be restored into.
     pub text: Arc<String>,
-    /// How they are taken.
+    /// How they are restored.
     pub way: Way,
-    /// How many places of the text that changes.
+    /// The number of places in the text that change.
     pub places: usize,
-    /// What became of the text since they were made.
+    /// Whether the text has changed since the edits were made.
     pub since: Since,
 }
 
-/// How kept edits are taken.
+/// How kept edits are restored.
 #[derive(Clone, Debug)]
 pub enum Way {
     /// By an edit.
     Edit(Edit),
-    /// By a merge: the text's side is [`Side::Mine`], that of the kept edits [`Side::Theirs`].
+    /// By a merge: the text is [`Side::Mine`], the kept edits are [`Side::Theirs`].
     Merge(Merge),
 }
 
-/// What became of a text since edits of it were kept.
+/// Whether a text has changed since edits of it were kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Since {
-    /// It is the same.
+    /// Unchanged.
     Same,
-    /// It has changed.
+    /// Changed.
     Changed,
 }
 
-/// Looks for kept edits on a thread of its own, which sends [`Msg::Recovered`] if there are any.
-pub(crate) fn look_for(sought: Sought, send: impl Fn(Msg) + Send + 'static) -> Result<(), String> {
+/// Looks for kept edits on a new thread, which reports any that it finds.
+pub(crate) fn look_for(
+    sought: Sought,
+    report: impl Fn(Found) + Send + 'static,
+) -> Result<(), String> {
     let look = move || {
         let found = match folder::state() {
             Ok(state) => look_in(&state, &sought),
-            // Said once there is something to keep.
+            // Reported once there is something to keep.
             Err(_) => Found::default(),
         };
         if found.offer.is_some() || !found.complaints.is_empty() {
-            send(Msg::Recovered(found));
+            report(found);
         }
     };
     let spawned = thread::Builder::new()
@@ -105,7 +107,7 @@ pub(super) fn look_in(state: &Path, sought: &Sought) -> Found {
         Ok(Some(folder)) => Arc::new(folder),
         Ok(None) => return found,
         Err(error) => {
-            // Without a folder nothing is missed: that is reported once there is something to keep.
+            // Without a folder nothing is lost: that is reported once there is something to keep.
             if error.kind() == io::ErrorKind::PermissionDenied {
                 found.complain(error);
             }
@@ -132,7 +134,7 @@ pub(super) fn look_in(state: &Path, sought: &Sought) -> Found {
     found
 }
 
-/// The journals of these names whose runs are over, the newest one last.
+/// Claims the journals with these names whose runs have ended, oldest first.
 pub(super) fn left_behind(
     folder: &Arc<Folder>,
     names: impl Iterator<Item = String>,
@@ -153,12 +155,12 @@ pub(super) fn left_behind(
     dated.into_iter().map(|(_, claim)| claim).collect()
 }
 
-/// How long a journal of a scene may be whose text has so many bytes.
+/// The maximum length of a journal, in bytes, for a scene of this length.
 pub(super) fn limit(length: usize) -> u64 {
     ALWAYS.max(TIMES * length as u64)
 }
 
-/// All bytes of a journal, unless they are more than any journal of the scene has; then why not.
+/// Reads a whole journal. Fails if it is longer than any journal of the scene can be.
 pub(super) fn read(claim: &Claim, limit: u64) -> Result<Vec<u8>, String> {
     let place = claim.place();
     let length = claim.file().metadata().map_or(0, |found| found.len());
@@ -172,7 +174,7 @@ pub(super) fn read(claim: &Claim, limit: u64) -> Result<Vec<u8>, String> {
 }
 
 impl Found {
-    /// Takes what a journal holds.
+    /// Processes the content of a journal.
     fn take(&mut self, claim: Claim, content: Content, sought: &Sought) {
         let place = claim.place();
         match content {
@@ -206,7 +208,7 @@ impl Found {
         }
     }
 
-    /// Says where a damaged journal is from now on.
+    /// Renames a damaged journal and reports its new location.
     fn set_aside(&mut self, claim: &Claim) {
         let place = claim.set_aside().unwrap_or_else(|_| claim.place());
         self.complain(format!("{} is damaged", place.display()));
@@ -219,7 +221,7 @@ impl Found {
 }
 
 impl Offer {
-    /// What taking edits would make of the text; the journal itself if the text has them already.
+    /// Prepares an offer. Fails with the claim if the text already contains the edits.
     pub(crate) fn new(
         claim: Arc<Claim>,
         sought: &Sought,
@@ -250,12 +252,12 @@ impl Offer {
         })
     }
 
-    /// Whether later edits may have been lost because the journal is damaged.
+    /// Whether later edits may be lost because the journal is damaged.
     pub fn is_damaged(&self) -> bool {
         self.claim.is_damaged()
     }
 
-    /// How many places both the text and the kept edits have changed.
+    /// The number of places that both the text and the kept edits have changed.
     pub fn conflicts(&self) -> usize {
         match &self.way {
             Way::Edit(_) => 0,

@@ -1,4 +1,4 @@
-//! The format of journals.
+//! The journal format.
 //!
 //! ```text
 //! halflight journal 3
@@ -10,53 +10,53 @@
 //! (201 bytes, in place of the 203 bytes of the base from byte 0 on)
 //! ```
 //!
-//! Edits are appended, and the last one that is intact counts: each of them leads from the base to
-//! a whole text. Of short texts an edit replaces everything, so that `tail` shows the text. A path is
-//! written in ASCII with Rust's escapes; `-` is the scene without a file.
+//! Edits are appended, and the last intact one wins: each leads from the base to a complete text.
+//! For short texts an edit replaces everything, so that `tail` shows the text. A path is written in
+//! ASCII with Rust's escapes; `-` is the scene without a file.
 //!
-//! A block's line ends with two checksums: that of the bytes below it, and that of the line itself,
-//! which begins with the lines above the base's line, and with its checksum for edits. So the next
-//! edit is found behind a damaged one, and no line of a scene's text is taken for one of the journal.
+//! A block's line ends with two checksums: of the bytes below it, and of the line itself, seeded
+//! with the lines above the base's line or, for edits, with its checksum. So the next edit is found
+//! after a damaged one, and no line of a scene is mistaken for one of the journal.
 
-use super::identity::Identity;
+use super::identity::{Identity, fnv1a};
 use crate::text::{Edit, Span, smallest_edit};
 
-/// The words that every version's journals begin with.
+/// The prefix of journals of every version.
 const FAMILY: &[u8] = b"halflight journal ";
 const MAGIC: &str = "halflight journal 3\n";
 
-/// How the line of an edit begins.
+/// The first word of an edit's line.
 const EDIT: &str = "edit";
 
-/// Up to this many bytes a text is kept whole.
+/// Texts of up to this many bytes are stored in full.
 const SHORT: usize = 1 << 16;
 
-/// No block's line is longer, in bytes.
+/// The maximum length of a block's line, in bytes.
 const LONGEST: usize = 128;
 
-/// What a file in the place of a journal holds.
+/// The content of a file with a journal's name.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Content {
-    /// Nothing: its run has ended before it had written anything.
+    /// Nothing: its run ended before it wrote anything.
     Empty,
     /// Edits of this scene.
     Edits {
-        /// The text that the edits started from.
+        /// The text that the edits are based on.
         base: String,
-        /// The text under edit.
+        /// The edited text.
         text: String,
-        /// Whether another part of the journal is damaged, which may have held later edits.
+        /// Whether another part of the journal, possibly with later edits, is damaged.
         is_damaged: bool,
     },
     /// A journal of another scene.
     OfAnotherScene,
-    /// A journal in another version's format.
+    /// A journal in the format of another version.
     OfAnotherVersion,
-    /// No edits of it are intact.
+    /// No intact edits.
     Damaged,
 }
 
-/// A journal without edits, and what its edits are sealed with.
+/// Returns a journal without edits, and the checksum that seals its edits.
 pub(super) fn head(scene: &Identity, base: &str) -> (Vec<u8>, u64) {
     let lines = head_lines(scene);
     let mut bytes = Vec::with_capacity(lines.len() + base.len() + LONGEST);
@@ -66,7 +66,7 @@ pub(super) fn head(scene: &Identity, base: &str) -> (Vec<u8>, u64) {
     (bytes, seal)
 }
 
-/// The edit that leads from the base to another text.
+/// Encodes the edit that leads from the base to another text.
 pub(super) fn edit(seal: u64, base: &str, text: &str) -> Vec<u8> {
     let whole = || Edit {
         span: Span::new(0, base.len()),
@@ -81,7 +81,7 @@ pub(super) fn edit(seal: u64, base: &str, text: &str) -> Vec<u8> {
     bytes
 }
 
-/// Appends a block; returns the checksum of its line.
+/// Appends a block and returns the checksum of its line.
 fn put_block(bytes: &mut Vec<u8>, line: &str, seal: &[u8], text: &str) -> u64 {
     let line = format!("{line} {:016x}", checksum(&[text.as_bytes()]));
     let sum = checksum(&[seal, line.as_bytes()]);
@@ -91,15 +91,15 @@ fn put_block(bytes: &mut Vec<u8>, line: &str, seal: &[u8], text: &str) -> u64 {
     sum
 }
 
-/// What the bytes of a journal hold of a scene. Where the base is damaged, the scene's text stands in
-/// if it is the same.
+/// Reads a journal of a scene. If the base is damaged, the scene's current text replaces it,
+/// provided that its checksum matches.
 pub(super) fn read(bytes: &[u8], scene: &Identity, text: &str) -> Content {
     if bytes.is_empty() {
         return Content::Empty;
     }
     let lines = head_lines(scene);
     let (head, rest) = bytes.split_at(lines.len().min(bytes.len()));
-    // The checksum tells what the lines above are to be, and so whether they are damaged.
+    // The checksum covers the expected lines above, and so reveals whether they are damaged.
     let Some((line, below)) = Line::take(rest, "base", lines.as_bytes()) else {
         return without_edits(bytes);
     };
@@ -123,7 +123,7 @@ pub(super) fn read(bytes: &[u8], scene: &Identity, text: &str) -> Content {
     })
 }
 
-/// What a file is that holds no edits of the scene.
+/// Classifies a file that holds no edits of the scene.
 fn without_edits(bytes: &[u8]) -> Content {
     let Some(version) = bytes.strip_prefix(FAMILY) else {
         return Content::Damaged;
@@ -153,10 +153,10 @@ fn head_lines(scene: &Identity) -> String {
     format!("{MAGIC}scene {label}\nlanguage {extension}\n")
 }
 
-/// The edits below a journal's base.
+/// The edits after a journal's base.
 #[derive(Default)]
 struct Edits<'b> {
-    /// The last one that is intact.
+    /// The last intact one.
     last: Option<Last<'b>>,
     is_damaged: bool,
 }
@@ -174,7 +174,7 @@ impl<'b> Edits<'b> {
             if let Some((line, below)) = Line::take(rest, EDIT, &seal.to_be_bytes()) {
                 let [start, removed, length] = line.numbers;
                 if below.len() <= length {
-                    // An append was cut off, as that of a process that is killed.
+                    // The append was cut off, for instance because the process was killed.
                     return edits;
                 }
                 let (text, end) = below.split_at(length);
@@ -190,7 +190,7 @@ impl<'b> Edits<'b> {
             } else {
                 let next = rest.windows(EDIT.len()).skip(1);
                 let next = next.enumerate().find(|(_, name)| *name == EDIT.as_bytes());
-                // Of an append that was cut off there may be a piece of its line.
+                // An append that was cut off may leave part of its line.
                 edits.is_damaged |= next.is_some() || rest.contains(&b'\n');
                 match next {
                     Some((at, _)) => rest = &rest[at + 1..],
@@ -209,18 +209,18 @@ impl Last<'_> {
     }
 }
 
-/// A block's line.
+/// The line of a block.
 struct Line<'b, const N: usize> {
-    /// The last one is the length of what is below.
+    /// The last number is the length of the data below.
     numbers: [usize; N],
-    /// The checksum of what is below.
+    /// The checksum of the data below, in hexadecimal.
     below: &'b str,
-    /// Its own checksum.
+    /// The checksum of the line itself.
     sum: u64,
 }
 
 impl<'b, const N: usize> Line<'b, N> {
-    /// Takes a line off the bytes, if they begin with one that is intact; returns what is below, too.
+    /// Takes an intact line off the start of the bytes; returns it with the rest.
     fn take(bytes: &'b [u8], name: &str, seal: &[u8]) -> Option<(Self, &'b [u8])> {
         let start = &bytes[..LONGEST.min(bytes.len())];
         let end = start.iter().position(|&byte| byte == b'\n')?;
@@ -246,7 +246,7 @@ impl<'b, const N: usize> Line<'b, N> {
         Some((line, &bytes[end + 1..]))
     }
 
-    /// Whether these bytes are what was written below it.
+    /// Whether these bytes are the data that belongs below the line.
     fn is_of(&self, bytes: &[u8]) -> bool {
         self.numbers.last() == Some(&bytes.len())
             && format!("{:016x}", checksum(&[bytes])) == self.below
@@ -257,15 +257,6 @@ fn checksum(parts: &[&[u8]]) -> u64 {
     fnv1a(parts.iter().copied().flatten())
 }
 
-/// The hash of Fowler, Noll and Vo, variant 1a, 64 bits: the same in every build, which the
-/// standard library's is not.
-pub(super) fn fnv1a<'b>(bytes: impl IntoIterator<Item = &'b u8>) -> u64 {
-    let bytes = bytes.into_iter();
-    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use std::path::Path;
@@ -273,18 +264,6 @@ mod tests {
     use super::*;
     use crate::language::Language;
     use crate::ui::recovery::tests::parts as journal;
-
-    #[test]
-    fn the_hash_is_the_published_one() {
-        // From the authors' test vectors.
-        for (text, hash) in [
-            ("", 0xcbf2_9ce4_8422_2325),
-            ("a", 0xaf63_dc4c_8601_ec8c),
-            ("foobar", 0x8594_4171_f739_67e8),
-        ] {
-            assert_eq!(fnv1a(text.as_bytes()), hash, "{text}");
-        }
-    }
 
     fn scene(name: &str) -> Identity {
         Identity::of(Some(Path::new(name)), Language::Ray)
@@ -299,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_is_read() {
+    fn written_journals_are_read_back() {
         let long = "é 1\n".repeat(SHORT);
         let changed = long.replacen("é 1\né", "é 1\nè", 1);
         let a = scene("/a.ray");
@@ -318,9 +297,9 @@ mod tests {
         assert!(appended < 120, "{appended} bytes for one letter");
     }
 
-    /// What a crash amid a write leaves.
+    /// Simulates a crash during a write.
     #[test]
-    fn a_write_that_was_cut_off_is_no_damage() {
+    fn a_truncated_write_is_not_damage() {
         let a = scene("/a.ray");
         let parts = journal(&a, "base 1", &["mine 1", "mine\n2"]);
         let (all, first) = (parts.concat(), parts[..2].concat());
@@ -334,11 +313,11 @@ mod tests {
         }
     }
 
-    /// What a bad disk does.
+    /// Simulates a failing disk.
     #[test]
-    fn damage_costs_what_it_hits_and_no_more() {
+    fn damage_loses_only_what_it_hits() {
         let a = scene("/a.ray");
-        // In the second text stands what would be an edit of another journal.
+        // The second text contains what would be an edit of another journal.
         let nested = journal(&a, "base 2", &["theirs"])[1].clone();
         let nested = String::from_utf8(nested).expect("a text");
         let parts = journal(&a, "base 1", &["mine 1", &nested, "mine\n3"]);
@@ -371,7 +350,7 @@ mod tests {
     }
 
     #[test]
-    fn files_that_are_no_journals_of_the_scene_are_distinguished() {
+    fn files_that_are_not_journals_of_the_scene_are_classified() {
         let a = scene("/a.ray");
         let of = |scene: &Identity, base: &str| journal(scene, base, &["2"]).concat();
         let longer =

@@ -1,4 +1,4 @@
-//! Journals on a real file system: what is kept, found, refused and left alone.
+//! Journals on a real file system: keeping, finding, refusing and leaving them alone.
 
 #[cfg(unix)]
 mod hostile;
@@ -20,7 +20,7 @@ use super::{Found, Offer, Sought, record};
 use crate::document::{Document, Snapshot};
 use crate::language::Language;
 
-/// Edits offered for a text, of a journal that is gone.
+/// An offer of edits for a text, whose journal is gone.
 pub(crate) fn offer(language: Language, text: &Arc<String>, base: &str, kept: &str) -> Offer {
     let place = Place::new();
     let folder = Arc::new(Folder::make(&place.state).expect("a folder"));
@@ -35,7 +35,7 @@ pub(crate) fn offer(language: Language, text: &Arc<String>, base: &str, kept: &s
     Offer::new(Arc::new(claim), &sought, base, kept).expect("the text lacks them")
 }
 
-/// The same edits, of a journal that is damaged elsewhere.
+/// The same offer, from a journal that is damaged elsewhere.
 pub(crate) fn damaged(offer: Offer) -> Offer {
     let claim = Arc::into_inner(offer.claim).expect("nobody else has it");
     Offer {
@@ -44,7 +44,7 @@ pub(crate) fn damaged(offer: Offer) -> Offer {
     }
 }
 
-/// A state folder, and beside it a file that nobody may touch.
+/// A state folder, and beside it a file that must not be touched.
 struct Place {
     directory: TempDir,
     state: PathBuf,
@@ -79,7 +79,7 @@ impl Place {
         self.directory.path().join("a.ray")
     }
 
-    /// The path of the scene's first journal, or of another one.
+    /// The path of the scene's journal with this number, from 0.
     fn journal(&self, number: usize) -> PathBuf {
         let scene = Identity::of(Some(&self.scene()), Language::Ray);
         let name = scene.names().nth(number).expect("a few");
@@ -112,7 +112,7 @@ impl Place {
         look_in(&self.state, &sought)
     }
 
-    /// What the file would hold with the edits that are offered.
+    /// The content of the file with the offered edits restored.
     fn offered(&self) -> Option<String> {
         let found = self.look(BASE);
         assert_eq!(found.complaints, [] as [String; 0]);
@@ -130,7 +130,7 @@ impl Place {
     }
 }
 
-/// What [`BASE`] becomes with the edits that are offered.
+/// [`BASE`] with the offered edits restored.
 fn taken(found: &Found) -> Option<String> {
     let mut document = Document::new(Language::Ray, BASE.to_owned());
     found.offer.as_ref().map(|offer| {
@@ -152,7 +152,7 @@ fn known(base: &Arc<String>, text: &str) -> Snapshot {
 
 #[test]
 #[cfg(unix)]
-fn edits_of_a_run_that_goes_on_are_not_offered() {
+fn edits_of_a_running_process_are_not_offered() {
     let place = Place::new();
     let (mut first, mut second) = (place.run(), place.run());
     place.keep(&mut first, "1 2 4");
@@ -174,7 +174,7 @@ fn edits_of_a_run_that_goes_on_are_not_offered() {
 }
 
 #[test]
-fn the_last_text_that_was_kept_is_offered() {
+fn the_last_kept_text_is_offered() {
     let place = Place::new();
     let mut journal = place.run();
     for text in ["1 2 4", "1 2 5", BASE, "7"] {
@@ -182,7 +182,7 @@ fn the_last_text_that_was_kept_is_offered() {
     }
     drop(journal);
     assert_eq!(place.offered().as_deref(), Some("7"));
-    // What the text has already is forgotten.
+    // Edits that the text already contains are forgotten.
     assert!(place.look("7").offer.is_none());
     assert_eq!(place.names(), [] as [String; 0]);
 }
@@ -217,7 +217,7 @@ fn several_journals_are_offered_newest_first() {
 }
 
 #[test]
-fn edits_are_appended_until_they_take_more_than_the_text() {
+fn edits_are_appended_until_they_outgrow_the_text() {
     let place = Place::new();
     let base = Arc::new("1 ".repeat(1 << 18));
     let mut journal = place.run();
@@ -241,7 +241,7 @@ fn edits_are_appended_until_they_take_more_than_the_text() {
 }
 
 #[test]
-fn a_journal_that_was_removed_is_created_again() {
+fn a_removed_journal_is_recreated() {
     type Remove = fn(&Place);
     let removals: [(&str, Remove); 5] = [
         ("all", |p| fs::remove_dir_all(&p.state).expect("there")),
@@ -273,7 +273,7 @@ fn a_journal_that_was_removed_is_created_again() {
     }
 }
 
-/// Under its new name the scene has a journal of its own.
+/// Under its new name the scene has its own journal.
 #[test]
 fn a_scene_saved_under_another_name_leaves_no_journal_behind() {
     let place = Place::new();
@@ -289,7 +289,7 @@ fn a_scene_saved_under_another_name_leaves_no_journal_behind() {
 }
 
 #[test]
-fn a_journal_that_somebody_changed_is_written_anew() {
+fn a_journal_changed_by_others_is_rewritten() {
     type Change = fn(&File);
     let changes: &[(&str, Change)] = &[
         ("emptied", |file| file.set_len(0).expect("it is ours")),
@@ -317,7 +317,7 @@ fn a_journal_that_somebody_changed_is_written_anew() {
 }
 
 #[test]
-fn edits_of_a_file_that_is_gone_are_found() {
+fn edits_of_a_missing_file_are_found() {
     let place = Place::new();
     let base = || super::missing::base_in(&place.state, &place.scene(), Language::Ray);
     let note = |is_missing| super::missing::note_in(&place.state, &place.scene(), is_missing);
@@ -345,17 +345,17 @@ pub(super) fn parts(scene: &Identity, base: &str, texts: &[&str]) -> Vec<Vec<u8>
     iter::once(head).chain(edits).collect()
 }
 
-/// Makes a file's content of a scene's journal, in parts, of two edits.
+/// Builds a file's content from the parts of a journal with two edits.
 type Write = fn(Vec<Vec<u8>>) -> Vec<u8>;
 
-/// A file in the place of a journal.
+/// A file in place of a journal.
 struct Left {
     name: &'static str,
     write: Write,
     offered: Option<&'static str>,
-    /// How a complaint ends.
+    /// The end of the complaint.
     said: Option<&'static str>,
-    /// How the file's name ends once its edits are declined; empty if it is gone.
+    /// The end of the file's name once its edits are declined; empty if the file is gone.
     name_ends: &'static str,
 }
 
@@ -480,7 +480,7 @@ fn files_in_place_of_journals() {
     }
 }
 
-/// What is lost of a journal must be said even if the rest is in the file.
+/// A loss from a journal must be reported even if the file has the rest.
 #[test]
 fn a_damaged_journal_is_reported_and_outlives_the_next_one() {
     let place = Place::new();

@@ -1,12 +1,12 @@
-//! The terminal after an abort: of an allocation that failed, a stack that overflowed, a panic while
-//! panicking; and after an instruction that the processor refuses. Nothing of the process can be relied
-//! on any more, so a signal handler writes a few bytes and sets the terminal's modes.
+//! Restores the terminal after an abort (by a failed allocation, a stack overflow, or a panic while
+//! panicking) or after an illegal instruction. The state of the process is unreliable by then, so a
+//! signal handler writes a few bytes and sets the terminal's modes.
 //!
-//! `SIGSEGV` and `SIGBUS` are left to Rust, which tells a stack that overflowed by them and aborts: its
-//! handler has a stack of its own, this one has not.
+//! `SIGSEGV` and `SIGBUS` are left to Rust, which uses them to detect a stack overflow and aborts:
+//! its handler has its own stack, this one does not.
 #![allow(
     unsafe_code,
-    reason = "a handler that runs amid an abort can't be registered otherwise"
+    reason = "a handler that runs during an abort can't be registered otherwise"
 )]
 
 use std::io;
@@ -22,27 +22,28 @@ use signal_hook_registry::register_signal_unchecked;
 use super::panics::{Shared, Tenure};
 use super::tty;
 
-/// The signals, and what is printed on the restored screen: what Rust prints before an abort goes to the
-/// alternate one.
+/// The signals with the message printed on the restored screen: Rust's own message before an abort
+/// goes to the alternate screen.
 const FATAL: [(i32, &str); 3] = [
     (SIGABRT, "halflight aborted"),
     (SIGFPE, "halflight was ended by SIGFPE"),
     (SIGILL, "halflight was ended by SIGILL"),
 ];
 
-/// Printed behind it where it is known to be true.
+/// Appended to the message if known to be true.
 const KEPT: &str = "; unsaved edits are kept, the next run of the scene offers them";
 
-/// How long a terminal that takes no bytes is waited for.
+/// Maximum time to wait for a terminal that accepts no bytes.
 const PATIENCE: Timespec = Timespec {
     tv_sec: 0,
     tv_nsec: 200_000_000,
 };
 
-/// Has the terminal given back if the process dies of one of these signals while the terminal is ours.
+/// Restores the terminal if the process dies of one of these signals while it owns the terminal.
 ///
-/// The terminal's modes now are those to give back; `leave` gives back the screen. The handlers stay:
-/// an instruction that is refused while nothing handles its signal would be tried for ever.
+/// The current modes of the terminal are those to restore; `leave` restores the screen. The
+/// handlers stay registered: an illegal instruction whose signal is not handled would be retried
+/// for ever.
 pub(super) fn install(shared: &Arc<Shared>, leave: &'static str) -> io::Result<()> {
     let modes = tcgetattr(tty::keyboard()?)?;
     for (signal, words) in FATAL {
@@ -58,20 +59,21 @@ pub(super) fn install(shared: &Arc<Shared>, leave: &'static str) -> io::Result<(
             // The process ends as it would without this handler.
             let _ = low_level::emulate_default_handler(signal);
         };
-        // SAFETY: the handler takes no lock that it waits for, allocates nothing and does not panic.
-        // It makes the system calls poll, write and ioctl, and raises the signal again, so that it
-        // never returns to an instruction that failed.
+        // SAFETY: the handler waits for no lock, allocates nothing and does not panic. It makes the
+        // system calls poll, write and ioctl, and raises the signal again, so that it never returns
+        // to an instruction that failed.
         unsafe { register_signal_unchecked(signal, restore) }?;
     }
     Ok(())
 }
 
-/// Whether the terminal has taken all of it.
+/// Writes bytes; returns whether the terminal accepted all of them.
 fn write(mut bytes: &[u8]) -> bool {
     let output = rustix::stdio::stdout();
     while !bytes.is_empty() {
         if !has_room(output) {
-            // What nobody reads makes room for what shows the screen again once somebody does.
+            // Discards unread output to make room for the bytes that restore the screen, once it is
+            // read.
             let _ = tcflush(output, QueueSelector::OFlush);
             if !has_room(output) {
                 return false;

@@ -1,11 +1,11 @@
-//! Cells as bytes.
+//! Encodes cells as bytes.
 //!
-//! On a picture of half blocks the colours are nearly all the bytes there are, so each cell is
-//! sent as whichever of its equal-looking forms changes the fewer of them: `▀` and `▄` with the
-//! colours exchanged, a blank or `█` where both halves are equal.
+//! In a picture of half blocks nearly all bytes are colours, so each cell is sent in whichever
+//! equivalent form changes fewer of them: `▀` or `▄` with the colours exchanged, a blank or `█` if
+//! both halves are equal.
 //!
 //! Nothing in a cell can reach the terminal as a command: control characters are replaced, and a
-//! cell shows one character with at most one mark upon it.
+//! cell shows one character with at most one combining mark.
 
 use std::collections::BTreeSet;
 use std::convert::Infallible;
@@ -19,31 +19,32 @@ use unicode_width::UnicodeWidthChar;
 use super::colour::{ColourDepth, Ink};
 use super::pen::{Pen, Style, VISIBLE_ON_BLANK, push_number};
 
-/// Synchronized output, DEC private mode 2026: the terminal shows the frame when all is there.
+/// Synchronized output, DEC private mode 2026: the terminal shows a frame once it is complete.
 const BEGIN: &[u8] = b"\x1b[?2026h";
 const END: &[u8] = b"\x1b[?2026l";
 
-/// Encodes cells into one buffer of bytes a frame; writes nothing itself and asks nothing.
+/// Encodes the cells of each frame into one buffer of bytes; performs no I/O itself.
 ///
-/// Expects a terminal in raw mode that does not wrap lines.
+/// Requires a terminal in raw mode that does not wrap lines.
 #[derive(Debug)]
 pub struct AnsiBackend {
     depth: ColourDepth,
     size: Size,
-    /// The frame so far, from the first byte on in its bracket.
+    /// The frame so far, including the sequence that begins it.
     out: Vec<u8>,
     pen: Pen,
     place: Place,
     cursor: Cursor,
-    /// Where wide characters begin on the screen, row before column.
+    /// Positions of wide characters on the screen: row, column.
     wide: BTreeSet<(u16, u16)>,
 }
 
-/// Where the terminal's cursor is.
+/// Position of the terminal's cursor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Place {
     Unknown,
-    /// In this row; terminals differ on the column, as after the last one or a wide character.
+    /// In this row at an unknown column: terminals differ after the last column and wide
+    /// characters.
     Row(u16),
     At(Position),
 }
@@ -56,7 +57,7 @@ enum Cursor {
 }
 
 impl AnsiBackend {
-    /// Starts with a terminal of which nothing is known.
+    /// Starts with a terminal in an unknown state.
     pub fn new(depth: ColourDepth, size: Size) -> Self {
         Self {
             depth,
@@ -69,17 +70,17 @@ impl AnsiBackend {
         }
     }
 
-    /// Takes over the size of the window; the next frame is laid out for it.
+    /// Sets the size of the window, from the next frame on.
     pub fn fit(&mut self, size: Size) {
         self.size = size;
     }
 
-    /// Takes over how many colours there are; what is drawn from here on has them.
+    /// Sets the colour depth from now on.
     pub fn recolour(&mut self, depth: ColourDepth) {
         self.depth = depth;
     }
 
-    /// Forgets the state of the terminal, as after another program has used it.
+    /// Forgets the state of the terminal, for example after another program has used it.
     pub fn forget(&mut self) {
         self.pen = Pen::UNKNOWN;
         self.place = Place::Unknown;
@@ -87,8 +88,8 @@ impl AnsiBackend {
         self.wide.clear();
     }
 
-    /// Hands the bytes of a frame to `write` in one piece, in the brackets of synchronized
-    /// output, and starts the next; a frame without bytes is not handed over.
+    /// Passes the bytes of the frame to `write` at once, bracketed as synchronized output, and
+    /// starts the next frame. An empty frame is not passed.
     pub fn finish<E>(&mut self, write: impl FnOnce(&[u8]) -> Result<(), E>) -> Result<usize, E> {
         if self.out.len() == BEGIN.len() {
             return Ok(0);
@@ -139,9 +140,9 @@ impl AnsiBackend {
         self.out.push(end);
     }
 
-    /// Blanks both halves of a wide character before something else is put on its first: terminals
-    /// give the half that is left over the colours of whatever comes, and a cell that is blank
-    /// before and after is not sent again.
+    /// Blanks both halves of a wide character before its first cell is overwritten: terminals paint
+    /// the remaining half in the colours of the new character, and a cell that is blank before and
+    /// after is not sent again.
     fn blank_wide(&mut self, at: Position) {
         if self.wide.remove(&(at.y, at.x)) {
             self.move_to(at);
@@ -261,12 +262,12 @@ impl Backend for AnsiBackend {
     }
 }
 
-/// A cell that is nothing but its upper and its lower half.
+/// A cell that consists of a uniform upper and lower half.
 #[derive(Clone, Copy, Debug)]
 struct Halves {
     upper: Tone,
     lower: Tone,
-    /// Blocks are ambiguous in width, so a blank stays one.
+    /// The width of block characters is ambiguous, so a blank stays one.
     blocks: Blocks,
 }
 
@@ -276,7 +277,8 @@ enum Blocks {
     Unwelcome,
 }
 
-/// A visible colour. The terminal's two own colours are neither equal nor exchangeable.
+/// A visible colour. The terminal's default foreground and background are neither equal nor
+/// interchangeable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Tone {
     OwnForeground,
@@ -375,14 +377,14 @@ const fn block(fg: Ink, bg: Option<Ink>) -> Style {
     }
 }
 
-/// How far the cursor has moved.
+/// Cursor movement caused by a write.
 enum Advance {
     Sure(u16),
-    /// Terminals differ on the width of what was written.
+    /// Terminals differ on the width of the text written.
     Unsure,
 }
 
-/// Whether the cell's character takes two columns.
+/// Whether the character of a cell takes two columns.
 fn is_wide(cell: &Cell) -> bool {
     cell.symbol()
         .chars()
@@ -391,7 +393,7 @@ fn is_wide(cell: &Cell) -> bool {
         == Some(2)
 }
 
-/// Writes what may be shown of a cell, and blanks up to its width.
+/// Writes the printable part of a cell, padded with blanks to its width.
 fn push_character(out: &mut Vec<u8>, cell: &Cell) -> Advance {
     let symbol = cell.symbol();
     if let [byte @ b' '..=b'~'] = symbol.as_bytes() {
@@ -411,7 +413,7 @@ fn push_character(out: &mut Vec<u8>, cell: &Cell) -> Advance {
         out.extend_from_slice(character.encode_utf8(&mut [0; 4]).as_bytes());
     }
     let width = base.width().map_or(1, |width| width as u16);
-    // The width of a lone control character must not be asked for.
+    // A lone control character has no defined width.
     let room = if symbol.len() < 2 {
         1
     } else {
@@ -427,7 +429,7 @@ fn push_character(out: &mut Vec<u8>, cell: &Cell) -> Advance {
     }
 }
 
-/// Distinguishes accents and the like from the invisible characters that join, direct or vary others.
+/// Distinguishes accents and the like from invisible characters that join, direct or modify others.
 fn is_mark(character: char) -> bool {
     let invisible = matches!(
         character,

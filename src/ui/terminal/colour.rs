@@ -1,6 +1,6 @@
-//! How many colours the terminal shows, and the nearest one it has.
+//! The colour depth of the terminal, and the nearest colour at that depth.
 //!
-//! Decided from the environment at first; a terminal that is asked may answer that it shows more
+//! The depth is initially derived from the environment; a terminal that is queried may report more
 //! (see [`query`](super::query)).
 
 use std::env;
@@ -9,26 +9,26 @@ use ratatui::style::Color;
 use termprofile::anstyle::RgbColor;
 use termprofile::{DetectorSettings, EnvVarSource, IsTerminal, TermProfile, TermVars};
 
-/// The colours a terminal can show, poorest first.
+/// The colours that a terminal can show, from fewest to most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ColourDepth {
-    /// No colours, only bold, underlined and the like.
+    /// No colours, only attributes such as bold and underlined.
     Mono,
     /// The sixteen colours of the terminal's theme.
     Palette16,
-    /// Those and 240 fixed ones: a 6×6×6 cube and a grey ramp.
+    /// The sixteen colours and 240 fixed ones: a 6×6×6 cube and a grey ramp.
     Palette256,
-    /// Red, green and blue of eight bits each.
+    /// 24-bit colour, with eight bits per channel.
     TrueColour,
 }
 
 /// The user's choice of colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Choice {
-    /// The environment decides.
+    /// Derived from the environment.
     #[default]
     Auto,
-    /// Always this depth.
+    /// A fixed depth.
     Fixed(ColourDepth),
 }
 
@@ -38,11 +38,11 @@ impl ColourDepth {
         Self::detect_from(choice, |name| env::var(name).ok())
     }
 
-    /// Returns the depth for a terminal described by these variables of the environment.
+    /// Returns the depth for a terminal described by these environment variables.
     ///
-    /// `NO_COLOR` with any value turns colours off unless the user fixed a depth. Inside tmux,
-    /// 256 colours are all that is certain, unless `COLORTERM` promises all: tmux takes them, and
-    /// maps them down for a client that has fewer.
+    /// Any value of `NO_COLOR` turns colours off unless the user chose a depth. Inside tmux, only
+    /// 256 colours are certain unless `COLORTERM` promises all: tmux accepts all and reduces them
+    /// for a client that has fewer.
     pub fn detect_from(choice: Choice, variable: impl Fn(&str) -> Option<String>) -> Self {
         if let Choice::Fixed(depth) = choice {
             return depth;
@@ -59,7 +59,7 @@ impl ColourDepth {
         if set("TMUX") && matches!(promised.as_deref(), Some("truecolor" | "24bit")) {
             return Self::TrueColour;
         }
-        // tmux would be asked through a child process, which is a query too.
+        // tmux would be queried through a child process.
         let settings = DetectorSettings::new().enable_tmux_info(false);
         let source = Environment(variable);
         match TermProfile::detect_with_vars(TermVars::from_source(&source, &Screen, settings)) {
@@ -70,7 +70,7 @@ impl ColourDepth {
         }
     }
 
-    /// Names the depth.
+    /// The name of the depth.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Mono => "no colours",
@@ -80,7 +80,7 @@ impl ColourDepth {
         }
     }
 
-    /// Names the depth, and the option for a terminal that shows more.
+    /// The name of the depth, with the option for a terminal that shows more.
     pub fn cure(self) -> String {
         format!(
             "{}; if the terminal has 24-bit colour: --color 24 or COLORTERM=truecolor",
@@ -88,7 +88,7 @@ impl ColourDepth {
         )
     }
 
-    /// Returns the nearest colour this depth has.
+    /// Returns the nearest colour at this depth.
     pub(super) fn ink(self, colour: Color) -> Ink {
         let ink = match colour {
             Color::Reset => return Ink::Default,
@@ -110,12 +110,12 @@ impl ColourDepth {
     }
 }
 
-/// A colour as it is sent to the terminal.
+/// A colour as sent to the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ink {
-    /// The terminal's own foreground or background, whichever is being set.
+    /// The terminal's default foreground or background, depending on which is set.
     Default,
-    /// A colour of the palette; the first sixteen are the theme's.
+    /// A palette index; the first sixteen depend on the theme.
     Index(u8),
     /// Red, green, blue.
     Rgb(u8, u8, u8),
@@ -162,7 +162,7 @@ impl<F: Fn(&str) -> Option<String>> EnvVarSource for Environment<F> {
     }
 }
 
-/// Stands for an output that is known to be a terminal: the interface runs nowhere else.
+/// An output that counts as a terminal: the interface runs nowhere else.
 struct Screen;
 
 impl IsTerminal for Screen {
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn reads_the_environment() {
+    fn the_depth_follows_the_environment() {
         use ColourDepth::{Mono, Palette16, Palette256, TrueColour};
         for (variables, depth) in [
             ("TERM=xterm-256color COLORTERM=truecolor", TrueColour),
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn the_user_has_the_last_word() {
+    fn the_users_choice_overrides_the_environment() {
         let fixed = Choice::Fixed(ColourDepth::Palette256);
         assert_eq!(
             detect(fixed, "TERM=dumb NO_COLOR=1"),
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_become_the_nearest_of_the_depth() {
+    fn colours_map_to_the_nearest_of_the_depth() {
         let red = Color::Rgb(255, 0, 0);
         for (depth, colour, ink) in [
             (ColourDepth::TrueColour, red, Ink::Rgb(255, 0, 0)),

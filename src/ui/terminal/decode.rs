@@ -1,8 +1,8 @@
-//! Bytes from the keyboard as events: a pure machine, bytes and moments in, events out.
+//! Decodes bytes from the keyboard: a pure state machine from bytes and times to events.
 //!
 //! The grammar is that of xterm's control sequences (`ctlseqs`, sections "PC-Style Function Keys"
 //! and "Extended coordinates") and of the Linux console. An escape sequence may arrive in pieces;
-//! what begins like one is held for [`PATIENCE`] before it is taken for the Esc key.
+//! its beginning is held for [`PATIENCE`] before it is taken for the Esc key.
 
 use std::time::{Duration, Instant};
 
@@ -10,18 +10,18 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent,
 
 use super::{Event, Reply, query};
 
-/// How long the rest of an escape sequence may take: longer than a network splits one for, and
-/// shorter than anybody notices on the Esc key.
+/// Maximum time for the rest of an escape sequence: longer than the gaps caused by networks, and
+/// too short to be noticed on the Esc key.
 pub(super) const PATIENCE: Duration = Duration::from_millis(25);
 
-/// How long a paste may pause before it is taken as it is.
+/// Maximum pause within a paste before it is accepted as it is.
 const PASTE_PATIENCE: Duration = Duration::from_secs(1);
 
-/// The longest sequence that is waited for; anything longer is noise.
+/// Maximum length of a sequence in bytes; anything longer is noise.
 const LONGEST: usize = 64;
 
-/// How long the rest of a device control string may take, and how long one may be: it is an answer
-/// of the terminal, and its rest would be taken for typed text.
+/// Maximum time for the rest of a device control string, and its maximum length in bytes: it is an
+/// answer of the terminal, and its rest would be taken for typed text.
 const STRING_PATIENCE: Duration = Duration::from_secs(1);
 const LONGEST_STRING: usize = 4096;
 
@@ -30,12 +30,12 @@ const STRING: &[u8] = b"\x1bP";
 
 const PASTE_END: &[u8] = b"\x1b[201~";
 
-/// Turns bytes into events.
+/// Decodes bytes to events.
 #[derive(Debug, Default)]
 pub struct Decoder {
     pending: Vec<u8>,
     mode: Mode,
-    /// When the last bytes came.
+    /// Time of the last bytes.
     fed: Option<Instant>,
 }
 
@@ -43,36 +43,36 @@ pub struct Decoder {
 enum Mode {
     #[default]
     Keys,
-    /// Between the brackets of a paste.
+    /// Within a bracketed paste.
     Paste,
-    /// Behind more parameters than any sequence has: further ones are noise, too.
+    /// In a sequence with too many parameters; further ones are ignored as well.
     Noise,
-    /// In a device control string longer than any answer: noise up to its end.
+    /// In a device control string longer than any answer; ignored up to its end.
     NoiseString,
 }
 
-/// What the pending bytes begin with.
+/// The first token of the pending bytes.
 #[derive(Debug, PartialEq, Eq)]
 enum Token {
-    /// Still incomplete.
+    /// Incomplete.
     Unfinished,
-    /// So many bytes that mean this.
+    /// The number of bytes and their event.
     Event(usize, Event),
-    /// So many bytes that mean nothing.
+    /// The number of bytes to ignore.
     Noise(usize),
-    /// So many bytes that open a paste.
+    /// The number of bytes that begin a paste.
     PasteBegin(usize),
 }
 
 impl Decoder {
-    /// Takes bytes and emits the events they complete.
+    /// Decodes bytes and emits the events that they complete.
     pub fn feed(&mut self, bytes: &[u8], now: Instant, mut emit: impl FnMut(Event)) {
         self.pending.extend_from_slice(bytes);
         self.fed = Some(now);
         self.advance(&mut emit);
     }
 
-    /// Returns when [`Decoder::expire`] is due, `None` if nothing is held back.
+    /// Returns when [`Decoder::expire`] is due, `None` if no bytes are held.
     pub fn deadline(&self) -> Option<Instant> {
         let patience = match self.mode {
             Mode::Paste => PASTE_PATIENCE,
@@ -84,8 +84,8 @@ impl Decoder {
         self.fed.map(|fed| fed + patience)
     }
 
-    /// Emits what is held back if its time is over: the Esc key, Alt with a key, or a paste whose
-    /// end got lost.
+    /// Emits held bytes whose time is up: the Esc key, Alt with a key, or a paste whose end was
+    /// lost.
     pub fn expire(&mut self, now: Instant, mut emit: impl FnMut(Event)) {
         if self.deadline().is_none_or(|deadline| now < deadline) {
             return;
@@ -147,7 +147,7 @@ impl Decoder {
                     } else {
                         Mode::Noise
                     };
-                    // An escape at the end may belong to the terminator.
+                    // A trailing escape may belong to the terminator.
                     start += rest.len() - usize::from(rest.ends_with(b"\x1b"));
                 }
                 Token::Noise(length) => start += length,
@@ -175,7 +175,7 @@ fn longest(bytes: &[u8]) -> usize {
 
 fn token(bytes: &[u8]) -> Token {
     match bytes {
-        // Alt with P begins the same; what follows an answer's introducer is a parameter.
+        // Alt-P begins the same way; what follows the introducer of an answer is a parameter.
         [0x1b] | [0x1b, b'P'] => Token::Unfinished,
         [0x1b, b'P', 0x30..=0x3f, ..] => control_string(bytes),
         [0x1b, b'[', ..] => control_sequence(bytes),
@@ -196,7 +196,7 @@ fn token(bytes: &[u8]) -> Token {
     }
 }
 
-/// Reads a character or a control character.
+/// Decodes a character or a control character.
 fn plain(bytes: &[u8]) -> Token {
     let control = |code: char| key(KeyCode::Char(code), KeyModifiers::CONTROL);
     let event = match bytes[0] {
@@ -229,10 +229,10 @@ fn beyond_ascii(bytes: &[u8]) -> Token {
     }
 }
 
-/// Reads `ESC [`, parameters, and the byte that ends them (ECMA-48, 5.4).
+/// Decodes `ESC [`, parameters and a final byte (ECMA-48, 5.4).
 fn control_sequence(bytes: &[u8]) -> Token {
     if let [_, _, b'[', rest @ ..] = bytes {
-        // The Linux console's first five function keys.
+        // The first five function keys of the Linux console.
         return match rest.first() {
             None => Token::Unfinished,
             Some(&end @ b'A'..=b'E') => {
@@ -247,13 +247,13 @@ fn control_sequence(bytes: &[u8]) -> Token {
     };
     let length = end + 3;
     if LONGEST < length {
-        // What follows so much noise is read on its own, whether it came with it or later.
+        // The byte after so much noise is decoded separately, regardless of when it arrives.
         return Token::Noise(length - 1);
     }
     let parameters = &body[..end];
     match body[end] {
         b'M' if parameters.is_empty() => {
-            // A mouse report of the old form: three more bytes that are not keys.
+            // A mouse report in the old format: three more bytes that are not keys.
             if bytes.len() < length + 3 {
                 Token::Unfinished
             } else {
@@ -272,17 +272,17 @@ fn control_sequence(bytes: &[u8]) -> Token {
             Token::Event(length, Event::Reply(Reply::Attributes))
         }
         last @ 0x40..=0x7e => event_or_noise(sequence_key(parameters, last), length),
-        // Something else broke in; it is read on its own.
+        // Another sequence interrupts this one and is decoded separately.
         _ => Token::Noise(length - 1),
     }
 }
 
-/// Whether a byte stands between the introducer of a control sequence and the byte that ends it.
+/// Whether a byte may occur between the introducer and the final byte of a control sequence.
 fn is_parameter(byte: u8) -> bool {
     (0x20..0x40).contains(&byte)
 }
 
-/// Reads `ESC P`, anything printable, and the `ESC \\` that ends it (ECMA-48, 5.6).
+/// Decodes `ESC P`, printable characters and the terminator `ESC \\` (ECMA-48, 5.6).
 fn control_string(bytes: &[u8]) -> Token {
     let body = &bytes[STRING.len()..];
     let Some(end) = body.iter().position(u8::is_ascii_control) else {
@@ -294,7 +294,7 @@ fn control_string(bytes: &[u8]) -> Token {
             let reply = query::answer(&body[..end]).map(Event::Reply);
             event_or_noise(reply, STRING.len() + end + 2)
         }
-        // Something else broke in; it is read on its own.
+        // Another sequence interrupts this one and is decoded separately.
         _ => Token::Noise(STRING.len() + end),
     }
 }
@@ -303,7 +303,7 @@ fn event_or_noise(event: Option<Event>, length: usize) -> Token {
     event.map_or(Token::Noise(length), |event| Token::Event(length, event))
 }
 
-/// Reads `? number ; state $`.
+/// Decodes `? number ; state $`.
 fn mode_report(parameters: &[u8]) -> Option<Event> {
     let inner = parameters.strip_prefix(b"?")?.strip_suffix(b"$")?;
     let &[number, state] = numbers(inner)?.as_slice() else {
@@ -318,7 +318,7 @@ fn sequence_key(parameters: &[u8], last: u8) -> Option<Event> {
     let code = match (last, numbers.first()) {
         (b'Z', _) => return Some(key(KeyCode::BackTab, modifiers | KeyModifiers::SHIFT)),
         (b'~', Some(&number)) => numbered_key(number)?,
-        // With another number it is a report, such as the position of a cursor.
+        // With another number it is a report, such as the cursor position.
         (_, None | Some(1)) => function_key(last)?,
         _ => return None,
     };
@@ -347,7 +347,7 @@ fn numbered_key(number: u16) -> Option<KeyCode> {
         4 | 8 => KeyCode::End,
         5 => KeyCode::PageUp,
         6 => KeyCode::PageDown,
-        // The numbers skip one after every fifth function key or so.
+        // The numbers skip one after about every fifth function key.
         11..=15 => KeyCode::F(number as u8 - 10),
         17..=21 => KeyCode::F(number as u8 - 11),
         23..=26 => KeyCode::F(number as u8 - 12),
@@ -357,7 +357,7 @@ fn numbered_key(number: u16) -> Option<KeyCode> {
     })
 }
 
-/// Reads a report of mode 1006: button and modifiers, column, row.
+/// Decodes a report of mode 1006: button and modifiers, column, row.
 fn mouse(parameters: &[u8], last: u8) -> Option<Event> {
     let &[code, column, row] = numbers(parameters)?.as_slice() else {
         return None;
@@ -390,7 +390,7 @@ fn mouse(parameters: &[u8], last: u8) -> Option<Event> {
     }))
 }
 
-/// Reads numbers between semicolons; an empty one is 1, xterm's default for keys.
+/// Decodes numbers separated by semicolons; an empty one is 1, xterm's default for keys.
 fn numbers(parameters: &[u8]) -> Option<Vec<u16>> {
     if parameters.is_empty() {
         return Some(Vec::new());
@@ -407,7 +407,7 @@ fn numbers(parameters: &[u8]) -> Option<Vec<u16>> {
         .collect()
 }
 
-/// Reads xterm's modifier parameter: one more than shift 1, alt 2 and control 4 together.
+/// Decodes xterm's modifier parameter: 1 plus the sum of shift 1, alt 2 and control 4.
 fn modifiers(parameter: u16) -> KeyModifiers {
     let bits = parameter.saturating_sub(1);
     let mut modifiers = KeyModifiers::NONE;
@@ -440,7 +440,7 @@ fn with_alt(event: Event) -> Event {
     }
 }
 
-/// Terminals send the Enter key's byte for the ends of lines.
+/// Decodes pasted text; terminals send line ends as the byte of the Enter key.
 fn pasted(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes)
         .replace("\r\n", "\n")

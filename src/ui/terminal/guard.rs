@@ -1,7 +1,7 @@
-//! The terminal while it is ours.
+//! The terminal while the interface owns it.
 //!
-//! Borrowing and giving back are symmetrical and may be repeated; giving back happens on every
-//! way out, a panic of the interface's thread included.
+//! Borrowing and giving back are symmetrical and may be repeated. The terminal is given back on
+//! every way out, including a panic of the interface's thread.
 
 use std::io;
 use std::sync::Arc;
@@ -20,33 +20,33 @@ use super::query;
 use super::reply::ASK_STATUS;
 use super::tty::{self, Line};
 
-/// Alternate screen, no cursor, pastes in brackets, no wrapping at the last column.
+/// Alternate screen, hidden cursor, bracketed pastes, no wrapping at the last column.
 const ENTER: &str = "\x1b[?1049h\x1b[?25l\x1b[?2004h\x1b[?7l";
 
-/// Undoes [`ENTER`] and everything a frame may have left behind, and is harmless when repeated.
+/// Undoes [`ENTER`] and everything that a frame may leave behind; harmless if repeated.
 const LEAVE: &str =
     "\x1b[?2026l\x1b[m\x1b[?1006l\x1b[?1002l\x1b[?1000l\x1b[?7h\x1b[?2004l\x1b[?1049l\x1b[?25h";
 
-/// Presses and drags in coordinates without bounds. Mode 1003 would report every motion too, a
-/// flood over a slow line.
+/// Presses and drags with unbounded coordinates. Mode 1003 would also report every motion, a flood
+/// over a slow line.
 const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1002h\x1b[?1006h";
 const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1002l\x1b[?1000l";
 
-/// How long a terminal may take to be given back. One that is read takes a moment.
+/// Maximum time to give the terminal back; a terminal that is being read needs only a moment.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Whether the mouse is ours or the terminal's own, as for selecting text.
+/// Whether the interface or the terminal handles the mouse; the terminal uses it to select text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mouse {
     /// Presses, drags and the wheel are reported.
     On,
-    /// The terminal keeps the mouse.
+    /// The terminal handles the mouse.
     Off,
 }
 
-/// Holds the terminal in raw mode on the alternate screen until it is dropped.
+/// Holds the terminal in raw mode on the alternate screen until dropped.
 ///
-/// Belongs to the thread that made it: a panic there gives the terminal back, a panic elsewhere
+/// Belongs to the thread that created it: a panic there gives the terminal back; a panic elsewhere
 /// is kept for [`Terminal::take_panics`].
 #[derive(Debug)]
 pub struct Terminal {
@@ -56,8 +56,8 @@ pub struct Terminal {
 }
 
 impl Terminal {
-    /// Takes the terminal over. `cleared` is called on another thread whenever the terminal has
-    /// taken what it did not take at once.
+    /// Takes over the terminal. `cleared` is called on another thread whenever the terminal has
+    /// accepted output that was pending.
     pub fn enter(
         colours: ColourDepth,
         mouse: Mouse,
@@ -83,16 +83,16 @@ impl Terminal {
         *self.shared.tenure() == Tenure::Ours
     }
 
-    /// Whether the terminal has taken all that was drawn. A frame that is drawn before is the
-    /// later, as none may be left out.
+    /// Whether the terminal has accepted everything drawn. A frame drawn earlier is only delayed,
+    /// because no frame may be skipped.
     pub fn is_clear(&self) -> bool {
         self.shared.output().is_clear()
     }
 
-    /// Draws a frame and sends what differs from the last one, without waiting for the terminal.
+    /// Draws a frame and sends the differences from the previous one, without waiting for the
+    /// terminal.
     ///
-    /// Returns the number of bytes sent: none at all when nothing differs or while the terminal
-    /// is lent.
+    /// Returns the number of bytes sent: zero if nothing differs or while the terminal is lent.
     pub fn draw(&mut self, paint: impl FnOnce(&mut Frame)) -> io::Result<usize> {
         if !self.is_ours() {
             return Ok(0);
@@ -103,56 +103,56 @@ impl Terminal {
         self.screen.backend_mut().finish(|frame| output.send(frame))
     }
 
-    /// Asks for the colours that the terminal has, and for [`Reply::Attributes`](super::Reply) behind
-    /// them. Meant for before the first frame, which covers
-    /// what a terminal that does not understand makes of the question.
+    /// Queries the terminal's colours, followed by [`Reply::Attributes`](super::Reply). Intended
+    /// before the first frame, which covers anything that a terminal without support displays for
+    /// the query.
     pub fn ask_for_colours(&self) -> io::Result<()> {
         let output = self.shared.output();
         output.send(query::COLOURS)?;
         output.send(query::ATTRIBUTES)
     }
 
-    /// Draws with so many colours from here on; the next frame is a whole one.
+    /// Uses this colour depth from now on; the next frame is drawn in full.
     pub fn recolour(&mut self, colours: ColourDepth) {
         self.screen.backend_mut().recolour(colours);
         self.repaint();
     }
 
-    /// Makes the next frame a whole one, whatever the screen shows now.
+    /// Draws the next frame in full, regardless of what the screen shows.
     pub fn repaint(&mut self) {
         let size = tty::size();
         self.screen.backend_mut().fit(size);
         self.screen.backend_mut().forget();
-        // ratatui's own way asks the terminal where its cursor is; resizing clears without.
+        // ratatui's own method queries the cursor position; resizing clears without a query.
         let Ok(()) = self.screen.resize(Rect::from((Position::ORIGIN, size)));
     }
 
-    /// Lends the terminal to another program; does nothing if it is not ours. Fails where the
-    /// terminal takes no output.
+    /// Lends the terminal to another program; does nothing if the interface does not own it. Fails
+    /// if the terminal accepts no output.
     pub fn leave(&mut self) -> io::Result<()> {
         give_back(&self.shared, Tenure::Lent, Instant::now() + PATIENCE)
     }
 
-    /// Gives the terminal back for good, until `deadline` at most.
+    /// Gives the terminal back for good, waiting until `deadline` at most.
     pub fn close(self, deadline: Instant) {
-        // A terminal that takes nothing is gone, or shows nothing to anybody.
+        // A terminal that accepts nothing is gone, or nobody sees what it shows.
         let _ = give_back(&self.shared, Tenure::GivenBack, deadline);
     }
 
-    /// Takes the terminal back, from another program or from a shell that changed its modes while
-    /// we were stopped. The next frame is a whole one.
+    /// Takes the terminal back from another program, or from a shell that changed its modes while
+    /// the process was stopped. The next frame is drawn in full.
     pub fn reenter(&mut self) -> io::Result<()> {
         {
             let mut tenure = self.shared.tenure();
             if *tenure == Tenure::Ours {
-                // crossterm takes raw mode for granted once it has set it, and giving it up to set
-                // it again would echo what is typed meanwhile.
+                // crossterm assumes that raw mode persists once set, and leaving it to set it again
+                // would echo keys typed meanwhile.
                 #[cfg(unix)]
                 tty::make_raw()?;
             } else {
                 crossterm::terminal::enable_raw_mode()?;
             }
-            // Asking is what turns escape sequences on in a Windows console.
+            // This query enables escape sequences in a Windows console.
             #[cfg(windows)]
             let _ = crossterm::ansi_support::supports_ansi();
             *tenure = Tenure::Ours;
@@ -164,7 +164,7 @@ impl Terminal {
         Ok(())
     }
 
-    /// Asks for [`Reply::Status`](super::Reply), behind all that was sent.
+    /// Requests [`Reply::Status`](super::Reply), which follows everything sent so far.
     pub fn ask_status(&self) -> io::Result<()> {
         self.shared.output().send(ASK_STATUS.as_bytes())
     }
@@ -178,13 +178,13 @@ impl Terminal {
         self.shared.output().send(mouse_sequence(mouse).as_bytes())
     }
 
-    /// Notes whether unsaved edits as they are now would outlive the process, to be said if it is
-    /// aborted.
+    /// Records whether the current unsaved edits are stored for recovery, to be reported if the
+    /// process aborts.
     pub fn note_kept_edits(&self, are_kept: bool) {
         self.shared.note_kept_edits(are_kept);
     }
 
-    /// Returns the panics of other threads since the last call, fit to be shown.
+    /// Returns the panics of other threads since the last call, escaped for display.
     pub fn take_panics(&self) -> Vec<String> {
         self.shared.take_panics()
     }
@@ -199,14 +199,14 @@ impl Drop for Terminal {
     }
 }
 
-/// Gives the terminal back for good. A terminal that cannot be written to is gone, and nothing is
-/// left to restore.
+/// Gives the terminal back for good. A terminal that cannot be written to is gone and needs no
+/// restoring.
 fn restore(shared: &Shared) {
     let _ = give_back(shared, Tenure::GivenBack, Instant::now() + PATIENCE);
 }
 
-/// Restores the screen and the modes. What was drawn last is dropped if it still waits: the sequence
-/// that restores the screen ends any that is left incomplete.
+/// Restores the screen and the modes. Output still pending is dropped: the sequence that restores
+/// the screen ends any incomplete one.
 fn give_back(shared: &Shared, to: Tenure, deadline: Instant) -> io::Result<()> {
     let mut tenure = shared.tenure();
     let before = std::mem::replace(&mut *tenure, to);

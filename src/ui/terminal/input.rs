@@ -1,4 +1,4 @@
-//! The thread that reads the keyboard, and can release it.
+//! The thread that reads the keyboard and can release it.
 //!
 //! On Unix the bytes are read here, not by crossterm 0.29: its reader blocks in the middle of a
 //! sequence, where it cannot be parked, and spins when the terminal is gone (crossterm#793).
@@ -14,7 +14,7 @@ use unix::{Keyboard, Waker};
 #[cfg(not(unix))]
 use windows::{Keyboard, Waker};
 
-/// Reads the keyboard on a thread of its own until it is dropped.
+/// Reads the keyboard on its own thread until dropped.
 #[derive(Debug)]
 pub struct Input {
     orders: Sender<Order>,
@@ -24,16 +24,16 @@ pub struct Input {
 
 #[derive(Debug)]
 enum Order {
-    /// Release the keyboard and acknowledge.
+    /// Releases the keyboard and acknowledges.
     Park(Sender<()>),
     Resume,
     Stop,
 }
 
-/// Why a keyboard stopped waiting.
+/// Reason why the keyboard stopped waiting.
 #[derive(Debug, PartialEq, Eq)]
 enum Wake {
-    /// Something was read, or a deadline passed, or it is time to look for orders.
+    /// Something was read, a deadline has passed, or orders must be checked.
     Again,
     /// No more keys will come.
     Gone,
@@ -55,15 +55,15 @@ impl Input {
         })
     }
 
-    /// Stops reading and returns once the keyboard is free for others.
+    /// Stops reading and returns once other programs may read the keyboard.
     pub fn park(&self) {
         let (done, parked) = mpsc::channel();
         self.order(Order::Park(done));
-        // An error means that the thread has ended, which frees the keyboard as well.
+        // An error means that the thread has ended, which also frees the keyboard.
         let _ = parked.recv();
     }
 
-    /// Reads again after [`Input::park`].
+    /// Resumes reading after [`Input::park`].
     pub fn resume(&self) {
         self.order(Order::Resume);
     }
@@ -104,7 +104,7 @@ fn read(mut keyboard: Keyboard, inbox: &Receiver<Order>, send: &impl Fn(Event)) 
     }
 }
 
-/// Returns whether to go on reading.
+/// Waits for the order to resume; returns whether to continue reading.
 fn wait_for_resume(inbox: &Receiver<Order>) -> bool {
     loop {
         match inbox.recv() {
@@ -131,7 +131,7 @@ mod unix {
     use crate::ui::terminal::decode::Decoder;
     use crate::ui::terminal::{Event, tty};
 
-    /// The keyboard's end of the terminal.
+    /// The input side of the terminal.
     #[derive(Debug)]
     pub(super) struct Keyboard {
         tty: OwnedFd,
@@ -145,7 +145,7 @@ mod unix {
 
     impl Waker {
         pub(super) fn wake(&self) {
-            // A full pipe wakes as well as one more byte would.
+            // A full pipe also wakes the thread.
             let _ = (&self.0).write(&[0]);
         }
     }
@@ -163,7 +163,7 @@ mod unix {
             Ok((keyboard, Waker(waker)))
         }
 
-        /// Waits for keys, for the end of a held-back key's time, or for the waker.
+        /// Waits for keys, for the timeout of a held key, or for the waker.
         pub(super) fn wait(&mut self, send: &impl Fn(Event)) -> Wake {
             let timeout = self.decoder.deadline().and_then(|deadline| {
                 Timespec::try_from(deadline.saturating_duration_since(Instant::now())).ok()
@@ -187,7 +187,7 @@ mod unix {
             if keys.intersects(PollFlags::HUP | PollFlags::ERR | PollFlags::NVAL) {
                 return Wake::Gone;
             }
-            // Bytes that are waiting are read before the terminal counts as gone.
+            // Pending bytes are read before the terminal counts as gone.
             if keys.contains(PollFlags::IN) {
                 return self.read(send);
             }
@@ -220,14 +220,14 @@ mod windows {
     use super::Wake;
     use crate::ui::terminal::Event;
 
-    /// How long a wait lasts: parking takes no longer.
+    /// Maximum duration of a wait, and therefore of parking.
     const PATIENCE: Duration = Duration::from_millis(20);
 
     /// The console, read by crossterm.
     #[derive(Debug)]
     pub(super) struct Keyboard;
 
-    /// Nothing to wake: waits are short.
+    /// Does nothing, as waits are short.
     #[derive(Debug)]
     pub(super) struct Waker;
 

@@ -1,4 +1,4 @@
-//! Queries the terminal and waits for its answers: for commands that print a text and end. The
+//! Queries the terminal and waits for its answers, for commands that print a report and exit. The
 //! interface never waits.
 
 use std::io;
@@ -9,20 +9,20 @@ use super::Reply;
 #[cfg(unix)]
 use super::query;
 
-/// What a terminal answered.
+/// The answers of a terminal.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Answers {
-    /// The answers, in their order.
+    /// The answers in order.
     pub(crate) replies: Vec<Reply>,
 }
 
 impl Answers {
-    /// Whether it answered nothing at all.
+    /// Whether the terminal answered nothing.
     pub(crate) fn is_silent(&self) -> bool {
         self.replies.is_empty()
     }
 
-    /// Whether it reports 24-bit colour.
+    /// Whether the terminal reports 24-bit colour.
     pub(crate) fn has_true_colour(&self) -> bool {
         self.replies.contains(&Reply::TrueColour)
     }
@@ -36,7 +36,8 @@ impl Answers {
     }
 }
 
-/// How long answers are waited for. Late ones don't count, but must not be left to the shell.
+/// Maximum time to wait for answers. Late ones don't count, but must not be left for the shell to
+/// read.
 #[cfg(unix)]
 const LATEST: Duration = Duration::from_secs(1);
 
@@ -60,7 +61,7 @@ impl Interview {
     }
 }
 
-/// Asks the terminal at both ends of this process. Answers count for
+/// Queries the terminal connected to standard input and output. Answers count for
 /// [`PATIENCE`](super::query::PATIENCE).
 #[cfg(unix)]
 pub(crate) fn ask() -> io::Result<Answers> {
@@ -73,7 +74,7 @@ pub(crate) fn ask() -> io::Result<Answers> {
     let keyboard = tty::keyboard()?;
     let _raw = Raw::enter()?;
     let line = tty::Line::open()?;
-    // A terminal that takes nothing answers nothing.
+    // A terminal that accepts nothing answers nothing.
     let _ = line.write_at_once(&[query::COLOURS, query::MODES, query::ATTRIBUTES].concat())?;
     let mut interview = Interview {
         asked: Instant::now(),
@@ -103,18 +104,18 @@ pub(crate) fn ask() -> io::Result<Answers> {
             }
         });
     }
-    // What the terminal may have made of the questions.
+    // Erases anything that the terminal displayed for the queries.
     let _ = line.write_at_once(b"\r\x1b[K")?;
     Ok(interview.answers)
 }
 
-/// Asks nothing.
+/// Queries nothing.
 #[cfg(not(unix))]
 pub(crate) fn ask() -> io::Result<Answers> {
     Ok(Answers::default())
 }
 
-/// Raw mode, until it is dropped.
+/// Raw mode, until dropped.
 #[cfg(unix)]
 struct Raw;
 
@@ -139,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn late_answers_do_not_count_and_the_last_one_ends_the_wait() {
+    fn late_answers_do_not_count_and_the_last_answer_ends_the_wait() {
         use Reply::{Attributes, TrueColour};
         for (arrivals, counted, is_over) in [
             (&[][..], &[][..], false),

@@ -1,9 +1,9 @@
-//! How many bytes a second the line to the terminal is given.
+//! Limits the rate of output to the terminal.
 //!
-//! A write returns long before its bytes are seen: channel windows and socket buffers hide
-//! seconds of frames. So the pace of pictures is set by a token bucket, and its rate by the replies
-//! of the terminal, which show when bytes have arrived. Knows no clock: every question carries its
-//! moment.
+//! A write returns long before its bytes are displayed: channel windows and socket buffers hide
+//! seconds of frames. Pictures are therefore paced by a token bucket, whose rate is derived from
+//! replies of the terminal, which show when bytes have arrived. This module reads no clock: every
+//! call passes the time.
 
 mod estimate;
 
@@ -12,43 +12,43 @@ use std::time::{Duration, Instant};
 
 use estimate::Estimate;
 
-/// Bytes a second for pictures at the other end of a network where nothing can be measured.
+/// Bytes per second for pictures over a network on which nothing can be measured.
 const REMOTE_BANDWIDTH: u32 = 128_000;
 
-/// A bucket of a fixed rate holds this part of a second of bytes: four pictures a second even when
-/// each of them empties it.
+/// The capacity of a bucket of fixed rate, as a time: four pictures per second even if each of them
+/// empties the bucket.
 const CAPACITY: Duration = Duration::from_millis(250);
 
-/// What is worth waiting for at a fixed rate, in bytes.
+/// Minimum amount worth waiting for at a fixed rate, in bytes.
 const MORSEL: usize = 4096;
 
-/// A frame that the terminal takes longer for than this shows a line slower than it seemed.
+/// A frame that takes longer than this indicates a line slower than assumed.
 const SLOW: Duration = Duration::from_millis(250);
 
-/// A line that takes so many bytes a second needs no limit at home.
+/// A local line with at least this rate, in bytes per second, needs no limit.
 const AMPLE: u32 = 8_000_000;
 
-/// The span over which the rate is measured.
+/// Period over which the rate is measured.
 const MEASURED: Duration = Duration::from_secs(1);
 
-/// One byte in the bucket's units, which make a nanosecond at one byte a second a whole number.
+/// One byte in units of the bucket, in which a nanosecond at one byte per second is one unit.
 const BYTE: i128 = 1_000_000_000;
 
-/// What pictures are held to.
+/// Limit on pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Budget {
-    /// So many bytes a second; 0 means no limit.
+    /// Bytes per second; 0 means no limit.
     Fixed(u32),
-    /// What the line turns out to take, as at the other end of a network.
+    /// The measured rate of the line, for a terminal across a network.
     Measured,
-    /// No limit, unless the line turns out to be slow.
+    /// No limit unless the line proves slow.
     Local,
 }
 
 impl Budget {
-    /// What suits the line that these variables of the environment describe.
+    /// Returns the budget for a line described by these environment variables.
     ///
-    /// Multiplexers reply for themselves, so replies say nothing of the line behind them.
+    /// Multiplexers reply for themselves, so their replies say nothing about the line behind them.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Self {
         let set = |name: &str| variable(name).is_some_and(|value| !value.is_empty());
         let is_remote = set("SSH_CONNECTION") || set("SSH_TTY");
@@ -65,14 +65,14 @@ impl Budget {
     }
 }
 
-/// Holds pictures back to what the line takes.
+/// Limits pictures to the capacity of the line.
 ///
-/// Text is never held back, but it counts, and may take the bucket into debt.
+/// Text is never delayed, but it counts and may put the bucket into debt.
 #[derive(Debug)]
 pub struct Link {
     budget: Budget,
     pace: Pace,
-    /// What was in the bucket at `as_of`, in billionths of a byte; negative is debt.
+    /// The level of the bucket at `as_of`, in billionths of a byte; negative is debt.
     level: i128,
     as_of: Option<Instant>,
     recent: VecDeque<(Instant, usize)>,
@@ -85,14 +85,14 @@ enum Pace {
     Measured(Estimate),
 }
 
-/// What a bucket is like.
+/// Parameters of the bucket.
 #[derive(Clone, Copy, Debug)]
 struct Bucket {
-    /// Bytes a second.
+    /// Bytes per second.
     rate: u32,
-    /// Bytes.
+    /// Capacity in bytes.
     capacity: u64,
-    /// The bytes that a picture waits for.
+    /// Minimum number of bytes for a piece of picture to be sent.
     worth: u64,
 }
 
@@ -115,12 +115,12 @@ impl Link {
         link
     }
 
-    /// Whether pictures are held back at all.
+    /// Whether pictures are limited at all.
     pub fn is_limited(&self) -> bool {
         !matches!(self.pace, Pace::Unlimited)
     }
 
-    /// Returns how many bytes of picture may go at once, `usize::MAX` without a limit.
+    /// Returns the number of bytes of picture that may be sent now; `usize::MAX` without a limit.
     pub fn allowance(&self, now: Instant) -> usize {
         let Some(bucket) = self.bucket(Some(now)) else {
             return usize::MAX;
@@ -131,7 +131,7 @@ impl Link {
         (self.level_at(now, bucket) / BYTE).max(0) as usize
     }
 
-    /// Counts bytes that were sent, text and pictures alike.
+    /// Counts bytes that were sent, both text and pictures.
     pub fn spent(&mut self, bytes: usize, now: Instant) {
         if let Some(bucket) = self.bucket(Some(now)) {
             self.level = self.level_at(now, bucket) - units(bytes as u64);
@@ -146,7 +146,7 @@ impl Link {
         }
     }
 
-    /// Returns when a piece of picture that is worth it may go, `None` if it may go at once.
+    /// Returns when a worthwhile piece of picture may be sent; `None` if at once.
     pub fn ready_at(&self, now: Instant) -> Option<Instant> {
         let bucket = self.bucket(Some(now))?;
         if let Some(until) = self.held_until(now) {
@@ -161,13 +161,13 @@ impl Link {
         Some(now + Duration::from_nanos(nanoseconds as u64))
     }
 
-    /// Returns the bytes sent during the last second.
+    /// Returns the number of bytes sent during the last second.
     pub fn rate(&self, now: Instant) -> usize {
         let recent = self.recent.iter().filter(|&&(at, _)| !is_past(at, now));
         recent.map(|&(_, bytes)| bytes).sum()
     }
 
-    /// Learns that a frame of so many bytes waited this long for the terminal to take it.
+    /// Records that the terminal took this long to accept a frame of `bytes` bytes.
     pub fn waited(&mut self, bytes: usize, time: Duration, now: Instant) {
         if self.budget != Budget::Local || self.is_limited() || time < SLOW {
             return;
@@ -180,12 +180,12 @@ impl Link {
         }
     }
 
-    /// Whether the terminal is to be asked for a reply, behind all that was sent.
+    /// Whether to request a reply now, after everything sent so far.
     pub fn has_question(&self, now: Instant) -> bool {
         matches!(&self.pace, Pace::Measured(estimate) if estimate.has_question(now))
     }
 
-    /// When [`Link::has_question`] becomes true though nothing is sent: when the line is empty.
+    /// When [`Link::has_question`] becomes true even if nothing is sent: when the line is empty.
     pub fn asks_at(&self) -> Option<Instant> {
         match &self.pace {
             Pace::Measured(estimate) => estimate.asks_at(),
@@ -193,14 +193,14 @@ impl Link {
         }
     }
 
-    /// Takes note that the terminal was asked.
+    /// Records that a reply was requested.
     pub fn asked(&mut self, now: Instant) {
         if let Pace::Measured(estimate) = &mut self.pace {
             estimate.asked(now);
         }
     }
 
-    /// Takes the reply to the oldest question.
+    /// Handles the reply to the oldest request.
     pub fn replied(&mut self, at: Instant) {
         if let Pace::Measured(estimate) = &mut self.pace {
             estimate.replied(at);
@@ -210,7 +210,7 @@ impl Link {
         }
     }
 
-    /// Gives up on replies that are overdue; whether there were any. A terminal that has never
+    /// Stops expecting overdue replies; returns whether there were any. A terminal that has never
     /// replied is not asked again.
     pub fn give_up(&mut self, now: Instant) -> bool {
         let Pace::Measured(estimate) = &mut self.pace else {
@@ -241,7 +241,7 @@ impl Link {
         }
     }
 
-    /// Until when pictures wait, whatever is in the bucket.
+    /// Until when pictures are held back, regardless of the level of the bucket.
     fn held_until(&self, now: Instant) -> Option<Instant> {
         match &self.pace {
             Pace::Measured(estimate) => estimate.holds_until(now).filter(|&until| now < until),
@@ -264,7 +264,7 @@ impl Link {
                 let worth = estimate.burst(now);
                 Some(Bucket {
                     rate: estimate.pace(),
-                    // What comes late to an empty bucket loses nothing.
+                    // Spare capacity, so that a late refill loses nothing.
                     capacity: worth + worth / 4,
                     worth,
                 })

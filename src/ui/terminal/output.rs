@@ -1,8 +1,9 @@
-//! What goes to the terminal: bytes in order, on a thread that waits for the terminal so that no
-//! other has to.
+//! Terminal output: bytes in order, written by a thread that waits for the terminal so that no
+//! other thread has to.
 //!
-//! A terminal that is not read takes nothing, ever. What it takes at once is written by the calling
-//! thread, which costs a healthy terminal no detour; the rest is left to this one.
+//! A terminal that is not read accepts nothing, possibly for ever. The calling thread writes what
+//! the terminal accepts at once, so that a healthy terminal causes no detour; the output thread
+//! writes the rest.
 
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,10 +13,10 @@ use std::time::{Duration, Instant};
 
 use super::tty::{Line, Taken};
 
-/// The most that is written in one call to the system.
+/// Maximum number of bytes per write call.
 const PIECE: usize = 1 << 16;
 
-/// How long the thread may take to write the last bytes after room was made for them.
+/// Time for the thread to write the last bytes after room was made for them.
 const LAST_PATIENCE: Duration = Duration::from_millis(100);
 
 /// The terminal's output, shared by the interface and the panic hook.
@@ -29,27 +30,27 @@ struct Shared {
     line: Line,
     queue: Mutex<Queue>,
     changed: Condvar,
-    /// Whether the thread is to write no more.
+    /// Whether the thread must stop writing.
     is_silent: AtomicBool,
 }
 
 #[derive(Debug, Default)]
 struct Queue {
-    /// What the terminal has not taken yet.
+    /// Bytes that the terminal has not accepted yet.
     bytes: Vec<u8>,
-    /// Counts the times that `bytes` was replaced.
+    /// Number of times that `bytes` was replaced.
     edition: u64,
     /// Whether the thread is writing.
     writing: bool,
-    /// What a write has failed with; no other will succeed.
+    /// The error of a failed write; no later write will succeed.
     failed: Option<io::ErrorKind>,
-    /// Whether the thread is to end.
+    /// Whether the thread should end.
     closed: bool,
 }
 
 impl Output {
-    /// Starts the thread; `cleared` is called on it whenever it has written all there was, or
-    /// failed to.
+    /// Starts the thread; `cleared` is called on it whenever it has written everything or a write
+    /// has failed.
     pub(super) fn start(line: Line, cleared: impl Fn() + Send + 'static) -> io::Result<Self> {
         let shared = Arc::new(Shared {
             line,
@@ -70,7 +71,7 @@ impl Output {
         Ok(Self { shared })
     }
 
-    /// Sends bytes after those before, without waiting.
+    /// Appends bytes to the output without waiting.
     pub(super) fn send(&self, bytes: &[u8]) -> io::Result<()> {
         let mut queue = self.shared.lock();
         if let Some(failed) = queue.failed {
@@ -91,22 +92,22 @@ impl Output {
         Ok(())
     }
 
-    /// Whether the terminal has taken everything, or takes nothing more.
+    /// Whether the terminal has accepted everything, or will accept nothing more.
     pub(super) fn is_clear(&self) -> bool {
         self.shared.is_clear()
     }
 
-    /// Has the thread write no more, for a signal handler, which writes the last bytes itself.
+    /// Stops the thread from writing, for a signal handler, which writes the last bytes itself.
     #[cfg(unix)]
     pub(super) fn fall_silent(&self) {
         self.shared.is_silent.store(true, Ordering::SeqCst);
     }
 
-    /// Sends bytes instead of those that are still to be sent, and waits for the terminal to take
-    /// them, until `deadline` at most.
+    /// Replaces the pending bytes by `bytes` and waits for the terminal to accept them, until
+    /// `deadline`.
     ///
-    /// A terminal that has taken nothing by then may be read later, when nobody is left to write:
-    /// what the system holds for it makes room for these bytes.
+    /// A terminal that has accepted nothing by then may be read later, when this process has ended:
+    /// bytes buffered by the system are discarded to make room for these.
     pub(super) fn send_last(&self, bytes: &[u8], deadline: Instant) -> io::Result<()> {
         {
             let mut queue = self.shared.lock();
@@ -123,7 +124,7 @@ impl Output {
         })
     }
 
-    /// Waits until the terminal has taken everything.
+    /// Waits until the terminal has accepted everything.
     fn wait(&self, deadline: Instant) -> io::Result<()> {
         let mut queue = self.shared.lock();
         while !queue.is_clear() {
@@ -140,7 +141,7 @@ impl Output {
 
 impl Drop for Output {
     fn drop(&mut self) {
-        // The thread is not waited for: it may be waiting for the terminal.
+        // The thread is not joined: it may be waiting for the terminal.
         self.shared.lock().closed = true;
         self.shared.changed.notify_all();
     }
@@ -155,7 +156,7 @@ impl Shared {
         self.lock().is_clear()
     }
 
-    /// Waits for bytes and writes some of them; whether to go on.
+    /// Waits for bytes and writes some of them; returns whether to continue.
     fn write_next(&self) -> bool {
         let mut queue = self.lock();
         while queue.bytes.is_empty() && !queue.closed {

@@ -1,7 +1,7 @@
-//! What panics do to the screen.
+//! Handles panics while the terminal is in use.
 //!
-//! A panic on the interface's thread gives the terminal back before it is reported; one on any other
-//! thread is kept, because the interface is still drawing.
+//! A panic on the interface's thread restores the terminal before it is reported. A panic on any
+//! other thread is kept for later, because the interface is still drawing.
 
 use std::backtrace::{Backtrace, BacktraceStatus};
 use std::panic::{self, PanicHookInfo};
@@ -15,18 +15,18 @@ use super::output::Output;
 use super::tty;
 use crate::text::visible;
 
-/// Who has the terminal.
+/// Owner of the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Tenure {
     /// The interface.
     Ours,
-    /// Another program, for a while.
+    /// Another program, temporarily.
     Lent,
-    /// The program that started us.
+    /// The parent program.
     GivenBack,
 }
 
-/// What the guard of the terminal shares with the panic hook and the handler of aborts.
+/// State shared by the terminal guard, the panic hook and the handler of aborts.
 #[derive(Debug)]
 pub(super) struct Shared {
     interface: ThreadId,
@@ -37,7 +37,7 @@ pub(super) struct Shared {
 }
 
 impl Shared {
-    /// Makes the calling thread the interface's, and catches panics while the result lives.
+    /// Marks the calling thread as the interface's and catches panics until the result is dropped.
     pub(super) fn install(output: Output, restore: fn(&Self)) -> Arc<Self> {
         let shared = Arc::new(Self {
             interface: thread::current().id(),
@@ -55,19 +55,19 @@ impl Shared {
         shared
     }
 
-    /// Where bytes for the terminal go.
+    /// The output of the terminal.
     pub(super) fn output(&self) -> &Output {
         &self.output
     }
 
-    /// Locks who has the terminal; held while it changes hands.
+    /// Locks the owner of the terminal; held while the ownership changes.
     pub(super) fn tenure(&self) -> MutexGuard<'_, Tenure> {
         // A panic while it was locked has left a valid value.
         self.tenure.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Who has the terminal, for a signal handler, which must not wait; the interface while it changes
-    /// hands.
+    /// The owner of the terminal, for a signal handler, which must not wait; the interface while
+    /// the ownership is changing.
     #[cfg(unix)]
     pub(super) fn tenure_amid_signal(&self) -> Tenure {
         match self.tenure.try_lock() {
@@ -77,7 +77,7 @@ impl Shared {
         }
     }
 
-    /// Whether unsaved edits as they are would outlive the process, for a signal handler.
+    /// Whether the current unsaved edits are stored for recovery, for a signal handler.
     #[cfg(unix)]
     pub(super) fn are_edits_kept(&self) -> bool {
         self.are_edits_kept.load(Ordering::Relaxed)
@@ -123,7 +123,7 @@ fn description(panic: &PanicHookInfo) -> String {
     printable(&text)
 }
 
-/// Every line with escapes for what would command or deceive the terminal: a panic may quote a
+/// Escapes everything in each line that could control or spoof the terminal: a panic may quote a
 /// hostile file.
 fn printable(text: &str) -> String {
     let lines: Vec<_> = text.split('\n').map(visible).collect();
@@ -135,7 +135,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn commands_to_the_terminal_become_visible() {
+    fn terminal_controls_become_visible() {
         for (text, shown) in [
             ("plain 'é'\n\"ok\" \\", "plain 'é'\n\"ok\" \\"),
             ("\x1b]52;c;eA==\x07", "\\u{1b}]52;c;eA==\\u{7}"),

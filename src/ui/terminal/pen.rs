@@ -1,28 +1,28 @@
-//! The terminal's pen: which colours and attributes the next character gets, and the fewest bytes
-//! that change them.
+//! The terminal's pen: the colours and attributes of the next character, changed by as few bytes as
+//! possible.
 
 use ratatui::style::Modifier;
 
 use super::colour::Ink;
 
-/// The attributes that show on an empty cell.
+/// Attributes that are visible on an empty cell.
 pub(super) const VISIBLE_ON_BLANK: Modifier = Modifier::REVERSED
     .union(Modifier::UNDERLINED)
     .union(Modifier::SLOW_BLINK)
     .union(Modifier::RAPID_BLINK)
     .union(Modifier::CROSSED_OUT);
 
-/// What a character needs of the pen; `None` where it looks the same in any colour.
+/// The style that a character needs; a colour is `None` if it is not visible.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Style {
     pub(super) fg: Option<Ink>,
     pub(super) bg: Option<Ink>,
     pub(super) modifier: Modifier,
-    /// The attributes that may be on or off, regardless of `modifier`.
+    /// Attributes that may be on or off, regardless of `modifier`.
     pub(super) indifferent: Modifier,
 }
 
-/// The state of the terminal's pen as far as it is known.
+/// The known state of the terminal's pen.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pen {
     fg: Ink,
@@ -39,7 +39,7 @@ enum Knowledge {
 }
 
 impl Pen {
-    /// A pen of which nothing is known; its first use resets it.
+    /// An unknown state, which is reset on first use.
     pub(super) const UNKNOWN: Self = Self {
         fg: Ink::Default,
         bg: Ink::Default,
@@ -47,7 +47,7 @@ impl Pen {
         knowledge: Knowledge::Unknown,
     };
 
-    /// Puts the pen back to the terminal's defaults.
+    /// Resets the pen to the terminal's defaults.
     pub(super) fn reset(&mut self, out: &mut Vec<u8>) {
         out.extend_from_slice(b"\x1b[m");
         *self = Self {
@@ -56,7 +56,8 @@ impl Pen {
         };
     }
 
-    /// Returns the bytes the colours of a style would take, without the frame of the sequence.
+    /// Returns the number of bytes needed to set the colours of a style, excluding the frame of the
+    /// sequence.
     pub(super) fn colour_cost(&self, style: &Style) -> usize {
         let cost = |wanted: Option<Ink>, current| match wanted {
             Some(ink) if ink != current => ink_length(ink),
@@ -69,7 +70,7 @@ impl Pen {
         }
     }
 
-    /// Makes the pen fit for a character, sending only what differs.
+    /// Sets the pen for a character, sending only the differences.
     pub(super) fn apply(&mut self, style: &Style, out: &mut Vec<u8>) {
         if self.knowledge == Knowledge::Unknown {
             self.reset(out);
@@ -104,7 +105,7 @@ impl Pen {
     }
 }
 
-/// Writes a number in decimal. Nearly all are parts of colours, and a picture has thousands.
+/// Writes a decimal number. Nearly all are components of colours, and a picture has thousands.
 #[inline]
 pub(super) fn push_number(out: &mut Vec<u8>, number: u16) {
     let digit = |place: u16| b'0' + (number / place % 10) as u8;
@@ -116,7 +117,7 @@ pub(super) fn push_number(out: &mut Vec<u8>, number: u16) {
     }
 }
 
-/// The parameters of one SGR sequence, opened by the first of them.
+/// The parameters of an SGR sequence, which is opened by the first one.
 struct Sequence<'a> {
     out: &'a mut Vec<u8>,
     parameters: usize,
@@ -131,7 +132,7 @@ impl Sequence<'_> {
     }
 }
 
-/// Attributes with the codes that turn them on and off. Some share the code that turns them off.
+/// Attributes with the codes that turn them on and off. Some share the code for off.
 const ATTRIBUTES: [(Modifier, u16, u16); 9] = [
     (Modifier::BOLD, 1, 22),
     (Modifier::DIM, 2, 22),
@@ -192,7 +193,8 @@ fn ink_length(ink: Ink) -> usize {
         _ => 3,
     };
     match ink {
-        // Bright backgrounds take a third digit, too little to distinguish the two sides for.
+        // Bright backgrounds take a third digit; too little to distinguish foreground and
+        // background.
         Ink::Default | Ink::Index(0..16) => 2,
         Ink::Index(index) => 5 + digits(index),
         Ink::Rgb(red, green, blue) => 7 + digits(red) + digits(green) + digits(blue),
@@ -210,7 +212,7 @@ mod tests {
         indifferent: Modifier::empty(),
     };
 
-    /// Applies styles one after another to a fresh pen and returns the bytes of the last.
+    /// Applies styles in order to a fresh pen and returns the bytes of the last one.
     fn last_change(styles: &[Style]) -> String {
         let mut pen = Pen::UNKNOWN;
         let mut out = Vec::new();
@@ -223,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn sends_only_what_changes() {
+    fn sends_only_changes() {
         let red = Style {
             fg: Some(Ink::Index(1)),
             ..PLAIN
@@ -261,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_show_is_left_as_it_is() {
+    fn invisible_attributes_are_not_changed() {
         let bold = Style {
             fg: Some(Ink::Index(9)),
             modifier: Modifier::BOLD,
@@ -283,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn the_cost_of_colours_is_what_they_take() {
+    fn the_cost_of_colours_is_their_length() {
         let inks = [
             Ink::Default,
             Ink::Index(3),
@@ -299,7 +301,7 @@ mod tests {
                 };
                 let mut pen = Pen::UNKNOWN;
                 let mut out = Vec::new();
-                // Another attribute keeps the pen from being reset as a whole.
+                // Another attribute prevents a full reset of the pen.
                 let start = Style {
                     fg: Some(Ink::Index(1)),
                     modifier: Modifier::BOLD,

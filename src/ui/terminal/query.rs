@@ -1,42 +1,42 @@
-//! What the terminal is asked about its colours, and what its answers mean.
+//! Queries about the terminal's colours, and the meaning of the answers.
 //!
-//! A login over SSH has `TERM=xterm-256color` whatever the terminal can do. Most terminals that show
-//! 24-bit colours report that when asked what a colour has become (DECRQSS), or for entries of
-//! terminfo (XTGETTCAP); others stay silent. The sequences are xterm's (`ctlseqs`, "Device
-//! Control functions").
+//! A login over SSH has `TERM=xterm-256color` whatever the terminal can do. Most terminals with
+//! 24-bit colours report them when asked for the current colour (DECRQSS) or for terminfo entries
+//! (XTGETTCAP); others stay silent. The sequences are xterm's (`ctlseqs`, "Device Control
+//! functions").
 
 use std::time::Duration;
 
 use super::Reply;
 
-/// Sets a colour that no palette has, asks which one is set, resets it, and asks for terminfo's
-/// two names of 24-bit colour, RGB and Tc.
+/// Sets a colour that no palette contains, queries the current colour, resets it, and queries
+/// terminfo's two names of 24-bit colour, RGB and Tc.
 pub(super) const COLOURS: &[u8] =
     b"\x1b[38:2::49:73:87m\x1bP$qm\x1b\\\x1b[m\x1bP+q524742\x1b\\\x1bP+q5463\x1b\\";
 
-/// Asks for the state of synchronized output (DECRQM).
+/// Queries the state of synchronized output (DECRQM).
 #[cfg(unix)]
 pub(super) const MODES: &[u8] = b"\x1b[?2026$p";
 
-/// The channels of the colour that is asked about.
+/// The channels of the colour set by the query.
 const COLOUR: [u16; 3] = [49, 73, 87];
 
 /// The names RGB and Tc in hexadecimal.
 const NAMES: [&[u8]; 2] = [b"524742", b"5463"];
 
-/// Asks what the terminal is (DA1), which every terminal answers.
+/// Queries the device attributes (DA1), which every terminal answers.
 pub(super) const ATTRIBUTES: &[u8] = b"\x1b[c";
 
-/// How long answers count. What comes later is read and ignored.
+/// Time limit for answers. Later ones are read and ignored.
 pub(crate) const PATIENCE: Duration = Duration::from_millis(200);
 
-/// Terminals, by the first part of `TERM`, that would show a question as text or are known to have
-/// few colours. GNU screen hands device control strings on without their introducer.
+/// Terminals, by the first part of `TERM`, that would display a query as text or are known to have
+/// few colours. GNU screen forwards device control strings without their introducer.
 const NOT_ASKED: [&str; 10] = [
     "ansi", "cons25", "dumb", "eterm", "linux", "screen", "sun", "wsvt25", "vt100", "vt220",
 ];
 
-/// Whether a terminal described by these variables of the environment may be asked.
+/// Whether a terminal described by these environment variables may be queried.
 pub(crate) fn may_ask(variable: impl Fn(&str) -> Option<String>) -> bool {
     let set = |name: &str| variable(name).filter(|value| !value.is_empty());
     let Some(term) = set("TERM") else {
@@ -50,7 +50,7 @@ pub(crate) fn may_ask(variable: impl Fn(&str) -> Option<String>) -> bool {
     cfg!(unix) && !is_screen && !is_known && !is_apple
 }
 
-/// Reads what stands in a device control string.
+/// Decodes the contents of a device control string.
 pub(super) fn answer(string: &[u8]) -> Option<Reply> {
     if let Some(setting) = string.strip_prefix(b"1$r") {
         return shows_colour(setting).then_some(Reply::TrueColour);
@@ -59,13 +59,14 @@ pub(super) fn answer(string: &[u8]) -> Option<Reply> {
     let mut parts = capability.splitn(2, |&byte| byte == b'=');
     let name = parts.next()?;
     let value = parts.next().unwrap_or_default();
-    // RGB has the bits of a channel, if anything, in hexadecimal digits of its characters: 8.
+    // The value of RGB, if any, is the number of bits per channel as hexadecimal character codes:
+    // `8` is 38.
     let is_wide = value.is_empty() || value.starts_with(b"38");
     let is_asked = NAMES.contains(&name);
     (is_asked && is_wide).then_some(Reply::TrueColour)
 }
 
-/// Whether a setting of the pen has the colour as it was set, and not as the nearest of a palette.
+/// Whether the reported colour is exactly the one set, rather than the nearest of a palette.
 fn shows_colour(setting: &[u8]) -> bool {
     let Ok(text) = std::str::from_utf8(setting) else {
         return false;
@@ -83,7 +84,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_the_very_colour_is_24_bit() {
+    fn only_the_exact_colour_means_24_bit() {
         for (string, expected) in [
             (&b"1$r0;38:2::49:73:87m"[..], true),
             (b"1$r0;38;2;49;73;87m", true),
@@ -110,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn terminals_that_would_show_the_question_are_not_asked() {
+    fn terminals_that_would_display_the_query_are_not_asked() {
         let asked = |variables: &str| {
             may_ask(|name| {
                 let mut pairs = variables

@@ -1,33 +1,34 @@
-//! What the terminal replies to queries.
+//! Replies of the terminal to queries.
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-/// Asks the terminal for its status (DSR, ECMA-48 8.3.35), which it reports when everything before
-/// has arrived. No key sends that report, unlike that of the cursor's position, which in the first
-/// row looks like F3.
+/// Requests a status report (DSR, ECMA-48 8.3.35), which the terminal sends when everything before
+/// has arrived. No key sends the same bytes; a report of the cursor position in the first row, in
+/// contrast, looks like F3.
 pub(super) const ASK_STATUS: &str = "\x1b[5n";
 
-/// An answer of the terminal.
+/// A reply of the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reply {
-    /// It has taken everything before.
+    /// Everything before has arrived.
     Status,
-    /// It shows 24-bit colours.
+    /// The terminal shows 24-bit colours.
     TrueColour,
     /// The state of a DEC private mode (DECRPM): 1 set, 2 reset, 0 unknown to the terminal.
     Mode {
-        /// The mode's number.
+        /// The number of the mode.
         number: u16,
-        /// Its state.
+        /// The state of the mode.
         state: u16,
     },
-    /// What it is (DA1). Every terminal answers this, and in order: it ends the answers before it.
+    /// The device attributes (DA1). Every terminal sends them, and in order, so that they end the
+    /// replies before.
     Attributes,
 }
 
-/// The replies that are on their way, so that the terminal is not handed to a program that would take
-/// them for keys.
+/// Replies in flight, awaited before the terminal is handed to a program that would take them for
+/// keys.
 #[derive(Debug, Default)]
 pub struct Replies {
     expected: Mutex<Expected>,
@@ -36,14 +37,14 @@ pub struct Replies {
 
 #[derive(Debug, Default)]
 struct Expected {
-    /// Whether [`Reply::Attributes`], which ends the answers about colours, is on its way.
+    /// Whether [`Reply::Attributes`], which ends the answers about colours, is in flight.
     attributes: bool,
-    /// How many times [`Reply::Status`] is on its way.
+    /// Number of [`Reply::Status`] in flight.
     statuses: usize,
 }
 
 impl Replies {
-    /// Counts a reply of this kind as on its way.
+    /// Counts a reply of this kind as in flight.
     pub fn expect(&self, reply: Reply) {
         let mut expected = self.lock();
         match reply {
@@ -64,12 +65,12 @@ impl Replies {
         self.came.notify_all();
     }
 
-    /// Expects no more status reports.
+    /// Stops expecting status reports.
     pub fn forget_statuses(&self) {
         self.lock().statuses = 0;
     }
 
-    /// Waits until none is on its way, until `deadline` at most.
+    /// Waits until no reply is in flight, or until `deadline`.
     pub fn wait(&self, deadline: Instant) {
         let time = deadline.saturating_duration_since(Instant::now());
         let waited = self
@@ -118,7 +119,7 @@ mod tests {
             (&[Attributes, Status], &[Attributes], true),
             (&[Attributes, Status], &[Status, Attributes], false),
             (&[TrueColour, MODE], &[], false),
-            // One that was forgotten arrives late.
+            // A forgotten one arrives late.
             (&[], &[Status], false),
         ] {
             let replies = Replies::default();
@@ -134,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn forgotten_reports_leave_the_attributes_expected() {
+    fn forgetting_reports_does_not_forget_the_attributes() {
         let replies = Replies::default();
         replies.expect(Reply::Status);
         replies.forget_statuses();

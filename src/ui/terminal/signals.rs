@@ -1,7 +1,7 @@
-//! Signals and the end of the line, on one thread that sleeps in `poll` for all of them.
+//! Signals and hang-ups, handled by one thread that waits for all of them in `poll`.
 //!
-//! The terminal is watched as well as `SIGHUP` awaited: the signal may be ignored by inheritance,
-//! as under `nohup`, and then only the terminal itself reports the hang-up.
+//! The terminal itself is watched in addition to `SIGHUP`: the signal may be ignored by
+//! inheritance, as under `nohup`, and then only the terminal reports the hang-up.
 
 use std::io::{self, Read, Write};
 use std::os::fd::OwnedFd;
@@ -24,31 +24,31 @@ use signal_hook::low_level::{self, pipe};
 use super::panics::Tenure;
 use super::{Event, tty};
 
-/// How long the interface may take to end after its terminal is gone.
+/// Time for the interface to end after its terminal is gone.
 const GRACE: Duration = Duration::from_millis(500);
 
-/// What the system reports for a process that `SIGHUP` ended.
+/// Exit status that represents death by `SIGHUP`.
 const HUNG_UP: i32 = 128 + SIGHUP;
 
-/// Orders to the watching thread: who has the terminal from here on.
+/// Orders to the watching thread: the new owner of the terminal.
 const LENT: u8 = b'l';
 const OURS: u8 = b'o';
 
-/// Those with a meaning of their own, and all others that would end the process and leave the terminal
-/// as it is.
+/// Signals with a specific meaning, and all others that would end the process without restoring the
+/// terminal.
 const WATCHED: [i32; 13] = [
     SIGHUP, SIGTERM, SIGQUIT, SIGINT, SIGTSTP, SIGCONT, SIGWINCH, SIGALRM, SIGPROF, SIGUSR1,
     SIGUSR2, SIGVTALRM, SIGXCPU,
 ];
 
-/// Reports signals and a terminal that is gone to the interface, until it is dropped.
+/// Reports signals and hang-ups to the interface until dropped.
 ///
 /// After [`Event::HangUp`] the process has 500 ms to end; then it is ended with status 129.
 #[derive(Debug)]
 pub struct Signals {
     registered: Vec<SigId>,
-    /// Takes [`LENT`] and [`OURS`]. Its other end reports a hang-up when this one is dropped, which
-    /// ends the thread.
+    /// Sends [`LENT`] and [`OURS`]. Dropping it causes a hang-up at its other end, which ends the
+    /// thread.
     orders: Option<UnixStream>,
     thread: Option<JoinHandle<()>>,
 }
@@ -81,13 +81,14 @@ impl Signals {
         Ok(signals)
     }
 
-    /// Leaves the keyboard's signals to a program in our process group that the terminal is lent
-    /// to: it gets them as well. Only a stop is shared, so that the shell sees its job stopped.
+    /// Leaves keyboard signals to a program in our process group that borrows the terminal and
+    /// receives them as well. Only a stop also applies to us, so that the shell sees its job
+    /// stopped.
     pub fn lend(&self) {
         self.order(LENT);
     }
 
-    /// Reports all signals again, but none that arrived before.
+    /// Reports all signals again, except those that arrived before.
     pub fn take_back(&self) {
         self.order(OURS);
     }
@@ -112,32 +113,32 @@ impl Drop for Signals {
     }
 }
 
-/// Stops the whole job, as Ctrl-Z does outside raw mode, and returns `true` when it is continued,
+/// Stops the whole job, as Ctrl-Z does outside raw mode, and returns `true` once it is continued,
 /// which is also reported as an [`Event::Continue`].
 ///
-/// Returns `false` at once where no shell could continue it: in the process group of a session's
-/// leader, or when the shell has ended. The terminal must have been given back before.
+/// Returns `false` at once if no shell could continue it: in the process group of a session leader,
+/// or after the shell has ended. The terminal must be given back first.
 pub fn suspend_process() -> io::Result<bool> {
     let is_job = is_job()?;
     if is_job {
-        // SIGTSTP would only come back as an event, because its default action is replaced.
+        // SIGTSTP would only return as an event, because its default action is replaced.
         kill_current_process_group(Signal::STOP)?;
     }
     Ok(is_job)
 }
 
-/// Whether there is a shell that could continue the process.
+/// Whether a shell exists that could continue the process.
 fn is_job() -> io::Result<bool> {
     let leads = getsid(None)? == getpgrp();
     let is_orphan = getppid().is_none_or(Pid::is_init);
     Ok(!leads && !is_orphan)
 }
 
-/// Does what SIGTSTP does by default. The program that the terminal is lent to got the signal too,
-/// and may have reasons not to stop.
+/// Performs the default action of SIGTSTP. The program that borrows the terminal received the
+/// signal too, and may have reasons not to stop.
 fn stop_alone() {
     if is_job().unwrap_or(false) {
-        // There is nowhere to report an error while the terminal is lent.
+        // An error cannot be reported while the terminal is lent.
         let _ = kill_process(getpid(), Signal::STOP);
     }
 }
@@ -145,7 +146,7 @@ fn stop_alone() {
 struct Watch {
     inbox: UnixStream,
     tenure: Tenure,
-    /// `None` once it is gone.
+    /// `None` once the terminal is gone.
     tty: Option<OwnedFd>,
     arrivals: Vec<(i32, UnixStream)>,
 }
@@ -160,7 +161,7 @@ impl Watch {
                     .iter()
                     .map(|(_, arrival)| PollFd::new(arrival, PollFlags::IN)),
             );
-            // Nothing is asked for, so only the end of the line is reported.
+            // No events are requested, so that only a hang-up is reported.
             sources.extend(
                 self.tty
                     .iter()
@@ -182,7 +183,8 @@ impl Watch {
                     Err(_) => {}
                 }
             }
-            // What arrived before the terminal was taken back was still meant for the other program.
+            // Signals that arrived before the terminal was taken back were meant for the other
+            // program.
             let theirs = [self.tenure, tenure].contains(&Tenure::Lent);
             let whose = if theirs { Tenure::Lent } else { tenure };
             self.tenure = tenure;
@@ -191,10 +193,10 @@ impl Watch {
                 .copied()
                 .unwrap_or(PollFlags::empty());
             if !tty.is_empty() {
-                // NVAL means that terminals cannot be polled here, and SIGHUP has to do.
+                // NVAL means that the system cannot poll terminals; SIGHUP must suffice.
                 self.tty = None;
             }
-            // First, because a line that breaks sends SIGCONT as well.
+            // Handled first, because a broken connection sends SIGCONT as well.
             if tty.intersects(PollFlags::HUP | PollFlags::ERR) {
                 report(SIGHUP, whose, &mut line, send);
             }
@@ -219,15 +221,15 @@ enum Line {
 
 fn report(signal: i32, whose: Tenure, line: &mut Line, send: &impl Fn(Event)) {
     match signal {
-        // Without a terminal only requests to end are left to report.
+        // Without a terminal, only requests to end are still reported.
         SIGHUP | SIGWINCH | SIGTSTP | SIGCONT if *line == Line::Down => {}
         SIGHUP => {
             *line = Line::Down;
-            // Before the event is sent: the interface may be stuck in a write to the terminal.
+            // Before sending the event: the interface may be blocked in a write to the terminal.
             end_after_grace();
             send(Event::HangUp);
         }
-        // The terminal is taken back after the other program's end in any case.
+        // The terminal is taken back when the other program ends in any case.
         SIGINT | SIGQUIT | SIGCONT if whose == Tenure::Lent => {}
         SIGTSTP if whose == Tenure::Lent => stop_alone(),
         SIGWINCH => {

@@ -1,9 +1,9 @@
-//! What tmux knows of the terminal that it draws on.
+//! What tmux knows about the terminal that it runs in.
 
 use std::process::{Command, Stdio};
 
-/// Whether tmux sends 24-bit colours to its terminal; `None` outside tmux, or where it does not
-/// answer. Runs a program: never on the thread of the interface.
+/// Whether tmux sends 24-bit colours to its terminal; `None` outside tmux or if it does not answer.
+/// Runs a program, so never call it on the thread of the interface.
 pub(crate) fn shows_true_colour() -> Option<bool> {
     std::env::var_os("TMUX").filter(|value| !value.is_empty())?;
     let output = Command::new("tmux")
@@ -25,7 +25,7 @@ mod tests {
     use super::has_true_colour;
 
     #[test]
-    fn one_of_the_features_is_24_bit_colour() {
+    fn true_colour_is_found_among_the_features() {
         assert!(has_true_colour("256,RGB,bpaste,title\n"));
         assert!(has_true_colour("RGB"));
         assert!(!has_true_colour("256,bpaste,xRGB"));

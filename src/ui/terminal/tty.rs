@@ -1,4 +1,4 @@
-//! The terminal as a file: its size, its modes, and writes that know how to wait.
+//! The terminal as a file: size, modes, and writes that wait for a limited time.
 
 #[cfg(unix)]
 use std::fs::File;
@@ -11,42 +11,43 @@ use std::time::Duration;
 
 use ratatui::layout::Size;
 
-/// What a terminal that does not know its size is taken for.
+/// Size assumed for a terminal that does not know its own.
 const USUAL: Size = Size {
     width: 80,
     height: 24,
 };
 
-/// The most cells that are drawn in a row: beyond any screen.
+/// Maximum number of columns drawn, more than any screen has.
 const MAX_COLUMNS: u16 = 2000;
 
-/// The most cells that are drawn. A terminal may report 65535×65535: drawing such a screen would take
-/// gigabytes and minutes.
+/// Maximum number of cells drawn. A terminal may report 65535×65535: drawing such a screen would
+/// take gigabytes and minutes.
 const MAX_CELLS: u32 = 500_000;
 
-/// How long a line on standard error may take.
+/// Maximum time to write a line to standard error.
 const LAST_WORDS: Duration = Duration::from_millis(200);
 
-/// Returns the size of the window in cells, never zero; of a window beyond any screen, the size of
-/// the part at its top left that is drawn on.
+/// Returns the size of the window in cells, never zero. For a window larger than any screen, this
+/// is the part at the top left that is drawn.
 ///
-/// A terminal that reports 0×0 does not know; then `LINES` and `COLUMNS` count, or else 80×24.
+/// A terminal that reports 0×0 does not know its size; then `LINES` and `COLUMNS` count, otherwise
+/// 80×24.
 pub(crate) fn size() -> Size {
     let (width, height) = crossterm::terminal::size().unwrap_or((0, 0));
     let variable = |name: &str| std::env::var(name).ok()?.trim().parse().ok();
     drawn_part(known_size(Size { width, height }, variable))
 }
 
-/// What a write that does not wait came to.
+/// Result of a write that does not wait.
 #[derive(Debug)]
 pub(super) enum Taken {
-    /// The terminal took so many bytes, at least one.
+    /// The number of bytes accepted, at least one.
     Bytes(usize),
-    /// It takes nothing now.
+    /// The terminal accepts nothing now.
     Nothing,
 }
 
-/// The terminal's side that is written to.
+/// The output side of the terminal.
 #[cfg(unix)]
 #[derive(Debug)]
 pub(super) struct Line {
@@ -59,18 +60,18 @@ pub(super) struct Line {
 enum LineMode {
     /// Writes return at once.
     NonBlocking,
-    /// Writes may block: the open file is shared with other programs, whose mode it keeps.
+    /// Writes may block: the open file is shared with other programs, and its mode must not change.
     Shared,
 }
 
 #[cfg(unix)]
 impl Line {
-    /// The most that is written to a shared file at once, as such a write blocks until the
-    /// terminal has taken all of it.
+    /// Maximum size of a write to a shared file, which blocks until the terminal has accepted all
+    /// of it.
     const SHARED_PIECE: usize = 1 << 12;
 
-    /// Opens the terminal that standard output is once more by its name, to have a mode of its
-    /// own; shares standard output where that fails, as for another user's terminal.
+    /// Reopens the terminal of standard output by its name, to have a file mode of its own. Shares
+    /// standard output if that fails, for example on another user's terminal.
     pub(super) fn open() -> io::Result<Self> {
         let output = io::stdout();
         match open_anew(&output) {
@@ -90,7 +91,7 @@ impl Line {
         }
     }
 
-    /// Writes what can be written without waiting.
+    /// Writes as much as possible without waiting.
     pub(super) fn write_at_once(&self, bytes: &[u8]) -> io::Result<Taken> {
         use rustix::io::Errno;
 
@@ -108,8 +109,8 @@ impl Line {
         }
     }
 
-    /// Waits until some of the bytes can be written, and writes those if they are still wanted;
-    /// returns their number.
+    /// Waits until some of the bytes can be written, and writes them if they are still wanted;
+    /// returns the number of bytes written.
     pub(super) fn write(&self, bytes: &[u8], is_wanted: impl Fn() -> bool) -> io::Result<usize> {
         use rustix::event::{PollFd, PollFlags, poll};
         use rustix::io::Errno;
@@ -135,11 +136,11 @@ impl Line {
         }
     }
 
-    /// Drops what was written and not yet read, as far as the system still holds it.
+    /// Discards bytes that are written but not yet read, as far as the system still buffers them.
     pub(super) fn discard(&self) {
         use rustix::termios::{QueueSelector, tcflush};
 
-        // What is not a terminal keeps what it has.
+        // Anything other than a terminal keeps its contents.
         let _ = tcflush(&self.file, QueueSelector::OFlush);
     }
 }
@@ -153,7 +154,7 @@ fn open_anew(terminal: &io::Stdout) -> rustix::io::Result<OwnedFd> {
     open(name, flags, Mode::empty())
 }
 
-/// The console, which is written to by the thread that may wait for it.
+/// The console, written by a thread that may wait for it.
 #[cfg(not(unix))]
 #[derive(Debug)]
 pub(super) struct Line;
@@ -178,12 +179,12 @@ impl Line {
     }
 }
 
-/// Prints a line to standard error, which may be the terminal; does not wait for one that takes no
-/// output.
+/// Prints a line to standard error, which may be the terminal; does not wait for one that accepts
+/// no output.
 pub(crate) fn complain(line: String) {
     let (done, printed) = mpsc::channel();
     let print = move || {
-        // There is nowhere to report it if that fails.
+        // A failure cannot be reported anywhere.
         let _ = writeln!(io::stderr(), "{line}");
         let _ = done.send(());
     };
@@ -193,8 +194,8 @@ pub(crate) fn complain(line: String) {
     }
 }
 
-/// Opens the terminal's side that keys come from: standard input, or the controlling terminal
-/// where a scene is piped in.
+/// Opens the input side of the terminal: standard input, or the controlling terminal if a scene is
+/// piped in.
 #[cfg(unix)]
 pub(super) fn keyboard() -> io::Result<OwnedFd> {
     let input = io::stdin();
@@ -205,7 +206,8 @@ pub(super) fn keyboard() -> io::Result<OwnedFd> {
     }
 }
 
-/// Makes the terminal raw, whatever has changed its modes; one that is raw stays so throughout.
+/// Makes the terminal raw, regardless of how its modes were changed. A raw terminal stays raw
+/// throughout.
 #[cfg(unix)]
 pub(super) fn make_raw() -> io::Result<()> {
     use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
@@ -244,7 +246,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_window_beyond_any_screen_is_drawn_on_in_part() {
+    fn only_part_of_an_oversized_window_is_drawn() {
         for (window, drawn) in [
             ((1, 1), (1, 1)),
             ((120, 40), (120, 40)),
@@ -258,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_size_comes_from_the_environment_or_is_the_usual_one() {
+    fn an_unknown_size_comes_from_the_environment_or_defaults() {
         for (reported, lines, expected) in [
             ((100, 30), Some(50), (100, 30)),
             ((0, 0), None, (80, 24)),

@@ -1,4 +1,4 @@
-//! A picture as characters, for terminals without colours.
+//! Pictures as characters, for terminals without colours.
 //!
 //! Dark areas are letters and dots, bright ones blocks, so that the ramp goes from black to white;
 //! edges are sharpened and follow the halves of cells.
@@ -7,8 +7,8 @@ use super::dither;
 use super::oklab::light;
 use crate::ui::app::Shown;
 
-/// Characters, and how much of their upper and lower halves they fill: blocks by definition, the
-/// others as in common fonts (`DejaVu` Sans Mono, Noto Sans Mono) on average.
+/// Characters, and the coverage of their upper and lower halves: exact for blocks, for the others
+/// an average over common fonts (`DejaVu` Sans Mono, Noto Sans Mono).
 const GLYPHS: [(&str, [f32; 2]); 13] = [
     (" ", [0.0, 0.0]),
     (".", [0.0, 0.04]),
@@ -25,16 +25,18 @@ const GLYPHS: [(&str, [f32; 2]); 13] = [
     ("▄", [0.0, 1.0]),
 ];
 
-/// How much of the difference from its neighbours a pixel's lightness is changed by.
+/// Amount of sharpening: the factor applied to a pixel's difference in lightness from its
+/// neighbours.
 const SHARPNESS: f32 = 1.5;
 
-/// How much lightness varies in the pattern: as much as the ramp's last step, so that white is white.
+/// Amplitude of the dither pattern in lightness: the last step of the ramp, so that white stays
+/// white.
 const NOISE: f32 = 0.09;
 
 /// The lightness of a picture's pixels, ready to be drawn.
 #[derive(Debug)]
 pub(super) struct Characters {
-    /// From 0 to 1, row by row, as many as the picture has pixels.
+    /// One value per pixel from 0 to 1, row by row.
     lightness: Vec<f32>,
     width: usize,
     glyphs: [Glyph; GLYPHS.len()],
@@ -66,12 +68,12 @@ impl Characters {
         }
     }
 
-    /// The character of a cell inside the picture; below an odd last row is black.
+    /// The character of a cell inside the picture; the half below an odd last row is black.
     pub(super) fn at(&self, column: u32, row: u32) -> &'static str {
         let x = column as usize;
         let [upper, lower] = [2 * row, 2 * row + 1].map(|y| self.sharpened(x, y as usize));
         let whole = fourth_root(f32::midpoint(upper.powi(4), lower.powi(4)));
-        // A cell is one step of the pattern: rows of cells, not of pixels, have thresholds.
+        // Thresholds are per cell, not per pixel.
         let threshold = dither::threshold(column, row) as f32 + 0.5;
         let noise = NOISE * (threshold / dither::STEPS as f32 - 0.5);
         let goal = [upper, lower, whole].map(|lightness| lightness + noise);
@@ -87,8 +89,8 @@ impl Characters {
         closest
     }
 
-    /// The lightness of a pixel, farther from its four neighbours' than it is; the picture goes on
-    /// beyond its edge as it is there.
+    /// The lightness of a pixel after sharpening against its four neighbours; pixels beyond the
+    /// edge repeat those at the edge.
     fn sharpened(&self, x: usize, y: usize) -> f32 {
         let Some(here) = self.lightness(x, y) else {
             return 0.0;
@@ -111,8 +113,9 @@ impl Characters {
     }
 }
 
-/// The lightness of light. Lightness is about its cube root; characters are coarse, and in the midst of
-/// their ramp more of a picture is recognized than where its lightness is exact.
+/// The lightness of linear light. Perceived lightness is about its cube root; characters are
+/// coarse, and more of a picture is recognizable near the middle of their ramp than with exact
+/// lightness.
 fn fourth_root(light: f32) -> f32 {
     light.sqrt().sqrt()
 }
@@ -182,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn below_an_odd_last_row_is_black() {
+    fn the_half_below_an_odd_last_row_is_black() {
         assert_eq!(drawn(1, 1, |_, _| 255), ["▀"]);
     }
 

@@ -6,21 +6,22 @@ use ratatui::style::Style;
 use ratatui::widgets::{Block, BorderType, Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
-use super::layout;
-use super::row::{Row, wrap};
-use super::theme;
+use super::row::Row;
 use crate::document::Merge;
 use crate::text::{Position, counted};
-use crate::ui::app::{App, Dialog, Disk, Outside};
+use crate::ui::app::{App, Dialog, OnDisk, Outside};
+use crate::ui::fit::wrap;
 use crate::ui::keymap;
+use crate::ui::layout;
 use crate::ui::recovery::{Offer, Since};
+use crate::ui::theme;
 
-/// The least room for one side of a conflict, in columns.
+/// Minimum width of one side of a conflict, in columns.
 const SIDE: usize = 12;
 
-/// Draws the question that is open, if any.
+/// Draws the open question, if any.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    match &app.dialog {
+    match &app.overlays.dialog {
         None => {}
         Some(Dialog::Quit) => {
             let text = format!("{}. Quit?", app.losses().unwrap_or_default());
@@ -33,7 +34,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// The question about edits that an earlier run kept.
+/// The question about unsaved edits of an earlier run.
 fn offered(app: &App, offer: &Offer) -> String {
     let places = counted(offer.places, "place");
     let differ = if offer.places == 1 {
@@ -59,13 +60,13 @@ fn offered(app: &App, offer: &Offer) -> String {
     format!(
         "{} has unsaved edits from an earlier run: {places} {differ} from the {text}.{since}{damage} \
          Take them?",
-        app.file_name(),
+        app.disk.name(),
     )
 }
 
-/// What the text is that kept edits are merged with.
+/// The name of the text that recovered edits are merged with.
 fn text_name(app: &App) -> &'static str {
-    if app.document.is_dirty() || app.disk == Disk::Missing {
+    if app.document.is_dirty() || app.disk.state == OnDisk::Missing {
         "text"
     } else {
         "file"
@@ -86,7 +87,7 @@ fn ask(app: &App, title: &str, text: &str, area: Rect, buffer: &mut Buffer) {
     draw_answers(&keys, inner, buffer);
 }
 
-/// Draws the conflicts with what was decided, and both texts of the one under the cursor.
+/// Draws the conflicts with their decisions, and both texts of the selected one.
 fn conflict(app: &App, merge: &Merge, at: usize, from: &Outside, area: Rect, buffer: &mut Buffer) {
     let width = area.width.saturating_sub(4).min(90);
     let keys = answers(app, width.saturating_sub(4));
@@ -141,7 +142,7 @@ fn conflict(app: &App, merge: &Merge, at: usize, from: &Outside, area: Rect, buf
     draw_answers(&keys, inner, buffer);
 }
 
-/// Clears room for a question and frames it; the area inside.
+/// Clears and frames the area of a question; returns the area inside the frame.
 fn frame(title: &str, size: (u16, usize), area: Rect, buffer: &mut Buffer) -> Rect {
     let height = u16::try_from(size.1).unwrap_or(u16::MAX);
     let area = layout::centred(area, Rect::new(0, 0, size.0, height)).intersection(buffer.area);
@@ -155,14 +156,14 @@ fn frame(title: &str, size: (u16, usize), area: Rect, buffer: &mut Buffer) -> Re
     inner
 }
 
-/// A line of keys and what they answer.
+/// A line of keys with their answers.
 type Answers = Vec<(String, &'static str)>;
 
 /// The keys that answer, broken into lines of at most `width` cells.
 fn answers(app: &App, width: u16) -> Vec<Answers> {
     let mut lines: Vec<Answers> = Vec::new();
     let mut left = 0;
-    let context = keymap::context(app);
+    let context = app.context();
     for (key, words) in keymap::hints(context) {
         let room = key.width() + words.width() + 3;
         if lines.is_empty() || left < room {
@@ -189,8 +190,7 @@ fn draw_answers(lines: &[Answers], area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// A text on one line, its white space as single blanks. Of a side that has nothing where the other
-/// has something, it shows that it was deleted.
+/// A text on one line, with white space collapsed. An empty side of a conflict is shown as deleted.
 fn one_line(text: &str) -> String {
     let words: Vec<_> = text.split_whitespace().take(50).collect();
     if words.is_empty() {
@@ -207,10 +207,10 @@ mod tests {
     use crate::ui::view::tests::{SCENE, app, conflict, drawn, retype};
 
     #[test]
-    fn quitting_says_what_would_be_lost_and_how_to_answer() {
+    fn quitting_shows_what_would_be_lost_and_how_to_answer() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " 0.5 //");
-        app.dialog = Some(Dialog::Quit);
+        app.overlays.dialog = Some(Dialog::Quit);
         let text = drawn(&app, super::render, 80, 24).join("\n");
         for part in ["test.ray has edits", "y quit", "w save and quit", "n stay"] {
             assert!(text.contains(part), "{part:?} in\n{text}");
@@ -224,7 +224,7 @@ mod tests {
         let theirs = SCENE.replace(" 0.25 //", " 0.75 //");
         let mut merge = conflict(&app, &theirs);
         merge.conflicts[0].decision = Some(Side::Theirs);
-        app.dialog = Some(Dialog::Conflict {
+        app.overlays.dialog = Some(Dialog::Conflict {
             merge,
             at: 0,
             from: Outside::File,
@@ -248,7 +248,7 @@ mod tests {
         let from = SCENE.find("box").expect("a box");
         let theirs = SCENE[..from].replacen("\n2\n", "\n1\n", 1);
         let merge = conflict(&app, &theirs);
-        app.dialog = Some(Dialog::Conflict {
+        app.overlays.dialog = Some(Dialog::Conflict {
             merge,
             at: 0,
             from: Outside::File,

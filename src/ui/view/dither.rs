@@ -1,9 +1,9 @@
-//! Ordered dithering: in-between colours as patterns of those that a terminal has.
+//! Ordered dithering: approximates colours by patterns of those that a terminal has.
 //!
-//! What a pixel becomes depends on its place and on the colours there alone, so that a picture that
-//! has not changed sends nothing.
+//! The result for a pixel depends only on its position and colour, so that an unchanged picture
+//! sends nothing.
 
-/// How many thresholds there are.
+/// Number of thresholds.
 pub(super) const STEPS: u32 = 64;
 
 /// The threshold of a pixel, less than [`STEPS`]: Bayer's 8×8 matrix (B. E. Bayer, “An optimum

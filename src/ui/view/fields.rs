@@ -1,28 +1,31 @@
-//! The fields of the selected thing, with the value being typed and what the selected field means.
+//! The fields of the selected node, with the value being typed and an explanation of the selected
+//! field.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 use ratatui::widgets::{Clear, Widget};
 
-use super::layout;
 use super::row::{self, Row};
-use super::theme;
 use crate::language::Node;
 use crate::language::table::Kind;
 use crate::scene::Rgb;
 use crate::text::{counted, parse_number, without_suffix};
-use crate::ui::app::{App, FieldRow, Mode, Provenance, Stride, Typing};
+use crate::ui::app::{App, FieldRow, Provenance, Typing};
+use crate::ui::fit::wrap;
+use crate::ui::keymap::{Mode, Stride};
+use crate::ui::layout;
+use crate::ui::theme;
 
 /// Draws the fields.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let focused = app.mode == Mode::Edit;
-    let stride = match app.stride {
+    let stride = match app.cursor.stride {
         Stride::Fine => Some("step × 0.1".to_owned()),
         Stride::Plain => None,
         Stride::Coarse => Some("step × 10".to_owned()),
     };
-    let name = app.source().name(app.selected);
+    let name = app.source().name(app.cursor.selected());
     row::title(
         &name,
         &stride.or_else(|| users(app)).unwrap_or_default(),
@@ -34,38 +37,38 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let fields = app.fields();
     let lines = layout::field_rows(area);
     let rows = usize::from(lines.height);
-    let top = app.field_top.min(fields.len().saturating_sub(rows));
+    let top = app.cursor.field_top.min(fields.len().saturating_sub(rows));
     for (line, (index, field)) in fields.iter().enumerate().skip(top).take(rows).enumerate() {
         let line = Rect {
             y: lines.y + line as u16,
             height: 1,
             ..lines
         };
-        let cursor = (focused && index == app.field).then_some(app.component);
+        let cursor = (focused && index == app.cursor.field).then_some(app.cursor.component);
         field_line(app, field, cursor, line, buffer);
     }
     let below = fields.len().saturating_sub(top);
-    for (line, (depth, part)) in (below..rows).zip(app.parts()) {
+    for (line, (depth, part)) in (below..rows).zip(app.cursor.parts().iter().copied()) {
         let mut row = Row::new(buffer, lines, line as u16);
         row.skip(1 + 2 * depth.min(usize::from(lines.width)) as u16);
         row.put(&part_name(app, part), theme::DIM);
     }
-    if let Some(field) = fields.get(app.field).filter(|_| focused) {
+    if let Some(field) = fields.get(app.cursor.field).filter(|_| focused) {
         explain(app, field, layout::field_notes(area), buffer);
     }
 }
 
-/// How many objects change with the selected thing, if it is one that objects share.
+/// The number of objects that use the selected node, if it is a material or texture.
 fn users(app: &App) -> Option<String> {
-    let objects = counted(app.source().users(app.selected), "object");
-    match app.selected {
+    let objects = counted(app.source().users(app.cursor.selected()), "object");
+    match app.cursor.selected() {
         Node::Material(_) => Some(format!("colours {objects}")),
         Node::Texture(_) => Some(format!("on {objects}")),
         _ => None,
     }
 }
 
-/// The name of a part of a combined object; of a combination, with its operation.
+/// The name of a part of a combined object, with its operation if it is a combination itself.
 fn part_name(app: &App, part: Node) -> String {
     let name = app.source().name(part);
     let operation = match part {
@@ -75,7 +78,7 @@ fn part_name(app: &App, part: Node) -> String {
     [&name, operation.unwrap_or_default()].join(" ")
 }
 
-/// Draws a field: its name and its literals in columns, the one under the cursor marked.
+/// Draws a field: its name and its literals in columns, with the one under the cursor marked.
 fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, buffer: &mut Buffer) {
     let (name, columns) = layout::field_columns(line, field.literals.len());
     let mut row = Row::new(buffer, name, 0);
@@ -107,7 +110,7 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
             row.put("  (default)", style);
         }
     }
-    if let (Some(component), Some(typing)) = (cursor, &app.typing)
+    if let (Some(component), Some(typing)) = (cursor, &app.cursor.typing)
         && let Some(column) = columns.get(component)
     {
         // The last cell keeps a gap to the next number.
@@ -119,7 +122,7 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
     }
 }
 
-/// Draws the value being typed, over the one that stands there.
+/// Draws the value being typed in place of the current one.
 fn typed(typing: &Typing, area: Rect, buffer: &mut Buffer) {
     Clear.render(area.intersection(buffer.area), buffer);
     let style = theme::ACCENT.add_modifier(Modifier::UNDERLINED);
@@ -128,14 +131,15 @@ fn typed(typing: &Typing, area: Rect, buffer: &mut Buffer) {
     row.put_input(&typing.input, room, style, theme::CURSOR);
 }
 
-/// Says below the fields why a value was refused, within which range it is, and what it does.
+/// Draws below the fields why a value was refused, its valid range, and its effect.
 fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     let width = usize::from(area.width.saturating_sub(1));
     let mut lines: Vec<(String, Style)> = Vec::new();
     let mut say = |text: &str, style| {
-        lines.extend(row::wrap(text, width).into_iter().map(|line| (line, style)));
+        lines.extend(wrap(text, width).into_iter().map(|line| (line, style)));
     };
     if let Some(refused) = app
+        .cursor
         .typing
         .as_ref()
         .and_then(|typing| typing.refused.as_ref())
@@ -143,7 +147,7 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
         say(&refused.message, theme::ERROR);
     }
     let names = field.field.kind.component_names();
-    let component = names.get(app.component).copied().unwrap_or_default();
+    let component = names.get(app.cursor.component).copied().unwrap_or_default();
     let expected = field.field.advice();
     let what = [component, &expected].join(if component.is_empty() { "" } else { ": " });
     let unit = if field.field.unit.is_empty() {
@@ -158,7 +162,7 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     };
     say(&format!("{what}{nudge}"), Style::new());
     say(field.field.doc, theme::DIM);
-    match field.sources.get(app.component) {
+    match field.sources.get(app.cursor.component) {
         Some(Provenance::Default) => say("Not in the text: this is the default.", theme::DIM),
         Some(Provenance::WorkingView) => {
             say("The working view differs from the text.", theme::WARNING);
@@ -172,7 +176,7 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// The colour that a field's literals name.
+/// The colour that a field's literals represent.
 fn swatch(field: &FieldRow) -> Option<Rgb> {
     let channel = |at: usize| {
         let literal = field.literals.get(at)?;
@@ -195,12 +199,12 @@ mod tests {
     fn editing(selected: Node) -> App {
         let mut app = app();
         app.mode = Mode::Edit;
-        app.selected = selected;
+        app.cursor.select(selected, app.document.source());
         app
     }
 
     #[test]
-    fn literals_stand_as_they_do_in_the_text() {
+    fn literals_are_shown_as_in_the_text() {
         let lines = drawn(&editing(Node::Object(0)), render, 34, 20);
         assert!(lines[0].starts_with("object 1 (sphere) ─"), "{}", lines[0]);
         assert_eq!(lines[1], "▸centre    0      .5     -1e0");
@@ -217,8 +221,8 @@ mod tests {
     #[test]
     fn a_refused_value_stays_and_is_explained() {
         let mut app = editing(Node::Object(0));
-        app.field = 1;
-        app.typing = Some(Typing {
+        app.cursor.field = 1;
+        app.cursor.typing = Some(Typing {
             input: Input::new("-3".to_owned()),
             refused: Some(Diagnostic::error(
                 Span::at(0),
@@ -239,17 +243,17 @@ mod tests {
             (0, " x: a number · step"),
             (2, " red: a number, usually from 0 to 1 · step"),
         ] {
-            app.field = field;
+            app.cursor.field = field;
             let lines = drawn(&app, render, 50, 20);
             assert!(lines[16].starts_with(shown), "{}", lines[16]);
         }
     }
 
     #[test]
-    fn the_other_components_stay_while_one_is_typed() {
+    fn the_other_components_stay_while_one_is_being_typed() {
         let mut app = editing(Node::Object(0));
-        app.component = 1;
-        app.typing = Some(Typing {
+        app.cursor.component = 1;
+        app.cursor.typing = Some(Typing {
             input: Input::new("0.123456789".to_owned()),
             refused: None,
         });
@@ -261,7 +265,7 @@ mod tests {
     #[test]
     fn the_cursor_is_on_one_component() {
         let mut app = editing(Node::Object(0));
-        app.component = 1;
+        app.cursor.component = 1;
         let area = Rect::new(0, 0, 34, 20);
         let mut buffer = Buffer::empty(area);
         render(&app, area, &mut buffer);

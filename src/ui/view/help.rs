@@ -1,4 +1,4 @@
-//! The help page: the table of keys, printed and searched.
+//! The help page: the table of keys, with search.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -6,20 +6,19 @@ use ratatui::style::Style;
 use ratatui::text::Line;
 use ratatui::widgets::{Block, BorderType, Clear, Widget};
 
-use super::layout;
 use super::row::Row;
-use super::theme;
 use crate::text::counted;
 use crate::ui::app::{App, HelpFocus};
-use crate::ui::keymap;
 use crate::ui::keymap::HelpLine;
+use crate::ui::layout;
+use crate::ui::theme;
 
-/// Draws the help page, if it is open.
+/// Draws the help page if it is open.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    let Some(help) = &app.help else {
+    let Some(help) = &app.overlays.help else {
         return;
     };
-    let lines = keymap::help(help.search.value(), app.mode);
+    let lines = app.help_lines();
     let page = layout::centred(area, Rect::new(0, 0, 76, area.height));
     let mut block = Block::bordered()
         .border_type(BorderType::Rounded)
@@ -77,9 +76,9 @@ mod tests {
     use tui_input::Input;
 
     #[test]
-    fn only_lines_with_what_is_searched_for_are_shown() {
+    fn only_matching_lines_are_shown() {
         let mut app = app();
-        app.help = Some(Help {
+        app.overlays.help = Some(Help {
             search: Input::new("ORBIT".to_owned()),
             ..Help::default()
         });

@@ -1,22 +1,24 @@
-//! The list: view, ambient light, lights, objects. Only the lines shown cost anything.
+//! The list: view, ambient light, lights, objects. Only visible lines are computed.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 
-use super::layout;
-use super::row::{Row, shorten, title, visible};
-use super::theme;
+use super::row::{Row, title};
 use crate::language::Node;
 use crate::scene::Rgb;
-use crate::ui::app::{App, Mode};
+use crate::ui::app::App;
+use crate::ui::fit::{shorten, visible};
+use crate::ui::keymap::Mode;
+use crate::ui::layout;
+use crate::ui::theme;
 
-/// The least room for a comment, in columns.
+/// Minimum width of a comment, in columns.
 const COMMENT: usize = 6;
 
 /// Draws the list.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
-    let selected = app.row_of(app.selected);
+    let selected = app.selected_row();
     let nodes = app.nodes();
     let count = nodes.len();
     let focused = matches!(app.mode, Mode::Select | Mode::Pick);
@@ -31,14 +33,14 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
 
     let lines = layout::contents(area);
     let rows = usize::from(lines.height);
-    let top = app.list_top.min(count.saturating_sub(rows));
+    let top = app.cursor.list_top.min(count.saturating_sub(rows));
     let marked = marked(app);
     let shown = (top..count).take(rows);
     let shown = shown.filter_map(|row| Some((row, nodes.get(row)?)));
     for (line, (index, node)) in shown.enumerate() {
         let is_selected = index == selected;
         let is_drawn = match node {
-            // A group is as much there as what is in it.
+            // A group is drawn if its parts are.
             Node::Object(index) => {
                 app.source().drawn(index).is_some() || app.source().is_group(index)
             }
@@ -53,7 +55,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         let mut row = Row::new(buffer, lines, line as u16);
         row.put(if is_selected { "▸ " } else { "  " }, style);
         match swatch(app, node) {
-            // Not reversed with the selected line: the dot is to show its own colour.
+            // Not reversed with the selected line, so that the dot shows its own colour.
             Some(colour) if is_drawn => row.put("● ", theme::swatch(colour)),
             Some(colour) => row.put("○ ", theme::swatch(colour)),
             None if !is_drawn => row.put("○ ", style),
@@ -74,14 +76,13 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// A thing's name, two columns further in for each thing that it is in: never so far that nothing
-/// is left to read.
+/// The name of a node, indented by two columns per level of nesting, up to a third of the width.
 fn indented(app: &App, node: Node, width: usize) -> String {
     let indent = (2 * app.source().depth(node)).min(width / 3);
     format!("{:indent$}{}", "", app.source().name(node))
 }
 
-/// Things that diagnostics are about, with the style of the gravest.
+/// Nodes with diagnostics, styled by severity, the most severe first.
 fn marked(app: &App) -> Vec<(Node, Style)> {
     let mut marked: Vec<_> = app
         .diagnostics
@@ -95,7 +96,7 @@ fn marked(app: &App) -> Vec<(Node, Style)> {
         .collect()
 }
 
-/// The colour a thing is known by: a light's own, an object's diffuse one.
+/// The colour that identifies a node: the colour of a light, the diffuse colour of an object.
 fn swatch(app: &App, node: Node) -> Option<Rgb> {
     let scene = app.scene.as_ref()?;
     match node {
@@ -121,7 +122,7 @@ mod tests {
     use crate::ui::view::tests::{app, app_of, drawn, retype};
 
     #[test]
-    fn what_is_in_a_thing_is_listed_further_in() {
+    fn nested_nodes_are_indented() {
         let app = app_of(
             Language::Xml,
             "<xml><scene><object name='all'><object type='sphere' name='ball'/></object>
@@ -139,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn things_are_listed_and_the_selected_one_is_marked() {
+    fn nodes_are_listed_and_the_selected_one_is_marked() {
         let lines = drawn(&app(), super::render, 26, 6);
         assert_eq!(lines[0], "scene ──────────────── 1/5");
         assert_eq!(lines[1], "▸   view");
@@ -149,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn a_comment_stands_beside_the_name_where_there_is_room() {
+    fn a_comment_follows_the_name_if_there_is_room() {
         let mut app = app();
         let lines = drawn(&app, super::render, 40, 6);
         assert_eq!(lines[4], "  ● object 1 (sphere)  the first");
@@ -161,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn a_thing_with_an_error_is_marked() {
+    fn a_node_with_an_error_is_marked() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " -0.25 //");
         let lines = drawn(&app, super::render, 26, 6);

@@ -1,14 +1,15 @@
-//! A message that the status line has no room for: all of it, on the lines above the keys.
+//! The full text of a message that does not fit in the status line, shown above the keys.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::{Clear, Widget};
 
-use super::row::{Row, title, visible, wrap};
-use super::{layout, theme};
+use super::row::{Row, title};
 use crate::ui::app::Message;
+use crate::ui::fit::{visible, wrap};
+use crate::ui::{layout, theme};
 
-/// Draws a message at the bottom of `area`, as far as it fits there.
+/// Draws as much of a message as fits at the bottom of `area`.
 pub(crate) fn render(message: &Message, area: Rect, buffer: &mut Buffer) {
     let text = visible(&message.text);
     let lines = wrap(&text, usize::from(area.width.saturating_sub(2)));

@@ -1,16 +1,16 @@
-//! Drawing: one panel a file, composed here.
+//! Drawing: one file per panel, composed here.
 //!
-//! Views read the app and write cells. They know no threads, channels or locks, never change the
-//! app and never panic, whatever the size of the screen. Text from files reaches the screen
+//! Views read the app and write cells. They use no threads, channels or locks, never change the app
+//! and never panic, regardless of the size of the screen. Text from files reaches the screen
 //! through [`row`], which shows control characters instead of sending them.
 
 mod characters;
 mod dialog;
 mod dither;
-pub(crate) mod errors;
+mod errors;
 mod fields;
 mod help;
-pub mod layout;
+mod inks;
 mod list;
 mod message;
 mod oklab;
@@ -18,7 +18,6 @@ mod palette;
 mod picture;
 mod row;
 mod status;
-mod theme;
 
 #[cfg(test)]
 mod tests;
@@ -26,78 +25,12 @@ mod tests;
 use ratatui::Frame;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
-use ratatui::style::{Color, Style};
+use ratatui::style::Style;
 
 use super::app::App;
-use super::terminal::ColourDepth;
-use layout::LEAST;
-use palette::Palette;
-
-/// What pixels are made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Glyphs {
-    /// Two pixels a cell in their own colours.
-    HalfBlocks,
-    /// Two pixels a cell, in a pattern of the 256 colours.
-    HalfBlocksOf256,
-    /// Two pixels a cell, in a pattern of the sixteen colours.
-    HalfBlocksOf16,
-    /// A character a cell, by brightness: for terminals without colours.
-    Characters,
-}
-
-impl Glyphs {
-    /// What colours the picture is made of.
-    fn name(self) -> &'static str {
-        let depth = match self {
-            Self::HalfBlocks => ColourDepth::TrueColour,
-            Self::HalfBlocksOf256 => ColourDepth::Palette256,
-            Self::HalfBlocksOf16 => ColourDepth::Palette16,
-            Self::Characters => ColourDepth::Mono,
-        };
-        depth.name()
-    }
-
-    fn for_depth(depth: ColourDepth) -> Self {
-        match depth {
-            ColourDepth::Mono => Self::Characters,
-            ColourDepth::Palette16 => Self::HalfBlocksOf16,
-            ColourDepth::Palette256 => Self::HalfBlocksOf256,
-            ColourDepth::TrueColour => Self::HalfBlocks,
-        }
-    }
-}
-
-/// What pictures are drawn with: the glyphs, and what was worked out about the colours they have.
-#[derive(Debug)]
-pub struct Inks {
-    glyphs: Glyphs,
-    palette: Option<Palette>,
-}
-
-impl Inks {
-    /// What suits a terminal of so many colours.
-    pub fn for_depth(depth: ColourDepth) -> Self {
-        Self::new(Glyphs::for_depth(depth))
-    }
-
-    fn new(glyphs: Glyphs) -> Self {
-        let palette = match glyphs {
-            Glyphs::HalfBlocksOf256 => Some(Palette::of_256()),
-            Glyphs::HalfBlocksOf16 => Some(Palette::of_16()),
-            Glyphs::HalfBlocks | Glyphs::Characters => None,
-        };
-        Self { glyphs, palette }
-    }
-
-    /// The colour of a pixel at a place.
-    fn colour(&mut self, colour: [u8; 3], x: u32, y: u32) -> Color {
-        match &mut self.palette {
-            Some(palette) => Color::Indexed(palette.at(colour, x, y)),
-            None => Color::Rgb(colour[0], colour[1], colour[2]),
-        }
-    }
-}
+use super::layout::{self, LEAST};
+use super::theme;
+pub use inks::Inks;
 
 /// Draws the whole screen.
 pub fn draw(app: &App, inks: &mut Inks, frame: &mut Frame) {
@@ -114,13 +47,13 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     }
     picture::render(app, inks, areas.picture, buffer);
     rule(app, areas.rule, buffer);
-    if !areas.list.is_empty() && !app.is_opening() {
+    if !areas.list.is_empty() && !app.disk.is_opening() {
         list::render(app, areas.list, buffer);
         fields::render(app, areas.fields, buffer);
     }
     errors::render(app, areas.errors, buffer);
     status::render(app, inks.glyphs, areas.status, buffer);
-    match &app.prompt {
+    match &app.overlays.prompt {
         Some(prompt) if areas.hint.is_empty() => {
             status::render_prompt(prompt, areas.status, buffer);
         }
@@ -135,7 +68,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     dialog::render(app, body, buffer);
 }
 
-/// Draws the line between the picture and the panels, which shows from afar that a picture is stale.
+/// Draws the line between the picture and the panels, which makes a stale picture obvious.
 fn rule(app: &App, area: Rect, buffer: &mut Buffer) {
     let style = if 0 < app.error_count() {
         theme::WARNING
@@ -154,7 +87,7 @@ fn rule(app: &App, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// Shows that the screen is too small, in what room there is.
+/// Draws the notice that the screen is too small, as far as it fits.
 fn too_small(area: Rect, buffer: &mut Buffer) {
     let (width, height) = LEAST;
     let text = format!("needs {width}×{height}");

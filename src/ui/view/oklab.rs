@@ -1,7 +1,7 @@
-//! Colours as they are seen: light from the bytes of sRGB, and `OkLab` from light (B. Ottosson, “A
+//! Perceptual colour: linear light from sRGB bytes, and `OkLab` from linear light (B. Ottosson, “A
 //! perceptual color space for image processing”, 2020).
 
-/// The light of an 8-bit sRGB colour: red, green and blue, each from 0 to 1.
+/// Converts an 8-bit sRGB colour to linear red, green and blue, each from 0 to 1.
 pub(super) fn light(colour: [u8; 3]) -> [f32; 3] {
     colour.map(|channel| {
         let value = f32::from(channel) / 255.0;
@@ -13,8 +13,8 @@ pub(super) fn light(colour: [u8; 3]) -> [f32; 3] {
     })
 }
 
-/// Light in `OkLab`, where distances are about those that are seen: lightness from 0 to 1, then the
-/// two axes of hue.
+/// Converts linear light to `OkLab`, whose distances approximate perceived ones: lightness from 0
+/// to 1, then the two chromatic axes.
 pub(super) fn oklab(light: [f32; 3]) -> [f32; 3] {
     let times = |rows: [[f32; 3]; 3], of: [f32; 3]| {
         rows.map(|row| row[0] * of[0] + row[1] * of[1] + row[2] * of[2])
@@ -37,7 +37,7 @@ pub(super) fn oklab(light: [f32; 3]) -> [f32; 3] {
     )
 }
 
-/// The brightness of an 8-bit colour, from 0 to 255, with the weights of Rec. 709.
+/// The luma of an 8-bit colour, from 0 to 255, with the weights of Rec. 709.
 pub(super) fn luma([red, green, blue]: [u8; 3]) -> f32 {
     0.2126 * f32::from(red) + 0.7152 * f32::from(green) + 0.0722 * f32::from(blue)
 }

@@ -1,17 +1,17 @@
-//! The colours of a terminal that has only a few, and which of them stand for any other.
+//! Palettes of terminals with few colours, and the approximation of other colours by mixing them.
 //!
-//! A colour becomes a mix: a few of the palette's in a pattern, whose light together is close to
-//! its own. Of 256 colours the first sixteen are never used: they are the theme's.
+//! A colour becomes a mix: a pattern of a few palette colours whose total light is close to its
+//! own. The first sixteen of 256 colours are never used, because they depend on the theme.
 
 use super::dither;
 use super::oklab::{light, luma, oklab};
 
-/// The levels of each channel in the 6×6×6 cube of 256 colours.
+/// The levels of each channel in the 6×6×6 cube of the 256 colours.
 const CUBE: [u8; 6] = [0, 95, 135, 175, 215, 255];
 
 /// The sixteen colours: the mean light of xterm's, the Linux console's, the Tango palette's and
-/// Windows' first. Pictures made for the mean are closer than chafa's in each of these themes; those
-/// made for xterm's alone are not.
+/// Windows' original ones. Pictures made for the mean are closer than chafa's in each of these
+/// themes; those made for xterm's alone are not.
 const THEME: [[u8; 3]; 16] = [
     [0, 0, 0],
     [180, 0, 0],
@@ -31,52 +31,52 @@ const THEME: [[u8; 3]; 16] = [
     [251, 251, 251],
 ];
 
-/// How many pixels a mix is made of.
+/// Number of pixels in a mix.
 const PARTS: usize = 8;
 
-/// How many of the nearest colours are tried for a mix. With more, mixes are found that are right on
-/// average and loud to the eye.
+/// Number of nearest colours tried for a mix. More give mixes that are right on average but visibly
+/// noisy.
 const CANDIDATES: usize = 12;
 
-/// How much more a wrong hue counts than a wrong lightness. `OkLab`'s two axes of hue are about half
-/// as long as the eye has them.
+/// Weight of an error in hue relative to lightness. The two chromatic axes of `OkLab` are about
+/// half as long as perceived.
 const HUE_WEIGHT: f32 = 2.0;
 
-/// The most that neighbours in an area of one colour may differ in luma, as a mean, in 256 colours. At
+/// Maximum mean difference in luma between neighbours in an area of one colour, in 256 colours. At
 /// 12, skies and walls show the pattern; at 4, means of 2×2 pixels are off by a tenth more.
 const FLAT: f32 = 7.5;
 
-/// The width of a box of colours that share a mix. The levels of [`CUBE`] are multiples of it, so
-/// that they are mapped to themselves.
+/// Width of a box of colours that share a mix. The levels of [`CUBE`] are multiples of it, so that
+/// they are mapped to themselves.
 const STEP: usize = 5;
 
-/// Boxes along a channel.
+/// Number of boxes along a channel.
 const STEPS: usize = 255 / STEP + 1;
 
-/// Which of a palette's colours are mixed. See `benches/colours.rs` for what it comes to.
+/// How the colours of a palette are mixed. `benches/colours.rs` measures the result.
 #[derive(Clone, Copy, Debug)]
 struct Taste {
-    /// How much the noise of a mix counts beside the error of its mean. The more, the flatter areas
-    /// are, and the coarser the steps between them.
+    /// Weight of the noise of a mix relative to the error of its mean. Greater values give flatter
+    /// areas and coarser steps between them.
     noise: f32,
-    /// The most that neighbours in an area of one colour may differ in luma, as a mean.
+    /// Maximum mean difference in luma between neighbours in an area of one colour.
     step: f32,
-    /// How far a colour of a mix may be from the nearest one, as a part of the lightness: what is
-    /// close in the light is loud in the dark, such as teal among greys.
+    /// Maximum distance of a colour of a mix from the nearest one, relative to the lightness:
+    /// colours that are close when bright are conspicuous when dark, such as teal among greys.
     reach: f32,
 }
 
-/// Colours of a palette, and mixes of them, made as they are needed.
+/// A palette and mixes of its colours, computed on demand.
 #[derive(Debug)]
 pub(super) struct Palette {
     colours: Vec<Fixed>,
     taste: Taste,
-    /// One for each box of colours, then one for each grey: the ramp's are not multiples of
+    /// One for each box of colours, then one for each grey: those of the ramp are not multiples of
     /// [`STEP`].
     mixes: Vec<Option<Mix>>,
 }
 
-/// A colour of a palette.
+/// A colour of the palette.
 #[derive(Clone, Copy, Debug)]
 struct Fixed {
     index: u8,
@@ -90,7 +90,7 @@ struct Fixed {
 type Mix = [u8; PARTS];
 
 impl Palette {
-    /// The 240 fixed colours of 256.
+    /// The 240 fixed colours of the 256.
     pub(super) fn of_256() -> Self {
         let taste = Taste {
             noise: 0.6,
@@ -102,7 +102,7 @@ impl Palette {
 
     /// The sixteen colours of the terminal's theme.
     pub(super) fn of_16() -> Self {
-        // Nothing is close to anything here: contrast and hue are worth the noise.
+        // No palette colour is close to anything: contrast and hue are worth the noise.
         let taste = Taste {
             noise: 0.2,
             step: f32::MAX,
@@ -126,7 +126,7 @@ impl Palette {
         }
     }
 
-    /// The index of the colour for a pixel at a place.
+    /// The index of the palette colour for a pixel of this colour and position.
     pub(super) fn at(&mut self, colour: [u8; 3], x: u32, y: u32) -> u8 {
         let (slot, of_box) = slot(colour);
         let mix = match self.mixes[slot] {
@@ -137,7 +137,7 @@ impl Palette {
     }
 }
 
-/// The place of a colour's mix, and the colour that it is made for.
+/// The slot of a colour's mix, and the colour that the mix is made for.
 fn slot(colour: [u8; 3]) -> (usize, [u8; 3]) {
     if is_grey(colour) {
         return (STEPS * STEPS * STEPS + usize::from(colour[0]), colour);
@@ -150,8 +150,8 @@ fn slot(colour: [u8; 3]) -> (usize, [u8; 3]) {
     )
 }
 
-/// A mix whose light as a whole, and whose every part, is close to a colour. Each part in turn is the
-/// one that brings the light of those so far closest. Greys are mixed from greys.
+/// Returns a mix that is close to a colour, both in total light and in each part. Each part in turn
+/// minimizes the error of the parts so far. Greys are mixed only from greys.
 fn mix(colours: &[Fixed], taste: Taste, colour: [u8; 3]) -> Mix {
     let goal = oklab(light(colour));
     let mut nearest = nearest(colours, goal);
@@ -169,8 +169,9 @@ fn mix(colours: &[Fixed], taste: Taste, colour: [u8; 3]) -> Mix {
     let candidates = &nearest[..kept];
     let mut parts = [closest; PARTS];
     let mut sum = [0.0; 3];
-    // In Bayer's pattern the neighbours of the brighter half of a mix are the darker half, so that
-    // their mean step is twice the mean deviation from the median, or less than from any other part.
+    // In Bayer's pattern, each pixel of the brighter half of a mix is surrounded by the darker
+    // half, so that the mean step is twice the mean deviation from the median, which is at most
+    // that from any other part.
     let mut room = taste.step * PARTS as f32 / 2.0;
     let mut first = None;
     for (count, part) in (1_u8..).zip(&mut parts) {
@@ -195,7 +196,7 @@ fn mix(colours: &[Fixed], taste: Taste, colour: [u8; 3]) -> Mix {
     parts.map(|part| part.index)
 }
 
-/// The colours closest to a colour, the closest first.
+/// The colours nearest to a colour, the nearest first.
 fn nearest(colours: &[Fixed], lab: [f32; 3]) -> [Fixed; CANDIDATES] {
     let mut found = [(f32::INFINITY, colours[0]); CANDIDATES];
     for &candidate in colours {
@@ -213,13 +214,13 @@ fn is_grey([red, green, blue]: [u8; 3]) -> bool {
     red == green && green == blue
 }
 
-/// A squared distance of colours.
+/// The squared distance of two colours in `OkLab`.
 fn squared(one: [f32; 3], other: [f32; 3], hue_weight: f32) -> f32 {
     let [lightness, a, b] = std::array::from_fn(|axis| (one[axis] - other[axis]).powi(2));
     lightness + hue_weight * (a + b)
 }
 
-/// Red, green and blue of one of the fixed colours of 256.
+/// Red, green and blue of one of the 240 fixed colours.
 fn fixed_colour(index: u8) -> [u8; 3] {
     let at = index - 16;
     match index {
@@ -235,7 +236,7 @@ mod tests {
 
     const PLACES: std::ops::Range<u32> = 0..64;
 
-    /// The colour of an index.
+    /// Maps an index to its colour.
     type Look = fn(u8) -> [u8; 3];
 
     fn palettes() -> [(Palette, Look); 2] {
@@ -245,20 +246,20 @@ mod tests {
         ]
     }
 
-    /// The colours of a patch of one colour, 8×8 pixels.
+    /// The colours of an 8×8 patch of one colour.
     fn patch(palette: &mut Palette, look: Look, colour: [u8; 3]) -> Vec<[u8; 3]> {
         PLACES
             .map(|at| look(palette.at(colour, at % 8, at / 8)))
             .collect()
     }
 
-    /// A few thousand colours, on no level of the cube.
+    /// A few thousand colours, none on a level of the cube.
     fn colours() -> impl Iterator<Item = [u8; 3]> {
         let level = |at: u32| (at * 17 + 3).min(255) as u8;
         (0..16 * 16 * 16).map(move |at| [level(at / 256), level(at / 16 % 16), level(at % 16)])
     }
 
-    /// The colour of a patch seen from afar, in `OkLab`.
+    /// The mean colour of a patch, in `OkLab`.
     fn mean(patch: &[[u8; 3]]) -> [f32; 3] {
         let sum = patch.iter().map(|&shown| light(shown));
         let sum = sum.fold([0.0; 3], |sum, light| {
@@ -283,7 +284,7 @@ mod tests {
 
     #[test]
     fn greys_are_mixed_from_greys() {
-        // The widest gap of 256 is from the last of the ramp to white.
+        // The widest gap among the 256 is from the end of the ramp to white.
         for ((mut palette, look), gap) in palettes().into_iter().zip([17, 109]) {
             for grey in 0..=255 {
                 for shown in patch(&mut palette, look, [grey; 3]) {
@@ -295,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn flat_stays_flat() {
+    fn flat_areas_stay_flat() {
         let mut palette = Palette::of_256();
         for colour in colours() {
             let patch = patch(&mut palette, fixed_colour, colour);
@@ -310,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn no_saturated_dots_stand_on_dark_greys() {
+    fn dark_greys_contain_no_saturated_dots() {
         let mut palette = Palette::of_256();
         let dark = colours().filter(|&colour| luma(colour) < 80.0);
         for colour in dark.filter(|&[r, g, b]| r.max(g).max(b) - r.min(g).min(b) <= 40) {
@@ -325,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn a_patch_is_closer_than_its_nearest_colour() {
+    fn a_patch_is_closer_than_the_nearest_palette_colour() {
         for ((mut palette, look), part) in palettes().into_iter().zip([0.75, 0.5]) {
             let (mut mixed, mut alone, mut count) = (0.0, 0.0, 0.0);
             for colour in colours() {

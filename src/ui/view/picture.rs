@@ -1,5 +1,5 @@
-//! The picture: two pixels a cell, `▀` with the upper one in front and the lower one behind; a
-//! character where there are no colours.
+//! The picture: two pixels per cell, drawn as `▀` with the upper pixel as foreground and the lower
+//! one as background; a character per cell on terminals without colours.
 
 use std::borrow::Cow;
 
@@ -9,13 +9,14 @@ use ratatui::style::{Color, Modifier, Style};
 use unicode_width::UnicodeWidthStr;
 
 use super::characters::Characters;
-use super::layout::{self, raster};
+use super::inks::{Glyphs, Inks};
 use super::row::Row;
-use super::theme;
-use super::{Glyphs, Inks};
-use crate::ui::app::{App, Mode, Shown};
+use crate::ui::app::{App, Shown};
+use crate::ui::keymap::Mode;
+use crate::ui::layout::{self, raster};
+use crate::ui::theme;
 
-/// Draws the picture on screen, letterboxed, with what is marked in it.
+/// Draws the current picture, letterboxed, with its marks.
 pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let Some((cells, size)) = raster(area, app.output()) else {
         return;
@@ -43,10 +44,10 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     }
 }
 
-/// Shows why there is no picture.
+/// Draws the reason why there is no picture.
 fn notice(app: &App, area: Rect, buffer: &mut Buffer) {
-    let text = match (&app.unread, &app.scene, app.picture().wanted) {
-        (Some(unread), ..) => opening(&app.file_name(), unread.bytes),
+    let text = match (&app.disk.unread, &app.scene, app.picture().wanted) {
+        (Some(unread), ..) => opening(&app.disk.name(), unread.bytes),
         (None, Some(_), Some(_)) => "tracing…".to_owned(),
         (None, Some(_), None) => "no picture".to_owned(),
         (None, None, _) => "no picture: the scene has errors".to_owned(),
@@ -55,7 +56,7 @@ fn notice(app: &App, area: Rect, buffer: &mut Buffer) {
     Row::new(buffer, layout::centred(area, line), 0).put(&text, theme::DIM);
 }
 
-/// The notice that a file is being read, with its length if that explains the wait.
+/// The notice that a file is being read, with its size if that explains the wait.
 fn opening(name: &str, bytes: u64) -> String {
     match bytes as f64 / 1e6 {
         ..1.0 => format!("opening {name}…"),
@@ -64,9 +65,9 @@ fn opening(name: &str, bytes: u64) -> String {
     }
 }
 
-/// Marks the cell that is picked from, and names what lies there.
+/// Marks the cell to pick from and names the object there.
 fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
-    let (column, row) = app.cross;
+    let (column, row) = app.pictures.cross;
     let (x, y) = (cells.x.saturating_add(column), cells.y.saturating_add(row));
     if cells.contains((x, y).into())
         && let Some(cell) = buffer.cell_mut((x, y))
@@ -82,7 +83,7 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
     Row::new(buffer, cells, 0).put(&format!(" {name} "), theme::chip(theme::ACCENT));
 }
 
-/// Draws pixels over the cells of their raster.
+/// Draws the pixels of a picture over its cells.
 fn paint(shown: &Shown, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let width = shown.size.width;
     let pixel = |x: u32, y: u32| -> Option<Pixel> {
@@ -111,13 +112,13 @@ fn paint(shown: &Shown, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// A pixel as it is drawn.
+/// One pixel to draw.
 #[derive(Clone, Copy, Debug)]
 struct Pixel {
     colour: [u8; 3],
-    /// Whether it is part of the outline.
+    /// Whether the pixel belongs to the outline.
     outlined: bool,
-    /// Its place: dithering depends on it.
+    /// Position of the pixel, which dithering depends on.
     at: (u32, u32),
 }
 
@@ -137,7 +138,7 @@ fn rgb([red, green, blue]: [u8; 3]) -> Color {
     Color::Rgb(red, green, blue)
 }
 
-/// How an outline looks without colours.
+/// The style of an outline without colours.
 fn marked(upper: Pixel, lower: Option<Pixel>) -> Style {
     if upper.outlined || lower.is_some_and(|lower| lower.outlined) {
         Style::reset().add_modifier(Modifier::REVERSED)
@@ -187,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn below_an_odd_last_row_is_nothing() {
+    fn the_half_below_an_odd_last_row_is_empty() {
         let buffer = painted(&shown(1, 1, &[[9; 3]]), Glyphs::HalfBlocks);
         assert_eq!(buffer[(0, 0)].bg, Color::Reset);
     }
@@ -202,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn without_colours_brightness_is_a_character_and_an_outline_is_reversed() {
+    fn without_colours_brightness_selects_a_character_and_outlines_are_reversed() {
         let mut picture = shown(2, 2, &[[255; 3], [0; 3], [255; 3], [0; 3]]);
         picture.outline = [true, false].repeat(2);
         let buffer = painted(&picture, Glyphs::Characters);

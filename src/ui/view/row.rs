@@ -1,15 +1,14 @@
-//! Writing one line of cells from left to right, and making text fit and safe to show.
-
-use std::borrow::Cow;
+//! Writes one line of cells from left to right.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
-use super::theme;
+use crate::ui::fit::{shorten, visible};
+use crate::ui::theme;
 
-/// One line that is written from left to right and never over its end.
+/// A line that is written from left to right, clipped at its end.
 #[derive(Debug)]
 pub(crate) struct Row<'a> {
     buffer: &'a mut Buffer,
@@ -17,7 +16,7 @@ pub(crate) struct Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    /// The line `index` lines below the top of `area`; lines outside of it take no text.
+    /// The line at `index` below the top of `area`; a line outside of it takes no text.
     pub(crate) fn new(buffer: &'a mut Buffer, area: Rect, index: u16) -> Self {
         let line = Rect {
             y: area.y.saturating_add(index),
@@ -28,7 +27,7 @@ impl<'a> Row<'a> {
         Self { buffer, left }
     }
 
-    /// Cells left to write.
+    /// Number of cells left.
     pub(crate) fn room(&self) -> usize {
         if self.left.is_empty() {
             0
@@ -37,7 +36,7 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Writes text, shortened to the room left; control characters are shown, never sent.
+    /// Writes text, shortened to the remaining cells; control characters are shown, never sent.
     pub(crate) fn put(&mut self, text: &str, style: Style) -> &mut Self {
         let room = self.room();
         self.put_in(text, room, style)
@@ -57,7 +56,7 @@ impl<'a> Row<'a> {
         self
     }
 
-    /// Leaves cells as they are.
+    /// Skips cells without changing them.
     pub(crate) fn skip(&mut self, cells: u16) -> &mut Self {
         let cells = cells.min(self.left.width);
         self.left.x += cells;
@@ -65,12 +64,12 @@ impl<'a> Row<'a> {
         self
     }
 
-    /// Skips to a column of the screen, if it is not behind already.
+    /// Skips to a column of the screen, unless it has been passed.
     pub(crate) fn skip_to(&mut self, column: u16) -> &mut Self {
         self.skip(column.saturating_sub(self.left.x))
     }
 
-    /// Writes a line being typed into `width` cells, scrolled so that its cursor is seen.
+    /// Writes a prompt's text into `width` cells, scrolled so that its cursor is visible.
     pub(crate) fn put_input(
         &mut self,
         input: &tui_input::Input,
@@ -109,8 +108,8 @@ impl<'a> Row<'a> {
     }
 }
 
-/// Draws the title line of a panel, with something at its right end; a style if the panel has the
-/// keys.
+/// Draws the title line of a panel, with `right` at its end; `keys` is a style if the panel has the
+/// focus.
 pub(crate) fn title(text: &str, right: &str, keys: Option<Style>, area: Rect, buffer: &mut Buffer) {
     let mut row = Row::new(buffer, area, 0);
     row.put(text, theme::BOLD.patch(keys.unwrap_or_default()));
@@ -121,147 +120,10 @@ pub(crate) fn title(text: &str, right: &str, keys: Option<Style>, area: Rect, bu
     row.skip(1).put(right, theme::DIM);
 }
 
-/// Breaks text into lines of at most `width` cells, between words where it can.
-pub(crate) fn wrap(text: &str, width: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    let mut columns = 0;
-    for word in text.split_whitespace() {
-        let wide = word.width();
-        match lines.last_mut() {
-            Some(line) if columns + 1 + wide <= width => {
-                line.push(' ');
-                line.push_str(word);
-                columns += 1 + wide;
-            }
-            _ => {
-                lines.extend(pieces(word, width));
-                columns = lines.last().map_or(0, |line| line.width());
-            }
-        }
-    }
-    lines
-}
-
-/// A word in pieces of at most `width` cells, but of one character at least.
-fn pieces(word: &str, width: usize) -> Vec<String> {
-    let mut pieces = vec![String::new()];
-    let mut columns = 0;
-    for c in word.chars() {
-        let wide = c.width().unwrap_or(0);
-        if 0 < columns && width < columns + wide {
-            pieces.push(String::new());
-            columns = 0;
-        }
-        if let Some(piece) = pieces.last_mut() {
-            piece.push(c);
-        }
-        columns += wide;
-    }
-    pieces
-}
-
-/// The text with control and other invisible characters as visible escapes.
-pub(crate) fn visible(text: &str) -> Cow<'_, str> {
-    if !text.chars().any(is_invisible) {
-        return Cow::Borrowed(text);
-    }
-    let mut shown = String::with_capacity(text.len() + 8);
-    for c in text.chars() {
-        match picture_of(c) {
-            Some(symbol) => shown.push(symbol),
-            None if is_invisible(c) => shown.extend(c.escape_unicode()),
-            None => shown.push(c),
-        }
-    }
-    Cow::Owned(shown)
-}
-
-/// Text that takes at most `width` cells: cut and ended by `…` where it is longer.
-pub(crate) fn shorten(text: &str, width: usize) -> Cow<'_, str> {
-    // A byte takes at least no cell and a character at most two, so that long texts need not be
-    // measured to their end.
-    if text.len() <= width || (text.len() <= 4 * width + 64 && text.width() <= width) {
-        return Cow::Borrowed(text);
-    }
-    let mut columns = 0;
-    let mut kept = String::new();
-    let mut cut = false;
-    for c in text.chars() {
-        let next = columns + c.width().unwrap_or(0);
-        if width <= next {
-            // The last cell is for the text's last character or for the sign that there is more.
-            cut = true;
-            break;
-        }
-        columns = next;
-        kept.push(c);
-    }
-    if cut && 0 < width {
-        kept.push('…');
-    }
-    Cow::Owned(kept)
-}
-
-/// The symbol Unicode has for a control character.
-fn picture_of(c: char) -> Option<char> {
-    match c {
-        '\0'..='\x1f' => char::from_u32(0x2400 + c as u32),
-        '\x7f' => Some('\u{2421}'),
-        _ => None,
-    }
-}
-
-/// Controls, and characters without a cell of their own other than combining marks: joiners,
-/// direction marks, tags.
-fn is_invisible(c: char) -> bool {
-    c.is_control()
-        || matches!(c,
-            '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
-            | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}'
-            | '\u{e0000}'..='\u{e007f}')
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use tui_input::Input;
-
-    #[test]
-    fn controls_are_shown_and_never_sent() {
-        let check = |text, shown: &str| assert_eq!(visible(text), shown);
-        check("plain é", "plain é");
-        check("\x1b[2J", "␛[2J");
-        check("a\u{202e}b", "a\\u{202e}b");
-        check("\u{9b}31m", "\\u{9b}31m");
-        check("\x7f\r", "␡␍");
-    }
-
-    #[test]
-    fn long_text_ends_in_an_ellipsis() {
-        let check = |text: &str, width, short: &str| assert_eq!(shorten(text, width), short);
-        check("abcdef", 6, "abcdef");
-        check("abcdef", 5, "abcd…");
-        check("界界界", 6, "界界界");
-        check("界界界", 5, "界界…");
-        check("界界界", 4, "界…");
-        check("abc", 1, "…");
-        check("abc", 0, "");
-        check(&"x".repeat(1000), 3, "xx…");
-    }
-
-    #[test]
-    fn lines_break_between_words() {
-        assert_eq!(
-            wrap("one two  three", 7),
-            ["one two".to_owned(), "three".to_owned()]
-        );
-        assert_eq!(
-            wrap("an extraordinary 界界", 5),
-            ["an", "extra", "ordin", "ary", "界界"]
-        );
-        assert_eq!(wrap("界a", 1), ["界", "a"]);
-        assert!(wrap(" ", 5).is_empty());
-    }
 
     #[test]
     fn typed_text_scrolls_with_its_cursor() {

@@ -1,4 +1,4 @@
-//! The two lines at the bottom: keys of the mode or a line being typed, and how things stand.
+//! The two lines at the bottom: the key hints or a prompt, and the status line.
 
 use std::time::Duration;
 
@@ -7,22 +7,23 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
-use super::Glyphs;
-use super::row::{Row, visible};
-use super::theme;
+use super::inks::Glyphs;
+use super::row::Row;
 use crate::render::Progress;
 use crate::scene::Integrator;
 use crate::text::{counted, percentage};
-use crate::ui::app::{App, Disk, Message, Mode, Prompt, PromptKind};
-use crate::ui::keymap::{self, Context};
+use crate::ui::app::{App, Message, OnDisk, Prompt, PromptKind};
+use crate::ui::fit::visible;
+use crate::ui::keymap::{self, Context, Mode};
+use crate::ui::theme;
 
-/// Draws the line being typed, or else the keys that mean something now, as many as fit.
+/// Draws the prompt, or as many of the current key hints as fit.
 pub(crate) fn render_hint(app: &App, area: Rect, buffer: &mut Buffer) {
-    if let Some(prompt) = &app.prompt {
+    if let Some(prompt) = &app.overlays.prompt {
         render_prompt(prompt, area, buffer);
         return;
     }
-    let context = keymap::context(app);
+    let context = app.context();
     let help = matches!(context, Context::In(_) | Context::Errors | Context::Opening);
     let last = if help { "  ? help " } else { "" };
     let mut row = Row::new(buffer, area, 0);
@@ -40,7 +41,7 @@ pub(crate) fn render_hint(app: &App, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// Draws a line being typed.
+/// Draws a prompt.
 pub(crate) fn render_prompt(prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
     let sign = match prompt.kind {
         PromptKind::Command => ":",
@@ -54,22 +55,22 @@ pub(crate) fn render_prompt(prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
     row.put_input(&prompt.input, room, Style::new(), theme::CURSOR);
 }
 
-/// One part of the line, unless others are more important.
+/// A part of the status line, omitted if more important ones need its room.
 struct Segment {
-    /// 0 is the most important.
+    /// Rank of importance; 0 is the highest.
     rank: u8,
     text: String,
     style: Style,
 }
 
-/// The message, where the line has no room for all of it.
+/// The message, if the status line can't show all of it.
 pub(crate) fn long_message(app: &App, glyphs: Glyphs, width: u16) -> Option<&Message> {
-    let message = app.message.as_ref()?;
+    let message = app.overlays.message.as_ref()?;
     is_message_long(&segments(app, glyphs), usize::from(width)).then_some(message)
 }
 
-/// Draws how things stand: what matters least is left out where there is no room, and a message that
-/// would be cut short.
+/// Draws the status line. The least important parts are omitted if there is no room, and so is a
+/// message that would be cut.
 pub(crate) fn render(app: &App, glyphs: Glyphs, area: Rect, buffer: &mut Buffer) {
     let mut segments = segments(app, glyphs);
     let mut row = Row::new(buffer, area, 0);
@@ -91,14 +92,14 @@ pub(crate) fn render(app: &App, glyphs: Glyphs, area: Rect, buffer: &mut Buffer)
     }
 }
 
-/// Whether the message would be cut short behind what is more important.
+/// Whether the message would be cut after the more important parts.
 fn is_message_long(segments: &[Segment], room: usize) -> bool {
     let ranked = segments.iter().filter(|segment| segment.rank <= MESSAGE);
     let widths = ranked.map(|segment| segment.text.width() + GAP);
     segments.iter().any(|segment| segment.rank == MESSAGE) && room + GAP < widths.sum()
 }
 
-/// The segments that fit, in their order; what matters most may be shortened.
+/// The segments that fit, in order; the most important ones may be shortened.
 fn fitting(segments: &[Segment], room: usize) -> Vec<&Segment> {
     let mut ranked: Vec<usize> = (0..segments.len()).collect();
     ranked.sort_by_key(|&at| segments[at].rank);
@@ -107,7 +108,7 @@ fn fitting(segments: &[Segment], room: usize) -> Vec<&Segment> {
         .into_iter()
         .filter(|&at| {
             let width = segments[at].text.width() + GAP;
-            // Of what matters most, a part is better than nothing.
+            // A part of an important segment is better than nothing.
             let fits = width <= left || segments[at].rank <= MESSAGE && 2 * GAP < left;
             left -= if fits { width.min(left) } else { 0 };
             fits
@@ -117,33 +118,33 @@ fn fitting(segments: &[Segment], room: usize) -> Vec<&Segment> {
     kept.into_iter().map(|at| &segments[at]).collect()
 }
 
-/// The most cells between two segments.
+/// Maximum number of cells between two segments.
 const GAP: usize = 3;
 
-/// The ranks of the parts about the picture's progress.
+/// Ranks of the segments on the progress of the picture.
 const PROGRESS: std::ops::RangeInclusive<u8> = 20..=29;
 
-/// The rank of the mark of unsaved edits, which stands close to the name of the file.
+/// Rank of the mark of unsaved edits, which is placed next to the file name.
 const DIRTY: u8 = 2;
 
-/// The rank of messages: what comes before is always shown.
+/// Rank of messages; segments of a lower rank are always shown.
 const MESSAGE: u8 = 4;
 
 fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
     let mut all = Vec::new();
     let mut say = |rank, text: String, style| all.push(Segment { rank, text, style });
     text_segments(app, &mut say);
-    let still_writing = app.still_writing();
+    let still_writing = app.jobs.still_writing();
     if let Some((path, seconds)) = still_writing {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let text = format!("still writing {name}, {seconds} s");
         say(3, text, theme::WARNING);
     }
-    if let Some(export) = &app.export {
+    if let Some(export) = &app.jobs.export {
         let done = export.progress.map_or(0.0, |progress| progress.done);
         say(6, format!("export {}", percent(done)), theme::ACCENT);
     }
-    if app.awaits_assets() {
+    if app.assets.are_awaited() {
         say(7, "reading files".to_owned(), theme::ACCENT);
     }
     if let Some(progress) = app.picture().progress() {
@@ -157,19 +158,19 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
         say(30, size, theme::DIM);
         say(31, glyphs.name().to_owned(), theme::DIM);
     }
-    if let Some(bytes) = app.net {
+    if let Some(bytes) = app.pictures.net {
         say(8, format!("net {} KB/s", bytes.div_ceil(1000)), theme::DIM);
     }
-    if let Some(message) = &app.message {
+    if let Some(message) = &app.overlays.message {
         let style = theme::severity(message.severity);
         say(MESSAGE, visible(&message.text).into_owned(), style);
     }
     all
 }
 
-/// Says the mode, and how the text stands.
+/// Adds the mode and the state of the text.
 fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
-    let (mode, style) = if app.is_opening() {
+    let (mode, style) = if app.disk.is_opening() {
         ("OPENING", theme::ACCENT)
     } else {
         mode_chip(app.mode)
@@ -181,15 +182,15 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
         let text = format!(" {} ", counted(errors, "error"));
         say(1, text, theme::chip(theme::ERROR));
     }
-    say(5, app.file_name(), theme::BOLD);
+    say(5, app.disk.name(), theme::BOLD);
     if app.document.is_dirty() {
         say(DIRTY, "[+]".to_owned(), theme::BOLD);
     }
-    let disk = match app.disk {
-        Disk::Known => None,
-        Disk::Changed => Some("[disk changed]"),
-        Disk::Broken => Some("[errors on disk]"),
-        Disk::Missing => Some("[file missing]"),
+    let disk = match app.disk.state {
+        OnDisk::Known => None,
+        OnDisk::Changed => Some("[disk changed]"),
+        OnDisk::Broken => Some("[errors on disk]"),
+        OnDisk::Missing => Some("[file missing]"),
     };
     if let Some(disk) = disk {
         say(3, disk.to_owned(), theme::WARNING);
@@ -197,7 +198,7 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if app.fails_to_keep() {
         say(3, "[not kept]".to_owned(), theme::WARNING);
     }
-    if app.view.is_some() {
+    if app.pictures.view.is_some() {
         say(7, "view*".to_owned(), theme::WARNING);
     }
     if 0 < warnings {
@@ -205,10 +206,9 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     }
 }
 
-/// Says what is shown instead of light, or else how light is gathered, with a star where the user
-/// changed what the scene says.
+/// Adds the auxiliary image shown, or the integrator, with a star if it differs from the scene's.
 fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
-    if let Some(aov) = app.aov {
+    if let Some(aov) = app.pictures.aov {
         say(7, aov.name().to_owned(), theme::WARNING);
         return;
     }
@@ -251,8 +251,8 @@ fn progress_segments(progress: &Progress, say: &mut impl FnMut(u8, String, Style
     }
 }
 
-/// The time the rest will take at the pace so far. While the first pass is not through nothing is
-/// said: its coarse samples say little about the others.
+/// Estimates the remaining time at the pace so far. `None` during the first pass, whose coarse
+/// samples say little about the others.
 fn time_left(progress: &Progress) -> Option<Duration> {
     let known = 1 <= progress.spp && 0.0 < progress.done && !progress.complete;
     let seconds = progress.elapsed.as_secs_f64() * (1.0 - progress.done) / progress.done;
@@ -270,7 +270,7 @@ fn mode_chip(mode: Mode) -> (&'static str, Style) {
 }
 
 fn percent(share: f64) -> String {
-    // Rounded down: only what is complete shows 100 %.
+    // Rounded down: only a complete picture shows 100 %.
     format!("{} %", (100.0 * share).floor())
 }
 
@@ -294,10 +294,10 @@ mod tests {
     use tui_input::Input;
 
     #[test]
-    fn what_matters_least_is_left_out() {
+    fn the_least_important_segments_are_omitted() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " 0.5 //");
-        app.message = Some(Message {
+        app.overlays.message = Some(Message {
             severity: None,
             text: "took the file's changes".to_owned(),
         });
@@ -312,12 +312,12 @@ mod tests {
         assert_eq!(line(&app, 40), " SELECT  [+]  took the file's changes");
         assert_eq!(line(&app, 25), " SELECT  test.ray [+]");
         assert_eq!(line(&app, 5), " SEL…");
-        app.disk = Disk::Broken;
+        app.disk.state = OnDisk::Broken;
         assert_eq!(line(&app, 40), " SELECT  [+]  [errors on disk]");
     }
 
     #[test]
-    fn what_is_shown_has_a_star_where_the_scene_differs() {
+    fn an_integrator_that_differs_from_the_scenes_has_a_star() {
         let mut app = app();
         let said = |app: &App| {
             let mut words = Vec::new();
@@ -325,16 +325,16 @@ mod tests {
             words
         };
         assert_eq!(said(&app), ["whitted"]);
-        app.quality.integrator = Some(Integrator::Path);
+        app.pictures.quality.integrator = Some(Integrator::Path);
         assert_eq!(said(&app), ["path*"]);
-        app.aov = Some(Aov::Depth);
+        app.pictures.aov = Some(Aov::Depth);
         assert_eq!(said(&app), ["depth"]);
         let paths = "<xml><scene/><camera gamma='sRGB'/></xml>";
         assert_eq!(said(&app_of(Language::Xml, paths)), ["path"]);
     }
 
     #[test]
-    fn progress_is_shown_until_it_is_complete() {
+    fn progress_is_shown_until_the_picture_is_complete() {
         let said = |complete| {
             let progress = Progress {
                 pass: 3,
@@ -352,7 +352,8 @@ mod tests {
             progress_segments(&progress, &mut |_, text, _| words.push(text));
             words.join(" · ")
         };
-        // A quarter took 1.5 s, so that three more take 4.5 s; 21 million in 1.5 s are 14 a second.
+        // A quarter took 1.5 s, so three more take 4.5 s; 21 million in 1.5 s are 14 million per
+        // second.
         assert_eq!(
             said(false),
             "pass 3/6 · 2 spp · 25 % · noise 1.3 % · 1.5 s · ETA 4.5 s · 14 Mray/s"
@@ -370,14 +371,14 @@ mod tests {
     }
 
     #[test]
-    fn a_line_being_typed_takes_the_place_of_the_keys() {
+    fn a_prompt_replaces_the_keys() {
         let mut app = app();
         let hint = drawn(&app, render_hint, 80, 1)[0].clone();
         assert!(
             hint.starts_with(" j/k move  Enter edit") && hint.ends_with("? help"),
             "{hint}"
         );
-        app.prompt = Some(Prompt {
+        app.overlays.prompt = Some(Prompt {
             kind: PromptKind::Command,
             input: Input::new("export a.bmp".to_owned()),
         });

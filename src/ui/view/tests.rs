@@ -1,4 +1,4 @@
-//! The whole screen at every size, and what the panels' tests share.
+//! The whole screen at every size, and helpers for the tests of the panels.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -9,18 +9,19 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use tui_input::Input;
 
-use super::layout::Zoom;
-use super::{Glyphs, Inks, draw};
+use super::inks::Glyphs;
+use super::{Inks, draw};
 use crate::document::{Document, Merge, Side};
-use crate::language::Language;
-use crate::language::Node;
+use crate::language::{Language, Node};
 use crate::render::{Filter, Frame, NO_OBJECT, Progress};
 use crate::scene::Size;
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
-    App, Dialog, Disk, Export, Help, HelpFocus, Message, Mode, Opening, OpeningText, Outside,
-    Prompt, PromptKind, Quality, Stage, Typing,
+    App, Dialog, Export, Help, HelpFocus, Message, OnDisk, Opening, OpeningText, Outside, Prompt,
+    PromptKind, Quality, Stage, Typing,
 };
+use crate::ui::keymap::Mode;
+use crate::ui::layout::Zoom;
 use crate::ui::msg::{Destination, Existing, ExportId};
 use crate::ui::recovery::Offer;
 use crate::ui::recovery::tests::{damaged, offer};
@@ -58,7 +59,7 @@ pub(super) fn app_of(language: Language, text: &str) -> App {
         mouse: Mouse::Off,
         terminal: (80, 24),
     });
-    app.selected = Node::View;
+    app.cursor.select(Node::View, app.document.source());
     app
 }
 
@@ -69,18 +70,22 @@ pub(super) fn retype(app: &mut App, old: &str, new: &str) {
         span: Span::new(at, at + old.len()),
         text: new.to_owned(),
     }]);
-    let lowered = app.document.lower(&app.meshes).expect("there is memory");
+    let lowered = app
+        .document
+        .lower(&app.assets.meshes)
+        .expect("there is memory");
     app.diagnostics = lowered.diagnostics;
+    app.cursor.renew(app.document.source());
 }
 
-/// What is to be decided between the text and another one from outside.
+/// The conflict between the text and a text from outside.
 pub(super) fn conflict(app: &App, theirs: &str) -> Merge {
     let theirs = Document::new(app.document.language(), theirs.to_owned());
     let merged = app.document.snapshot().merge(theirs);
     merged.expect_err("both changed the same place")
 }
 
-/// A panel's lines without blanks at their ends.
+/// The lines of a panel without trailing spaces.
 pub(super) fn drawn(
     app: &App,
     panel: impl Fn(&App, Rect, &mut Buffer),
@@ -101,7 +106,7 @@ fn lines(buffer: &Buffer) -> Vec<String> {
     (0..buffer.area.height).map(line).collect()
 }
 
-/// The whole screen's lines.
+/// The lines of the whole screen.
 fn screen(app: &mut App, width: u16, height: u16) -> Vec<String> {
     app.terminal = (width, height);
     let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
@@ -140,12 +145,12 @@ fn frame(width: u32, height: u32) -> Arc<Frame> {
 
 type Change = fn(&mut App);
 
-/// Everything that can be open, by name.
+/// All states of the interface, by name.
 const STATES: &[(&str, Change)] = &[
     ("nothing", |_| {}),
     ("picture", |app| {
-        app.preview.take(frame(8, 6));
-        app.preview.advance(
+        app.pictures.preview.take(frame(8, 6));
+        app.pictures.preview.advance(
             Size {
                 width: 8,
                 height: 6,
@@ -153,75 +158,75 @@ const STATES: &[(&str, Change)] = &[
             None,
             usize::MAX,
         );
-        app.selected = Node::Object(1);
+        app.cursor.select(Node::Object(1), app.document.source());
     }),
     ("picture alone", |app| app.zoom = Zoom::Picture),
     ("errors", |app| {
         retype(app, "sphere", "\u{1b}[2Jsphäre 界\t");
         retype(app, "0.5 0 0", "0.5 x -");
-        app.disk = Disk::Broken;
+        app.disk.state = OnDisk::Broken;
     }),
     ("list of errors", |app| {
         retype(app, " 0.25 ", " -1 ");
-        app.errors = Some(7);
+        app.overlays.errors = Some(7);
     }),
-    ("no errors", |app| app.errors = Some(0)),
+    ("no errors", |app| app.overlays.errors = Some(0)),
     ("nothing at all", |app| {
         retype(app, SCENE, "");
         app.scene = None;
-        app.selected = Node::Object(9);
-        app.field = 99;
-        app.component = 99;
-        app.list_top = 99;
-        app.field_top = 99;
+        app.cursor.select(Node::Object(9), app.document.source());
+        app.cursor.field = 99;
+        app.cursor.component = 99;
+        app.cursor.list_top = 99;
+        app.cursor.field_top = 99;
     }),
-    ("help", |app| app.help = Some(Help::default())),
+    ("help", |app| app.overlays.help = Some(Help::default())),
     ("help, far down", |app| {
-        app.help = Some(Help {
+        app.overlays.help = Some(Help {
             top: usize::MAX,
             search: Input::new("界 nowhere".to_owned()),
             focus: HelpFocus::Search,
         });
     }),
-    ("quit", |app| app.dialog = Some(Dialog::Quit)),
+    ("quit", |app| app.overlays.dialog = Some(Dialog::Quit)),
     ("recover", |app| {
         let text = app.document.shared_text();
         let kept = SCENE.replace(" 0.25 ", " 0.75 ");
         let offer = offer(app.document.language(), &text, SCENE, &kept);
-        app.dialog = Some(Dialog::Recover(Box::new(offer)));
+        app.overlays.dialog = Some(Dialog::Recover(Box::new(offer)));
     }),
     ("conflict", |app| {
         retype(app, " 0.25 ", " 0.5 ");
         let mut merge = conflict(app, &SCENE.replace(" 0.25 ", " 0.75 "));
         merge.conflicts[0].decision = Some(Side::Mine);
-        app.dialog = Some(Dialog::Conflict {
+        app.overlays.dialog = Some(Dialog::Conflict {
             merge,
             at: 0,
             from: Outside::File,
         });
     }),
     ("typing", |app| {
-        app.selected = Node::Object(0);
-        app.typing = Some(Typing {
+        app.cursor.select(Node::Object(0), app.document.source());
+        app.cursor.typing = Some(Typing {
             input: Input::new("1234567890123456789012345678901234567890".to_owned()),
             refused: None,
         });
     }),
     ("prompt", |app| {
-        app.prompt = Some(Prompt {
+        app.overlays.prompt = Some(Prompt {
             kind: PromptKind::Search,
             input: Input::new("界界界界界界界界界界界界界界界界".to_owned()).with_cursor(3),
         });
     }),
     ("message", |app| {
-        app.message = Some(Message {
+        app.overlays.message = Some(Message {
             severity: Some(Severity::Warning),
             text: "界\u{1b}]52;c;界\u{7}".repeat(20),
         });
-        app.net = Some(86_000);
-        app.view = app.camera();
-        app.disk = Disk::Changed;
-        app.export = Some(Export {
+        app.pictures.net = Some(86_000);
+        app.pictures.view = app.camera();
+        app.disk.state = OnDisk::Changed;
+        app.jobs.export = Some(Export {
             id: ExportId::default(),
             stage: Stage::Tracing,
             destination: Destination {
@@ -269,7 +274,7 @@ fn every_screen_can_be_drawn_at_every_size() {
         for mode in MODES {
             let mut app = app();
             app.mode = mode;
-            app.cross = (3, 300);
+            app.pictures.cross = (3, 300);
             change(&mut app);
             for &(width, height) in &sizes {
                 let lines = screen(&mut app, width, height);
@@ -281,14 +286,14 @@ fn every_screen_can_be_drawn_at_every_size() {
 }
 
 #[test]
-fn a_screen_that_is_too_small_says_so() {
+fn a_screen_that_is_too_small_shows_a_notice() {
     let mut app = app();
     assert_eq!(screen(&mut app, 19, 3)[1].trim(), "needs 20×6");
     assert_eq!(screen(&mut app, 4, 1), ["nee…"]);
 }
 
 #[test]
-fn a_message_longer_than_the_status_line_is_shown_whole() {
+fn a_message_longer_than_the_status_line_is_shown_in_full() {
     let name = "n".repeat(255);
     for text in [
         "the file's changes are merged with your edits: sphere 1 radius; u undoes the merge",
@@ -298,7 +303,7 @@ fn a_message_longer_than_the_status_line_is_shown_whole() {
     ] {
         for width in [20, 40, 80, 150] {
             let mut app = app();
-            app.message = Some(Message {
+            app.overlays.message = Some(Message {
                 severity: Some(Severity::Error),
                 text: text.to_owned(),
             });
@@ -311,12 +316,12 @@ fn a_message_longer_than_the_status_line_is_shown_whole() {
 }
 
 #[test]
-fn the_places_that_kept_edits_change_are_counted() {
+fn the_changes_in_recovered_edits_are_counted() {
     let shown = |change: fn(&str) -> String, follow: fn(Offer) -> Offer| {
         let mut app = app();
         let text = app.document.shared_text();
         let offer = follow(offer(Language::Ray, &text, SCENE, &change(SCENE)));
-        app.dialog = Some(Dialog::Recover(Box::new(offer)));
+        app.overlays.dialog = Some(Dialog::Recover(Box::new(offer)));
         let lines = screen(&mut app, 100, 30);
         let words: Vec<_> = lines.iter().flat_map(|line| line.split('│')).collect();
         words
@@ -337,10 +342,10 @@ fn the_places_that_kept_edits_change_are_counted() {
 }
 
 #[test]
-fn a_picture_that_nobody_traces_is_not_announced() {
+fn a_picture_that_is_not_being_traced_is_not_announced() {
     let mut app = app();
     let mut says = |wanted, words| {
-        app.preview.wanted = wanted;
+        app.pictures.preview.wanted = wanted;
         let text = screen(&mut app, 80, 24).join("\n");
         assert!(text.contains(words), "{words:?} in\n{text}");
     };
@@ -349,11 +354,11 @@ fn a_picture_that_nobody_traces_is_not_announced() {
 }
 
 #[test]
-fn errors_mark_the_picture_as_stale_and_explain_themselves() {
+fn errors_mark_the_picture_as_stale_and_are_explained() {
     let mut app = app();
-    app.preview.take(frame(8, 6));
+    app.pictures.preview.take(frame(8, 6));
     let size = app.raster().expect("there is room").1;
-    app.preview.advance(size, None, usize::MAX);
+    app.pictures.preview.advance(size, None, usize::MAX);
     retype(&mut app, " 0.25 ", " -1 ");
     let text = screen(&mut app, 100, 30).join("\n");
     for part in ["STALE", "1 error", "test.ray:6:18", "^^", "SELECT", "[+]"] {
@@ -362,10 +367,10 @@ fn errors_mark_the_picture_as_stale_and_explain_themselves() {
 }
 
 #[test]
-fn a_picture_of_another_size_fills_its_place() {
+fn a_picture_of_another_size_is_scaled_to_its_place() {
     let mut app = app();
-    app.preview.take(frame(4, 3));
-    app.preview.advance(
+    app.pictures.preview.take(frame(4, 3));
+    app.pictures.preview.advance(
         Size {
             width: 4,
             height: 3,
@@ -374,13 +379,13 @@ fn a_picture_of_another_size_fills_its_place() {
         usize::MAX,
     );
     let lines = screen(&mut app, 20, 7);
-    // 8:6 in 20 by 12 pixels is 16 by 12.
+    // 8:6 in 20×12 pixels is 16×12.
     assert_eq!(lines[0], format!("  {}", "▀".repeat(16)));
     assert_eq!(lines[5], lines[0]);
 }
 
 #[test]
-fn a_text_that_is_not_xml_is_drawn() {
+fn malformed_xml_is_drawn() {
     for text in ["", "<xml>", "<scene/>"] {
         let mut app = app_of(Language::Xml, text);
         for (width, height) in [(80, 24), (40, 12), (9, 3), (1, 1)] {

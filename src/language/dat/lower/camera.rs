@@ -1,4 +1,4 @@
-//! The camera, which three records say, and what stands in for those that are missing.
+//! The camera, from three records or defaults for those that are missing.
 
 use glam::DVec3;
 
@@ -6,35 +6,31 @@ use super::Reader;
 use crate::geometry::Aabb;
 use crate::language::camera::{Places, check, default_eye_and_target};
 use crate::language::dat::table::RecordKind;
-use crate::language::record::Gathered;
+use crate::language::dat::view::{self, View};
 use crate::language::report::Name;
-use crate::scene::{Camera, Focus, Lens, Object, Size, bounds};
+use crate::language::words::Words;
+use crate::scene::{Camera, Lens, Object, Size, bounds};
 use crate::text::{Diagnostic, Span};
 
-/// From where the default view looks, seen from the centre of the scene.
+/// The direction of the default eye from the centre of the scene.
 const DEFAULT_SIDE: DVec3 = DVec3::new(0.4, -1.0, 0.3);
 
-/// The vertical angle of view where the text says none, in degrees.
+/// Default vertical angle of view, in degrees.
 const DEFAULT_ANGLE: f64 = 45.0;
 
-const DEFAULT_SIZE: Size = Size {
-    width: 800,
-    height: 600,
-};
-
-/// How to say a camera.
+/// How to state a camera.
 const REMEDY: &str = "say a camera: camera perspective eye look up focal near far";
 
-/// What the records say, as far as they are there and right.
+/// The valid records of the camera.
 #[derive(Default)]
 pub(super) struct Said {
-    camera: Option<(Gathered, Places)>,
+    camera: Option<(View, Places)>,
     resolution: Option<[f64; 2]>,
     viewport: Option<Size>,
 }
 
 impl<'a> Reader<'a> {
-    pub(super) fn view_record(&mut self, kind: RecordKind, tokens: &'a [Span]) {
+    pub(super) fn view_record(&mut self, kind: RecordKind, tokens: &Words<'a>) {
         let name = Name::Record(match kind {
             RecordKind::Resolution => "resolution",
             RecordKind::Viewport => "viewport",
@@ -42,31 +38,37 @@ impl<'a> Reader<'a> {
         });
         let line = self.line(kind, tokens, |_| name);
         self.surplus(&line);
-        let Some(said) = line.gather() else {
+        let Some(numbers) = line.numbers() else {
             return;
         };
         match kind {
-            RecordKind::Resolution => self.camera.resolution = Some(said.pair),
-            RecordKind::Viewport => self.viewport(said.pair, &line.spans),
+            RecordKind::Resolution => {
+                let at = const { RecordKind::Resolution.at("resolution") };
+                self.camera.resolution = Some(at.get(numbers));
+            }
+            RecordKind::Viewport => {
+                let at = const { RecordKind::Viewport.at("viewport") };
+                self.viewport(at.get(numbers), &line.spans);
+            }
             _ => {
-                let [_, near, far, ..] = said.numbers;
+                let view = View::said(numbers);
+                let [near, far] = view.depths;
                 let near = near.max(0.0);
                 if far <= near {
-                    let far = line.spans[line.spans.len() - 1];
                     self.report.error(|| {
                         let message = "camera far: must be greater than near";
-                        Diagnostic::error(far, message, format!("a number greater than {near}"))
+                        let expected = format!("a number greater than {near}");
+                        Diagnostic::error(view::FAR.span(&line.spans), message, expected)
                     });
                 }
-                let vector = |first: usize| line.spans[first].to(line.spans[first + 2]);
                 let places = Places {
-                    eye: vector(1),
-                    target: vector(4),
-                    up: vector(7),
+                    eye: view::EYE.span(&line.spans),
+                    target: view::LOOK.span(&line.spans),
+                    up: view::UP.span(&line.spans),
                     whole: line.spans[0].to(line.spans[line.spans.len() - 1]),
                     remedy: REMEDY,
                 };
-                self.camera.camera = Some((said, places));
+                self.camera.camera = Some((view, places));
             }
         }
     }
@@ -82,13 +84,10 @@ impl<'a> Reader<'a> {
                 return;
             }
         }
-        self.camera.viewport = Some(Size {
-            width: width as u32,
-            height: height as u32,
-        });
+        self.camera.viewport = Some(view::size([width, height]));
     }
 
-    /// The camera: what the records say, and defaults for those that are missing.
+    /// The camera of the records, with defaults for missing ones.
     pub(super) fn camera(&mut self, objects: &[Object]) -> Camera {
         let view = self.origins.view;
         for (place, word) in view.iter().zip(["camera", "resolution", "viewport"]) {
@@ -101,24 +100,28 @@ impl<'a> Reader<'a> {
             resolution,
             viewport,
         } = std::mem::take(&mut self.camera);
-        let size = viewport.unwrap_or(DEFAULT_SIZE);
+        let size = viewport.unwrap_or(view::DEFAULT_SIZE);
         let rows = f64::from(size.height);
         let half_angle = (0.5 * DEFAULT_ANGLE).to_radians();
         let box_around = || bounds(objects.iter());
-        let Some((said, places)) = camera else {
+        let Some((view, places)) = camera else {
             let (eye, target) = default_eye_and_target(box_around(), DEFAULT_ANGLE, DEFAULT_SIDE);
             let extent = 2.0 * libm::tan(half_angle);
             self.origins.resolution = resolution.unwrap_or([extent / rows; 2]);
             self.origins.focal = self.origins.resolution[1] * rows / extent;
-            let camera = Camera {
+            let view = View {
+                is_perspective: true,
                 eye,
-                target,
+                look: target,
                 up: DVec3::Z,
-                lens: Lens::Perspective(DEFAULT_ANGLE),
-                pixel_aspect: shape_of(self.origins.resolution),
+                focal: self.origins.focal,
                 depths: Camera::ALL_DEPTHS,
-                focus: Focus::PINHOLE,
+                resolution: self.origins.resolution,
                 size,
+            };
+            let camera = Camera {
+                lens: Lens::Perspective(DEFAULT_ANGLE),
+                ..view.camera()
             };
             let places = Places {
                 remedy: REMEDY,
@@ -128,40 +131,28 @@ impl<'a> Reader<'a> {
             check(&camera, &places, &mut self.report);
             return camera;
         };
-        let [eye, target, up] = said.points;
-        let [focal, near, far, ..] = said.numbers;
-        let is_perspective = said.choices[0] == 0;
         let resolution = resolution.unwrap_or_else(|| {
-            let height = if is_perspective {
-                2.0 * focal * libm::tan(half_angle)
+            let height = if view.is_perspective {
+                2.0 * view.focal * libm::tan(half_angle)
             } else {
                 height_of(box_around())
             };
             [height / rows; 2]
         });
-        let height = resolution[1] * rows;
         self.origins.resolution = resolution;
-        self.origins.focal = focal;
-        let camera = Camera {
-            eye,
-            target,
-            up,
-            lens: if is_perspective {
-                Lens::Perspective(2.0 * libm::atan(0.5 * height / focal).to_degrees())
-            } else {
-                Lens::Orthographic(height)
-            },
-            pixel_aspect: shape_of(resolution),
-            depths: [near.max(0.0), far],
-            focus: Focus::PINHOLE,
+        self.origins.focal = view.focal;
+        let camera = View {
+            resolution,
             size,
-        };
+            ..view
+        }
+        .camera();
         self.check_lens(&camera);
         check(&camera, &places, &mut self.report);
         camera
     }
 
-    /// Reports numbers so far apart that no ray can be computed with them.
+    /// Reports numbers too far apart to compute rays with.
     fn check_lens(&mut self, camera: &Camera) {
         let is_lens = match camera.lens {
             Lens::Perspective(angle) => 0.0 < angle && angle < 180.0,
@@ -185,12 +176,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The width of a pixel over its height.
-fn shape_of([across, up]: [f64; 2]) -> f64 {
-    across / up
-}
-
-/// The height of an orthographic view that shows a sphere around the box.
+/// The height of an orthographic view that contains the bounding sphere of the box.
 fn height_of(bounds: Aabb) -> f64 {
     let diagonal = bounds.size().length();
     if diagonal.is_finite() && 0.0 < diagonal {

@@ -1,38 +1,51 @@
-//! One record's tokens, read as the table of fields says.
+//! Reads the tokens of one record according to the table of fields.
 
 use super::Reader;
 use crate::language::dat::table::{Part, RecordKind};
 use crate::language::record::{Gathered, Record, what};
 use crate::language::report::Name;
 use crate::language::report::{nearest_word, no_number, number, quoted};
-use crate::language::table::{Field, Kind, Range, place_of};
+use crate::language::table::{Field, Kind, Range};
+use crate::language::words::Words;
 use crate::text::{Diagnostic, Severity, Span, counted, parse_number};
 
-/// What a record says.
+/// The content of a record.
 pub(super) struct Line<'a> {
-    /// What it is called.
+    /// The record's name in messages.
     pub(super) name: Name,
-    /// The number by which it is known, and where that stands.
+    /// Its ID, and the place of that.
     pub(super) id: Option<(i64, Span)>,
-    /// The things it names, in order.
+    /// The nodes it refers to, in order.
     pub(super) references: Vec<Option<(i64, Span)>>,
-    /// A word of the user's own.
+    /// A free word.
     pub(super) word: Option<Span>,
-    /// The numbers of its fields: NaN for what is not a number.
+    /// The numbers of its fields; NaN where malformed.
     values: Vec<f64>,
-    /// The token of each.
+    /// The token of each number.
     pub(super) spans: Vec<Span>,
-    /// What follows all that the table lists.
-    pub(super) rest: &'a [Span],
+    /// The tokens after the parts in the table.
+    pub(super) rest: Words<'a>,
     kind: RecordKind,
-    /// Whether what the table lists is all there, right or not.
+    /// Whether all parts in the table are there, valid or not.
     pub(super) is_complete: bool,
-    /// Whether all of it is there and right.
+    /// Whether all parts are there and valid.
     pub(super) is_sound: bool,
 }
 
 impl Line<'_> {
-    /// Its numbers by what they are, if it is sound.
+    /// Its numbers, if it is valid.
+    pub(super) fn numbers(&self) -> Option<&[f64]> {
+        self.is_sound.then_some(&*self.values)
+    }
+
+    /// The text of an object's shape, after its material.
+    pub(super) fn span_after_material(&self) -> Span {
+        let material = self.spans.first().copied().unwrap_or_default();
+        let shape = self.spans.iter().skip(1).copied();
+        shape.reduce(Span::to).unwrap_or(material)
+    }
+
+    /// Its numbers by kind, if it is valid.
     pub(super) fn gather(&self) -> Option<Gathered> {
         self.is_sound
             .then(|| self.as_record().gather(self.kind.fields()))
@@ -48,24 +61,25 @@ impl Line<'_> {
 }
 
 impl<'a> Reader<'a> {
-    /// Reads the tokens of a record, which `tokens` are all of, and checks them. `call` names the
-    /// record by its number.
+    /// Reads a record from all its tokens and checks it. `call` makes its name from its ID.
     pub(super) fn line(
         &mut self,
         kind: RecordKind,
-        tokens: &'a [Span],
+        tokens: &Words<'a>,
         call: impl Fn(i64) -> Name,
     ) -> Line<'a> {
         let errors = self.report.errors();
-        let word = tokens[0].of(self.text);
+        let mut rest = tokens.clone();
+        let word = rest.next().map_or("", |token| token.of(self.text));
+        rest.by_ref().take(kind.heads() - 1).for_each(drop);
         let mut line = Line {
             name: Name::Record(known_word(word)),
             id: None,
             references: Vec::new(),
             word: None,
-            values: Vec::with_capacity(tokens.len()),
-            spans: Vec::with_capacity(tokens.len()),
-            rest: tokens.get(kind.heads()..).unwrap_or_default(),
+            values: Vec::with_capacity(kind.numbers()),
+            spans: Vec::with_capacity(kind.numbers()),
+            rest,
             kind,
             is_complete: false,
             is_sound: false,
@@ -86,30 +100,34 @@ impl<'a> Reader<'a> {
     /// Warns of tokens after the end of a record.
     pub(super) fn surplus(&mut self, line: &Line<'_>) {
         if line.is_complete {
-            self.left_over(line.name, line.rest);
+            self.left_over(line.name, &line.rest);
         }
     }
 
-    /// Warns of tokens that nothing asks for.
-    pub(super) fn left_over(&mut self, name: Name, rest: &[Span]) {
-        if let [first, ..] = rest {
-            let span = first.to(rest[rest.len() - 1]);
+    /// Warns of surplus tokens.
+    pub(super) fn left_over(&mut self, name: Name, rest: &Words<'_>) {
+        if let Some(first) = rest.clone().next() {
             self.report.warning(|| {
-                let message = format!("{name}: {} too many", counted(rest.len(), "token"));
+                let message = format!(
+                    "{name}: {} too many",
+                    counted(rest.clone().count(), "token")
+                );
+                let span = rest.clone().last().map_or(first, |last| first.to(last));
                 Diagnostic::warning(span, message, "the end of the line")
                     .with_hint("what is too much is ignored")
             });
         }
     }
 
-    /// Reads one part; whether the line goes on as it should.
+    /// Reads one part; returns whether the line continues as expected.
     fn part(
         &mut self,
         part: &'static Part,
         line: &mut Line<'a>,
         call: &impl Fn(i64) -> Name,
     ) -> bool {
-        let Some((&token, after)) = line.rest.split_first() else {
+        let mut after = line.rest.clone();
+        let Some(token) = after.next() else {
             return false;
         };
         match part {
@@ -138,13 +156,13 @@ impl<'a> Reader<'a> {
 
     fn field(&mut self, field: &'static Field, line: &mut Line<'a>) -> bool {
         for component in field.kind.component_names() {
-            let Some((&token, after)) = line.rest.split_first() else {
+            let Some(token) = line.rest.next() else {
                 return false;
             };
             let word = token.of(self.text);
             let value = match field.kind {
                 Kind::Choice(words) => {
-                    if let Some(place) = place_of(words, word) {
+                    if let Some((place, _)) = field.chosen(word) {
                         place as f64
                     } else {
                         let name = line.name;
@@ -181,12 +199,11 @@ impl<'a> Reader<'a> {
             };
             line.values.push(value);
             line.spans.push(token);
-            line.rest = after;
         }
         true
     }
 
-    /// A whole number that names something; `None`, and an error, if it is none.
+    /// Reads an integer ID; `None`, with an error, if it is not one.
     pub(super) fn identity(
         &mut self,
         token: Span,
@@ -205,12 +222,13 @@ impl<'a> Reader<'a> {
     }
 
     /// Reports a record that breaks off before its end.
-    fn short(&mut self, kind: RecordKind, tokens: &[Span], line: &Line<'_>) {
-        let due: usize = kind.heads() + kind.parts().iter().map(Part::tokens).sum::<usize>();
-        let missing = due - tokens.len().min(due);
-        let next = missing_part(kind, tokens.len() - kind.heads());
-        let end = Span::at(tokens[tokens.len() - 1].end());
+    fn short(&mut self, kind: RecordKind, tokens: &Words<'_>, line: &Line<'_>) {
         self.report.error(|| {
+            let due: usize = kind.heads() + kind.parts().iter().map(Part::tokens).sum::<usize>();
+            let found = tokens.clone().count();
+            let missing = due - found.min(due);
+            let next = missing_part(kind, found - kind.heads());
+            let end = Span::at(tokens.clone().last().map_or(0, Span::end));
             let more = counted(missing, "more token");
             let message = format!("{}: the line ends where {next} is due; {more}", line.name);
             Diagnostic::error(end, message, next.clone())
@@ -218,7 +236,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// What is due after some tokens of a record.
+/// The part expected after a number of tokens of a record.
 fn missing_part(kind: RecordKind, tokens: usize) -> String {
     let mut left = tokens;
     for part in kind.parts() {
@@ -274,7 +292,7 @@ fn no_choice(
     }
 }
 
-/// The word of a record as a name that lives as long as the program.
+/// The first word of a record, as a name with static lifetime.
 fn known_word(word: &str) -> &'static str {
     use crate::language::dat::table::RECORDS;
     let known = RECORDS.iter().find(|(known, _)| *known == word);

@@ -1,4 +1,4 @@
-//! Objects, how they are combined, and which of them are drawn.
+//! Objects, their combinations, and the choice of those to draw.
 
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -10,40 +10,44 @@ use crate::geometry::Node as CsgNode;
 use crate::geometry::{Csg, Operation, Quadric, Shape};
 use crate::language::dat::origins::ObjectPlace;
 use crate::language::dat::table::{HALF_SPACE, ObjectKind, RecordKind};
-use crate::language::record::{Gathered, what};
+use crate::language::record::what;
 use crate::language::report::Name;
 use crate::language::report::{no_number, number, quoted};
-use crate::language::table::{Category, Range, numbers};
+use crate::language::table::{Category, Range};
+use crate::language::words::Words;
 use crate::scene::Object;
 use crate::text::{Diagnostic, Severity, Span, counted};
 
 use super::line::Line;
 
-/// All combined objects that are drawn have at most this many parts together, so that a chain of
-/// them, each drawn as well, can't take all memory.
+/// Maximum number of parts of all drawn combinations together, so that a chain of them, each drawn
+/// as well, cannot exhaust memory.
 const MOST_PARTS: usize = 1 << 20;
 
-/// Operands that a message names at most.
+/// Maximum number of operands named in a message.
 const NAMED: usize = 8;
 
-/// Objects that a message lists at most.
+/// Maximum number of objects listed in a message.
 const LISTED: usize = 64;
 
-/// The operations in the order of the words for them.
+/// The operations, in the order of their words.
 const OPERATIONS: [Operation; 3] = [
     Operation::Union,
     Operation::Intersection,
     Operation::Difference,
 ];
 
-/// How many things there are where more or fewer are due: `1 cut follows`.
+/// Number of numbers of a half-space.
+const EACH: usize = HALF_SPACE.kind.components();
+
+/// A count for a message, where another one is declared: `1 cut follows`.
 fn following(count: usize, what: &str) -> String {
     let verb = if count == 1 { "follows" } else { "follow" };
     format!("{} {verb}", counted(count, what))
 }
 
 impl<'a> Reader<'a> {
-    pub(super) fn object(&mut self, record: usize, kind: ObjectKind, tokens: &'a [Span]) {
+    pub(super) fn object(&mut self, record: usize, kind: ObjectKind, tokens: &Words<'a>) {
         let errors = self.report.errors();
         let call = |id| Name::Known("object", id, kind.keyword());
         let mut line = self.line(RecordKind::Object(kind), tokens, call);
@@ -66,8 +70,9 @@ impl<'a> Reader<'a> {
         let Some(id) = self.know(Category::Object, &line, self.solids.len()) else {
             return;
         };
-        let said = line.gather().filter(|_| errors == self.report.errors());
-        let solid = said.and_then(|said| self.solid(kind, &said, &cuts, &line));
+        let is_sound = errors == self.report.errors();
+        let numbers = line.numbers().filter(|_| is_sound);
+        let solid = numbers.and_then(|numbers| self.solid(kind, numbers, material, &cuts, &line));
         self.solids.push(solid.unwrap_or(Solid::Faulty));
         self.origins.objects.push(ObjectPlace {
             record,
@@ -82,32 +87,50 @@ impl<'a> Reader<'a> {
     fn solid(
         &mut self,
         kind: ObjectKind,
-        said: &Gathered,
+        numbers: &[f64],
+        material: Option<usize>,
         cuts: &[(DVec3, f64)],
         line: &Line<'_>,
     ) -> Option<Solid> {
         let shape = match kind {
-            ObjectKind::Csg => return Some(Solid::Combined(OPERATIONS[said.choices[0] % 3])),
-            ObjectKind::Sphere => Some(shapes::sphere(said)),
-            ObjectKind::Ellipsoid => shapes::ellipsoid(said),
-            ObjectKind::Cylinder => shapes::cylinder(said),
-            ObjectKind::Box => shapes::cuboid(said),
-            ObjectKind::Quadric => Some(self.quadric(said, cuts, line)),
+            ObjectKind::Csg => {
+                let operator = const { ObjectKind::Csg.at("operator") }.choice(numbers);
+                return Some(Solid::Combined(OPERATIONS[operator % OPERATIONS.len()]));
+            }
+            ObjectKind::Sphere => Some(shapes::sphere(numbers)),
+            ObjectKind::Ellipsoid => shapes::ellipsoid(numbers),
+            ObjectKind::Cylinder => shapes::cylinder(numbers),
+            ObjectKind::Box => shapes::cuboid(numbers),
+            ObjectKind::Quadric => Some(self.quadric(numbers, cuts, line)),
         };
         if shape.is_none() {
-            // What follows the material.
-            let span = line.spans[1].to(line.spans[line.spans.len() - 1]);
+            let span = line.span_after_material();
             self.report.error(|| {
                 let message = format!("{}: too large, too small or too far away", line.name);
                 Diagnostic::error(span, message, "sizes and places that numbers can hold")
             });
         }
-        shape.map(Solid::Shape)
+        Some(Solid::Shape(shape?, material? as u32))
     }
 
-    fn quadric(&mut self, said: &Gathered, cuts: &[(DVec3, f64)], line: &Line<'_>) -> Shape {
-        let quadric = Quadric::new(said.numbers, cuts);
-        let span = line.spans[1].to(line.spans[line.spans.len() - 1]);
+    fn quadric(&mut self, numbers: &[f64], cuts: &[(DVec3, f64)], line: &Line<'_>) -> Shape {
+        const QUADRIC: ObjectKind = ObjectKind::Quadric;
+        let coefficients = const {
+            [
+                QUADRIC.at("A"),
+                QUADRIC.at("B"),
+                QUADRIC.at("C"),
+                QUADRIC.at("D"),
+                QUADRIC.at("E"),
+                QUADRIC.at("F"),
+                QUADRIC.at("G"),
+                QUADRIC.at("H"),
+                QUADRIC.at("I"),
+                QUADRIC.at("J"),
+            ]
+        };
+        let quadric = Quadric::new(coefficients.map(|at| at.number(numbers)), cuts);
+        let span = line.span_after_material();
         if quadric.is_empty() {
             self.report.warning(|| {
                 let message = format!("{}: no point is inside", line.name);
@@ -124,11 +147,11 @@ impl<'a> Reader<'a> {
         Shape::Quadric(Box::new(quadric))
     }
 
-    /// The half-spaces after a quadric's coefficients: how many, then each. Where their number is
-    /// wrong, the line is not complete.
+    /// Reads the half-spaces after a quadric's coefficients: their count, then each. If the count
+    /// is wrong, the line is incomplete.
     fn cuts(&mut self, line: &mut Line<'a>) -> Vec<(DVec3, f64)> {
         line.is_complete = false;
-        let Some((&token, after)) = line.rest.split_first() else {
+        let Some(token) = line.rest.next() else {
             let end = line.spans.last().map_or(0, |span| span.end());
             let name = line.name;
             self.report.error(|| {
@@ -141,10 +164,9 @@ impl<'a> Reader<'a> {
         let Some((count, _)) = self.identity(token, || format!("{name} number of cuts")) else {
             return Vec::new();
         };
-        let each = numbers(&[*HALF_SPACE]);
-        line.rest = after;
-        let have = line.rest.len() / each;
         let most = Quadric::MOST_HALF_SPACES;
+        // Up to the permitted maximum.
+        let have = line.rest.clone().take(EACH * most).count() / EACH;
         let fits = usize::try_from(count).is_ok_and(|count| count <= have && count <= most);
         if !fits {
             self.report.error(|| {
@@ -164,16 +186,13 @@ impl<'a> Reader<'a> {
             });
             return Vec::new();
         }
-        let (cuts, rest) = line.rest.split_at(count as usize * each);
-        line.rest = rest;
         line.is_complete = true;
-        cuts.chunks_exact(each)
-            .filter_map(|cut| self.cut(name, cut))
-            .collect()
+        let cuts = (0..count).map_while(|_| line.rest.next_array());
+        cuts.filter_map(|cut| self.cut(name, &cut)).collect()
     }
 
-    fn cut(&mut self, name: Name, tokens: &[Span]) -> Option<(DVec3, f64)> {
-        let mut values = [f64::NAN; 4];
+    fn cut(&mut self, name: Name, tokens: &[Span; EACH]) -> Option<(DVec3, f64)> {
+        let mut values = [f64::NAN; EACH];
         let components = HALF_SPACE.kind.component_names();
         for ((value, token), component) in values.iter_mut().zip(tokens).zip(components) {
             let word = token.of(self.text);
@@ -198,14 +217,16 @@ impl<'a> Reader<'a> {
         (!normal.is_nan() && !distance.is_nan()).then_some((normal, distance))
     }
 
-    /// Reads which objects are drawn: `render N ID i …`.
-    pub(super) fn render_list(&mut self, tokens: &'a [Span]) {
+    /// Reads the list of objects to draw: `render N ID i …`.
+    pub(super) fn render_list(&mut self, tokens: &Words<'a>) {
         self.drawn = Drawn::Results;
         let name = Name::Record("render");
-        let Some((&token, mut rest)) = tokens[1..].split_first() else {
+        let mut rest = tokens.clone();
+        let word = rest.next().unwrap_or_default();
+        let Some(token) = rest.next() else {
             self.report.error(|| {
                 let message = "render: the line ends where the number of objects is due";
-                let end = Span::at(tokens[0].end());
+                let end = Span::at(word.end());
                 Diagnostic::error(end, message, "a whole number, 0 for all objects")
             });
             return;
@@ -222,22 +243,21 @@ impl<'a> Reader<'a> {
         }
         let mut ids = Vec::new();
         while (ids.len() as i64) < count {
-            let [word, id, after @ ..] = rest else {
+            let Some([word, id]) = rest.next_array() else {
                 break;
             };
             if word.of(self.text) != "ID" {
                 self.report.error(|| {
                     let said = quoted(word.of(self.text));
                     let message = format!("render: `ID` is due, not {said}");
-                    Diagnostic::error(*word, message, "`ID`")
+                    Diagnostic::error(word, message, "`ID`")
                 });
                 return;
             }
-            let Some(id) = self.identity(*id, || "render ID".to_owned()) else {
+            let Some(id) = self.identity(id, || "render ID".to_owned()) else {
                 return;
             };
             ids.push(id);
-            rest = after;
         }
         if (ids.len() as i64) < count {
             self.report.error(|| {
@@ -249,7 +269,7 @@ impl<'a> Reader<'a> {
             });
             return;
         }
-        self.left_over(name, rest);
+        self.left_over(name, &rest);
         self.drawn = if count == 0 {
             Drawn::All(token)
         } else {
@@ -257,7 +277,7 @@ impl<'a> Reader<'a> {
         };
     }
 
-    /// The objects that are drawn, in file order.
+    /// The objects to draw, in file order.
     pub(super) fn drawn(&mut self) -> Vec<Object> {
         let mut drawn: Vec<usize> = match std::mem::replace(&mut self.drawn, Drawn::Results) {
             Drawn::Listed(listed) => listed
@@ -276,7 +296,7 @@ impl<'a> Reader<'a> {
         };
         drawn.sort_unstable();
         drawn.dedup();
-        // Where there are errors, an object may be what they are about.
+        // If there are errors, they may be about the missing objects.
         if self.solids.is_empty() && self.report.errors() == 0 {
             self.report.warning(|| {
                 Diagnostic::warning(Span::at(0), "no object is defined", "an `obj` record")
@@ -293,7 +313,7 @@ impl<'a> Reader<'a> {
         objects
     }
 
-    /// The objects that CSG combines, and all others.
+    /// The operands of CSG, and all other objects.
     fn operands_and_results(&self) -> [Vec<usize>; 2] {
         let combined = self.origins.objects.iter();
         let combined: HashSet<_> = combined.filter_map(|at| at.operands).flatten().collect();
@@ -302,7 +322,7 @@ impl<'a> Reader<'a> {
         [operands, results]
     }
 
-    /// Warns of operands that are drawn beside what is made of them.
+    /// Warns of operands drawn together with their combination.
     fn warn_of_operands(&mut self, token: Span, operands: &[usize], results: &[usize]) {
         if operands.is_empty() {
             return;
@@ -331,12 +351,11 @@ impl<'a> Reader<'a> {
         });
     }
 
-    /// An object made ready to be drawn. `left` is how many parts combined objects may still have.
+    /// Builds an object to draw. `left` is the remaining number of parts for combinations.
     fn build(&mut self, object: usize, left: &mut usize) -> Option<Object> {
         let place = self.origins.objects[object];
-        let material = place.material.unwrap_or(0) as u32;
-        let shape = match &self.solids[object] {
-            Solid::Shape(shape) => shape.clone(),
+        let (shape, material) = match &self.solids[object] {
+            Solid::Shape(shape, material) => (shape.clone(), *material),
             Solid::Faulty => return None,
             Solid::Combined(_) => {
                 let nodes = self.nodes(object, *left);
@@ -350,14 +369,16 @@ impl<'a> Reader<'a> {
                     });
                     return None;
                 }
-                Shape::Csg(Arc::new(Csg::new(nodes)))
+                let csg = Csg::new(nodes);
+                let material = csg.tags().next()?;
+                (Shape::Csg(Arc::new(csg)), material)
             }
         };
         Some(Object { shape, material })
     }
 
-    /// The parts of a combined object, operands before what they are part of, each once; at most
-    /// about `limit`.
+    /// The parts of a combination, each once, operands before the combination that uses them; at
+    /// most about `limit`.
     fn nodes(&self, object: usize, limit: usize) -> Vec<CsgNode> {
         let operands = |object: usize| self.origins.objects[object].operands.into_iter().flatten();
         let mut reached = HashSet::from([object]);
@@ -368,13 +389,13 @@ impl<'a> Reader<'a> {
             pending.extend(operands(object).filter(|&operand| reached.insert(operand)));
         }
         let mut reached: Vec<_> = reached.into_iter().collect();
-        // Operands are defined first.
+        // Operands are defined before their combination.
         reached.sort_unstable();
         let place = |object: usize| reached.binary_search(&object).map_or(0, |at| at as u32);
         let node = |&object: &usize| match &self.solids[object] {
-            Solid::Shape(shape) => Some(CsgNode::Leaf {
+            Solid::Shape(shape, material) => Some(CsgNode::Leaf {
                 shape: shape.clone(),
-                tag: self.origins.objects[object].material.unwrap_or(0) as u32,
+                tag: *material,
             }),
             Solid::Combined(operation) => {
                 let [first, second] = self.origins.objects[object].operands?;

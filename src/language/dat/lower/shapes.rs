@@ -1,56 +1,69 @@
-//! The shapes of `.dat`'s solids.
+//! The shapes of `.dat` objects.
 
 use glam::DVec3;
 
 use crate::geometry::{Affine, Cuboid, Cylinder, Ellipsoid, Shape, Sphere, normalise};
-use crate::language::record::Gathered;
+use crate::language::dat::table::ObjectKind;
 
 /// A sphere.
-pub(super) fn sphere(said: &Gathered) -> Shape {
+pub(super) fn sphere(numbers: &[f64]) -> Shape {
+    const SPHERE: ObjectKind = ObjectKind::Sphere;
     Shape::Sphere(Sphere {
-        centre: said.points[0],
-        radius: said.numbers[0],
+        centre: const { SPHERE.at("centre") }.vector(numbers),
+        radius: const { SPHERE.at("radius") }.number(numbers),
     })
 }
 
-/// An ellipsoid along the axes of the world; `None` where its sizes are beyond what `f64` holds.
-pub(super) fn ellipsoid(said: &Gathered) -> Option<Shape> {
-    let [x, y, z, ..] = said.numbers;
-    let frame = frame(said.points[0], DVec3::AXES, DVec3::new(x, y, z))?;
+/// An axis-aligned ellipsoid; `None` if its sizes overflow.
+pub(super) fn ellipsoid(numbers: &[f64]) -> Option<Shape> {
+    const ELLIPSOID: ObjectKind = ObjectKind::Ellipsoid;
+    let centre = const { ELLIPSOID.at("centre") }.vector(numbers);
+    let radii = DVec3::new(
+        const { ELLIPSOID.at("rx") }.number(numbers),
+        const { ELLIPSOID.at("ry") }.number(numbers),
+        const { ELLIPSOID.at("rz") }.number(numbers),
+    );
+    let frame = frame(centre, DVec3::AXES, radii)?;
     Some(Shape::Ellipsoid(Box::new(Ellipsoid(frame))))
 }
 
-/// A cylinder around the middle of its axis. The frame is the shortest rotation that takes +z to
-/// the axis; for −z half a turn about x.
-pub(super) fn cylinder(said: &Gathered) -> Option<Shape> {
-    let axis = normalise(said.directions[0])?;
-    let [radius, length, ..] = said.numbers;
-    let base = said.points[0] - 0.5 * length * axis;
+/// A cylinder around the middle of its axis. Its frame is the shortest rotation from +z to the
+/// axis; for −z a half turn about x.
+pub(super) fn cylinder(numbers: &[f64]) -> Option<Shape> {
+    const CYLINDER: ObjectKind = ObjectKind::Cylinder;
+    let axis = normalise(const { CYLINDER.at("axis") }.vector(numbers))?;
+    let radius = const { CYLINDER.at("radius") }.number(numbers);
+    let length = const { CYLINDER.at("length") }.number(numbers);
+    let centre = const { CYLINDER.at("centre") }.vector(numbers);
+    let base = centre - 0.5 * length * axis;
     let frame = frame(base, rotated(axis), DVec3::new(radius, radius, length))?;
     Some(Shape::Cylinder(Box::new(Cylinder(frame))))
 }
 
-/// A box around its centre. Its axes are used as given: widths are in lengths of them.
-pub(super) fn cuboid(said: &Gathered) -> Option<Shape> {
-    let [u, v, w] = said.directions;
-    let [wide, high, deep, ..] = said.numbers;
-    let corner = said.points[0] - 0.5 * (wide * u + high * v + deep * w);
+/// A box around its centre. Its axes are used as given: widths are multiples of their lengths.
+pub(super) fn cuboid(numbers: &[f64]) -> Option<Shape> {
+    const BOX: ObjectKind = ObjectKind::Box;
+    let [u, v, w] = const { [BOX.at("u"), BOX.at("v"), BOX.at("w")] }.map(|at| at.vector(numbers));
+    let widths = const { [BOX.at("uw"), BOX.at("vw"), BOX.at("ww")] };
+    let [wide, high, deep] = widths.map(|at| at.number(numbers));
+    let centre = const { BOX.at("centre") }.vector(numbers);
+    let corner = centre - 0.5 * (wide * u + high * v + deep * w);
     let lengths = DVec3::new(wide * u.length(), high * v.length(), deep * w.length());
-    let frame = frame(corner, said.directions, lengths)?;
+    let frame = frame(corner, [u, v, w], lengths)?;
     Some(Shape::Cuboid(Box::new(Cuboid(frame))))
 }
 
-/// A frame with numbers; `None` where its place or its lengths are beyond what `f64` holds.
+/// A frame; `None` if its origin or lengths overflow.
 fn frame(origin: DVec3, directions: [DVec3; 3], lengths: DVec3) -> Option<Affine> {
     let holds = origin.is_finite() && lengths.is_finite() && 0.0 < lengths.min_element();
     Affine::new(origin, directions, lengths).filter(|_| holds)
 }
 
-/// Where the shortest rotation that takes +z to a unit vector takes x, y and z: Rodrigues' formula
-/// with the axis z × n and the cosine n.z.
+/// The images of x, y and z under the shortest rotation from +z to a unit vector: Rodrigues'
+/// formula with the axis z × n and the cosine n.z.
 fn rotated(n: DVec3) -> [DVec3; 3] {
     let across = n.x * n.x + n.y * n.y;
-    // 1 / (1 + n.z), without its cancellation below the horizon.
+    // 1 / (1 + n.z), without cancellation for negative n.z.
     let share = if 0.0 <= n.z {
         1.0 / (1.0 + n.z)
     } else if across == 0.0 {
@@ -69,8 +82,8 @@ fn rotated(n: DVec3) -> [DVec3; 3] {
 mod tests {
     use super::*;
 
-    /// Any rotation is a right-handed frame of unit vectors, and the shortest one keeps what lies
-    /// across both.
+    /// Any rotation gives a right-handed frame of unit vectors, and the shortest one fixes what is
+    /// perpendicular to +z and the axis.
     #[test]
     fn the_frame_of_a_cylinder_is_the_shortest_rotation() {
         for n in [

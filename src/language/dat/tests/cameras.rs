@@ -1,4 +1,4 @@
-//! How a camera is written back.
+//! Edits of the camera.
 
 use glam::DVec3;
 
@@ -9,7 +9,7 @@ use crate::language::tests::Random;
 use crate::scene::{Camera, Focus, Lens, Size};
 use crate::text::{apply, parse_number, spell_like};
 
-/// The text after it was made to say the camera that `change` leads to.
+/// The text after edits that change its camera by `change`.
 fn rewritten(text: &str, change: impl FnOnce(&mut Camera)) -> String {
     let mut text = spelled(text);
     let (source, lowered) = read(&text);
@@ -22,7 +22,7 @@ fn rewritten(text: &str, change: impl FnOnce(&mut Camera)) -> String {
     text
 }
 
-/// Whether the text says a camera, but for the rounding of its angle.
+/// Checks that the text describes a camera, up to rounding of its angle.
 #[track_caller]
 fn check_alike(text: &str, camera: &Camera) {
     let found = read(text).1.scene.expect("no errors").camera;
@@ -39,7 +39,7 @@ fn check_alike(text: &str, camera: &Camera) {
     let rest = Camera {
         lens: camera.lens,
         pixel_aspect: camera.pixel_aspect,
-        // Infinitely far is said by a large number.
+        // Infinity is written as a large number.
         depths: camera.depths.map(|depth| depth.min(1e30)),
         ..found
     };
@@ -56,7 +56,7 @@ fn check_alike(text: &str, camera: &Camera) {
 }
 
 #[test]
-fn a_camera_is_written_where_its_records_are() {
+fn view_edits_change_the_records_of_the_view() {
     let view = |camera: &str, resolution: &str, viewport: &str| {
         format!("# é\r\ncamera {camera}\r\n\tresolution {resolution} \r\nviewport {viewport}\r\n")
     };
@@ -110,7 +110,7 @@ fn a_camera_is_written_where_its_records_are() {
         |c| c.lens = Lens::Orthographic(1.2),
         view(side, "0.02 0.02", "80 60"),
     );
-    // An angle is said by the focal length: half of 60 rows of 0.01 over tan 45°.
+    // An angle is expressed by the focal length: half of 60 rows of 0.01 over tan 45°.
     check(
         view(eye, pixels, "80 60"),
         |c| c.lens = Lens::Perspective(90.0),
@@ -162,9 +162,9 @@ fn missing_records_are_added_at_the_beginning() {
     );
 }
 
-/// Whatever the view becomes, only its records' tokens change, and the text says it afterwards.
+/// View edits change only tokens of the view's records, and give the text that camera.
 #[test]
-fn the_text_says_the_camera_after_its_edits() {
+fn view_edits_make_the_text_describe_the_camera() {
     let mut random = Random(5);
     for _ in 0..3_000 {
         let mut number = || (random.next() as f64 / 1e18 - 9.0) * 1.5;
@@ -250,7 +250,7 @@ fn the_text_says_the_camera_after_its_edits() {
         let mut after = text.clone();
         apply(&mut after, &edits);
         check_alike(&after, &camera);
-        // But for the tokens of the view, all is as it was.
+        // Everything except the view is unchanged.
         assert_eq!(without_view(&after), without_view(&text));
         for edit in &edits {
             let node = source.node_at(edit.span);
@@ -262,7 +262,7 @@ fn the_text_says_the_camera_after_its_edits() {
     }
 }
 
-/// The lines that are not records of a view.
+/// The lines without records of a view.
 fn without_view(text: &str) -> Vec<&str> {
     let is_other = |line: &&str| {
         let word = line.split_whitespace().next();
@@ -271,9 +271,9 @@ fn without_view(text: &str) -> Vec<&str> {
     text.split_inclusive('\n').filter(is_other).collect()
 }
 
-/// What is typed into a field of the view is what the text says then.
+/// A value typed into a field of the view is the one in the text afterwards.
 #[test]
-fn a_field_of_the_view_says_what_is_typed() {
+fn fields_of_the_view_take_typed_values() {
     for kind in ["perspective", "orthographic"] {
         let text = spelled(&format!(
             "camera {kind} 1 2 3  4 5 6  0 0 1  2 0 100\nresolution 0.02 0.01\nviewport 80 60\n{BODY}"
@@ -303,7 +303,7 @@ fn a_field_of_the_view_says_what_is_typed() {
                     let mut after = text.clone();
                     apply(&mut after, &edits);
                     check_alike(&after, &new);
-                    // A camera knows an angle, not which of two numbers say it, or else a height.
+                    // A camera stores an angle or a height, not the two numbers that give it.
                     let is_lens = match kind {
                         "perspective" => key == "resolution" && component == 1,
                         _ => key == "focal",
@@ -321,16 +321,16 @@ fn a_field_of_the_view_says_what_is_typed() {
     }
 }
 
-/// Seen from the target, the picture keeps its size when the projection changes.
+/// When the projection changes, the picture keeps its size at the target.
 #[test]
-fn a_projection_is_chosen_by_its_word() {
+fn a_projection_is_set_by_its_name() {
     let text = spelled(&format!("VIEW\n{BODY}"));
     let (source, lowered) = read(&text);
     let camera = lowered.scene.expect("no errors").camera;
     let new = source
         .view_saying(&camera, (0, 0), "orthographic")
         .expect("a word");
-    // The plane at distance 1 is 0.6 high; the target is 5 away.
+    // The plane at distance 1 is 0.6 high; the target is at distance 5.
     let Lens::Orthographic(height) = new.lens else {
         panic!("{new:?}");
     };

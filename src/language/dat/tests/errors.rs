@@ -1,11 +1,11 @@
-//! One case a rule. Expected diagnostics stand in comments under the line that causes them, behind
-//! `#~`: column, severity, and how the message goes.
+//! One case per rule. Expected diagnostics are in comments under the line that causes them, after
+//! `#~`: column, severity, and the start of the message.
 
 use super::{read, spelled};
 use crate::language::tests::shown;
 
-/// Checks the diagnostics of a text against those that its `#~` comments expect, all of them, in
-/// order, and that there is a scene exactly if none is an error.
+/// Checks that a text has exactly the diagnostics of its `#~` comments, in order, and a scene if
+/// and only if none is an error.
 fn check(case: &str) {
     let text = spelled(case);
     let (_, lowered) = read(&text);
@@ -31,7 +31,7 @@ fn check(case: &str) {
     }
 }
 
-/// Checks records under a view, a material 0 and a sphere 0.
+/// Checks records after a view, a material 0 and a sphere 0.
 fn check_under(records: &[&str]) {
     for record in records {
         check(&format!(
@@ -64,7 +64,7 @@ fn numbers_are_decimal_and_finite() {
 }
 
 #[test]
-fn errors_that_can_be_told_apart_are_told_at_once() {
+fn independent_errors_are_reported_at_once() {
     check(
         "camera perspective 0 0 5  0 0 0  0 1 0  0 3 2
         #~ 41 error: camera focal: must be greater than 0
@@ -94,14 +94,14 @@ render 1 ID 9
 }
 
 #[test]
-fn solids_beyond_all_numbers_are_told_at_their_numbers() {
+fn overflowing_solids_are_reported_at_their_numbers() {
     check_under(&[
         "obj cylinder ID 1 mat ID 0  1e308 0 0  -1 0 0  1 1.7e308\n#~ 29 error: object 1 (cylinder): too large, too small or too far away",
     ]);
 }
 
 #[test]
-fn sizes_are_greater_than_0() {
+fn sizes_must_be_greater_than_0() {
     check_under(&[
         "obj sphere ID 1 BALL 0\n#~ 33 error: object 1 (sphere) radius: must be greater than 0",
         "obj ellipsoid ID 1 BALL 1 -1 1\n#~ 38 error: object 1 (ellipsoid) ry: must be greater than 0",
@@ -111,7 +111,7 @@ fn sizes_are_greater_than_0() {
 }
 
 #[test]
-fn unusual_numbers_are_warned_of_with_what_they_read_as() {
+fn unusual_numbers_give_warnings_with_the_value_used() {
     for (record, place, what, hint) in [
         (
             "mat ID 1 2 1 1  .1 .8 .1 5 0 0 1",
@@ -173,12 +173,12 @@ fn unusual_numbers_are_warned_of_with_what_they_read_as() {
             "{record}"
         );
     }
-    // Opaque solids of the course have an index of 0, and strong highlights.
+    // Opaque objects of the course have an index of 0 and strong highlights.
     check_under(&["mat ID 1 1 1 1  0 0 40 0  0 0 0"]);
 }
 
 #[test]
-fn directions_span_a_volume() {
+fn directions_must_span_a_volume() {
     check_under(&[
         "obj cylinder ID 1 BALL 0 0 0 1 1\n#~ 35 error: object 1 (cylinder) axis: must not be zero",
         "obj cylinder ID 1 BALL 0 0 9 1 1\n#~ 35 warning: object 1 (cylinder) axis: has length 9, not 1",
@@ -193,7 +193,7 @@ fn directions_span_a_volume() {
 }
 
 #[test]
-fn words_are_as_the_format_spells_them() {
+fn unknown_words_are_reported() {
     check_under(&[
         "light ID 1 spot 0 0 0 0 0 0 1 1 1 1 0 0 0 shadow_on\n#~ 12 error: light 1 source: unknown word `spot`",
         "light ID 1 PNT 0 0 0 0 0 0 1 1 1 1 0 0 0 shadow_on\n#~ 12 error: light 1 source: unknown word `PNT`",
@@ -206,7 +206,7 @@ fn words_are_as_the_format_spells_them() {
         "texture ID 1 Image 1 1 a.png\n#~ 14 error: texture 1: `checker` or `image` is due, not `Image`",
         "texture ID 1 stripes 1 1\n#~ 14 error: texture 1: `checker` or `image` is due, not `stripes`",
         "use color ID 1 mat ID 0\n#~ 5 error: use: unknown kind `color`",
-        // Records of other readers are passed over, case counts.
+        // Records for other readers are skipped; keywords are case-sensitive.
         "fog 1 2 3\n#~ 1 warning: unknown record `fog`: the line is skipped",
         "Light ID 1 pnt\n#~ 1 warning: unknown record `Light`: the line is skipped",
         "1 2 3\n#~ 1 warning: unknown record `1`: the line is skipped",
@@ -238,7 +238,7 @@ fn words_are_as_the_format_spells_them() {
 }
 
 #[test]
-fn records_too_short_are_told_where_they_end() {
+fn incomplete_records_are_reported_at_their_end() {
     check(
         "viewport 80
 #~ 12 error: viewport: the line ends where viewport height is due; 1 more token
@@ -266,7 +266,7 @@ light
 }
 
 #[test]
-fn tokens_too_many_are_ignored() {
+fn surplus_tokens_are_ignored() {
     check_under(&[
         "obj sphere ID 1 BALL 1 7 8\n#~ 35 warning: object 1 (sphere): 2 tokens too many",
         "mat ID 1 MAT more\n#~ 38 warning: material 1: 1 token too many",
@@ -278,7 +278,7 @@ fn tokens_too_many_are_ignored() {
 }
 
 #[test]
-fn ids_name_one_thing_each() {
+fn ids_are_unique_and_defined_before_use() {
     check_under(&[
         "mat ID 0 1 1 1 0 0 0 0 0 0 0\n#~ 8 warning: material 0: defined above already",
         "obj sphere ID 0 BALL 2\n#~ 15 warning: object 0: defined above already",
@@ -286,18 +286,18 @@ fn ids_name_one_thing_each() {
         "obj sphere ID 99999999999999999999 BALL 2\n#~ 15 error: obj ID: must be a whole number, not",
         "obj sphere ID 1 mat ID x 0 0 0 1\n#~ 24 error: object 1 (sphere) mat: must be a whole number, not `x`",
         "obj sphere ID 1 mat ID 7 0 0 0 1\n#~ 24 error: there is no material 7 above",
-        // Materials and operands come first.
+        // Materials and operands must come first.
         "obj sphere ID 1 mat ID 7 0 0 0 1\n#~ 24 error: there is no material 7 above\nmat ID 7 MAT",
         "obj CSG ID 1 union ID 0 ID 2\n#~ 28 error: there is no object 2 above\nobj sphere ID 2 BALL 1",
         "obj CSG ID 1 union ID 1 ID 1\n#~ 23 error: there is no object 1 above\n#~ 28 error: there is no object 1 above",
         "use colour ID 1 mat ID 0\n#~ 15 error: there is no texture 1 above\ntexture ID 1 checker 1 1 1 1 1 0 0 0",
         "light ID 1 inf 0 0 1 0 0 0 1 1 1 1 0 0 0 shadow_on\nlight ID 1 inf 0 0 1 0 0 0 1 1 1 1 0 0 0 shadow_on\n#~ 10 warning: light 1: defined above already",
-        // What has errors is known all the same: no error follows from another.
+        // Records with errors still define their ID: no error follows from another.
         "obj sphere ID 1 BALL x\n#~ 33 error: object 1 (sphere) radius: `x` is not a number\nobj CSG ID 2 union ID 0 ID 1\nrender 2 ID 1 ID 2",
     ]);
 }
 
-/// Of a second definition nothing stays, and the first goes on being meant.
+/// A second definition has no effect; references mean the first.
 #[test]
 fn a_second_definition_is_dropped() {
     let records = |second: &str| {
@@ -309,12 +309,12 @@ fn a_second_definition_is_dropped() {
     let plain = records("");
     assert_eq!(records("mat ID 0 0 0 0 0 0 0 0 0 0 0\n"), plain);
     assert_eq!(records("obj box ID 0 BALL AXES 1 1 1\n"), plain);
-    // Operands of what is dropped are drawn.
+    // Operands of a dropped record are drawn.
     assert_eq!(records("obj CSG ID 0 union ID 0 ID 0\n"), plain);
 }
 
 #[test]
-fn of_repeated_records_the_last_counts() {
+fn the_last_of_repeated_records_counts() {
     let text = spelled(
         "VIEW
 camera orthographic 9 9 9  0 0 0  0 1 0  1 0 100
@@ -340,7 +340,8 @@ render 1 ID 0
     assert_eq!(scene.camera.eye, glam::DVec3::splat(9.0));
     assert_eq!(scene.camera.lens, crate::scene::Lens::Orthographic(6.0));
     assert_eq!(scene.camera.size.width, 8);
-    assert_eq!(super::phong(&scene.materials[0]).colour_texture, Some(1));
+    let maps = scene.materials[0].maps.as_ref();
+    assert_eq!(maps.and_then(|maps| maps.diffuse), Some(1));
     let crate::geometry::Shape::Sphere(sphere) = &scene.objects[0].shape else {
         panic!("{:?}", scene.objects);
     };
@@ -348,7 +349,7 @@ render 1 ID 0
 }
 
 #[test]
-fn counts_are_what_follows() {
+fn declared_counts_must_match() {
     check_under(&[
         "render 2 ID 0\n#~ 8 error: render: says `2`, but 1 object follows in the line",
         "render 2 ID 0 ID\n#~ 8 error: render: says `2`, but 1 object follows in the line",
@@ -367,17 +368,17 @@ fn counts_are_what_follows() {
 }
 
 #[test]
-fn regions_without_a_point_are_warned_of() {
+fn empty_regions_give_warnings() {
     check_under(&[
         "obj quadric ID 1 mat ID 0 1 0 0 0 1 0 0 1 0 1 0\n#~ 27 warning: object 1 (quadric): no point is inside",
         "obj quadric ID 1 mat ID 0 1 0 0 0 1 0 0 1 0 -1 1 0 0 1 -2\n#~ 27 warning: object 1 (quadric): no point is inside",
-        // A ball of radius 1 around (10⁶, 0, 0).
+        // A sphere of radius 1 around (10⁶, 0, 0).
         "obj quadric ID 1 mat ID 0 1 0 0 -1e6 1 0 0 1 0 999999999999 0\n#~ 27 warning: object 1 (quadric): too far from 0 0 0 for its size",
     ]);
 }
 
 #[test]
-fn a_far_end_is_behind_the_near_one() {
+fn far_must_be_beyond_near() {
     let said = |near: &str, far: &str, note: &str| {
         check(&format!(
             "camera orthographic 0 0 5  0 0 0  0 1 0  1 {near} {far}\n{note}resolution 1 1\nviewport 8 6\nmat ID 0 MAT\nobj sphere ID 0 BALL 1"
@@ -395,7 +396,7 @@ fn a_far_end_is_behind_the_near_one() {
         "-3",
         "#~ 46 error: camera far: must be greater than near\n",
     );
-    // Near counts as 0.
+    // A negative near counts as 0.
     said(
         "-5",
         "-1",

@@ -1,5 +1,5 @@
-//! Texts that ask for much: numbers at the ends of their range, long chains, many errors. Memory or
-//! time that grow faster than the text would end these tests.
+//! Demanding texts: extreme numbers, long chains, many errors. Memory or time that grows faster
+//! than the text would fail these tests.
 
 use glam::DVec3;
 
@@ -9,7 +9,7 @@ use crate::language::tests::shown;
 use crate::scene::Lens;
 
 #[test]
-fn a_hundred_errors_are_enough() {
+fn at_most_a_hundred_errors_are_reported() {
     let objects = "obj sphere ID 1 mat ID 0 0 0 0 x\n".repeat(1000);
     let text = spelled(&format!("VIEW\nmat ID 0 MAT\n{objects}"));
     let (_, lowered) = read(&text);
@@ -18,7 +18,7 @@ fn a_hundred_errors_are_enough() {
 }
 
 #[test]
-fn many_unknown_references_take_no_time() {
+fn many_unknown_references_are_fast() {
     let mut text = vec![spelled("VIEW\n")];
     for id in 0..60_000 {
         text.push(spelled(&format!(
@@ -30,7 +30,7 @@ fn many_unknown_references_take_no_time() {
 }
 
 #[test]
-fn many_repetitions_take_no_time() {
+fn many_repetitions_are_fast() {
     let mut text = vec![spelled("VIEW\ntexture ID 0 checker 1 1 1 1 1 0 0 0\n")];
     for id in 0..40_000 {
         text.push(spelled(&format!(
@@ -60,9 +60,9 @@ fn declared_counts_allocate_nothing() {
     }
 }
 
-/// A chain of unions, each with one more ball, far longer than a stack is deep.
+/// A chain of unions, each with one more sphere, far deeper than the stack.
 #[test]
-fn a_long_chain_is_one_solid() {
+fn a_long_chain_is_a_single_solid() {
     let mut text = vec![spelled("VIEW\nmat ID 0 MAT\nobj sphere ID 0 BALL 1\n")];
     for link in 1..=50_000 {
         let (ball, made, before) = (2 * link - 1, 2 * link, 2 * link - 2);
@@ -86,9 +86,9 @@ fn a_long_chain_is_one_solid() {
     assert_eq!(ends, [(8.0, 10.0)]);
 }
 
-/// A solid combined with itself forty times has two to the fortieth leaves, or one that is shared.
+/// An object combined with itself forty times has 2⁴⁰ leaves if expanded, one if shared.
 #[test]
-fn a_solid_used_twice_is_held_once() {
+fn a_solid_used_twice_is_stored_once() {
     let mut text = vec![spelled("VIEW\nmat ID 0 MAT\nobj sphere ID 0 BALL 1\n")];
     for link in 0..40 {
         text.push(format!(
@@ -99,9 +99,9 @@ fn a_solid_used_twice_is_held_once() {
     assert_eq!(super::scene(&text.concat()).objects.len(), 1);
 }
 
-/// Each link of a chain that is drawn as well is a copy of all before it: the sum of all is limited.
+/// Each drawn link of a chain copies all links before it: their sum is limited.
 #[test]
-fn parts_are_limited_over_all_that_is_drawn() {
+fn the_parts_of_all_drawn_objects_are_limited() {
     const LINKS: usize = 2_000;
     let mut text = vec![spelled("VIEW\nmat ID 0 MAT\nobj sphere ID 0 BALL 1\n")];
     let mut render = vec![format!("render {LINKS}")];
@@ -119,9 +119,9 @@ fn parts_are_limited_over_all_that_is_drawn() {
     assert!(lowered.scene.is_none());
 }
 
-/// Whatever numbers a view consists of, it is one that gives rays, or an error.
+/// Any numbers in a view give a usable view or an error.
 #[test]
-fn extreme_views_are_views_or_errors() {
+fn extreme_views_are_usable_or_errors() {
     let numbers = ["5e-324", "1e-300", "1e-12", "1", "1e12", "1e300", "1.7e308"];
     let mut errors = 0;
     for kind in ["perspective", "orthographic"] {
@@ -154,7 +154,7 @@ fn extreme_views_are_views_or_errors() {
 }
 
 #[test]
-fn extreme_solids_are_solids_or_errors() {
+fn extreme_solids_are_usable_or_errors() {
     for number in ["5e-324", "1e-300", "1e-160", "1e160", "1e300", "1.7e308"] {
         for record in [
             "obj sphere ID 0 mat ID 0 N N N N",

@@ -1,16 +1,19 @@
-//! What well-formed records mean.
+//! The meaning of well-formed records.
+
+use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use super::{phong, read, scene, shown, spelled};
+use super::{read, scene, shown, spelled};
 use crate::geometry::Shape;
+use crate::language::coefficients::Coefficients;
 use crate::language::node::Node;
 use crate::scene::{
-    Camera, Falloff, Focus, Lens, Light, Material, Pattern, Phong, Rgb, Scene, Shadows, Size,
-    Source, Texture,
+    Bump, Camera, Emitter, Falloff, Focus, Lens, Light, Maps, Pattern, Rgb, Scene, Shadows, Side,
+    Size, Texture, Tinted,
 };
 
-/// The scene of records under a view, a material 0 and a sphere of radius 1.
+/// The scene of records after a view, a material 0 and a sphere of radius 1.
 fn with(records: &str) -> Scene {
     scene(&spelled(&format!(
         "VIEW\nmat ID 0 MAT\nobj sphere ID 0 BALL 1\n{records}"
@@ -26,7 +29,7 @@ fn cameras() {
     let perspective = seen(
         "camera perspective 1 2 3  4 5 6  7 8 9  2.5 0.5 40\nresolution 0.02 0.01\nviewport 30 500",
     );
-    // The image plane is 500 · 0.01 = 5 high, 2.5 before the eye.
+    // The image plane is 500 · 0.01 = 5 high, 2.5 in front of the eye.
     let Lens::Perspective(angle) = perspective.lens else {
         panic!("{perspective:?}");
     };
@@ -45,7 +48,7 @@ fn cameras() {
         },
     };
     assert_eq!(perspective, expected);
-    // The order of the records has no meaning, and a nearest distance below 0 counts as 0.
+    // The order of the records does not matter, and a negative near counts as 0.
     let orthographic =
         seen("viewport 30 500\nresolution 0.5 0.25\ncamera orthographic 1 2 3 4 5 6 7 8 9 1 -2 40");
     let expected = Camera {
@@ -58,12 +61,13 @@ fn cameras() {
 
 #[test]
 fn lights() {
-    let from = |position: [f64; 3], radial: [f64; 3], spot| Source::Point {
+    let from = |position: [f64; 3], radial: [f64; 3], spot| Emitter::Point {
         position: position.into(),
+        radius: 0.0,
         falloff: Falloff { radial, spot },
     };
     let root = 0.5_f64.sqrt();
-    for (record, source, shadows) in [
+    for (record, emitter, shadows) in [
         (
             "pnt 1 2 3  0 0 0  4 5 6  1 0 0  0 shadow_on",
             from([1., 2., 3.], [1., 0., 0.], None),
@@ -79,26 +83,26 @@ fn lights() {
             from([0., 0., 8.], [0., 1., 0.], Some((DVec3::NEG_Y, 7.0))),
             Shadows::Cast,
         ),
-        // An exponent of 0 is not a spot light.
+        // With an exponent of 0 it is not a spot light.
         (
             "pnt 0 0 8  0 -3 0  4 5 6  0 1 0  0 shadow_on",
             from([0., 0., 8.], [0., 1., 0.], None),
             Shadows::Cast,
         ),
-        // The direction is where the light goes.
+        // The direction is the one in which the light travels.
         (
             "inf 1 2 3  0 -2 2  4 5 6  1 0 0  0 shadow_on",
-            Source::Distant(DVec3::new(0.0, root, -root)),
+            Emitter::Distant(DVec3::new(0.0, root, -root)),
             Shadows::Cast,
         ),
         (
             "inf 0 5 0  0 0 0  4 5 6  1 0 0  0 shadow_off",
-            Source::Distant(DVec3::Y),
+            Emitter::Distant(DVec3::Y),
             Shadows::Off,
         ),
         (
             "amb 0 0 0  0 0 0  4 5 6  0 0 0  0 shadow_on",
-            Source::Everywhere,
+            Emitter::Ambient,
             Shadows::Cast,
         ),
     ] {
@@ -107,59 +111,62 @@ fn lights() {
         let [light] = scene.lights[..] else {
             panic!("{record}: {:?}", scene.lights);
         };
-        match (light.source, source) {
-            (Source::Distant(found), Source::Distant(expected)) => {
+        match (light.emitter, emitter) {
+            (Emitter::Distant(found), Emitter::Distant(expected)) => {
                 assert!((found - expected).length() < 1e-15, "{record}");
             }
             (found, expected) => assert_eq!(found, expected, "{record}"),
         }
         let rest = Light {
-            source: light.source,
+            emitter: light.emitter,
             colour,
+            scale: PI,
             shadows,
-            radius: 0.0,
         };
         assert_eq!(light, rest, "{record}");
-        let ambient = match source {
-            Source::Everywhere => colour,
+        let ambient = match emitter {
+            Emitter::Ambient => colour,
             _ => Rgb::ZERO,
         };
-        assert_eq!(scene.ambient, ambient, "{record}");
+        assert_eq!(scene.ambient_light(), ambient, "{record}");
     }
 }
 
 #[test]
-fn ambient_light_adds_up() {
+fn ambient_lights_are_added_up() {
     let scene = with(
         "light ID 0 amb 0 0 0 0 0 0  .1 .2 .4  1 0 0 0 shadow_on
         light ID 1 pnt 0 0 0 0 0 0  1 1 1  1 0 0 0 shadow_on
         light ID 2 amb 0 0 0 0 0 0  .25 .5 1  1 0 0 0 shadow_off",
     );
-    assert_eq!(scene.ambient, DVec3::new(0.1 + 0.25, 0.2 + 0.5, 0.4 + 1.0));
+    assert_eq!(
+        scene.ambient_light(),
+        DVec3::new(0.1 + 0.25, 0.2 + 0.5, 0.4 + 1.0)
+    );
     assert_eq!(scene.lights.len(), 3);
 }
 
-/// A negative exponent reads as 0: no falloff, behind the light as before it.
+/// A negative exponent is read as 0: no spot, and light behind as in front.
 #[test]
 fn a_negative_exponent_is_not_a_spot_light() {
     let text = spelled(
         "VIEW\nmat ID 0 MAT\nobj sphere ID 0 BALL 1\nlight ID 0 pnt 0 0 8  0 -3 0  1 1 1  1 0 0  -2 shadow_on",
     );
     let scene = read(&text).1.scene.expect("there are no errors");
-    let Source::Point { falloff, .. } = scene.lights[0].source else {
+    let Emitter::Point { falloff, .. } = scene.lights[0].emitter else {
         panic!("{:?}", scene.lights);
     };
     assert_eq!(falloff, Falloff::NONE);
 }
 
-/// The material's colour tints all, and Kt stands before Kr.
+/// The material's colour tints everything, and Kt precedes Kr.
 #[test]
 fn materials() {
     let scene = scene(&spelled(
         "VIEW\nmat ID 7  1 .5 .25  .5 1 4 10  .75 .125 1.5\nobj sphere ID 0 mat ID 7 0 0 0 1",
     ));
     let colour = DVec3::new(1.0, 0.5, 0.25);
-    let expected = Phong {
+    let expected = Coefficients {
         ambient: 0.5 * colour,
         diffuse: colour,
         specular: 4.0 * colour,
@@ -167,10 +174,8 @@ fn materials() {
         reflection: 0.125,
         transmission: 0.75,
         index: 1.5,
-        colour_texture: None,
-        bump: None,
     };
-    assert_eq!(scene.materials, [Material::Phong(expected)]);
+    assert_eq!(scene.materials, [expected.into()]);
 }
 
 #[test]
@@ -183,26 +188,38 @@ fn textures_and_their_uses() {
         use colour ID 4 mat ID 0
         use colour ID 9 mat ID 1",
     );
+    let plain = |colour| Tinted {
+        colour,
+        texture: None,
+    };
+    let squares = [DVec3::new(1.0, 0.5, 0.0), DVec3::new(0.0, 0.25, 1.0)].map(plain);
+    let checker = Pattern::Checker {
+        squares,
+        side: Side::One,
+    };
+    let image = Pattern::Image("maps/wood.png".to_owned());
     let textures = [
-        Texture {
-            repeat: DVec2::new(2.0, 3.0),
-            pattern: Pattern::Checker([DVec3::new(1.0, 0.5, 0.0), DVec3::new(0.0, 0.25, 1.0)]),
-        },
-        Texture {
-            repeat: DVec2::new(0.5, 8.0),
-            pattern: Pattern::Image("maps/wood.png".to_owned()),
-        },
+        Texture::repeated(DVec2::new(2.0, 3.0), checker),
+        Texture::repeated(DVec2::new(0.5, 8.0), image),
     ];
     assert_eq!(scene.textures, textures);
-    let uses = |index: usize| {
-        let material = phong(&scene.materials[index]);
-        (material.colour_texture, material.bump)
+    let bump = Bump {
+        texture: 1,
+        height: -0.25,
     };
-    assert_eq!(uses(0), (Some(0), Some((1, -0.25))));
-    assert_eq!(uses(1), (Some(1), None));
+    for (index, texture, bump) in [(0, Some(0), Some(bump)), (1, Some(1), None)] {
+        let expected = Maps {
+            ambient: texture,
+            diffuse: texture,
+            specular: texture,
+            bump,
+            ..Maps::default()
+        };
+        assert_eq!(scene.materials[index].maps, expected.boxed());
+    }
 }
 
-/// The radii of the spheres that are drawn, and the number of objects that are not spheres.
+/// The radii of the drawn spheres, and the number of other objects.
 fn drawn(scene: &Scene) -> (Vec<f64>, usize) {
     let radius = |shape: &Shape| match shape {
         Shape::Sphere(sphere) => Some(sphere.radius),
@@ -218,17 +235,17 @@ fn drawn(scene: &Scene) -> (Vec<f64>, usize) {
 }
 
 #[test]
-fn render_lists_what_is_drawn() {
+fn render_lists_the_drawn_objects() {
     let objects = "mat ID 0 MAT
         obj sphere ID 5 BALL 5
         obj sphere ID -2 BALL 2
         obj sphere ID 1 BALL 1
         obj CSG ID 8 union ID 5 ID 1\n";
     for (render, radii, others) in [
-        // All but operands.
+        // All except operands.
         ("", &[2.0][..], 1),
         ("render 1 ID 5\n", &[5.0], 0),
-        // In the order of the file, each once.
+        // In file order, each once.
         ("render 4 ID 1 ID 5 ID -2 ID 5\n", &[5.0, 2.0, 1.0], 0),
         ("render 2  ID 8  ID 1\n", &[1.0], 1),
     ] {
@@ -243,7 +260,7 @@ fn render_lists_what_is_drawn() {
 }
 
 #[test]
-fn render_0_draws_operands_too_and_says_so() {
+fn render_0_draws_operands_with_a_warning() {
     let objects = "mat ID 0 MAT
         obj sphere ID 5 BALL 5
         obj sphere ID -2 BALL 2
@@ -264,7 +281,7 @@ fn render_0_draws_operands_too_and_says_so() {
 }
 
 #[test]
-fn long_lists_of_operands_are_cut_short() {
+fn long_lists_of_operands_are_truncated() {
     let pairs = 70;
     let balls = (0..2 * pairs).map(|id| format!("obj sphere ID {id} BALL 1\n"));
     let both = (0..pairs).map(|at| {
@@ -286,7 +303,7 @@ fn long_lists_of_operands_are_cut_short() {
 }
 
 #[test]
-fn the_courses_word_for_an_intersection_is_read_without_a_warning() {
+fn intersect_is_accepted_without_a_warning() {
     let with = |word: &str| {
         let objects = "mat ID 0 MAT\nobj sphere ID 1 BALL 1\nobj sphere ID 2 BALL 2\n";
         scene(&spelled(&format!(
@@ -296,7 +313,7 @@ fn the_courses_word_for_an_intersection_is_read_without_a_warning() {
     assert_eq!(with("intersect"), with("intersection"));
 }
 
-/// One number may name one thing of each kind.
+/// The same ID may be used once in each category.
 #[test]
 fn each_category_has_its_own_ids() {
     let scene = scene(&spelled(
@@ -311,7 +328,8 @@ obj sphere ID +4 mat ID 3  0 0 0 4
 render 2 ID 3 ID 4",
     ));
     assert_eq!(drawn(&scene), (vec![1.0, 4.0], 0));
-    assert_eq!(phong(&scene.materials[0]).colour_texture, Some(0));
+    let maps = scene.materials[0].maps.as_ref();
+    assert_eq!(maps.and_then(|maps| maps.diffuse), Some(0));
 }
 
 const LAID_OUT: &str = "# a comment
@@ -329,7 +347,7 @@ render 1 ID 0
 ";
 
 #[test]
-fn layout_has_no_meaning() {
+fn layout_does_not_matter() {
     let plain = scene(LAID_OUT);
     for text in [
         LAID_OUT.replace('\n', "\r\n"),
@@ -349,7 +367,7 @@ fn layout_has_no_meaning() {
 }
 
 #[test]
-fn things_are_found_by_place_and_told_by_name() {
+fn nodes_are_found_by_position_and_have_names() {
     let text = spelled(
         "VIEW
 mat ID 12 MAT
@@ -406,9 +424,9 @@ render 1 ID 9",
     assert_eq!((drawn, source.object(0)), ([None, None, Some(0)], 2));
 }
 
-/// What follows the half-spaces that the number before them counts is not a field.
+/// Tokens after the declared number of half-spaces are not fields.
 #[test]
-fn a_quadric_has_the_fields_that_count() {
+fn a_quadric_has_only_its_declared_half_spaces() {
     let record = "obj quadric ID 1 mat ID 0  1 0 0 0 1 0 0 1 0 -1";
     for (cuts, fields) in [("0", 11), ("1 1 0 0 5", 12), ("1 1 0 0 5  0 1 0 5", 12)] {
         let text = spelled(&format!("VIEW\nmat ID 0 MAT\n{record}  {cuts}"));

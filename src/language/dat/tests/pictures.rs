@@ -1,4 +1,4 @@
-//! Small pictures of the solids of records, against membership by their definitions: a ray meets a
+//! Small pictures of solids, compared with point membership by their definitions: a ray hits a
 //! solid where one of many points along it is inside.
 
 use glam::DVec3;
@@ -15,14 +15,14 @@ fn drawn(objects: &str) -> Shape {
     objects.get(0).expect("one object is drawn").shape.clone()
 }
 
-/// How far outside a point is, by any measure that is 0 on the surface: below 0 inside.
+/// A signed measure: negative inside, 0 on the surface.
 type Excess = fn(DVec3) -> f64;
 
 const BALL: Excess = |p| p.length() - 3.0;
 const BAR: Excess = |p| (p.x.abs() - 3.5).max(p.y.abs() - 1.0).max(p.z.abs() - 1.0);
 
 #[test]
-fn solids_are_seen_where_they_are() {
+fn solids_are_hit_where_they_are() {
     let ball = "obj sphere ID 1 mat ID 0 0 0 0 3\n";
     let bar = "obj box ID 2 mat ID 0 0 0 0  1 0 0 0 1 0 0 0 1  7 2 2\n";
     let csg = |operation: &str| format!("{ball}{bar}obj CSG ID 9 {operation}");
@@ -46,12 +46,12 @@ fn solids_are_seen_where_they_are() {
                 (u.abs() - 1.0).max(v.abs() - 2.0).max(p.z.abs() - 2.5)
             },
         ),
-        // A waist, x² + y² − z² ≤ 1, between z = −2 and z = 2.
+        // A hyperboloid, x² + y² − z² ≤ 1, between z = −2 and z = 2.
         (
             "obj quadric ID 9 mat ID 0  1 0 0 0 1 0 0 -1 0 -1  2 0 0 1 2  0 0 -1 2".into(),
             |p| (p.x * p.x + p.y * p.y - p.z * p.z - 1.0).max(p.z.abs() - 2.0),
         ),
-        // Its outside, within a ball: concave.
+        // Its complement within a sphere: concave.
         (
             "obj quadric ID 3 mat ID 0  -1 0 0 0 -1 0 0 1 0 1  0\nobj sphere ID 1 mat ID 0 0 0 0 3\nobj CSG ID 9 intersection ID 1 ID 3".into(),
             |p| BALL(p).max(1.0 + p.z * p.z - p.x * p.x - p.y * p.y),
@@ -77,7 +77,7 @@ fn solids_are_seen_where_they_are() {
                 .map(|step| excess(ray.at(14.0 + f64::from(step) * 0.006)))
                 .fold(f64::INFINITY, f64::min);
             let hit = shape.hit(&ray, f64::INFINITY);
-            // Steps between points can pass over what is thinner than they are.
+            // Sampled points can miss parts thinner than their spacing.
             if 0.02 < least.abs() {
                 wrong += u32::from(hit.is_none() != (0.0 < least));
             }
@@ -90,7 +90,7 @@ fn solids_are_seen_where_they_are() {
                     excess(surface.point + h * axis) - excess(surface.point - h * axis)
                 });
                 let normal = DVec3::from_array(slope).normalize();
-                // At an edge there are two.
+                // At an edge there are two normals.
                 let off = (normal - surface.normal).length();
                 let is_edge = excess(surface.point + 1e-3 * surface.normal) < 1e-5
                     || excess(surface.point - 1e-3 * surface.normal) > -1e-5;

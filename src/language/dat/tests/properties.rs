@@ -1,4 +1,4 @@
-//! Properties of lowering over random texts and random edits.
+//! Property tests of lowering, with random texts and edits.
 
 use proptest::prelude::*;
 
@@ -10,7 +10,7 @@ use crate::language::table::{Category, Field, Kind};
 use crate::language::tests::{Random, damage};
 use crate::text::{Edit, Span, apply};
 
-/// The records of a random scene, each as its tokens. IDs are the places in their category.
+/// The records of a random scene, each as its tokens. IDs are the indices in their category.
 fn records(random: &mut Random) -> Vec<Vec<String>> {
     let mut records = Vec::new();
     let (materials, textures) = (1 + random.below(3), random.below(3));
@@ -80,7 +80,7 @@ fn records(random: &mut Random) -> Vec<Vec<String>> {
     records
 }
 
-/// Literals of a field: axes stand at right angles, references name what is above.
+/// Literals of a field: axes are orthogonal, references refer to earlier records.
 fn literals(
     random: &mut Random,
     field: &Field,
@@ -103,7 +103,7 @@ fn literals(
             }
             Kind::Word => random.pick(&["a.png", "é/b.ppm"]).to_owned(),
             Kind::HalfSpace if at == 3 => random.literal(field).replace('-', ""),
-            // The eye is far from the target, and the far end behind the near one.
+            // The eye is far from the target, and far is beyond near.
             _ if field.key == "eye" => format!("{}", 100 + random.below(9)),
             _ if field.key == "far" => "1e9".to_owned(),
             _ => random.literal(field),
@@ -111,7 +111,7 @@ fn literals(
         .collect()
 }
 
-/// The records with random space between the tokens, and comments between the lines.
+/// The records with random white space between tokens, and comments between lines.
 fn laid_out(records: &[Vec<String>], random: &mut Random) -> String {
     const GAPS: [&str; 5] = [" ", "  ", "\t", "\u{A0}", "\u{B}"];
     const ENDS: [&str; 9] = [
@@ -142,7 +142,7 @@ fn laid_out(records: &[Vec<String>], random: &mut Random) -> String {
 }
 
 #[test]
-fn layout_has_no_meaning() {
+fn layout_does_not_matter() {
     let mut random = Random(11);
     let mut sound = 0;
     for _ in 0..1_000 {
@@ -151,7 +151,7 @@ fn layout_has_no_meaning() {
         let tree = tree::parse(&text);
         let (_, lowered) = read(&text);
         let found = (0..tree.records.len()).map(|at| {
-            let tokens = tree.tokens_of(at).iter();
+            let tokens = tree.tokens_of(&text, at);
             tokens
                 .map(|token| token.of(&text).to_owned())
                 .collect::<Vec<_>>()
@@ -165,7 +165,7 @@ fn layout_has_no_meaning() {
     assert!(800 < sound, "{sound} without errors");
 }
 
-/// What the text says of each field.
+/// The text of each field.
 fn said(text: &str) -> Vec<(Node, &'static str, Vec<String>)> {
     let (source, _) = read(text);
     let nodes = source.nodes();
@@ -179,9 +179,9 @@ fn said(text: &str) -> Vec<(Node, &'static str, Vec<String>)> {
     nodes.iter().flat_map(of).collect()
 }
 
-/// Edits of fields change the bytes of their tokens alone, and undoing them brings every byte back.
+/// Edits of fields change only the bytes of their tokens, and undoing them restores every byte.
 #[test]
-fn an_edit_of_a_placed_span_changes_that_field_alone() {
+fn an_edit_at_a_place_changes_only_that_field() {
     let mut random = Random(12);
     let mut edits = 0;
     while edits < 10_000 {
@@ -251,7 +251,7 @@ fn mutate(text: &mut String, random: &mut Random) {
     damage(text, &read(text).0.leaves(), &WORDS, random);
 }
 
-/// Reads any text and checks that what comes out belongs to it.
+/// Lowers an arbitrary text and checks that the results are consistent with it.
 fn check_any(text: &str) {
     let (source, lowered) = read(text);
     let within = |span: Span| text.get(span.range()).is_some();
@@ -292,15 +292,21 @@ fn check_any(text: &str) {
         assert!((object.material as usize) < scene.materials.len());
     }
     for material in &scene.materials {
-        let material = super::phong(material);
-        let bump = material.bump.map(|(texture, _)| texture);
-        let mut used = material.colour_texture.into_iter().chain(bump);
-        assert!(used.all(|texture| (texture as usize) < scene.textures.len()));
+        let Some(maps) = &material.maps else {
+            continue;
+        };
+        let bump = maps.bump.map(|bump| bump.texture);
+        let used = [maps.ambient, maps.diffuse, maps.specular, bump];
+        assert!(
+            used.into_iter()
+                .flatten()
+                .all(|texture| (texture as usize) < scene.textures.len())
+        );
     }
 }
 
 #[test]
-fn damaged_texts_are_read_to_their_end() {
+fn damaged_texts_are_read_to_the_end() {
     let mut random = Random(13);
     for _ in 0..2_000 {
         let mut text = laid_out(&records(&mut random), &mut random);

@@ -1,4 +1,4 @@
-//! Where the solids of records are, by rays whose crossings are known on paper.
+//! The surfaces of solids, along rays with crossings computed by hand.
 
 use glam::DVec3;
 
@@ -10,7 +10,7 @@ const X: [f64; 3] = [1., 0., 0.];
 const Y: [f64; 3] = [0., 1., 0.];
 const Z: [f64; 3] = [0., 0., 1.];
 
-/// The one object that is drawn of a text with materials 0 and 1.
+/// The only drawn object of a text with materials 0 and 1.
 fn solid(records: &str) -> Object {
     let text = spelled(&format!("VIEW\nmat ID 0 MAT\nmat ID 1 MAT\n{records}"));
     let objects = scene(&text).objects;
@@ -18,7 +18,7 @@ fn solid(records: &str) -> Object {
     objects[0].clone()
 }
 
-/// Where a line crosses an object, and the material at each place.
+/// The crossings of a line with an object, each with its material.
 fn crossings(object: &Object, origin: [f64; 3], direction: [f64; 3]) -> Vec<(f64, u32)> {
     let ray = Ray {
         origin: origin.into(),
@@ -30,12 +30,12 @@ fn crossings(object: &Object, origin: [f64; 3], direction: [f64; 3]) -> Vec<(f64
     ends.map(|hit| (hit.t, object.material_at(hit))).collect()
 }
 
-/// A record, and lines as origin, direction and where they cross the solid.
+/// A record, and lines as origin, direction and crossings.
 type Case<'a> = (&'a str, &'a [([f64; 3], [f64; 3], &'a [f64])]);
 
 #[test]
 #[allow(clippy::too_many_lines, reason = "a table")]
-fn shapes_stand_where_their_records_say() {
+fn shapes_are_where_their_records_place_them() {
     const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
     let cases: &[Case] = &[
         (
@@ -52,7 +52,7 @@ fn shapes_stand_where_their_records_say() {
                 ([-9., 2., 3.], X, &[9., 11.]),
                 ([1., -8., 3.], Y, &[8., 12.]),
                 ([1., 2., -7.], Z, &[6., 14.]),
-                // Half way out along z, √¾ of the width along x is left.
+                // At half the radius along z, the width along x is √¾ of the full one.
                 (
                     [-9., 2., 5.],
                     X,
@@ -63,7 +63,7 @@ fn shapes_stand_where_their_records_say() {
                 ),
             ],
         ),
-        // The axis goes from the middle both ways; the direction's length has no meaning.
+        // The axis extends from the middle both ways; the direction's length does not matter.
         (
             "obj cylinder ID 0 mat ID 1  1 2 3  0 0 1  2 6",
             &[
@@ -98,7 +98,7 @@ fn shapes_stand_where_their_records_say() {
                 ),
             ],
         ),
-        // Full widths around the centre.
+        // Whole widths, centred.
         (
             "obj box ID 0 mat ID 1  1 2 3 AXES 2 4 6",
             &[
@@ -112,11 +112,11 @@ fn shapes_stand_where_their_records_say() {
             &[
                 ([-6., -8., 0.], [0.6, 0.8, 0.], &[9., 11.]),
                 ([8., -6., 0.], [-0.8, 0.6, 0.], &[8., 12.]),
-                // Across the corners of the lower edge: x from −1/0.6 to 1/0.6.
+                // Through the corners of the lower edge: x from −1/0.6 to 1/0.6.
                 ([-9., 0., 0.], X, &[9. - 1. / 0.6, 9. + 1. / 0.6]),
             ],
         ),
-        // x² + y² − z² ≤ 1, cut at z = −1 and z = 2; a normal's length scales its distance.
+        // x² + y² − z² ≤ 1, clipped at z = −1 and z = 2; a normal's length scales its distance.
         (
             "obj quadric ID 0 mat ID 1  1 0 0 0 1 0 0 -1 0 -1  2 0 0 2 4  0 0 -1 1",
             &[
@@ -126,7 +126,7 @@ fn shapes_stand_where_their_records_say() {
                 ([-9., 0., -1.1], X, &[]),
             ],
         ),
-        // Each coefficient once: B, C, F are of 2xy, 2xz, 2yz; D, G, I of 2x, 2y, 2z.
+        // Each coefficient once: B, C, F multiply 2xy, 2xz, 2yz; D, G, I multiply 2x, 2y, 2z.
         (
             "obj quadric ID 0 mat ID 1  1 0 0 -2 0 0 0 0 0 3  0",
             &[([0.; 3], X, &[1., 3.])],
@@ -167,7 +167,7 @@ fn shapes_stand_where_their_records_say() {
     }
 }
 
-/// A box of material 0 from x = −2 to 2 and a sphere of material 1 around 2: along x.
+/// A box of material 0 from x = −2 to 2 and a sphere of material 1 around x = 2.
 #[test]
 fn combined_solids_carry_the_material_of_the_surface() {
     for (operation, expected) in [
@@ -189,10 +189,10 @@ fn combined_solids_carry_the_material_of_the_surface() {
     }
 }
 
-/// Operands may be combined themselves, and used more than once.
+/// Operands may be combinations, and may be used more than once.
 #[test]
 fn combinations_nest() {
-    // Balls around 0, 4 and 8 of radius 3; the ends of (A ∪ B) − (B ∩ C) along x.
+    // Spheres of radius 3 around 0, 4 and 8; the crossings of (A ∪ B) − (B ∩ C) along x.
     let object = solid(
         "obj sphere ID 0 mat ID 0  0 0 0  3
         obj sphere ID 1 mat ID 1  4 0 0  3

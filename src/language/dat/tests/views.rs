@@ -1,4 +1,4 @@
-//! Views: what stands in for missing records, and which cannot be used.
+//! Views: defaults for missing records, and unusable views.
 
 use glam::DVec3;
 
@@ -6,10 +6,10 @@ use super::{read, spelled};
 use crate::language::tests::shown;
 use crate::scene::{Camera, Focus, Lens, Size};
 
-/// A unit sphere at the origin: its box is ±1, centred at 0, with half a diagonal of √3.
+/// A unit sphere at the origin: its box is ±1, centred at 0, with a half diagonal of √3.
 pub(super) const BODY: &str = "mat ID 0 MAT\nobj sphere ID 0 BALL 1\n";
 
-/// The camera of [`BODY`] under some lines, and the diagnostics.
+/// The camera of [`BODY`] after some lines, and the diagnostics.
 fn seen(lines: &str) -> (Option<Camera>, Vec<String>) {
     let text = spelled(&format!("{lines}{BODY}"));
     let (_, lowered) = read(&text);
@@ -19,7 +19,7 @@ fn seen(lines: &str) -> (Option<Camera>, Vec<String>) {
 
 pub(super) const MISSING: [&str; 3] = ["camera", "resolution", "viewport"];
 
-/// Checks that these records are told to be missing, and nothing else.
+/// Checks that exactly these records are reported as missing.
 fn check_missing(said: &[String], words: &[&str]) {
     let expected: Vec<_> = words
         .iter()
@@ -55,7 +55,7 @@ fn the_default_view_frames_the_scene() {
 }
 
 #[test]
-fn a_missing_camera_leaves_size_and_pixels_to_be_said() {
+fn a_missing_camera_keeps_resolution_and_viewport() {
     let (camera, said) = seen("resolution 0.02 0.01\nviewport 64 48\n");
     check_missing(&said, &MISSING[..1]);
     let camera = camera.expect("no errors");
@@ -96,7 +96,7 @@ fn a_missing_viewport_is_800_by_600() {
 }
 
 #[test]
-fn views_that_cannot_be_used_are_told_at_their_records() {
+fn unusable_views_are_reported_at_their_records() {
     for (view, expected) in [
         (
             "camera perspective 1 2 3  1 2 3  0 1 0  1 0 9\n",

@@ -1,4 +1,4 @@
-//! Long texts mean the same however they are read.
+//! Long texts mean the same whether they are read by blocks or in order.
 
 use std::sync::Arc;
 
@@ -6,12 +6,12 @@ use proptest::prelude::*;
 
 use crate::language::ray::lower::lower_in_order;
 use crate::language::ray::{self, again};
-use crate::language::{Answers, Before, Lowered};
+use crate::language::{Answers, Before, Editable, Lowered};
 use crate::scene::objects::BLOCK;
 use crate::scene::{Meshes, Scene};
 use crate::text::{Edit, Span};
 
-/// A text of so many objects in colours in turn, one in so many with something to be warned of.
+/// A text of `objects` objects in repeating colours, with a warning for every `warned`th.
 fn text(objects: usize, declared: usize, warned: usize) -> String {
     let frame = "1 2 3  1 0 0  0 1 0  0 0 1  4 5 6";
     let mut text = format!("1 1 1  1  0 5 5  1 1 1  {declared}\n");
@@ -28,14 +28,14 @@ fn text(objects: usize, declared: usize, warned: usize) -> String {
     text
 }
 
-/// A text and what it means.
+/// Parses and lowers a text.
 pub(super) fn read(text: &str) -> (ray::Source, Lowered) {
     let mut source = ray::parse(Arc::new(text.to_owned()));
     let lowered = source.lower(&Meshes::default()).expect("there is memory");
     (source, lowered)
 }
 
-/// Puts something in the place of some bytes; returns these and what stands there then.
+/// Replaces the bytes `old`; returns their span and the new one.
 fn put(source: &mut ray::Source, old: Span, literal: &str) -> [Span; 2] {
     let edit = Edit {
         span: old,
@@ -59,7 +59,7 @@ fn parts<'l>(source: &ray::Source, lowered: &'l Lowered) -> (&'l Option<Scene>, 
 }
 
 #[test]
-fn a_number_of_an_object_is_read_with_its_block_alone() {
+fn a_changed_number_reads_only_its_block_again() {
     let text = text(2 * BLOCK + 9, 2 * BLOCK + 9, 400);
     let (mut source, mut lowered) = read(&format!("// view: eye 0 0 9 target 0 0 0\n{text}"));
     for (number, literal) in [(900, "0.25"), (30_000, "1e-1"), (500, "+7")] {
@@ -78,7 +78,7 @@ fn a_number_of_an_object_is_read_with_its_block_alone() {
 }
 
 #[test]
-fn an_edit_of_a_shape_copies_its_block_alone() {
+fn an_edit_of_a_shape_copies_only_its_block() {
     let text = text(3 * BLOCK, 3 * BLOCK, 400);
     let (mut source, lowered) = read(&format!("// view: eye 0 0 9 target 0 0 0\n{text}"));
     let sphere = format!("sphere {} 2 3 0.5", BLOCK + 6);
@@ -103,7 +103,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
-    fn edits_mean_what_their_texts_do(
+    fn edited_texts_mean_the_same_as_new_ones(
         view in prop_oneof![
             4 => Just("// view: eye 0 0 9 target 0 0 0 fov 40\n"),
             1 => Just("// view: eye 0 0 9\n"),
@@ -136,7 +136,7 @@ proptest! {
     }
 
     #[test]
-    fn blocks_mean_what_the_whole_does(
+    fn blocks_mean_the_same_as_the_whole(
         more in 0usize..400,
         miscounted in prop_oneof![4 => Just(0), 1 => Just(1)],
         change in prop_oneof![

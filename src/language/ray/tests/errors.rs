@@ -1,10 +1,10 @@
-//! One case a rule. Expected diagnostics stand beside the text that causes them, behind `//~`:
-//! column, severity, and how the message goes.
+//! One case per rule. Expected diagnostics are in the text that causes them, after `//~`: column,
+//! severity, and the start of the message.
 
 use super::{read, shown, spelled};
 
-/// Checks the diagnostics of a text against those that its `//~` notes expect, all of them, in
-/// order, and that there is a scene exactly if none is an error.
+/// Checks that a text has exactly the diagnostics of its `//~` notes, in order, and a scene if and
+/// only if none is an error.
 fn check(case: &str) {
     let text = spelled(case);
     let (_, lowered) = read(&text);
@@ -53,7 +53,7 @@ fn numbers_are_decimal_and_finite() {
 }
 
 #[test]
-fn errors_that_can_be_told_apart_are_told_at_once() {
+fn independent_errors_are_reported_at_once() {
     check(
         "1 1 x //~ 5 error: ambient colour blue: `x` is not a number
 1  0 5 5  1 1 1
@@ -72,7 +72,7 @@ y //~ 1 error: object 2 (box) kd blue: `y` is not a number
 }
 
 #[test]
-fn sizes_are_greater_than_0() {
+fn sizes_must_be_greater_than_0() {
     for case in [
         "HEAD 1 sphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius: must be greater than 0\nMAT",
         "HEAD 1 ellipsoid 0 0 0 AXES 1\n-1 //~ 1 error: object 1 (ellipsoid) l2: must be greater than 0\n1 MAT",
@@ -85,7 +85,7 @@ fn sizes_are_greater_than_0() {
 }
 
 #[test]
-fn coefficients_outside_their_usual_range_are_warned_of() {
+fn unusual_coefficients_give_warnings() {
     for case in [
         "HEAD 1 sphere 0 0 0 1\n2 0 0 //~ 1 warning: object 1 (sphere) ka red: 2 is not from 0 to 1\n1 1 1 1 1 1 5 0 0 1",
         "HEAD 1 sphere 0 0 0 1 0 0 0\n0 -1 0 //~ 3 warning: object 1 (sphere) kd green: -1 is not\n1 1 1 5 0 0 1",
@@ -100,7 +100,7 @@ fn coefficients_outside_their_usual_range_are_warned_of() {
 }
 
 #[test]
-fn directions_are_of_unit_length_and_at_right_angles() {
+fn directions_have_unit_length_and_right_angles() {
     for case in [
         "HEAD 1 box 0 0 0 1 0 0 0 1 0\n0 0 0 //~ 1 error: object 1 (box) vh: must not be zero\n1 1 1 MAT",
         "HEAD 1 box 0 0 0\n2 0 0 //~ 1 warning: object 1 (box) vl: has length 2, not 1\n0 1 0 0 0 1 1 1 1 MAT",
@@ -114,7 +114,7 @@ fn directions_are_of_unit_length_and_at_right_angles() {
         "HEAD 1 box 0 0 0 1 0 0\n-1 0 0 //~ 1 error: object 1 (box) vw: is parallel to vl\n0 0 1 1 1 1 MAT",
         "HEAD 1 box 0 0 0 1 0 0 0 1 0\n0 1 0 //~ 1 error: object 1 (box) vh: is parallel to vw\n1 1 1 MAT",
         "HEAD 1 box 0 0 0 1 0 0 0 1 0\n.6 .8 0 //~ 1 error: object 1 (box) vh: lies in the plane of the other two\n1 1 1 MAT",
-        // A direction that cannot be read leaves the other two to be compared.
+        // The other two directions of a frame are compared even if one cannot be read.
         "HEAD 1 box 0 0 0\n1 x 0 //~ 3 error: object 1 (box) vl y: `x` is not a number\n0 1 0\n0 .6 .8 //~ 1 warning: object 1 (box) vh: not at a right angle to vw\n1 1 1 MAT",
     ] {
         check(case);
@@ -122,18 +122,18 @@ fn directions_are_of_unit_length_and_at_right_angles() {
 }
 
 #[test]
-fn keywords_are_in_lower_case() {
+fn capital_keywords_give_warnings() {
     check("HEAD 1\nSphere //~ 1 warning: `Sphere` should be in lower case\n0 0 0 1 MAT");
     check("HEAD 1\nBOX //~ 1 warning: `BOX` should be in lower case\n0 0 0 AXES 1 1 1 MAT");
 }
 
 #[test]
-fn an_object_too_short_is_reported_where_the_next_begins() {
+fn missing_numbers_are_reported_where_the_next_object_begins() {
     for case in [
         "HEAD 2 box 0 0 0 AXES 1 1\nsphere //~ 1 error: object 1 (box) height: missing; 14 more numbers due before `sphere`\n0 0 0 1 MAT",
         "HEAD 2 sphere 0 0\nbox //~ 1 error: object 1 (sphere) centre z: missing; 15 more numbers due before `box`\n0 0 0 AXES 1 1 1 MAT",
         "HEAD 2 sphere\nsphere //~ 1 error: object 1 (sphere) centre x: missing; 17 more\n0 0 0\n0 //~ 1 error: object 2 (sphere) radius: must be\nMAT",
-        // The next object's keyword is known even with a slip in it.
+        // A misspelt keyword of the next object is recognised.
         "HEAD 2 sphere 0 0 0 1 0 0 0 0 0 0 0 0 0 5 0 0\nspere //~ 1 error: object 1 (sphere) ior: missing; 1 more number due before `spere` //~ 1 error: object 2: unknown type `spere`\n0 0 0 1 MAT",
     ] {
         check(case);
@@ -141,12 +141,12 @@ fn an_object_too_short_is_reported_where_the_next_begins() {
 }
 
 #[test]
-fn an_object_too_long_is_reported_at_what_is_too_much() {
+fn surplus_numbers_are_reported_at_their_place() {
     for case in [
         "HEAD 2 sphere 0 0 0 1 MAT\n7 8 9 //~ 1 error: object 1 (sphere): 3 numbers too many\nsphere 0 0 0 1 MAT",
         "HEAD 2 sphere 0 0 0 1 MAT\n-7 //~ 1 error: object 1 (sphere): 1 number too many\nsphere 0 0 0 1 MAT",
         "HEAD 2\n7 //~ 1 error: nObjects: 1 number too many after it\nsphere 0 0 0 1 MAT sphere 0 0 0 1 MAT",
-        // A keyword left out: its numbers are surplus, and no other error follows from that.
+        // Without its keyword, an object's numbers are surplus, and no other error follows.
         "HEAD 2 sphere 0 0 0 1 MAT\n0 0 0 1 MAT //~ 1 error: object 1 (sphere): 17 numbers too many",
         "HEAD 3 sphere 0 0 0 1 MAT\n0 0 0 1 MAT //~ 1 error: object 1 (sphere): 17 numbers too many\nbox 0 0 0 AXES 1 1 1 MAT",
     ] {
@@ -155,7 +155,7 @@ fn an_object_too_long_is_reported_at_what_is_too_much() {
 }
 
 #[test]
-fn unknown_types_are_passed_over() {
+fn unknown_types_are_skipped() {
     for case in [
         "HEAD 1\nspere //~ 1 error: object 1: unknown type `spere`\n0 0 0 1 MAT",
         "HEAD 2\ntorus //~ 1 error: object 1: unknown type `torus`\n0 0 0 1 MAT\nsphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius: must be\nMAT",
@@ -167,7 +167,7 @@ fn unknown_types_are_passed_over() {
 }
 
 #[test]
-fn the_number_of_objects_is_that_of_the_objects() {
+fn the_declared_number_of_objects_must_match() {
     for case in [
         "HEAD\n1 //~ 1 error: nObjects: says `1`, but 1 more object follows\nsphere 0 0 0 1 MAT sphere 0 0 0 1 MAT",
         "HEAD\n1 //~ 1 error: nObjects: says `1`, but 2 more objects follow\nsphere 0 0 0 1 MAT sphere 0 0 0 1 MAT cone 0 0 0 AXES 1 1 1 MAT",
@@ -188,7 +188,7 @@ fn the_number_of_objects_is_that_of_the_objects() {
         "HEAD\n99999999999999999999999 //~ 1 error: nObjects: says `99999999999999999999999`, but the text ends after\nsphere 0 0 0 1 MAT",
         "HEAD\nsphere //~ 1 error: nObjects: missing before `sphere`\n0 0 0 1 MAT",
         "HEAD //~ 23 error: nObjects: missing, the text ends here",
-        // A number of objects that cannot be read leaves a broken end to be told.
+        // With an unreadable number of objects, an incomplete last object is still reported.
         "HEAD\n0 //~ 1 error: nObjects: must be\nsphere 0 0\n0 //~ 2 error: object 1 (sphere) radius: missing; 14 more numbers due before the text ends",
     ] {
         check(case);
@@ -196,13 +196,13 @@ fn the_number_of_objects_is_that_of_the_objects() {
 }
 
 #[test]
-fn the_number_of_lights_is_that_of_the_lights() {
+fn the_declared_number_of_lights_must_match() {
     for case in [
-        // Too many declared: an object comes where a light's number is due.
+        // Too many lights declared: an object begins where a light's number is expected.
         "1 1 1\n2 //~ 1 error: nLights: says `2`, but the text has 1 light before `sphere`\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
         "1 1 1\n2 //~ 1 error: nLights: says `2`, but the text has 1 light and 3 numbers before `sphere`\n0 5 5 1 1 1 0 0 1 sphere 0 0 0 1 MAT",
         "1 1 1\n1 //~ 1 error: nLights: says `1`, but the text has 0 lights before `sphere`\n1 sphere 0 0 0 1 MAT",
-        // Too few declared.
+        // Too few lights declared.
         "1 1 1\n1 //~ 1 error: nLights: says `1`, but the text has 2 lights before `sphere`\n0 5 5 1 1 1  3 5 5 1 1 1  1 sphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius\nMAT",
         "1 1 1\n2 //~ 1 error: nLights: says `2`, but the text has 1 light and 2 numbers before the text ends\n0 5 5 1 1 1 1 2",
         "1 1 1\n0 //~ 1 error: nLights: must be a whole number, 1 or more, not `0`\n0 5 5 1 1 1 1 sphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius\nMAT",
@@ -217,7 +217,7 @@ fn the_number_of_lights_is_that_of_the_lights() {
 }
 
 #[test]
-fn a_scene_without_a_beginning_is_one_error() {
+fn a_scene_without_its_beginning_is_a_single_error() {
     for case in [
         " //~ 1 error: the text holds no scene",
         "// nothing but words //~ 1 error: the text holds no scene",
@@ -238,7 +238,7 @@ fn a_scene_without_a_beginning_is_one_error() {
 }
 
 #[test]
-fn messages_say_what_is_expected_and_the_way_out() {
+fn messages_contain_expectation_and_hint() {
     let text = spelled("HEAD 2 sphere 0 0 0 1,5 MAT spere 0 0 0 1 MAT");
     let (_, lowered) = read(&text);
     let said: Vec<_> = lowered
@@ -261,9 +261,9 @@ fn messages_say_what_is_expected_and_the_way_out() {
     );
 }
 
-/// Of a value too long to be read, what is told is short and still says how large it is.
+/// Numbers too long to be read are shortened, but the message still shows how large they are.
 #[test]
-fn messages_hold_short_numbers() {
+fn numbers_in_messages_are_short() {
     for (text, part) in [
         (
             format!("HEAD 1 sphere 0 0 0 1{} MAT", "0".repeat(400)),
@@ -298,7 +298,7 @@ fn messages_hold_short_numbers() {
 }
 
 #[test]
-fn a_hundred_errors_are_enough() {
+fn at_most_a_hundred_errors_are_reported() {
     let objects = "sphere x 0 0 1 MAT\n".repeat(1000);
     let text = spelled(&format!("HEAD 1000\n{objects}"));
     let (_, lowered) = read(&text);
@@ -308,7 +308,7 @@ fn a_hundred_errors_are_enough() {
 
 #[test]
 fn a_declared_count_allocates_nothing() {
-    // Memory or time in proportion to the count would end this test.
+    // Memory or time proportional to the count would fail this test.
     for count in ["100000000", "18446744073709551616", "1e300"] {
         for text in [format!("{} {count}", super::HEAD), format!("1 1 1 {count}")] {
             let (_, lowered) = read(&text);

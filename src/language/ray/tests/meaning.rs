@@ -1,12 +1,13 @@
-//! What well-formed texts mean.
+//! The meaning of well-formed texts.
 
 use glam::DVec3;
 
 use super::{read, scene, spelled};
 use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
+use crate::language::coefficients::Coefficients;
 use crate::language::node::Node;
 use crate::language::tests::shown;
-use crate::scene::{Light, Material, Object, Phong};
+use crate::scene::{Light, Material, Object};
 use crate::text::Span;
 
 const EXAMPLE: &str = include_str!("../../../../scenes/example.ray");
@@ -19,7 +20,7 @@ fn the_example_of_the_format() {
     assert_eq!(scene.ambient, DVec3::ONE);
     let light = Light::point(DVec3::new(0.0, 5.0, 5.0), DVec3::ONE);
     assert_eq!(scene.lights, [light]);
-    let material = |index| Phong {
+    let material = |index| Coefficients {
         ambient: DVec3::splat(0.1),
         diffuse: DVec3::splat(0.45),
         specular: DVec3::splat(0.5),
@@ -27,12 +28,9 @@ fn the_example_of_the_format() {
         reflection: 0.5,
         transmission: 0.1,
         index,
-        ..Phong::default()
     };
-    assert_eq!(
-        scene.materials,
-        [material(1.6), material(1.1)].map(Material::Phong)
-    );
+    let materials = [material(1.6), material(1.1)].map(Material::from);
+    assert_eq!(scene.materials, materials);
     let sphere = Shape::Sphere(Sphere {
         centre: DVec3::ZERO,
         radius: 1.5,
@@ -54,7 +52,7 @@ fn the_example_as_web_pages_give_it() {
 }
 
 #[test]
-fn each_shape_takes_its_fields_in_order() {
+fn each_shape_has_its_fields_in_order() {
     let numbers = "1 2 3  0 1 0  0 0 1  1 0 0  4 5 6";
     let frame = Affine::new(
         DVec3::new(1.0, 2.0, 3.0),
@@ -74,11 +72,11 @@ fn each_shape_takes_its_fields_in_order() {
 }
 
 #[test]
-fn unusual_values_are_kept_as_given() {
+fn unusual_values_are_used_as_given() {
     let scene = scene(&spelled(
         "HEAD 1 sphere 0 0 0 1  2 0 0  0 -1 0  0 0 3  -4 -5 6 -7",
     ));
-    let material = Phong {
+    let material = Coefficients {
         ambient: DVec3::new(2.0, 0.0, 0.0),
         diffuse: DVec3::new(0.0, -1.0, 0.0),
         specular: DVec3::new(0.0, 0.0, 3.0),
@@ -86,13 +84,12 @@ fn unusual_values_are_kept_as_given() {
         reflection: -5.0,
         transmission: 6.0,
         index: -7.0,
-        ..Phong::default()
     };
-    assert_eq!(scene.materials, [Material::Phong(material)]);
+    assert_eq!(scene.materials, [material.into()]);
 }
 
 #[test]
-fn equal_materials_near_each_other_are_one() {
+fn nearby_equal_materials_are_merged() {
     let plain = "sphere 0 0 0 1 MAT ";
     let other = "sphere 0 0 0 1  1 1 1  1 1 1  1 1 1  1 0 0 1 ";
     let scene = scene(&spelled(&format!("HEAD 4 {plain}{plain}{other}{plain}")));
@@ -131,7 +128,7 @@ fn nodes_and_their_names() {
 }
 
 #[test]
-fn nodes_are_known_as_far_as_the_text_is_understood() {
+fn nodes_exist_as_far_as_the_text_is_understood() {
     let text = spelled("1 1 x 2 0 5 5 1 1 1 0 1 sphere 0 0 0 -1 MAT box 0 0 0  1 0 0  0 1");
     let (source, _) = read(&text);
     let fields: Vec<_> = source
@@ -156,7 +153,7 @@ fn nodes_are_known_as_far_as_the_text_is_understood() {
 }
 
 #[test]
-fn every_field_stands_where_its_numbers_are() {
+fn every_field_has_the_place_of_its_numbers() {
     let text = "// view: fov 30 eye 7 8 9\n1 2 3 1 4 5 6 .7 .8 .9 1 sphere 10 11 12 13 // radius\n\
         0 0 0 0 0 0 0 0 0 14 .1 .2 1.5";
     let (source, _) = read(text);
@@ -194,8 +191,8 @@ fn every_field_stands_where_its_numbers_are() {
 }
 
 #[test]
-fn the_node_at_a_place_is_the_one_whose_text_is_there() {
-    // `^` stands below each place asked for, in the order of the names.
+fn a_place_belongs_to_the_node_whose_text_is_there() {
+    // A `^` marks each place queried, in the order of the names.
     let head = "1 1 1 1 0 5 5 1 1 1 2 sphere 0 0 0 1 /*";
     let text = format!(
         "{}// centred\n// view: fov 30\n 0 0 0 0 0 0 0 0 0 5 0 0 1 box 0",

@@ -1,20 +1,21 @@
-//! Properties of lowering over random texts and random edits.
+//! Property tests of lowering, with random texts and edits.
 
 use glam::DVec3;
 use proptest::prelude::*;
 
 use super::{read, scene};
 use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
+use crate::language::coefficients::Coefficients;
 use crate::language::node::Node;
 use crate::language::ray::table::ShapeKind;
 use crate::language::ray::table::{AMBIENT, LIGHT, VIEW};
 use crate::language::table::{Field, Kind, Range};
 use crate::language::tests::{Random, damage};
-use crate::scene::{Camera, Lens, Light, Material, Object, Objects, Phong, Scene, Setting, Size};
+use crate::scene::{Camera, Lens, Light, Material, Object, Objects, Scene, Setting, Size};
 use crate::text::{Edit, Span, apply};
 
 impl Random {
-    /// A literal that the field allows, in one of the styles numbers are written in.
+    /// An allowed literal for the field, in a random style.
     pub(in crate::language) fn literal(&mut self, field: &Field) -> String {
         let whole = 1 + self.below(9);
         if field.kind == Kind::Pixels {
@@ -29,10 +30,10 @@ impl Random {
     }
 }
 
-/// What a thing is said to be: a field's key and the literals of its numbers.
+/// The fields of a node with the literals of their numbers.
 type Said = Vec<(&'static Field, Vec<String>)>;
 
-/// A scene by what is said of each thing, and a text that says it.
+/// A random scene as fields, and its text.
 struct Model {
     nodes: Vec<(Node, Option<ShapeKind>, Said)>,
 }
@@ -123,7 +124,7 @@ impl Model {
         }
     }
 
-    /// The scene, but for its camera, put together by the names of the fields.
+    /// The scene, except its camera, assembled by field names.
     fn scene(&self, camera: Camera) -> Scene {
         let mut scene = Scene {
             camera,
@@ -148,7 +149,7 @@ impl Model {
                     vector(said, "colour"),
                 )),
                 Node::Object(_) => {
-                    let material = Material::Phong(material(said));
+                    let material = material(said);
                     let known = scene.materials.iter().position(|known| *known == material);
                     let index = known.unwrap_or(scene.materials.len());
                     if known.is_none() {
@@ -165,7 +166,7 @@ impl Model {
         scene
     }
 
-    /// Checks the parts of the camera that are said.
+    /// Checks the stated parts of the camera.
     fn check_camera(&self, camera: &Camera) {
         for (field, _) in &self.nodes[0].2 {
             let said = &self.nodes[0].2;
@@ -228,8 +229,8 @@ fn shape(said: &Said, kind: ShapeKind) -> Shape {
     }
 }
 
-fn material(said: &Said) -> Phong {
-    Phong {
+fn material(said: &Said) -> Material {
+    let coefficients = Coefficients {
         ambient: vector(said, "ka"),
         diffuse: vector(said, "kd"),
         specular: vector(said, "ks"),
@@ -237,18 +238,18 @@ fn material(said: &Said) -> Phong {
         reflection: numbers(said, "kr")[0],
         transmission: numbers(said, "kt")[0],
         index: numbers(said, "ior")[0],
-        ..Phong::default()
-    }
+    };
+    coefficients.into()
 }
 
-/// Whether an edit of this component keeps the text free of errors: directions of a frame may only
-/// grow along their own axis, and an eye may not come to the target.
+/// Whether an edit of this component keeps the text error-free: directions of a frame may only grow
+/// along their own axis, and the eye must not coincide with the target.
 fn is_safe(field: &Field, old: &str) -> bool {
     field.key == "up" || field.kind != Kind::Direction || old != "0"
 }
 
 #[test]
-fn an_edit_of_a_placed_span_changes_that_field_alone() {
+fn an_edit_at_a_place_changes_only_that_field() {
     let mut random = Random(1);
     let mut edits = 0;
     while edits < 10_000 {
@@ -257,7 +258,7 @@ fn an_edit_of_a_placed_span_changes_that_field_alone() {
         for _ in 0..25 {
             let (source, lowered) = read(&text);
             let Some(before) = lowered.scene else {
-                // The random eye stands at the random target.
+                // The random eye is at the random target.
                 break;
             };
             model.check_camera(&before.camera);
@@ -301,7 +302,7 @@ fn an_edit_of_a_placed_span_changes_that_field_alone() {
 }
 
 #[test]
-fn the_text_says_the_camera_after_its_edits() {
+fn view_edits_make_the_text_describe_the_camera() {
     let mut random = Random(2);
     let mut checked = 0;
     while checked < 2_000 {
@@ -374,7 +375,7 @@ fn mutate(text: &mut String, random: &mut Random) {
     damage(text, &read(text).0.leaves(), &WORDS, random);
 }
 
-/// Reads any text and checks that what comes out belongs to it.
+/// Lowers an arbitrary text and checks that the results are consistent with it.
 fn check_any(text: &str) {
     let (source, lowered) = read(text);
     let within = |span: Span| text.get(span.range()).is_some();
@@ -418,7 +419,7 @@ fn check_any(text: &str) {
 }
 
 #[test]
-fn damaged_texts_are_read_to_their_end() {
+fn damaged_texts_are_read_to_the_end() {
     let mut random = Random(3);
     for _ in 0..2_000 {
         let mut text = Model::random(&mut random).text(&mut random);
@@ -441,7 +442,7 @@ proptest! {
     }
 }
 
-/// Objects of which a material comes back in the same spelling, some of them with something wrong.
+/// Objects with a recurring material text, some of them with errors or warnings.
 fn objects_alike(shapes: &[(usize, usize)], tokens: usize, each_apart: bool) -> String {
     let shapes_and_slips = [
         "sphere 1 2 3 4",
@@ -473,9 +474,9 @@ fn objects_alike(shapes: &[(usize, usize)], tokens: usize, each_apart: bool) -> 
 }
 
 proptest! {
-    /// Whether a material is spelled as one before or not, it means the same, and the same is told.
+    /// Whether a material's text occurred before or not, it has the same meaning and diagnostics.
     #[test]
-    fn materials_spelled_alike_mean_the_same(
+    fn materials_with_equal_text_are_equal(
         shapes in prop::collection::vec(
             (
                 prop_oneof![3 => 0..1_usize, 1 => 0..8_usize],

@@ -1,4 +1,4 @@
-//! View comments: what they mean, what is wrong with them, and how a camera is written back.
+//! View comments: their meaning, their errors, and edits of the camera.
 
 use glam::DVec3;
 
@@ -6,10 +6,10 @@ use super::{read, scene, shown, spelled};
 use crate::scene::{Camera, Lens, Size};
 use crate::text::apply;
 
-/// A unit sphere at the origin: its box is ±1, centred at 0, with half a diagonal of √3.
+/// A unit sphere at the origin: its box is ±1, centred at 0, with a half diagonal of √3.
 const BODY: &str = "HEAD 1 sphere 0 0 0 1 MAT";
 
-/// The camera of [`BODY`] under a first line, and the diagnostics.
+/// The camera of [`BODY`] after a first line, and the diagnostics.
 fn seen(line: &str) -> (Option<Camera>, Vec<String>) {
     let text = spelled(&format!("{line}\n{BODY}"));
     let (_, lowered) = read(&text);
@@ -42,7 +42,7 @@ fn the_default_view_frames_the_scene() {
 }
 
 #[test]
-fn an_f_behind_a_number_is_read_over_in_a_comment_that_counts() {
+fn a_trailing_f_is_ignored_in_the_effective_comment() {
     let (camera, said) = seen("// view: fov 40f");
     assert_eq!(
         camera.map(|camera| camera.lens),
@@ -72,8 +72,8 @@ fn scenes_of_any_size_have_a_default_view() {
 }
 
 #[test]
-fn the_default_view_aims_at_the_middle_of_the_tight_box() {
-    // A box turned by 45° about z: its diagonals lie along x and y, from −√½ to √½ and 0 to √2.
+fn the_default_view_aims_at_the_centre_of_the_tight_box() {
+    // A box rotated by 45° about z: its diagonals lie along x and y, from −√½ to √½ and 0 to √2.
     let half = 0.5_f64.sqrt();
     let text = format!("HEAD 1 box 0 0 5 {half} {half} 0 -{half} {half} 0 0 0 1 1 1 2 MAT");
     let target = scene(&spelled(&text)).camera.target;
@@ -82,7 +82,7 @@ fn the_default_view_aims_at_the_middle_of_the_tight_box() {
 }
 
 #[test]
-fn a_view_says_any_parts_in_any_order() {
+fn a_view_has_any_parts_in_any_order() {
     let default = default_camera();
     let eye = DVec3::new(1.0, 2.0, 3.0);
     let size = |width, height| Size { width, height };
@@ -144,7 +144,7 @@ fn a_view_says_any_parts_in_any_order() {
 }
 
 #[test]
-fn a_missing_eye_follows_the_angle_of_view() {
+fn a_missing_eye_depends_on_the_angle_of_view() {
     let (camera, _) = seen("// view: fov 90");
     let distance = camera.expect("no errors").eye.length();
     // √3 / sin 45° = √6
@@ -152,7 +152,7 @@ fn a_missing_eye_follows_the_angle_of_view() {
 }
 
 #[test]
-fn a_malformed_view_is_ignored_whole_with_a_warning() {
+fn a_malformed_view_is_ignored_entirely_with_a_warning() {
     let default = default_camera();
     for (line, warning) in [
         (
@@ -214,7 +214,7 @@ fn a_malformed_view_is_ignored_whole_with_a_warning() {
 }
 
 #[test]
-fn the_first_well_formed_view_wins() {
+fn the_first_well_formed_view_counts() {
     let (camera, said) = seen("// view: fov\n1 1 1 // view: fov 30\n// view: fov 60\n//");
     assert_eq!(
         camera, None,
@@ -236,7 +236,7 @@ fn the_first_well_formed_view_wins() {
 }
 
 #[test]
-fn a_view_that_cannot_be_used_is_reported_at_its_parts() {
+fn an_unusable_view_is_reported_at_its_parts() {
     for (line, diagnostic) in [
         (
             "// view: eye 1 2 3 target 1 2 3",
@@ -281,7 +281,7 @@ fn a_view_that_cannot_be_used_is_reported_at_its_parts() {
 }
 
 #[test]
-fn a_view_is_judged_beside_other_errors() {
+fn a_view_is_checked_despite_other_errors() {
     let text = spelled("// view: eye 1 1 1 target 1 1 1\nHEAD 1 sphere 0 0 0 -1 MAT");
     let (_, lowered) = read(&text);
     assert_eq!(
@@ -293,7 +293,7 @@ fn a_view_is_judged_beside_other_errors() {
     );
 }
 
-/// The text after it was made to say the camera that `change` leads to.
+/// The text after edits that change its camera by `change`.
 fn rewritten(text: &str, change: impl FnOnce(&mut Camera)) -> String {
     let mut text = spelled(text);
     let (source, lowered) = read(&text);
@@ -307,7 +307,7 @@ fn rewritten(text: &str, change: impl FnOnce(&mut Camera)) -> String {
 }
 
 #[test]
-fn a_camera_is_written_where_the_view_is() {
+fn view_edits_replace_and_add_parts() {
     let check = |line: &str, change: fn(&mut Camera), expected: &str| {
         let after = rewritten(&format!("{line}{BODY}"), change);
         assert_eq!(after, spelled(&format!("{expected}{BODY}")), "{line}");
@@ -354,7 +354,7 @@ fn a_camera_is_written_where_the_view_is() {
 }
 
 #[test]
-fn a_new_angle_pins_an_eye_that_was_not_said() {
+fn a_new_angle_pins_a_missing_eye() {
     let text = rewritten(BODY, |camera| camera.lens = Lens::Perspective(30.0));
     assert!(text.starts_with("// view: eye "), "{text}");
     assert!(text.contains(" fov 30\n"), "{text}");

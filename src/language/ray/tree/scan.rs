@@ -1,30 +1,28 @@
-//! Text → tokens and comments: plain lines by 64 bytes at once, all others byte by byte.
+//! The tokeniser: 64 bytes at once on plain lines, byte by byte on all others.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 
 use super::tokens::{Piece, Tokens};
-use super::{Comment, Marker, Tree};
-use crate::language::{trim_end, white_space};
-use crate::text::{Span, is_line_end};
+use super::{Tree, begins_comment, view_comment};
+use crate::language::words::white_space;
+use crate::text::{Span, first_byte, is_line_end};
 
-/// Bytes of text that are read at once: enough to be worth a task, few enough to be read again
-/// with every edit in them.
+/// Bytes of text per piece: enough to be worth a task, few enough to be read again with every edit.
 pub(super) const PIECE: usize = 1 << 16;
 
-/// Bytes that are looked at together.
+/// Bytes processed together.
 const BLOCK: usize = 64;
 
-/// Reads a text by pieces of about so many bytes.
+/// Reads a text in pieces of about `piece` bytes.
 pub(super) fn scan(text: &str, piece: usize) -> Tree {
-    let (pieces, comments) = read(text, 0..text.len(), piece);
-    let tokens = Tokens::of(pieces);
-    Tree { tokens, comments }
+    Tree {
+        tokens: Tokens::of(read(text, 0..text.len(), piece)),
+    }
 }
 
-/// Makes the tree of a text that of the text after an edit, of which `changed` is what it put in the
-/// place of the bytes `old`.
+/// Updates the tree after an edit that replaced the bytes `old` by `changed`.
 pub(super) fn follow(tree: &mut Tree, text: &str, old: Span, changed: Span, piece: usize) {
     let grown = changed.len() as isize - old.len() as isize;
     let len = text.len().wrapping_add_signed(-grown);
@@ -34,39 +32,23 @@ pub(super) fn follow(tree: &mut Tree, text: &str, old: Span, changed: Span, piec
     };
     let (touched, lines) = tree.tokens.touched(old, len, is_line);
     let now = lines.start..lines.end.wrapping_add_signed(grown);
-    let (pieces, found) = read(text, now, piece);
-    tree.tokens.replace(touched, pieces, grown);
-    let comments = &mut tree.comments;
-    let before = |place: usize| move |comment: &Comment| comment.span.start() < place;
-    let first = comments.partition_point(before(lines.start));
-    let end = comments.partition_point(before(lines.end));
-    for comment in &mut comments[end..] {
-        let start = comment.span.start().wrapping_add_signed(grown);
-        comment.span = Span::new(start, start + comment.span.len());
-    }
-    comments.splice(first..end, found);
+    tree.tokens.replace(touched, read(text, now, piece), grown);
 }
 
-/// Reads whole lines of a text by pieces of about so many bytes.
-fn read(text: &str, lines: Range<usize>, piece: usize) -> (Vec<Piece>, Vec<Comment>) {
+/// Reads whole lines of a text in pieces of about `piece` bytes.
+fn read(text: &str, lines: Range<usize>, piece: usize) -> Vec<Piece> {
     let pieces = cut(text, lines, piece);
-    let read: Vec<_> = match &pieces[..] {
+    match &pieces[..] {
         [all] => vec![Reader::read(text, all.clone())],
-        // Smaller texts are read before other threads are awake.
+        // Smaller texts are done before other threads wake up.
         _ => pieces
             .into_par_iter()
             .map(|piece| Reader::read(text, piece))
             .collect(),
-    };
-    let mut comments = Vec::new();
-    let pieces = read.into_iter().map(|reader| {
-        comments.extend(reader.comments);
-        reader.piece
-    });
-    (pieces.collect(), comments)
+    }
 }
 
-/// Cuts a text behind line ends, which neither tokens nor comments contain. One piece at least.
+/// Cuts a text after line ends, which no token or comment contains, into at least one piece.
 fn cut(text: &str, lines: Range<usize>, piece: usize) -> Vec<Range<usize>> {
     let bytes = &text.as_bytes()[..lines.end];
     let mut pieces = Vec::with_capacity(1 + lines.len() / piece);
@@ -84,48 +66,51 @@ fn cut(text: &str, lines: Range<usize>, piece: usize) -> Vec<Range<usize>> {
     }
 }
 
-/// The length of the line that bytes begin with, and of its end or a part of that.
+/// The length of the first line, including its line ending or part of that.
 fn line_len(bytes: &[u8]) -> usize {
-    let end = bytes.iter().position(|&byte| is_line_end(byte));
-    end.map_or(bytes.len(), |end| end + 1)
+    first_byte(bytes, is_line_end).map_or(bytes.len(), |end| end + 1)
 }
 
-/// A piece of a text that is being read.
+/// A reader of one piece of a text.
 struct Reader<'t> {
     text: &'t str,
-    /// Where the piece begins.
+    /// Start of the piece.
     start: usize,
     piece: Piece,
-    comments: Vec<Comment>,
-    /// Where the last token ends, from the piece's start.
+    /// End of the last token, relative to the piece.
     end: usize,
 }
 
 impl<'t> Reader<'t> {
-    fn read(text: &'t str, range: Range<usize>) -> Self {
-        let mut reader = Self {
+    fn new(text: &'t str, range: &Range<usize>) -> Self {
+        Self {
             text,
             start: range.start,
-            piece: Piece::new(&range),
-            comments: Vec::new(),
+            piece: Piece::new(range),
             end: 0,
-        };
+        }
+    }
+
+    fn read(text: &'t str, range: Range<usize>) -> Piece {
+        let mut reader = Self::new(text, &range);
         let mut at = range.start;
         while at < range.end {
             at = reader.plain(at..range.end);
-            let line = line_len(&text.as_bytes()[at..range.end]);
-            reader.any(at..at + line);
-            at += line;
+            // At least a block, or lines of a few bytes would also be read as blocks.
+            let end = range.end.min(at + BLOCK);
+            let end = end + line_len(&text.as_bytes()[end..range.end]);
+            reader.any(at..end);
+            at = end;
         }
         reader.piece.shrink();
-        reader
+        reader.piece
     }
 
-    /// Reads plain blocks; where it stopped, before a token.
+    /// Reads plain blocks; returns where it stopped, before a token.
     fn plain(&mut self, range: Range<usize>) -> usize {
         let bytes = &self.text.as_bytes()[..range.end];
         let mut at = range.start;
-        // Where a token began that has no end as yet.
+        // The start of a token that has no end yet.
         let mut open = None;
         while at < range.end {
             let mut block = [b' '; BLOCK];
@@ -159,20 +144,18 @@ impl<'t> Reader<'t> {
         range.end
     }
 
-    /// Reads whatever there is.
+    /// Reads any text, byte by byte.
     fn any(&mut self, range: Range<usize>) {
         let bytes = &self.text.as_bytes()[..range.end];
         let mut at = range.start;
         while at < range.end {
             if let Some(width) = white_space(&bytes[at..]) {
                 at += width;
-            } else if let Some(marker) = comment_marker(&bytes[at..]) {
-                let end = bytes[at..].iter().position(|&byte| is_line_end(byte));
-                let end = end.map_or(range.end, |len| at + len);
-                self.comments.push(Comment {
-                    span: trim_end(self.text, Span::new(at, end)),
-                    marker,
-                });
+            } else if begins_comment(&bytes[at..]) {
+                let end = at + first_byte(&bytes[at..], is_line_end).unwrap_or(range.end - at);
+                if view_comment(self.text, Span::new(at, end)).is_some() {
+                    self.piece.push_view(at - self.start);
+                }
                 at = end;
             } else {
                 let end = token_end(bytes, at);
@@ -193,7 +176,7 @@ impl<'t> Reader<'t> {
 
 /// A bit for each byte that is white space; `None` if some may begin a comment or are not plain.
 ///
-/// Eight bytes at once, each of them below 128, so that no sum reaches the next one.
+/// Handles eight bytes at once, each below 128, so that no sum carries into the next byte.
 #[inline]
 fn blanks(block: &[u8; BLOCK]) -> Option<u64> {
     const EACH: u64 = u64::MAX / 255;
@@ -208,26 +191,18 @@ fn blanks(block: &[u8; BLOCK]) -> Option<u64> {
         let control = !at_least(low, b'\t') | (at_least(low, 0x0E) & !at_least(low, b' '));
         odd |= bytes | control | !differ(low, b'/') | !differ(low, b'\\');
         let blank = (!at_least(low, b' ' + 1) & HIGH) >> 7;
-        // The products of different bytes meet in no bit; the highest byte gathers one of each.
+        // The products of different bytes share no bit; the highest byte collects one bit of each.
         blanks |= (blank.wrapping_mul(0x0102_0408_1020_4080) >> 56) << (8 * number);
     }
     (odd & HIGH == 0).then_some(blanks)
 }
 
-fn comment_marker(bytes: &[u8]) -> Option<Marker> {
-    match bytes {
-        [b'/', b'/', ..] => Some(Marker::Slashes),
-        [b'\\', b'\\', ..] => Some(Marker::Backslashes),
-        _ => None,
-    }
-}
-
-/// Where the token that begins at `start` ends: before white space or a comment.
+/// The end of the token that begins at `start`: before white space or a comment.
 fn token_end(bytes: &[u8], start: usize) -> usize {
     let mut end = start + 1;
     while end < bytes.len()
         && white_space(&bytes[end..]).is_none()
-        && comment_marker(&bytes[end..]).is_none()
+        && !begins_comment(&bytes[end..])
     {
         end += 1;
     }
@@ -237,25 +212,24 @@ fn token_end(bytes: &[u8], start: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::language::ray::tree::Window;
     use proptest::prelude::*;
 
-    /// A text's leaves, read byte by byte.
-    fn read_plainly(text: &str) -> (Vec<Span>, Vec<Comment>) {
-        let mut reader = Reader {
-            text,
-            start: 0,
-            piece: Piece::new(&(0..text.len())),
-            comments: Vec::new(),
-            end: 0,
-        };
+    /// The tokens and the starts of view comments of a text, read byte by byte.
+    fn read_plainly(text: &str) -> (Vec<Span>, Vec<usize>) {
+        let mut reader = Reader::new(text, &(0..text.len()));
         reader.any(0..text.len());
-        (Tokens::of(vec![reader.piece]).all(), reader.comments)
+        all(&Tokens::of(vec![reader.piece]))
+    }
+
+    fn all(tokens: &Tokens) -> (Vec<Span>, Vec<usize>) {
+        (tokens.range(0..tokens.len()), tokens.views().collect())
     }
 
     proptest! {
         #[test]
         fn a_tree_follows_its_text(
-            text in "([-0-9.]{0,3}[ \n\r\t]{0,2}|//|/|\\\\\\\\|é|\u{A0}){0,30}",
+            text in "([-0-9.]{0,3}[ \n\r\t]{0,2}|//|/|// ?view:|\\\\\\\\|é|\u{A0}){0,30}",
             edits in prop::collection::vec(
                 (any::<prop::sample::Index>(), any::<prop::sample::Index>(), "[/\n\r 1a]{0,4}"),
                 1..6,
@@ -274,29 +248,35 @@ mod tests {
                 text.replace_range(old.range(), &put);
                 let changed = Span::new(old.start(), old.start() + put.len());
                 follow(&mut tree, &text, old, changed, piece);
-                let (tokens, comments) = read_plainly(&text);
-                prop_assert_eq!(tree.tokens.all(), tokens, "{:?}", text);
-                prop_assert_eq!(&tree.comments, &comments);
+                prop_assert_eq!(all(&tree.tokens), read_plainly(&text), "{:?}", text);
             }
         }
 
         #[test]
-        fn blocks_and_pieces_are_read_as_bytes_are(
+        fn blocks_and_pieces_give_the_tokens_of_bytes(
             text in "([-0-9.]{0,9}[ \n\t\r]{0,3}|[ -~\t-\r\x01]|//|\\\\\\\\|\u{A0}|é){0,60}( {270}| {0,3})[a-z]{0,300}[ -~\n]{0,80}",
             piece in 1usize..90,
         ) {
-            let (tokens, comments) = read_plainly(&text);
             let tree = scan(&text, piece);
-            prop_assert_eq!(tree.tokens.all(), &tokens[..]);
-            prop_assert_eq!(tree.comments, comments);
-            prop_assert_eq!(tree.tokens.len(), tokens.len());
+            prop_assert_eq!(all(&tree.tokens), read_plainly(&text));
+            let (tokens, _) = read_plainly(&text);
             let letters = |&(_, token): &(usize, Span)| text.as_bytes()[token.start()].is_ascii_alphabetic();
+            prop_assert_eq!(tree.tokens.len(), tokens.len());
             let words: Vec<_> = tree.tokens.words().collect();
             prop_assert!(words.into_iter().eq((0..).zip(tokens.iter().copied()).filter(letters)));
             for at in 0..=tokens.len() {
                 prop_assert_eq!(tree.tokens.get(at), tokens.get(at).copied());
                 let to = tokens.len().min(at + 3);
                 prop_assert_eq!(tree.tokens.range(at..at + 3), &tokens[at..to]);
+                let words = tree.tokens.words_from(at);
+                prop_assert!(words.eq((at..).zip(tokens[at..].iter().copied()).filter(letters)));
+            }
+            let mut window = Window::new(&tree.tokens, 0..tokens.len());
+            for at in (0..=tokens.len()).step_by(7) {
+                window.slide(at);
+                let to = tokens.len().min(at + 64);
+                prop_assert_eq!(window.ahead(at, to - at), Some(&tokens[at..to]));
+                prop_assert_eq!(window.get(tokens.len() - at), tokens.get(tokens.len() - at).copied());
             }
             for place in 0..text.len() {
                 let before = |span: &Span| span.end() <= place;

@@ -1,21 +1,22 @@
-//! The tokens of a text in two bytes each: how far a token is from the one before, and how long.
+//! The tokens of a text in two bytes each: the gap to the previous token and the length.
 //!
-//! They are kept by pieces of the text, lines of about 64 KiB together, whose tokens are known
-//! without those before: pieces are read side by side, and read again alone when they are edited.
+//! They are grouped into pieces, whole lines of about 64 KiB together, whose tokens do not depend
+//! on the text before: pieces are read in parallel, and an edit reads only its own again.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::language::partition::partition_point;
 use crate::text::Span;
 
-/// Tokens between two whose place a piece knows by heart.
+/// Number of tokens between two whose offsets are stored.
 const STRIDE: usize = 64;
 
-/// Bytes of a token and of the space before it, or more.
+/// Lower estimate of the bytes of a token and the space before it.
 const BYTES: usize = 4;
 
-/// Stands for a distance or a length of this and more.
+/// Marks a gap or a length of this or more.
 const LONG: usize = u8::MAX as usize;
 
 /// The tokens of a text, in order.
@@ -24,23 +25,25 @@ pub struct Tokens {
     pieces: Vec<Piece>,
 }
 
-/// The tokens of some lines of a text. Places in it count from its start.
+/// The tokens of some lines of a text. Its offsets count from its start.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Piece {
-    /// Where its text begins.
+    /// Offset of its text.
     start: usize,
-    /// How many tokens there are before it.
+    /// Number of tokens before it.
     first: usize,
     steps: Vec<Step>,
-    /// Where every [`STRIDE`]th token's gap begins.
+    /// Start of the gap before every [`STRIDE`]th token.
     marks: Vec<u32>,
-    /// The tokens that begin with a letter, and where.
+    /// Index and start of each token that begins with a letter.
     words: Vec<(u32, u32)>,
-    /// The tokens that a step can't tell of.
+    /// Tokens whose gap or length is too large for a step.
     long: Vec<(u32, Span)>,
+    /// Start of each view comment.
+    views: Vec<u32>,
 }
 
-/// From the end of one token to that of the next.
+/// The distance from the end of one token to the end of the next.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     gap: u8,
@@ -48,7 +51,7 @@ struct Step {
 }
 
 impl Piece {
-    /// The piece at a place, without tokens as yet, of so many bytes.
+    /// An empty piece for this range of the text.
     pub(super) fn new(place: &Range<usize>) -> Self {
         Self {
             start: place.start,
@@ -57,12 +60,17 @@ impl Piece {
         }
     }
 
-    /// Gives back room that it does not need.
+    /// Releases unused capacity.
     pub(super) fn shrink(&mut self) {
         self.steps.shrink_to_fit();
     }
 
-    /// Adds a token behind the last one, which ends at `end`; all of it as places in the piece.
+    /// Adds a view comment that begins at this offset in the piece.
+    pub(super) fn push_view(&mut self, start: usize) {
+        self.views.push(start as u32);
+    }
+
+    /// Adds a token after the last one, which ends at `end`; both are offsets in the piece.
     #[inline]
     pub(super) fn push(&mut self, end: usize, token: Span, first: u8) {
         let number = self.steps.len() as u32;
@@ -82,7 +90,7 @@ impl Piece {
         });
     }
 
-    /// The span of a token, given the end of the one before.
+    /// The span of a token, given the end of the previous one.
     #[inline]
     fn span(&self, number: usize, end: usize) -> Span {
         let Step { gap, len } = self.steps[number];
@@ -101,7 +109,7 @@ impl Piece {
         self.long[at].1
     }
 
-    /// Where the token before one ends.
+    /// The end of the token before one.
     fn end_before(&self, number: usize) -> usize {
         let mark = number / STRIDE;
         let near = self.marks.get(mark).map_or(0, |&end| end as usize);
@@ -112,12 +120,25 @@ impl Piece {
     fn get(&self, number: usize) -> Span {
         self.span(number, self.end_before(number)).later(self.start)
     }
+
+    /// The tokens from one on that begin with a letter, with their indices in the text.
+    fn words(&self, from: usize) -> impl Iterator<Item = (usize, Span)> + '_ {
+        let first = self
+            .words
+            .partition_point(|&(number, _)| (number as usize) < from);
+        self.words[first..].iter().map(|&(number, start)| {
+            let (number, start) = (number as usize, start as usize);
+            let before = start - usize::from(self.steps[number].gap);
+            let span = self.span(number, before);
+            (self.first + number, span.later(self.start))
+        })
+    }
 }
 
 impl Tokens {
-    /// The pieces to be read again when the bytes of `old` are edited, and the text that they take:
-    /// whole lines before and after the edit, in places of the text before, which had this length.
-    /// `is_line` tells of a place behind the edit whether a line begins there after it.
+    /// The pieces to read again after an edit of the bytes `old`, and the text they cover: whole
+    /// lines before and after the edit, as offsets in the old text, of length `len`. `is_line`
+    /// tells whether an old offset behind the edit is now the start of a line.
     pub(super) fn touched(
         &self,
         old: Span,
@@ -136,7 +157,7 @@ impl Tokens {
         (first..end, start..end_of_text)
     }
 
-    /// Puts pieces in the place of others; those behind stand elsewhere now, by `grown` bytes.
+    /// Replaces pieces and shifts those behind by `grown` bytes.
     pub(super) fn replace(&mut self, pieces: Range<usize>, by: Vec<Piece>, grown: isize) {
         for piece in &mut self.pieces[pieces.end..] {
             piece.start = piece.start.wrapping_add_signed(grown);
@@ -147,8 +168,6 @@ impl Tokens {
 
     /// Joins the pieces of a text.
     pub(super) fn of(mut pieces: Vec<Piece>) -> Self {
-        // Of one without tokens it can't be said whether a place is before or behind.
-        pieces.retain(|piece| !piece.steps.is_empty());
         let mut first = 0;
         for piece in &mut pieces {
             piece.first = first;
@@ -157,24 +176,24 @@ impl Tokens {
         Self { pieces }
     }
 
-    /// How many there are.
+    /// The number of tokens.
     pub fn len(&self) -> usize {
         let last = self.pieces.last();
         last.map_or(0, |piece| piece.first + piece.steps.len())
     }
 
-    /// Whether there are none.
+    /// Whether there are no tokens.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The place of a token.
+    /// The span of a token.
     pub fn get(&self, token: usize) -> Option<Span> {
         let piece = &self.pieces[self.piece_of(token)?];
         Some(piece.get(token - piece.first))
     }
 
-    /// Appends the tokens of a range, as far as there are any.
+    /// Appends the tokens of a range, clipped to those that exist.
     pub fn append_to(&self, spans: &mut Vec<Span>, range: Range<usize>) {
         let from = self.piece_of(range.start).unwrap_or(self.pieces.len());
         for piece in &self.pieces[from..] {
@@ -192,7 +211,7 @@ impl Tokens {
         }
     }
 
-    /// The tokens of a range, as far as there are any.
+    /// The tokens of a range, clipped to those that exist.
     pub fn range(&self, range: Range<usize>) -> Vec<Span> {
         let range = range.start.min(self.len())..range.end.min(self.len());
         let mut spans = Vec::with_capacity(range.len());
@@ -200,41 +219,30 @@ impl Tokens {
         spans
     }
 
-    /// All of them.
-    pub fn all(&self) -> Vec<Span> {
-        self.range(0..self.len())
-    }
-
-    /// Those that begin with an ASCII letter, in order, with their numbers.
+    /// The tokens that begin with an ASCII letter, in order, with their indices.
     pub fn words(&self) -> impl ParallelIterator<Item = (usize, Span)> + '_ {
-        self.pieces.par_iter().flat_map_iter(|piece| {
-            piece.words.iter().map(|&(number, start)| {
-                let (number, start) = (number as usize, start as usize);
-                let before = start - usize::from(piece.steps[number].gap);
-                let span = piece.span(number, before);
-                (piece.first + number, span.later(piece.start))
-            })
-        })
+        self.pieces.par_iter().flat_map_iter(|piece| piece.words(0))
     }
 
-    /// The first token that does not fulfil what all before it do.
+    /// Such tokens from an index on.
+    pub fn words_from(&self, token: usize) -> impl Iterator<Item = (usize, Span)> + '_ {
+        let from = self.piece_of(token).unwrap_or(self.pieces.len());
+        let pieces = self.pieces[from..].iter();
+        pieces.flat_map(move |piece| piece.words(token.saturating_sub(piece.first)))
+    }
+
+    /// The start of each view comment of the text.
+    pub fn views(&self) -> impl Iterator<Item = usize> + '_ {
+        let pieces = self.pieces.iter();
+        pieces.flat_map(|piece| piece.views.iter().map(|&at| piece.start + at as usize))
+    }
+
+    /// The index of the first token for which a condition fails that holds for exactly a prefix.
     pub fn partition_point(&self, fulfils: impl Fn(Span) -> bool) -> usize {
-        let whole = |piece: &Piece| {
-            let last = piece.steps.len().checked_sub(1);
-            last.is_none_or(|last| fulfils(piece.get(last)))
-        };
-        let at = self.pieces.partition_point(whole);
-        let Some(piece) = self.pieces.get(at) else {
-            return self.len();
-        };
-        // Of each run between marks the first token tells whether all before it fulfil it.
-        let runs: Vec<usize> = (0..piece.marks.len()).collect();
-        let runs = runs.partition_point(|run| fulfils(piece.get(run * STRIDE)));
-        let first = piece.first + runs.saturating_sub(1) * STRIDE;
-        let spans = self.range(first..self.len().min(first + STRIDE));
-        first + spans.partition_point(|&span| fulfils(span))
+        partition_point(self.len(), |at| self.get(at).is_some_and(&fulfils))
     }
 
+    /// The piece that holds a token. Pieces without tokens may precede it.
     fn piece_of(&self, token: usize) -> Option<usize> {
         let after = self.pieces.partition_point(|piece| piece.first <= token);
         let at = after.checked_sub(1)?;

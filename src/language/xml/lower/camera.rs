@@ -1,4 +1,4 @@
-//! The camera, and what stands around everything.
+//! The camera, background and environment.
 
 use super::Reader;
 use crate::language::camera::{Places, check};
@@ -6,11 +6,12 @@ use crate::language::report::quoted;
 use crate::language::xml::table::{
     BACKGROUND, CAMERA, ENVIRONMENT, FOCAL_DISTANCE, FOV, HEIGHT, LENS, POSITION, TARGET, UP, WIDTH,
 };
-use crate::scene::{Camera, Focus, Integrator, Lens, Size, Transfer};
+use crate::language::xml::view::View;
+use crate::scene::{Camera, Focus, Integrator, Size, Transfer};
 use crate::text::{Diagnostic, Span, parse_number, without_suffix};
 
 impl Reader<'_> {
-    /// The camera: what its element says, and defaults for what is missing.
+    /// The camera of its element, with defaults for missing parts.
     pub(super) fn camera(&mut self) -> Camera {
         let camera = self.origins.camera;
         let root = self
@@ -34,21 +35,19 @@ impl Reader<'_> {
         self.origins.factors = vectors.map(|at| {
             let element = self.element_of(camera, &CAMERA[at])?;
             let said = self.origins.value(self.tree, element, "value")?;
-            // What is not a number is told where it is read.
+            // Reports of malformed numbers are made where they are read.
             let word = said.said(self.text).trim();
             Some(parse_number(without_suffix(word).unwrap_or(word)).unwrap_or(1.0))
         });
-        let [eye, target, up] = vectors.map(|at| self.vector(camera, &CAMERA[at]));
+        let [position, target, up] = vectors.map(|at| self.vector(camera, &CAMERA[at]));
         let numbers = [FOV, FOCAL_DISTANCE, LENS, WIDTH, HEIGHT];
         let [fov, distance, lens_radius, width, height] =
             numbers.map(|at| self.number(camera, &CAMERA[at]));
-        let seen = Camera {
-            eye,
+        let view = View {
+            position,
             target,
             up,
-            lens: Lens::Perspective(fov),
-            pixel_aspect: 1.0,
-            depths: Camera::ALL_DEPTHS,
+            fov,
             focus: Focus {
                 distance,
                 lens_radius,
@@ -69,8 +68,9 @@ impl Reader<'_> {
             whole,
             remedy: "say where it stands and what it looks at: <position/>, <target/>",
         };
-        // What is not a number was reported.
-        if !(eye.is_nan() || target.is_nan() || up.is_nan()) {
+        // Malformed numbers were already reported.
+        let seen = view.camera();
+        if !(position.is_nan() || target.is_nan() || up.is_nan()) {
             check(&seen, &places, &mut self.report);
         }
         seen
@@ -91,7 +91,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Background and environment.
+    /// Reads background and environment.
     pub(super) fn surroundings(&mut self) {
         let scene = self.origins.scene;
         let Some(scene) = scene else {

@@ -1,10 +1,11 @@
-//! Objects of type `obj`: their meshes, and the materials that those bring along.
+//! Objects of type `obj`: their meshes, and the materials that these define.
 
 use std::sync::Arc;
 
 use glam::DAffine3;
 
 use super::Reader;
+use super::surfaces::lit;
 use crate::geometry::{Instance, Shape};
 use crate::language::node::Node;
 use crate::language::xml::origins::{NamedPlace, What};
@@ -12,17 +13,17 @@ use crate::obj;
 use crate::obj::{Finding, Model};
 use crate::scene::beside;
 use crate::scene::{
-    Finish, Gloss, MappedPattern, MappedTexture, Material, Rgb, Textured, Tinted, Utah,
+    Dielectric, Faces, Gloss, Highlight, Maps, Material, Mirror, Pattern, Rgb, Texture,
 };
 use crate::text::Diagnostic;
 
-/// What the name of such an object is to be.
+/// The expected name of such an object, for messages.
 const EXPECTED: &str = "a mesh file: .obj";
 
-/// Where a mesh is named.
+/// The attribute that names a mesh.
 #[derive(Clone, Copy)]
 struct Named<'a> {
-    /// The object, by index.
+    /// Index of the object.
     object: usize,
     element: usize,
     attribute: usize,
@@ -30,7 +31,7 @@ struct Named<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// The shape of an object whose mesh is read, and the material of what it has none for.
+    /// The shape of an object whose mesh has been read, and the material of the parts without one.
     pub(super) fn mesh(
         &mut self,
         object: usize,
@@ -40,7 +41,7 @@ impl<'a> Reader<'a> {
         let element = self.origins.objects[object].element as usize;
         let named = self.named_mesh(object, element)?;
         let model = self.model(named)?;
-        // What an object is to have counts even if there is no such material.
+        // An object's own material counts even if it is not defined.
         let tags = match self.word(element, "material") {
             Some(_) => Vec::new(),
             None => self.tags(named, model),
@@ -78,7 +79,7 @@ impl<'a> Reader<'a> {
         None
     }
 
-    /// The mesh that is named, if it is read; says what is wrong with it.
+    /// The named mesh, if it has been read; reports its problems.
     fn model(&mut self, named: Named<'a>) -> Option<&'a Arc<Model>> {
         match self.meshes.get(named.name)? {
             Ok(model) => {
@@ -114,7 +115,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The material of each slot of a mesh, by index: the same ones for all its instances.
+    /// The material index of each slot of a mesh, shared by all its instances.
     fn tags(&mut self, named: Named<'a>, model: &Model) -> Vec<u32> {
         if let Some(tags) = self.slots.get(named.name) {
             return tags.clone();
@@ -125,8 +126,8 @@ impl<'a> Reader<'a> {
         for material in &model.materials {
             let index = match material {
                 Some(material) => {
-                    let utah = self.library_material(named, material);
-                    self.materials.push(Material::Utah(Box::new(utah)));
+                    let material = self.library_material(named, material);
+                    self.materials.push(material);
                     self.materials.len() - 1
                 }
                 None => self.white(),
@@ -137,56 +138,59 @@ impl<'a> Reader<'a> {
         tags
     }
 
-    fn library_material(&mut self, named: Named<'a>, material: &obj::Material) -> Utah {
-        let plain = |colour| Tinted {
-            colour,
-            texture: None,
-        };
+    fn library_material(&mut self, named: Named<'a>, material: &obj::Material) -> Material {
         let library = beside(named.name, &material.library);
-        let mut tinted = |colour: [f64; 3], keyword, map: &Option<String>| Tinted {
-            colour: Rgb::from_array(colour),
-            texture: map
-                .as_ref()
-                .map(|map| self.map(named, keyword, beside(&library, map))),
+        let mut map = |keyword, map: &Option<String>| {
+            let map = map.as_ref();
+            map.map(|map| self.map(named, keyword, beside(&library, map)))
         };
-        let gloss = Gloss {
-            diffuse: tinted(material.diffuse, "map_Kd", &material.diffuse_map),
-            specular: tinted(material.specular, "map_Ks", &material.specular_map),
-            glossiness: Textured {
-                value: material.exponent.max(0.0),
-                texture: None,
-            },
+        let maps = Maps {
+            diffuse: map("map_Kd", &material.diffuse_map),
+            specular: map("map_Ks", &material.specular_map),
+            ..Maps::default()
         };
+        let specular = Rgb::from_array(material.specular);
         let model = material.illumination;
-        Utah {
-            finish: Finish::Blinn(gloss),
-            reflection: plain(match model {
-                3..=7 => Rgb::from_array(material.specular),
-                _ => Rgb::ZERO,
+        let transmittance = match model {
+            6 | 7 => Rgb::ONE - Rgb::from_array(material.filter),
+            _ => Rgb::ZERO,
+        };
+        Material {
+            diffuse: Rgb::from_array(material.diffuse),
+            highlight: Highlight::Blinn(Gloss {
+                specular,
+                exponent: material.exponent.max(0.0),
             }),
-            reflection_spread: 0.0,
-            refraction: plain(match model {
-                6 | 7 => Rgb::ONE - Rgb::from_array(material.filter),
-                _ => Rgb::ZERO,
-            }),
-            refraction_spread: 0.0,
-            index: material.index,
-            absorption: Rgb::ZERO,
-            emission: plain(Rgb::ZERO),
+            mirror: Mirror {
+                tint: match model {
+                    3..=7 => specular,
+                    _ => Rgb::ZERO,
+                },
+                faces: Faces::Front,
+                ..Mirror::default()
+            },
+            dielectric: Dielectric {
+                tint: transmittance,
+                index: material.index,
+                ..Dielectric::OPAQUE
+            },
+            lit: lit(transmittance),
+            maps: maps.boxed(),
+            ..Material::BLACK
         }
     }
 
-    /// The texture of a picture that a material of a mesh names.
+    /// The texture of a picture named by a material of a mesh.
     fn map(&mut self, named: Named<'a>, keyword: &'static str, path: String) -> u32 {
         self.origins.files.push(NamedPlace {
             element: named.element,
             attribute: named.attribute,
             what: What::Map(keyword, path.clone().into()),
         });
-        self.setting.textures.push(MappedTexture {
+        self.textures.push(Texture {
             inverse: DAffine3::IDENTITY,
-            pattern: MappedPattern::Image(path),
+            pattern: Pattern::Image(path),
         });
-        self.setting.textures.len() as u32 - 1
+        self.textures.len() as u32 - 1
     }
 }

@@ -1,4 +1,4 @@
-//! Objects: where they are, after all the transforms around them, and what they are made of.
+//! Objects: their positions, after all transforms around them, and their materials.
 
 use glam::{DAffine3, DMat3, DVec3};
 
@@ -10,11 +10,11 @@ use crate::language::xml::table::ObjectKind;
 use crate::scene::{Material, Object, Rgb};
 use crate::text::Diagnostic;
 
-/// Where an object is; `None` where that was reported already.
+/// An object's frame; `None` if its error was already reported.
 type Frame = Option<DAffine3>;
 
 impl Reader<'_> {
-    /// Lowers all objects, those in others after them.
+    /// Lowers all objects, each before those in it.
     pub(super) fn place_objects(&mut self) {
         let mut frames: Vec<Frame> = Vec::with_capacity(self.origins.objects.len());
         for index in 0..self.origins.objects.len() {
@@ -48,7 +48,7 @@ impl Reader<'_> {
         }
     }
 
-    /// All transforms of an element together, the first one acting first; `None` if there are none.
+    /// The product of an element's transforms, the first applied first; `None` if there are none.
     pub(super) fn transform_of(&mut self, element: usize) -> Option<DAffine3> {
         let mut all: Option<DAffine3> = None;
         let tree = self.tree;
@@ -84,7 +84,7 @@ impl Reader<'_> {
         });
     }
 
-    /// A turn about an axis, right-handed, by degrees.
+    /// A right-handed rotation about an axis, in degrees.
     fn rotation(&mut self, element: usize, axis: DVec3, angle: f64) -> DAffine3 {
         let Some(axis) = normalise(axis) else {
             if axis == DVec3::ZERO {
@@ -95,7 +95,7 @@ impl Reader<'_> {
             return DAffine3::IDENTITY;
         };
         let (sin, cos) = sine_and_cosine(angle);
-        // Rodrigues' formula, one column for each axis of the world.
+        // Rodrigues' formula, one column for each world axis.
         let turned = |v: DVec3| cos * v + sin * axis.cross(v) + (1.0 - cos) * axis.dot(v) * axis;
         DAffine3::from_mat3(DMat3::from_cols(
             turned(DVec3::X),
@@ -104,15 +104,15 @@ impl Reader<'_> {
         ))
     }
 
-    /// The index of the material of what has none.
+    /// The index of the default material.
     pub(super) fn white(&mut self) -> usize {
         *self.white.get_or_insert_with(|| {
-            self.materials.push(Material::Flat(Rgb::ONE));
+            self.materials.push(Material::unlit(Rgb::ONE));
             self.materials.len() - 1
         })
     }
 
-    /// What a sphere or a plane is where it is; `None`, with an error, where it has no volume.
+    /// The shape of a sphere or plane in its frame; `None`, with an error, if it has no volume.
     fn shape(&mut self, kind: ObjectKind, element: usize, frame: DAffine3) -> Option<Shape> {
         let columns = [frame.x_axis, frame.y_axis, frame.z_axis];
         if kind == ObjectKind::Sphere
@@ -131,7 +131,7 @@ impl Reader<'_> {
         })
     }
 
-    /// What an object's transforms are together; `None`, with an error, if they can't be undone.
+    /// An object's frame; `None`, with an error, if it is not invertible.
     pub(super) fn affine(&mut self, element: usize, frame: DAffine3) -> Option<Affine> {
         let columns = [frame.x_axis, frame.y_axis, frame.z_axis];
         let affine = Affine::of_matrix(columns, frame.translation);
@@ -172,14 +172,14 @@ impl Reader<'_> {
     }
 }
 
-/// How many times as large a matrix makes everything, if that is all that it does.
+/// The factor of a uniform scaling; `None` if the matrix is anything more.
 fn scaling([x, y, z]: [DVec3; 3]) -> Option<f64> {
     let size = x.x;
     let is_all = x == size * DVec3::X && y == size * DVec3::Y && z == size * DVec3::Z;
     (is_all && 0.0 < size && size.is_finite()).then_some(size)
 }
 
-/// Sine and cosine of an angle in degrees: of quarter turns without rounding.
+/// Sine and cosine of an angle in degrees, exact for quarter turns.
 fn sine_and_cosine(angle: f64) -> (f64, f64) {
     let turned = angle % 360.0;
     match turned {

@@ -1,4 +1,4 @@
-//! What each element and each attribute is, by its name and what it stands in.
+//! The roles of elements and attributes, by their names and parents.
 
 use std::collections::HashMap;
 
@@ -12,8 +12,8 @@ use crate::language::xml::table::{
 use crate::text::{Diagnostic, Span, visible};
 
 impl<'a> Reader<'a> {
-    /// Gives every element its role and every attribute its word. What has none is skipped with a
-    /// warning, and all that is in it without.
+    /// Gives every element its role and every attribute its word. Unknown elements are skipped with
+    /// a warning, and their content without.
     pub(super) fn find_roles(&mut self) {
         let tree = self.tree;
         self.origins.words = tree
@@ -61,7 +61,7 @@ impl<'a> Reader<'a> {
         self.tree.elements[element].name.of(self.text)
     }
 
-    /// Where messages about an element stand.
+    /// The place of messages about an element.
     pub(super) fn place(&self, element: usize) -> Span {
         self.tree.elements[element].name
     }
@@ -114,7 +114,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// The scene or the camera: the first counts.
+    /// The scene or the camera: the first one counts.
     fn once(&mut self, element: usize, role: Role) -> Role {
         let place = match role {
             Role::Scene => &mut self.origins.scene,
@@ -214,7 +214,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What an element's `type` says, if it has one that is known.
+    /// The kind given by an element's `type`; `None` if missing or unknown.
     fn kind<Kind>(
         &mut self,
         element: usize,
@@ -258,7 +258,7 @@ impl<'a> Reader<'a> {
         self.warn(self.place(element), message, &expected, &hint);
     }
 
-    /// The elements that mean something in another one.
+    /// The known children of an element, for messages.
     fn known_in(&self, parent: usize) -> Vec<&'static str> {
         let names = |parameters: &'static [Parameter]| parameters.iter().map(|known| known.element);
         match self.origins.roles[parent] {
@@ -281,7 +281,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Warns of a parameter that a later one overrides.
+    /// Warns of a parameter overridden by a later one.
     fn said_again(&mut self, element: usize) {
         let name = self.called(element);
         let message = || format!("{name}: said again further down");
@@ -293,7 +293,7 @@ impl<'a> Reader<'a> {
         );
     }
 
-    /// Warns of attributes that mean nothing where they stand.
+    /// Warns of attributes that are not known here.
     fn check_attributes(&mut self, element: usize, role: Role) {
         if role == Role::Skipped {
             return;
@@ -307,7 +307,7 @@ impl<'a> Reader<'a> {
             if is_known {
                 continue;
             }
-            // It is told only once what it is called.
+            // From here on it counts as unknown.
             self.origins.words[at] = NO_WORD;
             let place = self.tree.attributes[at].name;
             let word = place.of(self.text);
@@ -351,7 +351,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A name as it is listed and told: of a long one the beginning.
+/// A name for display in messages and lists, truncated if long.
 fn shown(name: &str) -> Box<str> {
     const LONGEST: usize = 48;
     let mut shown: String = name.chars().take(LONGEST).collect();
@@ -361,7 +361,7 @@ fn shown(name: &str) -> Box<str> {
     visible(&shown).into()
 }
 
-/// The attributes that mean something of an element.
+/// The known attributes of an element.
 fn known_attributes(role: Role) -> Vec<&'static str> {
     match role {
         Role::Skipped | Role::Root | Role::Scene => Vec::new(),

@@ -1,5 +1,7 @@
 //! Materials and lights.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 
 use super::Reader;
@@ -7,9 +9,12 @@ use crate::geometry::normalise;
 use crate::language::xml::table::{
     AMBIENT, DIRECT, LightKind, MATERIAL, MICROFACET, MaterialKind, POINT, Parameter,
 };
-use crate::scene::{Falloff, Finish, Gloss, Light, Material, Rgb, Shadows, Source, Tinted, Utah};
+use crate::scene::{
+    Dielectric, Emitter, Faces, Falloff, Gloss, Highlight, Integrator, Light, Maps, Material,
+    Mirror, Reflectance, Rgb, Shadows,
+};
 
-/// The parameter of a list with a name.
+/// The parameter of a list with this name.
 fn called(parameters: &'static [Parameter], element: &str) -> &'static Parameter {
     parameters
         .iter()
@@ -23,20 +28,19 @@ impl Reader<'_> {
             let place = &self.origins.materials[index];
             (place.kind, place.element as usize)
         };
-        let utah = match kind {
-            MaterialKind::Blinn | MaterialKind::Phong => self.glossy(element, kind),
+        let material = match kind {
+            MaterialKind::Blinn => self.glossy(element, Highlight::Blinn),
+            MaterialKind::Phong => self.glossy(element, Highlight::ModifiedPhong),
             MaterialKind::Microfacet => self.microfacet(element),
         };
-        self.materials.push(Material::Utah(Box::new(utah)));
+        self.materials.push(material);
     }
 
-    fn glossy(&mut self, element: usize, kind: MaterialKind) -> Utah {
+    fn glossy(&mut self, element: usize, highlight: fn(Gloss) -> Highlight) -> Material {
         let of = |name| called(&MATERIAL, name);
-        let gloss = Gloss {
-            diffuse: self.tinted(element, of("diffuse")),
-            specular: self.tinted(element, of("specular")),
-            glossiness: self.textured(element, of("glossiness")),
-        };
+        let diffuse = self.tinted(element, of("diffuse"));
+        let specular = self.tinted(element, of("specular"));
+        let (exponent, exponent_map) = self.textured(element, of("glossiness"));
         let [reflection, refraction] = ["reflection", "refraction"].map(of);
         let mirrored = self.element_of(Some(element), reflection);
         let refracted = self.element_of(Some(element), refraction);
@@ -45,37 +49,80 @@ impl Reader<'_> {
                 reader.extra(element, parameter, "glossiness")
             })
         };
-        Utah {
-            finish: match kind {
-                MaterialKind::Phong => Finish::Phong(gloss),
-                _ => Finish::Blinn(gloss),
+        let mirror = self.tinted(element, reflection);
+        let mirror_spread = spread(self, mirrored, reflection);
+        let dielectric = self.tinted(element, refraction);
+        let dielectric_spread = spread(self, refracted, refraction);
+        let index = refracted.map_or(1.0, |at| self.extra(at, refraction, "index"));
+        let absorption = self.vector(Some(element), of("absorption"));
+        let emission = self.tinted(element, of("emission"));
+        let maps = Maps {
+            diffuse: diffuse.texture,
+            specular: specular.texture,
+            exponent: exponent_map,
+            mirror: mirror.texture,
+            dielectric: dielectric.texture,
+            emission: emission.texture,
+            ..Maps::default()
+        };
+        Material {
+            diffuse: diffuse.colour,
+            highlight: highlight(Gloss {
+                specular: specular.colour,
+                exponent,
+            }),
+            mirror: Mirror {
+                tint: mirror.colour,
+                spread: mirror_spread,
+                faces: Faces::Front,
             },
-            reflection: self.tinted(element, reflection),
-            reflection_spread: spread(self, mirrored, reflection),
-            refraction: self.tinted(element, refraction),
-            refraction_spread: spread(self, refracted, refraction),
-            index: refracted.map_or(1.0, |at| self.extra(at, refraction, "index")),
-            absorption: self.vector(Some(element), of("absorption")),
-            emission: self.tinted(element, of("emission")),
+            dielectric: Dielectric {
+                tint: dielectric.colour,
+                index,
+                spread: dielectric_spread,
+                absorption,
+                reflectance: Reflectance::Schlick,
+            },
+            emission: emission.colour,
+            lit: lit(dielectric.colour),
+            maps: maps.boxed(),
+            ..Material::BLACK
         }
     }
 
-    fn microfacet(&mut self, element: usize) -> Utah {
+    fn microfacet(&mut self, element: usize) -> Material {
         let of = |name| called(&MICROFACET, name);
-        Utah {
-            finish: Finish::Microfacet {
-                colour: self.tinted(element, of("color")),
-                roughness: self.textured(element, of("roughness")),
-                metallic: self.textured(element, of("metallic")),
+        let colour = self.tinted(element, of("color"));
+        let (roughness, roughness_map) = self.textured(element, of("roughness"));
+        let (metallic, metallic_map) = self.textured(element, of("metallic"));
+        let dielectric = self.tinted(element, of("transmittance"));
+        let index = self.number(Some(element), of("ior"));
+        let absorption = self.vector(Some(element), of("absorption"));
+        let emission = self.tinted(element, of("emission"));
+        let maps = Maps {
+            diffuse: colour.texture,
+            roughness: roughness_map,
+            metallic: metallic_map,
+            dielectric: dielectric.texture,
+            emission: emission.texture,
+            ..Maps::default()
+        };
+        Material {
+            diffuse: colour.colour,
+            highlight: Highlight::Microfacet {
+                roughness,
+                metallic,
             },
-            // It follows from the colour, the index and how much of it is metal.
-            reflection: Tinted::default(),
-            reflection_spread: 0.0,
-            refraction: self.tinted(element, of("transmittance")),
-            refraction_spread: 0.0,
-            index: self.number(Some(element), of("ior")),
-            absorption: self.vector(Some(element), of("absorption")),
-            emission: self.tinted(element, of("emission")),
+            dielectric: Dielectric {
+                tint: dielectric.colour,
+                index,
+                absorption,
+                ..Dielectric::OPAQUE
+            },
+            emission: emission.colour,
+            lit: lit(dielectric.colour),
+            maps: maps.boxed(),
+            ..Material::BLACK
         }
     }
 
@@ -85,10 +132,14 @@ impl Reader<'_> {
             (place.kind, place.element as usize)
         };
         let dark = Light {
-            source: Source::Everywhere,
+            emitter: Emitter::Ambient,
             colour: Rgb::ZERO,
+            // Path tracing must not darken a scene that is not made for it.
+            scale: match self.setting.integrator {
+                Integrator::Path => 1.0,
+                Integrator::Whitted => PI,
+            },
             shadows: Shadows::Cast,
-            radius: 0.0,
         };
         let light = match kind {
             LightKind::Ambient => Light {
@@ -97,9 +148,9 @@ impl Reader<'_> {
             },
             LightKind::Direct => {
                 let colour = self.vector(Some(element), called(&DIRECT, "intensity"));
-                let source = Source::Distant(self.toward(element));
+                let emitter = Emitter::Distant(self.toward(element));
                 Light {
-                    source,
+                    emitter,
                     colour,
                     ..dark
                 }
@@ -109,14 +160,14 @@ impl Reader<'_> {
         self.lights.push(light);
     }
 
-    /// The unit vector toward a light that goes in a direction.
+    /// The unit vector toward a light, opposite to its direction.
     fn toward(&mut self, element: usize) -> DVec3 {
         let parameter = called(&DIRECT, "direction");
         let direction = self.vector(Some(element), parameter);
         if let Some(direction) = normalise(direction) {
             return -direction;
         }
-        // What is not a number was reported.
+        // Malformed numbers were already reported.
         if let Some(said) = self
             .element_of(Some(element), parameter)
             .filter(|_| direction == DVec3::ZERO)
@@ -141,10 +192,22 @@ impl Reader<'_> {
             Falloff::NONE
         };
         Light {
-            source: Source::Point { position, falloff },
+            emitter: Emitter::Point {
+                position,
+                radius,
+                falloff,
+            },
             colour,
-            radius,
             ..dark
         }
+    }
+}
+
+/// The lit faces of a material: only the front if light passes through it.
+pub(super) fn lit(transmittance: Rgb) -> Faces {
+    if transmittance == Rgb::ZERO {
+        Faces::Both
+    } else {
+        Faces::Front
     }
 }

@@ -5,22 +5,22 @@ use glam::{DAffine3, DVec3};
 use super::Reader;
 use crate::language::xml::origins::{NamedPlace, What};
 use crate::language::xml::table::{CHECKER, Parameter, Texturing};
-use crate::scene::{MappedPattern, MappedTexture, Textured, Tinted};
+use crate::scene::{Pattern, Side, Texture, Tinted};
 use crate::text::Diagnostic;
 
-/// The texture that is made of squares.
+/// The name of the checkerboard texture.
 const CHECKERBOARD: &str = "checkerboard";
 
-/// A square of a checkerboard that is yet to be read.
+/// A square of a checkerboard still to be read.
 struct Square {
     texture: usize,
-    /// Its place among the two.
+    /// Index of its colour.
     place: usize,
     element: usize,
 }
 
 impl Reader<'_> {
-    /// A colour in an element, with its texture, or what stands for it.
+    /// The colour of an element's parameter, with its texture, or the default.
     pub(super) fn tinted(&mut self, holder: usize, parameter: &'static Parameter) -> Tinted {
         match self.element_of(Some(holder), parameter) {
             Some(element) => self.tinted_in(element, parameter),
@@ -31,7 +31,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The colour that an element says, with its texture.
+    /// The colour stated by an element, with its texture.
     pub(super) fn tinted_in(&mut self, element: usize, parameter: &'static Parameter) -> Tinted {
         Tinted {
             colour: self.vector_in(element, parameter),
@@ -39,16 +39,19 @@ impl Reader<'_> {
         }
     }
 
-    /// A number in an element, with its texture, or what stands for it.
-    pub(super) fn textured(&mut self, holder: usize, parameter: &'static Parameter) -> Textured {
+    /// The number of an element's parameter, with its texture, or the default.
+    pub(super) fn textured(
+        &mut self,
+        holder: usize,
+        parameter: &'static Parameter,
+    ) -> (f64, Option<u32>) {
         let element = self.element_of(Some(holder), parameter);
-        Textured {
-            value: self.number(Some(holder), parameter),
-            texture: element.and_then(|element| self.texture_in(element, parameter)),
-        }
+        let value = self.number(Some(holder), parameter);
+        let texture = element.and_then(|element| self.texture_in(element, parameter));
+        (value, texture)
     }
 
-    /// The texture that an element says, with all those in it.
+    /// The texture of an element, with all textures nested in it.
     fn texture_in(&mut self, element: usize, parameter: &'static Parameter) -> Option<u32> {
         let mut pending = Vec::new();
         let first = self.one_texture(element, parameter, &mut pending);
@@ -58,8 +61,8 @@ impl Reader<'_> {
                 colour: self.vector_in(next.element, colour),
                 texture: self.one_texture(next.element, colour, &mut pending),
             };
-            let pattern = &mut self.setting.textures[next.texture].pattern;
-            if let MappedPattern::Checkerboard(squares) = pattern {
+            let pattern = &mut self.textures[next.texture].pattern;
+            if let Pattern::Checker { squares, .. } = pattern {
                 squares[next.place] = tinted;
             }
         }
@@ -86,7 +89,7 @@ impl Reader<'_> {
             );
             return None;
         }
-        let texture = self.setting.textures.len();
+        let texture = self.textures.len();
         let pattern = if word == CHECKERBOARD {
             let mut colours = [Tinted::default(); 2];
             for (square, colour) in CHECKER.iter().enumerate() {
@@ -99,14 +102,17 @@ impl Reader<'_> {
                     None => colours[square].colour = self.vector(None, colour),
                 }
             }
-            MappedPattern::Checkerboard(colours)
+            Pattern::Checker {
+                squares: colours,
+                side: Side::Half,
+            }
         } else {
             self.origins.files.push(NamedPlace {
                 element,
                 attribute,
                 what: What::Texture,
             });
-            MappedPattern::Image(word.to_owned())
+            Pattern::Image(word.to_owned())
         };
         let transform = self.transform_of(element);
         let inverse = transform.map_or(Some(DAffine3::IDENTITY), inverse);
@@ -117,17 +123,15 @@ impl Reader<'_> {
             });
             DAffine3::IDENTITY
         });
-        self.setting
-            .textures
-            .push(MappedTexture { inverse, pattern });
+        self.textures.push(Texture { inverse, pattern });
         Some(texture as u32)
     }
 }
 
-/// The inverse of a transform, however large or small; `None` if |determinant| < 1e-12 · the product
-/// of the columns' lengths, or a number is not finite.
+/// The inverse of a transform at any scale; `None` if |determinant| < 1e-12 · the product of the
+/// columns' lengths, or a number is not finite.
 fn inverse(transform: DAffine3) -> Option<DAffine3> {
-    // Powers of two change no bits, and leave no determinant too small for numbers.
+    // Powers of two scale exactly, and keep the determinant from underflowing.
     let columns = [transform.x_axis, transform.y_axis, transform.z_axis];
     let factors = columns.map(|column| {
         let (_, exponent) = libm::frexp(column.abs().max_element());
@@ -150,7 +154,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn however_small_a_map_is_it_can_be_undone_unless_it_is_flat() {
+    fn maps_of_any_scale_are_invertible_unless_flat() {
         for size in [1e-110, 1.0, 1e110] {
             let undone = inverse(DAffine3::from_scale(DVec3::splat(size)));
             let undone = undone.expect("it is not flat").matrix3.x_axis.x * size;

@@ -9,7 +9,7 @@ use crate::language::xml::table::{Parameter, Reading};
 use crate::text::{Diagnostic, Findings, Severity, Span, concise, is_integer, parse_number};
 
 impl<'a> Reader<'a> {
-    /// What an element is called in messages: its node, and its own name if it is not that.
+    /// The name of an element in messages: its node's, and its own if it differs.
     pub(super) fn called(&self, element: usize) -> String {
         let name = self.name(element);
         let node = self.origins.node_of(element);
@@ -22,14 +22,14 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A word that an element says; `None` where it says nothing.
+    /// A word stated by an element; `None` if missing.
     pub(super) fn word(&self, element: usize, word: &str) -> Option<&'a str> {
         let at = self.origins.attribute(self.tree, element, word)?;
         let said = self.tree.attributes[at].said(self.text);
         (!said.is_empty()).then_some(said)
     }
 
-    /// What the number of an attribute is called in messages.
+    /// The name of an attribute's number in messages.
     fn what(&self, element: usize, attribute: usize) -> String {
         let called = self.called(element);
         match self.tree.attributes[attribute].name.of(self.text) {
@@ -38,7 +38,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The number that an attribute says, checked; NaN, with an error, where it is none.
+    /// The checked number of an attribute; NaN, with an error, if malformed.
     fn number_at(&mut self, element: usize, attribute: usize, field: &Field) -> f64 {
         let span = self.tree.attributes[attribute].value;
         let word = self.tree.attributes[attribute].said(self.text).trim();
@@ -90,7 +90,7 @@ impl<'a> Reader<'a> {
         value
     }
 
-    /// A number of an element, or what stands for it.
+    /// A number of an element, or its default.
     fn number_or(
         &mut self,
         element: usize,
@@ -104,7 +104,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A number in an element, or what stands for it.
+    /// The number of a parameter, or its default.
     pub(super) fn number(&mut self, holder: Option<usize>, parameter: &'static Parameter) -> f64 {
         match self.element_of(holder, parameter) {
             Some(element) => self.number_in(element, parameter),
@@ -112,12 +112,12 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The number that an element says.
+    /// The number stated by an element.
     pub(super) fn number_in(&mut self, element: usize, parameter: &'static Parameter) -> f64 {
         self.number_or(element, "value", &parameter.field, parameter.inside)
     }
 
-    /// A vector or colour in an element, or what stands for it.
+    /// The vector or colour of a parameter, or its default.
     pub(super) fn vector(&mut self, holder: Option<usize>, parameter: &'static Parameter) -> DVec3 {
         match self.element_of(holder, parameter) {
             Some(element) => self.vector_in(element, parameter),
@@ -125,7 +125,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The vector or colour that an element says.
+    /// The vector or colour stated by an element.
     pub(super) fn vector_in(&mut self, element: usize, parameter: &'static Parameter) -> DVec3 {
         let names = parameter.reading.attributes();
         let field = &parameter.field;
@@ -144,7 +144,7 @@ impl<'a> Reader<'a> {
         product
     }
 
-    /// The axis and the angle in degrees that a rotation says.
+    /// The axis and the angle, in degrees, of a rotation.
     pub(super) fn rotation_in(
         &mut self,
         element: usize,
@@ -160,7 +160,7 @@ impl<'a> Reader<'a> {
         (axis, angle)
     }
 
-    /// A number beside those of an element.
+    /// A further number of an element, or its default.
     pub(super) fn extra(
         &mut self,
         element: usize,
@@ -178,7 +178,7 @@ impl<'a> Reader<'a> {
         self.number_or(element, attribute, &extra.field, missing)
     }
 
-    /// The element that says a parameter of another one.
+    /// The child that sets a parameter.
     pub(super) fn element_of(
         &self,
         holder: Option<usize>,
@@ -197,7 +197,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Reports a direction that is none.
+    /// Reports a direction of zero length.
     pub(super) fn zero(&mut self, element: usize) {
         let name = self.called(element);
         let span = self.attributes_span(element);
@@ -206,7 +206,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A number of the table of fields.
+/// Parses a number of the table of fields.
 fn plain(literal: &str) -> f64 {
     literal.parse().unwrap_or(f64::NAN)
 }

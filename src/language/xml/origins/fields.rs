@@ -1,22 +1,23 @@
-//! The fields of each node, with where they stand or would.
+//! The fields of each node, with their places or places for insertion.
 
 use super::insert;
 use super::{Origins, Role};
 use crate::language::node::Node;
-use crate::language::placed::{Insertion, Placed, Unsaid, Unwritten};
+use crate::language::placed::Placed;
 use crate::language::table::Field;
 use crate::language::xml::table::{
     BACKGROUND, CAMERA, CHECKER, ENVIRONMENT, GAMMA, LIGHT_WORDS, MATERIAL_WORDS, OBJECT,
     Parameter, Reading, TEXTURE, Texturing, Word,
 };
 use crate::language::xml::tree::Tree;
+use crate::language::xml::unsaid::{Insertion, Unsaid, Unwritten};
 use crate::text::Span;
 
-/// More rows than this no one reads.
+/// Maximum number of rows of a node; nobody reads more.
 const MOST_ROWS: usize = 256;
 
 /// The fields of a node.
-pub(super) fn of(origins: &Origins, tree: &Tree, node: Node) -> Vec<Placed> {
+pub(in crate::language::xml) fn of(origins: &Origins, tree: &Tree, node: Node) -> Vec<Placed> {
     let mut rows = Rows {
         origins,
         tree,
@@ -59,11 +60,11 @@ pub(super) fn of(origins: &Origins, tree: &Tree, node: Node) -> Vec<Placed> {
     rows.placed
 }
 
-/// What a parameter is in.
+/// The parent of a parameter.
 #[derive(Clone, Copy)]
 enum Holder {
     There(usize),
-    /// In the element there, but that is missing: its tags.
+    /// A missing child of this element, by its tags.
     Missing(usize, &'static str, &'static str),
 }
 
@@ -93,7 +94,7 @@ impl Rows<'_> {
         }
     }
 
-    /// A word that is an attribute.
+    /// Adds an attribute whose value is a word.
     fn word(&mut self, element: usize, word: &'static Word) {
         let field = &word.field;
         if let Some(said) = self.origins.value(self.tree, element, field.key) {
@@ -130,7 +131,7 @@ impl Rows<'_> {
         }
     }
 
-    /// A parameter whose element is there, and its textures.
+    /// Adds a parameter whose element exists, with its textures.
     fn said(&mut self, element: usize, parameter: &'static Parameter) {
         let mut pending = vec![(element, parameter)];
         while let Some((element, parameter)) = pending.pop() {
@@ -158,7 +159,7 @@ impl Rows<'_> {
         }
     }
 
-    /// Where a parameter says its texture.
+    /// The place of a parameter's texture.
     fn texture(&self, element: usize, parameter: &Parameter) -> Option<Span> {
         let may = parameter.texture == Texturing::Yes;
         let said = self
@@ -179,7 +180,7 @@ impl Rows<'_> {
         }
     }
 
-    /// The numbers of an element that is there.
+    /// Adds the numbers of an existing element.
     fn numbers(&mut self, element: usize, parameter: &'static Parameter) {
         let find = |name: &str| self.origins.attribute(self.tree, element, name);
         let names = parameter.reading.attributes();
@@ -189,7 +190,7 @@ impl Rows<'_> {
             .collect();
         let mut field = &parameter.field;
         match parameter.reading {
-            // It says the angle where `angle` does not.
+            // It stands in for a missing `angle`.
             Reading::Rotation if attributes[3].1.is_none() => attributes[3].1 = find("value"),
             Reading::Vector | Reading::Colour if attributes[3].1.is_none() => {
                 attributes.truncate(3);
@@ -200,8 +201,8 @@ impl Rows<'_> {
         self.attributes(field, &attributes, &insert::attribute(self.tree, element));
     }
 
-    /// A field whose components are attributes of one element: their names, where they are, and
-    /// what stands for them.
+    /// Adds a field whose components are attributes of one element, given their names, places and
+    /// defaults.
     fn attributes(
         &mut self,
         field: &'static Field,
@@ -240,7 +241,7 @@ impl Rows<'_> {
         });
     }
 
-    /// A parameter whose element is not there.
+    /// Adds a parameter whose element is missing.
     fn missing(&mut self, holder: Holder, parameter: &'static Parameter) {
         let insertion = match holder {
             Holder::There(holder) => insert::child(self.tree, holder),

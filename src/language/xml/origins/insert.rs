@@ -1,10 +1,10 @@
-//! Where in a `.xml` text something that is missing goes.
+//! Where to insert missing elements and attributes in an `.xml` text.
 
-use crate::language::placed::{Insertion, Piece};
 use crate::language::xml::tree::Tree;
+use crate::language::xml::unsaid::{Insertion, Piece};
 use crate::text::Span;
 
-/// Where one more attribute of an element goes.
+/// Where to insert another attribute of an element.
 pub(super) fn attribute(tree: &Tree, element: usize) -> Insertion {
     let end = tree.elements[element].attributes_end as usize;
     Insertion {
@@ -15,8 +15,8 @@ pub(super) fn attribute(tree: &Tree, element: usize) -> Insertion {
     }
 }
 
-/// Where one more element in another one goes: after the last, indented like that, or else two
-/// blanks more than what it is in.
+/// Where to insert another child: after the last one with its indentation, or as the first one,
+/// indented by two blanks more than the parent.
 pub(super) fn child(tree: &Tree, parent: usize) -> Insertion {
     let own = &tree.elements[parent];
     if let Some(last) = tree.children(parent).last() {
@@ -60,7 +60,7 @@ pub(super) fn child(tree: &Tree, parent: usize) -> Insertion {
     }
 }
 
-/// Where an element goes inside of one that is missing itself.
+/// Where to insert an element into a parent that is missing itself.
 pub(super) fn grandchild(
     tree: &Tree,
     grandparent: usize,

@@ -1,53 +1,53 @@
-//! The kinds of object, material and light, as `type` says them.
+//! The kinds of objects, materials and lights, named by `type`.
 
 use super::{AMBIENT, DIRECT, MATERIAL, MICROFACET, POINT, Parameter};
 
-/// What an object is.
+/// The kinds of objects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::language::xml) enum ObjectKind {
-    /// A ball of radius 1.
+    /// A sphere of radius 1.
     Sphere,
-    /// A square from −1 to 1.
+    /// A square from −1 to 1 in x and y.
     Plane,
     /// A mesh from a file.
     Obj,
-    /// What is in it.
+    /// The objects in it.
     Group,
 }
 
-/// How a material is shaded.
+/// The shading models of materials.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::language::xml) enum MaterialKind {
     /// A highlight around the normal.
     Blinn,
-    /// A highlight around the mirrored direction.
+    /// A highlight around the reflected direction.
     Phong,
-    /// Little mirrors.
+    /// Microfacets.
     Microfacet,
 }
 
-/// Where light comes from.
+/// The kinds of lights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::language::xml) enum LightKind {
-    /// Everywhere.
+    /// From everywhere.
     Ambient,
-    /// One direction.
+    /// From one direction.
     Direct,
-    /// One point.
+    /// From one point.
     Point,
 }
 
 impl ObjectKind {
-    /// What `type` says; a group has none.
+    /// The values of `type`; a group has none.
     pub(in crate::language::xml) const TYPES: &'static [&'static str] = &["sphere", "plane", "obj"];
 
-    /// The kind of a type, in any case.
+    /// The kind for a type, ignoring case.
     pub(in crate::language::xml) fn of(word: &str) -> Option<Self> {
         let kinds = [Self::Sphere, Self::Plane, Self::Obj];
         Some(kinds[place(Self::TYPES, word)?])
     }
 
-    /// What it is called.
+    /// The name of the kind.
     pub(in crate::language::xml) const fn word(self) -> &'static str {
         match self {
             Self::Sphere => "sphere",
@@ -59,22 +59,22 @@ impl ObjectKind {
 }
 
 impl MaterialKind {
-    /// What `type` says.
+    /// The values of `type`.
     pub(in crate::language::xml) const TYPES: &'static [&'static str] =
         &["blinn", "phong", "microfacet"];
 
-    /// The kind of a type, in any case.
+    /// The kind for a type, ignoring case.
     pub(in crate::language::xml) fn of(word: &str) -> Option<Self> {
         let kinds = [Self::Blinn, Self::Phong, Self::Microfacet];
         Some(kinds[place(Self::TYPES, word)?])
     }
 
-    /// What it is called.
+    /// The name of the kind.
     pub(in crate::language::xml) const fn word(self) -> &'static str {
         Self::TYPES[self as usize]
     }
 
-    /// What it has.
+    /// Its parameters.
     pub(in crate::language::xml) fn parameters(self) -> &'static [Parameter] {
         match self {
             Self::Blinn | Self::Phong => &MATERIAL,
@@ -84,22 +84,22 @@ impl MaterialKind {
 }
 
 impl LightKind {
-    /// What `type` says.
+    /// The values of `type`.
     pub(in crate::language::xml) const TYPES: &'static [&'static str] =
         &["ambient", "direct", "point"];
 
-    /// The kind of a type, in any case.
+    /// The kind for a type, ignoring case.
     pub(in crate::language::xml) fn of(word: &str) -> Option<Self> {
         let kinds = [Self::Ambient, Self::Direct, Self::Point];
         Some(kinds[place(Self::TYPES, word)?])
     }
 
-    /// What it is called.
+    /// The name of the kind.
     pub(in crate::language::xml) const fn word(self) -> &'static str {
         Self::TYPES[self as usize]
     }
 
-    /// What it has.
+    /// Its parameters.
     pub(in crate::language::xml) fn parameters(self) -> &'static [Parameter] {
         match self {
             Self::Ambient => &AMBIENT,

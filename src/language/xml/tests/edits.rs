@@ -1,5 +1,4 @@
-//! Edits of fields change what they should and nothing else, and undoing them brings every byte
-//! back.
+//! Edits of fields change only those fields, and undoing them restores every byte.
 
 use super::{EXAMPLE, around, read};
 use crate::language::node::Node;
@@ -9,7 +8,7 @@ use crate::language::tests::Random;
 use crate::scene::{Camera, Lens, Size};
 use crate::text::{Edit, apply, parse_number};
 
-/// A scene with something of everything.
+/// A scene with every kind of element.
 pub(super) const RICH: &str = "<?xml version=\"1.0\"?>\r\n<xml>\r\n  <scene>\r\n    <!-- things -->\r\n    \
     <object type=\"sphere\" name=\"a &amp; b\" material='m'>\r\n      <scale value=\"2\"/>\r\n      \
     <rotate z='1' angle=\"30\"/>\r\n      <translate x=\".5\" z=\"-1e0\" />\r\n      <object />\r\n    \
@@ -21,7 +20,7 @@ pub(super) const RICH: &str = "<?xml version=\"1.0\"?>\r\n<xml>\r\n  <scene>\r\n
     </scene>\r\n  <camera>\r\n    <position x=\"1\" y=\"2\" z=\"7\" value=\"2\"/>\r\n    <up z=\"1\"/>\r\n  \
     </camera>\r\n</xml>\r\n";
 
-/// What stands in each component of each field, said or not.
+/// The value of each component of each field, stated or default.
 fn values(text: &str) -> Vec<(Node, &'static str, Vec<String>)> {
     let (source, _) = read(text);
     let of = |node| {
@@ -40,7 +39,7 @@ fn values(text: &str) -> Vec<(Node, &'static str, Vec<String>)> {
 }
 
 #[test]
-fn a_component_that_is_not_said_is_put_where_it_belongs() {
+fn missing_components_are_inserted_where_they_belong() {
     for (scene, node, key, component, literal, expected) in [
         (
             "<object><scale value='2'/></object>",
@@ -124,7 +123,7 @@ fn a_component_that_is_not_said_is_put_where_it_belongs() {
 }
 
 #[test]
-fn ten_thousand_edits_change_one_component_each() {
+fn ten_thousand_edits_each_change_one_component() {
     let mut random = Random(7);
     let mut edits = 0;
     while edits < 10_000 {
@@ -140,7 +139,7 @@ fn ten_thousand_edits_change_one_component_each() {
             let placed = &fields[at];
             let component = random.below(placed.spans.len());
             let literal = match placed.field.kind {
-                // Another type has other fields, and another gamma other defaults.
+                // A different type has other fields, and a different gamma other defaults.
                 Kind::Choice(_) => continue,
                 Kind::Word if placed.field.key == "texture" => continue,
                 Kind::Word | Kind::Name(_) => random.pick(&["a", "<&>'\"", "é", "m"]).to_owned(),
@@ -161,7 +160,7 @@ fn ten_thousand_edits_change_one_component_each() {
             if placed.default_of(component).is_none() {
                 assert_eq!(*span, placed.spans[component]);
             } else {
-                // Nothing that is said is lost: at most a tag that ended an element is opened.
+                // Nothing stated is lost: at most an empty-element tag is opened.
                 assert!(span.of(&text).trim() == "/>" || span.is_empty(), "{edit:?}");
                 assert!(put.contains('='), "{edit:?}");
             }
@@ -178,7 +177,7 @@ fn ten_thousand_edits_change_one_component_each() {
                 let row = row.unwrap_or_else(|| panic!("{old} → {literal}: {edit:?}\n{text}"));
                 assert!(row.2.contains(&literal), "{row:?} {literal}");
             }
-            // A parameter that was missing brings what else can be said of it.
+            // A parameter that was missing adds rows for its other attributes.
             let brought = after.len() - before.len();
             assert!(changed.len() <= 1 + brought, "{changed:?}\n{text}");
             edits += 1;
@@ -191,7 +190,7 @@ fn ten_thousand_edits_change_one_component_each() {
 }
 
 #[test]
-fn a_camera_is_written_where_it_differs() {
+fn only_changed_parts_of_a_camera_are_written() {
     let mut random = Random(3);
     let texts = [
         RICH.to_owned(),
@@ -244,7 +243,7 @@ fn a_camera_is_written_where_it_differs() {
 }
 
 #[test]
-fn a_missing_camera_is_written_whole() {
+fn a_missing_camera_is_written_completely() {
     let text = "<xml>\n\t<scene/>\n</xml>\n";
     let (source, lowered) = read(text);
     let before = lowered.scene.expect("there are no errors").camera;

@@ -14,13 +14,13 @@ fn said(text: &str) -> Vec<String> {
     lines.iter().filter_map(message).collect()
 }
 
-/// What is wrong with what stands in the scene.
+/// The diagnostics for this content of the scene.
 fn wrong(scene: &str) -> Vec<String> {
     said(&around(scene))
 }
 
 #[test]
-fn each_mistake_is_told_in_words() {
+fn each_mistake_has_its_message() {
     for (scene, expected) in [
         (
             "<object type='sphere'><scale x='0.5f'/></object>",
@@ -89,7 +89,7 @@ fn each_mistake_is_told_in_words() {
 }
 
 #[test]
-fn lights_and_surroundings_are_judged() {
+fn lights_and_surroundings_are_checked() {
     for (scene, expected) in [
         (
             "<light type='spot'/>",
@@ -136,7 +136,7 @@ fn lights_and_surroundings_are_judged() {
 }
 
 #[test]
-fn materials_warn_of_what_they_are_not() {
+fn unsuitable_properties_of_materials_give_warnings() {
     for (material, expected) in [
         (
             "<material type='glass'/>",
@@ -172,7 +172,7 @@ fn materials_warn_of_what_they_are_not() {
 }
 
 #[test]
-fn the_camera_and_the_root_are_judged() {
+fn the_camera_and_the_root_are_checked() {
     let of = |camera: &str| format!("<xml><scene/>{camera}</xml>");
     for (text, expected) in [
         (
@@ -228,7 +228,7 @@ fn the_camera_and_the_root_are_judged() {
 }
 
 #[test]
-fn all_that_is_wrong_is_told_at_once_at_its_place() {
+fn all_errors_are_reported_at_once_at_their_places() {
     let text = "<xml>\n <scene>\n  <object type='sphere'>\n   <scale x='a'/>\n   <turn/>\n  </object>\n  \
         <light type='direct'>\n   <direction x='0'/>\n  </light>\n </scene>\n \
         <camera><fov value='0'/><position z='1'/></camera>\n</xml>\n";
@@ -246,7 +246,7 @@ fn all_that_is_wrong_is_told_at_once_at_its_place() {
 }
 
 #[test]
-fn a_slip_is_known_by_its_word() {
+fn misspelt_words_are_recognised() {
     let text = around("<obejct/>");
     let (_, lowered) = read(&text);
     let hint = lowered.diagnostics[0].hint.as_deref();

@@ -1,11 +1,13 @@
+use std::f64::consts::PI;
+
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::{EXAMPLE, around, read, scene};
 use crate::geometry::{Aabb, Ray, Shape, Sphere};
 use crate::language::node::Node;
 use crate::scene::{
-    Camera, Falloff, Finish, Focus, Gloss, Integrator, Lens, Light, MappedPattern, Material, Rgb,
-    Shadows, Size, Source, Textured, Tinted, Transfer,
+    Camera, Dielectric, Emitter, Faces, Falloff, Focus, Gloss, Highlight, Integrator, Lens, Light,
+    Material, Mirror, Pattern, Rgb, Scene, Shadows, Side, Size, Tinted, Transfer,
 };
 
 fn sphere(centre: [f64; 3], radius: f64) -> Shape {
@@ -15,14 +17,7 @@ fn sphere(centre: [f64; 3], radius: f64) -> Shape {
     })
 }
 
-fn plain(colour: Rgb) -> Tinted {
-    Tinted {
-        colour,
-        texture: None,
-    }
-}
-
-/// The box of the only object.
+/// The bounding box of a single object.
 fn bounds(object: &str) -> Aabb {
     scene(&around(object)).bounds()
 }
@@ -45,7 +40,7 @@ fn the_example_is_three_white_spheres() {
         sphere([0.0, 50.0, 11.1], 1.0),
     ];
     assert_eq!(shapes, expected);
-    assert_eq!(scene.materials, [Material::Flat(Rgb::ONE)]);
+    assert_eq!(scene.materials, [Material::unlit(Rgb::ONE)]);
     let camera = Camera {
         eye: DVec3::ZERO,
         target: DVec3::new(0.0, 20.0, 0.0),
@@ -82,7 +77,7 @@ fn the_example_is_three_white_spheres() {
 }
 
 #[test]
-fn a_missing_camera_stands_at_the_origin() {
+fn a_missing_camera_is_at_the_origin() {
     let camera = scene("<xml><scene/></xml>").camera;
     let size = Size {
         width: 200,
@@ -99,7 +94,7 @@ fn a_missing_camera_stands_at_the_origin() {
 }
 
 #[test]
-fn the_transform_that_is_listed_first_acts_first() {
+fn transforms_apply_in_the_order_of_the_text() {
     for (transforms, centre, half) in [
         (
             "<scale value='2'/><translate x='3'/>",
@@ -152,7 +147,7 @@ fn the_transform_that_is_listed_first_acts_first() {
 }
 
 #[test]
-fn what_is_in_an_object_moves_with_it_wherever_it_stands() {
+fn nested_objects_move_with_their_parents() {
     let inner = "<object type='sphere'><translate x='1'/></object>";
     for object in [
         format!("<object><scale value='2'/><translate y='3'/>{inner}</object>"),
@@ -187,7 +182,7 @@ fn a_plane_is_a_square_with_a_front() {
 }
 
 #[test]
-fn materials_are_read_whole() {
+fn materials_are_read_completely() {
     let scene = scene(&around(
         "<object type='sphere' material='b'/>
          <object><object type='plane' material='a'/></object>
@@ -206,64 +201,76 @@ fn materials_are_read_whole() {
             .collect::<Vec<_>>(),
         [1, 0]
     );
-    let [Material::Utah(a), Material::Utah(b), Material::Utah(c)] = &scene.materials[..] else {
+    let [a, b, c] = &scene.materials[..] else {
         panic!("{:?}", scene.materials);
     };
-    let gloss = |diffuse, specular, glossiness| Gloss {
-        diffuse: plain(diffuse),
-        specular: plain(specular),
-        glossiness: Textured {
-            value: glossiness,
-            texture: None,
+    let front = Mirror {
+        faces: Faces::Front,
+        ..Mirror::default()
+    };
+    let expected = Material {
+        diffuse: Rgb::splat(0.5),
+        highlight: Highlight::Blinn(Gloss {
+            specular: Rgb::splat(0.7),
+            exponent: 20.0,
+        }),
+        mirror: front,
+        ..Material::BLACK
+    };
+    assert_eq!(a, &expected);
+    let expected = Material {
+        diffuse: Rgb::new(0.2, 0.4, 2.0),
+        highlight: Highlight::ModifiedPhong(Gloss {
+            specular: Rgb::ZERO,
+            exponent: 1.0,
+        }),
+        mirror: Mirror {
+            tint: Rgb::new(1.0, 0.0, 1.0),
+            spread: 0.25,
+            ..front
         },
+        dielectric: Dielectric {
+            tint: Rgb::splat(0.5),
+            index: 1.52,
+            absorption: Rgb::new(0.01, 0.0, 0.0),
+            ..Dielectric::OPAQUE
+        },
+        emission: Rgb::splat(3.0),
+        lit: Faces::Front,
+        ..Material::BLACK
     };
-    let defaults = gloss(Rgb::splat(0.5), Rgb::splat(0.7), 20.0);
-    assert_eq!(a.finish, Finish::Blinn(defaults));
-    assert_eq!(
-        (a.reflection, a.refraction, a.index),
-        (Tinted::default(), Tinted::default(), 1.0)
-    );
-    let finish = gloss(Rgb::new(0.2, 0.4, 2.0), Rgb::ZERO, 1.0);
-    assert_eq!(b.finish, Finish::Phong(finish));
-    assert_eq!(
-        (b.reflection, b.reflection_spread),
-        (plain(Rgb::new(1.0, 0.0, 1.0)), 0.25)
-    );
-    assert_eq!(
-        (b.refraction, b.refraction_spread),
-        (plain(Rgb::splat(0.5)), 0.0)
-    );
-    assert_eq!((b.index, b.absorption), (1.52, Rgb::new(0.01, 0.0, 0.0)));
-    assert_eq!(b.emission, plain(Rgb::splat(3.0)));
-    let number = |value| Textured {
-        value,
-        texture: None,
+    assert_eq!(b, &expected);
+    let expected = Material {
+        diffuse: Rgb::new(1.0, 1.0, 0.0),
+        highlight: Highlight::Microfacet {
+            roughness: 0.3,
+            metallic: 1.0,
+        },
+        dielectric: Dielectric {
+            tint: Rgb::splat(0.5),
+            index: 2.0,
+            ..Dielectric::OPAQUE
+        },
+        lit: Faces::Front,
+        ..Material::BLACK
     };
-    let finish = Finish::Microfacet {
-        colour: plain(Rgb::new(1.0, 1.0, 0.0)),
-        roughness: number(0.3),
-        metallic: number(1.0),
-    };
-    assert_eq!((&c.finish, c.index), (&finish, 2.0));
-    assert_eq!(c.refraction, plain(Rgb::splat(0.5)));
+    assert_eq!(c, &expected);
 }
 
 #[test]
-fn gamma_asks_for_paths_and_another_default_index() {
+fn gamma_selects_path_tracing_and_another_default_index() {
     let text = "<xml><scene><material><refraction/></material></scene><camera gamma='srgb'/></xml>";
     let scene = scene(text);
     assert_eq!(
         (scene.setting.integrator, scene.setting.transfer),
         (Integrator::Path, Transfer::Srgb)
     );
-    let [Material::Utah(glass)] = &scene.materials[..] else {
-        panic!("{:?}", scene.materials);
-    };
-    assert_eq!((glass.index, glass.refraction), (1.5, plain(Rgb::ONE)));
+    let glass = scene.materials[0].dielectric;
+    assert_eq!((glass.index, glass.tint), (1.5, Rgb::ONE));
 }
 
 #[test]
-fn lights_shine_from_where_they_say() {
+fn lights_are_read_completely() {
     let scene = scene(&around(
         "<light type='ambient' name='a'><intensity value='.25'/></light>
          <light type='AMBIENT'><intensity r='.5' g='0' b='0'/></light>
@@ -272,32 +279,33 @@ fn lights_shine_from_where_they_say() {
          <light type='point'><intensity value='3'/><position y='4'/><size value='.5'/><attenuation value='2'/></light>
          <light type='spot'/><light/>",
     ));
-    assert_eq!(scene.ambient, Rgb::new(0.75, 0.25, 0.25));
-    let light = |source, colour, radius| Light {
-        source,
+    assert_eq!(scene.ambient_light(), Rgb::new(0.75, 0.25, 0.25));
+    let light = |emitter, colour| Light {
+        emitter,
         colour,
+        scale: PI,
         shadows: Shadows::Cast,
-        radius,
     };
-    let point = Source::Point {
+    let point = Emitter::Point {
         position: DVec3::new(0.0, 4.0, 0.0),
+        radius: 0.5,
         falloff: Falloff {
             radial: [0.0, 0.0, 4.0],
             spot: None,
         },
     };
     let expected = [
-        light(Source::Everywhere, Rgb::splat(0.25), 0.0),
-        light(Source::Everywhere, Rgb::new(0.5, 0.0, 0.0), 0.0),
-        light(Source::Distant(-DVec3::X), Rgb::ONE, 0.0),
-        light(Source::Distant(-DVec3::Z), Rgb::ZERO, 0.0),
-        light(point, Rgb::splat(3.0), 0.5),
+        light(Emitter::Ambient, Rgb::splat(0.25)),
+        light(Emitter::Ambient, Rgb::new(0.5, 0.0, 0.0)),
+        light(Emitter::Distant(-DVec3::X), Rgb::ONE),
+        light(Emitter::Distant(-DVec3::Z), Rgb::ZERO),
+        light(point, Rgb::splat(3.0)),
     ];
     assert_eq!(scene.lights, expected);
 }
 
 #[test]
-fn textures_hold_textures_in_their_squares() {
+fn checkerboards_may_contain_textures() {
     let text = around(
         "<background texture='clouds.ppm'><scale y='.5'/><translate y='-1'/></background>
          <environment value='.5' texture='checkerboard'>
@@ -305,7 +313,9 @@ fn textures_hold_textures_in_their_squares() {
          </environment>",
     );
     let (source, lowered) = read(&text);
-    let setting = lowered.scene.expect("there are no errors").setting;
+    let Scene {
+        setting, textures, ..
+    } = lowered.scene.expect("there are no errors");
     assert_eq!(
         setting.background,
         Tinted {
@@ -320,8 +330,7 @@ fn textures_hold_textures_in_their_squares() {
             texture: Some(1)
         }
     );
-    let patterns: Vec<_> = setting
-        .textures
+    let patterns: Vec<_> = textures
         .iter()
         .map(|texture| texture.pattern.clone())
         .collect();
@@ -331,19 +340,23 @@ fn textures_hold_textures_in_their_squares() {
         tinted(Rgb::ONE, None),
     ];
     let inner = [tinted(Rgb::ZERO, None), tinted(Rgb::ONE, Some(3))];
+    let checker = |squares| Pattern::Checker {
+        squares,
+        side: Side::Half,
+    };
     let expected = [
-        MappedPattern::Image("clouds.ppm".to_owned()),
-        MappedPattern::Checkerboard(outer),
-        MappedPattern::Checkerboard(inner),
-        MappedPattern::Image("maps/a&b.png".to_owned()),
+        Pattern::Image("clouds.ppm".to_owned()),
+        checker(outer),
+        checker(inner),
+        Pattern::Image("maps/a&b.png".to_owned()),
     ];
     assert_eq!(patterns, expected);
     let forward = DAffine3::from_mat3_translation(
         DMat3::from_diagonal(DVec3::new(1.0, 0.5, 1.0)),
         DVec3::new(0.0, -1.0, 0.0),
     );
-    assert_eq!(setting.textures[0].inverse, forward.inverse());
-    let place = setting.textures[2]
+    assert_eq!(textures[0].inverse, forward.inverse());
+    let place = textures[2]
         .inverse
         .transform_point3(DVec2::new(0.5, 1.0).extend(0.0));
     assert_eq!(place, DVec3::new(0.25, 0.5, 0.0));
@@ -362,7 +375,7 @@ fn textures_hold_textures_in_their_squares() {
 }
 
 #[test]
-fn things_are_found_by_place_and_called_by_comments() {
+fn nodes_are_found_by_position_and_have_comments() {
     let text = around(
         "\n<!-- one -->\n<object name='a'><object type='sphere'><!-- two --> <scale value='2'/></object></object>\n\
          <material name='m'><diffuse r='.5'/></material>",
@@ -385,7 +398,7 @@ fn things_are_found_by_place_and_called_by_comments() {
 }
 
 #[test]
-fn a_hundred_thousand_levels_are_lowered() {
+fn a_hundred_thousand_nested_elements_are_lowered() {
     let levels = 100_000;
     let nested = |open: &str, close: &str| around(&(open.repeat(levels) + &close.repeat(levels)));
     let deep = scene(&nested(
@@ -401,7 +414,7 @@ fn a_hundred_thousand_levels_are_lowered() {
     let rows = source.fields(Node::Background);
     assert!((200..300).contains(&rows.len()), "{}", rows.len());
     assert_eq!(
-        lowered.scene.map(|scene| scene.setting.textures.len()),
+        lowered.scene.map(|scene| scene.textures.len()),
         Some(levels)
     );
     let (source, lowered) = read(&nested("<nonsense>", "</nonsense>"));
@@ -411,7 +424,7 @@ fn a_hundred_thousand_levels_are_lowered() {
 }
 
 #[test]
-fn names_are_told_short_and_printable() {
+fn names_in_messages_are_short_and_printable() {
     let long = "n".repeat(60);
     let text = around(&format!(
         "<object name='a&#10;b&#x202e;'/><object name='{long}'/>"

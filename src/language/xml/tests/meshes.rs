@@ -10,13 +10,13 @@ use crate::language::FileKind;
 use crate::language::node::Node;
 use crate::obj;
 use crate::scene::{
-    Finish, Gloss, MappedPattern, MappedTexture, Material, Meshes, NoMesh, Object, Rgb, Scene,
-    Textured, Tinted, Utah,
+    Dielectric, Faces, Gloss, Highlight, Maps, Material, Meshes, Mirror, NoMesh, Object, Pattern,
+    Rgb, Scene, Texture,
 };
 
 const CORNERS: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-/// The mesh of a text, whose libraries all hold the same, under a name.
+/// A mesh with this name, whose libraries all have the same content.
 fn meshes(name: &str, mesh: &str, library: &str) -> Meshes {
     let read = obj::read(mesh.as_bytes(), |_| Ok::<_, String>(library));
     let model = read.unwrap_or_else(|errors| panic!("{mesh}: {errors:?}"));
@@ -48,49 +48,49 @@ fn tags(object: &Object) -> Vec<Option<u32>> {
     instance(object).tags().collect()
 }
 
-fn plain(colour: [f64; 3]) -> Tinted {
-    Tinted {
-        colour: colour.into(),
-        texture: None,
+/// The material that a library with these statements defines.
+fn shiny(diffuse: [f64; 3], specular: [f64; 3], exponent: f64) -> Material {
+    Material {
+        diffuse: diffuse.into(),
+        highlight: Highlight::Blinn(Gloss {
+            specular: specular.into(),
+            exponent,
+        }),
+        mirror: Mirror {
+            faces: Faces::Front,
+            ..Mirror::default()
+        },
+        ..Material::BLACK
     }
 }
 
-/// What a library that says nothing means.
-fn silent() -> Utah {
-    let gloss = Gloss {
-        diffuse: plain([1.0; 3]),
-        specular: plain([0.0; 3]),
-        glossiness: Textured::default(),
-    };
-    Utah {
-        finish: Finish::Blinn(gloss),
-        reflection: plain([0.0; 3]),
-        reflection_spread: 0.0,
-        refraction: plain([0.0; 3]),
-        refraction_spread: 0.0,
-        index: 1.0,
-        absorption: Rgb::ZERO,
-        emission: plain([0.0; 3]),
+/// The material that a library without statements defines.
+fn silent() -> Material {
+    shiny([1.0; 3], [0.0; 3], 0.0)
+}
+
+/// A dielectric with this tint.
+fn clear(tint: [f64; 3], index: f64, material: Material) -> Material {
+    Material {
+        dielectric: Dielectric {
+            tint: tint.into(),
+            index,
+            ..Dielectric::OPAQUE
+        },
+        lit: Faces::Front,
+        ..material
     }
 }
 
 #[test]
 fn materials_come_from_the_library() {
-    let shiny = |diffuse, specular, glossiness| Utah {
-        finish: Finish::Blinn(Gloss {
-            diffuse: plain(diffuse),
-            specular: plain(specular),
-            glossiness: Textured {
-                value: glossiness,
-                texture: None,
-            },
-        }),
-        ..silent()
-    };
     let specular = [0.2, 0.4, 0.6];
-    let mirror = |utah: Utah| Utah {
-        reflection: plain(specular),
-        ..utah
+    let mirror = |material: Material| Material {
+        mirror: Mirror {
+            tint: specular.into(),
+            ..material.mirror
+        },
+        ..material
     };
     let of_specular = || shiny([1.0; 3], specular, 0.0);
     for (said, expected) in [
@@ -100,9 +100,9 @@ fn materials_come_from_the_library() {
         ("Ns -7", silent()),
         (
             "Ni 1.5",
-            Utah {
-                index: 1.5,
-                ..silent()
+            Material {
+                lit: Faces::Both,
+                ..clear([0.0; 3], 1.5, silent())
             },
         ),
         ("illum 0\nKs .2 .4 .6\nTf 0.5", of_specular()),
@@ -113,25 +113,18 @@ fn materials_come_from_the_library() {
         ("illum 5\nKs .2 .4 .6\nTf 0.5", mirror(of_specular())),
         (
             "illum 6\nKs .2 .4 .6",
-            Utah {
-                refraction: plain([1.0; 3]),
-                ..mirror(of_specular())
-            },
+            clear([1.0; 3], 1.0, mirror(of_specular())),
         ),
         (
             "illum 7\nKs .2 .4 .6\nTf 0 .5 1\nNi 1.3",
-            Utah {
-                refraction: plain([1.0, 0.5, 0.0]),
-                index: 1.3,
-                ..mirror(of_specular())
-            },
+            clear([1.0, 0.5, 0.0], 1.3, mirror(of_specular())),
         ),
         ("illum 8\nKs .2 .4 .6", of_specular()),
         ("illum 10\nKs .2 .4 .6", of_specular()),
     ] {
         let meshes = two_faces(&format!("newmtl a\n{said}\n"));
         let scene = scene(&around("<object type='obj' name='a.obj'/>"), &meshes);
-        let expected = [Material::Flat(Rgb::ONE), Material::Utah(Box::new(expected))];
+        let expected = [Material::unlit(Rgb::ONE), expected];
         assert_eq!(scene.materials, expected, "{said}");
         assert_eq!(tags(&scene.objects[0]), [Some(0), Some(1)]);
     }
@@ -139,7 +132,7 @@ fn materials_come_from_the_library() {
 
 /// A picture's name is relative to the library, whose name is relative to the mesh.
 #[test]
-fn pictures_are_looked_for_from_the_library() {
+fn picture_names_are_relative_to_the_library() {
     let mesh = format!("mtllib ../skins/a.mtl\n{CORNERS}usemtl a\nf 1 2 3\n");
     let library = "newmtl a\nmap_Kd wood/oak.png\nmap_Ks ../shine.png\n";
     let meshes = meshes("meshes/a.obj", &mesh, library);
@@ -149,24 +142,21 @@ fn pictures_are_looked_for_from_the_library() {
         "meshes/../skins/wood/oak.png",
         "meshes/../skins/../shine.png",
     ];
-    let textures = keys.map(|key| MappedTexture {
+    let textures = keys.map(|key| Texture {
         inverse: DAffine3::IDENTITY,
-        pattern: MappedPattern::Image(key.to_owned()),
+        pattern: Pattern::Image(key.to_owned()),
     });
-    assert_eq!(meaning.setting.textures, textures);
-    let tinted = |colour, texture| Tinted {
-        texture: Some(texture),
-        ..plain(colour)
+    assert_eq!(meaning.textures, textures);
+    let maps = Maps {
+        diffuse: Some(0),
+        specular: Some(1),
+        ..Maps::default()
     };
-    let Material::Utah(utah) = &meaning.materials[1] else {
-        panic!("{:?}", meaning.materials);
+    let expected = Material {
+        maps: maps.boxed(),
+        ..silent()
     };
-    let gloss = Gloss {
-        diffuse: tinted([1.0; 3], 0),
-        specular: tinted([0.0; 3], 1),
-        glossiness: Textured::default(),
-    };
-    assert_eq!(utah.finish, Finish::Blinn(gloss));
+    assert_eq!(meaning.materials[1], expected);
 
     let (source, _) = read_with(&text, &meshes);
     let files = source.files();
@@ -189,12 +179,12 @@ fn pictures_are_looked_for_from_the_library() {
 }
 
 #[test]
-fn an_objects_own_material_is_that_of_all_faces() {
+fn an_objects_own_material_covers_all_faces() {
     let library = "newmtl a\nmap_Kd none.png\n";
     let own = "<material name='m'/>";
     for (object, materials, material, warnings) in [
         ("material='m'", 1, 0, 0),
-        // What is asked for but is not there is white.
+        // A material that is named but not defined is white.
         ("material='n'", 2, 1, 1),
     ] {
         let text = around(&format!("<object type='obj' name='a.obj' {object}/>{own}"));
@@ -203,7 +193,7 @@ fn an_objects_own_material_is_that_of_all_faces() {
         assert_eq!(scene.materials.len(), materials, "{object}");
         assert_eq!(scene.objects[0].material, material, "{object}");
         assert_eq!(tags(&scene.objects[0]), [None, None], "{object}");
-        assert!(scene.setting.textures.is_empty());
+        assert!(scene.textures.is_empty());
         let (_, lowered) = read_with(&text, &meshes);
         let is_about_names = |found: &&crate::text::Diagnostic| found.message.contains("`n`");
         let found = lowered.diagnostics.iter().filter(is_about_names).count();
@@ -242,7 +232,7 @@ fn instances_share_the_mesh_and_its_materials() {
 }
 
 #[test]
-fn what_is_not_read_yet_is_not_drawn() {
+fn unread_meshes_are_not_drawn() {
     let text = around("<object type='sphere'/><object type='obj' name='a.obj'/>");
     let (source, lowered) = read_with(&text, &Meshes::default());
     assert_eq!(*lowered.diagnostics, []);
@@ -251,7 +241,7 @@ fn what_is_not_read_yet_is_not_drawn() {
 }
 
 #[test]
-fn what_cannot_be_read_is_an_error_at_every_name() {
+fn unreadable_meshes_are_errors_at_every_name() {
     let fault = NoMesh {
         reasons: vec!["one thing".to_owned(), "another".to_owned()],
         hint: Some("do this".to_owned()),
@@ -279,7 +269,7 @@ fn what_cannot_be_read_is_an_error_at_every_name() {
 }
 
 #[test]
-fn what_is_doubtful_in_a_file_is_told_where_it_is_named_first() {
+fn warnings_about_a_file_are_reported_at_its_first_name() {
     let mesh = format!("curv 0 1\nmtllib a.mtl\n{CORNERS}usemtl a\nf 1 2 3\n");
     let meshes = meshes("a.obj", &mesh, "newmtl a\nKd red\n");
     let object = "<object type='obj' name='a.obj'/>";
@@ -293,19 +283,19 @@ fn what_is_doubtful_in_a_file_is_told_where_it_is_named_first() {
             .map(|found| found.message.clone());
         found.collect::<Vec<_>>()
     };
-    let line = "a.obj (obj): line 1, column 1: `curv` is not drawn";
+    let line = "a.obj (obj): line 1, column 1: `curv` is ignored";
     let library = "a.obj (obj): a.mtl: line 2, column 4: Kd: `red` is not a number";
     assert_eq!(said(&format!("{object}{object}")), [line, library]);
-    // A library that is not used may be as it likes.
+    // An unused library is not checked.
     assert_eq!(said(dressed), [line]);
     let scene = scene(&around(object), &meshes);
-    assert_eq!(scene.materials, [Material::Flat(Rgb::ONE)]);
+    assert_eq!(scene.materials, [Material::unlit(Rgb::ONE)]);
 }
 
-/// The triangle lies in the plane x + z = 0, which scaled by 2 along x is x + 2z = 0; its corners'
-/// normals (.6, 0, .8) become (.3, 0, .8), and a length of √.73 is taken from them.
+/// The triangle lies in the plane x + z = 0, which scaled by 2 along x becomes x + 2z = 0; its
+/// corners' normals (.6, 0, .8) become (.3, 0, .8), divided by their length √.73.
 #[test]
-fn normals_go_by_the_inverse_transpose() {
+fn normals_transform_by_the_inverse_transpose() {
     let mesh = "v 0 0 0\nv 1 0 -1\nv 0 1 0\nvn .6 0 .8\nf 1//1 2//1 3//1\n";
     let meshes = meshes("a.obj", mesh, "");
     let object = "<object type='obj' name='a.obj'><scale x='2'/></object>";
@@ -325,7 +315,7 @@ fn normals_go_by_the_inverse_transpose() {
 }
 
 #[test]
-fn a_mesh_that_no_number_reaches_is_an_error() {
+fn an_overflowing_mesh_is_an_error() {
     let meshes = meshes("a.obj", "v 0 0 0\nv 1e200 0 0\nv 0 1e200 0\nf 1 2 3\n", "");
     let text = around("<object type='obj' name='a.obj'><scale value='1e200'/></object>");
     let (_, lowered) = read_with(&text, &meshes);

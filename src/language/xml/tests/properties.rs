@@ -1,4 +1,4 @@
-//! No text, however wrong, makes lowering panic or point outside of it.
+//! Lowering never panics on any text, and never reports places outside it.
 
 use std::sync::Arc;
 
@@ -8,10 +8,10 @@ use super::edits::RICH;
 use super::{EXAMPLE, around, read_with};
 use crate::geometry::Shape;
 use crate::obj;
-use crate::scene::{MappedPattern, Material, Meshes, NoMesh};
+use crate::scene::{Highlight, Meshes, NoMesh, Pattern};
 use crate::text::Span;
 
-/// One that can be read, and one that can't.
+/// One readable mesh and one unreadable.
 fn meshes() -> Meshes {
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib a.mtl\nf 1 2 3\nusemtl a\nf 1 3 2\nwhat\n";
     let library = "newmtl a\nKd 1 0 0\nmap_Ks b.png\n";
@@ -78,21 +78,21 @@ fn check(text: &str) {
         let listed = source.object(index as u32);
         assert_eq!(source.drawn(listed), Some(index as u32));
     }
-    let textures = scene.setting.textures.len() as u32;
-    for (index, texture) in (0..).zip(&scene.setting.textures) {
+    let textures = scene.textures.len() as u32;
+    for (index, texture) in (0..).zip(&scene.textures) {
         assert!(texture.inverse.is_finite(), "{text:?}");
-        if let MappedPattern::Checkerboard(squares) = &texture.pattern {
+        if let Pattern::Checker { squares, .. } = &texture.pattern {
             let inner = squares.iter().filter_map(|square| square.texture);
             assert!(inner.into_iter().all(|at| index < at && at < textures));
         }
     }
     for material in &scene.materials {
-        assert!(!matches!(material, Material::Phong(_)));
+        assert!(!matches!(material.highlight, Highlight::Phong(_)));
         assert!(material.colour().is_finite());
     }
 }
 
-/// Pieces of scenes, right and wrong.
+/// Valid and invalid fragments of scenes.
 fn pieces() -> impl Strategy<Value = String> {
     let piece = prop::sample::select(vec![
         "<object>",

@@ -1,13 +1,13 @@
-//! Why a text is not XML, in words.
+//! Messages for texts that are not XML.
 
 use roxmltree::{Error, TextPos};
 
 use crate::text::{Diagnostic, Span};
 
-/// Tells an error of the parser at the place that it is about.
+/// The diagnostic for an error of the parser, at the place it is about.
 pub(super) fn told(text: &str, error: &Error, unclosed: Option<Span>) -> Diagnostic {
     let at = place(text, error.pos());
-    let end = Span::at(text.trim_end().len());
+    let end = Span::at(text.trim_ascii_end().len());
     let here = character(text, at);
     match error {
         Error::UnexpectedCloseTag(expected, actual, _) => {
@@ -39,7 +39,7 @@ pub(super) fn told(text: &str, error: &Error, unclosed: Option<Span>) -> Diagnos
             let name = open.of(text).trim_start_matches('<');
             Diagnostic::error(open, message, format!("`</{name}>` after what is in it"))
         }
-        // The parser takes a tag that breaks off for none at all.
+        // The parser ignores a tag that breaks off.
         Error::UnexpectedEndOfStream | Error::NoRootNode => match unclosed {
             Some(open) => {
                 let message = format!("the text ends inside `{}>`", open.of(text));
@@ -103,7 +103,7 @@ fn less_than(span: Span) -> Diagnostic {
         .with_hint("or the quote that ends the value is missing")
 }
 
-/// The byte at a line and a column in characters, both from 1.
+/// The byte offset of a line and a column in characters, both from 1.
 fn place(text: &str, position: TextPos) -> usize {
     let lines = position.row.saturating_sub(1) as usize;
     let line = match lines.checked_sub(1) {
@@ -120,19 +120,19 @@ fn place(text: &str, position: TextPos) -> usize {
         .map_or(text.len() - line, |(at, _)| at)
 }
 
-/// The character at a place.
+/// The character at an offset.
 fn character(text: &str, at: usize) -> Span {
     let width = text[at..].chars().next().map_or(0, char::len_utf8);
     Span::new(at, at + width)
 }
 
-/// The name at a place.
+/// The name at an offset.
 fn word(text: &str, at: usize) -> Span {
     let end = text[at..].find([' ', '\t', '\r', '\n', '=', '/', '>']);
     Span::new(at, end.map_or(text.len(), |end| at + end))
 }
 
-/// From a place to the first `mark`, if that is near; else the character at the place.
+/// The span from an offset to the next `mark`, if that is near; otherwise the character there.
 fn until(text: &str, at: usize, mark: char) -> Span {
     const NEAR: usize = 80;
     match text[at..].find([mark, '\n']) {

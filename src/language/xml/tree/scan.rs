@@ -1,42 +1,33 @@
-//! A quick look at a text before it is parsed: whether it holds what is refused, and what it leaves
-//! open.
+//! A quick scan of a text before it is parsed, for what is refused and for unclosed elements.
 
 use crate::text::{Diagnostic, Span};
 
-/// More attributes than this in one tag are not a scene's, and comparing each with all others takes
-/// its time.
+/// Maximum number of attributes per tag: far more than in any scene, and comparing each with all
+/// others takes time.
 const MOST_ATTRIBUTES: usize = 1000;
 
-/// The same of declared name spaces, which each element inherits from the one around it.
+/// Maximum number of namespace declarations, which each element inherits from its parent.
 const MOST_NAME_SPACES: usize = 64;
 
-/// Elements inside one another beyond this are not a scene's.
+/// Maximum nesting depth of elements, far more than in any scene.
 const MOST_LEVELS: usize = 1 << 17;
 
-/// What the look finds.
+/// The result of the scan.
 pub(super) struct Scan {
-    /// What is refused.
+    /// The error for what is refused.
     pub(super) refused: Option<Diagnostic>,
-    /// The innermost element that is never closed: its `<` and name.
+    /// The innermost element that is never closed, by its `<` and name.
     pub(super) unclosed: Option<Span>,
 }
 
-/// Looks at a text. What is not XML at all it passes by.
+/// Scans a text. Skips anything that is not XML.
 pub(super) fn scan(text: &str) -> Scan {
     let mut open: Vec<Span> = Vec::new();
     let refuse = |refused| Scan {
         refused: Some(refused),
         unclosed: None,
     };
-    if let Some((at, name)) = text.match_indices("xmlns").nth(MOST_NAME_SPACES) {
-        let message = format!("more than {MOST_NAME_SPACES} name spaces are refused");
-        let span = Span::new(at, at + name.len());
-        return refuse(Diagnostic::error(
-            span,
-            message,
-            "elements without prefixes",
-        ));
-    }
+    let mut name_spaces = 0;
     let mut at = 0;
     while let Some(offset) = text[at..].find('<') {
         let start = at + offset;
@@ -65,6 +56,15 @@ pub(super) fn scan(text: &str) -> Scan {
             let name = tag
                 .find([' ', '\t', '\r', '\n', '/', '>'])
                 .unwrap_or(tag.len());
+            for (at, name) in tag.match_indices("xmlns") {
+                name_spaces += 1;
+                if MOST_NAME_SPACES < name_spaces {
+                    let span = Span::new(start + at, start + at + name.len());
+                    let message = format!("more than {MOST_NAME_SPACES} name spaces are refused");
+                    let expected = "elements without prefixes";
+                    return refuse(Diagnostic::error(span, message, expected));
+                }
+            }
             if MOST_ATTRIBUTES < tag.matches('=').count() {
                 let span = Span::new(start, start + name);
                 let message = format!("more than {MOST_ATTRIBUTES} attributes are refused");
@@ -88,7 +88,7 @@ pub(super) fn scan(text: &str) -> Scan {
     }
 }
 
-/// Where a tag ends, from a place inside it that is not between quotes: after its `>`.
+/// The end of a tag, after its `>`, from an offset inside the tag but not between quotes.
 pub(super) fn tag_end(text: &str, from: usize) -> usize {
     let mut quote = None;
     for (at, &byte) in text.as_bytes()[from..].iter().enumerate() {

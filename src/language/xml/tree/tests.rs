@@ -12,10 +12,10 @@ fn names<'t>(text: &'t str, tree: &Tree) -> Vec<&'t str> {
         .collect()
 }
 
-/// Every leaf is some text, between two of them is white space only, and all of them are the text.
+/// Checks that leaves are not empty and cover the text, except white space between them.
 fn check_leaves(text: &str) {
     let mut at = 0;
-    for leaf in parse(text).leaves() {
+    for leaf in parse(text).leaves(text) {
         assert!(!leaf.is_empty() && at <= leaf.start(), "{text:?}");
         assert!(is_blank(&text[at..leaf.start()]), "{text:?}");
         at = leaf.end();
@@ -28,7 +28,7 @@ fn is_blank(text: &str) -> bool {
         .all(|c| c.is_ascii_whitespace() || "\x0B\u{A0}\u{FEFF}".contains(c))
 }
 
-/// Spans are where they say, and elements are one inside the other.
+/// Checks that spans are correct and that elements nest.
 fn check_tree(text: &str) {
     let tree = parse(text);
     assert!(tree.fault.is_none() || tree.elements.is_empty(), "{text:?}");
@@ -70,7 +70,7 @@ fn check_tree(text: &str) {
 }
 
 #[test]
-fn elements_stand_in_document_order() {
+fn elements_are_in_document_order() {
     let tree = parse(EXAMPLE);
     assert_eq!(tree.fault, None);
     let names = names(EXAMPLE, &tree);
@@ -93,7 +93,7 @@ fn elements_stand_in_document_order() {
 }
 
 #[test]
-fn values_are_read_as_they_are_meant() {
+fn references_in_values_are_resolved() {
     let text = "\u{FEFF}<?xml version=\"1.0\"?>\r\n<A b = '&lt;&#65;&quot;' c=\"é\nf\" d=''\t/>\r\n<!-- e -->";
     let tree = parse(text);
     let said: Vec<_> = tree
@@ -103,7 +103,7 @@ fn values_are_read_as_they_are_meant() {
         .collect();
     assert_eq!(said, [("b", "<A\""), ("c", "é f"), ("d", "")]);
     assert_eq!(tree.comments[0].of(text), "<!-- e -->");
-    let leaves: Vec<_> = tree.leaves().iter().map(|leaf| leaf.of(text)).collect();
+    let leaves: Vec<_> = tree.leaves(text).iter().map(|leaf| leaf.of(text)).collect();
     let expected = [
         "<?xml",
         "version=\"1.0\"?>",
@@ -125,7 +125,7 @@ fn values_are_read_as_they_are_meant() {
 }
 
 #[test]
-fn text_between_tags_is_kept_apart() {
+fn text_between_tags_is_kept_separately() {
     let text = "<a> 40\n<b>x</b></a>";
     let tree = parse(text);
     let words: Vec<_> = tree
@@ -137,7 +137,7 @@ fn text_between_tags_is_kept_apart() {
 }
 
 #[test]
-fn elements_are_found_by_place() {
+fn elements_are_found_by_position() {
     let text = "<a><b/> <c><d/></c></a>";
     let tree = parse(text);
     for (part, expected) in [
@@ -156,7 +156,7 @@ fn elements_are_found_by_place() {
 }
 
 #[test]
-fn what_is_not_xml_is_told_at_its_place() {
+fn malformed_xml_is_reported_at_its_place() {
     for (text, line, column, excerpt, message) in [
         ("", 1, 1, "", "there is no element"),
         ("\u{FEFF}\r\n <é", 2, 2, "<é", "the text ends inside `<é>`"),
@@ -207,13 +207,13 @@ fn what_is_not_xml_is_told_at_its_place() {
 }
 
 #[test]
-fn a_hundred_thousand_levels_are_read() {
+fn a_hundred_thousand_nested_elements_are_parsed() {
     let levels = 100_000;
     let text = "<a>\n".repeat(levels) + &"</a>\n".repeat(levels);
     let tree = parse(&text);
     assert_eq!(tree.elements.len(), levels);
     assert_eq!(tree.elements[levels - 1].depth as usize, levels - 1);
-    assert_eq!(tree.leaves().len(), 2 * levels);
+    assert_eq!(tree.leaves(&text).len(), 2 * levels);
     let middle = Span::at(4 * levels);
     assert_eq!(tree.element_at(middle), Some(levels - 1));
     let open = parse(&"<a>".repeat(levels));
@@ -224,7 +224,7 @@ fn a_hundred_thousand_levels_are_read() {
 }
 
 #[test]
-fn what_would_take_too_long_is_refused() {
+fn excessive_attributes_and_namespaces_are_refused() {
     let attributes: Vec<_> = (0..2000).map(|at| format!("a{at}='1'")).collect();
     let spaces: Vec<_> = (0..2000).map(|at| format!("<a xmlns:b{at}='c'>")).collect();
     for text in [format!("<a {}/>", attributes.join(" ")), spaces.concat()] {
@@ -233,7 +233,7 @@ fn what_would_take_too_long_is_refused() {
     }
 }
 
-/// Pieces of XML, right and wrong.
+/// Valid and invalid fragments of XML.
 fn pieces() -> impl Strategy<Value = String> {
     let piece = prop::sample::select(vec![
         "<a>",
@@ -268,7 +268,7 @@ fn pieces() -> impl Strategy<Value = String> {
 
 proptest! {
     #[test]
-    fn nothing_makes_the_reader_panic(text in pieces()) {
+    fn no_text_makes_the_parser_panic(text in pieces()) {
         check_tree(&text);
         check_leaves(&text);
         let whole = format!("<a>{text}</a>");
@@ -293,7 +293,7 @@ proptest! {
     }
 
     #[test]
-    fn a_value_is_read_back(value in "[ -~é\t\n\r]{0,12}", quote in prop::sample::select(vec!['"', '\''])) {
+    fn values_are_read_back(value in "[ -~é\t\n\r]{0,12}", quote in prop::sample::select(vec!['"', '\''])) {
         let mut text = format!("<a b={quote}{quote}/>");
         let place = Span::at(6);
         let inverse = apply(&mut text, &[Edit { span: place, text: spelled(&value, quote).into() }]);

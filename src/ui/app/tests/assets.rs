@@ -1,4 +1,4 @@
-//! The files that scenes name: asked for, awaited, taken.
+//! Requesting, awaiting and taking the files that scenes name.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ fn open_textured(text: &str) -> (App, Vec<Effect>) {
     opened_as("none/scene.dat", text)
 }
 
-/// What is asked for, if anything is.
+/// The files requested, if any.
 fn asked(effects: &[Effect]) -> Option<Wanted> {
     effects.iter().find_map(|effect| match effect {
         Effect::ReadAssets(wanted) => Some(wanted.clone()),
@@ -44,7 +44,7 @@ fn wanted(names: &[&str]) -> Wanted {
     }
 }
 
-/// What a reading of one picture in one colour gives.
+/// The result of reading one picture of a single colour.
 fn loaded(name: &str, pixel: [u8; 3]) -> Loaded {
     let size = Size {
         width: 1,
@@ -62,11 +62,11 @@ fn replaced(app: &mut App, text: &str) -> Vec<Effect> {
 }
 
 #[test]
-fn a_picture_is_traced_once_its_textures_are_there() {
+fn a_picture_is_traced_once_its_textures_are_read() {
     let (mut app, effects) = open_textured(TEXTURED);
     let skin = wanted(&["skin.ppm"]);
     assert_eq!(asked(&effects), Some(skin.clone()));
-    assert!(!traces(&effects) && app.awaits_assets());
+    assert!(!traces(&effects) && app.assets.are_awaited());
     assert!(!traces(&press(&mut app, "b")));
     assert_eq!(words(&app), "the scene's files are still being read");
     press(&mut app, "<F5>");
@@ -79,10 +79,10 @@ fn a_picture_is_traced_once_its_textures_are_there() {
     });
     let images = &job.expect("a picture is traced").images;
     assert!(images.get("skin.ppm").is_some());
-    assert!(!app.awaits_assets());
+    assert!(!app.assets.are_awaited());
     assert!(traces(&press(&mut app, "b")));
 
-    // The same again changes nothing; other pixels do.
+    // The same pixels change nothing; others do.
     let same = app.update(Msg::AssetsRead(skin.clone(), loaded("skin.ppm", [9; 3])));
     assert!(!traces(&same));
     let other = app.update(Msg::AssetsRead(skin, loaded("skin.ppm", [8; 3])));
@@ -91,15 +91,15 @@ fn a_picture_is_traced_once_its_textures_are_there() {
 }
 
 #[test]
-fn a_scene_without_textures_waits_for_nothing() {
+fn a_scene_without_textures_does_not_wait() {
     let text = TEXTURED.replace("image 1 1 skin.ppm", "checker 1 1  0 0 0  1 1 1");
     let (app, effects) = open_textured(&text);
     assert_eq!(asked(&effects), None);
-    assert!(traces(&effects) && !app.awaits_assets());
+    assert!(traces(&effects) && !app.assets.are_awaited());
 }
 
 #[test]
-fn only_other_files_are_asked_for() {
+fn files_are_requested_only_if_they_differ() {
     let (mut app, _) = open_textured(TEXTURED);
     let skin = wanted(&["skin.ppm"]);
     app.update(Msg::AssetsRead(skin.clone(), loaded("skin.ppm", [9; 3])));
@@ -108,7 +108,7 @@ fn only_other_files_are_asked_for() {
     let effects = replaced(&mut app, &moved);
     assert!(asked(&effects).is_none() && traces(&effects));
 
-    // While the text has errors, what the picture shows is still wanted.
+    // While the text has errors, the files that the picture shows are still wanted.
     let effects = replaced(
         &mut app,
         &moved.replace("skin.ppm", "fur.ppm").replace("obj", "obj x"),
@@ -120,14 +120,14 @@ fn only_other_files_are_asked_for() {
     let effects = replaced(&mut app, &renamed);
     let fur = wanted(&["fur.ppm"]);
     assert_eq!(asked(&effects), Some(fur.clone()));
-    assert!(!traces(&effects) && app.awaits_assets());
-    // An answer to an older question is none.
+    assert!(!traces(&effects) && app.assets.are_awaited());
+    // The answer to an outdated request is ignored.
     assert!(!traces(
         &app.update(Msg::AssetsRead(skin, loaded("skin.ppm", [7; 3])))
     ));
-    assert!(app.awaits_assets());
+    assert!(app.assets.are_awaited());
     let effects = app.update(Msg::AssetsRead(fur, loaded("fur.ppm", [7; 3])));
-    assert!(traces(&effects) && !app.awaits_assets());
+    assert!(traces(&effects) && !app.assets.are_awaited());
 
     let none = renamed.replace("image 1 1 fur.ppm", "checker 1 1  0 0 0  1 1 1");
     let effects = replaced(&mut app, &none);
@@ -136,21 +136,21 @@ fn only_other_files_are_asked_for() {
 }
 
 #[test]
-fn what_is_wrong_with_a_file_is_a_warning_at_its_name() {
+fn a_missing_texture_is_a_warning_at_its_name() {
     let (mut app, _) = open_textured(TEXTURED);
     let skin = wanted(&["skin.ppm"]);
     let missing = Assets::new(&[]).read(&skin);
     assert!(traces(&app.update(Msg::AssetsRead(skin.clone(), missing))));
     assert_eq!(words(&app), "1 file can't be read: ! shows why");
     let said = |app: &App| {
-        let (text, found) = app.wrong();
+        let (text, found) = (app.wrong().text, app.wrong().findings);
         let found = found.first()?;
         Some((found.message.clone(), found.span.of(text).to_owned()))
     };
-    let message = "texture 7 file: no such file; magenta stands for it";
+    let message = "texture 7 file: no such file; shown in magenta";
     let warning = Some((message.to_owned(), "skin.ppm".to_owned()));
     assert_eq!(said(&app), warning);
-    // It moves with the text.
+    // The warning moves with the text.
     replaced(&mut app, &format!("# first\n{TEXTURED}"));
     assert_eq!(said(&app), warning);
 
@@ -173,7 +173,7 @@ fn wanted_mesh(pictures: &[&str]) -> Wanted {
     }
 }
 
-/// What a reading of a triangle of some size gives, with a library.
+/// The result of reading a triangle of this size, with a material library.
 fn triangle(size: &str, library: &str) -> Loaded {
     let text = format!("mtllib a.mtl\nv 0 0 0\nv {size} 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
     let read = obj::read(text.as_bytes(), |_| Ok::<_, String>(library));
@@ -197,7 +197,7 @@ fn broken() -> Loaded {
     }
 }
 
-/// How many objects the scene has that is traced, if one is.
+/// The number of objects in the traced scene, if one is traced.
 fn traced_objects(effects: &[Effect]) -> Option<usize> {
     effects.iter().find_map(|effect| match effect {
         Effect::Trace(_, job) => Some(job.scene.objects.len()),
@@ -209,13 +209,13 @@ fn traced_objects(effects: &[Effect]) -> Option<usize> {
 fn a_mesh_arrives_later_and_the_picture_follows_its_file() {
     let (mut app, effects) = opened_as("none/scene.xml", MESHED);
     assert_eq!(asked(&effects), Some(wanted_mesh(&[])));
-    assert!(!traces(&effects) && app.awaits_assets());
+    assert!(!traces(&effects) && app.assets.are_awaited());
     assert_eq!(app.error_count(), 0);
 
     let small = triangle("1", "newmtl a\n");
     let effects = app.update(Msg::AssetsRead(wanted_mesh(&[]), small.clone()));
     assert_eq!(traced_objects(&effects), Some(2));
-    // What was read again is the same.
+    // The mesh was read again unchanged.
     let effects = app.update(Msg::AssetsRead(wanted_mesh(&[]), small));
     assert_eq!(traced_objects(&effects), None);
 
@@ -235,14 +235,14 @@ fn a_mesh_arrives_later_and_the_picture_follows_its_file() {
         assert_eq!(words(&app), "files reloaded");
     }
 
-    // What was lowered with other meshes than there are now is read again.
+    // A scene that was lowered with outdated meshes is read again.
     let effects = app.update(Msg::Read(PathBuf::from("none/scene.xml"), Ok(late)));
     assert!(matches!(effects[..], [Effect::Read(..), Effect::Free(_)]));
     assert_eq!(app.document.text(), MESHED);
 
-    // Another one: the picture waits for it, but the text has changed already.
+    // With another mesh the picture waits for it, but the text has already changed.
     let effects = read(&mut app, "none/scene.xml", &more);
-    assert!(!traces(&effects) && app.awaits_assets());
+    assert!(!traces(&effects) && app.assets.are_awaited());
     assert_eq!(words(&app), "reloaded: b.obj (obj)");
 }
 
@@ -258,12 +258,12 @@ fn a_broken_mesh_is_an_error_and_the_picture_is_kept() {
     assert!(!traces(&effects));
     assert_eq!(app.scene, scene);
     assert_eq!(words(&app), "1 file can't be read: ! shows why");
-    let (text, found) = app.wrong();
+    let (text, found) = (app.wrong().text, app.wrong().findings);
     let error = found.first_error().expect("it is reported");
     assert_eq!(error.span.of(text), "a.obj");
     let message = "a.obj (obj): line 2, column 3: v: `x` is not a number";
     assert_eq!(error.message, message);
-    // Its file goes on being watched; what else is edited meanwhile is taken.
+    // The mesh's file is still watched; other edits are accepted meanwhile.
     assert_eq!(
         asked(&app.update(Msg::AssetsChanged)),
         Some(wanted_mesh(&[]))
@@ -283,7 +283,7 @@ fn a_broken_mesh_is_an_error_and_the_picture_is_kept() {
 }
 
 #[test]
-fn a_scene_whose_mesh_never_was_there_has_no_picture() {
+fn a_scene_whose_mesh_was_never_read_has_no_picture() {
     let (mut app, _) = opened_as("none/scene.xml", MESHED);
     let effects = app.update(Msg::AssetsRead(wanted_mesh(&[]), broken()));
     // What was lowered before the file was read must not be shown as the scene.
@@ -292,35 +292,35 @@ fn a_scene_whose_mesh_never_was_there_has_no_picture() {
 }
 
 #[test]
-fn pictures_that_a_mesh_names_are_asked_for_once_it_is_there() {
+fn pictures_named_by_a_mesh_are_requested_once_it_is_read() {
     let (mut app, _) = opened_as("none/scene.xml", MESHED);
     let skinned = triangle("1", "newmtl a\nmap_Kd skin.ppm\n");
     let effects = app.update(Msg::AssetsRead(wanted_mesh(&[]), skinned.clone()));
     let both = wanted_mesh(&["skin.ppm"]);
     assert_eq!(asked(&effects), Some(both.clone()));
-    assert!(!traces(&effects) && app.awaits_assets());
+    assert!(!traces(&effects) && app.assets.are_awaited());
     let whole = Loaded {
         images: loaded("skin.ppm", [9; 3]).images,
         ..skinned.clone()
     };
     let effects = app.update(Msg::AssetsRead(both.clone(), whole));
     assert_eq!(traced_objects(&effects), Some(2));
-    assert!(!app.awaits_assets());
+    assert!(!app.assets.are_awaited());
 
-    // One that is missing is a warning where the mesh is named.
+    // A missing picture is a warning where the mesh is named.
     let missing = Loaded {
         meshes: skinned.meshes,
         ..Assets::new(&[]).read(&wanted(&["skin.ppm"]))
     };
     assert!(traces(&app.update(Msg::AssetsRead(both, missing))));
-    let (text, found) = app.wrong();
+    let (text, found) = (app.wrong().text, app.wrong().findings);
     let found = found.iter().find(|found| found.span.of(text) == "a.obj");
-    let message = "a.obj (obj) map_Kd skin.ppm: no such file; magenta stands for it";
+    let message = "a.obj (obj) map_Kd skin.ppm: no such file; shown in magenta";
     assert_eq!(found.map(|found| found.message.as_str()), Some(message));
 }
 
 #[test]
-fn where_a_file_was_found_is_reported_once() {
+fn a_file_found_elsewhere_is_reported_once() {
     let (mut app, _) = open_textured(TEXTURED);
     let found = |colour, place: &str| Loaded {
         elsewhere: [("skin.ppm".to_owned(), PathBuf::from(place))].into(),
@@ -332,6 +332,9 @@ fn where_a_file_was_found_is_reported_once() {
         (3, "/b/skin.ppm", "skin.ppm is read from /b/skin.ppm"),
     ] {
         app.update(Msg::AssetsRead(wanted(&["skin.ppm"]), found(colour, place)));
-        assert_eq!(app.message.as_ref().map(|m| m.text.as_str()), Some(said));
+        assert_eq!(
+            app.overlays.message.as_ref().map(|m| m.text.as_str()),
+            Some(said)
+        );
     }
 }

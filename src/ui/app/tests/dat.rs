@@ -1,9 +1,9 @@
-//! What `.dat` has and `.ray` has not: words and references in fields, objects that are hidden.
+//! Features of `.dat` that `.ray` lacks: words and references in fields, hidden objects.
 
 use super::*;
 use crate::language::Node;
 
-/// Two materials, and three objects of which one combines the others.
+/// Two materials and three objects, one of which combines the others.
 pub(super) const SCENE: &str = "\
 camera perspective 0 -9 0  0 0 0  0 0 1  1 0.1 100
 resolution .01 .01
@@ -17,7 +17,7 @@ obj CSG ID 3 difference ID 1 ID 2
 obj sphere ID 4 mat ID 7  3 0 0  1
 ";
 
-/// The interface with the cursor on a node.
+/// Opens the interface with the cursor on a node.
 fn at(node: Node) -> App {
     let mut app = opened_as("scene.dat", SCENE).0;
     app.select(node);
@@ -58,6 +58,7 @@ fn a_choice_is_nudged_and_typed() {
     let mut app = at(Node::Light(0));
     press(&mut app, typed);
     let refused = app
+        .cursor
         .typing
         .as_ref()
         .and_then(|typing| typing.refused.clone());
@@ -94,7 +95,7 @@ fn the_courses_word_for_an_intersection_is_known_and_kept() {
 }
 
 #[test]
-fn an_f_behind_a_number_goes_with_its_next_edit() {
+fn an_f_suffix_is_dropped_by_the_next_edit() {
     let scene = SCENE.replace("3 0 0  1\n", "3 0 0  0.50f\n");
     for (said, radius) in [
         ("e", "0.50f"),
@@ -113,7 +114,7 @@ fn an_f_behind_a_number_goes_with_its_next_edit() {
 }
 
 #[test]
-fn a_reference_goes_through_what_there_is() {
+fn nudging_a_reference_cycles_through_existing_ids() {
     let ball = |material: u8| [format!("obj sphere ID 1 mat ID {material}  0 0 0  1")];
     assert_eq!(changed(Node::Object(0), "el"), ball(7));
     assert_eq!(changed(Node::Object(0), "eh"), ball(7));
@@ -149,14 +150,14 @@ fn objects_are_hidden_and_shown_by_the_render_record() {
 #[test]
 fn a_combination_shows_its_parts() {
     assert_eq!(
-        at(Node::Object(2)).parts(),
+        at(Node::Object(2)).cursor.parts(),
         [(1, Node::Object(0)), (1, Node::Object(1))]
     );
-    assert_eq!(at(Node::Object(0)).parts(), []);
+    assert_eq!(at(Node::Object(0)).cursor.parts(), []);
 }
 
 #[test]
-fn a_view_keeps_the_numbers_that_did_not_move() {
+fn saving_a_view_keeps_the_numbers_that_did_not_change() {
     let camera = |scene: &str, said: &str| {
         let (mut app, _) = opened_as("scene.dat", scene);
         press(&mut app, said);
@@ -174,7 +175,7 @@ fn a_view_keeps_the_numbers_that_did_not_move() {
 }
 
 #[test]
-fn pixels_that_were_square_stay_square() {
+fn square_pixels_stay_square() {
     let scene = SCENE.replace("resolution .01 .01\nviewport 40 30", "viewport 400 300");
     let (mut app, _) = opened_as("scene.dat", &scene);
     press(&mut app, "v]S");
@@ -197,9 +198,13 @@ fn a_scene_keeps_its_language() {
         "{effects:?}"
     );
     assert_eq!(words(&app), "other.ray: the name must end in .dat");
-    // The line waits with a name that will do.
+    // The prompt suggests a valid name.
     press(&mut app, "<Esc>:w mine<Enter>");
-    let line = app.prompt.as_ref().map(|prompt| prompt.input.value());
+    let line = app
+        .overlays
+        .prompt
+        .as_ref()
+        .map(|prompt| prompt.input.value());
     assert_eq!(line, Some("w mine.dat"));
     press(&mut app, "<Esc>");
     let effects = press(&mut app, ":w other.DAT<Enter>");

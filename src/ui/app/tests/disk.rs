@@ -1,4 +1,4 @@
-//! Reading again, saving, conflicts, quitting.
+//! Rereading, saving, conflicts, quitting.
 
 use std::fs;
 use std::sync::Arc;
@@ -47,25 +47,25 @@ fn a_save_over_a_changed_file_asks() {
         words(&app)
     );
     outside(&mut app, &theirs);
-    let Some(Dialog::Conflict { merge, .. }) = &app.dialog else {
-        panic!("{:?}", app.dialog);
+    let Some(Dialog::Conflict { merge, .. }) = &app.overlays.dialog else {
+        panic!("{:?}", app.overlays.dialog);
     };
     assert_eq!(merge.conflicts.len(), 1);
-    assert_eq!(app.disk, Disk::Changed);
+    assert_eq!(app.disk.state, OnDisk::Changed);
     press(&mut app, "<Enter>");
-    assert!(app.dialog.is_some(), "nothing is decided yet");
+    assert!(app.overlays.dialog.is_some(), "nothing is decided yet");
     press(&mut app, "t<Enter>");
     assert_eq!(app.document.text(), theirs);
-    assert_eq!(app.disk, Disk::Known);
+    assert_eq!(app.disk.state, OnDisk::Known);
 }
 
 #[test]
-fn a_conflict_put_off_comes_back_with_the_next_save() {
+fn a_postponed_conflict_returns_with_the_next_save() {
     let mut app = open(SCENE);
     press(&mut app, "jjjel");
     outside(&mut app, &SCENE.replace("sphere\n0 0 0", "sphere\n9 0 0"));
     press(&mut app, "<Esc>");
-    assert!(app.dialog.is_none());
+    assert!(app.overlays.dialog.is_none());
     assert_eq!(changed_lines(&app), ["0.1 0 0"], "mine is kept");
     let effects = press(&mut app, "w");
     assert!(wants(&effects, |effect| matches!(effect, Effect::Read(..))));
@@ -79,8 +79,8 @@ fn all_conflicts_can_be_decided_at_once() {
         let theirs = SCENE.replace("sphere\n0 0 0", "sphere\n9 0 0");
         outside(&mut app, &theirs.replace("1.5", "1.9"));
         press(&mut app, key);
-        let Some(Dialog::Conflict { merge, .. }) = &app.dialog else {
-            panic!("{:?}", app.dialog);
+        let Some(Dialog::Conflict { merge, .. }) = &app.overlays.dialog else {
+            panic!("{:?}", app.overlays.dialog);
         };
         assert!(merge.conflicts.iter().all(|c| c.decision == Some(decided)));
         press(&mut app, "<Enter>");
@@ -90,7 +90,7 @@ fn all_conflicts_can_be_decided_at_once() {
 }
 
 #[test]
-fn a_changed_file_is_taken_when_nothing_is_unsaved() {
+fn a_changed_file_is_reloaded_when_nothing_is_unsaved() {
     let mut app = open(SCENE);
     let theirs = SCENE.replace("1.5", "1.7");
     let effects = app.update(Msg::FileChanged);
@@ -105,9 +105,9 @@ fn a_changed_file_is_taken_when_nothing_is_unsaved() {
     assert!(outside(&mut app, &theirs).is_empty(), "nothing is new");
 }
 
-/// Keys come in while a large file is understood.
+/// Keys arrive while a large file is being parsed and lowered.
 #[test]
-fn a_file_is_read_again_if_what_it_was_compared_with_has_changed() {
+fn a_reading_compared_with_an_outdated_text_is_repeated() {
     let mut app = open(SCENE);
     let late = |app: &App| {
         let theirs = app.document.text().replace("1.5", "1.7");
@@ -127,7 +127,7 @@ fn a_file_is_read_again_if_what_it_was_compared_with_has_changed() {
     assert!(matches!(effects[..], [Effect::Read(..), Effect::Free(_)]));
     assert_eq!(changed_lines(&app), ["0.1 0 0"]);
 
-    // An edit would have to be merged with what it says.
+    // An edit would have to be merged with the file's change.
     let before = late(&app);
     press(&mut app, "l");
     let effects = app.update(before);
@@ -142,7 +142,7 @@ fn a_file_is_read_again_if_what_it_was_compared_with_has_changed() {
 }
 
 #[test]
-fn what_another_file_holds_is_not_taken_for_the_scene() {
+fn a_reading_of_another_file_is_ignored() {
     let mut app = open(SCENE);
     let theirs = SCENE.replace("1.5", "1.7");
     read(&mut app, "before.ray", &theirs);
@@ -161,12 +161,12 @@ fn a_file_is_read_again_once_it_is_watched() {
 }
 
 #[test]
-fn changes_of_different_places_are_merged_as_one_step() {
+fn changes_in_different_places_are_merged_as_one_step() {
     let mut app = open(SCENE);
     press(&mut app, "jjjel");
     outside(&mut app, &SCENE.replace("1.5", "1.7"));
     assert_eq!(changed_lines(&app), ["0.1 0 0", "1.7 // the radius"]);
-    assert!(app.dialog.is_none() && app.document.is_dirty());
+    assert!(app.overlays.dialog.is_none() && app.document.is_dirty());
     let lowered = app.lowered();
     assert_eq!(app.scene.as_deref(), lowered.scene.as_ref());
     press(&mut app, "u");
@@ -188,7 +188,7 @@ fn a_file_equal_to_the_edits_counts_as_saved() {
     press(&mut app, "u");
     assert_eq!(app.document.text(), SCENE, "the edit is a step still");
 
-    // Not if it says only one of them.
+    // But not if the file has only one of them.
     let mut app = open(SCENE);
     press(&mut app, "jjjel");
     let one = app.document.text().to_owned();
@@ -210,14 +210,14 @@ fn a_file_equal_to_the_edits_counts_as_saved() {
 }
 
 #[test]
-fn a_folder_that_was_moved_or_replaced_is_told_of() {
+fn a_moved_or_replaced_folder_is_reported() {
     let directory = tempfile::tempdir().expect("a folder");
     let at = |name: &str| directory.path().join(name);
     fs::create_dir(at("one")).expect("the folder is new");
     fs::create_dir(at("two")).expect("the folder is new");
     let file = |folder: &str| at(folder).join("scene.ray");
     let place = |folder: &str| Place::of(&file(folder));
-    // The place with the path of one folder that is another one.
+    // A place with the path of one folder and the identity of another.
     let of_other = |path: &str, folder: &str| {
         let [path, other] = [place(path), place(folder)].map(|place| place.expect("there"));
         Some(Place {
@@ -240,7 +240,7 @@ fn a_folder_that_was_moved_or_replaced_is_told_of() {
     ] {
         let mut app = open(SCENE);
         let mut read = |text: &str, place| {
-            app.message = None;
+            app.overlays.message = None;
             let reading = Reading::new(text.to_owned(), app.known()).expect("it fits");
             let reading = Reading { place, ..reading };
             app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(reading)));
@@ -254,7 +254,7 @@ fn a_folder_that_was_moved_or_replaced_is_told_of() {
 
 /// A file is read after each save; the result, that nothing has changed, may arrive late.
 #[test]
-fn nothing_new_is_not_read_again_for_an_edit_in_between() {
+fn an_unchanged_file_is_not_read_again_because_of_an_edit() {
     let mut app = open(SCENE);
     let reading = Reading::new(SCENE.to_owned(), app.known()).expect("it fits into memory");
     press(&mut app, "jjjel");
@@ -267,7 +267,7 @@ fn nothing_new_is_not_read_again_for_an_edit_in_between() {
 }
 
 #[test]
-fn a_text_with_errors_must_last_before_it_is_shown() {
+fn errors_must_persist_before_they_are_shown() {
     for broken in ["", "1 1 1 2", "nonsense"] {
         let mut app = open(SCENE);
         let effects = outside(&mut app, broken);
@@ -295,7 +295,7 @@ fn a_text_with_errors_is_kept_apart_from_unsaved_edits() {
     outside(&mut app, "nonsense");
     app.update(Msg::Elapsed(Timer::Settled));
     outside(&mut app, "nonsense");
-    assert_eq!(app.disk, Disk::Broken);
+    assert_eq!(app.disk.state, OnDisk::Broken);
     assert_eq!(changed_lines(&app), ["0.1 0 0"]);
     assert!(
         words(&app).starts_with("line 1 of the file"),
@@ -303,19 +303,19 @@ fn a_text_with_errors_is_kept_apart_from_unsaved_edits() {
         words(&app)
     );
     assert!(words(&app).contains(":w!"), "{}", words(&app));
-    let (text, wrong) = app.wrong();
+    let (text, wrong) = (app.wrong().text, app.wrong().findings);
     assert_eq!((text, wrong.is_empty()), ("nonsense", false));
     press(&mut app, "!");
-    assert_eq!(app.errors, Some(0));
+    assert_eq!(app.overlays.errors, Some(0));
     let effects = press(&mut app, "E");
     assert!(matches!(effects[..], [Effect::OpenEditor { line: 1, .. }]));
     outside(&mut app, SCENE);
-    assert_eq!(app.disk, Disk::Known);
-    assert_eq!((app.errors, app.wrong().1.len()), (None, 0));
+    assert_eq!(app.disk.state, OnDisk::Known);
+    assert_eq!((app.overlays.errors, app.wrong().findings.len()), (None, 0));
 }
 
 #[test]
-fn what_is_wrong_with_the_file_is_what_was_read_last() {
+fn an_unreadable_file_replaces_its_earlier_errors() {
     let unreadable = || {
         let path = PathBuf::from("scene.ray");
         let kind = "a folder";
@@ -331,25 +331,32 @@ fn what_is_wrong_with_the_file_is_what_was_read_last() {
     app.update(Msg::Elapsed(Timer::Settled));
     app.update(unreadable());
     assert_eq!(words(&app), "scene.ray: is a folder, not a file");
-    assert_eq!((app.disk, app.wrong().1.len()), (Disk::Broken, 0));
+    assert_eq!(
+        (app.disk.state, app.wrong().findings.len()),
+        (OnDisk::Broken, 0)
+    );
     let effects = press(&mut app, "w");
     assert!(matches!(effects[..], [Effect::Read(..)]), "{effects:?}");
 }
 
 #[test]
-fn a_missing_file_is_reported_after_a_while_and_no_longer_when_it_is_back() {
+fn a_missing_file_is_reported_after_a_while_until_it_is_back() {
     let missing = || {
         let path = PathBuf::from("scene.ray");
         Msg::Read(path.clone(), Err(ReadError::NotFound { path }))
     };
     let mut app = open(SCENE);
     app.update(missing());
-    assert_eq!(app.disk, Disk::Known, "another name may be on its way");
+    assert_eq!(
+        app.disk.state,
+        OnDisk::Known,
+        "another name may be on its way"
+    );
     app.update(Msg::Elapsed(Timer::Settled));
     app.update(missing());
-    assert_eq!(app.disk, Disk::Missing);
+    assert_eq!(app.disk.state, OnDisk::Missing);
     outside(&mut app, SCENE);
-    assert_eq!(app.disk, Disk::Known);
+    assert_eq!(app.disk.state, OnDisk::Known);
     assert_eq!(words(&app), "the file is back to its saved text");
 }
 
@@ -395,7 +402,7 @@ fn a_second_interrupt_quits_and_keeps_the_edits() {
 #[test]
 fn a_scene_without_a_file_asks_for_one() {
     let mut app = open(SCENE);
-    app.path = None;
+    app.disk.path = None;
     press(&mut app, "w");
     let effects = press(&mut app, "new.ray<Enter>");
     assert!(matches!(
@@ -418,7 +425,7 @@ fn a_reload_without_unsaved_edits_cannot_be_undone() {
 }
 
 #[test]
-fn a_text_with_errors_is_written_by_force_only() {
+fn a_text_with_errors_is_written_only_by_force() {
     let saves = |said: &str| {
         let mut app = open(&SCENE.replace("\n4 0 0\n1\n", "\n4 0 0\n-1\n"));
         let effects = press(&mut app, said);
@@ -435,7 +442,7 @@ fn a_text_with_errors_is_written_by_force_only() {
 }
 
 #[test]
-fn a_value_being_typed_outlives_a_reload() {
+fn a_value_being_typed_survives_a_reload() {
     let first = SCENE.find("sphere").expect("an object");
     let rest = &SCENE[first..];
     let longer = SCENE.replace(
@@ -454,7 +461,7 @@ fn a_value_being_typed_outlives_a_reload() {
             press(&mut app, dirty);
             press(&mut app, "Ge<Tab>42");
             outside(&mut app, &theirs);
-            if app.dialog.is_some() {
+            if app.overlays.dialog.is_some() {
                 press(&mut app, "T<Enter>");
             }
             assert_eq!(app.mode, Mode::Edit);
@@ -469,7 +476,7 @@ fn a_value_being_typed_outlives_a_reload() {
 }
 
 #[test]
-fn a_value_being_typed_goes_with_its_field() {
+fn a_value_being_typed_is_dropped_with_its_field() {
     let mut app = open(SCENE);
     press(&mut app, "Gejjj7");
     let objects = SCENE.find("2\nsphere").expect("a count of objects");
@@ -477,12 +484,12 @@ fn a_value_being_typed_goes_with_its_field() {
     outside(&mut app, &theirs);
     app.update(Msg::Elapsed(Timer::Settled));
     outside(&mut app, &theirs);
-    assert!(app.typing.is_none(), "{:?}", app.selected);
+    assert!(app.cursor.typing.is_none(), "{:?}", app.cursor.selected());
     assert!(words(&app).contains("dropped"), "{}", words(&app));
 }
 
 #[test]
-fn the_list_of_errors_follows_what_is_wrong() {
+fn the_list_of_errors_follows_the_text() {
     let wrong = |text: &str| {
         let mut app = open(
             &SCENE
@@ -491,11 +498,11 @@ fn the_list_of_errors_follows_what_is_wrong() {
         );
         assert_eq!(app.error_count(), 2);
         press(&mut app, "!j");
-        assert_eq!(app.errors, Some(1));
+        assert_eq!(app.overlays.errors, Some(1));
         outside(&mut app, text);
         app.update(Msg::Elapsed(Timer::Settled));
         outside(&mut app, text);
-        app.errors
+        app.overlays.errors
     };
     assert_eq!(wrong(&SCENE.replace("1.5", "-1")), Some(0));
     assert_eq!(wrong(SCENE), None);
@@ -519,7 +526,7 @@ fn a_reload_names_what_differs_from_the_last_good_text() {
 }
 
 #[test]
-fn nothing_is_written_where_nothing_is_to_be_saved() {
+fn saving_without_changes_writes_nothing() {
     let saves = |effects: &[Effect]| wants(effects, |effect| matches!(effect, Effect::Save { .. }));
     let mut app = open(SCENE);
     assert!(!saves(&press(&mut app, "w")));
@@ -527,35 +534,35 @@ fn nothing_is_written_where_nothing_is_to_be_saved() {
     assert!(saves(&press(&mut app, ":w!<Enter>")));
     let text = app.document.shared_text();
     saved(&mut app, 1, "scene.ray", &text);
-    app.disk = Disk::Missing;
+    app.disk.state = OnDisk::Missing;
     assert!(saves(&press(&mut app, "w")));
     let effects = press(&mut open(SCENE), ":wq<Enter>");
     assert!(matches!(effects[..], [Effect::Quit]));
 }
 
 #[test]
-fn commands_without_a_change_report_that() {
+fn commands_and_pastes_without_effect_say_why() {
     let mut app = open(SCENE);
     press(&mut app, ":e<Enter>");
     outside(&mut app, SCENE);
     assert_eq!(words(&app), "scene.ray has not changed");
-    app.path = None;
+    app.disk.path = None;
     press(&mut app, "w");
-    assert!(app.prompt.is_some() && words(&app).contains("no file yet"));
+    assert!(app.overlays.prompt.is_some() && words(&app).contains("no file yet"));
     press(&mut app, "<Esc>");
     app.update(Msg::Paste("1 2 3".to_owned()));
     assert!(words(&app).contains("pasted into fields"));
 }
 
-/// What was asked about no longer is: the file holds again what the edits began from.
+/// The reason for the question is gone: the file holds the base of the edits again.
 #[test]
-fn a_conflict_ends_with_the_change_that_made_it() {
+fn a_conflict_ends_when_its_change_is_reverted() {
     let mut app = open(SCENE);
     press(&mut app, "jjjel");
     outside(&mut app, &SCENE.replace("sphere\n0 0 0", "sphere\n9 0 0"));
-    assert!(app.dialog.is_some());
+    assert!(app.overlays.dialog.is_some());
     outside(&mut app, SCENE);
-    assert!(app.dialog.is_none());
-    assert_eq!(app.disk, Disk::Known);
+    assert!(app.overlays.dialog.is_none());
+    assert_eq!(app.disk.state, OnDisk::Known);
     assert!(app.document.is_dirty());
 }

@@ -4,7 +4,7 @@ use super::*;
 use crate::language::Node;
 
 #[test]
-fn nudges_have_the_size_that_was_asked_for() {
+fn nudges_have_the_selected_size() {
     for (said, lines) in [
         ("jjje<Right><Right>", "0.2 0 0"),
         ("jjjell", "0.2 0 0"),
@@ -17,10 +17,10 @@ fn nudges_have_the_size_that_was_asked_for() {
         ("jjje,.l", "0.1 0 0"),
         ("jjje<Tab>l", "0 0.1 0"),
         ("jjjejl", "1.6 // the radius"),
-        // A nudge below the least value is refused.
+        // A nudge below the minimum is refused.
         ("jjjej<Shift-Left><Shift-Left>", "0.5 // the radius"),
         ("jel", "0.15 0.1 0.1"),
-        // There and back again is the text as it was.
+        // Nudging there and back restores the text exactly.
         ("jjjejhl", ""),
     ] {
         assert_eq!(typed(said), lines, "{said}");
@@ -28,7 +28,7 @@ fn nudges_have_the_size_that_was_asked_for() {
 }
 
 #[test]
-fn a_typed_literal_enters_the_text_as_it_is() {
+fn a_typed_literal_is_written_unchanged() {
     for (said, lines) in [
         ("jjjej2<Enter>", "2 // the radius"),
         ("jjjei<Back>.25e1<Enter>", ".25e1 0 0"),
@@ -56,7 +56,7 @@ fn a_refused_value_stays_in_the_field_with_the_reason() {
     ] {
         let mut app = open(SCENE);
         press(&mut app, said);
-        let typing = app.typing.as_ref().expect("the field is still open");
+        let typing = app.cursor.typing.as_ref().expect("the field is still open");
         let refused = typing.refused.as_ref().expect("there is a reason");
         assert!(
             refused.message.contains(reason),
@@ -66,7 +66,7 @@ fn a_refused_value_stays_in_the_field_with_the_reason() {
         assert_eq!(app.document.text(), SCENE, "{said}");
         assert_eq!(app.error_count(), 0);
         press(&mut app, "<Esc>");
-        assert!(app.typing.is_none() && app.mode == Mode::Edit);
+        assert!(app.cursor.typing.is_none() && app.mode == Mode::Edit);
     }
 }
 
@@ -106,10 +106,13 @@ fn nudges_of_one_number_are_one_step() {
 }
 
 #[test]
-fn undo_goes_to_the_thing_that_changed() {
+fn undo_selects_the_changed_node() {
     let mut app = open(SCENE);
     press(&mut app, "jjjejl<Esc>ggu");
-    assert_eq!((app.selected, app.field), (Node::Object(0), 1));
+    assert_eq!(
+        (app.cursor.selected(), app.cursor.field),
+        (Node::Object(0), 1)
+    );
     assert_eq!(words(&app), "undone: object 1 (sphere) radius");
     press(&mut app, "<Ctrl-r>");
     assert_eq!(words(&app), "redone: object 1 (sphere) radius");

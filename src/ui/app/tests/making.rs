@@ -1,4 +1,4 @@
-//! How pictures are made.
+//! Integrator, depth, AOV and filter of pictures.
 
 use std::sync::Arc;
 
@@ -7,14 +7,14 @@ use crate::render::{Aov, Filter, Job, Settings};
 use crate::scene::Integrator;
 use crate::ui::msg::Target;
 
-/// A scene of each language.
+/// A scene in each language.
 const SCENES: [(&str, &str); 3] = [
     ("scene.ray", SCENE),
     ("scene.dat", dat::SCENE),
     ("scene.xml", include_str!("../../../../scenes/spheres.xml")),
 ];
 
-/// The jobs among effects.
+/// The jobs among the effects.
 fn jobs(effects: &[Effect]) -> Vec<(Target, &Job)> {
     effects
         .iter()
@@ -25,7 +25,7 @@ fn jobs(effects: &[Effect]) -> Vec<(Target, &Job)> {
         .collect()
 }
 
-/// The settings of the one picture that these keys have traced.
+/// The settings of the only picture that these keys start.
 fn traced(app: &mut App, said: &str) -> (Target, Settings) {
     let effects = press(app, said);
     let [(target, job)] = jobs(&effects)[..] else {
@@ -35,7 +35,7 @@ fn traced(app: &mut App, said: &str) -> (Target, Settings) {
 }
 
 #[test]
-fn light_is_gathered_in_the_other_way_in_every_picture_at_once() {
+fn switching_the_integrator_affects_every_picture_at_once() {
     for (name, text) in SCENES {
         let mut app = opened_as(name, text).0;
         let gathered =
@@ -60,7 +60,7 @@ fn light_is_gathered_in_the_other_way_in_every_picture_at_once() {
 }
 
 #[test]
-fn a_scene_is_followed_until_the_user_chooses_another_way() {
+fn the_scenes_integrator_applies_until_the_user_chooses() {
     let text = SCENES[2].1;
     let paths = text.replace("<camera>", "<camera gamma=\"sRGB\">");
     let (mut app, effects) = opened_as("scene.xml", &paths);
@@ -83,16 +83,16 @@ fn a_scene_is_followed_until_the_user_chooses_another_way() {
 }
 
 #[test]
-fn bounces_set_by_the_user_hold_for_both_ways() {
+fn a_depth_set_by_the_user_applies_to_both_integrators() {
     let mut app = open(SCENE);
-    app.quality.depth = Some(3);
+    app.pictures.quality.depth = Some(3);
     for integrator in [Integrator::Path, Integrator::Whitted] {
         let settings = traced(&mut app, "P").1;
         assert_eq!((settings.integrator, settings.depth), (integrator, 3));
     }
 }
 
-/// What the keys show, in order, and the samples taken of it where many are asked for.
+/// Keys, what they show, and the samples taken when many are requested.
 const SHOWN: [(&str, Option<Aov>, u32); 5] = [
     ("2", Some(Aov::Depth), 1),
     ("3", Some(Aov::Normal), 4),
@@ -102,7 +102,7 @@ const SHOWN: [(&str, Option<Aov>, u32); 5] = [
 ];
 
 #[test]
-fn digits_choose_what_every_picture_shows() {
+fn digits_select_what_every_picture_shows() {
     for (name, text) in SCENES {
         let mut app = opened_as(name, text).0;
         press(&mut app, "<F5>");
@@ -138,8 +138,8 @@ fn digits_choose_what_every_picture_shows() {
 fn digits_are_typed_while_fields_are_edited() {
     let mut app = open(SCENE);
     press(&mut app, "2jjje3");
-    assert_eq!(app.aov, Some(Aov::Depth));
-    let typing = app.typing.as_ref().expect("a value is typed");
+    assert_eq!(app.pictures.aov, Some(Aov::Depth));
+    let typing = app.cursor.typing.as_ref().expect("a value is typed");
     assert_eq!(typing.input.value(), "3");
 }
 
@@ -158,7 +158,7 @@ fn an_export_writes_what_is_shown_and_reports_it() {
     assert_eq!(words(&app), "exporting depth to scene.depth.bmp");
     let path = destination.path.clone();
     let size = job.settings.size;
-    // What is shown meanwhile does not matter.
+    // The AOV shown meanwhile does not matter.
     press(&mut app, "1");
     let done = Arc::new(pictures::frame(size, vec![0; size.pixels()]));
     app.update(Msg::Frame(Target::Export, done));
@@ -171,9 +171,9 @@ fn an_export_writes_what_is_shown_and_reports_it() {
     assert_eq!(words(&app), "exporting to scene.bmp");
 }
 
-/// A finished trace of what is shown is written as it is, and no other.
+/// A finished trace is exported as it is only if it shows what is requested.
 #[test]
-fn a_finished_trace_is_exported_while_it_shows_what_is_asked_for() {
+fn a_finished_trace_is_exported_if_it_shows_what_is_requested() {
     let mut app = open(SCENE);
     press(&mut app, "2<F5>");
     app.update(Msg::Started(Target::Trace, 1));
@@ -192,9 +192,9 @@ fn a_finished_trace_is_exported_while_it_shows_what_is_asked_for() {
 }
 
 #[test]
-fn the_preview_is_not_filtered_and_full_size_pictures_are_as_the_user_chose() {
+fn the_pixel_filter_applies_to_full_size_pictures_only() {
     let mut app = open(SCENE);
-    app.quality.filter = Filter::Gaussian;
+    app.pictures.quality.filter = Filter::Gaussian;
     for (said, target, filter) in [
         ("P", Target::Preview, Filter::Box),
         ("<F5>", Target::Trace, Filter::Gaussian),

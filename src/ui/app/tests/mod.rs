@@ -1,4 +1,4 @@
-//! Keys, pastes and files in; text, state and effects out.
+//! Tests of the interface: keys, pastes and files in; text, state and effects out.
 
 mod assets;
 mod dat;
@@ -20,6 +20,7 @@ use super::*;
 use crate::file::Version;
 use crate::language::Language;
 use crate::render::Filter;
+use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, ExportId, Exported, Msg};
 use crate::ui::reading::Reading;
 use crate::ui::terminal::Mouse;
@@ -46,7 +47,7 @@ sphere
 /// Rows of the list: view, ambient, light 1, object 1, object 2.
 const TO_FIRST_OBJECT: &str = "jjj";
 
-/// The interface with the cursor on the list's first row.
+/// Opens the interface with the cursor on the first row of the list.
 fn open(text: &str) -> App {
     let mut app = opened(text).0;
     press(&mut app, "gg");
@@ -77,7 +78,7 @@ fn opening_as(name: &str, text: String) -> Opening {
     }
 }
 
-/// Keys written as characters, others by name: `jje<Right><Shift-Right><Ctrl-r>`.
+/// Parses keys: characters, or names such as in `jje<Right><Shift-Right><Ctrl-r>`.
 fn keys(said: &str) -> Vec<KeyEvent> {
     let mut events = Vec::new();
     let mut rest = said;
@@ -133,7 +134,7 @@ fn changed_lines(app: &App) -> Vec<String> {
         .collect()
 }
 
-/// What the scene's text says after these keys, as far as it is new.
+/// The lines of the text that these keys change.
 fn typed(said: &str) -> String {
     let mut app = open(SCENE);
     press(&mut app, said);
@@ -141,20 +142,23 @@ fn typed(said: &str) -> String {
 }
 
 fn words(app: &App) -> &str {
-    app.message.as_ref().map_or("", |message| &message.text)
+    app.overlays
+        .message
+        .as_ref()
+        .map_or("", |message| &message.text)
 }
 
 fn outside(app: &mut App, text: &str) -> Vec<Effect> {
     read(app, "scene.ray", text)
 }
 
-/// What a reading of a file gives.
+/// Delivers a reading of a file.
 fn read(app: &mut App, path: &str, text: &str) -> Vec<Effect> {
     let reading = Reading::new(text.to_owned(), app.known()).expect("it fits into memory");
     app.update(Msg::Read(PathBuf::from(path), Ok(reading)))
 }
 
-/// The news that a picture was written.
+/// The message that a picture was written.
 fn exported(id: ExportId, path: impl Into<PathBuf>, version: Option<Version>) -> Msg {
     let path = path.into();
     Msg::Exported(id, Ok(Exported { path, version }))

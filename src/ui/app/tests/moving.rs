@@ -15,10 +15,10 @@ use crate::ui::msg::{Target, Timer};
 fn a_saved_view_is_the_view_on_screen() {
     let mut app = open(SCENE);
     press(&mut app, "vhhk+]");
-    let view = app.view.expect("the camera was moved");
+    let view = app.pictures.view.expect("the camera was moved");
     assert!(!app.document.is_dirty());
     press(&mut app, "S");
-    assert!(app.view.is_none() && app.document.is_dirty());
+    assert!(app.pictures.view.is_none() && app.document.is_dirty());
     assert_eq!(app.scene.as_ref().expect("a scene").camera, view);
     let first = app.document.text().lines().next().expect("a line");
     assert!(first.starts_with("// view: eye "), "{first}");
@@ -27,7 +27,7 @@ fn a_saved_view_is_the_view_on_screen() {
 }
 
 #[test]
-fn orbiting_there_and_back_is_the_old_view_nearly_and_never_crosses_the_pole() {
+fn orbiting_back_nearly_restores_the_view_and_never_crosses_the_pole() {
     let mut app = open(SCENE);
     let own = app.camera().expect("a camera");
     press(&mut app, "vhhll");
@@ -38,7 +38,7 @@ fn orbiting_there_and_back_is_the_old_view_nearly_and_never_crosses_the_pole() {
     let offset = top.eye - top.target;
     assert!(0.9 < offset.normalize().y && offset.y < offset.length());
     press(&mut app, "0");
-    assert_eq!(app.view, None);
+    assert_eq!(app.pictures.view, None);
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn missing_parts_of_the_view_are_written_when_they_are_set() {
     );
 }
 
-/// A finished frame of the preview in which the left half is object 1, the right one nothing.
+/// Shows a finished preview whose left half is object 1; the right half is empty.
 fn show_half(app: &mut App) {
     let size = app.raster().expect("there is room").1;
     let objects = (0..size.pixels() as u32)
@@ -82,25 +82,28 @@ fn show_half(app: &mut App) {
 }
 
 #[test]
-fn picking_selects_what_lies_under_the_cross() {
+fn picking_selects_the_object_under_the_cross() {
     let mut app = open(SCENE);
     show_half(&mut app);
     press(&mut app, "pHH<Enter>");
-    assert_eq!((app.mode, app.selected), (Mode::Select, Node::Object(1)));
+    assert_eq!(
+        (app.mode, app.cursor.selected()),
+        (Mode::Select, Node::Object(1))
+    );
     press(&mut app, "ggp");
     press(&mut app, &"L".repeat(9));
     press(&mut app, "<Enter>");
-    assert_eq!((app.mode, app.selected), (Mode::Pick, Node::View));
+    assert_eq!((app.mode, app.cursor.selected()), (Mode::Pick, Node::View));
 }
 
 #[test]
 fn the_first_object_is_selected_at_the_start() {
-    assert_eq!(opened(SCENE).0.selected, Node::Object(0));
+    assert_eq!(opened(SCENE).0.cursor.selected(), Node::Object(0));
     let mut app = opened(SCENE).0;
     press(&mut app, "el");
     assert_eq!(changed_lines(&app), ["0.1 0 0"]);
-    assert_eq!(opened("").0.selected, Node::View);
-    assert_eq!(opened("1 1 1").0.selected, Node::Ambient);
+    assert_eq!(opened("").0.cursor.selected(), Node::View);
+    assert_eq!(opened("1 1 1").0.cursor.selected(), Node::Ambient);
 }
 
 #[test]
@@ -109,7 +112,10 @@ fn a_search_finds_names_and_comments_and_counts_them() {
     press(&mut app, "/SPHERE<Enter>n");
     assert_eq!(words(&app), "2 of 2");
     press(&mut app, "/the light<Enter>");
-    assert_eq!((app.selected, words(&app)), (Node::Light(0), "1 of 1"));
+    assert_eq!(
+        (app.cursor.selected(), words(&app)),
+        (Node::Light(0), "1 of 1")
+    );
 }
 
 #[test]
@@ -130,12 +136,12 @@ fn the_list_is_walked_searched_and_cycled() {
     ] {
         let mut app = open(SCENE);
         press(&mut app, said);
-        assert_eq!(app.selected, selected, "{said}");
+        assert_eq!(app.cursor.selected(), selected, "{said}");
     }
 }
 
 #[test]
-fn a_scene_that_opens_with_errors_has_no_picture_but_can_be_mended() {
+fn a_scene_that_opens_with_errors_has_no_picture_but_can_be_corrected() {
     let mut app = open("nonsense");
     assert!(app.scene.is_none() && 0 < app.error_count());
     assert!(press(&mut app, "v<F5>pb").is_empty());
@@ -147,7 +153,7 @@ fn a_scene_that_opens_with_errors_has_no_picture_but_can_be_mended() {
 }
 
 #[test]
-fn no_key_and_no_size_makes_it_panic() {
+fn no_key_or_size_panics() {
     let all = "jkgGnN/a\u{1b}evpohlHLJK,.i9+-[]f0S?!xwbruEzmq:y".chars();
     let all: Vec<_> = all.map(|key| KeyEvent::from(KeyCode::Char(key))).collect();
     for text in [SCENE, "", "nonsense", "0 0 0 0 0"] {
@@ -169,12 +175,12 @@ fn no_key_and_no_size_makes_it_panic() {
 fn setting_the_size_does_not_write_the_working_view() {
     let mut app = open(&format!("// view: fov 40\n{SCENE}"));
     press(&mut app, "vhhh<Esc>ggejjjjl");
-    assert!(app.view.is_some());
+    assert!(app.pictures.view.is_some());
     let first = app.document.text().lines().next();
     assert_eq!(first, Some("// view: fov 40 size 810 600"));
 }
 
-/// The mouse is pressed over a cell.
+/// Presses the mouse button over a cell.
 fn click(app: &mut App, column: u16, row: u16) {
     app.update(Msg::Mouse(MouseEvent {
         kind: MouseEventKind::Down(MouseButton::Left),
@@ -185,28 +191,28 @@ fn click(app: &mut App, column: u16, row: u16) {
 }
 
 #[test]
-fn a_pick_is_answered_for_the_scene_on_screen_only() {
+fn picking_works_only_for_the_scene_on_screen() {
     let mut app = open(SCENE);
     show_half(&mut app);
     app.update(Msg::Started(Target::Preview, 1));
     let (cells, _) = app.raster().expect("there is room");
-    // Without the first sphere the second one is object 1, and the picture is still of both.
+    // Without the first sphere the second is object 1, but the picture still shows both.
     let from = SCENE.find("sphere").expect("a sphere");
     let until = SCENE.rfind("sphere").expect("another one");
     let fewer = SCENE.replacen("\n2\n", "\n1\n", 1);
     outside(&mut app, &[&fewer[..from], &fewer[until..]].concat());
     assert_eq!(app.nodes().len(), 4);
     app.update(Msg::Started(Target::Preview, 2));
-    let selected = app.selected;
+    let selected = app.cursor.selected();
     click(&mut app, cells.x, cells.y);
-    assert_eq!(app.selected, selected);
+    assert_eq!(app.cursor.selected(), selected);
     assert!(words(&app).contains("not of the changed scene yet"));
     press(&mut app, "p<Enter>");
-    assert_eq!((app.mode, app.selected), (Mode::Pick, selected));
+    assert_eq!((app.mode, app.cursor.selected()), (Mode::Pick, selected));
 }
 
 #[test]
-fn a_click_on_an_error_goes_to_it_and_not_to_what_lies_below() {
+fn a_click_on_an_error_selects_it_and_nothing_below() {
     let broken = SCENE.replacen("1.5 //", "-1.5 //", 1);
     let mut app = open(SCENE);
     show_half(&mut app);
@@ -222,5 +228,8 @@ fn a_click_on_an_error_goes_to_it_and_not_to_what_lies_below() {
     let bottom = panel.bottom() - 1;
     press(&mut app, "G");
     click(&mut app, cells.x, bottom);
-    assert_eq!((app.selected, app.field), (Node::Object(0), 1));
+    assert_eq!(
+        (app.cursor.selected(), app.cursor.field),
+        (Node::Object(0), 1)
+    );
 }

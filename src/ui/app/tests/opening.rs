@@ -5,14 +5,14 @@ use std::path::PathBuf;
 use super::*;
 use crate::file::ReadError;
 
-/// The interface while a file of so many bytes is read.
+/// The interface while its file is being read.
 fn opening() -> (App, Vec<Effect>) {
     let mut opening = opening_as("scene.ray", String::new());
     opening.text = OpeningText::Unread(2_000_000_000);
     App::open(opening)
 }
 
-/// What its first reading comes to, if the file holds this text.
+/// The message with the first reading of a file that holds this text.
 fn read(effects: &[Effect], text: &str) -> Msg {
     let known = effects.iter().find_map(|effect| match effect {
         Effect::Read(path, known) => Some((path.clone(), known.clone())),
@@ -26,7 +26,7 @@ fn read(effects: &[Effect], text: &str) -> Msg {
 }
 
 #[test]
-fn a_scene_is_read_after_its_watch_began_and_shown_as_if_it_had_been_there() {
+fn a_scene_is_read_after_its_watch_began_and_shown_as_if_known() {
     for text in [SCENE, "", "no scene"] {
         let (mut app, effects) = opening();
         assert!(matches!(
@@ -36,11 +36,11 @@ fn a_scene_is_read_after_its_watch_began_and_shown_as_if_it_had_been_there() {
         let first = read(&effects, text);
         let effects = app.update(first);
         let at_once = opened(text).0;
-        assert!(!app.is_opening());
+        assert!(!app.disk.is_opening());
         assert_eq!(app.document.text(), text);
         assert_eq!(app.diagnostics, at_once.diagnostics, "of {text:?}");
         assert_eq!(app.scene, at_once.scene);
-        assert_eq!(app.selected, at_once.selected);
+        assert_eq!(app.cursor.selected(), at_once.cursor.selected());
         let traces = effects.iter().any(|e| matches!(e, Effect::Trace(..)));
         assert_eq!(traces, text == SCENE);
         assert!(!app.document.is_dirty());
@@ -48,7 +48,7 @@ fn a_scene_is_read_after_its_watch_began_and_shown_as_if_it_had_been_there() {
 }
 
 #[test]
-fn what_needs_a_scene_is_refused_until_there_is_one() {
+fn actions_that_need_a_scene_are_refused_until_it_is_read() {
     for said in [
         "w",
         "b",
@@ -63,21 +63,21 @@ fn what_needs_a_scene_is_refused_until_there_is_one() {
         let (mut app, _) = opening();
         let effects = press(&mut app, said);
         assert!(effects.is_empty(), "{said}: {effects:?}");
-        let message = app.message.as_ref().expect("it says why");
+        let message = app.overlays.message.as_ref().expect("it says why");
         assert_eq!(message.text, "scene.ray is still being opened", "{said}");
     }
     let (mut app, _) = opening();
     app.update(Msg::Paste("1 2 3".to_owned()));
-    assert!(app.message.is_some() && !app.document.is_dirty());
+    assert!(app.overlays.message.is_some() && !app.document.is_dirty());
 }
 
 #[test]
-fn help_and_the_way_out_need_no_scene() {
+fn help_and_quitting_need_no_scene() {
     let (mut app, _) = opening();
     press(&mut app, "?");
-    assert!(app.help.is_some());
+    assert!(app.overlays.help.is_some());
     press(&mut app, "q");
-    assert!(app.help.is_none());
+    assert!(app.overlays.help.is_none());
     for said in ["q", ":q<Enter>", "<Ctrl-c>"] {
         let (mut app, _) = opening();
         let effects = press(&mut app, said);
@@ -90,30 +90,36 @@ fn help_and_the_way_out_need_no_scene() {
 }
 
 #[test]
-fn a_scene_that_cannot_be_read_ends_it() {
+fn an_unreadable_scene_ends_the_interface() {
     let (mut app, _) = opening();
     let path = PathBuf::from("scene.ray");
     let error = ReadError::NotFound { path: path.clone() };
     let effects = app.update(Msg::Read(path, Err(error)));
     assert!(matches!(effects[..], [Effect::Quit]));
-    assert!(matches!(app.unreadable, Some(ReadError::NotFound { .. })));
+    assert!(matches!(
+        app.disk.unreadable,
+        Some(ReadError::NotFound { .. })
+    ));
 }
 
 #[test]
-fn a_scene_whose_file_is_gone_is_written_again() {
+fn a_scene_whose_file_is_missing_is_written_again() {
     let mut opening = opening_as("scene.ray", String::new());
     opening.text = OpeningText::Kept(SCENE.to_owned());
     let (mut app, effects) = App::open(opening);
     let looks = |effect: &Effect| matches!(effect, Effect::LookForKept(_));
     assert!(wants(&effects, looks));
-    assert_eq!((app.disk, app.document.text()), (Disk::Missing, SCENE));
+    assert_eq!(
+        (app.disk.state, app.document.text()),
+        (OnDisk::Missing, SCENE)
+    );
     let effects = press(&mut app, "w");
     let saves = |effect: &Effect| matches!(effect, Effect::Save { text, .. } if **text == SCENE);
     assert!(wants(&effects, saves), "{effects:?}");
 }
 
 #[test]
-fn kept_edits_are_looked_for_once_the_scene_is_there() {
+fn kept_edits_are_looked_for_once_the_scene_is_read() {
     let looks = |effects: &[Effect]| {
         wants(
             effects,

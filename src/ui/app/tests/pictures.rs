@@ -1,4 +1,4 @@
-//! What is traced and exported.
+//! Tracing and exporting.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -88,7 +88,7 @@ fn an_export_is_traced_written_and_reported() {
     let path = &destination.path;
     assert_eq!(path, &PathBuf::from("b c.png"));
     assert_eq!(destination.existing, Existing::Kept);
-    assert_eq!(destination.scene, app.path);
+    assert_eq!(destination.scene, app.disk.path);
     assert_eq!((job.settings.size, job.settings.spp), (size, 2));
     assert_eq!(job.camera.size, size);
     let done = Arc::new(frame(size, vec![0; size.pixels()]));
@@ -97,12 +97,12 @@ fn an_export_is_traced_written_and_reported() {
         matches!(&effects[..], [Effect::WriteImage(_, _, to), Effect::Stop(_), Effect::Later(..)] if to == destination)
     );
     app.update(exported(*id, path, None));
-    assert!(app.export.is_none());
+    assert!(app.jobs.export.is_none());
     assert_eq!(words(&app), "wrote b c.png: 32×8, 2 spp, 0.0 s");
 }
 
 #[test]
-fn the_full_size_trace_goes_on_behind_until_the_scene_changes() {
+fn the_full_size_trace_continues_in_the_background_until_the_scene_changes() {
     let mut app = open(SCENE);
     let effects = press(&mut app, "<F5>");
     let [Effect::Trace(Target::Trace, job)] = &effects[..] else {
@@ -128,27 +128,27 @@ fn the_full_size_trace_goes_on_behind_until_the_scene_changes() {
     )));
 }
 
-/// The picture on screen is outlined by the numbers that its objects had.
+/// The picture on screen still has the old object numbers.
 #[test]
-fn no_object_is_outlined_by_another_ones_number() {
+fn no_object_is_outlined_by_an_outdated_number() {
     let mut app = open(SCENE);
     let size = Size {
         width: 4,
         height: 2,
     };
-    app.preview.take(Arc::new(frame(size, vec![1; 8])));
-    app.preview.advance(size, None, usize::MAX);
+    app.pictures.preview.take(Arc::new(frame(size, vec![1; 8])));
+    app.pictures.preview.advance(size, None, usize::MAX);
     outside(&mut app, &SCENE.replace("1.5", "1.7"));
-    assert_eq!(app.preview.shown.object_at(0, 0), Some(1));
+    assert_eq!(app.pictures.preview.shown.object_at(0, 0), Some(1));
     let (head, second) = SCENE.split_at(SCENE.rfind("sphere").expect("two of them"));
     let more = format!("{}{second}{second}", head.replace("\n2\n", "\n3\n"));
     outside(&mut app, &more);
     assert_eq!(app.error_count(), 0);
-    assert_eq!(app.preview.shown.object_at(0, 0), None);
+    assert_eq!(app.pictures.preview.shown.object_at(0, 0), None);
 }
 
 #[test]
-fn only_a_sessions_own_pictures_are_overwritten_unasked() {
+fn only_pictures_of_this_session_are_overwritten_unasked() {
     let place = tempfile::tempdir().expect("a folder");
     let written = Version::of(place.path()).expect("it is there");
     let existing = |app: &mut App, said: &str| {
@@ -171,7 +171,7 @@ fn only_a_sessions_own_pictures_are_overwritten_unasked() {
 }
 
 #[test]
-fn pictures_of_a_text_with_errors_say_that_they_are_of_the_last_one_without() {
+fn exports_of_a_text_with_errors_announce_the_last_scene_without() {
     for said in ["b", "<F5>"] {
         let mut app = open(SCENE);
         outside(&mut app, "x");
@@ -198,7 +198,7 @@ fn a_file_written_after_its_export_was_cancelled_is_reported_and_stops_no_other(
         assert!(words(&app).contains("a.bmp is being written"));
         press(&mut app, ":export b.bmp<Enter>");
         assert!(app.update(outcome).is_empty());
-        let export = app.export.as_ref().expect("it goes on");
+        let export = app.jobs.export.as_ref().expect("it goes on");
         assert_eq!(export.destination.path, PathBuf::from("b.bmp"));
         words(&app).to_owned()
     };
@@ -217,20 +217,20 @@ fn an_export_ends_with_its_worker() {
     let mut app = open(SCENE);
     press(&mut app, "bqw");
     app.update(Msg::Ended(Target::Export));
-    assert!(app.export.is_none() && !app.pending.quit);
+    assert!(app.jobs.export.is_none() && !app.jobs.quit);
     assert!(words(&app).contains("can't be traced"), "{}", words(&app));
     press(&mut app, "b");
-    assert!(app.export.is_some());
+    assert!(app.jobs.export.is_some());
     assert!(app.update(Msg::Ended(Target::Preview)).is_empty());
 }
 
 #[test]
-fn a_picture_that_is_refused_is_waited_for_no_longer() {
+fn a_refused_picture_is_no_longer_awaited() {
     let refusal = |target| Msg::Refused(target, "too large".into());
     let mut app = open(SCENE);
     press(&mut app, "bqw");
     app.update(refusal(Target::Export));
-    assert!(app.export.is_none() && !app.pending.quit);
+    assert!(app.jobs.export.is_none() && !app.jobs.quit);
     assert_eq!(words(&app), "too large");
     press(&mut app, "<Esc><F5>");
     app.update(refusal(Target::Trace));
@@ -250,7 +250,7 @@ fn quitting_asks_about_an_export_and_can_wait_for_it() {
         let mut app = open(SCENE);
         press(&mut app, "b");
         assert!(!quits(&press(&mut app, said)), "{said}");
-        assert!(matches!(app.dialog, Some(Dialog::Quit)), "{said}");
+        assert!(matches!(app.overlays.dialog, Some(Dialog::Quit)), "{said}");
         assert!(quits(&press(&mut app, "y")));
     }
     let mut app = open(SCENE);
@@ -264,7 +264,7 @@ fn quitting_asks_about_an_export_and_can_wait_for_it() {
     assert!(!quits(
         &app.update(Msg::Exported(ExportId(1), Err("full".into())))
     ));
-    assert!(!app.pending.quit && words(&app) == "full");
+    assert!(!app.jobs.quit && words(&app) == "full");
 }
 
 #[test]
@@ -287,7 +287,7 @@ fn a_stopped_trace_restarts() {
 }
 
 #[test]
-fn f5_restarts_a_stopped_trace_where_it_is_watched() {
+fn f5_restarts_a_stopped_trace_but_not_a_running_one() {
     let begun = |effects: &[Effect]| {
         wants(effects, |effect| {
             matches!(effect, Effect::Trace(Target::Trace, _))

@@ -1,4 +1,4 @@
-//! Keeping unsaved edits, and taking those of earlier runs.
+//! Keeping unsaved edits, and restoring those of earlier runs.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use crate::ui::msg::{Guard, SaveId, SaveOutcome, Timer};
 use crate::ui::recovery::tests::offer;
 use crate::ui::recovery::{Found, Offer};
 
-/// The revision that is to be written down, if one is.
+/// The revision that is to be written, if any.
 fn ordered(effects: &[Effect]) -> Option<u64> {
     effects.iter().find_map(|effect| match effect {
         Effect::WriteRecovery { revision, .. } => Some(*revision),
@@ -15,7 +15,7 @@ fn ordered(effects: &[Effect]) -> Option<u64> {
     })
 }
 
-/// How long the next try to keep edits is put off.
+/// The delay of the next attempt to keep edits, in seconds.
 fn put_off(effects: &[Effect]) -> Option<u64> {
     effects.iter().find_map(|effect| match effect {
         Effect::Later(time, Timer::Keep) => Some(time.as_secs()),
@@ -44,7 +44,7 @@ fn saved(app: &App) -> Msg {
 }
 
 #[test]
-fn unsaved_edits_are_written_down_once_and_forgotten_when_there_are_none() {
+fn unsaved_edits_are_kept_once_and_forgotten_when_none_are_left() {
     let mut app = open(SCENE);
     assert_eq!(put_off(&press(&mut app, "jjjel")), Some(1));
     assert_eq!(
@@ -77,7 +77,7 @@ fn unsaved_edits_are_written_down_once_and_forgotten_when_there_are_none() {
 }
 
 #[test]
-fn edits_that_could_not_be_kept_are_tried_again() {
+fn keeping_edits_is_retried_after_a_failure() {
     let mut app = open(SCENE);
     press(&mut app, "jjjel");
     let mut delays = Vec::new();
@@ -90,10 +90,10 @@ fn edits_that_could_not_be_kept_are_tried_again() {
             if round == 0 { IS_FULL } else { "" },
             "said once"
         );
-        app.message = None;
+        app.overlays.message = None;
     }
     assert_eq!(delays, [1, 2, 4, 8, 16, 30, 30, 30]);
-    // What is new is not put off so long.
+    // New edits are not delayed that long.
     assert_eq!(put_off(&press(&mut app, "l")), Some(1));
     assert_eq!(
         put_off(&press(&mut app, "l")),
@@ -102,27 +102,27 @@ fn edits_that_could_not_be_kept_are_tried_again() {
     );
     let revision = ordered(&elapse(&mut app)).expect("it is tried again");
     fail(&mut app, revision);
-    // Nor is the end.
+    // Neither is the end.
     let revision = ordered(&app.update(Msg::HangUp)).expect("it is tried again");
     app.update(Msg::Kept(revision, Ok(())));
     assert!(!app.fails_to_keep());
 }
 
 #[test]
-fn edits_are_written_down_once_more_at_the_end() {
+fn edits_are_kept_once_more_at_the_end() {
     for end in [Msg::HangUp, Msg::Terminate { signal: 15 }] {
         let mut app = open(SCENE);
         press(&mut app, "jjjel");
         let revision = ordered(&elapse(&mut app)).expect("an edit");
         app.update(Msg::Kept(revision, Ok(())));
         assert!(elapse(&mut app).is_empty(), "they are kept");
-        // The journal may have been removed by somebody.
+        // The journal may have been removed by others.
         assert_eq!(ordered(&app.update(end)), Some(revision));
     }
 }
 
 #[test]
-fn messages_about_edits_that_are_not_kept_go_once_they_are() {
+fn messages_about_unkept_edits_disappear_once_they_are_kept() {
     for (said, left) in [(None, ""), (Some("something else"), "something else")] {
         let mut app = open(SCENE);
         press(&mut app, "jjjel");
@@ -130,7 +130,7 @@ fn messages_about_edits_that_are_not_kept_go_once_they_are() {
         fail(&mut app, revision);
         assert_eq!(words(&app), IS_FULL);
         if let Some(said) = said {
-            app.say(said);
+            app.overlays.say(said);
         }
         let revision = ordered(&elapse(&mut app)).expect("it is tried again");
         app.update(Msg::Kept(revision, Ok(())));
@@ -170,7 +170,7 @@ fn edits_made_while_the_scene_was_saved_are_kept_at_once() {
     )));
 }
 
-/// An offer of edits that started from one text for the one under edit.
+/// An offer, for the current text, of edits with this base.
 fn kept(app: &App, base: &str, text: &str) -> Offer {
     offer(
         app.document.language(),
@@ -187,7 +187,7 @@ fn recovered(offer: Offer) -> Msg {
     })
 }
 
-/// [`SCENE`] with a radius, and with the first sphere elsewhere.
+/// [`SCENE`] with another radius, and the first sphere elsewhere.
 fn variant(radius: &str, x: &str) -> String {
     let scene = SCENE.replace("1.5", radius);
     scene.replace("sphere\n0 0 0", &format!("sphere\n{x} 0 0"))
@@ -206,7 +206,7 @@ fn kept_edits_can_be_restored_and_undone() {
     press(&mut app, "j");
     assert_eq!(words(&app), "the question comes first: r, d, Esc");
     let effects = press(&mut app, "r");
-    // The old journal goes once the new one is there; others may be left.
+    // The old journal is removed once the new one is written; others may be left.
     let adopted = |effect: &Effect| matches!(effect, Effect::AdoptKept(_));
     assert!(wants(&effects, adopted) && ordered(&effects).is_some() && looks(&effects));
     assert_eq!(app.document.text(), mine);
@@ -215,7 +215,7 @@ fn kept_edits_can_be_restored_and_undone() {
 }
 
 #[test]
-fn kept_edits_can_be_thrown_away() {
+fn kept_edits_can_be_discarded() {
     let mut app = open(SCENE);
     let offer = kept(&app, SCENE, &variant("1.7", "0"));
     app.update(recovered(offer));
@@ -226,7 +226,7 @@ fn kept_edits_can_be_thrown_away() {
 }
 
 #[test]
-fn kept_edits_put_off_are_left_alone() {
+fn postponed_kept_edits_are_left_alone() {
     let mut app = open(SCENE);
     let offer = kept(&app, SCENE, &variant("1.7", "0"));
     let name = offer.claim.name().to_owned();
@@ -270,7 +270,7 @@ fn a_file_that_has_changed_since_is_merged_with_kept_edits() {
 }
 
 #[test]
-fn kept_edits_that_the_file_contradicts_are_asked_about() {
+fn conflicts_between_kept_edits_and_the_file_are_asked_about() {
     let theirs = variant("1.9", "9");
     for (keys, left) in [
         ("r<Enter>", &theirs),
@@ -287,7 +287,7 @@ fn kept_edits_that_the_file_contradicts_are_asked_about() {
         let effects = press(&mut app, keys);
         assert_eq!(app.document.text(), *left, "{keys}");
         assert_eq!(app.document.saved().as_str(), theirs, "{keys}");
-        assert_eq!(app.dialog.is_some(), keys == "r<Enter>", "{keys}");
+        assert_eq!(app.overlays.dialog.is_some(), keys == "r<Enter>", "{keys}");
         let dropped = wants(&effects, |effect| matches!(effect, Effect::DropKept(_)));
         assert_eq!(
             dropped,
@@ -309,9 +309,9 @@ fn an_offer_follows_the_file() {
         app.update(recovered(late.clone()));
         press(&mut app, keys);
         let effects = outside(&mut app, &variant("1.6", "9"));
-        assert!(looks(&effects) && app.dialog.is_none());
-        // An answer that is out of date by now.
-        assert!(looks(&app.update(recovered(late))) && app.dialog.is_none());
+        assert!(looks(&effects) && app.overlays.dialog.is_none());
+        // The answer is outdated by now.
+        assert!(looks(&app.update(recovered(late))) && app.overlays.dialog.is_none());
     }
 }
 
@@ -321,9 +321,9 @@ fn one_question_is_asked_at_a_time() {
     press(&mut app, "jjjelq");
     let offer = kept(&app, SCENE, &variant("1.7", "0"));
     app.update(recovered(offer));
-    assert!(matches!(app.dialog, Some(Dialog::Quit)));
+    assert!(matches!(app.overlays.dialog, Some(Dialog::Quit)));
     press(&mut app, "n");
-    assert!(matches!(app.dialog, Some(Dialog::Recover(_))));
+    assert!(matches!(app.overlays.dialog, Some(Dialog::Recover(_))));
     press(&mut app, "r");
     assert_eq!(
         app.document.text(),
@@ -336,12 +336,15 @@ fn one_question_is_asked_at_a_time() {
 fn complaints_about_kept_edits_are_shown() {
     let mut app = open(SCENE);
     let mut complain = |complaints: &[&str]| {
-        app.message = None;
+        app.overlays.message = None;
         app.update(Msg::Recovered(Found {
             offer: None,
             complaints: complaints.iter().map(ToString::to_string).collect(),
         }));
-        app.message.as_ref().map(|message| message.text.clone())
+        app.overlays
+            .message
+            .as_ref()
+            .map(|message| message.text.clone())
     };
     for (complaints, said) in [
         (["a is damaged"].as_slice(), Some("a is damaged")),

@@ -1,4 +1,4 @@
-//! Saves that take long, and what they leave.
+//! Slow and failing saves.
 
 use super::*;
 use crate::ui::msg::{Guard, SaveId, SaveOutcome, Timer};
@@ -7,12 +7,12 @@ use std::sync::Arc;
 #[test]
 fn an_abandoned_save_does_not_quit_later() {
     let mut app = open(SCENE);
-    app.path = None;
+    app.disk.path = None;
     press(&mut app, "jjjel");
-    // The question's answer asks for a name, which is not given.
+    // The answer to the question prompts for a name, which is not given.
     press(&mut app, "qw<Esc>");
-    assert!(app.prompt.is_none());
-    assert!(!app.pending.quit);
+    assert!(app.overlays.prompt.is_none());
+    assert!(!app.jobs.quit);
 }
 
 pub(super) fn saved(app: &mut App, id: u32, path: &str, text: &Arc<String>) -> Vec<Effect> {
@@ -23,7 +23,7 @@ pub(super) fn saved(app: &mut App, id: u32, path: &str, text: &Arc<String>) -> V
     app.update(Msg::Saved(SaveId(id), outcome))
 }
 
-/// The saves among effects: number, file, guard.
+/// The saves among the effects: number, file, guard.
 fn saves(effects: &[Effect]) -> Vec<(u32, String, Guard)> {
     let saves = effects.iter().filter_map(|effect| match effect {
         Effect::Save {
@@ -35,7 +35,7 @@ fn saves(effects: &[Effect]) -> Vec<(u32, String, Guard)> {
 }
 
 #[test]
-fn a_save_that_hangs_is_shown_and_holds_up_no_other_file() {
+fn a_hanging_save_is_reported_and_delays_no_other_file() {
     let mut app = open(SCENE);
     let effects = press(&mut app, "jjjel:w! stuck.ray<Enter>");
     assert_eq!(saves(&effects)[0].1, "stuck.ray");
@@ -45,27 +45,27 @@ fn a_save_that_hangs_is_shown_and_holds_up_no_other_file() {
         })
     };
     assert!(ticks(&effects));
-    assert_eq!(app.still_writing(), None);
+    assert_eq!(app.jobs.still_writing(), None);
     for _ in 0..12 {
         assert!(ticks(&app.update(Msg::Elapsed(Timer::Writing))));
     }
-    assert_eq!(app.still_writing(), Some((Path::new("stuck.ray"), 12)));
+    assert_eq!(app.jobs.still_writing(), Some((Path::new("stuck.ray"), 12)));
 
     let effects = press(&mut app, ":w free.ray<Enter>");
     assert_eq!(saves(&effects), [(2, "free.ray".to_owned(), Guard::Absent)]);
     let text = app.document.shared_text();
     saved(&mut app, 2, "free.ray", &text);
     assert_eq!(words(&app), "wrote free.ray");
-    assert_eq!(app.file_name(), "free.ray");
-    // The late one changes nothing any more.
+    assert_eq!(app.disk.name(), "free.ray");
+    // The late outcome no longer changes anything.
     saved(&mut app, 1, "stuck.ray", &Arc::new(SCENE.to_owned()));
     assert_eq!(
-        (words(&app), app.file_name().as_str()),
+        (words(&app), app.disk.name().as_str()),
         ("wrote stuck.ray", "free.ray")
     );
     assert!(!app.document.is_dirty());
     assert!(!ticks(&app.update(Msg::Elapsed(Timer::Writing))));
-    assert_eq!(app.still_writing(), None);
+    assert_eq!(app.jobs.still_writing(), None);
 }
 
 #[test]
@@ -82,13 +82,13 @@ fn saves_of_one_file_wait_for_each_other() {
     assert!(app.document.is_dirty());
     let effects = saved(&mut app, 3, "scene.ray", &last);
     assert!(!app.document.is_dirty());
-    // The quit has waited for the last one.
+    // The quit has waited for the last save.
     assert!(wants(&effects, |effect| matches!(effect, Effect::Quit)));
 }
 
-/// What the file holds is known from the save before, whatever was saved elsewhere meanwhile.
+/// The previous save determines what the file holds, regardless of saves elsewhere meanwhile.
 #[test]
-fn a_save_that_waited_may_replace_what_the_one_before_it_wrote() {
+fn a_waiting_save_may_replace_what_the_previous_one_wrote() {
     let failed = || SaveOutcome::Failed("full".to_owned());
     let cases: [(&str, &str, &str, Option<SaveOutcome>); 4] = [
         ("w", "w", "scene.ray", None),
@@ -120,9 +120,9 @@ fn a_save_that_waited_may_replace_what_the_one_before_it_wrote() {
     }
 }
 
-/// The watcher may be faster than the save's own outcome.
+/// The watcher may be faster than the outcome of the save.
 #[test]
-fn what_a_save_under_way_has_written_is_no_news() {
+fn the_text_of_a_running_save_is_not_a_change() {
     let mut app = open(SCENE);
     // Notice of a change before the save.
     let late = Reading::new(SCENE.replace("1.5", "1.7"), app.known()).expect("it fits");
@@ -132,7 +132,7 @@ fn what_a_save_under_way_has_written_is_no_news() {
     assert!(outside(&mut app, &mine).is_empty());
     assert_eq!(words(&app), said);
     assert!(app.document.is_dirty(), "the save has no outcome yet");
-    // What was compared with other texts is read again.
+    // A reading that was compared with other texts is repeated.
     let effects = app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(late)));
     assert!(wants(&effects, |effect| matches!(effect, Effect::Read(..))));
     let early = Reading::new(mine.clone(), app.known()).expect("it fits");
@@ -143,7 +143,7 @@ fn what_a_save_under_way_has_written_is_no_news() {
     assert!(outside(&mut app, &mine).is_empty());
     assert_eq!(words(&app), "wrote scene.ray");
 
-    // What others write meanwhile is.
+    // What others write meanwhile is a change.
     press(&mut app, "lw");
     outside(&mut app, &mine.replace("1.5", "1.7"));
     assert!(
@@ -154,7 +154,7 @@ fn what_a_save_under_way_has_written_is_no_news() {
 }
 
 #[test]
-fn a_quit_waits_for_a_save_that_hangs_until_it_is_forced() {
+fn a_quit_waits_for_a_hanging_save_unless_forced() {
     let quits = |effects: &[Effect]| wants(effects, |effect| matches!(effect, Effect::Quit));
     let keeps = |effects: &[Effect]| {
         wants(effects, |effect| {
@@ -172,7 +172,7 @@ fn a_quit_waits_for_a_save_that_hangs_until_it_is_forced() {
         app.update(Msg::Elapsed(Timer::Writing));
         assert!(words(&app).starts_with("will quit once the save finishes"));
         let effects = press(&mut app, keys);
-        // What was to be saved is not lost.
+        // The text that was to be saved is not lost.
         assert_eq!(
             (quits(&effects), keeps(&effects)),
             (forced, forced),
@@ -186,10 +186,10 @@ fn a_quit_waits_for_a_save_that_hangs_until_it_is_forced() {
 }
 
 #[test]
-fn a_save_of_unchanged_text_is_asked_about_until_it_is_done() {
+fn quitting_during_a_save_of_unchanged_text_asks() {
     let mut app = open(SCENE);
     press(&mut app, ":w copy.ray<Enter>q");
-    assert!(matches!(app.dialog, Some(Dialog::Quit)));
+    assert!(matches!(app.overlays.dialog, Some(Dialog::Quit)));
     assert_eq!(
         app.losses().as_deref(),
         Some("copy.ray is still being written")
@@ -197,7 +197,7 @@ fn a_save_of_unchanged_text_is_asked_about_until_it_is_done() {
 }
 
 #[test]
-fn what_fails_besides_a_save_does_not_hide_why_the_save_failed() {
+fn another_failure_does_not_hide_why_a_save_failed() {
     let mut app = open(SCENE);
     press(&mut app, "jjjelw");
     let failed = SaveOutcome::Failed("scene.ray: no space left".to_owned());
@@ -210,7 +210,7 @@ fn what_fails_besides_a_save_does_not_hide_why_the_save_failed() {
 }
 
 #[test]
-fn a_message_that_a_key_took_away_can_be_seen_again() {
+fn a_dismissed_message_can_be_shown_again() {
     let mut app = open(SCENE);
     press(&mut app, "M");
     assert_eq!(words(&app), "there was no message yet");
@@ -235,7 +235,7 @@ fn the_backup_of_an_interrupted_save_is_named() {
     )]));
     assert_eq!(
         words(&app),
-        "a save of scene.ray was interrupted: the content before it is in \
-         .halflight-backup-1-2-scene.ray; delete that if you do not need it"
+        "a save of scene.ray was interrupted: the previous content is in \
+         .halflight-backup-1-2-scene.ray; delete that file if you do not need it"
     );
 }

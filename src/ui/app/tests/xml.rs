@@ -1,4 +1,4 @@
-//! What `.xml` has and the others have not: components that the text does not say.
+//! Features of `.xml` that the others lack: components that are absent from the text.
 
 use super::*;
 use crate::language::Node;
@@ -20,7 +20,7 @@ const SCENE: &str = r#"<xml>
 </xml>
 "#;
 
-/// The interface with the cursor on a node.
+/// Opens the interface with the cursor on a node.
 fn at(node: Node) -> App {
     let mut app = opened_as("scene.xml", SCENE).0;
     app.select(node);
@@ -63,7 +63,7 @@ fn defaults_are_shown_and_written_when_typed() {
 }
 
 #[test]
-fn a_material_goes_through_the_names_there_are() {
+fn nudging_a_material_cycles_through_existing_names() {
     let text = SCENE.replace("name=\"m\"/>", "name=\"m\"/><material name=\"n &amp; o\"/>");
     let mut app = opened_as("scene.xml", &text).0;
     app.select(Node::Object(1));
@@ -80,7 +80,7 @@ fn a_material_goes_through_the_names_there_are() {
 }
 
 #[test]
-fn a_missing_parameter_is_made() {
+fn a_missing_parameter_is_added() {
     assert_eq!(
         changed(Node::Material(0), "ejji<Back><Back><Back>1<Enter>"),
         r#"<material name="m">|<diffuse r="1" g="0.5" b="0.5"/>|</material>"#
@@ -96,14 +96,14 @@ fn the_camera_is_edited_and_saved() {
     );
     let mut app = at(Node::View);
     press(&mut app, "vllS");
-    assert_eq!(app.view, None);
+    assert_eq!(app.pictures.view, None);
     let text = app.document.text();
     let position = text.lines().find(|line| line.contains("<position z="));
     assert!(position.is_some_and(|line| line.contains(" x=")), "{text}");
 }
 
 #[test]
-fn what_is_pasted_on_a_missing_colour_is_written_at_once() {
+fn a_colour_pasted_onto_a_missing_one_is_written_at_once() {
     let mut app = at(Node::Material(0));
     press(&mut app, "ejj");
     app.update(Msg::Paste("#ff8000".to_owned()));
@@ -116,9 +116,9 @@ fn what_is_pasted_on_a_missing_colour_is_written_at_once() {
     assert_eq!(app.document.text(), SCENE);
 }
 
-/// A text that is not XML has nothing to list, and no key makes anything of it.
+/// A text that is not XML has no nodes, and no key has any effect on it.
 #[test]
-fn a_text_that_is_not_xml_is_survived() {
+fn a_text_that_is_not_xml_does_no_harm() {
     for text in ["", "<xml>", "<xml><scene></xml>", "<scene/>"] {
         let mut app = opened_as("scene.xml", text).0;
         assert!(app.nodes().is_empty() && 0 < app.error_count(), "{text}");
@@ -147,7 +147,7 @@ fn a_text_that_is_not_xml_is_survived() {
             "<Esc>",
         ] {
             press(&mut app, keys);
-            assert!(app.fields().is_empty() && app.parts().is_empty());
+            assert!(app.fields().is_empty() && app.cursor.parts().is_empty());
             let _ = (app.areas(), app.raster(), app.marked_object());
         }
         assert_eq!(app.document.text(), text);

@@ -1,4 +1,4 @@
-//! Folders and files that others have put where journals go.
+//! Folders and files that others have placed where journals belong.
 
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::process::Command;
@@ -14,9 +14,9 @@ fn pipe(path: &Path) {
     assert!(made.expect("every system has it").success());
 }
 
-/// Folders in which nothing is kept, and nothing is read.
+/// In these folders nothing is kept and nothing is read.
 #[test]
-fn folders_that_are_refused() {
+fn unsafe_folders_are_refused() {
     type Prepare = fn(&Place);
     let cases: &[(&str, Prepare, &str)] = &[
         (
@@ -101,9 +101,9 @@ fn folders_that_are_refused() {
     }
 }
 
-/// Where everybody may write, but nobody can move what is another's away.
+/// Everybody may write there, but nobody can move files of others.
 #[test]
-fn a_shared_state_folder_like_that_for_temporary_files_will_do() {
+fn a_state_folder_shared_like_tmp_is_accepted() {
     let place = Place::new();
     place.make();
     allow(&place.state, 0o1777);
@@ -124,10 +124,10 @@ fn a_folder_of_another_user_is_refused() {
     }
 }
 
-/// What another user may have left in the folder before it was ours alone: none of it is followed,
+/// Files that another user may have left in the folder before it became private: none is followed,
 /// waited for or written to.
 #[test]
-fn files_that_are_not_followed() {
+fn planted_files_are_neither_followed_nor_written_to() {
     type Plant = fn(&Place, &Path);
     let cases: &[(&str, Plant)] = &[
         ("a link", |place, at| {
@@ -186,7 +186,7 @@ fn files_that_are_not_followed() {
 }
 
 #[test]
-fn a_journal_longer_than_the_scene_can_have_is_left_unread() {
+fn a_journal_too_long_for_the_scene_is_not_read() {
     for (length, is_read) in [(1 << 20, true), (3 << 30, false), (1 << 40, false)] {
         let place = Place::new();
         place.make();
@@ -198,7 +198,7 @@ fn a_journal_longer_than_the_scene_can_have_is_left_unread() {
         let [complaint] = &found.complaints[..] else {
             panic!("{length}: {:?}", found.complaints);
         };
-        // What is read is not whole, and is set aside.
+        // A file that was read holds only zeros, so it is set aside.
         assert_eq!(journal.exists(), !is_read, "{length}");
         let place_of = journal.display().to_string();
         assert!(complaint.contains(&place_of), "{length}: {complaint}");
@@ -213,7 +213,7 @@ fn a_journal_longer_than_the_scene_can_have_is_left_unread() {
 
 /// As on network file systems without a lock daemon.
 #[test]
-fn where_files_cannot_be_locked_no_journal_counts_as_left_behind() {
+fn without_file_locks_no_journal_counts_as_left_behind() {
     use crate::file::faults::{Fault, during};
     use rustix::io::Errno;
     for error in [Errno::NOLCK, Errno::NOSYS] {
@@ -226,7 +226,7 @@ fn where_files_cannot_be_locked_no_journal_counts_as_left_behind() {
         without_locks(&mut || place.keep(&mut journal, "1 2 4"));
         assert!(journal.is_kept());
         without_locks(&mut || {
-            // An edit that the text has already would have the journal removed.
+            // If the text already contains the edit, the journal would be removed.
             for text in [BASE, "1 2 4"] {
                 let found = place.look(text);
                 assert!(found.offer.is_none(), "{error}: {text}");
@@ -244,7 +244,7 @@ fn where_files_cannot_be_locked_no_journal_counts_as_left_behind() {
 }
 
 #[test]
-fn what_replaces_a_journal_follows_no_link() {
+fn replacing_a_journal_follows_no_link() {
     let place = Place::new();
     let mut journal = place.run();
     place.keep(&mut journal, "1 2 4");
@@ -260,7 +260,7 @@ fn what_replaces_a_journal_follows_no_link() {
 }
 
 #[test]
-fn a_folder_put_in_place_of_the_one_held_is_not_written_to() {
+fn a_folder_that_replaces_the_held_one_is_not_written_to() {
     let place = Place::new();
     let mut journal = place.run();
     place.keep(&mut journal, "1 2 4");

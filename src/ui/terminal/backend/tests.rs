@@ -1,5 +1,5 @@
-//! Frames drawn as the interface draws them and replayed into a model of a terminal, which must
-//! then look like the buffer.
+//! Frames drawn as by the interface and replayed into a model of a terminal, whose screen must then
+//! look like the buffer.
 
 use std::num::NonZeroU16;
 
@@ -16,7 +16,7 @@ const SIZE: Size = Size {
     height: 5,
 };
 
-/// Our encoder before a model of a terminal.
+/// Our encoder connected to a model of a terminal.
 struct Rig {
     terminal: Terminal<AnsiBackend>,
     model: vt100::Parser,
@@ -25,7 +25,7 @@ struct Rig {
 impl Rig {
     fn new(depth: ColourDepth, size: Size) -> Self {
         let Ok(mut terminal) = Terminal::new(AnsiBackend::new(depth, size));
-        // A new interface begins with a clear screen, as the guard's does.
+        // A new interface begins with a clear screen, like that of the guard.
         let Ok(()) = terminal.resize(Rect::from((Position::ORIGIN, size)));
         let cells = |count| NonZeroU16::new(count).expect("the size is not zero");
         let model = vt100::Parser::new(cells(size.height), cells(size.width), 0);
@@ -51,17 +51,17 @@ impl Rig {
     }
 }
 
-/// What the eye sees of a cell: text with its looks, or two halves.
+/// The visible contents of a cell: styled text, or two halves.
 #[derive(Debug, PartialEq, Eq)]
 enum Seen {
     Halves(vt100::Color, vt100::Color),
     Text(String, vt100::Color, vt100::Color, Modifier),
 }
 
-/// The override that shows text in the reverse of its order.
+/// The override that displays text in reverse order.
 const BIDI: char = '\u{202e}';
 
-/// Stands for the terminal's own foreground, which must not pass for its own background.
+/// Represents the terminal's own foreground, which must differ from its own background.
 const OWN_FOREGROUND: vt100::Color = vt100::Color::Rgb(1, 2, 3);
 
 fn seen(text: &str, fg: vt100::Color, bg: vt100::Color, modifier: Modifier) -> Seen {
@@ -179,7 +179,7 @@ proptest! {
         let mut last = Buffer::empty(Rect::from((Position::ORIGIN, SIZE)));
         for (mut buffer, change) in frames {
             if change == 0 {
-                // Most frames change a few cells only.
+                // Most frames change only a few cells.
                 let kept = buffer.content[..40].to_vec();
                 buffer = last.clone();
                 buffer.content[7..47].clone_from_slice(&kept);
@@ -214,7 +214,7 @@ proptest! {
 }
 
 #[test]
-fn a_frame_is_bracketed_once_and_an_unchanged_one_is_nothing() {
+fn a_frame_is_bracketed_once_and_an_unchanged_one_is_empty() {
     let mut rig = Rig::new(ColourDepth::TrueColour, SIZE);
     let mut buffer = Buffer::empty(Rect::from((Position::ORIGIN, SIZE)));
     buffer[(3, 2)].set_symbol("x").set_fg(Color::Red);
@@ -233,7 +233,7 @@ fn a_frame_is_bracketed_once_and_an_unchanged_one_is_nothing() {
 }
 
 #[test]
-fn the_cursor_is_moved_by_the_shortest_way() {
+fn the_cursor_moves_by_the_shortest_sequence() {
     let at = |x, y| Position { x, y };
     for (from, to, bytes) in [
         (at(3, 1), at(3, 1), ""),
@@ -260,7 +260,7 @@ fn the_cursor_is_moved_by_the_shortest_way() {
 }
 
 #[test]
-fn a_shown_cursor_stays_where_it_is_put() {
+fn a_visible_cursor_stays_in_place() {
     let mut rig = Rig::new(ColourDepth::TrueColour, SIZE);
     let mut draw = |text: &'static str| {
         let Ok(_) = rig.terminal.draw(|frame| {
@@ -298,7 +298,7 @@ fn a_smaller_window_is_redrawn() {
 }
 
 #[test]
-fn wide_characters_and_what_replaces_them_stay_in_their_columns() {
+fn wide_characters_and_their_replacements_stay_in_their_columns() {
     let mut rig = Rig::new(ColourDepth::TrueColour, SIZE);
     for text in [
         "a界b界c",
@@ -314,7 +314,7 @@ fn wide_characters_and_what_replaces_them_stay_in_their_columns() {
         rig.draw(&buffer);
         for x in 0..SIZE.width {
             let cell = &buffer[(x, 1)];
-            // Only the plain characters are compared: the rest may be shown more simply.
+            // Only plain characters are compared: others may be simplified.
             if cell.symbol() != " " && cell.symbol().len() <= 3 {
                 let Some(shown) = rig.model.screen().cell(1, x) else {
                     panic!("column {x}")
@@ -329,7 +329,7 @@ fn wide_characters_and_what_replaces_them_stay_in_their_columns() {
     }
 }
 
-/// Bytes of a whole frame of half blocks, a cell.
+/// Bytes per cell of a whole frame of half blocks.
 fn bytes_a_cell(depth: ColourDepth, size: Size, pixel: impl Fn(u16, u16) -> [u8; 3]) -> f64 {
     let mut buffer = Buffer::empty(Rect::from((Position::ORIGIN, size)));
     let colour = |x, y| {
@@ -346,7 +346,7 @@ fn bytes_a_cell(depth: ColourDepth, size: Size, pixel: impl Fn(u16, u16) -> [u8;
     rig.draw(&buffer).len() as f64 / f64::from(size.area())
 }
 
-/// A lit ball on a chequered floor under an even sky, in steps of `step`.
+/// A lit ball on a chequered floor under an even sky, quantized to `step`.
 fn ball(size: Size, step: u8) -> impl Fn(u16, u16) -> [u8; 3] {
     move |x, y| {
         let radius = f64::from(size.height) * 0.7;
@@ -368,14 +368,14 @@ fn ball(size: Size, step: u8) -> impl Fn(u16, u16) -> [u8; 3] {
 }
 
 #[test]
-fn pictures_are_cheap() {
+fn pictures_take_few_bytes() {
     use ColourDepth::{Mono, Palette16, Palette256, TrueColour};
     let size = Size {
         width: 200,
         height: 50,
     };
-    // Neighbours of one colour, pictures of flat and shaded parts, and the worst there is: two
-    // colours of nine digits, four bytes that frame them and three of the block.
+    // Neighbours of one colour, pictures of flat and shaded parts, and the worst case: two colours
+    // of nine digits, four bytes that frame them and three of the block.
     let noise = |x: u16, y: u16| {
         let mix = (u32::from(x) * 7919 + u32::from(y) * 104_729).wrapping_mul(2_654_435_761);
         [

@@ -1,9 +1,9 @@
-//! Bytes beside the events they mean, in one piece and in two.
+//! Bytes and the events they decode to, in one piece and in two.
 
 use super::*;
 
-/// Feeds pieces, each so many milliseconds after the start, then lets all time pass; returns
-/// the events in short.
+/// Feeds each piece at its time, in milliseconds after the start, and then lets all timeouts pass;
+/// returns abbreviated events.
 fn decode(pieces: &[(u64, &[u8])]) -> Vec<String> {
     let start = Instant::now();
     let mut decoder = Decoder::default();
@@ -88,7 +88,7 @@ fn whole_sequences() {
 }
 
 #[test]
-fn a_sequence_may_be_split_anywhere() {
+fn a_sequence_may_be_split_at_any_byte() {
     for sequence in [
         &b"\x1b[A"[..],
         b"\x1bOA",
@@ -110,7 +110,7 @@ fn a_sequence_may_be_split_anywhere() {
 }
 
 #[test]
-fn a_lone_escape_is_a_key_after_its_time() {
+fn a_lone_escape_becomes_a_key_after_a_timeout() {
     assert_eq!(decode(&[(0, b"\x1b")]), ["Esc"]);
     assert_eq!(decode(&[(0, b"\x1b"), (24, b"[A")]), ["Up"]);
     assert_eq!(
@@ -121,7 +121,7 @@ fn a_lone_escape_is_a_key_after_its_time() {
 }
 
 #[test]
-fn a_paste_without_an_end_is_emitted_after_a_while() {
+fn a_paste_without_an_end_is_emitted_after_a_timeout() {
     assert_eq!(
         decode(&[(0, b"\x1b[200~a"), (500, b"b")]),
         ["Paste(\"ab\")"]
@@ -144,7 +144,7 @@ fn endless_sequences_are_dropped() {
 }
 
 #[test]
-fn answers_are_no_keys() {
+fn answers_are_not_keys() {
     let colour = "Reply(TrueColour)";
     for (pieces, events) in [
         (
@@ -154,17 +154,17 @@ fn answers_are_no_keys() {
         (&[(0, b"\x1bP1+r524742=38\x1b\\")], &[colour]),
         (&[(0, b"\x1bP0+r5463\x1b\\x")], &["Char('x')"]),
         (&[(0, b"\x1bP0$r\x1b\\")], &[]),
-        // Slow ones, in any pieces.
+        // Slow answers, in several pieces.
         (&[(0, b"\x1bP"), (500, b"1+r5463\x1b\\")], &[colour]),
         (
             &[(0, b"\x1bP1+r54"), (500, b"63\x1b"), (900, b"\\")],
             &[colour],
         ),
-        // Malformed ones, and one that never ends.
+        // Malformed answers, and one that never ends.
         (&[(0, b"\x1bP1$r\x1b[A")], &["Up"]),
         (&[(0, b"\x1bP1$rquit:q!\rj")], &["Enter", "Char('j')"]),
         (&[(0, b"\x1bP1$rquit"), (2000, b"k")], &["Char('k')"]),
-        // The key that begins like one.
+        // The key whose bytes begin like an answer.
         (&[(0, b"\x1bPj")], &["SHIFT+ALT+Char('P')", "Char('j')"]),
         (
             &[(0, b"\x1b[?2026;2$y\x1b[?62;4c")],

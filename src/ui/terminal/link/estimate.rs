@@ -1,79 +1,92 @@
-//! What a line takes, judged by how long replies of the terminal are on their way.
+//! Estimates the capacity of a line from the delays of the terminal's replies.
 //!
-//! A reply to a question that follows a burst of bytes comes after a round trip and the time the
-//! line takes for the burst. A reply that is late shows bytes that pile up: pictures wait until the
-//! line is empty, then the round trip and the rate are measured anew.
+//! The reply to a question sent after a burst of bytes takes a round trip plus the time for the
+//! line to transmit the burst. A late reply means that bytes are queueing: pictures then wait until
+//! the line is empty, and the round trip and the rate are measured again.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-/// What a line is taken for before the first reply, in bytes a second.
+/// Rate assumed before the first reply, in bytes per second.
 const FIRST_RATE: u32 = 32_000;
 
 const LEAST_RATE: u32 = 2_000;
 const MOST_RATE: u32 = 64_000_000;
 
-/// The part of the line that pictures are given, in hundredths: an estimate that is a quarter too
-/// high piles nothing up.
+/// Share of the rate available to pictures, in per cent: an estimate that is a quarter too high
+/// causes no queue.
 const SHARE: u32 = 75;
 
-/// How long the line takes for a piece of picture, which is how long a key's answer may wait.
+/// Transmission time of a piece of picture, which may delay the answer to a key.
 const BURST: Duration = Duration::from_millis(20);
 
-/// How long it takes for one that is measured: long beside the jitter of replies.
+/// Transmission time of a piece that is measured: long compared to the jitter of replies.
 const MEASURED_BURST: Duration = Duration::from_millis(50);
 
-/// The shortest burst that the rate can be measured by.
+/// The shortest burst from which the rate can be measured.
 const TELLING: Duration = Duration::from_millis(25);
 
-/// The least piece of picture, in bytes: about ten cells.
+/// Minimum size of a piece of picture, in bytes: about ten cells.
 const LEAST_BURST: u64 = 256;
 
-/// How late a reply may come before the line is taken to be overloaded.
+/// Delay of a reply from which the line counts as overloaded.
 const SLACK: Duration = Duration::from_millis(30);
 
-/// The least time between questions once the rate has settled.
+/// Minimum time between questions once the rate has settled.
 const INTERVAL: Duration = Duration::from_secs(2);
 
-/// The least time between questions behind what is too little to measure, before it has settled.
+/// Minimum time between bursts that are long enough to measure, once the rate has settled: the
+/// answer to a key waits for a whole burst. A connection that slows down is noticed earlier, by
+/// late replies.
+const BURST_INTERVAL: Duration = Duration::from_secs(10);
+
+/// Minimum time between questions after too few bytes to measure, before the rate has settled.
 const UNSETTLED_INTERVAL: Duration = Duration::from_millis(500);
 
-/// The most that one burst may multiply the rate by: an overestimated round trip, as during startup,
-/// makes any line look infinitely fast.
+/// Maximum increase of the rate after one burst, as a factor: an overestimated round trip, as
+/// during startup, makes any line look infinitely fast.
 const GROWTH: f64 = 4.0;
 
-/// How long a reply is waited for.
+/// The same once the rate has settled: jitter that delays a reply makes the next measurement too
+/// high, and a connection seldom becomes faster.
+const LATE_GROWTH: f64 = 1.25;
+
+/// Maximum time to wait for a reply.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// The shortest time that is distinguished from none.
+/// The shortest time that is distinguished from zero.
 const RESOLUTION: Duration = Duration::from_millis(1);
 
-/// The rate and the round trip of a line.
+/// The estimated rate and round trip of a line.
 #[derive(Debug)]
 pub(super) struct Estimate {
-    /// Bytes a second.
+    /// Bytes per second.
     rate: u32,
+    /// The last rate that proved right.
+    settled: Option<u32>,
     round_trip: Option<Duration>,
     stage: Stage,
-    /// The bytes that the line still had to take at `as_of`.
+    /// Number of bytes in the queue of the line at `as_of`.
     queue: f64,
     as_of: Option<Instant>,
-    /// All bytes that were sent.
+    /// Total number of bytes sent.
     sent: u64,
     questions: VecDeque<Question>,
-    /// When the last question was asked.
+    /// Time of the last question.
     asked: Option<Instant>,
-    /// When the last reply came, and the bytes that were sent before its question.
+    /// Time of the last question after a burst.
+    burst_asked: Option<Instant>,
+    /// Time of the last reply, and the number of bytes sent before its question.
     acknowledged: Option<(Instant, u64)>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Stage {
-    /// The round trip is to be measured, on an empty line.
+    /// The round trip must be measured on an empty line.
     Empty,
-    /// The rate is to be measured, whatever it was taken for.
+    /// The rate must be measured, regardless of the assumed one.
     Open,
-    /// The rate was raised: it is to be measured again.
+    /// The rate was raised and must be measured again.
     Raised,
     /// The rate is right.
     Settled,
@@ -83,32 +96,33 @@ enum Stage {
 struct Question {
     at: Instant,
     kind: Kind,
-    /// The bytes that the line had to take before it.
+    /// Number of bytes in the queue when it was sent.
     queue: f64,
-    /// The bytes that were sent before it.
+    /// Total number of bytes sent before it.
     sent: u64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// Behind nothing.
+    /// Sent on an empty line.
     Bare,
-    /// Behind a burst.
+    /// Sent after a burst.
     Burst,
-    /// Behind too few bytes to measure: only a late reply means anything.
+    /// Sent after too few bytes to measure: only a late reply is significant.
     Check,
 }
 
 impl Estimate {
-    /// Starts with a line of which nothing is known.
+    /// Starts with an unknown line.
     pub(super) fn new() -> Self {
         Self::of_slow(FIRST_RATE)
     }
 
-    /// Starts with a line that took so many bytes a second.
+    /// Starts with a line that accepted this many bytes per second.
     pub(super) fn of_slow(rate: u32) -> Self {
         Self {
             rate: rate.clamp(LEAST_RATE, MOST_RATE),
+            settled: None,
             round_trip: None,
             stage: Stage::Empty,
             queue: 0.0,
@@ -116,21 +130,22 @@ impl Estimate {
             sent: 0,
             questions: VecDeque::new(),
             asked: None,
+            burst_asked: None,
             acknowledged: None,
         }
     }
 
-    /// The bytes a second that the line takes.
+    /// The rate of the line, in bytes per second.
     pub(super) fn rate(&self) -> u32 {
         self.rate
     }
 
-    /// The bytes a second that pictures are given.
+    /// The rate available to pictures, in bytes per second.
     pub(super) fn pace(&self) -> u32 {
         (u64::from(self.rate) * u64::from(SHARE) / 100) as u32
     }
 
-    /// The bytes of picture that are sent at once; more where they are to be measured.
+    /// The number of bytes of picture to send at once; greater if the rate should be measured.
     pub(super) fn burst(&self, now: Option<Instant>) -> u64 {
         let measured = now.is_some_and(|now| self.wants_burst(now));
         let time = if measured { MEASURED_BURST } else { BURST };
@@ -151,7 +166,7 @@ impl Estimate {
         self.wants_burst(now) && self.is_telling(now) || self.wants_check(now)
     }
 
-    /// When the line is empty, if the round trip is to be measured then.
+    /// When the line will be empty, if the round trip should be measured then.
     pub(super) fn asks_at(&self) -> Option<Instant> {
         let is_wanted = self.stage == Stage::Empty && self.questions.is_empty();
         self.is_empty_at().filter(|_| is_wanted)
@@ -162,6 +177,7 @@ impl Estimate {
             self.stage = Stage::Open;
             Kind::Bare
         } else if self.is_telling(now) {
+            self.burst_asked = Some(now);
             Kind::Burst
         } else {
             Kind::Check
@@ -181,6 +197,11 @@ impl Estimate {
         };
         let time = at.saturating_duration_since(question.at);
         match (question.kind, self.round_trip) {
+            // Of two round trips that differ only by jitter, the shorter one is right: the longer
+            // one would make the next burst seem fast.
+            (Kind::Bare, Some(known)) if time.abs_diff(known) < SLACK => {
+                self.round_trip = Some(known.min(time));
+            }
             (Kind::Bare, _) | (_, None) => self.round_trip = Some(time),
             (kind, Some(round_trip)) => {
                 self.round_trip = Some(round_trip.min(time));
@@ -195,7 +216,7 @@ impl Estimate {
                 } else if kind == Kind::Burst {
                     self.judge(question, on_line);
                 } else if self.stage == Stage::Raised {
-                    // Nothing piles up at the present load.
+                    // There is no queue at the present load.
                     self.stage = Stage::Settled;
                 }
             }
@@ -203,7 +224,7 @@ impl Estimate {
         self.acknowledged = Some((at, question.sent));
     }
 
-    /// Until when pictures wait: for a reply that is late, and for the measure of an empty line.
+    /// Until when pictures must wait: for a late reply, or for the measurement on an empty line.
     pub(super) fn holds_until(&self, now: Instant) -> Option<Instant> {
         let round_trip = self.round_trip?;
         let Some(question) = self.questions.front() else {
@@ -220,7 +241,7 @@ impl Estimate {
             .map(|question| question.at + PATIENCE)
     }
 
-    /// Forgets what was asked; whether the terminal has ever replied.
+    /// Forgets the pending questions; returns whether the terminal has ever replied.
     pub(super) fn give_up(&mut self) -> bool {
         self.questions.clear();
         self.stage = Stage::Empty;
@@ -228,21 +249,26 @@ impl Estimate {
         self.round_trip.is_some()
     }
 
-    /// Takes the time that a burst was on its way, beyond the round trip.
+    /// Updates the rate from the transmission time of a burst, excluding the round trip.
     fn judge(&mut self, question: Question, time: Duration) {
         let expected = self.time_for(question.queue);
         let rate = f64::from(self.rate);
         let measured = question.queue / time.max(RESOLUTION).as_secs_f64();
         self.stage = if self.stage == Stage::Open || time < expected.mul_f64(0.7) {
-            self.set_rate(measured.clamp(rate / GROWTH, rate * GROWTH));
+            let most = match self.settled {
+                Some(settled) => f64::from(settled.max(self.rate)) * LATE_GROWTH,
+                None => rate * GROWTH,
+            };
+            self.set_rate(measured.clamp(rate / GROWTH, most));
             Stage::Raised
         } else {
+            self.settled = Some(self.rate);
             Stage::Settled
         };
     }
 
-    /// Handles a late reply: lowers the rate to what was delivered since the previous one, and has the
-    /// line measured again once it is empty.
+    /// Handles a late reply: lowers the rate to that delivered since the previous reply, and
+    /// requests a measurement once the line is empty.
     fn slow_down(&mut self, question: Question, at: Instant) {
         let delivered = self.acknowledged.map_or(0.0, |(before, sent)| {
             let time = at.saturating_duration_since(before).max(RESOLUTION);
@@ -250,19 +276,19 @@ impl Estimate {
         });
         let rate = f64::from(self.rate);
         self.set_rate(delivered.clamp(rate / GROWTH, rate));
-        // What was sent since is still on its way.
+        // Bytes sent since then are still in flight.
         self.queue = (self.sent - question.sent) as f64;
         self.as_of = Some(at);
         self.stage = Stage::Empty;
     }
 
-    /// Whether enough bytes are on the line to measure its rate.
+    /// Whether the queue is long enough to measure the rate.
     fn is_telling(&self, now: Instant) -> bool {
         TELLING <= self.time_for(self.queue_at(now))
     }
 
-    /// Whether to check that nothing piles up. That needs no burst: if the rate is overestimated, none
-    /// may ever be long enough to measure.
+    /// Whether to check that there is no queue. This needs no burst: if the rate is overestimated,
+    /// none may ever be long enough to measure.
     fn wants_check(&self, now: Instant) -> bool {
         let interval = match self.stage {
             Stage::Settled => INTERVAL,
@@ -276,12 +302,13 @@ impl Estimate {
     fn wants_burst(&self, now: Instant) -> bool {
         match self.stage {
             Stage::Empty => false,
-            // The first burst may follow the first question at once.
+            // The first burst may directly follow the first question.
             Stage::Open => self.questions.iter().all(|asked| asked.kind == Kind::Bare),
             Stage::Raised => self.questions.is_empty(),
             Stage::Settled => {
-                let is_due = |asked: Instant| INTERVAL <= now.saturating_duration_since(asked);
-                self.questions.is_empty() && self.asked.is_none_or(is_due)
+                let is_due =
+                    |asked: Instant| BURST_INTERVAL <= now.saturating_duration_since(asked);
+                self.questions.is_empty() && self.burst_asked.is_none_or(is_due)
             }
         }
     }
@@ -290,7 +317,7 @@ impl Estimate {
         self.rate = (rate as u32).clamp(LEAST_RATE, MOST_RATE);
     }
 
-    /// When the line has taken everything; `None` before anything was sent.
+    /// When the queue will be empty; `None` before anything was sent.
     fn is_empty_at(&self) -> Option<Instant> {
         self.as_of.map(|as_of| as_of + self.time_for(self.queue))
     }

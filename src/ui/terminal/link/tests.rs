@@ -1,4 +1,4 @@
-//! The bucket at a fixed rate, and lines that are measured, all in times of their own.
+//! The bucket at a fixed rate, and simulated lines that are measured.
 
 use super::*;
 
@@ -7,7 +7,7 @@ const fn ms(milliseconds: u64) -> Duration {
 }
 
 #[test]
-fn fills_at_the_rate_up_to_a_quarter_of_a_second() {
+fn the_bucket_fills_at_the_rate_up_to_a_quarter_of_a_second() {
     let start = Instant::now();
     let mut link = Link::new(Budget::Fixed(1000));
     assert_eq!(link.allowance(start), 250);
@@ -22,7 +22,7 @@ fn fills_at_the_rate_up_to_a_quarter_of_a_second() {
 }
 
 #[test]
-fn text_may_go_into_debt_and_pictures_wait_for_it() {
+fn text_may_cause_debt_that_pictures_wait_for() {
     let start = Instant::now();
     let mut link = Link::new(Budget::Fixed(1000));
     link.spent(1250, start);
@@ -42,7 +42,7 @@ fn a_picture_larger_than_the_bucket_waits_for_a_full_one() {
 }
 
 #[test]
-fn the_moment_named_is_never_too_early_for_an_odd_rate() {
+fn the_time_returned_is_never_too_early_for_an_odd_rate() {
     let start = Instant::now();
     for rate in [1, 3, 7, 999_983, u32::MAX] {
         let mut link = Link::new(Budget::Fixed(rate));
@@ -57,7 +57,7 @@ fn the_moment_named_is_never_too_early_for_an_odd_rate() {
 }
 
 #[test]
-fn nothing_and_zero_mean_no_limit() {
+fn local_and_zero_budgets_mean_no_limit() {
     let start = Instant::now();
     for limit in [Budget::Local, Budget::Fixed(0)] {
         let mut link = Link::new(limit);
@@ -68,7 +68,7 @@ fn nothing_and_zero_mean_no_limit() {
 }
 
 #[test]
-fn measures_the_last_second_only() {
+fn only_the_last_second_is_measured() {
     let start = Instant::now();
     let mut link = Link::new(Budget::Local);
     link.spent(10, start);
@@ -79,7 +79,7 @@ fn measures_the_last_second_only() {
 }
 
 #[test]
-fn the_environment_decides_what_can_be_measured() {
+fn the_environment_determines_what_can_be_measured() {
     for (variables, budget) in [
         (&[("TERM", "xterm")][..], Budget::Local),
         (&[("SSH_TTY", "")], Budget::Local),
@@ -103,33 +103,33 @@ fn the_environment_decides_what_can_be_measured() {
     }
 }
 
-/// A line that takes so many bytes a second, with so many milliseconds from end to end and back.
+/// A line with its rate in bytes per second and its round trip in milliseconds.
 #[derive(Clone, Copy, Debug)]
 struct Line {
     rate: u32,
     round_trip: u64,
-    /// The most that a reply is late, in milliseconds.
+    /// Maximum delay of a reply, in milliseconds.
     jitter: u64,
-    /// How late the first reply is, in milliseconds.
+    /// Delay of the first reply, in milliseconds.
     start: u64,
-    /// The bytes of the picture that replaces the last one every 400 ms.
+    /// Size in bytes of the picture that replaces the previous one every 400 ms.
     picture: usize,
 }
 
-/// What came of a minute of pictures and keys.
+/// Result of a minute of pictures and keys.
 struct Minute {
-    /// The delays of the answers to keys, beyond the round trip, from the least.
+    /// Delays of the answers to keys, excluding the round trip, in ascending order.
     delays: Vec<Duration>,
-    /// The bytes of picture.
+    /// Bytes of picture sent.
     pictures: usize,
     questions: usize,
 }
 
-/// What a key's answer takes.
+/// Size of the answer to a key, in bytes.
 const ANSWER: usize = 300;
 
-/// Runs pictures over a line of a budget, with a key every 210 ms, as a session does: it
-/// asks after it has sent something, and when [`Link::asks_at`] has come. The first second is not
+/// Sends pictures over a line within a budget, with a key every 210 ms, like a session: requests a
+/// reply after sending something and when [`Link::asks_at`] is due. The first second is not
 /// counted.
 fn minute(budget: Budget, line: Line) -> Minute {
     let start = Instant::now();
@@ -140,7 +140,7 @@ fn minute(budget: Budget, line: Line) -> Minute {
         pictures: 0,
         questions: 0,
     };
-    // When the line has taken everything, and when replies come.
+    // When the line is free again, and when replies arrive.
     let mut free = start;
     let mut replies = VecDeque::new();
     let mut jitter = 0;
@@ -203,6 +203,10 @@ fn answers_to_keys_wait_for_few_bytes_of_pictures() {
     for (rate, round_trip, jitter, start, picture) in [
         (40_000, 50, 0, 0, ENDLESS),
         (40_000, 50, 0, 70, 50_000),
+        (40_000, 50, 35, 0, 50_000),
+        (40_000, 50, 45, 0, 50_000),
+        (40_000, 200, 45, 0, 50_000),
+        (40_000, 200, 80, 0, 50_000),
         (40_000, 200, 0, 0, ENDLESS),
         (40_000, 200, 15, 0, 50_000),
         (40_000, 200, 15, 300, 50_000),
@@ -225,7 +229,7 @@ fn answers_to_keys_wait_for_few_bytes_of_pictures() {
         let minute = minute(Budget::Measured, line);
         let p95 = minute.delays[minute.delays.len() * 95 / 100];
         assert!(p95 <= ms(50), "{line:?}: {p95:?}");
-        // Half of what the line takes, of what there is, or of what it is ever given.
+        // Half of the line's rate, of the picture data, or of the maximum rate.
         let least = (rate as usize * 60 / 2)
             .min(60_000_000)
             .min(picture.saturating_mul(150) / 2);

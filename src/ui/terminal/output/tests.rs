@@ -1,4 +1,4 @@
-//! The output on a socket that is read, that is not, and that is gone.
+//! The output to a socket that is read, not read, or closed.
 
 use std::io::{ErrorKind, Read};
 use std::os::unix::net::UnixStream;
@@ -7,12 +7,12 @@ use std::time::Duration;
 
 use super::*;
 
-/// More than any socket takes.
+/// More bytes than any socket buffers.
 const MUCH: usize = 4 << 20;
 
 const WATCHDOG: Duration = Duration::from_secs(30);
 
-/// An output, the end that may be read, and a notice of each time that it is clear.
+/// An output, its readable end, and a receiver of a notice each time that everything was written.
 fn output() -> (Output, UnixStream, Receiver<()>) {
     let (ours, theirs) = UnixStream::pair().expect("sockets");
     ours.set_nonblocking(true).expect("it can be");
@@ -28,7 +28,7 @@ fn frame(byte: u8, length: usize) -> Vec<u8> {
 }
 
 #[test]
-fn what_is_taken_at_once_needs_no_thread() {
+fn bytes_accepted_at_once_need_no_thread() {
     let (output, mut reader, notices) = output();
     output.send(b"abc").expect("it takes bytes");
     assert!(output.is_clear());
@@ -39,7 +39,7 @@ fn what_is_taken_at_once_needs_no_thread() {
 }
 
 #[test]
-fn what_is_not_taken_follows_in_order() {
+fn pending_bytes_follow_in_order() {
     let (output, mut reader, notices) = output();
     output.send(&frame(b'a', MUCH)).expect("it waits");
     assert!(!output.is_clear());
@@ -52,7 +52,7 @@ fn what_is_not_taken_follows_in_order() {
 }
 
 #[test]
-fn the_last_bytes_take_the_place_of_those_that_wait() {
+fn the_last_bytes_replace_those_that_are_pending() {
     let (output, mut reader, _) = output();
     output.send(&frame(b'a', MUCH)).expect("it waits");
     let read = thread::spawn(move || {
@@ -69,7 +69,7 @@ fn the_last_bytes_take_the_place_of_those_that_wait() {
 }
 
 #[test]
-fn the_last_bytes_wait_no_longer_than_they_may() {
+fn the_last_bytes_wait_only_until_the_deadline() {
     let (output, _reader, _) = output();
     output.send(&frame(b'a', MUCH)).expect("it waits");
     let late = output.send_last(b"end", Instant::now());
@@ -77,7 +77,7 @@ fn the_last_bytes_wait_no_longer_than_they_may() {
 }
 
 #[test]
-fn an_end_that_is_gone_is_an_error() {
+fn a_closed_end_is_an_error() {
     let (output, reader, notices) = output();
     output.send(&frame(b'a', MUCH)).expect("it waits");
     drop(reader);

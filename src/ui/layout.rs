@@ -1,57 +1,57 @@
-//! Where things are on the screen: used by drawing, by the mouse and for the preview's size, so
-//! that the three can't disagree.
+//! The layout of the screen, shared by drawing, the mouse and the size of the preview so that all
+//! three agree.
 //!
-//! Everything here is arithmetic on rectangles; it holds for any size from 0×0 up.
+//! Everything here is arithmetic on rectangles and is valid for any size from 0×0.
 
 use ratatui::layout::{Position, Rect};
 
 use crate::scene::Size;
 
-/// How much of the screen the picture takes.
+/// Share of the screen that the picture takes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Zoom {
     /// The picture beside the list and the fields.
     #[default]
     Panels,
-    /// The picture alone.
+    /// Only the picture.
     Picture,
 }
 
-/// The lines that explain a field where there is room for them.
+/// Number of lines that explain a field if there is room.
 const NOTES: u16 = 4;
-/// The least height of fields and notes at which there is.
+/// Minimum height of fields and notes together for the notes to be shown.
 const ROOMY: u16 = 12;
 
-/// Where each panel is; a panel for which there is no room has an empty area.
+/// The area of each panel; empty for a panel that does not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Areas {
-    /// The picture with the margins around it.
+    /// The picture with its margins.
     pub picture: Rect,
     /// The line between the picture and the panels.
     pub rule: Rect,
-    /// The list, its title line first.
+    /// The list, starting with its title line.
     pub list: Rect,
-    /// The fields, their title line first.
+    /// The fields, starting with their title line.
     pub fields: Rect,
-    /// The errors, over the lower part of the picture, so that the picture keeps its size when
-    /// they come and go.
+    /// The errors, over the lower part of the picture so that the picture keeps its size when they
+    /// appear and disappear.
     pub errors: Rect,
-    /// The line of keys.
+    /// The line of key hints.
     pub hint: Rect,
-    /// The line at the bottom.
+    /// The status line at the bottom.
     pub status: Rect,
 }
 
-/// The least width and height, in cells, of the picture with the panels beside it.
+/// Minimum size, in cells, for panels beside the picture.
 const FULL: (u16, u16) = (80, 24);
-/// The least size of the picture with the panels below it, and with a line of keys.
+/// Minimum size for panels below the picture, and for a line of hints.
 const STACKED: (u16, u16) = (40, 16);
-/// The least size of anything but a notice.
+/// Minimum size for anything other than a notice.
 pub const LEAST: (u16, u16) = (20, 6);
 
-/// Divides the screen. All areas are inside `area` and disjoint, except for the errors; below
-/// [`LEAST`] all are empty. `fields` is how many the selected thing has: beside the picture, what
-/// they don't need is the list's.
+/// Divides the screen. All areas lie inside `area` and are disjoint, except for the errors; below
+/// [`LEAST`] all are empty. `fields` is the number of fields of the selected node: beside the
+/// picture, the list gets the lines that they do not need.
 pub fn arrange(area: Rect, zoom: Zoom, fields: usize) -> Areas {
     let fits = |(width, height)| width <= area.width && height <= area.height;
     if !fits(LEAST) {
@@ -77,12 +77,12 @@ pub fn arrange(area: Rect, zoom: Zoom, fields: usize) -> Areas {
     }
 }
 
-/// The picture at the left, the list over the fields at the right.
+/// Places the picture on the left, and the list above the fields on the right.
 fn side_by_side(bars: Areas, fields: usize) -> Areas {
     let body = bars.picture;
     let (left, panels) = split_right(body, (body.width * 3 / 10).clamp(35, 44));
     let (picture, rule) = split_right(left, 1);
-    // Things of few fields share one height, so that the list seldom moves with the cursor.
+    // Small field counts share one height, so that the list seldom moves with the cursor.
     let wanted = u16::try_from(fields).unwrap_or(u16::MAX);
     let wanted = wanted.saturating_add(1 + NOTES).max(1 + ROOMY);
     let (list, fields) = split_bottom(panels, wanted.min((body.height * 2 / 3).max(15)));
@@ -95,7 +95,7 @@ fn side_by_side(bars: Areas, fields: usize) -> Areas {
     }
 }
 
-/// The picture over the list and the fields.
+/// Places the picture above the list and the fields.
 fn stacked(bars: Areas) -> Areas {
     let body = bars.picture;
     let (upper, panels) = split_bottom(body, (body.height / 2).clamp(7, 22));
@@ -111,8 +111,9 @@ fn stacked(bars: Areas) -> Areas {
     }
 }
 
-/// The largest picture of `output`'s aspect inside `area` at two pixels a cell, one above the
-/// other: the cells it takes, centred, and its size in pixels. `None` where there is no cell.
+/// Returns the largest picture with the aspect ratio of `output` inside `area`, at two pixels per
+/// cell, one above the other: its cells, centred, and its size in pixels. `None` if there is no
+/// cell.
 pub fn raster(area: Rect, output: Size) -> Option<(Rect, Size)> {
     if area.is_empty() || output.pixels() == 0 {
         return None;
@@ -132,15 +133,15 @@ pub fn raster(area: Rect, output: Size) -> Option<(Rect, Size)> {
     Some((centred(area, cells), size))
 }
 
-/// The pixel, in a frame of `size`, under the upper half of a cell: the one that is picked by
-/// clicking there. The frame is shown over the cells and pixels that [`raster`] gave.
+/// Returns the pixel, in a frame of `size`, under the upper half of a cell, which a click there
+/// picks. The frame is shown over the cells and pixels returned by [`raster`].
 pub fn pixel_at(raster: (Rect, Size), size: Size, column: u16, row: u16) -> Option<(u32, u32)> {
     let (cells, shown) = raster;
     if !cells.contains(Position::new(column, row)) || size.pixels() == 0 {
         return None;
     }
     let scaled = |at: u32, shown: u32, pixels: u32| {
-        // The centre of a shown pixel lies in this pixel of the frame.
+        // The pixel of the frame that contains the centre of the shown pixel.
         let pixel = (2 * u64::from(at) + 1) * u64::from(pixels) / (2 * u64::from(shown.max(1)));
         pixel.min(u64::from(pixels) - 1) as u32
     };
@@ -151,8 +152,8 @@ pub fn pixel_at(raster: (Rect, Size), size: Size, column: u16, row: u16) -> Opti
     ))
 }
 
-/// The first line of a list shown, so that line `at` is among the `rows` shown, with two lines of
-/// context where there is room for them, and the list moves no further from `top` than it must.
+/// Returns the first line to show so that line `at` is among the `rows` visible lines, with two
+/// lines of context if there is room, scrolling as little as possible from `top`.
 pub fn first_shown(top: usize, at: usize, count: usize, rows: usize) -> usize {
     let context = (rows.saturating_sub(1) / 2).min(2);
     let lowest = (at + context + 1).saturating_sub(rows);
@@ -171,8 +172,8 @@ pub fn contents(panel: Rect) -> Rect {
     }
 }
 
-/// The line of the list under a cell, when `first` is the first one shown. The caller checks that
-/// there is such a line.
+/// Returns the list line under a cell, if `first` is the first one shown. The caller checks that
+/// the line exists.
 pub fn list_row_at(list: Rect, first: usize, column: u16, row: u16) -> Option<usize> {
     let lines = contents(list);
     lines
@@ -180,26 +181,26 @@ pub fn list_row_at(list: Rect, first: usize, column: u16, row: u16) -> Option<us
         .then(|| first + usize::from(row - lines.y))
 }
 
-/// The lines in which fields are shown.
+/// The lines that show fields.
 pub fn field_rows(fields: Rect) -> Rect {
     split_fields(fields).0
 }
 
-/// The lines below the fields, which explain the selected one.
+/// The lines below the fields that explain the selected one.
 pub fn field_notes(fields: Rect) -> Rect {
     split_fields(fields).1
 }
 
-/// The cells of a field's name, two for a sign and a gap at its end included, and of each of its
+/// The cells of a field's name, including two for a sign and a gap at its end, and of each of its
 /// components in a line of the fields panel.
 pub fn field_columns(line: Rect, components: usize) -> (Rect, Vec<Rect>) {
     let widest = if line.width < 42 { 11 } else { 13 };
     let key = (line.width / 3).clamp(6, widest).min(line.width);
-    // What three equal columns leave over makes room for a longer name.
+    // The remainder of three equal columns widens the name.
     let key = (key + (line.width - key) % 3).min(widest);
     let numbers = line.width - key;
     let name = Rect { width: key, ..line };
-    // Two components are as wide as two of three, so that numbers stand in columns.
+    // Two components are as wide as two of three, so that numbers align in columns.
     let each = match components {
         0 | 1 => numbers,
         several => numbers / several.max(3) as u16,
@@ -214,8 +215,8 @@ pub fn field_columns(line: Rect, components: usize) -> (Rect, Vec<Rect>) {
     (name, columns)
 }
 
-/// The field and component under a cell, when `first` is the first field shown and `components`
-/// says how many each has. The field's name counts as its first component.
+/// Returns the field and component under a cell, if `first` is the first field shown. `components`
+/// gives the number of components of each field. The name of a field counts as its first component.
 pub fn field_at(
     fields: Rect,
     first: usize,
@@ -238,7 +239,7 @@ pub fn field_at(
     Some((field, component.unwrap_or(0)))
 }
 
-/// A rectangle of `size`'s width and height in the middle of `area`, cut to it.
+/// A rectangle with the width and height of `size`, centred in `area` and clipped to it.
 pub fn centred(area: Rect, size: Rect) -> Rect {
     let (width, height) = (size.width.min(area.width), size.height.min(area.height));
     Rect {
@@ -249,7 +250,7 @@ pub fn centred(area: Rect, size: Rect) -> Rect {
     }
 }
 
-/// The part above and the `lines` lines at the bottom, fewer where there are not so many.
+/// Splits off the `lines` lines at the bottom, or fewer if the area has fewer.
 pub fn split_bottom(area: Rect, lines: u16) -> (Rect, Rect) {
     let lower = lines.min(area.height);
     let upper = area.height - lower;
@@ -310,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn panels_appear_as_there_is_room_for_them() {
+    fn panels_appear_as_space_permits() {
         let check = |width, height, panels: &str| {
             let areas = screen(width, height);
             let named = [
@@ -337,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn wide_screens_have_the_panels_beside_the_picture_narrow_ones_below() {
+    fn panels_are_beside_the_picture_on_wide_screens_and_below_it_on_narrow_ones() {
         let wide = screen(80, 24);
         assert!(wide.picture.right() < wide.list.x && wide.list.bottom() == wide.fields.y);
         let narrow = screen(79, 24);
@@ -345,12 +346,13 @@ mod tests {
     }
 
     #[test]
-    fn the_list_has_what_the_fields_leave() {
+    fn the_list_gets_the_lines_that_fields_do_not_need() {
         let heights = |height, fields| {
             let areas = arrange(Rect::new(0, 0, 120, height), Zoom::Panels, fields);
             (areas.list.height, areas.fields.height)
         };
-        // Two lines of sixty are the bars. A title, the fields and four lines of notes.
+        // Two of sixty lines are bars; the fields take a title, their lines and four lines of
+        // notes.
         assert_eq!(heights(60, 14), (39, 19));
         assert_eq!(heights(60, 10), (43, 15));
         assert_eq!(heights(60, 1), heights(60, 2));
@@ -377,7 +379,7 @@ mod tests {
         }
 
         #[test]
-        fn a_raster_fills_one_side_and_keeps_the_aspect(
+        fn a_raster_touches_two_sides_and_keeps_the_aspect_ratio(
             columns in 1u16..300, rows in 1u16..100, width in 1u32..100_000, height in 1u32..100_000
         ) {
             let area = Rect::new(3, 2, columns, rows);
@@ -393,7 +395,7 @@ mod tests {
         }
 
         #[test]
-        fn the_selected_line_is_always_shown(
+        fn the_selected_line_is_always_visible(
             top in 0usize..40, at in 0usize..30, count in 1usize..30, rows in 1usize..12
         ) {
             let at = at.min(count - 1);
@@ -421,7 +423,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cell_picks_its_upper_pixel_or_that_of_a_larger_picture() {
+    fn a_cell_picks_the_pixel_under_its_upper_half() {
         let cells = Rect::new(10, 5, 4, 3);
         let pick = |shown, pixels, column, row| pixel_at((cells, shown), pixels, column, row);
         let even = size(4, 6);

@@ -1,18 +1,17 @@
-//! The few styles everything is drawn in.
+//! The few styles of the interface.
 //!
-//! Colours are the terminal's own sixteen where it can be, so that they fit the user's theme. Each
-//! meaning also has a sign or a modifier: nothing is shown by colour alone.
+//! They use the terminal's own sixteen colours where possible, so that they match the user's theme.
+//! Each meaning also has a sign or a modifier: nothing depends on colour alone.
 
 use ratatui::style::{Color, Modifier, Style};
 
 use crate::scene::Rgb;
 use crate::text::Severity;
 
-/// What the eye should find first: keys, the cursor, titles of the panel in use.
+/// The most prominent style: keys, the cursor, the title of the focused panel.
 pub(crate) const ACCENT: Style = Style::new().fg(Color::Cyan);
 
-/// What may be overlooked: explanations, units, defaults. A grey that is legible on black and on
-/// white.
+/// Secondary text: explanations, units, defaults. A grey that is legible on black and on white.
 pub(crate) const DIM: Style = Style::new().fg(Color::Indexed(245));
 
 /// Titles.
@@ -21,7 +20,7 @@ pub(crate) const BOLD: Style = Style::new().add_modifier(Modifier::BOLD);
 /// Success.
 pub(crate) const GOOD: Style = Style::new().fg(Color::Green);
 
-/// Warnings, and what is not saved.
+/// Warnings and unsaved changes.
 pub(crate) const WARNING: Style = Style::new().fg(Color::Yellow);
 
 /// Errors.
@@ -30,11 +29,11 @@ pub(crate) const ERROR: Style = Style::new().fg(Color::Red);
 /// The character under a cursor.
 pub(crate) const CURSOR: Style = Style::new().add_modifier(Modifier::REVERSED);
 
-/// Where the selected object meets others in the picture; far from most scenes' colours.
+/// The outline of the selected object in the picture; unlike the colours of most scenes.
 pub(crate) const OUTLINE: [u8; 3] = [255, 140, 0];
 
-/// The style of a chip: a style's colour behind the text, or plain reverse video without colours.
-/// It hides the colours of what it is drawn over.
+/// The style of a chip: the colour of a style as background, or plain reverse video without
+/// colours. Replaces the colours of the cells below it.
 pub(crate) const fn chip(style: Style) -> Style {
     style
         .bg(Color::Reset)
@@ -42,7 +41,7 @@ pub(crate) const fn chip(style: Style) -> Style {
         .add_modifier(Modifier::BOLD)
 }
 
-/// The style of a message; `None` is success.
+/// The style of a message; `None` means success.
 pub(crate) const fn severity(severity: Option<Severity>) -> Style {
     match severity {
         None => GOOD,
@@ -51,11 +50,11 @@ pub(crate) const fn severity(severity: Option<Severity>) -> Style {
     }
 }
 
-/// The least that the brightest channel of a swatch has: below, a dot is lost on a dark screen.
+/// Minimum value of the brightest channel of a swatch; a darker dot is lost on a dark screen.
 const LEAST_BRIGHT: f64 = 0.4;
 
-/// The style of a sign that shows a colour of the scene: clamped to what can be shown, and a dark
-/// one brightened without a change of hue.
+/// The style of a dot in a colour of the scene, clamped to the displayable range. Dark colours are
+/// brightened without changing their hue.
 pub(crate) fn swatch(colour: Rgb) -> Style {
     let shown = colour.to_array().map(|channel| channel.clamp(0.0, 1.0));
     let brightest = shown.into_iter().fold(0.0, f64::max);
@@ -74,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn dark_swatches_are_lifted_and_keep_their_hue() {
+    fn dark_swatches_are_brightened_and_keep_their_hue() {
         let check = |colour: [f64; 3], shown: [u8; 3]| {
             let [red, green, blue] = shown;
             let style = swatch(Rgb::new(colour[0], colour[1], colour[2]));

@@ -1,0 +1,227 @@
+//! The answers of a `.dat` text.
+
+use super::origins::{ObjectPlace, Place, place};
+use super::table::ObjectKind;
+use super::tree::{is_comment, leaves};
+use super::{Source, lower, room, view, visibility};
+use crate::language::node::{FileKind, object_at, place_of};
+use crate::language::table::{Category, Field, Kind};
+use crate::language::view::Numbers;
+use crate::language::words::skip_white_space;
+use crate::language::{Answers, Lowered, NamedFile, Node, Nodes, Placed, Visibility};
+use crate::memory::OutOfMemory;
+use crate::scene::{Camera, Meshes};
+use crate::text::{Edit, Span, line_start};
+
+impl Answers for Source {
+    fn lower(&mut self, _: &Meshes) -> Result<Lowered, OutOfMemory> {
+        let fits = room::fits(&self.tree);
+        let found = fits.map(|()| lower::lower(&self.text, &self.tree));
+        self.settle(found)
+    }
+
+    fn leaves(&self) -> Vec<Span> {
+        leaves(&self.text)
+    }
+
+    fn nodes(&self) -> Nodes {
+        Nodes {
+            view: true,
+            lights: self.origins.lights.len(),
+            materials: self.origins.materials.len(),
+            textures: self.origins.textures.len(),
+            objects: self.origins.objects.len(),
+            ..Nodes::default()
+        }
+    }
+
+    fn name(&self, node: Node) -> String {
+        let id = |places: &[Place], index: usize| {
+            places
+                .get(index)
+                .map_or_else(|| "?".to_owned(), |at| at.id.to_string())
+        };
+        match node {
+            Node::View => "view".to_owned(),
+            Node::Ambient => "ambient".to_owned(),
+            Node::Background => "background".to_owned(),
+            Node::Environment => "environment".to_owned(),
+            Node::Light(index) => format!("light {}", id(&self.origins.lights, index)),
+            Node::Material(index) => format!("material {}", id(&self.origins.materials, index)),
+            Node::Texture(index) => format!("texture {}", id(&self.origins.textures, index)),
+            Node::Object(index) => match self.origins.objects.get(index) {
+                Some(object) => format!("object {} ({})", object.id, object.kind.keyword()),
+                None => "object ?".to_owned(),
+            },
+        }
+    }
+
+    fn fields(&self, node: Node) -> Vec<Placed> {
+        if node == Node::View {
+            return self.origins.view_fields(&self.text, &self.tree);
+        }
+        let cuts = match node {
+            Node::Object(index) => self
+                .origins
+                .objects
+                .get(index)
+                .map_or(0, |object| object.cuts),
+            _ => 0,
+        };
+        self.origins
+            .records(node)
+            .flat_map(|(record, kind)| place(self.tree.tokens_of(&self.text, record), kind, cuts))
+            .collect()
+    }
+
+    fn span(&self, node: Node) -> Span {
+        let first = self.origins.records(node).next();
+        first.map_or_else(|| Span::at(0), |(record, _)| self.tree.span_of(record))
+    }
+
+    fn comment(&self, node: Node) -> Option<&str> {
+        let own = self.span(node);
+        let before = self.text[..own.start()].trim_end_matches([' ', '\t']);
+        let line = line_start(before, before.len().checked_sub(1)?);
+        let line = before[skip_white_space(before.as_bytes(), line)..].trim_end();
+        let said = line.trim_start_matches(['#', '/']).trim();
+        (is_comment(line) && !said.is_empty() && node != Node::View).then_some(said)
+    }
+
+    fn node_at(&self, span: Span) -> Option<Node> {
+        self.tree
+            .records_at(span)
+            .find_map(|at| self.origins.node_of(at))
+    }
+
+    fn nodes_in(&self, span: Span) -> Vec<Node> {
+        let covered = |&at: &usize| {
+            let record = self.tree.span_of(at);
+            record.start() < span.end() && span.start() < record.end()
+        };
+        let records = self.tree.records_at(span).filter(covered);
+        let mut nodes: Vec<_> = records.filter_map(|at| self.origins.node_of(at)).collect();
+        nodes.dedup();
+        nodes
+    }
+
+    fn parts(&self, object: usize, limit: usize) -> Vec<(usize, Node)> {
+        let mut parts = Vec::new();
+        let mut pending = vec![(0, object)];
+        while let Some((depth, object)) = pending.pop() {
+            if parts.len() == limit {
+                break;
+            }
+            parts.push((depth, Node::Object(object)));
+            let operands = self
+                .origins
+                .objects
+                .get(object)
+                .and_then(|object| object.operands);
+            if let Some([first, second]) = operands {
+                pending.extend([(depth + 1, second), (depth + 1, first)]);
+            }
+        }
+        parts
+    }
+
+    fn operation(&self, object: usize) -> Option<&str> {
+        let kind = self.origins.objects.get(object)?.kind;
+        let fields = self.fields(Node::Object(object));
+        let word = fields.first().filter(|_| kind == ObjectKind::Csg)?;
+        Some(word.spans.first()?.of(&self.text))
+    }
+
+    fn identities(&self, node: Node, category: Category) -> Vec<i64> {
+        let records = self.origins.records(node).map(|(record, _)| record);
+        let Some(record) = records.max() else {
+            return Vec::new();
+        };
+        let of = |places: &[Place]| places.iter().map(|at| (at.record, at.id)).collect();
+        let given: Vec<_> = match category {
+            Category::Light => of(&self.origins.lights),
+            Category::Material => of(&self.origins.materials),
+            Category::Texture => of(&self.origins.textures),
+            Category::Object => self
+                .origins
+                .objects
+                .iter()
+                .map(|at| (at.record, at.id))
+                .collect(),
+        };
+        let before = given.into_iter().filter(|&(at, _)| at < record);
+        let mut identities: Vec<_> = before.map(|(_, id)| id).collect();
+        identities.sort_unstable();
+        identities
+    }
+
+    fn files(&self) -> Vec<NamedFile> {
+        let places = self.origins.textures.iter().enumerate();
+        let file = |(index, at): (usize, &Place)| {
+            let fields = place(self.tree.tokens_of(&self.text, at.record), at.kind, 0);
+            let word = fields.iter().find(|said| said.field.kind == Kind::Word)?;
+            let span = *word.spans.first()?;
+            Some(NamedFile {
+                path: span.of(&self.text).to_owned(),
+                kind: FileKind::Picture,
+                span,
+                what: format!("{} {}", self.name(Node::Texture(index)), word.field.key),
+            })
+        };
+        places.filter_map(file).collect()
+    }
+
+    fn users(&self, node: Node) -> usize {
+        let of_material = |material: usize| {
+            let uses = |object: &&ObjectPlace| object.material == Some(material);
+            self.origins.objects.iter().filter(uses).count()
+        };
+        match node {
+            Node::Material(material) => of_material(material),
+            Node::Texture(texture) => {
+                let uses = self.origins.uses.iter().filter(|at| at.texture == texture);
+                let mut materials: Vec<_> = uses.map(|at| at.material).collect();
+                materials.sort_unstable();
+                materials.dedup();
+                materials.into_iter().map(of_material).sum()
+            }
+            _ => 0,
+        }
+    }
+
+    fn drawn(&self, object: usize) -> Option<u32> {
+        place_of(&self.origins.drawn, object)
+    }
+
+    fn object(&self, drawn: u32) -> usize {
+        object_at(&self.origins.drawn, drawn)
+    }
+
+    fn material(&self, object: usize) -> Option<usize> {
+        self.origins.objects.get(object)?.material
+    }
+
+    fn visibility_edits(
+        &self,
+        object: usize,
+        wanted: Visibility,
+    ) -> Result<Vec<Edit>, &'static str> {
+        visibility::edits(&self.text, &self.tree, &self.origins, object, wanted)
+    }
+
+    fn view_fields(&self) -> Vec<&'static Field> {
+        view::fields().collect()
+    }
+
+    fn view_numbers(&self, camera: &Camera) -> Numbers {
+        view::numbers(camera, &self.origins)
+    }
+
+    fn view_camera(&self, numbers: &Numbers, base: &Camera) -> Camera {
+        view::camera(numbers, base, &self.origins)
+    }
+
+    fn view_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit> {
+        view::edits(&self.text, &self.tree, &self.origins, before, camera)
+    }
+}

@@ -1,0 +1,174 @@
+//! The answers of a `.ray` text.
+
+use super::origins::hand_out;
+use super::table::{AMBIENT, LIGHT};
+use super::tree::comment_of_line;
+use super::{Source, again, lower, room, view};
+use crate::language::report::Name;
+use crate::language::table::{self, Field};
+use crate::language::view::Numbers;
+use crate::language::{Answers, Before, Lowered, Node, Nodes, Placed};
+use crate::memory::OutOfMemory;
+use crate::scene::{Camera, Meshes};
+use crate::text::{Edit, Span};
+
+impl Answers for Source {
+    fn lower(&mut self, _: &Meshes) -> Result<Lowered, OutOfMemory> {
+        let fits = room::fits(&self.text, &self.tree);
+        let found = fits.map(|()| lower::lower(&self.text, &self.tree));
+        self.settle(found)
+    }
+
+    fn lower_again(
+        &mut self,
+        meshes: &Meshes,
+        before: Before<'_>,
+        spans: [Span; 2],
+    ) -> Result<Lowered, OutOfMemory> {
+        match again::lower(&self.text, &self.tree, &self.origins, &before, spans) {
+            Some(found) => self.settle(Ok(found)),
+            None => self.lower(meshes),
+        }
+    }
+
+    fn leaves(&self) -> Vec<Span> {
+        self.tree.leaves(&self.text)
+    }
+
+    fn nodes(&self) -> Nodes {
+        let origins = &self.origins;
+        Nodes {
+            view: true,
+            ambient: origins.ambient == table::numbers(AMBIENT),
+            lights: origins.light_count(),
+            objects: origins.objects.len(),
+            ..Nodes::default()
+        }
+    }
+
+    fn name(&self, node: Node) -> String {
+        match node {
+            Node::View => Name::View.to_string(),
+            Node::Ambient => Name::Ambient.to_string(),
+            Node::Light(index) => Name::Light(index).to_string(),
+            Node::Object(index) => match self.origins.objects.get(index) {
+                Some(object) => Name::Object(index, object.kind.keyword()).to_string(),
+                None => format!("object {}", index + 1),
+            },
+            Node::Material(index) => format!("material {}", index + 1),
+            Node::Texture(index) => format!("texture {}", index + 1),
+            Node::Background => "background".to_owned(),
+            Node::Environment => "environment".to_owned(),
+        }
+    }
+
+    fn fields(&self, node: Node) -> Vec<Placed> {
+        let origins = &self.origins;
+        let tokens = &origins.numbers(&self.tree, node);
+        match node {
+            Node::View => origins.view_fields(),
+            Node::Ambient => hand_out(tokens, AMBIENT.iter()),
+            Node::Light(_) => hand_out(tokens, LIGHT.iter()),
+            Node::Object(index) => origins
+                .objects
+                .get(index)
+                .map(|object| hand_out(tokens, object.kind.fields()))
+                .unwrap_or_default(),
+            Node::Material(_) | Node::Texture(_) | Node::Background | Node::Environment => {
+                Vec::new()
+            }
+        }
+    }
+
+    fn span(&self, node: Node) -> Span {
+        let (origins, tree) = (&self.origins, &self.tree);
+        let keyword = match node {
+            Node::View => origins.view.map(|view| view.comment),
+            Node::Object(index) => origins
+                .objects
+                .get(index)
+                .and_then(|object| tree.tokens.get(object.token as usize)),
+            _ => None,
+        };
+        let numbers = origins.numbers(tree, node);
+        let first = keyword.or_else(|| numbers.first().copied());
+        first.map_or_else(
+            || Span::at(0),
+            |first| numbers.last().map_or(first, |&last| first.to(last)),
+        )
+    }
+
+    fn comment(&self, node: Node) -> Option<&str> {
+        let (text, tree) = (&*self.text, &self.tree);
+        let own = self.span(node);
+        if node == Node::View || own.is_empty() {
+            return None;
+        }
+        let behind = |from: usize| {
+            let comment = comment_of_line(text, from)?;
+            let before = tree
+                .tokens
+                .partition_point(|token| token.end() <= comment.start());
+            let token = tree.tokens.get(before.checked_sub(1)?)?;
+            let follows = own.start() <= token.start() && token.end() <= own.end();
+            let is_view = self
+                .origins
+                .view
+                .is_some_and(|view| view.comment == comment);
+            let said = comment.of(text)[2..].trim();
+            (follows && !said.is_empty() && !is_view).then_some(said)
+        };
+        behind(own.start()).or_else(|| behind(own.end()))
+    }
+
+    fn node_at(&self, span: Span) -> Option<Node> {
+        let (origins, tree) = (&self.origins, &self.tree);
+        let comment = origins.view.map(|view| view.comment);
+        let holds = |comment: Span| comment.start() < span.end() && span.start() < comment.end();
+        if comment.is_some_and(holds) {
+            return Some(Node::View);
+        }
+        let from = tree
+            .tokens
+            .partition_point(|token| token.end() < span.start());
+        let touches = |&at: &usize| {
+            let token = tree.tokens.get(at);
+            token.is_some_and(|token| token.touches(span))
+        };
+        let mut touched = (from..).take_while(touches);
+        touched
+            .find_map(|at| origins.node_of_token(at))
+            .or_else(|| comment?.touches(span).then_some(Node::View))
+            .or_else(|| {
+                // Between two tokens, it is in a node's text only if both belong to that node.
+                let before = origins.node_of_token(from.checked_sub(1)?)?;
+                (origins.node_of_token(from) == Some(before)).then_some(before)
+            })
+    }
+
+    fn nodes_in(&self, span: Span) -> Vec<Node> {
+        let nodes = self.nodes();
+        // The view comment may be anywhere.
+        let is_view = |node| node == Node::View;
+        let ends_before = |node| is_view(node) || self.span(node).end() <= span.start();
+        let begins_before = |node| is_view(node) || self.span(node).start() < span.end();
+        let rows = nodes.partition_point(ends_before)..nodes.partition_point(begins_before);
+        rows.filter_map(|row| nodes.get(row)).collect()
+    }
+
+    fn view_fields(&self) -> Vec<&'static Field> {
+        view::fields().collect()
+    }
+
+    fn view_numbers(&self, camera: &Camera) -> Numbers {
+        view::numbers(camera)
+    }
+
+    fn view_camera(&self, numbers: &Numbers, _: &Camera) -> Camera {
+        view::camera(numbers)
+    }
+
+    fn view_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit> {
+        view::edits(&self.text, &self.origins, before, camera)
+    }
+}

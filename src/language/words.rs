@@ -1,0 +1,113 @@
+//! Words separated by white space: ASCII white space, the no-break space and the byte order mark.
+
+use crate::text::{Span, first_byte};
+
+/// The words of part of a text, in order.
+#[derive(Clone, Debug)]
+pub(super) struct Words<'t> {
+    bytes: &'t [u8],
+    at: usize,
+}
+
+impl<'t> Words<'t> {
+    /// The words in a span.
+    pub(super) fn new(text: &'t str, span: Span) -> Self {
+        Self {
+            bytes: &text.as_bytes()[..span.end()],
+            at: span.start(),
+        }
+    }
+
+    /// Takes the next `N` words; takes none and returns `None` if there are fewer.
+    pub(super) fn next_array<const N: usize>(&mut self) -> Option<[Span; N]> {
+        let mut rest = self.clone();
+        let mut words = [Span::default(); N];
+        for word in &mut words {
+            *word = rest.next()?;
+        }
+        *self = rest;
+        Some(words)
+    }
+}
+
+impl Iterator for Words<'_> {
+    type Item = Span;
+
+    fn next(&mut self) -> Option<Span> {
+        let start = skip_white_space(self.bytes, self.at);
+        self.at = start;
+        if start == self.bytes.len() {
+            return None;
+        }
+        loop {
+            // All bytes that white space may begin with, in one comparison.
+            let ends = |byte: u8| byte <= b' ' || !byte.is_ascii();
+            let rest = &self.bytes[self.at..];
+            self.at += first_byte(rest, ends).unwrap_or(rest.len());
+            if self.at == self.bytes.len() || white_space(&self.bytes[self.at..]).is_some() {
+                return Some(Span::new(start, self.at));
+            }
+            self.at += 1;
+        }
+    }
+}
+
+/// Returns the end of the white space at `at`.
+pub(super) fn skip_white_space(bytes: &[u8], mut at: usize) -> usize {
+    loop {
+        let rest = &bytes[at..];
+        at += first_byte(rest, |byte| !is_blank(byte)).unwrap_or(rest.len());
+        match white_space(&bytes[at..]) {
+            Some(width) => at += width,
+            None => return at,
+        }
+    }
+}
+
+/// The length in bytes of the white-space character at the start of `bytes`.
+pub(super) fn white_space(bytes: &[u8]) -> Option<usize> {
+    match bytes {
+        [byte, ..] if is_blank(*byte) => Some(1),
+        [0xC2, 0xA0, ..] => Some(2),
+        [0xEF, 0xBB, 0xBF, ..] => Some(3),
+        _ => None,
+    }
+}
+
+/// The span without trailing white space.
+pub(super) fn trim_end(text: &str, span: Span) -> Span {
+    let kept = span
+        .of(text)
+        .trim_end_matches([' ', '\t', '\r', '\n', '\x0B', '\x0C', '\u{A0}', '\u{FEFF}']);
+    Span::new(span.start(), span.start() + kept.len())
+}
+
+/// Whether a byte alone is white space. A pattern would not be compiled to vector instructions.
+fn is_blank(byte: u8) -> bool {
+    byte == b' ' || byte.wrapping_sub(b'\t') < 5
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn words_are_taken_all_or_not_at_all() {
+        let text = "a bc\u{A0}d é";
+        let mut words = Words::new(text, Span::new(1, text.len()));
+        assert_eq!(words.next_array::<4>(), None);
+        let taken: [Span; 2] = words.next_array().expect("there are three");
+        assert!(taken.iter().map(|word| word.of(text)).eq(["bc", "d"]));
+        assert!(words.map(|word| word.of(text)).eq(["é"]));
+    }
+
+    proptest! {
+        #[test]
+        fn words_and_white_space_cover_a_text(text in "([a\u{A0}\u{FEFF}é\u{80}ﻼ \t\n\x0B]{0,9}| {70}|a{70}){0,9}") {
+            let is_white = |c: char| c.is_ascii_whitespace() || "\x0B\u{A0}\u{FEFF}".contains(c);
+            let found = Words::new(&text, Span::new(0, text.len())).map(|word| word.of(&text));
+            prop_assert!(found.eq(text.split(is_white).filter(|word| !word.is_empty())));
+        }
+    }
+}

@@ -1,0 +1,221 @@
+//! The answers of an `.xml` text.
+
+use std::borrow::Cow;
+use std::collections::HashSet;
+
+use super::origins::{NamedPlace, What, fields};
+use super::table::ObjectKind;
+use super::tree::{quote, spelled};
+use super::unsaid::insertions;
+use super::{Source, lower, room, view};
+use crate::language::node::{FileKind, object_at, place_of};
+use crate::language::placed::{Wanted, edits};
+use crate::language::table::{Category, Field};
+use crate::language::view::Numbers;
+use crate::language::{Answers, Lowered, NamedFile, Node, Nodes, Placed};
+use crate::memory::OutOfMemory;
+use crate::scene::{Camera, Meshes};
+use crate::text::{Edit, Span, is_one_line_end, visible};
+
+impl Answers for Source {
+    fn lower(&mut self, meshes: &Meshes) -> Result<Lowered, OutOfMemory> {
+        let fits = room::fits(&self.tree);
+        let found = fits.map(|()| lower::lower(&self.text, &self.tree, meshes));
+        self.settle(found)
+    }
+
+    fn leaves(&self) -> Vec<Span> {
+        self.tree.leaves(&self.text)
+    }
+
+    fn said(&self, leaf: Span) -> &str {
+        self.tree.said(&self.text, leaf)
+    }
+
+    fn spelled<'v>(&self, leaf: Span, value: &'v str) -> Cow<'v, str> {
+        spelled(value, quote(&self.text, leaf))
+    }
+
+    fn name(&self, node: Node) -> String {
+        self.origins.name(node)
+    }
+
+    fn fields(&self, node: Node) -> Vec<Placed> {
+        fields::of(&self.origins, &self.tree, node)
+    }
+
+    fn nodes(&self) -> Nodes {
+        Nodes {
+            view: self.origins.root.is_some(),
+            surroundings: self.origins.scene.is_some(),
+            lights: self.origins.lights.len(),
+            materials: self.origins.materials.len(),
+            objects: self.origins.objects.len(),
+            ..Nodes::default()
+        }
+    }
+
+    fn depth(&self, node: Node) -> usize {
+        match node {
+            Node::Object(index) => self
+                .origins
+                .objects
+                .get(index)
+                .map_or(0, |at| at.depth as usize),
+            _ => 0,
+        }
+    }
+
+    fn is_group(&self, object: usize) -> bool {
+        let place = self.origins.objects.get(object);
+        place.is_some_and(|place| place.kind == ObjectKind::Group)
+    }
+
+    fn span(&self, node: Node) -> Span {
+        let tree = &self.tree;
+        let element = self.origins.element(tree, node);
+        let element = element.and_then(|at| tree.elements.get(at));
+        element.map_or_else(|| Span::at(0), |element| element.whole)
+    }
+
+    fn comment(&self, node: Node) -> Option<&str> {
+        let (text, tree) = (&*self.text, &self.tree);
+        let element = tree.elements.get(self.origins.element(tree, node)?)?;
+        let own = element.tag;
+        let said = |comment: &Span| {
+            let said = comment
+                .of(text)
+                .strip_prefix("<!--")?
+                .strip_suffix("-->")?
+                .trim();
+            (!said.is_empty()).then_some(said)
+        };
+        let next = tree.comments.partition_point(|c| c.start() < own.start());
+        let behind = tree.comments.get(next).filter(|comment| {
+            own.end() <= comment.start()
+                && text[own.end()..comment.start()]
+                    .trim_matches([' ', '\t'])
+                    .is_empty()
+        });
+        let before = next.checked_sub(1).and_then(|at| tree.comments.get(at));
+        let before = before.filter(|comment| {
+            comment.end() <= own.start()
+                && is_one_line_end(text[comment.end()..own.start()].trim_matches([' ', '\t']))
+        });
+        behind.or(before).and_then(said)
+    }
+
+    fn node_at(&self, span: Span) -> Option<Node> {
+        let tree = &self.tree;
+        let innermost = tree.element_at(span);
+        // The end of an element belongs to it, unless another one begins there.
+        let before = span.start().checked_sub(1).map(|at| Span::new(at, at + 1));
+        innermost
+            .and_then(|at| self.origins.node_of(at))
+            .or_else(|| self.origins.node_of(tree.element_at(before?)?))
+    }
+
+    fn nodes_in(&self, span: Span) -> Vec<Node> {
+        let tree = &self.tree;
+        let from = tree
+            .elements
+            .partition_point(|at| at.tag.end() <= span.start());
+        let count = tree.elements[from..].partition_point(|at| at.tag.start() < span.end());
+        let mut nodes: Vec<_> = (from..from + count)
+            .filter_map(|at| self.origins.node_of(at))
+            .collect();
+        nodes.dedup();
+        nodes
+    }
+
+    fn names(&self, category: Category) -> Vec<String> {
+        if category != Category::Material {
+            return Vec::new();
+        }
+        let mut known = HashSet::new();
+        let names = self.origins.materials.iter().filter_map(|place| {
+            let name = self
+                .origins
+                .value(&self.tree, place.element as usize, "name")?;
+            Some(name.said(&self.text))
+        });
+        let names = names.filter(|name| !name.is_empty() && known.insert(*name));
+        names.map(str::to_owned).collect()
+    }
+
+    fn files(&self) -> Vec<NamedFile> {
+        let (text, tree) = (&*self.text, &self.tree);
+        let file = |place: &NamedPlace| {
+            let said = tree.attributes.get(place.attribute)?;
+            let owner = self.origins.name(self.origins.node_of(place.element)?);
+            let name = tree.elements.get(place.element)?.name.of(text);
+            let (kind, what) = match &place.what {
+                What::Mesh => (FileKind::Mesh, owner),
+                What::Map(keyword, path) => {
+                    let what = format!("{owner} {keyword} {}", visible(path));
+                    (FileKind::Picture, what)
+                }
+                What::Texture if self.origins.owners[place.element] as usize == place.element => {
+                    (FileKind::Picture, format!("{name} texture"))
+                }
+                What::Texture => (FileKind::Picture, format!("{owner} {name} texture")),
+            };
+            let path = match &place.what {
+                What::Map(_, path) => path,
+                What::Texture | What::Mesh => said.said(text),
+            };
+            Some(NamedFile {
+                path: path.to_owned(),
+                kind,
+                span: said.value,
+                what,
+            })
+        };
+        self.origins.files.iter().filter_map(file).collect()
+    }
+
+    fn users(&self, node: Node) -> usize {
+        let Node::Material(material) = node else {
+            return 0;
+        };
+        let drawn = self.origins.drawn.iter();
+        drawn
+            .filter(|&&at| self.origins.dressed[at] == Some(material))
+            .count()
+    }
+
+    fn edits(&self, wanted: &[Wanted<'_>]) -> Vec<Edit> {
+        let mut edits = edits(self, wanted);
+        edits.extend(insertions(&self.text, wanted));
+        edits.sort_by_key(|edit| edit.span.start());
+        edits
+    }
+
+    fn drawn(&self, object: usize) -> Option<u32> {
+        place_of(&self.origins.drawn, object)
+    }
+
+    fn object(&self, drawn: u32) -> usize {
+        object_at(&self.origins.drawn, drawn)
+    }
+
+    fn material(&self, object: usize) -> Option<usize> {
+        *self.origins.dressed.get(object)?
+    }
+
+    fn view_fields(&self) -> Vec<&'static Field> {
+        view::fields(&self.origins).collect()
+    }
+
+    fn view_numbers(&self, camera: &Camera) -> Numbers {
+        view::numbers(camera, &self.origins)
+    }
+
+    fn view_camera(&self, numbers: &Numbers, _: &Camera) -> Camera {
+        view::camera(numbers, &self.origins)
+    }
+
+    fn view_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit> {
+        view::edits(self, &self.fields(Node::View), before, camera)
+    }
+}

@@ -1,0 +1,150 @@
+//! Evaluation of materials at a point, for both integrators.
+
+#![expect(
+    clippy::inline_always,
+    reason = "this must be inlined into callers compiled for wider vectors"
+)]
+
+use super::optics::{self, normal_reflectance, power};
+use crate::scene::{Faces, Highlight, Material, Rgb};
+
+/// Absorption per unit of length along the rays that leave a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Losses {
+    pub(crate) refracted: Rgb,
+    pub(crate) mirrored: Rgb,
+}
+
+impl Material {
+    /// Diffuse reflectance.
+    #[inline]
+    pub(crate) fn diffuse(&self) -> Rgb {
+        match self.highlight {
+            Highlight::Microfacet { metallic, .. } => (1.0 - metallic) * self.diffuse,
+            _ => self.diffuse,
+        }
+    }
+
+    /// The colour shown without lighting.
+    pub(crate) fn albedo(&self) -> Rgb {
+        if self.is_unlit() {
+            self.emission
+        } else {
+            self.diffuse()
+        }
+    }
+
+    /// Radiance under ambient light alone.
+    #[inline]
+    pub(crate) fn glow(&self, ambient: Rgb) -> Rgb {
+        self.emission + ambient * self.ambient.unwrap_or_else(|| self.diffuse())
+    }
+
+    /// Reflectance of microfacets at normal incidence, for a metallic fraction.
+    pub(crate) fn facets_reflectance(&self, metallic: f64) -> Rgb {
+        (1.0 - metallic) * normal_reflectance(self.index(), 1.0) + metallic * self.diffuse
+    }
+
+    /// The reflected fraction of a light's light in Whitted ray tracing, from the cosine of
+    /// incidence, that between view and mirrored light, and that of the half vector.
+    #[inline(always)]
+    pub(crate) fn reflected(
+        &self,
+        cosine: f64,
+        mirrored: f64,
+        halfway: impl FnOnce() -> f64,
+    ) -> Rgb {
+        match self.highlight {
+            Highlight::None => self.diffuse * cosine,
+            Highlight::Phong(gloss) => {
+                self.diffuse * cosine + gloss.specular * power(mirrored, gloss.exponent)
+            }
+            Highlight::ModifiedPhong(gloss) => {
+                let highlight = power(mirrored.min(1.0), gloss.exponent);
+                cosine * (self.diffuse + gloss.specular * highlight)
+            }
+            Highlight::Blinn(gloss) => {
+                let highlight = power(halfway().min(1.0), gloss.exponent);
+                cosine * (self.diffuse + gloss.specular * highlight)
+            }
+            Highlight::Microfacet {
+                roughness,
+                metallic,
+            } => {
+                let alpha = roughness * roughness;
+                // The exponent of a highlight of about the same width.
+                let highlight = power(halfway().min(1.0), 2.0 / (alpha * alpha) - 2.0);
+                cosine * (self.diffuse() + self.facets_reflectance(metallic) * highlight)
+            }
+        }
+    }
+
+    /// Weight of a reflected ray in Whitted ray tracing, microfacets' normal reflectance included.
+    #[inline]
+    pub(crate) fn mirrored(&self, front: bool) -> Rgb {
+        let tint = self.mirror_tint(front);
+        match self.highlight {
+            Highlight::Microfacet { metallic, .. } if front => {
+                tint + self.facets_reflectance(metallic)
+            }
+            _ => tint,
+        }
+    }
+
+    /// Weight of mirror reflection.
+    #[inline]
+    pub(crate) fn mirror_tint(&self, front: bool) -> Rgb {
+        if self.mirror.faces.include(front) {
+            self.mirror.tint
+        } else {
+            Rgb::ZERO
+        }
+    }
+
+    /// Whether a face emits light and reflects that of lights.
+    #[inline]
+    pub(crate) fn is_lit(&self, front: bool) -> bool {
+        self.lit.include(front)
+    }
+
+    /// Effective index of refraction, above 0.
+    #[inline]
+    pub(crate) fn index(&self) -> f64 {
+        optics::index(self.dielectric.index)
+    }
+
+    /// Indices of refraction on the incident and the transmitted side.
+    #[inline]
+    pub(crate) fn indices(&self, front: bool) -> [f64; 2] {
+        if front {
+            [1.0, self.index()]
+        } else {
+            [self.index(), 1.0]
+        }
+    }
+
+    /// Absorption along the rays that leave the surface; only inside the solid.
+    #[inline]
+    pub(crate) fn losses(&self, front: bool) -> Losses {
+        let [inside, outside] = [self.dielectric.absorption, Rgb::ZERO];
+        if front {
+            Losses {
+                refracted: inside,
+                mirrored: outside,
+            }
+        } else {
+            Losses {
+                refracted: outside,
+                mirrored: inside,
+            }
+        }
+    }
+}
+
+impl Faces {
+    /// Whether the front or back face is included.
+    #[inline]
+    pub(crate) fn include(self, front: bool) -> bool {
+        front || self == Self::Both
+    }
+}

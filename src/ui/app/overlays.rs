@@ -1,0 +1,201 @@
+//! What overlays the panels: dialogs, the help page, the list of errors, a line being typed, and
+//! messages.
+
+use std::sync::Arc;
+
+use tui_input::Input;
+
+use crate::document::{Merge, Side};
+use crate::text::{Severity, without_codes};
+use crate::ui::recovery::{Claim, Offer, Since};
+
+/// What overlays the panels.
+#[derive(Debug, Default)]
+pub struct Overlays {
+    /// A line being typed at the bottom.
+    pub prompt: Option<Prompt>,
+    /// A question that must be answered first.
+    pub dialog: Option<Dialog>,
+    /// The help page.
+    pub help: Option<Help>,
+    /// The selected diagnostic while the list of errors has the keys. Errors are always shown.
+    pub errors: Option<usize>,
+    /// The current message.
+    pub message: Option<Message>,
+    /// The message that a key dismissed.
+    past: Option<Message>,
+}
+
+/// A line being typed at the bottom.
+#[derive(Debug)]
+pub struct Prompt {
+    /// Its purpose.
+    pub kind: PromptKind,
+    /// The text and its cursor.
+    pub input: Input,
+}
+
+/// The purpose of a prompt.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PromptKind {
+    /// A command, after `:`.
+    Command,
+    /// Part of a name to jump to, after `/`.
+    Search,
+}
+
+/// A question that must be answered first.
+#[derive(Debug)]
+pub enum Dialog {
+    /// Whether to quit although edits are unsaved or an export is running.
+    Quit,
+    /// How to resolve a merge in which both texts changed the same places.
+    Conflict {
+        /// The merge to decide.
+        merge: Merge,
+        /// The index of the conflict under the cursor.
+        at: usize,
+        /// The origin of the other text.
+        from: Outside,
+    },
+    /// Whether to restore unsaved edits of an earlier run.
+    Recover(Box<Offer>),
+}
+
+/// The origin of a text that is merged with the edited one.
+#[derive(Clone, Debug)]
+pub enum Outside {
+    /// The scene's file.
+    File,
+    /// A recovery journal.
+    Kept(Arc<Claim>, Since),
+}
+
+impl Outside {
+    /// The side with the user's own unsaved edits.
+    pub fn mine(&self) -> Side {
+        match self {
+            Self::File => Side::Mine,
+            Self::Kept(..) => Side::Theirs,
+        }
+    }
+}
+
+/// The help page.
+#[derive(Debug, Default)]
+pub struct Help {
+    /// The first line shown; at most the last of [`App::help_lines`](super::App::help_lines).
+    pub top: usize,
+    /// Only lines containing this text are shown.
+    pub search: Input,
+    /// Whether keys are typed into the search.
+    pub focus: HelpFocus,
+}
+
+/// The effect of keys on the help page.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum HelpFocus {
+    /// Keys scroll.
+    #[default]
+    Lines,
+    /// Keys are typed into the search.
+    Search,
+}
+
+/// A message to the user.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Message {
+    /// `None` for success.
+    pub severity: Option<Severity>,
+    /// Its text, without the system's error numbers.
+    pub text: String,
+}
+
+impl Overlays {
+    /// Opens a prompt containing `text`.
+    pub(super) fn open_prompt(&mut self, kind: PromptKind, text: &str) {
+        self.prompt = Some(Prompt {
+            kind,
+            input: Input::from(text),
+        });
+    }
+
+    /// Starts a search: of the help page if it is open, otherwise of the list.
+    pub(super) fn open_search(&mut self) {
+        match &mut self.help {
+            Some(help) => help.focus = HelpFocus::Search,
+            None => self.open_prompt(PromptKind::Search, ""),
+        }
+    }
+
+    /// Whether keys are typed into a line here.
+    pub(super) fn has_line(&self) -> bool {
+        let help = self.help.as_ref();
+        self.prompt.is_some() || help.is_some_and(|help| help.focus == HelpFocus::Search)
+    }
+
+    /// The open merge dialog, if any.
+    pub(super) fn conflict(&mut self) -> Option<(&mut Merge, &mut usize, &Outside)> {
+        match &mut self.dialog {
+            Some(Dialog::Conflict { merge, at, from }) => Some((merge, at, from)),
+            _ => None,
+        }
+    }
+
+    /// Asks how to resolve a merge.
+    pub(super) fn ask_conflict(&mut self, merge: Merge, from: Outside) {
+        self.dialog = Some(Dialog::Conflict { merge, at: 0, from });
+    }
+
+    /// Shows a message unless there is one already.
+    pub(super) fn suggest(&mut self, text: impl Into<String>) {
+        if self.message.is_none() {
+            self.say(text);
+        }
+    }
+
+    pub(super) fn say(&mut self, text: impl Into<String>) {
+        self.show(None, text);
+    }
+
+    pub(super) fn warn(&mut self, text: impl Into<String>) {
+        self.show(Some(Severity::Warning), text);
+    }
+
+    pub(super) fn fail(&mut self, text: impl Into<String>) {
+        self.show(Some(Severity::Error), text);
+    }
+
+    /// Appends a failure to an error that is already shown: the first of two errors usually caused
+    /// the other.
+    pub(super) fn fail_too(&mut self, text: &str) {
+        let text = &*without_codes(text);
+        let before = self.message.as_ref();
+        let before = before.filter(|before| before.severity == Some(Severity::Error));
+        let both = before.map(|before| {
+            if before.text.contains(text) {
+                before.text.clone()
+            } else {
+                format!("{}; {text}", before.text)
+            }
+        });
+        self.fail(both.unwrap_or_else(|| text.to_owned()));
+    }
+
+    pub(super) fn show(&mut self, severity: Option<Severity>, text: impl Into<String>) {
+        let text = without_codes(&text.into()).into_owned();
+        self.message = Some(Message { severity, text });
+    }
+
+    /// Dismisses the message, which can be shown again.
+    pub(super) fn clear_message(&mut self) {
+        if let Some(message) = self.message.take() {
+            self.past = Some(message);
+        }
+    }
+
+    pub(super) fn show_past_message(&mut self) {
+        self.message = self.past.take();
+        self.suggest("there was no message yet");
+    }
+}

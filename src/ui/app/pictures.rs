@@ -1,0 +1,211 @@
+//! The preview and the full-size trace, what they show, and from where.
+
+use std::sync::Arc;
+
+use super::picture::Picture;
+use crate::render::{Aov, Filter, Frame};
+use crate::scene::{Camera, Integrator, Scene};
+use crate::ui::keymap::Mode;
+use crate::ui::msg::Target;
+
+/// The preview and the full-size trace.
+#[derive(Debug)]
+pub struct Pictures {
+    /// The preview.
+    pub preview: Picture,
+    /// The full-size trace, once requested.
+    pub trace: Option<Picture>,
+    /// The working view, if it differs from the scene's camera.
+    pub view: Option<Camera>,
+    /// The user's quality settings.
+    pub quality: Quality,
+    /// What pictures show instead of light.
+    pub aov: Option<Aov>,
+    /// Whether the selected object is outlined in SELECT mode.
+    pub(super) outline: Outline,
+    /// The cell of the crosshair in [`Mode::Pick`], relative to the picture's upper left corner.
+    pub cross: (u16, u16),
+    /// Bytes sent to the terminal during the last second, while a picture waits for a slow link.
+    pub net: Option<usize>,
+    /// Whether the pictures must be traced again.
+    pub(super) due: bool,
+    /// The pointer's cell when the camera was last dragged.
+    pub(super) drag: Option<(u16, u16)>,
+    /// The mode to return to from the full-size trace.
+    before_trace: Option<Mode>,
+}
+
+/// Quality settings of pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quality {
+    /// Samples per pixel of the full-size trace and of exports.
+    pub spp: u32,
+    /// Maximum depth; `None` is the integrator's [`default_depth`](crate::render::default_depth).
+    pub depth: Option<u32>,
+    /// The integrator; `None` leaves the choice to the scene.
+    pub integrator: Option<Integrator>,
+    /// The pixel filter of the full-size trace and of exports.
+    pub filter: Filter,
+}
+
+/// Whether the selected object is outlined in the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Outline {
+    /// In SELECT mode.
+    #[default]
+    Marked,
+    /// Never.
+    Hidden,
+}
+
+impl Pictures {
+    /// Creates the state without any picture.
+    pub(super) fn new(quality: Quality) -> Self {
+        Self {
+            preview: Picture::default(),
+            trace: None,
+            view: None,
+            quality,
+            aov: None,
+            outline: Outline::default(),
+            cross: (0, 0),
+            net: None,
+            due: false,
+            drag: None,
+            before_trace: None,
+        }
+    }
+
+    /// The picture on screen.
+    pub fn seen(&self, mode: Mode) -> &Picture {
+        match (mode, &self.trace) {
+            (Mode::Trace, Some(trace)) => trace,
+            _ => &self.preview,
+        }
+    }
+
+    /// The picture on screen, mutable in order to advance it.
+    pub(super) fn seen_mut(&mut self, mode: Mode) -> &mut Picture {
+        match (mode, &mut self.trace) {
+            (Mode::Trace, Some(trace)) => trace,
+            _ => &mut self.preview,
+        }
+    }
+
+    /// The picture that receives a target's frames.
+    fn of(&mut self, target: Target) -> Option<&mut Picture> {
+        match target {
+            Target::Preview => Some(&mut self.preview),
+            Target::Trace => self.trace.as_mut(),
+            Target::Export => None,
+        }
+    }
+
+    /// Records the generation of a new picture, or `None` if the picture will not be finished.
+    pub(super) fn want(&mut self, target: Target, generation: Option<u64>) {
+        if let Some(picture) = self.of(target) {
+            picture.wanted = generation;
+        }
+    }
+
+    pub(super) fn take(&mut self, target: Target, frame: Arc<Frame>) {
+        if let Some(picture) = self.of(target) {
+            picture.take(frame);
+        }
+    }
+
+    /// Whether the full-size trace was started and has not been stopped.
+    pub(super) fn is_tracing(&self) -> bool {
+        let trace = self.trace.as_ref();
+        trace.is_some_and(|trace| trace.wanted.is_some())
+    }
+
+    /// Remembers the mode that the full-size trace replaces.
+    pub(super) fn leave_mode(&mut self, mode: Mode) {
+        self.before_trace = Some(mode);
+    }
+
+    /// The mode to return to from the full-size trace.
+    pub(super) fn mode_before(&mut self) -> Mode {
+        self.before_trace.take().unwrap_or(Mode::Select)
+    }
+
+    pub(super) fn toggle_outline(&mut self) {
+        self.outline = match self.outline {
+            Outline::Marked => Outline::Hidden,
+            Outline::Hidden => Outline::Marked,
+        };
+    }
+
+    /// The camera in use: the working view, otherwise the scene's own.
+    pub(super) fn camera(&self, own: Option<Camera>) -> Option<Camera> {
+        self.view.or(own)
+    }
+
+    /// Sets the working view, or drops it if it equals the scene's own camera.
+    pub(super) fn set_view(&mut self, camera: Camera, own: Option<Camera>) {
+        let view = Some(camera).filter(|camera| Some(*camera) != own);
+        self.due |= view != self.view;
+        self.view = view;
+    }
+
+    /// Returns to the scene's own view.
+    pub(super) fn reset_view(&mut self) {
+        self.due |= self.view.take().is_some();
+    }
+
+    /// Adapts to the new scene; returns whether it differs from the one before.
+    pub(super) fn follow(&mut self, before: Option<&Scene>, scene: &Scene) -> bool {
+        if let Some(view) = &mut self.view {
+            view.size = scene.camera.size;
+        }
+        if self.view == Some(scene.camera) {
+            self.view = None;
+        }
+        if before.is_some_and(|before| before.objects.len() != scene.objects.len()) {
+            self.preview.forget_objects();
+        }
+        let is_new = before != Some(scene);
+        self.due |= is_new;
+        is_new
+    }
+
+    /// The integrator for a scene: the user's choice, otherwise the scene's.
+    pub(super) fn integrator(&self, scene: Option<&Scene>) -> Integrator {
+        let own = scene.map_or_else(Integrator::default, |scene| scene.setting.integrator);
+        self.quality.integrator.unwrap_or(own)
+    }
+
+    /// Switches the integrator of all pictures and returns its name. Switching to the scene's own
+    /// integrator follows the scene again.
+    pub(super) fn toggle_integrator(&mut self, scene: Option<&Scene>) -> &'static str {
+        let (other, words) = match self.integrator(scene) {
+            Integrator::Whitted => (Integrator::Path, "path tracing"),
+            Integrator::Path => (Integrator::Whitted, "Whitted's rays"),
+        };
+        self.quality.integrator = None;
+        if self.integrator(scene) != other {
+            self.quality.integrator = Some(other);
+        }
+        self.due = true;
+        words
+    }
+
+    /// Selects what all pictures show, light or an AOV, and returns its description.
+    pub(super) fn show(&mut self, aov: Option<Aov>) -> &'static str {
+        self.due |= self.aov != aov;
+        self.aov = aov;
+        match aov {
+            None => "light",
+            Some(Aov::Depth) => "depth: the nearest white, the farthest black",
+            Some(Aov::Normal) => "normals: -1 to 1 as 0 to 255",
+            Some(Aov::Object) => "objects: a colour each",
+            Some(Aov::Albedo) => "albedo: colours without light",
+        }
+    }
+
+    /// The number of samples per pixel to take if `asked` are requested.
+    pub(super) fn samples(&self, asked: u32) -> u32 {
+        self.aov.map_or(asked, |aov| aov.samples(asked))
+    }
+}

@@ -1,0 +1,165 @@
+//! Unsaved edits: keeping them for the next run, and offering, restoring and merging those of
+//! earlier runs.
+
+use std::sync::Arc;
+
+use super::journal::Outcome;
+use super::{App, Dialog, Outside};
+use crate::document::{Adopted, Merge};
+use crate::ui::msg::Effect;
+use crate::ui::recovery::{Claim, Found, Offer, Since, Way};
+
+impl App {
+    /// Looks for undecided edits that earlier runs kept.
+    pub(super) fn look_for_kept(&self) -> Effect {
+        let scene = self.disk.path.clone();
+        self.disk.journal.look(&self.document, scene)
+    }
+
+    pub(super) fn found_kept(&mut self, found: Found) {
+        if let Some(complaint) = self.disk.journal.found(found) {
+            self.overlays.warn(complaint);
+        }
+    }
+
+    /// Whether the journal holds the unsaved edits as they are.
+    pub fn has_kept_edits(&self) -> bool {
+        self.disk.journal.holds(&self.document)
+    }
+
+    /// Whether unsaved edits that should be kept by now would be lost with the program.
+    pub fn fails_to_keep(&self) -> bool {
+        self.disk.journal.fails(&self.document)
+    }
+
+    pub(super) fn keep_edits(&mut self) -> Option<Effect> {
+        let scene = self.disk.path.clone();
+        self.disk.journal.keep(&self.document, scene)
+    }
+
+    pub(super) fn keep_the_rest(&mut self) -> Option<Effect> {
+        let scene = self.disk.path.clone();
+        self.disk.journal.keep_the_rest(&self.document, scene)
+    }
+
+    /// Takes the outcome of an attempt to keep edits.
+    pub(super) fn kept(&mut self, revision: u64, outcome: Result<(), String>) -> Option<Effect> {
+        match self.disk.journal.kept(revision, outcome) {
+            Outcome::OutOfDate => None,
+            Outcome::Kept(trouble) => {
+                let message = &mut self.overlays.message;
+                message.take_if(|message| Some(&message.text) == trouble.as_ref());
+                None
+            }
+            Outcome::Failed(trouble, again) => {
+                if let Some(trouble) = trouble {
+                    self.overlays.fail(trouble);
+                }
+                Some(again)
+            }
+        }
+    }
+
+    /// Offers kept edits once no other question is open; examines them again if the text that they
+    /// would be restored into has changed.
+    pub(super) fn follow_kept(&mut self) -> Option<Effect> {
+        let text = self.document.shared_text();
+        let is_other = match &self.overlays.dialog {
+            Some(Dialog::Recover(offer)) => !Arc::ptr_eq(&offer.text, &text),
+            Some(Dialog::Conflict { merge, from, .. }) => {
+                matches!(from, Outside::Kept(..)) && !merge.is_of(&self.document)
+            }
+            Some(Dialog::Quit) => false,
+            None => {
+                let offer = self.disk.journal.offer.take()?;
+                self.overlays.dialog = Some(Dialog::Recover(offer));
+                return self.follow_kept();
+            }
+        };
+        is_other.then(|| {
+            self.overlays.dialog = None;
+            self.look_for_kept()
+        })
+    }
+
+    /// Restores the edits of an earlier run as an ordinary edit; asks first where the text has
+    /// changed in the same places since.
+    pub(super) fn restore(&mut self) -> Vec<Effect> {
+        let Some(Dialog::Recover(offer)) = self.overlays.dialog.take() else {
+            return Vec::new();
+        };
+        let Offer {
+            claim, way, since, ..
+        } = *offer;
+        match way {
+            Way::Edit(edit) => {
+                self.document.edit(&[edit]);
+                self.restored(claim, since)
+            }
+            Way::Merge(merge) if merge.conflicts.is_empty() => {
+                self.restore_merged(&merge, claim, since)
+            }
+            Way::Merge(merge) => {
+                let from = Outside::Kept(claim, since);
+                self.overlays.ask_conflict(merge, from);
+                Vec::new()
+            }
+        }
+    }
+
+    /// Restores kept edits after their conflicts with the text have been decided.
+    pub(super) fn restore_merged(
+        &mut self,
+        merge: &Merge,
+        claim: Arc<Claim>,
+        since: Since,
+    ) -> Vec<Effect> {
+        match self.document.restore(merge) {
+            Adopted::Taken => self.restored(claim, since),
+            // The text has changed: the edits are examined again.
+            Adopted::Conflict(_) | Adopted::OutOfDate => vec![self.look_for_kept()],
+        }
+    }
+
+    fn restored(&mut self, claim: Arc<Claim>, since: Since) -> Vec<Effect> {
+        self.relower();
+        self.overlays.say(match since {
+            Since::Same => "restored; u undoes",
+            Since::Changed => "restored and merged with what has changed since; u undoes",
+        });
+        // The other journal is removed only once this run's journal holds the edits.
+        let mut effects = if self.document.is_dirty() {
+            vec![Effect::AdoptKept(claim)]
+        } else {
+            vec![Effect::DropKept(claim)]
+        };
+        effects.extend(self.keep_edits());
+        effects.push(self.look_for_kept());
+        effects
+    }
+
+    /// Discards the edits of an earlier run.
+    pub(super) fn decline(&mut self) -> Vec<Effect> {
+        match self.overlays.dialog.take() {
+            Some(Dialog::Recover(offer)) => {
+                vec![Effect::DropKept(offer.claim), self.look_for_kept()]
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Closes a question that may be asked again: about kept edits, in the next run.
+    pub(super) fn put_off(&mut self) -> Vec<Effect> {
+        self.jobs.quit = false;
+        let claim = match self.overlays.dialog.take() {
+            Some(Dialog::Recover(offer)) => offer.claim,
+            Some(Dialog::Conflict {
+                from: Outside::Kept(claim, _),
+                ..
+            }) => claim,
+            _ => return Vec::new(),
+        };
+        self.disk.journal.put_off(&claim);
+        vec![self.look_for_kept()]
+    }
+}

@@ -1,0 +1,401 @@
+//! Keeping the text and its file in step: taking or merging what was read, resolving conflicts,
+//! starting or refusing saves, and the external editor.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::cursor::Held;
+use super::disk::{Broken, Reader};
+use super::{App, Dialog, OnDisk, Outside, PromptKind};
+use crate::document::Adopted;
+use crate::file;
+use crate::file::ReadError;
+use crate::language::Lowered;
+use crate::text::{Edit, Findings, Position, smallest_edit};
+use crate::ui::keymap::Action;
+use crate::ui::msg::{Effect, Guard};
+use crate::ui::reading::{Known, News, Reading};
+
+/// Many programs empty a file before writing it: errors must persist for this long.
+const QUIET: Duration = Duration::from_millis(100);
+/// Others move the old file away before the new one exists.
+const GONE: Duration = Duration::from_millis(500);
+
+/// The parts of a message about a text read from the file.
+struct Words {
+    came: &'static str,
+    /// Used instead of the changed place if only comments and spacing have changed.
+    same: &'static str,
+    end: &'static str,
+}
+
+const RELOADED: Words = Words {
+    came: "reloaded",
+    same: "the scene is unchanged",
+    end: "",
+};
+const MERGED: Words = Words {
+    came: "the file's changes are merged with your edits",
+    same: "the picture stays the same",
+    end: "; u undoes the merge",
+};
+const ADOPTED: Words = Words {
+    came: "merged",
+    same: "the picture stays the same",
+    end: "; u undoes the merge",
+};
+const SAME_NOW: Words = Words {
+    came: "the file has the same changes now",
+    same: "nothing is unsaved",
+    end: "",
+};
+
+impl App {
+    pub(super) fn read_again(&mut self) -> Vec<Effect> {
+        self.disk.read_again(self.known())
+    }
+
+    /// Rereads the scene's file and the files that it names, for `:e`.
+    pub(super) fn reread(&mut self) -> Vec<Effect> {
+        if self.disk.path.is_none() {
+            self.overlays
+                .fail("this scene has no file to read: :w FILE creates one");
+        }
+        self.disk.answer_user();
+        let mut effects = self.read_again();
+        effects.extend(self.assets.read());
+        effects
+    }
+
+    pub(super) fn read_effect(&self) -> Vec<Effect> {
+        self.disk.read(self.known())
+    }
+
+    /// The state that a reading of the file is compared with.
+    pub(super) fn known(&self) -> Known {
+        Known {
+            scene: self.document.snapshot(),
+            saving: self.text_being_saved().cloned(),
+            meshes: self.assets.meshes.clone(),
+        }
+    }
+
+    /// Whether a reading was compared with the current state: no save since then and, if it brings
+    /// changes, neither an edit nor a mesh. With a million objects, changes arrive about a second
+    /// after the last edit.
+    fn is_known(&self, reading: &Reading) -> bool {
+        let known = &reading.known;
+        let saving = |text: Option<&Arc<String>>| text.map(Arc::as_ptr);
+        if saving(known.saving.as_ref()) != saving(self.text_being_saved()) {
+            return false;
+        }
+        if reading.news.is_none() {
+            return Arc::ptr_eq(&known.scene.saved, self.document.saved());
+        }
+        known.scene.is_of(&self.document) && known.meshes == self.assets.meshes
+    }
+
+    pub(super) fn settled(&mut self) -> Vec<Effect> {
+        if self.disk.is_waiting() {
+            self.disk.read_finally(self.known())
+        } else {
+            Vec::new()
+        }
+    }
+
+    pub(super) fn was_read(&mut self, read: Result<Reading, ReadError>) -> Vec<Effect> {
+        if let Ok(reading) = &read
+            && !self.is_known(reading)
+        {
+            let mut effects = self.read_effect();
+            effects.push(Effect::Free(Arc::new(read)));
+            return effects;
+        }
+        let is_final = self.disk.is_final();
+        match read {
+            Ok(reading) => self.take_reading(reading, is_final),
+            Err(error) if !is_final => self.disk.wait(match error {
+                ReadError::NotFound { .. } => GONE,
+                _ => QUIET,
+            }),
+            Err(error) => {
+                self.disk.stands(match error {
+                    ReadError::NotFound { .. } => OnDisk::Missing,
+                    _ => OnDisk::Broken,
+                });
+                self.overlays.errors = None;
+                self.jobs.quit = false;
+                self.overlays.fail(error.to_string());
+                Vec::new()
+            }
+        }
+    }
+
+    /// Takes a reading; reports if the scene's folder was moved or replaced by another one.
+    fn take_reading(&mut self, mut reading: Reading, is_final: bool) -> Vec<Effect> {
+        let Some(place) = reading.place.take() else {
+            return self.take_text(reading, is_final);
+        };
+        let before = self.disk.move_to(place.clone());
+        let before = before.unwrap_or_else(|| place.clone());
+        self.overlays.message.take_if(|_| before.id != place.id);
+        let effects = self.take_text(reading, is_final);
+        let folder = place.folder.display();
+        if before.id != place.id {
+            let said = self
+                .overlays
+                .message
+                .take()
+                .map(|said| format!("; {}", said.text));
+            let said = said.unwrap_or_default();
+            self.overlays
+                .warn(format!("another folder is at {folder} now{said}"));
+        } else if before.folder != place.folder {
+            self.overlays
+                .warn(format!("the scene's folder was moved to {folder}"));
+        }
+        effects
+    }
+
+    fn take_text(&mut self, reading: Reading, is_final: bool) -> Vec<Effect> {
+        let reader = self.disk.take_reader();
+        // An undecided merge is obsolete, regardless of what the file holds now.
+        if let Some(Dialog::Conflict {
+            from: Outside::File,
+            ..
+        }) = self.overlays.dialog
+        {
+            self.overlays.dialog = None;
+        }
+        let Some(news) = reading.news else {
+            // While the file is being saved, the outcome of the save determines its state.
+            if self.disk.state != OnDisk::Known && self.text_being_saved().is_none() {
+                self.disk.stands(OnDisk::Known);
+                self.overlays.say("the file is back to its saved text");
+            } else if reader == Reader::User {
+                self.overlays
+                    .say(format!("{} has not changed", self.disk.name()));
+            }
+            return Vec::new();
+        };
+        if news.is_broken() && !is_final {
+            let mut effects = self.disk.wait(QUIET);
+            effects.push(Effect::Free(Arc::new(news)));
+            return effects;
+        }
+        let held = self.cursor.hold(self.document.shared_text());
+        self.disk.stands(OnDisk::Known);
+        let (document, meaning, words) = match *news {
+            News::Text(document, meaning) => (self.document.load(document), meaning, RELOADED),
+            News::Merged(merged, meaning) => {
+                let words = if merged.document.is_dirty() {
+                    MERGED
+                } else {
+                    SAME_NOW
+                };
+                (self.document.take(merged), meaning, words)
+            }
+            News::Conflict(merge) => {
+                self.disk.state = OnDisk::Changed;
+                self.overlays.ask_conflict(merge, Outside::File);
+                return Vec::new();
+            }
+            News::Broken(text, diagnostics) => {
+                self.keep_apart(text, diagnostics);
+                return Vec::new();
+            }
+        };
+        let former = (document, self.scene.clone());
+        self.show_reload(&held, meaning.edit.as_ref(), meaning.lowered, &words);
+        vec![Effect::Free(Arc::new(former))]
+    }
+
+    /// Keeps a text with errors apart from unsaved edits.
+    fn keep_apart(&mut self, text: Arc<String>, diagnostics: Findings) {
+        let first = diagnostics.first_error();
+        let line = first.map_or(1, |d| Position::of(&text, d.span.start()).line);
+        self.jobs.quit = false;
+        self.disk.state = OnDisk::Broken;
+        self.disk.broken = Some(Broken { text, diagnostics });
+        self.overlays.fail(format!(
+            "line {line} of the file on disk has an error: E opens it, :w! overwrites it"
+        ));
+    }
+
+    /// Installs the new meaning of the text, keeps the cursor in place and reports the change;
+    /// `edit` leads from the previous text to this one.
+    fn show_reload(&mut self, held: &Held, edit: Option<&Edit>, lowered: Lowered, words: &Words) {
+        let (scene, sound) = (self.scene.clone(), self.error_count() == 0);
+        self.install(lowered);
+        let lost = self.cursor.follow(held, edit, self.document.source());
+        self.keep_mode();
+        if 0 < self.error_count() {
+            if sound {
+                self.disk.sound = Some(Arc::clone(&held.text));
+            }
+            self.overlays
+                .fail(format!("the scene has errors: {}", self.error_count()));
+        } else {
+            let sound = self.disk.sound.take();
+            let from_sound = sound.map(|sound| smallest_edit(&sound, self.document.text()));
+            let place = from_sound
+                .as_ref()
+                .map_or(edit, Option::as_ref)
+                .and_then(|edit| self.place_name(edit.placed()));
+            let is_same = match (&scene, &self.scene) {
+                (Some(before), Some(after)) => Arc::ptr_eq(before, after),
+                _ => false,
+            };
+            let Words { came, same, end } = words;
+            self.overlays.say(match place {
+                _ if is_same && !self.assets.lack_meshes() => format!("{came}: {same}{end}"),
+                Some(place) => format!("{came}: {place}{end}"),
+                None => format!("{came}{end}"),
+            });
+        }
+        if lost {
+            self.overlays
+                .warn("the value being typed is dropped: its field is gone");
+        }
+    }
+
+    /// Saves to the scene's file, for `w` and `:w`.
+    pub(super) fn save(&mut self) -> Vec<Effect> {
+        let Some(path) = self.disk.path.clone() else {
+            self.overlays.open_prompt(PromptKind::Command, "w ");
+            self.overlays.say("this scene has no file yet: name one");
+            return Vec::new();
+        };
+        if !self.document.is_dirty() && self.disk.state == OnDisk::Known {
+            self.overlays.say("nothing to save");
+            // In case a notification was missed.
+            return self.read_effect();
+        }
+        if let OnDisk::Changed | OnDisk::Broken = self.disk.state {
+            // The question is asked again with what the file holds now.
+            return self.read_effect();
+        }
+        if self.refuses_errors(&path) {
+            return Vec::new();
+        }
+        let guard = Guard::Holding(Arc::clone(self.document.saved()));
+        self.save_to(&path, guard)
+    }
+
+    /// Refuses to write a text with errors unless forced; returns whether it has any.
+    pub(super) fn refuses_errors(&mut self, path: &Path) -> bool {
+        let Some(errors) = self.error_place() else {
+            return false;
+        };
+        self.jobs.quit = false;
+        let force = if self.disk.is_own(path) {
+            ":w!".to_owned()
+        } else {
+            format!(":w! {}", path.display())
+        };
+        self.overlays
+            .fail(format!("{errors}: {force} writes it anyway"));
+        true
+    }
+
+    pub(super) fn decide(&mut self, action: Action) {
+        let Some((merge, at, from)) = self.overlays.conflict() else {
+            return;
+        };
+        let side = match action {
+            Action::Mine | Action::AllMine => from.mine(),
+            _ => from.mine().other(),
+        };
+        if let Action::AllMine | Action::AllTheirs = action {
+            for conflict in &mut merge.conflicts {
+                conflict.decision = Some(side);
+            }
+        } else if let Some(conflict) = merge.conflicts.get_mut(*at) {
+            conflict.decision = Some(side);
+            *at = (*at + 1).min(merge.conflicts.len() - 1);
+        }
+    }
+
+    /// Applies a merge once every conflict is decided.
+    pub(super) fn adopt(&mut self) -> Vec<Effect> {
+        let Some((merge, at, _)) = self.overlays.conflict() else {
+            return Vec::new();
+        };
+        if let Some(open) = merge.conflicts.iter().position(|c| c.decision.is_none()) {
+            *at = open;
+            self.overlays
+                .warn("decide every conflict first: m mine, t the file's");
+            return Vec::new();
+        }
+        let Some(Dialog::Conflict { merge, from, .. }) = self.overlays.dialog.take() else {
+            return Vec::new();
+        };
+        if let Outside::Kept(claim, since) = from {
+            return self.restore_merged(&merge, claim, since);
+        }
+        let held = self.cursor.hold(self.document.shared_text());
+        match self.document.adopt(merge) {
+            Adopted::Conflict(merge) => {
+                self.overlays.ask_conflict(merge, from);
+            }
+            Adopted::Taken => {
+                self.disk.state = OnDisk::Known;
+                let edit = smallest_edit(&held.text, self.document.text());
+                let lowered = self.lowered();
+                self.show_reload(&held, edit.as_ref(), lowered, &ADOPTED);
+            }
+            Adopted::OutOfDate => self
+                .overlays
+                .warn("the file was saved since: nothing is merged"),
+        }
+        Vec::new()
+    }
+
+    /// Opens the user's editor at the cursor.
+    pub(super) fn open_editor(&mut self) -> Vec<Effect> {
+        let Some(path) = self.disk.path.clone() else {
+            self.overlays.fail("there is no file yet: :w FILE");
+            return Vec::new();
+        };
+        // A file with errors that is kept apart from the edits must be corrected first.
+        if self.document.is_dirty() && self.disk.state != OnDisk::Broken {
+            self.overlays
+                .warn("there are unsaved edits: w saves them, then E");
+            return Vec::new();
+        }
+        let wrong = self.wrong();
+        let error = match wrong.at {
+            Some(at) => wrong.findings.get(at),
+            None if self.disk.state == OnDisk::Broken => {
+                wrong.findings.iter().find(|d| d.is_error())
+            }
+            None => None,
+        };
+        let span = error.map_or_else(|| self.source().span(self.cursor.selected()), |d| d.span);
+        let line = Position::of(wrong.text, span.start()).line;
+        vec![Effect::OpenEditor { path, line }]
+    }
+
+    pub(super) fn editor_closed(&mut self, outcome: Result<(), String>) -> Vec<Effect> {
+        if let Err(reason) = outcome {
+            self.overlays.fail(reason);
+        }
+        self.read_again()
+    }
+
+    /// Watches the scene's file, and reads it once more in case it changed before the watch began.
+    pub(super) fn watch(&self) -> Vec<Effect> {
+        let watch = self.disk.path.iter().cloned().map(Effect::Watch);
+        let backups = self.disk.path.iter().cloned().map(Effect::FindBackups);
+        watch.chain(self.read_effect()).chain(backups).collect()
+    }
+
+    /// Reports where an interrupted save left the scene's previous content.
+    pub(super) fn backups_found(&mut self, copies: &[PathBuf]) {
+        if let Some(copy) = copies.last() {
+            self.overlays
+                .warn(file::interruption(self.disk.name(), copy));
+        }
+    }
+}

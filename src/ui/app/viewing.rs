@@ -1,0 +1,64 @@
+//! The working view: moving it, and writing it into the text.
+
+use super::App;
+use super::camera::{framed, settled};
+use crate::language::Node;
+use crate::scene::Camera;
+
+impl App {
+    /// Applies a move, unless the resulting camera would see nothing.
+    pub(super) fn move_camera(&mut self, change: impl FnOnce(Camera) -> Camera) {
+        let Some(camera) = self.camera() else {
+            return;
+        };
+        match settled(change(camera), &camera) {
+            Some(moved) => self.pictures.set_view(moved, self.own_camera()),
+            None => self.overlays.fail("the camera can go no further"),
+        }
+    }
+
+    /// Frames the selected object, or the whole scene, from the same direction.
+    pub(super) fn frame_selected(&mut self) {
+        let Some(scene) = self.scene.clone() else {
+            return;
+        };
+        let bounds = match self.cursor.selected() {
+            Node::Object(index) => {
+                let drawn = self.source().drawn(index);
+                let object = drawn.and_then(|at| scene.objects.get(at as usize));
+                let bounds = object.map(|object| object.shape.bounds());
+                bounds.filter(|bounds| bounds.is_bounded() && !bounds.is_empty())
+            }
+            _ => None,
+        };
+        let bounds = bounds.unwrap_or_else(|| scene.bounds());
+        if bounds.is_empty() {
+            self.overlays.say("there is nothing to look at");
+            return;
+        }
+        let (centre, radius) = (bounds.centre(), bounds.half_diagonal());
+        self.move_camera(|camera| framed(camera, centre, radius));
+    }
+
+    /// Writes the working view into the text as an ordinary edit.
+    pub(super) fn save_view(&mut self) {
+        let (Some(view), Some(scene)) = (self.pictures.view, self.scene.clone()) else {
+            self.overlays.say("the view is the scene's own");
+            return;
+        };
+        if 0 < self.error_count() {
+            self.overlays
+                .fail("the view can't be written while the scene has errors");
+            return;
+        }
+        self.document.end_step();
+        match self.write_camera(&view, &scene.camera) {
+            Ok(()) => {
+                self.pictures.view = None;
+                self.overlays.say("the view is in the scene's text now");
+            }
+            Err(refused) => self.overlays.fail(refused.message),
+        }
+        self.document.end_step();
+    }
+}

@@ -1,0 +1,65 @@
+//! How the interface ends, and errors that prevent it from starting.
+
+use std::io;
+use std::path::PathBuf;
+
+use crate::assets::NoFolder;
+use crate::file::ReadError;
+use crate::language::UnknownLanguage;
+
+/// How the interface ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// The user quit.
+    Quit,
+    /// It was interrupted by a signal.
+    Interrupted,
+    /// Another signal requested its end.
+    Terminated {
+        /// The signal number.
+        signal: u8,
+    },
+    /// The terminal is gone.
+    HungUp,
+}
+
+/// Error that ends the interface or prevents it from starting.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The scene can't be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The file name extension is not that of a scene language.
+    #[error(transparent)]
+    UnknownLanguage(#[from] UnknownLanguage),
+    /// A folder of assets can't be read.
+    #[error(transparent)]
+    Assets(#[from] NoFolder),
+    /// The path is a folder.
+    #[error("{path}: is a folder, not a scene", path = path.display())]
+    Folder {
+        /// Path of the folder.
+        path: PathBuf,
+    },
+    /// The argument is neither a file nor the name of a scene.
+    #[error(
+        "no such file or command `{path}`; the commands are render, check and doctor, scenes end in .ray, .dat or .xml",
+        path = path.display()
+    )]
+    NoSuch {
+        /// The argument.
+        path: PathBuf,
+    },
+    /// Standard output is not a terminal.
+    #[error("the interface needs a terminal; to make a picture: halflight render SCENE -o FILE")]
+    NoTerminal,
+    /// The terminal cannot position text.
+    #[error(
+        "TERM=dumb: the interface needs a terminal that can move its cursor; if this one can, set \
+         TERM, such as to xterm; to make a picture: halflight render SCENE -o FILE"
+    )]
+    DumbTerminal,
+    /// The terminal failed.
+    #[error("terminal: {0}")]
+    Terminal(#[from] io::Error),
+}

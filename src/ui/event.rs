@@ -1,0 +1,49 @@
+//! Events in the inbox of the main loop.
+
+use std::sync::mpsc::Sender;
+use std::time::Instant;
+
+use super::msg::{Msg, Target};
+use super::terminal::{self, Reply};
+
+/// One event.
+#[derive(Debug)]
+pub(crate) enum Event {
+    /// A message.
+    Msg(Msg),
+    /// A renderer has a newer frame.
+    Ready(Target),
+    /// The renderer with this serial number has ended.
+    Ended(Target, u64),
+    /// The terminal has taken everything drawn.
+    Cleared,
+    /// The terminal replied at this time.
+    Replied(Reply, Instant),
+}
+
+/// Returns a function that puts messages into the inbox.
+pub(crate) fn sending(sender: &Sender<Event>) -> impl Fn(Msg) + Clone + Send + Sync + 'static {
+    let sender = sender.clone();
+    move |msg| {
+        // The inbox is gone only when the program ends.
+        let _ = sender.send(Event::Msg(msg));
+    }
+}
+
+impl From<terminal::Event> for Event {
+    fn from(event: terminal::Event) -> Self {
+        use terminal::Event as E;
+        Self::Msg(match event {
+            E::Reply(reply) => return Self::Replied(reply, Instant::now()),
+            E::Key(key) => Msg::Key(key),
+            E::Paste(text) => Msg::Paste(text),
+            E::Mouse(event) => Msg::Mouse(event),
+            E::Resize { columns, rows } => Msg::Resize(columns, rows),
+            E::Suspend => Msg::Suspend,
+            E::Continue => Msg::Continued,
+            E::HangUp => Msg::HangUp,
+            E::Terminate { signal } => Msg::Terminate { signal },
+            E::Interrupt => Msg::Interrupt,
+        })
+    }
+}

@@ -1,0 +1,150 @@
+//! Actions of keys, and the contexts in which keys have a meaning.
+
+use crate::render::Aov;
+
+/// Meaning of the keys, always shown in the status line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Mode {
+    /// Selects a node in the list or in the picture.
+    Select,
+    /// Moving the camera.
+    View,
+    /// Edits the fields of the selected node.
+    Edit,
+    /// Shows the full-size trace.
+    Trace,
+    /// Moves a cross over the picture to pick the object under it.
+    Pick,
+}
+
+/// A context with its own key bindings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Context {
+    /// One of the modes.
+    In(Mode),
+    /// The first reading of a scene.
+    Opening,
+    /// The help page.
+    Help,
+    /// The list of errors.
+    Errors,
+    /// A merge conflict.
+    Conflict,
+    /// The question whether to quit.
+    Quit,
+    /// The question whether to recover the edits of an earlier run.
+    Recover,
+}
+
+/// Action of a key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    /// Moves the cursor by this many lines; positive is down.
+    Move(isize),
+    /// Moves the cursor by this many pages; positive is down.
+    Page(isize),
+    /// Moves the cursor to the first line.
+    First,
+    /// The first key of `gg`.
+    G,
+    /// Moves the cursor to the last line.
+    Last,
+    /// Selects the next or previous object or light.
+    Cycle(isize),
+    /// Switches to a mode.
+    Go(Mode),
+    /// Goes back or closes the open page; never discards anything.
+    Back,
+    /// Accepts the item under the cursor.
+    Accept,
+    /// Opens the search prompt.
+    Search,
+    /// Goes to the next or previous match.
+    SearchAgain(isize),
+    /// Opens the command prompt.
+    Command,
+    /// Shows or hides the outline of the selected object.
+    Outline,
+    /// Shows or hides the selected object itself.
+    Visibility,
+    /// Starts typing a value.
+    Type,
+    /// Adds the step of the field times the stride; positive is up.
+    Nudge(i8, Stride),
+    /// Makes the stride smaller or larger.
+    Stride(isize),
+    /// Goes to the next or previous component.
+    Component(isize),
+    /// Orbits the camera around its target, in steps to the left and up.
+    Orbit(i8, i8),
+    /// Moves camera and target, in steps to the left and up.
+    Pan(i8, i8),
+    /// Moves the camera towards its target, in steps.
+    Dolly(i8),
+    /// Widens the field of view, in steps.
+    Widen(i8),
+    /// Resets the view to that of the text.
+    ResetView,
+    /// Frames the selected object, or the whole scene.
+    FrameSelected,
+    /// Writes the working view into the text.
+    SaveView,
+    /// Moves the cross, in cells to the right and down.
+    Cross(i32, i32),
+    /// Stops the work in progress.
+    Stop,
+    /// Exports a picture.
+    Export,
+    /// Saves the scene.
+    Save,
+    /// Undoes one step.
+    Undo,
+    /// Redoes one step.
+    Redo,
+    /// Opens the user's editor.
+    Editor,
+    /// Opens or closes the list of errors.
+    Errors,
+    /// Shows the last message again.
+    Message,
+    /// Opens or closes the help page.
+    Help,
+    /// Toggles the size of the picture on the screen.
+    Zoom,
+    /// Shows one of the auxiliary images, or the lit picture.
+    Show(Option<Aov>),
+    /// Switches the integrator.
+    Integrator,
+    /// Takes the mouse or leaves it to the terminal.
+    Mouse,
+    /// Redraws everything.
+    Repaint,
+    /// Stops the program until it is continued.
+    Suspend,
+    /// Ends the program.
+    Quit,
+    /// Ends the program; immediately if repeated.
+    Interrupt,
+    /// Resolves a conflict with the text of the interface.
+    Mine,
+    /// Resolves a conflict with the text of the file.
+    Theirs,
+    /// Resolves all conflicts with the text of the interface.
+    AllMine,
+    /// Resolves all conflicts with the text of the file.
+    AllTheirs,
+    /// Answers no.
+    No,
+}
+
+/// Size of a nudge.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Stride {
+    /// A tenth of the field's step.
+    Fine,
+    /// The field's step.
+    #[default]
+    Plain,
+    /// Ten times the field's step.
+    Coarse,
+}

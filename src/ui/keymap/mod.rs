@@ -1,0 +1,10 @@
+//! The key bindings: one table gives both the action of a key and the help page.
+
+mod action;
+mod chord;
+mod help;
+mod table;
+
+pub use action::{Action, Context, Mode, Stride};
+pub use help::{Entry, HelpLine, help, hints};
+pub use table::action;

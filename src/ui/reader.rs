@@ -1,0 +1,207 @@
+//! The thread that reads, parses and lowers the scene file: for a text with millions of objects
+//! this takes longer than a key may wait.
+
+use std::cell::LazyCell;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::thread;
+
+use super::heap;
+use super::msg::Msg;
+use super::reading::{Known, Place, Reading};
+use crate::file;
+use crate::file::ReadError;
+use crate::memory;
+use crate::watch::{Method, Watcher};
+
+/// Length in bytes from which a text is lowered on several threads.
+const LARGE: usize = 1 << 20;
+
+/// An order to the thread.
+enum Order {
+    /// Watch this file instead of the previous one.
+    Watch(PathBuf),
+    /// Read this file.
+    Read(PathBuf, Known),
+}
+
+/// Handle of the thread that watches, reads and lowers the scene file. Nothing else waits for it,
+/// neither a save nor the end of the program.
+pub(super) struct Reader {
+    orders: Sender<Order>,
+}
+
+impl Reader {
+    /// Starts the thread. `send` is called on it and on the watcher's thread.
+    pub(super) fn start(
+        method: Method,
+        send: impl Fn(Msg) + Clone + Send + 'static,
+    ) -> io::Result<Self> {
+        let (orders, inbox) = mpsc::channel();
+        let work = move || {
+            let mut watcher = None;
+            let watch = |path| watch(path, method, &mut watcher, &send);
+            follow(&inbox, watch, file::read_text, &send);
+        };
+        thread::Builder::new()
+            .name("reading".to_owned())
+            .spawn(work)?;
+        Ok(Self { orders })
+    }
+
+    /// Watches a file from now on, reported by [`Msg::FileChanged`].
+    pub(super) fn watch(&self, path: PathBuf) -> Result<(), String> {
+        self.order(Order::Watch(path))
+    }
+
+    /// Reads a file, reported by [`Msg::Read`]. Of several pending orders only the last is carried
+    /// out.
+    pub(super) fn read(&self, path: PathBuf, known: Known) -> Result<(), String> {
+        self.order(Order::Read(path, known))
+    }
+
+    fn order(&self, order: Order) -> Result<(), String> {
+        let sent = self.orders.send(order);
+        sent.map_err(|_| "the thread that reads scenes has ended".to_owned())
+    }
+}
+
+/// Carries out orders until the sender is gone. A file that changes while being read is not lowered
+/// but read again.
+fn follow(
+    inbox: &Receiver<Order>,
+    mut watch: impl FnMut(PathBuf),
+    read: impl Fn(&Path) -> Result<String, ReadError>,
+    send: impl Fn(Msg),
+) {
+    // An edit may lower a large scene on the shared thread pool, which would delay the work here.
+    let pool = LazyCell::new(|| {
+        let cores = thread::available_parallelism().map_or(1, usize::from);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(memory::threads(cores));
+        pool.build()
+    });
+    while let Ok(first) = inbox.recv() {
+        let mut orders = vec![first];
+        orders.extend(inbox.try_iter());
+        while let Some((path, known)) = last(orders, &mut watch) {
+            let read = read(&path);
+            orders = inbox.try_iter().collect();
+            if orders.iter().any(|order| matches!(order, Order::Read(..))) {
+                continue;
+            }
+            let understand = |text: String| {
+                if text.len() < LARGE {
+                    return Reading::new(text, known);
+                }
+                heap::keep_large();
+                match &*pool {
+                    Ok(pool) => pool.install(|| Reading::new(text, known)),
+                    Err(_) => Reading::new(text, known),
+                }
+            };
+            let reading = read.and_then(|text| {
+                let place = Place::of(&path);
+                let understood = understand(text).map_err(|reason| ReadError::NoMemory {
+                    path: path.clone(),
+                    reason,
+                });
+                understood.map(|reading| Reading { place, ..reading })
+            });
+            send(Msg::Read(path, reading));
+        }
+    }
+}
+
+/// Carries out the orders to watch and returns the last file to read.
+fn last(orders: Vec<Order>, mut watch: impl FnMut(PathBuf)) -> Option<(PathBuf, Known)> {
+    let mut last = None;
+    for order in orders {
+        match order {
+            // Before the file is read, so that no later change is missed.
+            Order::Watch(path) => watch(path),
+            Order::Read(path, known) => last = Some((path, known)),
+        }
+    }
+    last
+}
+
+fn watch(
+    path: PathBuf,
+    method: Method,
+    watcher: &mut Option<Watcher>,
+    send: &(impl Fn(Msg) + Clone + Send + 'static),
+) {
+    // The old watcher ends first, so that its notices are not taken for the new file's.
+    drop(watcher.take());
+    let path = [path];
+    let changed = send.clone();
+    match Watcher::new(&path, method, move || changed(Msg::FileChanged)) {
+        Ok(new) => *watcher = Some(new),
+        Err(error) => send(Msg::Failed(format!(
+            "changes of {} go unnoticed: {error}; try --poll",
+            path[0].display()
+        ))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::Document;
+    use crate::language::Language;
+    use crate::scene::Meshes;
+    use std::cell::{Cell, RefCell};
+
+    fn order(name: &str) -> Order {
+        let known = Known {
+            scene: Document::new(Language::Ray, String::new()).snapshot(),
+            saving: None,
+            meshes: Meshes::default(),
+        };
+        Order::Read(name.into(), known)
+    }
+
+    /// The files read and the files reported, if `during` is ordered while the first one is being
+    /// read.
+    fn followed(before: &[&str], during: Option<&str>) -> (Vec<PathBuf>, Vec<PathBuf>) {
+        let (orders, inbox) = mpsc::channel();
+        for name in before {
+            orders.send(order(name)).expect("it is there");
+        }
+        let orders = Cell::new(Some(orders));
+        let (read, sent) = (RefCell::new(Vec::new()), RefCell::new(Vec::new()));
+        let reads = |path: &Path| {
+            if let (Some(orders), Some(name)) = (orders.take(), during) {
+                orders.send(order(name)).expect("it is there");
+            }
+            read.borrow_mut().push(path.to_owned());
+            Ok(String::new())
+        };
+        follow(
+            &inbox,
+            |_| {},
+            reads,
+            |msg| match msg {
+                Msg::Read(path, Ok(_)) => sent.borrow_mut().push(path),
+                msg => panic!("{msg:?}"),
+            },
+        );
+        (read.into_inner(), sent.into_inner())
+    }
+
+    #[test]
+    fn only_the_last_of_several_pending_files_is_read() {
+        let paths = |names: &[&str]| names.iter().map(PathBuf::from).collect::<Vec<_>>();
+        assert_eq!(
+            followed(&["a", "b", "a"], None),
+            (paths(&["a"]), paths(&["a"]))
+        );
+    }
+
+    #[test]
+    fn a_file_that_changed_while_being_read_is_not_lowered() {
+        let (read, sent) = followed(&["a"], Some("a"));
+        assert_eq!((read.len(), sent.len()), (2, 1));
+    }
+}

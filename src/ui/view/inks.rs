@@ -1,0 +1,72 @@
+//! Inks: how the pixels of pictures become coloured cells.
+
+use ratatui::style::Color;
+
+use super::palette::Palette;
+use crate::ui::terminal::ColourDepth;
+
+/// The cells that pixels are drawn with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Glyphs {
+    /// Two pixels per cell in true colour.
+    HalfBlocks,
+    /// Two pixels per cell, dithered to the 256 colours.
+    HalfBlocksOf256,
+    /// Two pixels per cell, dithered to the sixteen colours.
+    HalfBlocksOf16,
+    /// One character per cell, by brightness, for terminals without colours.
+    Characters,
+}
+
+impl Glyphs {
+    /// The name of the colours used.
+    pub(super) fn name(self) -> &'static str {
+        let depth = match self {
+            Self::HalfBlocks => ColourDepth::TrueColour,
+            Self::HalfBlocksOf256 => ColourDepth::Palette256,
+            Self::HalfBlocksOf16 => ColourDepth::Palette16,
+            Self::Characters => ColourDepth::Mono,
+        };
+        depth.name()
+    }
+
+    fn for_depth(depth: ColourDepth) -> Self {
+        match depth {
+            ColourDepth::Mono => Self::Characters,
+            ColourDepth::Palette16 => Self::HalfBlocksOf16,
+            ColourDepth::Palette256 => Self::HalfBlocksOf256,
+            ColourDepth::TrueColour => Self::HalfBlocks,
+        }
+    }
+}
+
+/// The glyphs of pictures, and a cache of their colour mixes.
+#[derive(Debug)]
+pub struct Inks {
+    pub(super) glyphs: Glyphs,
+    palette: Option<Palette>,
+}
+
+impl Inks {
+    /// The inks for a colour depth.
+    pub fn for_depth(depth: ColourDepth) -> Self {
+        Self::new(Glyphs::for_depth(depth))
+    }
+
+    pub(super) fn new(glyphs: Glyphs) -> Self {
+        let palette = match glyphs {
+            Glyphs::HalfBlocksOf256 => Some(Palette::of_256()),
+            Glyphs::HalfBlocksOf16 => Some(Palette::of_16()),
+            Glyphs::HalfBlocks | Glyphs::Characters => None,
+        };
+        Self { glyphs, palette }
+    }
+
+    /// The terminal colour of a pixel at a position.
+    pub(super) fn colour(&mut self, colour: [u8; 3], x: u32, y: u32) -> Color {
+        match &mut self.palette {
+            Some(palette) => Color::Indexed(palette.at(colour, x, y)),
+            None => Color::Rgb(colour[0], colour[1], colour[2]),
+        }
+    }
+}
