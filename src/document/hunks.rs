@@ -99,10 +99,20 @@ impl Hunk {
     }
 }
 
-/// The differences between `base` and `other`, in order and disjoint. Leaves replaced one by one
-/// are separate hunks. An insertion or deletion that could equally have happened a few chunks away
-/// covers all those positions.
-pub(super) fn hunks(base: &Chunks, other: &Chunks) -> Vec<Hunk> {
+/// The differences between two texts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Hunks {
+    /// The differences, in order and disjoint.
+    pub(super) hunks: Vec<Hunk>,
+    /// The base chunks on which the hunks depend, at least from the first hunk to the last; empty
+    /// if there are none.
+    pub(super) reach: Range<usize>,
+}
+
+/// The differences between `base` and `other`. Leaves replaced one by one are separate hunks. An
+/// insertion or deletion that could equally have happened a few chunks away covers all those
+/// positions.
+pub(super) fn hunks(base: &Chunks, other: &Chunks) -> Hunks {
     let raw = fuse(differences(base, other));
     let mut hunks: Vec<Hunk> = Vec::with_capacity(raw.len());
     for (index, hunk) in raw.iter().enumerate() {
@@ -124,7 +134,16 @@ pub(super) fn hunks(base: &Chunks, other: &Chunks) -> Vec<Hunk> {
             );
         }
     }
-    hunks
+    // Of fused differences the outer chunks may be equal.
+    let ends =
+        [raw.first(), raw.last(), hunks.first(), hunks.last()].map(|hunk| hunk.map(|h| &h.base));
+    let ends = || ends.iter().copied().flatten();
+    let start = ends().map(|base| base.start).min().unwrap_or(0);
+    let end = ends().map(|base| base.end).max().unwrap_or(0);
+    Hunks {
+        hunks,
+        reach: start..end,
+    }
 }
 
 /// The differences found by the diff, separated by equal chunks.

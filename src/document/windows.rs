@@ -1,7 +1,7 @@
 //! The lines around differences between texts. Only these are split into leaves, since a scene of a
 //! million objects has tens of millions of leaves.
 
-use super::hunks::{Chunks, Hunk, hunks};
+use super::hunks::{Chunks, Hunks, hunks};
 use crate::language::Language;
 use crate::text;
 use crate::text::Span;
@@ -26,15 +26,13 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Whether a wider window might give other hunks: they reach an edge beyond which the text
+    /// Whether a wider window might give other hunks: they depend on an edge beyond which the text
     /// continues.
-    pub(super) fn is_narrow(&self, base: &Chunks, hunks: &[Hunk]) -> bool {
+    pub(super) fn is_narrow(&self, base: &Chunks, Hunks { hunks, reach }: &Hunks) -> bool {
         let [is_start, is_end] = self.at_ends;
         // The first and last chunks are white space that may continue outside.
-        let starts = |hunk: &Hunk| hunk.base.start <= 1;
-        let ends = |hunk: &Hunk| base.len() <= hunk.base.end + 1;
-        (!is_start && hunks.first().is_some_and(starts))
-            || (!is_end && hunks.last().is_some_and(ends))
+        let narrow = (!is_start && reach.start <= 1) || (!is_end && base.len() <= reach.end + 1);
+        narrow && !hunks.is_empty()
     }
 }
 
@@ -129,7 +127,7 @@ pub fn differences(language: Language, text: &str, other: &str) -> usize {
             if window.is_narrow(&base, &hunks) {
                 return None;
             }
-            count += hunks.len();
+            count += hunks.hunks.len();
         }
         Some(count)
     })
@@ -137,6 +135,7 @@ pub fn differences(language: Language, text: &str, other: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use super::super::hunks::Hunk;
     use super::*;
     use proptest::prelude::*;
 
@@ -198,7 +197,7 @@ mod tests {
                     chunks.span(&hunk.base).later(window.base.start()),
                     others.span(&hunk.other).later(window.theirs.start()),
                 ];
-                (!window.is_narrow(&chunks, &hunks)).then(|| hunks.iter().map(bytes).collect())
+                (!window.is_narrow(&chunks, &hunks)).then(|| hunks.hunks.iter().map(bytes).collect())
             };
             let whole = found(usize::MAX);
             prop_assert!(whole.is_some());

@@ -218,6 +218,27 @@ fn rows(most: usize) -> impl Strategy<Value = Vec<&'static str>> {
     )
 }
 
+/// The lines around the changes give the same as all lines, or `None` where they do not suffice.
+#[track_caller]
+fn check_windows(language: Language, texts: [&str; 3], margin: usize) {
+    let [base, mine, theirs] = texts;
+    let changes = [mine, theirs].map(|other| Change::between(base, other));
+    let whole = resolve(language, texts, changes, usize::MAX);
+    assert!(whole.is_some());
+    let part = resolve(language, texts, changes, margin);
+    assert!(
+        part.is_none() || part == whole,
+        "{part:?}, not {whole:?}, of {texts:?}"
+    );
+}
+
+#[test]
+fn a_window_of_few_lines_is_wide_enough_or_not_used() {
+    let base = "0 0\r\n0 0\r\n0 0\r\nab\r\nab\r\nab";
+    let theirs = "0 0\r\n0 0\r\n0\r\nab\r\nab\r\nab\r\nab";
+    check_windows(Language::Ray, [base, base, theirs], 2);
+}
+
 proptest! {
     // Merging the lines around the changes, if they suffice, gives the same as merging all lines.
     #[test]
