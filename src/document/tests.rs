@@ -251,7 +251,7 @@ fn scene() -> impl Strategy<Value = String> {
 
 proptest! {
     // 200 texts of 100 edits each, over all languages.
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(ProptestConfig { cases: 200, ..crate::repeatable() })]
 
     #[test]
     fn edits_change_their_span_and_undo_restores_every_byte(

@@ -180,6 +180,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::repeatable())]
+
         #[test]
         fn a_window_has_the_same_hunks_as_the_whole_text(
             head in rows(), old in rows(), new in rows(), tail in rows(), margin in 0_usize..20,

@@ -103,6 +103,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::repeatable())]
+
         #[test]
         fn words_and_white_space_cover_a_text(text in "([a\u{A0}\u{FEFF}é\u{80}ﻼ \t\n\x0B]{0,9}| {70}|a{70}){0,9}") {
             let is_white = |c: char| c.is_ascii_whitespace() || "\x0B\u{A0}\u{FEFF}".contains(c);

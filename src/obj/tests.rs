@@ -385,6 +385,8 @@ const LIBRARY: &str =
     "newmtl a\nKd 1 .5 0\nKs .5\nNs 3\nillum 2\nmap_Kd -o 1 2 a b.png\nnewmtl b\n";
 
 proptest! {
+    #![proptest_config(crate::repeatable())]
+
     #[test]
     fn no_bytes_make_the_reader_panic(
         text in proptest::collection::vec(any::<u8>(), 0..300),

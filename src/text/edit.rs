@@ -165,6 +165,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::repeatable())]
+
         #[test]
         fn the_smallest_edit_round_trips(old in "[aé ]{0,9}", new in "[aé ]{0,9}") {
             let mut text = old.clone();

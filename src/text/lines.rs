@@ -109,6 +109,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::repeatable())]
+
         #[test]
         fn every_offset_is_in_one_line(text in "[ab\r\n]{0,20}") {
             let mut start = 0;

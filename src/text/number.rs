@@ -225,6 +225,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::repeatable())]
+
         #[test]
         fn short_numbers_parse_like_others(
             token in "[-+]?([0-9]{1,17}|[0-9]{0,9}\\.[0-9]{0,9})(e[0-9])?|[-+.0-9e]{0,6}",

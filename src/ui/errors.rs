@@ -254,6 +254,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::repeatable())]
+
         #[test]
         fn excerpts_fit_and_contain_no_control_characters(
             text in "[a-c\\t\\n\\r界é\u{1b}\u{202e}]{0,60}", span in (0usize..90, 0usize..90), width in 1usize..40

@@ -360,6 +360,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::repeatable())]
+
         #[test]
         fn areas_are_inside_the_screen_and_disjoint(
             x in 0u16..5, y in 0u16..5, width in 0u16..220, height in 0u16..70, alone: bool,

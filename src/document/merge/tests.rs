@@ -240,6 +240,8 @@ fn a_window_of_few_lines_is_wide_enough_or_not_used() {
 }
 
 proptest! {
+    #![proptest_config(crate::repeatable())]
+
     // Merging the lines around the changes, if they suffice, gives the same as merging all lines.
     #[test]
     fn windows_merge_like_the_whole_text(

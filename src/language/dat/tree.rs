@@ -130,6 +130,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::repeatable())]
+
         #[test]
         fn every_character_is_in_a_token_a_comment_or_white_space(text in "[ab/#\n\r \t\u{A0}\u{FEFF}é]{0,40}") {
             let mut covered = vec![false; text.len()];

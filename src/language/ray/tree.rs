@@ -133,6 +133,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::repeatable())]
+
         #[test]
         fn every_character_is_a_token_a_comment_or_white_space(text in "[01a/\\\\\n\r \u{A0}\u{FEFF}é]{0,40}") {
             let tree = parse(&text);

@@ -329,6 +329,8 @@ fn any_bytes_can_be_read() {
 }
 
 proptest! {
+    #![proptest_config(crate::repeatable())]
+
     #[test]
     fn any_words_can_be_read(text in "((1|-2.5|0|obj|sphere|CSG|quadric|mat|ID|light|pnt|use|bump|texture|image|render|camera|viewport|#|//|\n) ?){0,80}") {
         check_any(&text);

@@ -100,7 +100,7 @@ fn an_edit_of_a_shape_copies_only_its_block() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig { cases: 24, ..crate::repeatable() })]
 
     #[test]
     fn edited_texts_mean_the_same_as_new_ones(

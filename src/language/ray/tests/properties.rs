@@ -431,6 +431,8 @@ fn damaged_texts_are_read_to_the_end() {
 }
 
 proptest! {
+    #![proptest_config(crate::repeatable())]
+
     #[test]
     fn any_text_can_be_read(text in ".{0,60}") {
         check_any(&text);
@@ -474,6 +476,8 @@ fn objects_alike(shapes: &[(usize, usize)], tokens: usize, each_apart: bool) -> 
 }
 
 proptest! {
+    #![proptest_config(crate::repeatable())]
+
     /// Whether a material's text occurred before or not, it has the same meaning and diagnostics.
     #[test]
     fn materials_with_equal_text_are_equal(

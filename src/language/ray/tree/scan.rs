@@ -227,6 +227,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::repeatable())]
+
         #[test]
         fn a_tree_follows_its_text(
             text in "([-0-9.]{0,3}[ \n\r\t]{0,2}|//|/|// ?view:|\\\\\\\\|é|\u{A0}){0,30}",

@@ -142,6 +142,8 @@ fn pieces() -> impl Strategy<Value = String> {
 }
 
 proptest! {
+    #![proptest_config(crate::repeatable())]
+
     #[test]
     fn any_text_is_read(inside in pieces(), outside in pieces()) {
         check(&inside);

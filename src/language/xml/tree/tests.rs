@@ -267,6 +267,8 @@ fn pieces() -> impl Strategy<Value = String> {
 }
 
 proptest! {
+    #![proptest_config(crate::repeatable())]
+
     #[test]
     fn no_text_makes_the_parser_panic(text in pieces()) {
         check_tree(&text);

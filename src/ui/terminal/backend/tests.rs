@@ -170,6 +170,8 @@ fn depths() -> impl Strategy<Value = ColourDepth> {
 }
 
 proptest! {
+    #![proptest_config(crate::repeatable())]
+
     #[test]
     fn the_screen_looks_like_the_buffer(
         depth in depths(),
