@@ -15,7 +15,6 @@ use rayon::prelude::*;
 use super::folder::Folder;
 use super::trouble::Failure;
 use crate::file::{self, directory_of};
-use crate::memory;
 
 /// The folders that a scene's files may be read from.
 #[derive(Debug)]
@@ -293,7 +292,6 @@ fn digest_of_file(file: &File, length: u64) -> Result<u64, Failure> {
     let parts: io::Result<Vec<u64>> = if length <= PART as u64 {
         starts.map(part).collect()
     } else {
-        memory::start_threads().map_err(io::Error::other)?;
         let starts: Vec<u64> = starts.collect();
         starts.into_par_iter().map(part).collect()
     };

@@ -144,7 +144,6 @@ impl From<ReadError> for Failure {
             ReadError::TooLong { .. } => Self::TooLong,
             ReadError::Io { source, .. } => Self::Io(source),
             ReadError::NoMemory { reason, .. } => Self::NoMemory(reason),
-            ReadError::NoThreads(reason) => Self::Io(io::Error::other(reason)),
             ReadError::NotFound { .. } | ReadError::NotUtf8 { .. } | ReadError::Binary { .. } => {
                 Self::Missing(Vec::new())
             }

@@ -5,7 +5,6 @@ mod progress;
 mod render;
 mod report;
 mod stdout;
-mod threads;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -16,7 +15,7 @@ use crate::file::{self, ReadError};
 use crate::language::{
     self, Language, Lowered, Node, Source, UnknownLanguage, errors_of_beginning,
 };
-use crate::memory::OutOfMemory;
+use crate::memory::{self, OutOfMemory};
 use crate::render::Refusal;
 use crate::scene::{Images, Meshes, Scene};
 use crate::text::{Diagnostic, Findings, Span, counted, visible, without_codes};
@@ -88,9 +87,6 @@ impl Warnings {
     }
 }
 
-/// Size in bytes above which several threads read a scene. Below, starting them takes too long.
-const LARGE: u64 = 1 << 14;
-
 /// Scenes to check.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Check {
@@ -106,6 +102,7 @@ pub struct Check {
 /// error. Every scene is checked. Returns the error of the first scene that is unreadable or
 /// invalid; [`Error::Invalid`] counts the errors of all scenes.
 pub fn check(work: &Check) -> Result<(), Error> {
+    memory::start_threads_or_none();
     if let Err(error) = assets::check_folders(&work.assets) {
         let error = error.into();
         print_error(&error);
@@ -172,9 +169,6 @@ fn load(path: &Path, folders: &[PathBuf], warnings: Warnings) -> Result<Loaded, 
     if let Some(beginning) = file::read_beginning(path)? {
         check_beginning(path, language, &beginning, warnings)?;
     }
-    if LARGE < path.metadata().map_or(0, |metadata| metadata.len()) {
-        threads::prepare();
-    }
     let text = file::read_text(path)?;
     for copy in file::backups(path) {
         print_message("note", &file::interruption(path.display(), &copy));
@@ -234,9 +228,6 @@ fn lower(
     let mut lowered = source.lower(&Meshes::default())?;
     let mut files = source.files();
     let mut wanted = Wanted::new(path, &files);
-    if !files.is_empty() {
-        threads::prepare();
-    }
     let mut loaded = assets.read(&wanted);
     if !wanted.meshes.is_empty() {
         lowered = source.lower(&loaded.meshes)?;

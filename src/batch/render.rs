@@ -10,6 +10,7 @@ use super::{Error, Warnings, load, print_error, print_findings, print_message, s
 use crate::assets;
 use crate::file;
 use crate::image_file::ImageFormat;
+use crate::memory;
 use crate::render::{Aov, Filter, Frame, Job, Renderer, Settings, Threads, default_depth};
 use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer};
 use crate::text::{Diagnostic, counted};
@@ -68,6 +69,7 @@ pub fn render(work: &Render) -> Result<(), Error> {
 fn try_render(work: &Render) -> Result<(), Error> {
     check_output(work)?;
     assets::check_folders(&work.assets)?;
+    memory::start_threads_or_none();
     let loaded = load(&work.scene, &work.assets, work.warnings)?;
     let scene = loaded.scene.ok_or(Error::Invalid {
         errors: loaded.errors,

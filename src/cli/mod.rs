@@ -131,14 +131,14 @@ pub fn interface_exit_code(outcome: &Result<ui::Ending, ui::Error>) -> u8 {
         Err(ui::Error::UnknownLanguage(_)) => INVALID,
         Err(ui::Error::Folder { .. } | ui::Error::Assets(_)) => NO_INPUT,
         Err(ui::Error::NoSuch { .. } | ui::Error::NoTerminal | ui::Error::DumbTerminal) => USAGE,
-        Err(ui::Error::Terminal(_)) => FAILED,
+        Err(ui::Error::NoThreads(_) | ui::Error::Terminal(_)) => FAILED,
     }
 }
 
 fn read_code(error: &ReadError) -> u8 {
     match error {
         ReadError::NotUtf8 { .. } | ReadError::Binary { .. } => INVALID,
-        ReadError::NoMemory { .. } | ReadError::NoThreads(_) => FAILED,
+        ReadError::NoMemory { .. } => FAILED,
         ReadError::Io { source, .. } if source.kind() == std::io::ErrorKind::OutOfMemory => FAILED,
         ReadError::NotFound { .. }
         | ReadError::NotRegular { .. }

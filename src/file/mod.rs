@@ -18,7 +18,7 @@ use std::fs::{File, FileType, OpenOptions};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use crate::memory::{self, Need, NoThreads, OutOfMemory};
+use crate::memory::{self, Need, OutOfMemory};
 use crate::text::{Position, Span};
 
 pub use backup::{backups, interruption};
@@ -43,9 +43,6 @@ const WRONG_LINE: usize = 1 << 10;
 
 /// A file with more NUL bytes than this counts as binary.
 const MOST_ZEROS: usize = 100;
-
-/// Longer files, in bytes, may be processed in parallel.
-const WITHOUT_THREADS: u64 = 1 << 14;
 
 /// Why a scene's text could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -86,9 +83,6 @@ pub enum ReadError {
         /// The allocation that was refused.
         reason: OutOfMemory,
     },
-    /// Too long to be read without threads, which could not be started.
-    #[error(transparent)]
-    NoThreads(#[from] NoThreads),
     /// Contains more NUL bytes than text would.
     #[error("{path}: is a binary file, not text: NUL bytes from line {line} on", path = path.display())]
     Binary {
@@ -294,9 +288,6 @@ pub(crate) fn read_opened(file: &File, path: &Path, limit: u64) -> Result<Vec<u8
         path: path.to_owned(),
         reason,
     })?;
-    if WITHOUT_THREADS < length {
-        memory::start_threads()?;
-    }
     read_open(file, limit).map_err(|source| match source.kind() {
         io::ErrorKind::FileTooLarge => ReadError::TooLong {
             path: path.to_owned(),

@@ -15,7 +15,7 @@ mod threads;
 use std::fmt;
 
 pub use available::{available, limits};
-pub use threads::{NoThreads, start_threads, threads};
+pub use threads::{NoThreads, start_threads, start_threads_or_none, threads};
 
 /// Work that needs fewer bytes is not checked: asking the system takes longer, and any other
 /// allocation is as likely to fail.

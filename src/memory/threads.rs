@@ -1,9 +1,9 @@
 //! Threads under a memory limit: each takes address space for its stack and its heap, used or not.
 
-use std::sync::OnceLock;
-use std::thread;
+use std::sync::mpsc;
+use std::{io, thread};
 
-use rayon::ThreadPoolBuilder;
+use rayon::{ThreadBuilder, ThreadPoolBuilder};
 
 /// Address space of a thread in bytes: a stack of two megabytes, and the separate heap that the GNU
 /// C library reserves.
@@ -14,7 +14,7 @@ const SHARE: u64 = 4;
 
 /// The error that no threads can be started.
 #[derive(Clone, Debug, thiserror::Error)]
-#[error("cannot start threads")]
+#[error("can't start threads")]
 pub struct NoThreads;
 
 /// The number of threads that a pool may have, from 1 to `wanted`.
@@ -45,20 +45,39 @@ fn address_space_limit() -> Option<u64> {
     None
 }
 
-/// Starts rayon's global pool, used by long work outside any other pool, unless it is running. If
-/// rayon started it implicitly and got no threads, it would panic.
+/// Starts rayon's global pool, used by work outside any other pool, with as many threads as the
+/// system grants up to one per core. To be called once, at the start of the program: rayon would
+/// start the pool at its first use, and panic if one of its threads does not start.
 pub fn start_threads() -> Result<(), NoThreads> {
-    static STARTED: OnceLock<Result<(), NoThreads>> = OnceLock::new();
-    let start = || {
-        let cores = thread::available_parallelism().map_or(1, usize::from);
-        let builder = ThreadPoolBuilder::new().num_threads(threads(cores));
-        match builder.build_global() {
-            // It is already running.
-            Err(error) if std::error::Error::source(&error).is_none() => Ok(()),
-            started => started.map_err(|_| NoThreads),
-        }
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    // The pool is built for the threads that run already, since a pool that fails is final.
+    let start = |_| {
+        let (worker, inbox) = mpsc::channel::<ThreadBuilder>();
+        let run = move || inbox.recv().map_or((), ThreadBuilder::run);
+        thread::Builder::new().spawn(run).ok().map(|_| worker)
     };
-    STARTED.get_or_init(start).clone()
+    let workers: Vec<_> = (0..threads(cores)).map_while(start).collect();
+    if workers.is_empty() {
+        return Err(NoThreads);
+    }
+    let hand_out = |worker: ThreadBuilder| {
+        let thread = &workers[worker.index()];
+        thread
+            .send(worker)
+            .map_err(|_| io::ErrorKind::BrokenPipe.into())
+    };
+    let builder = ThreadPoolBuilder::new().num_threads(workers.len());
+    let started = builder.spawn_handler(hand_out).build_global();
+    started.map_err(|_| NoThreads)
+}
+
+/// Starts the pool; if no thread can be started, the calling thread does the work of the pool.
+pub fn start_threads_or_none() {
+    if start_threads().is_err() {
+        let alone = ThreadPoolBuilder::new().num_threads(1).use_current_thread();
+        // This fails only if a pool has been started before.
+        let _ = alone.build_global();
+    }
 }
 
 #[cfg(test)]

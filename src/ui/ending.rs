@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use crate::assets::NoFolder;
 use crate::file::ReadError;
 use crate::language::UnknownLanguage;
+use crate::memory::NoThreads;
 
 /// How the interface ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,6 +60,9 @@ pub enum Error {
          TERM, such as to xterm; to make a picture: halflight render SCENE -o FILE"
     )]
     DumbTerminal,
+    /// No thread can be started.
+    #[error(transparent)]
+    NoThreads(#[from] NoThreads),
     /// The terminal failed.
     #[error("terminal: {0}")]
     Terminal(#[from] io::Error),

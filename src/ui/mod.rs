@@ -42,6 +42,7 @@ use std::path::{Path, PathBuf};
 use crate::assets::check_folders;
 use crate::file::{self, ReadError};
 use crate::language::{self, Language};
+use crate::memory;
 use crate::render::DEFAULT_SPP;
 use app::{App, Opening, OpeningText, Quality};
 pub use ending::{Ending, Error};
@@ -57,6 +58,7 @@ const EMBEDDED_SCENE: &str = include_str!("../../scenes/default.ray");
 /// scene file are returned before the terminal is touched; the file is read on another thread.
 pub fn run(options: &Options) -> Result<Ending, Error> {
     heap::map_large();
+    memory::start_threads()?;
     let (path, language, text) = find_scene(options.scene.as_deref())?;
     check_folders(&options.assets)?;
     if !io::stdout().is_terminal() {

@@ -72,7 +72,7 @@ fn work_under_any_memory_limit_succeeds_or_is_refused() {
                 Some(1) => {
                     refused += 1;
                     let has_reason = stderr.contains("out of memory: ")
-                        || stderr.contains("cannot start threads");
+                        || stderr.contains("can't start threads");
                     assert!(
                         has_reason && stderr.contains("error: "),
                         "{line} in {limit} kB: {stderr}"

@@ -64,6 +64,8 @@ fn an_abort_restores_the_terminal() {
         (Signal::ABORT, "halflight aborted"),
         (Signal::FPE, "halflight was ended by SIGFPE"),
         (Signal::ILL, "halflight was ended by SIGILL"),
+        (Signal::SYS, "halflight was ended by SIGSYS"),
+        (Signal::TRAP, "halflight was ended by SIGTRAP"),
     ] {
         let place = Place::new();
         let session = place.open();

@@ -1,5 +1,5 @@
 //! Restores the terminal after an abort (by a failed allocation, a stack overflow, or a panic while
-//! panicking) or after an illegal instruction. The state of the process is unreliable by then, so a
+//! panicking), an illegal instruction or a forbidden system call. The state of the process is unreliable by then, so a
 //! signal handler writes a few bytes and sets the terminal's modes.
 //!
 //! `SIGSEGV` and `SIGBUS` are left to Rust, which uses them to detect a stack overflow and aborts:
@@ -15,7 +15,7 @@ use std::sync::Arc;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fd::BorrowedFd;
 use rustix::termios::{OptionalActions, QueueSelector, tcflush, tcgetattr, tcsetattr};
-use signal_hook::consts::{SIGABRT, SIGFPE, SIGILL};
+use signal_hook::consts::{SIGABRT, SIGFPE, SIGILL, SIGSYS, SIGTRAP};
 use signal_hook::low_level;
 use signal_hook_registry::register_signal_unchecked;
 
@@ -24,10 +24,12 @@ use super::tty;
 
 /// The signals with the message printed on the restored screen: Rust's own message before an abort
 /// goes to the alternate screen.
-const FATAL: [(i32, &str); 3] = [
+const FATAL: [(i32, &str); 5] = [
     (SIGABRT, "halflight aborted"),
     (SIGFPE, "halflight was ended by SIGFPE"),
     (SIGILL, "halflight was ended by SIGILL"),
+    (SIGSYS, "halflight was ended by SIGSYS"),
+    (SIGTRAP, "halflight was ended by SIGTRAP"),
 ];
 
 /// Appended to the message if known to be true.
