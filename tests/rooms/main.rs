@@ -91,7 +91,7 @@ const DEPENDENCIES: &[(&str, &str)] = &[
     ("ratatui", "ui"),
     (
         "rayon",
-        "accel assets batch file geometry language memory obj render scene ui",
+        "accel assets file geometry language memory obj render scene ui",
     ),
     ("roxmltree", "language"),
     ("rustix", "assets batch file memory render ui"),
