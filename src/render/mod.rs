@@ -43,8 +43,8 @@ mod optics;
 mod packets;
 mod path;
 mod probe;
+mod refusal;
 mod renderer;
-mod room;
 mod sampler;
 mod shading;
 mod shared;
@@ -69,7 +69,8 @@ pub use frame::{
     Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress, Settings,
     default_depth,
 };
-pub use renderer::{Refusal, Renderer, Threads};
+pub use refusal::Refusal;
+pub use renderer::{Renderer, Threads};
 
 #[cfg(test)]
 mod tests;

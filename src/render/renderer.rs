@@ -10,11 +10,11 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::film::{Film, NoMemory};
 use super::frame::{Frame, Job};
-use super::room;
+use super::refusal::{self, Refusal};
 use super::shared::Shared;
 use super::worker::{self, Order};
-use crate::memory::{self, OutOfMemory};
-use crate::scene::{Scene, Size};
+use crate::memory;
+use crate::scene::Scene;
 
 /// The number of tracing threads and their priority.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,37 +25,6 @@ pub enum Threads {
     Background(usize),
     /// This many, at normal priority.
     Exactly(usize),
-}
-
-/// Why a job was refused.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Refusal {
-    /// The worker panicked; whatever `wake` owned is dropped.
-    #[error("the renderer has stopped")]
-    Ended,
-    /// The worker's threads cannot be started; whatever `wake` owned is dropped.
-    #[error("can't start the rendering threads ({count}): {reason}; --threads N sets how many")]
-    Threads {
-        /// Number of tracing threads.
-        count: usize,
-        /// The system's error message.
-        reason: String,
-    },
-    /// The objects or the picture do not fit into memory.
-    #[error(transparent)]
-    OutOfMemory(#[from] OutOfMemory),
-    /// The picture needs more memory than is available.
-    #[error(
-        "{}x{}: tracing it takes {:.1} GB of memory, more than the system gives; a smaller size \
-         takes less",
-        size.width, size.height, *bytes as f64 / 1e9
-    )]
-    Memory {
-        /// Size of the picture.
-        size: Size,
-        /// Memory needed for tracing it.
-        bytes: u64,
-    },
 }
 
 /// A worker that traces the newest job. Dropping it cancels the work and joins the thread.
@@ -94,7 +63,7 @@ impl Renderer {
     pub fn restart(&self, job: Job) -> Result<u64, Refusal> {
         let worker = self.worker.as_ref().map_err(Refusal::clone)?;
         let size = job.settings.size;
-        room::fits(&job, self.accepted.borrow().upgrade().as_ref())?;
+        refusal::fits(&job, self.accepted.borrow().upgrade().as_ref())?;
         let scene = Arc::downgrade(&job.scene);
         let film = Film::new(&job.settings, job.frames);
         let film = film.map_err(|NoMemory { bytes }| Refusal::Memory { size, bytes })?;

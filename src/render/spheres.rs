@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::accel::RUN;
 use crate::geometry::lanes::{Eight, Lanes, Simd, SimdBase, Vector, bits};
-use crate::geometry::{Hits, Rays, Shape, Sphere, sphere_hits};
+use crate::geometry::{Hits, Rays, Shape, Solid, Sphere, sphere_hits};
 use crate::scene::Objects;
 
 /// Centres and radii by position; the radius is NaN for other shapes and in the padding at the end.
@@ -24,7 +24,9 @@ impl Spheres {
         let places = inside.par_iter_mut().zip(order);
         places.for_each(|(place, &object)| {
             *place = match &objects[object as usize].shape {
-                Shape::Sphere(Sphere { centre, radius }) => [centre.x, centre.y, centre.z, *radius],
+                Shape::Solid(Solid::Sphere(Sphere { centre, radius })) => {
+                    [centre.x, centre.y, centre.z, *radius]
+                }
                 _ => [0.0, 0.0, 0.0, f64::NAN],
             };
         });

@@ -11,7 +11,7 @@ use super::intersect::Nearest;
 use super::probe::Point;
 use super::world::World;
 use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector, WIDTH, bits, dispatch, mask};
-use crate::geometry::{Hits, Packet, Rays, Shape, Surface, Surfaces, sphere_surfaces};
+use crate::geometry::{Hits, Packet, Rays, Shape, Solid, Surface, Surfaces, sphere_surfaces};
 
 /// Up to eight surface points, in memory layout; lanes of rays that miss are undefined.
 #[derive(Clone, Copy, Debug)]
@@ -86,7 +86,7 @@ impl World {
             let Some(met) = nearest[first] else { break };
             let shape = &self.scene.objects[met.object as usize].shape;
             let found = match shape {
-                Shape::Sphere(_) => Some(self.of_spheres(&rays, nearest, &hits)),
+                Shape::Solid(Solid::Sphere(_)) => Some(self.of_spheres(&rays, nearest, &hits)),
                 _ => shape
                     .surfaces(&rays, &hits)
                     .map(|found| (lanes_of(nearest, met.object), found)),
@@ -128,7 +128,8 @@ impl World {
         let mut lanes = 0;
         for (lane, nearest) in nearest.iter().enumerate().take(WIDTH) {
             if let Some(Nearest { object, .. }) = *nearest
-                && let Shape::Sphere(sphere) = &self.scene.objects[object as usize].shape
+                && let Shape::Solid(Solid::Sphere(sphere)) =
+                    &self.scene.objects[object as usize].shape
             {
                 centre.set(lane, sphere.centre);
                 radius.0[lane] = sphere.radius;

@@ -124,14 +124,14 @@ impl FromIterator<Object> for Objects {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Shape, Sphere};
+    use crate::geometry::{Shape, Solid, Sphere};
 
     fn objects(count: usize) -> Vec<Object> {
         let object = |number| Object {
-            shape: Shape::Sphere(Sphere {
+            shape: Shape::Solid(Solid::Sphere(Sphere {
                 centre: glam::DVec3::ZERO,
                 radius: f64::from(number),
-            }),
+            })),
             material: number,
         };
         (0..count as u32).map(object).collect()

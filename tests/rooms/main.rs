@@ -116,11 +116,8 @@ const ACYCLIC: &[&str] = &["cli", "text", "ui", "watch"];
 
 /// Siblings that use each other nevertheless; a folder includes all its contents.
 const CIRCLES: &[&str] = &[
-    // A solid made of solids.
-    "geometry/csg geometry/shape",
     "language/placed language/xml",
     "language/ray/blocks language/ray/lower language/ray/objects",
-    "render/renderer render/room",
 ];
 
 #[test]

@@ -106,7 +106,7 @@ impl<N: Lanes> Lists for Apart<'_, N> {
 
     #[inline(always)]
     fn push(&mut self, leaf: &Leaf, lines: N::Mask) {
-        let Some(ends) = leaf.shape.ends(self.rays) else {
+        let Some(ends) = leaf.solid.ends(self.rays) else {
             return;
         };
         let lines = lines & ends.hit;

@@ -52,7 +52,7 @@ impl Lists for Exact<'_> {
 
     fn push(&mut self, leaf: &Leaf, (): ()) {
         self.spans.clear();
-        leaf.shape.spans(self.ray, &mut self.spans);
+        leaf.solid.spans(self.ray, &mut self.spans);
         let ends = self.spans.iter().flat_map(|span| [span.enter, span.exit]);
         self.hits.extend(ends.map(|end| Hit {
             part: 2 * (leaf.first_part + end.part),

@@ -70,8 +70,8 @@ impl Csg {
         if APART * scale < apart {
             return false;
         }
-        let normal = leaf.shape.surface(ray, own).normal;
-        let cosine = normal.dot(other.shape.surface(ray, others).normal).abs();
+        let normal = leaf.solid.surface(ray, own).normal;
+        let cosine = normal.dot(other.solid.surface(ray, others).normal).abs();
         1.0 - PARALLEL < cosine && apart * normal.dot(ray.direction).abs() <= same
     }
 }

@@ -19,7 +19,7 @@ mod exact;
 mod merge;
 
 use super::lanes::{Eight, Simd, bits, mask};
-use super::{Aabb, Chart, Crossings, Hit, Hits, Ray, Rays, Shape, Spans, Surface, ulp};
+use super::{Aabb, Chart, Crossings, Hit, Hits, Ray, Rays, Solid, Spans, Surface, ulp};
 
 /// A set operation on two closed solids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,17 +32,17 @@ pub enum Operation {
     Difference,
 }
 
-/// A solid in a list: a shape, or an operation on earlier solids.
+/// A node in a list: a solid, or an operation on earlier nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
-    /// A single shape.
+    /// A single solid.
     Leaf {
-        /// The shape, a solid.
-        shape: Shape,
+        /// The solid.
+        solid: Solid,
         /// The owner's tag for it.
         tag: u32,
     },
-    /// An operation on two solids.
+    /// An operation on two nodes.
     Operation {
         /// The operation.
         operation: Operation,
@@ -53,8 +53,8 @@ pub enum Node {
     },
 }
 
-/// A solid made of shapes by set operations. Its parts are those of the shapes, each as it is or
-/// turned inside out.
+/// Solids combined by set operations. Its parts are those of the solids, each as it is or turned
+/// inside out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Csg {
     steps: Vec<Step>,
@@ -88,7 +88,7 @@ enum Kind {
 
 #[derive(Clone, Debug, PartialEq)]
 struct Leaf {
-    shape: Shape,
+    solid: Solid,
     tag: u32,
     /// The index of its first part among the parts of all leaves.
     first_part: u32,
@@ -119,17 +119,17 @@ impl Csg {
         let mut parts = 0;
         for (node, uses) in nodes.into_iter().zip(uses) {
             let (kind, bounds) = match node {
-                Node::Leaf { shape, tag } => {
-                    let bounds = shape.bounds();
+                Node::Leaf { solid, tag } => {
+                    let bounds = solid.bounds();
                     let leaf = Leaf {
                         first_part: parts,
                         magnitude: bounds.magnitude(),
-                        shape,
+                        solid,
                         tag,
                     };
-                    parts += leaf.shape.parts();
+                    parts += leaf.solid.parts();
                     csg.magnitude = csg.magnitude.max(leaf.magnitude);
-                    csg.is_simple &= leaf.shape.is_simple();
+                    csg.is_simple &= leaf.solid.is_simple();
                     csg.leaves.push(leaf);
                     (Kind::Leaf(csg.leaves.len() as u32 - 1), bounds)
                 }
@@ -249,7 +249,7 @@ impl Csg {
     /// The surface at a hit; surfaces of subtracted solids are turned inside out.
     pub fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
         let (leaf, own) = self.leaf(hit);
-        let mut surface = leaf.shape.surface(ray, own);
+        let mut surface = leaf.solid.surface(ray, own);
         if is_inverted(hit) {
             surface.normal = -surface.normal;
             surface.shading = -surface.shading;
@@ -260,7 +260,7 @@ impl Csg {
     /// The texture coordinates of the leaf at a hit.
     pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
         let (leaf, own) = self.leaf(hit);
-        leaf.shape.chart(ray, own)
+        leaf.solid.chart(ray, own)
     }
 
     /// The tags of the leaves.
@@ -271,13 +271,6 @@ impl Csg {
     /// The tag of the leaf whose surface was hit.
     pub fn tag(&self, hit: Hit) -> u32 {
         self.leaf(hit).0.tag
-    }
-
-    /// The number of parts: two for each part of a leaf.
-    pub(super) fn parts(&self) -> u32 {
-        self.leaves
-            .last()
-            .map_or(0, |last| 2 * (last.first_part + last.shape.parts()))
     }
 
     /// The leaf that was hit, and the hit with the leaf's own part number.

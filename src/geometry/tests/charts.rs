@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::random::Random;
 use super::{Frame, KINDS, Kind, Ray, Shape, ray};
-use crate::geometry::{Csg, Hit, Node, Operation, Quadric};
+use crate::geometry::{Csg, Hit, Node, Operation, Quadric, Solid};
 
 /// A hit at a point, by a ray that starts there.
 fn at(point: DVec3, part: u32) -> (Ray, Hit) {
@@ -67,11 +67,14 @@ fn solid(random: &mut Random, index: usize) -> (Shape, DVec3) {
                 square.x, 0.0, 0.0, linear.x, square.y, 0.0, linear.y, square.z, linear.z, constant,
             ];
             let plane = (DVec3::Z, target.z + 0.1);
-            Shape::Quadric(Box::new(Quadric::new(coefficients, &[plane])))
+            Shape::Solid(Solid::Quadric(Box::new(Quadric::new(
+                coefficients,
+                &[plane],
+            ))))
         }
         None => {
             let leaf = |kind, tag| Node::Leaf {
-                shape: frame.of(kind).shape(kind),
+                solid: frame.of(kind).solid(kind),
                 tag,
             };
             let difference = Node::Operation {

@@ -25,7 +25,7 @@ pub(super) enum Solid {
 pub(super) fn csg(solids: &[Solid]) -> Shape {
     let nodes = (0..).zip(solids).map(|(tag, solid)| match *solid {
         Solid::Leaf(kind, frame) => Node::Leaf {
-            shape: frame.shape(kind),
+            solid: frame.solid(kind),
             tag,
         },
         Solid::Made(operation, first, second) => Node::Operation {

@@ -22,7 +22,7 @@ use glam::DVec3;
 
 use super::transform::normalise;
 use super::{
-    Aabb, Affine, Cone, Crossings, Cuboid, Cylinder, Ellipsoid, Ray, Shape, Spans, Sphere,
+    Aabb, Affine, Cone, Crossings, Cuboid, Cylinder, Ellipsoid, Ray, Shape, Solid, Spans, Sphere,
 };
 
 /// The simple solids.
@@ -65,16 +65,20 @@ impl Frame {
     }
 
     fn shape(&self, kind: Kind) -> Shape {
+        Shape::Solid(self.solid(kind))
+    }
+
+    fn solid(&self, kind: Kind) -> Solid {
         let affine = || self.affine().expect("the frame spans a volume");
         match kind {
-            Kind::Sphere => Shape::Sphere(Sphere {
+            Kind::Sphere => Solid::Sphere(Sphere {
                 centre: self.origin,
                 radius: self.lengths.x,
             }),
-            Kind::Ellipsoid => Shape::Ellipsoid(Box::new(Ellipsoid(affine()))),
-            Kind::Cuboid => Shape::Cuboid(Box::new(Cuboid(affine()))),
-            Kind::Cylinder => Shape::Cylinder(Box::new(Cylinder(affine()))),
-            Kind::Cone => Shape::Cone(Box::new(Cone(affine()))),
+            Kind::Ellipsoid => Solid::Ellipsoid(Box::new(Ellipsoid(affine()))),
+            Kind::Cuboid => Solid::Cuboid(Box::new(Cuboid(affine()))),
+            Kind::Cylinder => Solid::Cylinder(Box::new(Cylinder(affine()))),
+            Kind::Cone => Solid::Cone(Box::new(Cone(affine()))),
         }
     }
 

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::leaving::frame;
 use super::random::Random;
 use super::{Ray, Spans, ray};
-use crate::geometry::{Affine, Ellipsoid, Plane, Shape};
+use crate::geometry::{Affine, Ellipsoid, Plane, Shape, Solid};
 
 fn plane(columns: [DVec3; 3], translation: DVec3) -> Shape {
     let frame = Affine::of_matrix(columns, translation).expect("the columns span a volume");
@@ -96,7 +96,7 @@ fn rays_that_leave_a_square_do_not_return() {
 fn an_ellipsoid_may_be_sheared_and_mirrored() {
     let columns = [2.0 * DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::NEG_Z];
     let frame = Affine::of_matrix(columns, DVec3::ZERO).expect("a volume");
-    let shape = Shape::Ellipsoid(Box::new(Ellipsoid(frame)));
+    let shape = Shape::Solid(Solid::Ellipsoid(Box::new(Ellipsoid(frame))));
     let incoming = Ray {
         origin: DVec3::new(9.0, 0.0, 0.0),
         direction: DVec3::NEG_X,

@@ -6,6 +6,7 @@ use glam::{DMat3, DVec3};
 use super::quadrics::{around, exact_hit, quadric, spans, squares};
 use super::random::Random;
 use super::{Ray, Shape, unit};
+use crate::geometry::Solid;
 
 /// The coefficients of the squares along the axes, the slope along the third, and the constant.
 const KINDS: [([f64; 3], f64, f64); 6] = [
@@ -33,7 +34,7 @@ fn lines_along_the_sides_hit_as_in_twice_the_precision() {
         let [x, _, z] = axes;
         let matrix: DMat3 = squares(axes, s);
         let coefficients = around(DVec3::ZERO, matrix, slope * z, constant);
-        let shape = Shape::Quadric(Box::new(quadric(coefficients, &[])));
+        let shape = Shape::Solid(Solid::Quadric(Box::new(quadric(coefficients, &[]))));
         // The axis, or a generatrix of the cone.
         let along = if s[2] < 0.0 { unit(x + z) } else { z };
         let off = match index % 4 {

@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 use super::random::Random;
 use super::{Frame, Kind, Ray, Shape, ray};
 use crate::geometry::double_double::{Double, dot, scaled, sum, vector};
-use crate::geometry::{Quadric, Spans, ulp};
+use crate::geometry::{Quadric, Solid, Spans, ulp};
 
 pub(super) const INFINITY: f64 = f64::INFINITY;
 
@@ -194,7 +194,7 @@ fn spans_match_hand_computed_values() {
             origin: DVec3::from_array(origin),
             direction: DVec3::from_array(direction),
         };
-        let shape = Shape::Quadric(Box::new(quadric(coefficients, planes)));
+        let shape = Shape::Solid(Solid::Quadric(Box::new(quadric(coefficients, planes))));
         let found: Vec<_> = spans(&shape, &ray)
             .iter()
             .map(|span| [span.enter, span.exit].map(|hit| (hit.t, hit.part)))
@@ -269,7 +269,7 @@ fn quadrics_hit_as_in_twice_the_precision() {
             let away = if needles { 0.0 } else { distance };
             let centre = [0.0, away, 0.3 * away][exponent as usize % 3] * random.direction();
             let coefficients = around(centre, matrix, DVec3::ZERO, -1.0);
-            let shape = Shape::Quadric(Box::new(quadric(coefficients, &[])));
+            let shape = Shape::Solid(Solid::Quadric(Box::new(quadric(coefficients, &[]))));
             // Across the longest and the shortest axis.
             let [right, back, up] = axes;
             let width = |i: usize| 1.3 / s[i].abs().sqrt().max(1e-3);
@@ -323,7 +323,10 @@ fn as_quadric(kind: Kind, frame: &Frame) -> Shape {
         ),
         Kind::Cuboid => (SPACE, [faces(x, l), faces(y, m), faces(z, n)].concat()),
     };
-    Shape::Quadric(Box::new(Quadric::new(coefficients, &planes)))
+    Shape::Solid(Solid::Quadric(Box::new(Quadric::new(
+        coefficients,
+        &planes,
+    ))))
 }
 
 #[test]
@@ -415,7 +418,10 @@ fn leaving_rays_do_not_return() {
     let mut surfaces = 0;
     for index in 0..20_000 {
         let (coefficients, planes) = random_quadric(&mut random);
-        let shape = Shape::Quadric(Box::new(Quadric::new(coefficients, &planes)));
+        let shape = Shape::Solid(Solid::Quadric(Box::new(Quadric::new(
+            coefficients,
+            &planes,
+        ))));
         let incoming = ray(
             random.magnitude(0.0, 4.0) * random.direction(),
             4.0 * random.in_cube(),
@@ -476,7 +482,7 @@ fn extreme_coefficients_give_ordered_spans_or_none() {
             origin: random.magnitude(-200.0, 200.0) * random.in_cube(),
             direction: random.direction(),
         };
-        let shape = Shape::Quadric(Box::new(quadric));
+        let shape = Shape::Solid(Solid::Quadric(Box::new(quadric)));
         for span in spans(&shape, &incoming) {
             assert!(span.enter.t <= span.exit.t);
         }
@@ -491,7 +497,10 @@ fn powers_of_two_scale_exactly() {
     let mut random = Random(26);
     for _ in 0..2_000 {
         let (coefficients, planes) = random_quadric(&mut random);
-        let shape = Shape::Quadric(Box::new(Quadric::new(coefficients, &planes)));
+        let shape = Shape::Solid(Solid::Quadric(Box::new(Quadric::new(
+            coefficients,
+            &planes,
+        ))));
         let incoming = ray(
             random.magnitude(0.0, 4.0) * random.direction(),
             4.0 * random.in_cube(),
@@ -505,7 +514,7 @@ fn powers_of_two_scale_exactly() {
             }
             scaled[9] *= size * size;
             let planes: Vec<_> = planes.iter().map(|(n, d)| (*n, size * d)).collect();
-            let shape = Shape::Quadric(Box::new(Quadric::new(scaled, &planes)));
+            let shape = Shape::Solid(Solid::Quadric(Box::new(Quadric::new(scaled, &planes))));
             let ray = Ray {
                 origin: size * incoming.origin,
                 ..incoming

@@ -14,7 +14,7 @@ use std::collections::hash_map::Entry;
 use super::origins::{Origins, VIEW};
 use super::table::{Heads, RECORDS, RecordKind, TextureKind, UseKind};
 use super::tree::Tree;
-use crate::geometry::{Operation, Shape};
+use crate::geometry::{Operation, Solid};
 use crate::language::Lowered;
 use crate::language::report::{nearest_word, quoted};
 use crate::language::table::Category;
@@ -61,9 +61,9 @@ pub(super) fn lower(text: &str, tree: &Tree) -> (Origins, Lowered) {
 }
 
 /// An object of the text.
-enum Solid {
-    /// A simple shape, and the index of its material.
-    Shape(Shape, u32),
+enum Definition {
+    /// A single solid, and the index of its material.
+    Solid(Solid, u32),
     /// A combination; its operands are in the origins.
     Combined(Operation),
     /// An object with errors; it still has an ID.
@@ -81,7 +81,7 @@ struct Reader<'a> {
     lights: Vec<Light>,
     materials: Vec<Material>,
     textures: Vec<Texture>,
-    solids: Vec<Solid>,
+    parts: Vec<Definition>,
     /// The index of each node with an ID.
     ids: HashMap<(Category, i64), usize>,
     /// The smallest IDs of each category, ascending, at most [`NAMED`].
@@ -115,7 +115,7 @@ impl<'a> Reader<'a> {
             lights: Vec::new(),
             materials: Vec::new(),
             textures: Vec::new(),
-            solids: Vec::new(),
+            parts: Vec::new(),
             ids: HashMap::new(),
             smallest: Default::default(),
             definitions: OnceCell::new(),

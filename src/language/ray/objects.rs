@@ -4,7 +4,7 @@ use super::lower::{Count, LEAST_NUMBERS, Numbers, Reader, component, is_word};
 
 use super::origins::ObjectPlace;
 use super::table::{MATERIAL, ShapeKind};
-use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
+use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, Sphere};
 use crate::language::at::At;
 use crate::language::record::Record;
 use crate::language::report::Name;
@@ -348,16 +348,16 @@ fn shape(numbers: &[f64], kind: ShapeKind) -> Option<Shape> {
         ["a1", "a2", "axis"],
         ["l1", "l2", "height"],
     );
-    Some(match kind {
-        ShapeKind::Sphere => Shape::Sphere(Sphere {
+    Some(Shape::Solid(match kind {
+        ShapeKind::Sphere => Solid::Sphere(Sphere {
             centre: const { ShapeKind::Sphere.at("centre") }.vector(numbers),
             radius: const { ShapeKind::Sphere.at("radius") }.number(numbers),
         }),
-        ShapeKind::Ellipsoid => Shape::Ellipsoid(Box::new(Ellipsoid(ELLIPSOID.affine(numbers)?))),
-        ShapeKind::Box => Shape::Cuboid(Box::new(Cuboid(BOX.affine(numbers)?))),
-        ShapeKind::Cylinder => Shape::Cylinder(Box::new(Cylinder(CYLINDER.affine(numbers)?))),
-        ShapeKind::Cone => Shape::Cone(Box::new(Cone(CONE.affine(numbers)?))),
-    })
+        ShapeKind::Ellipsoid => Solid::Ellipsoid(Box::new(Ellipsoid(ELLIPSOID.affine(numbers)?))),
+        ShapeKind::Box => Solid::Cuboid(Box::new(Cuboid(BOX.affine(numbers)?))),
+        ShapeKind::Cylinder => Solid::Cylinder(Box::new(Cylinder(CYLINDER.affine(numbers)?))),
+        ShapeKind::Cone => Solid::Cone(Box::new(Cone(CONE.affine(numbers)?))),
+    }))
 }
 
 /// The positions of the fields of a shape with a frame.

@@ -166,10 +166,7 @@ fn leaf(centre: DVec3, size: f64, tags: [u32; 2]) -> Shape {
 
 /// A ball minus another, each with its own tag.
 fn bitten(centre: DVec3, size: f64, tags: [u32; 2]) -> Shape {
-    let ball = |off: f64, tag| Node::Leaf {
-        shape: sphere((centre + off * size).to_array(), size),
-        tag,
-    };
+    let ball = |off: f64, tag| operand(sphere((centre + off * size).to_array(), size), tag);
     Shape::Csg(Arc::new(Csg::new(vec![
         ball(0.0, tags[0]),
         ball(0.4, tags[1]),

@@ -7,14 +7,14 @@ use crate::geometry::{Cone, Cylinder, Ellipsoid, ulp};
 
 /// A solid of any kind, before transformation.
 #[derive(Clone, Copy, Debug)]
-struct Solid {
+struct Form {
     kind: u32,
     origin: DVec3,
     directions: [DVec3; 3],
     lengths: DVec3,
 }
 
-impl Solid {
+impl Form {
     fn random(random: &mut Random) -> Self {
         let along = random.point(1.0).normalize();
         let across = along.cross(random.point(1.0)).normalize();
@@ -52,17 +52,17 @@ impl Solid {
         }
         let frame = Affine::new(origin, self.directions, lengths).expect("it has a volume");
         match self.kind {
-            1 => Shape::Ellipsoid(Box::new(Ellipsoid(frame))),
-            2 => Shape::Cuboid(Box::new(Cuboid(frame))),
-            3 => Shape::Cylinder(Box::new(Cylinder(frame))),
-            _ => Shape::Cone(Box::new(Cone(frame))),
+            1 => Shape::Solid(Solid::Ellipsoid(Box::new(Ellipsoid(frame)))),
+            2 => Shape::Solid(Solid::Cuboid(Box::new(Cuboid(frame)))),
+            3 => Shape::Solid(Solid::Cylinder(Box::new(Cylinder(frame)))),
+            _ => Shape::Solid(Solid::Cone(Box::new(Cone(frame)))),
         }
     }
 }
 
 /// Solids of all kinds, matte, mirroring and glass, and two lights.
 struct Still {
-    solids: Vec<(Solid, Coefficients)>,
+    solids: Vec<(Form, Coefficients)>,
     lights: [DVec3; 2],
 }
 
@@ -79,7 +79,7 @@ impl Still {
                 index: 1.3,
                 ..grey(0.1)
             };
-            (Solid::random(random), material)
+            (Form::random(random), material)
         };
         Self {
             solids: (0..count).map(|_| solid()).collect(),
@@ -118,7 +118,7 @@ fn of_coincident_hits_the_first_in_the_file_wins() {
     let mut ties = 0;
     for round in 0..60 {
         let shapes: Vec<_> = (0..[3, 40][round % 2])
-            .map(|_| Solid::stacked(&mut random).placed(1.0, DVec3::ZERO))
+            .map(|_| Form::stacked(&mut random).placed(1.0, DVec3::ZERO))
             .collect();
         let objects: Vec<_> = shapes.iter().map(|shape| (shape.clone(), BLACK)).collect();
         let world = world(scene(&objects, &[]));

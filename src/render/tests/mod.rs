@@ -30,7 +30,7 @@ use super::touched::Touched;
 use super::tracer::Tracer;
 use super::world::World;
 use super::{Filter, Frame, Frames, Job, NO_OBJECT, Renderer, Settings, Threads};
-use crate::geometry::{Affine, Cone, Cuboid, Ellipsoid, Ray, Shape, Sphere};
+use crate::geometry::{Affine, Cone, Cuboid, Ellipsoid, Node, Ray, Shape, Solid, Sphere};
 use crate::language::coefficients::Coefficients;
 use crate::language::{Language, Source};
 use crate::scene::{
@@ -111,16 +111,27 @@ fn checker(repeat: DVec2, colours: [Rgb; 2]) -> Texture {
 }
 
 fn sphere(centre: [f64; 3], radius: f64) -> Shape {
-    Shape::Sphere(Sphere {
+    Shape::Solid(Solid::Sphere(Sphere {
         centre: centre.into(),
         radius,
-    })
+    }))
+}
+
+/// An operand of a set operation.
+#[track_caller]
+fn operand(shape: Shape, tag: u32) -> Node {
+    let Shape::Solid(solid) = shape else {
+        panic!("{shape:?} is not a solid");
+    };
+    Node::Leaf { solid, tag }
 }
 
 /// An axis-aligned box.
 fn cuboid(corner: [f64; 3], size: [f64; 3]) -> Shape {
     let frame = Affine::new(corner.into(), [DVec3::X, DVec3::Y, DVec3::Z], size.into());
-    Shape::Cuboid(Box::new(Cuboid(frame.expect("the axes span a volume"))))
+    Shape::Solid(Solid::Cuboid(Box::new(Cuboid(
+        frame.expect("the axes span a volume"),
+    ))))
 }
 
 /// A scene in white ambient light, seen from (0, 0, 5) toward the origin.

@@ -1,18 +1,12 @@
 //! CSG solids and unbounded solids among others.
 
 use super::*;
-use crate::geometry::{Csg, Node, Operation, Quadric};
+use crate::geometry::{Csg, Operation, Quadric};
 
 fn made(operation: Operation, first: Shape, second: Shape) -> Shape {
     Shape::Csg(Arc::new(Csg::new(vec![
-        Node::Leaf {
-            shape: first,
-            tag: 0,
-        },
-        Node::Leaf {
-            shape: second,
-            tag: 0,
-        },
+        operand(first, 0),
+        operand(second, 0),
         Node::Operation {
             operation,
             first: 0,
@@ -25,7 +19,7 @@ fn made(operation: Operation, first: Shape, second: Shape) -> Shape {
 #[test]
 fn unbounded_solids_are_visible_among_others() {
     let ground = Quadric::new([0., 0., 0., 0., 0., 0., 0.5, 0., 0., 0.], &[]);
-    let mut objects = vec![(Shape::Quadric(Box::new(ground)), grey(0.5))];
+    let mut objects = vec![(Shape::Solid(Solid::Quadric(Box::new(ground))), grey(0.5))];
     for ball in 1..=8 {
         objects.push((sphere([3.0 * f64::from(ball), 1.0, 0.0], 1.0), grey(1.0)));
     }

@@ -213,10 +213,10 @@ fn bumps_tilt_normals_like_a_displaced_surface() {
     let shapes = [
         sphere([0.0; 3], 1.3),
         cuboid([-1.0, -0.5, -1.5], [2.0, 1.0, 3.0]),
-        Shape::Cylinder(Box::new(Cylinder(
+        Shape::Solid(Solid::Cylinder(Box::new(Cylinder(
             Affine::new(DVec3::NEG_Z, DVec3::AXES, DVec3::new(1.2, 1.2, 2.0))
                 .expect("the axes span a volume"),
-        ))),
+        )))),
     ];
     let mut checked = 0;
     for index in 0..3_000 {

@@ -31,7 +31,7 @@ fn of_coincident_faces_the_first_in_the_file_is_seen() {
             [along, DVec3::Y, across],
             DVec3::new(size, 0.3 * size, size),
         );
-        Shape::Cuboid(Box::new(Cuboid(frame.expect("orthogonal"))))
+        Shape::Solid(Solid::Cuboid(Box::new(Cuboid(frame.expect("orthogonal")))))
     };
     let low = (turned(DVec3::new(-1.7, -0.3, -0.9), 3.3), grey(0.25));
     let high = (turned(DVec3::new(-1.1, 0.39, -0.4), 1.0), grey(0.75));
@@ -97,8 +97,8 @@ fn the_tree_matches_brute_force() {
             let shape = match k % 4 {
                 0 => sphere(at.to_array(), size),
                 1 => cuboid(at.to_array(), [size, 2.0 * size, 0.5 * size]),
-                2 => Shape::Ellipsoid(Box::new(Ellipsoid(frame))),
-                _ => Shape::Cone(Box::new(Cone(frame))),
+                2 => Shape::Solid(Solid::Ellipsoid(Box::new(Ellipsoid(frame)))),
+                _ => Shape::Solid(Solid::Cone(Box::new(Cone(frame)))),
             };
             (shape, grey(0.5))
         })

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Drawn, Reader, Solid, shapes};
+use super::{Definition, Drawn, Reader, shapes};
 use crate::geometry::Node as CsgNode;
-use crate::geometry::{Csg, Operation, Quadric, Shape};
+use crate::geometry::{Csg, Operation, Quadric, Shape, Solid};
 use crate::language::dat::origins::ObjectPlace;
 use crate::language::dat::table::{HALF_SPACE, ObjectKind, RecordKind};
 use crate::language::record::what;
@@ -67,13 +67,13 @@ impl<'a> Reader<'a> {
         } else {
             material = self.known(Category::Material, named.next().flatten());
         }
-        let Some(id) = self.know(Category::Object, &line, self.solids.len()) else {
+        let Some(id) = self.know(Category::Object, &line, self.parts.len()) else {
             return;
         };
         let is_sound = errors == self.report.errors();
         let numbers = line.numbers().filter(|_| is_sound);
         let solid = numbers.and_then(|numbers| self.solid(kind, numbers, material, &cuts, &line));
-        self.solids.push(solid.unwrap_or(Solid::Faulty));
+        self.parts.push(solid.unwrap_or(Definition::Faulty));
         self.origins.objects.push(ObjectPlace {
             record,
             kind,
@@ -91,11 +91,13 @@ impl<'a> Reader<'a> {
         material: Option<usize>,
         cuts: &[(DVec3, f64)],
         line: &Line<'_>,
-    ) -> Option<Solid> {
+    ) -> Option<Definition> {
         let shape = match kind {
             ObjectKind::Csg => {
                 let operator = const { ObjectKind::Csg.at("operator") }.choice(numbers);
-                return Some(Solid::Combined(OPERATIONS[operator % OPERATIONS.len()]));
+                return Some(Definition::Combined(
+                    OPERATIONS[operator % OPERATIONS.len()],
+                ));
             }
             ObjectKind::Sphere => Some(shapes::sphere(numbers)),
             ObjectKind::Ellipsoid => shapes::ellipsoid(numbers),
@@ -110,10 +112,10 @@ impl<'a> Reader<'a> {
                 Diagnostic::error(span, message, "sizes and places that numbers can hold")
             });
         }
-        Some(Solid::Shape(shape?, material? as u32))
+        Some(Definition::Solid(shape?, material? as u32))
     }
 
-    fn quadric(&mut self, numbers: &[f64], cuts: &[(DVec3, f64)], line: &Line<'_>) -> Shape {
+    fn quadric(&mut self, numbers: &[f64], cuts: &[(DVec3, f64)], line: &Line<'_>) -> Solid {
         const QUADRIC: ObjectKind = ObjectKind::Quadric;
         let coefficients = const {
             [
@@ -144,7 +146,7 @@ impl<'a> Reader<'a> {
                     .with_hint("numbers of 16 digits no longer hold its shape")
             });
         }
-        Shape::Quadric(Box::new(quadric))
+        Solid::Quadric(Box::new(quadric))
     }
 
     /// Reads the half-spaces after a quadric's coefficients: their count, then each. If the count
@@ -287,7 +289,7 @@ impl<'a> Reader<'a> {
             Drawn::All(token) => {
                 let [operands, results] = self.operands_and_results();
                 self.warn_of_operands(token, &operands, &results);
-                (0..self.solids.len()).collect()
+                (0..self.parts.len()).collect()
             }
             Drawn::Results => {
                 let [_, results] = self.operands_and_results();
@@ -297,7 +299,7 @@ impl<'a> Reader<'a> {
         drawn.sort_unstable();
         drawn.dedup();
         // If there are errors, they may be about the missing objects.
-        if self.solids.is_empty() && self.report.errors() == 0 {
+        if self.parts.is_empty() && self.report.errors() == 0 {
             self.report.warning(|| {
                 Diagnostic::warning(Span::at(0), "no object is defined", "an `obj` record")
             });
@@ -318,7 +320,7 @@ impl<'a> Reader<'a> {
         let combined = self.origins.objects.iter();
         let combined: HashSet<_> = combined.filter_map(|at| at.operands).flatten().collect();
         let (operands, results) =
-            (0..self.solids.len()).partition(|object| combined.contains(object));
+            (0..self.parts.len()).partition(|object| combined.contains(object));
         [operands, results]
     }
 
@@ -354,10 +356,10 @@ impl<'a> Reader<'a> {
     /// Builds an object to draw. `left` is the remaining number of parts for combinations.
     fn build(&mut self, object: usize, left: &mut usize) -> Option<Object> {
         let place = self.origins.objects[object];
-        let (shape, material) = match &self.solids[object] {
-            Solid::Shape(shape, material) => (shape.clone(), *material),
-            Solid::Faulty => return None,
-            Solid::Combined(_) => {
+        let (shape, material) = match &self.parts[object] {
+            Definition::Solid(solid, material) => (Shape::Solid(solid.clone()), *material),
+            Definition::Faulty => return None,
+            Definition::Combined(_) => {
                 let nodes = self.nodes(object, *left);
                 *left -= nodes.len().min(*left);
                 if *left == 0 {
@@ -392,12 +394,12 @@ impl<'a> Reader<'a> {
         // Operands are defined before their combination.
         reached.sort_unstable();
         let place = |object: usize| reached.binary_search(&object).map_or(0, |at| at as u32);
-        let node = |&object: &usize| match &self.solids[object] {
-            Solid::Shape(shape, material) => Some(CsgNode::Leaf {
-                shape: shape.clone(),
+        let node = |&object: &usize| match &self.parts[object] {
+            Definition::Solid(solid, material) => Some(CsgNode::Leaf {
+                solid: solid.clone(),
                 tag: *material,
             }),
-            Solid::Combined(operation) => {
+            Definition::Combined(operation) => {
                 let [first, second] = self.origins.objects[object].operands?;
                 Some(CsgNode::Operation {
                     operation: *operation,
@@ -405,7 +407,7 @@ impl<'a> Reader<'a> {
                     second: place(second),
                 })
             }
-            Solid::Faulty => None,
+            Definition::Faulty => None,
         };
         reached.iter().filter_map(node).collect()
     }

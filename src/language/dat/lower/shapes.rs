@@ -1,21 +1,21 @@
-//! The shapes of `.dat` objects.
+//! The solids of `.dat` objects.
 
 use glam::DVec3;
 
-use crate::geometry::{Affine, Cuboid, Cylinder, Ellipsoid, Shape, Sphere, normalise};
+use crate::geometry::{Affine, Cuboid, Cylinder, Ellipsoid, Solid, Sphere, normalise};
 use crate::language::dat::table::ObjectKind;
 
 /// A sphere.
-pub(super) fn sphere(numbers: &[f64]) -> Shape {
+pub(super) fn sphere(numbers: &[f64]) -> Solid {
     const SPHERE: ObjectKind = ObjectKind::Sphere;
-    Shape::Sphere(Sphere {
+    Solid::Sphere(Sphere {
         centre: const { SPHERE.at("centre") }.vector(numbers),
         radius: const { SPHERE.at("radius") }.number(numbers),
     })
 }
 
 /// An axis-aligned ellipsoid; `None` if its sizes overflow.
-pub(super) fn ellipsoid(numbers: &[f64]) -> Option<Shape> {
+pub(super) fn ellipsoid(numbers: &[f64]) -> Option<Solid> {
     const ELLIPSOID: ObjectKind = ObjectKind::Ellipsoid;
     let centre = const { ELLIPSOID.at("centre") }.vector(numbers);
     let radii = DVec3::new(
@@ -24,12 +24,12 @@ pub(super) fn ellipsoid(numbers: &[f64]) -> Option<Shape> {
         const { ELLIPSOID.at("rz") }.number(numbers),
     );
     let frame = frame(centre, DVec3::AXES, radii)?;
-    Some(Shape::Ellipsoid(Box::new(Ellipsoid(frame))))
+    Some(Solid::Ellipsoid(Box::new(Ellipsoid(frame))))
 }
 
 /// A cylinder around the middle of its axis. Its frame is the shortest rotation from +z to the
 /// axis; for −z a half turn about x.
-pub(super) fn cylinder(numbers: &[f64]) -> Option<Shape> {
+pub(super) fn cylinder(numbers: &[f64]) -> Option<Solid> {
     const CYLINDER: ObjectKind = ObjectKind::Cylinder;
     let axis = normalise(const { CYLINDER.at("axis") }.vector(numbers))?;
     let radius = const { CYLINDER.at("radius") }.number(numbers);
@@ -37,11 +37,11 @@ pub(super) fn cylinder(numbers: &[f64]) -> Option<Shape> {
     let centre = const { CYLINDER.at("centre") }.vector(numbers);
     let base = centre - 0.5 * length * axis;
     let frame = frame(base, rotated(axis), DVec3::new(radius, radius, length))?;
-    Some(Shape::Cylinder(Box::new(Cylinder(frame))))
+    Some(Solid::Cylinder(Box::new(Cylinder(frame))))
 }
 
 /// A box around its centre. Its axes are used as given: widths are multiples of their lengths.
-pub(super) fn cuboid(numbers: &[f64]) -> Option<Shape> {
+pub(super) fn cuboid(numbers: &[f64]) -> Option<Solid> {
     const BOX: ObjectKind = ObjectKind::Box;
     let [u, v, w] = const { [BOX.at("u"), BOX.at("v"), BOX.at("w")] }.map(|at| at.vector(numbers));
     let widths = const { [BOX.at("uw"), BOX.at("vw"), BOX.at("ww")] };
@@ -50,7 +50,7 @@ pub(super) fn cuboid(numbers: &[f64]) -> Option<Shape> {
     let corner = centre - 0.5 * (wide * u + high * v + deep * w);
     let lengths = DVec3::new(wide * u.length(), high * v.length(), deep * w.length());
     let frame = frame(corner, [u, v, w], lengths)?;
-    Some(Shape::Cuboid(Box::new(Cuboid(frame))))
+    Some(Solid::Cuboid(Box::new(Cuboid(frame))))
 }
 
 /// A frame; `None` if its origin or lengths overflow.

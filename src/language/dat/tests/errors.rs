@@ -2,6 +2,7 @@
 //! `#~`: column, severity, and the start of the message.
 
 use super::{read, spelled};
+use crate::geometry::{Shape, Solid};
 use crate::language::tests::shown;
 
 /// Checks that a text has exactly the diagnostics of its `#~` comments, in order, and a scene if
@@ -342,7 +343,7 @@ render 1 ID 0
     assert_eq!(scene.camera.size.width, 8);
     let maps = scene.materials[0].maps.as_ref();
     assert_eq!(maps.and_then(|maps| maps.diffuse), Some(1));
-    let crate::geometry::Shape::Sphere(sphere) = &scene.objects[0].shape else {
+    let Shape::Solid(Solid::Sphere(sphere)) = &scene.objects[0].shape else {
         panic!("{:?}", scene.objects);
     };
     assert_eq!((scene.objects.len(), sphere.radius), (1, 1.0));

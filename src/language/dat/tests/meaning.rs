@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::{read, scene, shown, spelled};
-use crate::geometry::Shape;
+use crate::geometry::{Shape, Solid};
 use crate::language::coefficients::Coefficients;
 use crate::language::node::Node;
 use crate::scene::{
@@ -222,7 +222,7 @@ fn textures_and_their_uses() {
 /// The radii of the drawn spheres, and the number of other objects.
 fn drawn(scene: &Scene) -> (Vec<f64>, usize) {
     let radius = |shape: &Shape| match shape {
-        Shape::Sphere(sphere) => Some(sphere.radius),
+        Shape::Solid(Solid::Sphere(sphere)) => Some(sphere.radius),
         _ => None,
     };
     let radii: Vec<_> = scene

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{read, scene, spelled};
-use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
+use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, Sphere};
 use crate::language::coefficients::Coefficients;
 use crate::language::node::Node;
 use crate::language::tests::shown;
@@ -31,16 +31,18 @@ fn the_example_of_the_format() {
     };
     let materials = [material(1.6), material(1.1)].map(Material::from);
     assert_eq!(scene.materials, materials);
-    let sphere = Shape::Sphere(Sphere {
+    let sphere = Shape::Solid(Solid::Sphere(Sphere {
         centre: DVec3::ZERO,
         radius: 1.5,
-    });
+    }));
     let frame = Affine::new(
         DVec3::ZERO,
         [DVec3::X, DVec3::Y, DVec3::Z],
         DVec3::new(0.5, 0.5, 1.0),
     );
-    let cuboid = Shape::Cuboid(Box::new(Cuboid(frame.expect("a right-angled frame"))));
+    let cuboid = Shape::Solid(Solid::Cuboid(Box::new(Cuboid(
+        frame.expect("a right-angled frame"),
+    ))));
     let objects = [(sphere, 0), (cuboid, 1)].map(|(shape, material)| Object { shape, material });
     assert!(scene.objects.iter().eq(&objects));
 }
@@ -61,10 +63,16 @@ fn each_shape_has_its_fields_in_order() {
     )
     .expect("a right-angled frame");
     for (keyword, shape) in [
-        ("ellipsoid", Shape::Ellipsoid(Box::new(Ellipsoid(frame)))),
-        ("box", Shape::Cuboid(Box::new(Cuboid(frame)))),
-        ("cylinder", Shape::Cylinder(Box::new(Cylinder(frame)))),
-        ("cone", Shape::Cone(Box::new(Cone(frame)))),
+        (
+            "ellipsoid",
+            Shape::Solid(Solid::Ellipsoid(Box::new(Ellipsoid(frame)))),
+        ),
+        ("box", Shape::Solid(Solid::Cuboid(Box::new(Cuboid(frame))))),
+        (
+            "cylinder",
+            Shape::Solid(Solid::Cylinder(Box::new(Cylinder(frame)))),
+        ),
+        ("cone", Shape::Solid(Solid::Cone(Box::new(Cone(frame))))),
     ] {
         let text = spelled(&format!("HEAD 1 {keyword} {numbers} MAT"));
         assert_eq!(scene(&text).objects[0].shape, shape, "{keyword}");

@@ -4,7 +4,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::{read, scene};
-use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
+use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, Sphere};
 use crate::language::coefficients::Coefficients;
 use crate::language::node::Node;
 use crate::language::ray::table::ShapeKind;
@@ -206,25 +206,25 @@ fn shape(said: &Said, kind: ShapeKind) -> Shape {
         Affine::new(vector(said, origin), directions, lengths).expect("they span a volume")
     };
     match kind {
-        ShapeKind::Sphere => Shape::Sphere(Sphere {
+        ShapeKind::Sphere => Shape::Solid(Solid::Sphere(Sphere {
             centre: vector(said, "centre"),
             radius: numbers(said, "radius")[0],
-        }),
+        })),
         ShapeKind::Ellipsoid => {
             let frame = frame("centre", ["v1", "v2", "v3"], ["l1", "l2", "l3"]);
-            Shape::Ellipsoid(Box::new(Ellipsoid(frame)))
+            Shape::Solid(Solid::Ellipsoid(Box::new(Ellipsoid(frame))))
         }
         ShapeKind::Box => {
             let frame = frame("corner", ["vl", "vw", "vh"], ["length", "width", "height"]);
-            Shape::Cuboid(Box::new(Cuboid(frame)))
+            Shape::Solid(Solid::Cuboid(Box::new(Cuboid(frame))))
         }
         ShapeKind::Cylinder => {
             let frame = frame("base", ["a1", "a2", "axis"], ["l1", "l2", "height"]);
-            Shape::Cylinder(Box::new(Cylinder(frame)))
+            Shape::Solid(Solid::Cylinder(Box::new(Cylinder(frame))))
         }
         ShapeKind::Cone => {
             let frame = frame("base", ["a1", "a2", "axis"], ["l1", "l2", "height"]);
-            Shape::Cone(Box::new(Cone(frame)))
+            Shape::Solid(Solid::Cone(Box::new(Cone(frame))))
         }
     }
 }

@@ -3,7 +3,7 @@
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::Reader;
-use crate::geometry::{Affine, Ellipsoid, Plane, Shape, Sphere, normalise};
+use crate::geometry::{Affine, Ellipsoid, Plane, Shape, Solid, Sphere, normalise};
 use crate::language::report::quoted;
 use crate::language::xml::origins::Role;
 use crate::language::xml::table::ObjectKind;
@@ -119,15 +119,15 @@ impl Reader<'_> {
             && let Some(radius) = scaling(columns)
             && frame.translation.is_finite()
         {
-            return Some(Shape::Sphere(Sphere {
+            return Some(Shape::Solid(Solid::Sphere(Sphere {
                 centre: frame.translation,
                 radius,
-            }));
+            })));
         }
         let affine = self.affine(element, frame)?;
         Some(match kind {
             ObjectKind::Plane => Shape::Plane(Box::new(Plane(affine))),
-            _ => Shape::Ellipsoid(Box::new(Ellipsoid(affine))),
+            _ => Shape::Solid(Solid::Ellipsoid(Box::new(Ellipsoid(affine)))),
         })
     }
 

@@ -3,7 +3,7 @@ use std::f64::consts::PI;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::{EXAMPLE, around, read, scene};
-use crate::geometry::{Aabb, Ray, Shape, Sphere};
+use crate::geometry::{Aabb, Ray, Shape, Solid, Sphere};
 use crate::language::node::Node;
 use crate::scene::{
     Camera, Dielectric, Emitter, Faces, Falloff, Focus, Gloss, Highlight, Integrator, Lens, Light,
@@ -11,10 +11,10 @@ use crate::scene::{
 };
 
 fn sphere(centre: [f64; 3], radius: f64) -> Shape {
-    Shape::Sphere(Sphere {
+    Shape::Solid(Solid::Sphere(Sphere {
         centre: centre.into(),
         radius,
-    })
+    }))
 }
 
 /// The bounding box of a single object.

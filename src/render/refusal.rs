@@ -1,14 +1,13 @@
-//! Estimates the memory a job needs, before allocating any of it.
+//! Whether the machine can trace a job: estimates the memory it needs, before allocating any.
 
 use std::sync::Arc;
 
 use super::film::Film;
 use super::frame::Job;
-use super::renderer::Refusal;
 use super::structures::instances;
 use super::world::FEW;
-use crate::memory::{self, Need};
-use crate::scene::Scene;
+use crate::memory::{self, Need, OutOfMemory};
+use crate::scene::{Scene, Size};
 
 /// Bytes per bounding box while its tree is built: references, nodes twice, positions.
 const BOX: usize = 128;
@@ -19,6 +18,37 @@ const ENCODED: usize = 4;
 /// Objects whose shapes are compared with the previous scene; comparing a million takes longer than
 /// a key may wait.
 const COMPARED: usize = 1 << 10;
+
+/// Why a job was refused.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Refusal {
+    /// The worker panicked; whatever `wake` owned is dropped.
+    #[error("the renderer has stopped")]
+    Ended,
+    /// The worker's threads cannot be started; whatever `wake` owned is dropped.
+    #[error("can't start the rendering threads ({count}): {reason}; --threads N sets how many")]
+    Threads {
+        /// Number of tracing threads.
+        count: usize,
+        /// The system's error message.
+        reason: String,
+    },
+    /// The objects or the picture do not fit into memory.
+    #[error(transparent)]
+    OutOfMemory(#[from] OutOfMemory),
+    /// The picture needs more memory than is available.
+    #[error(
+        "{}x{}: tracing it takes {:.1} GB of memory, more than the system gives; a smaller size \
+         takes less",
+        size.width, size.height, *bytes as f64 / 1e9
+    )]
+    Memory {
+        /// Size of the picture.
+        size: Size,
+        /// Memory needed for tracing it.
+        bytes: u64,
+    },
+}
 
 /// Refuses a job whose world and film do not fit into memory. For an edit of the scene `before`,
 /// the world exists already or is about to exist.
