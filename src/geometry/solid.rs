@@ -52,13 +52,11 @@ impl Solid {
     /// The nearest hit with `0 < t < limit`, entering or leaving.
     #[inline]
     pub fn hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
-        match self {
-            Self::Quadric(quadric) => quadric.hit(ray, limit),
-            _ => {
-                let (end, hit) = self.ends(&ray.into())?.nearest(limit);
-                hit.then_some(end.into())
-            }
+        if let Self::Quadric(quadric) = self {
+            return quadric.hit(ray, limit);
         }
+        let (end, hit) = self.ends(&ray.into())?.nearest(limit);
+        hit.then_some(end.into())
     }
 
     /// The same for a packet of eight rays; `None` if no lane hits. Lanes whose bit in `lanes` is 0
