@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{App, Help, OnDisk, PromptKind};
+use super::{App, Help, PromptKind};
 use crate::image_file::ImageFormat;
 use crate::language::Language;
 use crate::render::MAX_SPP;
@@ -246,7 +246,7 @@ impl App {
             Command::Quit(Force::Yes) => return self.quit_anyway(),
             Command::WriteQuit => {
                 self.jobs.quit = self.disk.path.is_some();
-                if self.jobs.quit && !self.document.is_dirty() && self.disk.state == OnDisk::Known {
+                if self.jobs.quit && self.is_saved() {
                     return self.quit_when_done();
                 }
                 return self.save();

@@ -123,19 +123,30 @@ impl App {
         self.disk.state == OnDisk::Broken && self.disk.broken.is_some() && self.error_count() == 0
     }
 
+    /// Whether the file holds the text.
+    pub(super) fn is_saved(&self) -> bool {
+        !self.document.is_dirty() && self.disk.state == OnDisk::Known
+    }
+
     /// Describes what would be lost by quitting now; `None` if nothing.
     pub fn losses(&self) -> Option<String> {
-        let edits = format!("{} has edits that are not saved", self.disk.name());
+        let name = self.disk.name();
+        let text = if self.document.is_dirty() {
+            Some(format!("{name} has edits that are not saved"))
+        } else {
+            let is_missing = self.disk.state == OnDisk::Missing;
+            is_missing.then(|| format!("{name} no longer exists"))
+        };
         let export = self.jobs.export.as_ref().map(|export| {
             let name = export.destination.path.display();
             format!("the export to {name} is not done")
         });
         let save = self.jobs.file_being_saved();
         let save = save.map(|path| format!("{} is still being written", path.display()));
-        match (self.document.is_dirty(), export) {
-            (false, export) => export.or(save),
-            (true, None) => Some(edits),
-            (true, Some(export)) => Some(format!("{edits}, and {export}")),
+        match (text, export) {
+            (None, export) => export.or(save),
+            (text, None) => text,
+            (Some(text), Some(export)) => Some(format!("{text}, and {export}")),
         }
     }
 

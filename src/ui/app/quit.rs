@@ -9,22 +9,15 @@ impl App {
         if let Some(Dialog::Quit) = self.overlays.dialog {
             self.overlays.dialog = None;
             self.jobs.quit = true;
-            if !self.document.is_dirty() {
+            if self.is_saved() {
                 return self.quit_when_done();
             }
         }
         self.save()
     }
 
-    /// Whether quitting would lose unsaved edits, an export or a save.
-    fn would_lose(&self) -> bool {
-        self.document.is_dirty()
-            || self.jobs.export.is_some()
-            || self.jobs.file_being_saved().is_some()
-    }
-
     pub(super) fn quit(&mut self) -> Vec<Effect> {
-        if self.would_lose() {
+        if self.losses().is_some() {
             self.overlays.dialog = Some(Dialog::Quit);
             return Vec::new();
         }
@@ -59,7 +52,7 @@ impl App {
     }
 
     pub(super) fn interrupt(&mut self) -> Vec<Effect> {
-        if self.jobs.interrupt || !self.would_lose() {
+        if self.jobs.interrupt || self.losses().is_none() {
             return self.quit_keeping_edits();
         }
         self.jobs.interrupt = true;

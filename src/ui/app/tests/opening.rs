@@ -113,6 +113,9 @@ fn a_scene_whose_file_is_missing_is_written_again() {
         (app.disk.state, app.document.text()),
         (OnDisk::Missing, SCENE)
     );
+    let quits = |effect: &Effect| matches!(effect, Effect::Quit);
+    assert!(!wants(&press(&mut app, "q"), quits));
+    assert_eq!(app.losses().as_deref(), Some("scene.ray no longer exists"));
     let effects = press(&mut app, "w");
     let saves = |effect: &Effect| matches!(effect, Effect::Save { text, .. } if **text == SCENE);
     assert!(wants(&effects, saves), "{effects:?}");
