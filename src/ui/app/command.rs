@@ -122,9 +122,12 @@ impl Form {
             A::Nothing(_) => Err(format!("{name} takes nothing after it")),
             A::File(command) => Ok(command((!rest.is_empty()).then(|| PathBuf::from(rest)))),
             A::Picture(command) => picture(rest).map(command),
-            A::Size(command) => Size::parse(rest)
-                .map(command)
-                .ok_or_else(|| format!("{name} takes two whole numbers: {name} 800x600")),
+            A::Size(command) => {
+                let size = Size::parse(rest);
+                let size = size.ok_or_else(|| format!("{name} takes a size such as 800x600"))?;
+                // The format with the highest limit.
+                ImageFormat::Ppm.refuses(size).map_or(Ok(command(size)), Err)
+            }
         }
     }
 }
@@ -196,7 +199,7 @@ fn wrong_word(words: &[&str]) -> Option<String> {
 fn unknown(name: &str) -> String {
     let names: Vec<_> = TABLE.iter().map(|form| form.names[0]).collect();
     let nearest = names.iter().min_by_key(|known| slips(name, known));
-    match nearest.filter(|known| slips(name, known) <= 2) {
+    match nearest.filter(|known| slips(name, known) <= 2 && slips(name, known) < known.len()) {
         Some(nearest) => format!("{name} is not a command; did you mean {nearest}?"),
         None => format!(
             "{name} is not a command; the commands are {}",

@@ -47,7 +47,7 @@ fn an_edit_restarts_the_preview_and_a_refused_one_does_not() {
 }
 
 #[test]
-fn exports_are_refused_before_anything_is_traced() {
+fn impossible_commands_are_refused_with_a_reason() {
     for (said, reason) in [
         (":export a.webp<Enter>", ".bmp"),
         (":export a.bmp 99999x99999<Enter>", "99999x99999"),
@@ -62,6 +62,9 @@ fn exports_are_refused_before_anything_is_traced() {
         (":export a.bmp fine<Enter>", "`fine` is neither"),
         (":export cancel<Enter>", "nothing is running"),
         (":expoort<Enter>", "did you mean export?"),
+        (":set 8x8<Enter>", "the commands are"),
+        (":size 0x5<Enter>", "size takes a size such as 800x600"),
+        (":size 99999x99999<Enter>", "99999x99999: a picture has at most"),
     ] {
         let mut app = open(SCENE);
         let effects = press(&mut app, said);
