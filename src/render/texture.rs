@@ -1,6 +1,5 @@
 //! Evaluation of textures: colours at a point, mapped materials, and slopes of bump maps.
 
-use std::cell::Cell;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -8,8 +7,7 @@ use glam::{DAffine3, DVec2, DVec3};
 
 use crate::geometry::Chart;
 use crate::scene::{
-    Bump, Dielectric, Gloss, Highlight, Image, Images, Maps, Material, Mirror, Pattern, Rgb, Side,
-    Texture, Tinted,
+    Bump, Highlight, Image, Images, Maps, Material, Pattern, Rgb, Side, Texture, Tinted,
 };
 
 /// Replaces images that cannot be read.
@@ -49,64 +47,37 @@ impl Textures {
 
     /// Applies maps to a material at uv; the result has no maps.
     pub(crate) fn applied(&self, maps: &Maps, material: &Material, place: DVec2) -> Material {
-        // Slots often share a texture.
-        let last = Cell::new(None);
-        let sampled = |index| match last.get() {
-            Some((known, sample)) if known == index => sample,
-            _ => {
-                let white = Tinted {
-                    colour: Rgb::ONE,
-                    texture: Some(index),
-                };
-                let sample = self.colour(white, place);
-                last.set(Some((index, sample)));
-                sample
-            }
+        let mut at = Samples {
+            textures: self,
+            place,
+            last: None,
         };
-        let colour = |colour: Rgb, texture| match texture {
-            None => colour,
-            // Nested colours are multiplied from the outside in, which rounds differently.
-            Some(index) if self.is_nested(index) => self.colour(Tinted { colour, texture }, place),
-            Some(index) => colour * sampled(index),
-        };
-        let number = |value, texture: Option<u32>| match texture {
-            None => value,
-            Some(_) => value * colour(Rgb::ONE, texture).x,
-        };
-        let gloss = |gloss: Gloss| Gloss {
-            specular: colour(gloss.specular, maps.specular),
-            exponent: number(gloss.exponent, maps.exponent),
-        };
-        Material {
-            ambient: material
-                .ambient
-                .map(|ambient| colour(ambient, maps.ambient)),
-            diffuse: colour(material.diffuse, maps.diffuse),
-            highlight: match material.highlight {
-                Highlight::None => Highlight::None,
-                Highlight::Phong(own) => Highlight::Phong(gloss(own)),
-                Highlight::ModifiedPhong(own) => Highlight::ModifiedPhong(gloss(own)),
-                Highlight::Blinn(own) => Highlight::Blinn(gloss(own)),
-                Highlight::Microfacet {
-                    roughness,
-                    metallic,
-                } => Highlight::Microfacet {
-                    roughness: number(roughness, maps.roughness),
-                    metallic: number(metallic, maps.metallic),
-                },
-            },
-            mirror: Mirror {
-                tint: colour(material.mirror.tint, maps.mirror),
-                ..material.mirror
-            },
-            dielectric: Dielectric {
-                tint: colour(material.dielectric.tint, maps.dielectric),
-                ..material.dielectric
-            },
-            emission: colour(material.emission, maps.emission),
+        let mut material = Material {
             maps: None,
             ..*material
+        };
+        if let Some(ambient) = &mut material.ambient {
+            at.tint(ambient, maps.ambient);
         }
+        at.tint(&mut material.diffuse, maps.diffuse);
+        match &mut material.highlight {
+            Highlight::None => {}
+            Highlight::Phong(gloss) | Highlight::ModifiedPhong(gloss) | Highlight::Blinn(gloss) => {
+                at.tint(&mut gloss.specular, maps.specular);
+                at.scale(&mut gloss.exponent, maps.exponent);
+            }
+            Highlight::Microfacet {
+                roughness,
+                metallic,
+            } => {
+                at.scale(roughness, maps.roughness);
+                at.scale(metallic, maps.metallic);
+            }
+        }
+        at.tint(&mut material.mirror.tint, maps.mirror);
+        at.tint(&mut material.dielectric.tint, maps.dielectric);
+        at.tint(&mut material.emission, maps.emission);
+        material
     }
 
     /// Whether a texture contains others.
@@ -169,6 +140,52 @@ impl Textures {
         let [along_u, along_v] = chart.gradients;
         let of_place = |column: DVec3| column.truncate().dot(grows);
         of_place(inverse.matrix3.x_axis) * along_u + of_place(inverse.matrix3.y_axis) * along_v
+    }
+}
+
+/// Samples of textures at one place. Slots often share a texture, which is then sampled once.
+struct Samples<'t> {
+    textures: &'t Textures,
+    place: DVec2,
+    last: Option<(u32, Rgb)>,
+}
+
+impl Samples<'_> {
+    /// Multiplies a colour by that of a texture.
+    fn tint(&mut self, colour: &mut Rgb, texture: Option<u32>) {
+        let Some(index) = texture else {
+            return;
+        };
+        // Nested colours are multiplied from the outside in, which rounds differently.
+        if self.textures.is_nested(index) {
+            let tinted = Tinted {
+                colour: *colour,
+                texture,
+            };
+            *colour = self.textures.colour(tinted, self.place);
+            return;
+        }
+        let sample = match self.last {
+            Some((last, sample)) if last == index => sample,
+            _ => {
+                let white = Tinted {
+                    colour: Rgb::ONE,
+                    texture,
+                };
+                self.textures.colour(white, self.place)
+            }
+        };
+        self.last = Some((index, sample));
+        *colour *= sample;
+    }
+
+    /// Multiplies a number by the red channel of a texture.
+    fn scale(&mut self, number: &mut f64, texture: Option<u32>) {
+        if texture.is_some() {
+            let mut colour = Rgb::ONE;
+            self.tint(&mut colour, texture);
+            *number *= colour.x;
+        }
     }
 }
 

@@ -126,7 +126,9 @@ impl Form {
                 let size = Size::parse(rest);
                 let size = size.ok_or_else(|| format!("{name} takes a size such as 800x600"))?;
                 // The format with the highest limit.
-                ImageFormat::Ppm.refuses(size).map_or(Ok(command(size)), Err)
+                ImageFormat::Ppm
+                    .refuses(size)
+                    .map_or(Ok(command(size)), Err)
             }
         }
     }

@@ -64,7 +64,10 @@ fn impossible_commands_are_refused_with_a_reason() {
         (":expoort<Enter>", "did you mean export?"),
         (":set 8x8<Enter>", "the commands are"),
         (":size 0x5<Enter>", "size takes a size such as 800x600"),
-        (":size 99999x99999<Enter>", "99999x99999: a picture has at most"),
+        (
+            ":size 99999x99999<Enter>",
+            "99999x99999: a picture has at most",
+        ),
     ] {
         let mut app = open(SCENE);
         let effects = press(&mut app, said);
