@@ -1,5 +1,10 @@
 //! Scattering of paths at surfaces: choice of the next direction, with its probability.
 
+#![expect(
+    clippy::inline_always,
+    reason = "the parts of a path's step are inlined into it: calls move large values"
+)]
+
 use glam::DVec3;
 
 use super::lobes::{Lobes, strength};
@@ -35,6 +40,7 @@ pub(crate) struct BsdfSample {
 }
 
 impl<'m> Bsdf<'m> {
+    #[inline(always)]
     pub(crate) fn at(point: &Point, material: &'m Material) -> Self {
         let is_lit = material.is_lit(point.front);
         let (lobes, of_lobes) = Lobes::of(point, material);

@@ -23,7 +23,8 @@ pub(crate) fn first_hit(world: &World, ray: &Ray, reach: f64, skipped: f64, aov:
             touched: Touched::default(),
         };
     };
-    let (point, material) = world.arrive(ray, nearest);
+    let mut mapped = None;
+    let (point, material) = world.arrive(ray, nearest, &mut mapped);
     let value = match aov {
         Aov::Depth => DVec3::splat(skipped + nearest.hit.t),
         Aov::Normal => point.normal,

@@ -3,6 +3,11 @@
 //!
 //! Mirrors and dielectrics are excluded: they scatter into one direction or a narrow cone.
 
+#![expect(
+    clippy::inline_always,
+    reason = "the parts of a path's step are inlined into it: calls move large values"
+)]
+
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
@@ -48,6 +53,7 @@ pub(crate) struct Scattered {
 
 impl Lobes {
     /// Returns the lobes of a surface at a point, and approximately their maximum reflectance.
+    #[inline(always)]
     pub(crate) fn of(point: &Point, material: &Material) -> (Self, f64) {
         let mut highlight = None;
         let (glossy, gloss) = match material.highlight {

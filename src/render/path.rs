@@ -93,8 +93,9 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         }
         self.touched |= Touched::object(nearest.object);
         path.throughput *= transmitted(path.absorption, nearest.hit.t);
-        let (point, material) = world.arrive(&path.ray, nearest);
-        let bsdf = Bsdf::at(&point, &material);
+        let mut mapped = None;
+        let (point, material) = world.arrive(&path.ray, nearest, &mut mapped);
+        let bsdf = Bsdf::at(&point, material);
         if material.is_lit(point.front) {
             let light = self.light_of_all(&point, &bsdf, path.bounce, sample.sampler);
             seen.radiance += path.throughput * (material.emission + light);

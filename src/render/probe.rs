@@ -134,8 +134,14 @@ impl Point {
 }
 
 impl World {
-    /// Returns the point where a ray hits an object, and its material there.
-    pub(crate) fn arrive(&self, ray: &Ray, nearest: Nearest) -> (Point, Cow<'_, Material>) {
+    /// Returns the point where a ray hits an object, and its material there, which is in `mapped` if
+    /// it has maps.
+    pub(crate) fn arrive<'m>(
+        &'m self,
+        ray: &Ray,
+        nearest: Nearest,
+        mapped: &'m mut Option<Material>,
+    ) -> (Point, &'m Material) {
         let shape = &self.scene.objects[nearest.object as usize].shape;
         let surface = shape.surface(ray, nearest.hit);
         let (material, raised) = self.material(nearest, || (*ray, surface.shading));
@@ -147,6 +153,10 @@ impl World {
             normal: if front { normal } else { -normal },
             front,
             view: -ray.direction,
+        };
+        let material = match material {
+            Cow::Borrowed(material) => material,
+            Cow::Owned(material) => mapped.insert(material),
         };
         (point, material)
     }

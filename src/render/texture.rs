@@ -218,6 +218,7 @@ pub(crate) fn environment_place(direction: DVec3) -> DVec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Gloss;
     use crate::scene::Size;
 
     const RED: Rgb = Rgb::new(1.0, 0.0, 0.0);

@@ -371,7 +371,7 @@ fn point_seen_from(view: DVec3) -> Point {
     let nearest = world
         .nearest(&seen, f64::INFINITY)
         .expect("the plane is met");
-    world.arrive(&seen, nearest).0
+    world.arrive(&seen, nearest, &mut None).0
 }
 
 /// The lobes of a material at a point.
@@ -382,7 +382,7 @@ fn lobes_of(material: &str, point: &Point) -> Lobes {
     let nearest = world
         .nearest(&down, f64::INFINITY)
         .expect("the plane is met");
-    Lobes::of(point, &world.arrive(&down, nearest).1).0
+    Lobes::of(point, world.arrive(&down, nearest, &mut None).1).0
 }
 
 /// Points with normal +z, except one whose interpolated normal leans away from the eye.
