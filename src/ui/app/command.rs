@@ -126,9 +126,10 @@ impl Form {
                 let size = Size::parse(rest);
                 let size = size.ok_or_else(|| format!("{name} takes a size such as 800x600"))?;
                 // The format with the highest limit.
-                ImageFormat::Ppm
-                    .refuses(size)
-                    .map_or(Ok(command(size)), Err)
+                match ImageFormat::Ppm.refuses(size) {
+                    None => Ok(command(size)),
+                    Some(reason) => Err(reason),
+                }
             }
         }
     }
