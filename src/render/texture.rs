@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DAffine2, DAffine3, DMat2, DVec2, DVec3};
 
 use crate::geometry::Chart;
 use crate::scene::{
@@ -18,7 +18,7 @@ const LUMINANCE: Rgb = Rgb::new(0.2126, 0.7152, 0.0722);
 
 /// The textures of a scene with their images.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Textures(Vec<(DAffine3, Texels)>);
+pub(crate) struct Textures(Vec<(DAffine2, Texels)>);
 
 #[derive(Clone, Debug)]
 enum Texels {
@@ -37,12 +37,16 @@ impl Textures {
                 image.map_or(Texels::Missing, Texels::Image)
             }
         };
-        let ready = textures.iter();
-        Self(
-            ready
-                .map(|texture| (texture.inverse, texels(&texture.pattern)))
-                .collect(),
-        )
+        let ready = |texture: &Texture| {
+            let DAffine3 {
+                matrix3,
+                translation,
+            } = texture.inverse;
+            let [u, v] = [matrix3.x_axis, matrix3.y_axis].map(DVec3::truncate);
+            let inverse = DAffine2::from_cols(u, v, translation.truncate());
+            (inverse, texels(&texture.pattern))
+        };
+        Self(textures.iter().map(ready).collect())
     }
 
     /// Applies maps to a material at uv; the result has no maps.
@@ -80,13 +84,19 @@ impl Textures {
         material
     }
 
-    /// Whether a texture contains others.
-    fn is_nested(&self, texture: u32) -> bool {
-        match self.0.get(texture as usize) {
-            Some((_, Texels::Checker(squares, _))) => {
-                squares.iter().any(|square| square.texture.is_some())
+    /// Evaluates a texture at uv; `None` if it leads to another texture.
+    fn sample(&self, texture: u32, place: DVec2) -> Option<Rgb> {
+        let Some((inverse, texels)) = self.0.get(texture as usize) else {
+            return Some(MAGENTA);
+        };
+        let place = inverse.transform_point2(place);
+        match texels {
+            Texels::Image(image) => Some(image.at(place.x, place.y)),
+            Texels::Missing => Some(MAGENTA),
+            Texels::Checker([first, second], side) => {
+                let square = if side.is_first(place) { first } else { second };
+                square.texture.is_none().then_some(square.colour)
             }
-            _ => false,
         }
     }
 
@@ -100,7 +110,7 @@ impl Textures {
             let Some((inverse, texels)) = self.0.get(index as usize) else {
                 return colour * MAGENTA;
             };
-            place = inverse.transform_point3(place.extend(0.0)).truncate();
+            place = inverse.transform_point2(place);
             match texels {
                 Texels::Image(image) => return colour * image.at(place.x, place.y),
                 Texels::Missing => return colour * MAGENTA,
@@ -127,7 +137,7 @@ impl Textures {
         let Some((inverse, Texels::Image(image))) = self.0.get(texture as usize) else {
             return DVec3::ZERO;
         };
-        let place = inverse.transform_point3(chart.uv.extend(0.0)).truncate();
+        let place = inverse.transform_point2(chart.uv);
         let brightness = |place: DVec2| image.at(place.x, place.y).dot(LUMINANCE);
         let size = DVec2::new(image.size().width.into(), image.size().height.into());
         let half = 0.5 / size;
@@ -138,8 +148,8 @@ impl Textures {
             (brightness(place + down) - brightness(place - down)) / (2.0 * half.y),
         );
         let [along_u, along_v] = chart.gradients;
-        let of_place = |column: DVec3| column.truncate().dot(grows);
-        of_place(inverse.matrix3.x_axis) * along_u + of_place(inverse.matrix3.y_axis) * along_v
+        let DMat2 { x_axis, y_axis } = inverse.matrix2;
+        x_axis.dot(grows) * along_u + y_axis.dot(grows) * along_v
     }
 }
 
@@ -147,7 +157,8 @@ impl Textures {
 struct Samples<'t> {
     textures: &'t Textures,
     place: DVec2,
-    last: Option<(u32, Rgb)>,
+    /// The last texture and its sample; `None` if it leads to another texture.
+    last: Option<(u32, Option<Rgb>)>,
 }
 
 impl Samples<'_> {
@@ -156,27 +167,18 @@ impl Samples<'_> {
         let Some(index) = texture else {
             return;
         };
-        // Nested colours are multiplied from the outside in, which rounds differently.
-        if self.textures.is_nested(index) {
-            let tinted = Tinted {
-                colour: *colour,
-                texture,
-            };
-            *colour = self.textures.colour(tinted, self.place);
-            return;
-        }
         let sample = match self.last {
             Some((last, sample)) if last == index => sample,
-            _ => {
-                let white = Tinted {
-                    colour: Rgb::ONE,
-                    texture,
-                };
-                self.textures.colour(white, self.place)
-            }
+            _ => self.textures.sample(index, self.place),
         };
         self.last = Some((index, sample));
-        *colour *= sample;
+        *colour = if let Some(sample) = sample {
+            *colour * sample
+        } else {
+            // Nested colours are multiplied from the outside in, which rounds differently.
+            let colour = *colour;
+            self.textures.colour(Tinted { colour, texture }, self.place)
+        };
     }
 
     /// Multiplies a number by the red channel of a texture.
