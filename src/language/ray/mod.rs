@@ -7,6 +7,7 @@ mod blocks;
 mod lower;
 mod objects;
 mod origins;
+mod reader;
 mod room;
 mod table;
 #[cfg(test)]

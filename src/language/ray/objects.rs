@@ -1,14 +1,13 @@
 //! Reads the objects of a `.ray` text and checks their declared number.
 
-use super::lower::{Count, LEAST_NUMBERS, Numbers, Reader, component, is_word};
-
 use super::origins::ObjectPlace;
+use super::reader::{Count, LEAST_NUMBERS, Numbers, Reader, component, is_word};
 use super::table::{MATERIAL, ShapeKind};
 use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, Sphere};
 use crate::language::at::At;
 use crate::language::record::Record;
 use crate::language::report::Name;
-use crate::language::report::{nearest_word, quoted};
+use crate::language::report::quoted;
 use crate::language::table;
 use crate::scene::objects::BLOCK;
 use crate::scene::{Material, Object};
@@ -240,7 +239,7 @@ impl<'a> Reader<'a> {
             let object = self.places.len() + 1;
             let message = format!("object {object}: unknown type {}", quoted(word));
             let diagnostic = Diagnostic::error(token, message, TYPES);
-            match nearest_kind(word) {
+            match ShapeKind::nearest(word) {
                 Some(kind) => diagnostic.with_hint(format!("did you mean `{}`?", kind.keyword())),
                 None => diagnostic,
             }
@@ -291,7 +290,7 @@ impl<'a> Reader<'a> {
         self.report.warning(|| {
             let message = format!("{ignored} after the last object ignored");
             let diagnostic = Diagnostic::warning(token, message, "the end of the text");
-            match nearest_kind(word) {
+            match ShapeKind::nearest(word) {
                 Some(kind) => diagnostic.with_hint(format!("did you mean `{}`?", kind.keyword())),
                 None => diagnostic.with_hint("`//` begins a comment"),
             }
@@ -309,17 +308,6 @@ impl<'a> Reader<'a> {
 /// The name of an object.
 fn object_name(places: &[ObjectPlace], index: usize) -> String {
     Name::Object(index, places[index].kind.keyword()).to_string()
-}
-
-/// Returns the kind with the keyword closest to a word, if at most one or two typing slips apart.
-pub(super) fn nearest_kind(word: &str) -> Option<ShapeKind> {
-    const LONGEST: usize = 12;
-    if LONGEST < word.len() || !word.is_ascii() {
-        return None;
-    }
-    let word = word.to_ascii_lowercase();
-    let keywords = ShapeKind::ALL.iter().map(|kind| kind.keyword());
-    nearest_word(&word, keywords).and_then(ShapeKind::of_word)
 }
 
 /// The shape described by these numbers; `None` if its directions span no volume.
@@ -397,27 +385,4 @@ fn takes(kind: ShapeKind) -> String {
     let shape = table::numbers(kind.geometry());
     let material = kind.numbers() - shape;
     format!("{article} {keyword} takes {shape} numbers and {material} more for its material")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn misspelt_keywords_are_recognised() {
-        for (word, kind) in [
-            ("spere", Some(ShapeKind::Sphere)),
-            ("Shpere", Some(ShapeKind::Sphere)),
-            ("elipsoid", Some(ShapeKind::Ellipsoid)),
-            ("cilinder", Some(ShapeKind::Cylinder)),
-            ("boxx", Some(ShapeKind::Box)),
-            ("cones", Some(ShapeKind::Cone)),
-            ("cube", None),
-            ("torus", None),
-            ("", None),
-            ("sphère", None),
-        ] {
-            assert_eq!(nearest_kind(word), kind, "{word}");
-        }
-    }
 }

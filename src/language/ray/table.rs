@@ -1,6 +1,7 @@
 //! The table of fields of `.ray`.
 
 use crate::language::at::At;
+use crate::language::report::nearest_word;
 use crate::language::table::{Field, Kind, Range, numbers};
 
 /// The camera, in a view comment.
@@ -190,6 +191,17 @@ impl ShapeKind {
     pub(super) const fn numbers(self) -> usize {
         numbers(self.geometry()) + numbers(MATERIAL)
     }
+
+    /// Returns the kind with the keyword closest to a word, if at most one or two typing slips apart.
+    pub(super) fn nearest(word: &str) -> Option<Self> {
+        const LONGEST: usize = 12;
+        if LONGEST < word.len() || !word.is_ascii() {
+            return None;
+        }
+        let word = word.to_ascii_lowercase();
+        let keywords = Self::ALL.iter().map(|kind| kind.keyword());
+        nearest_word(&word, keywords).and_then(Self::of_word)
+    }
 }
 
 #[cfg(test)]
@@ -225,5 +237,23 @@ mod tests {
             );
         }
         assert_eq!(ShapeKind::of_word("spere"), None);
+    }
+
+    #[test]
+    fn misspelt_keywords_are_recognised() {
+        for (word, kind) in [
+            ("spere", Some(ShapeKind::Sphere)),
+            ("Shpere", Some(ShapeKind::Sphere)),
+            ("elipsoid", Some(ShapeKind::Ellipsoid)),
+            ("cilinder", Some(ShapeKind::Cylinder)),
+            ("boxx", Some(ShapeKind::Box)),
+            ("cones", Some(ShapeKind::Cone)),
+            ("cube", None),
+            ("torus", None),
+            ("", None),
+            ("sphère", None),
+        ] {
+            assert_eq!(ShapeKind::nearest(word), kind, "{word}");
+        }
     }
 }
