@@ -40,7 +40,6 @@ use view::Numbers;
 pub use node::{FileKind, NamedFile, Node, Nodes};
 pub use placed::{Placed, Wanted};
 pub use room::fits;
-pub use xml::Unsaid;
 
 /// Declares the languages, one per line, by folder name, which is also the file extension. A folder
 /// provides `Source`, `parse`, `errors_of_beginning`, `tree_bytes` and `LEAVES_KEEP_TO_LINES`.

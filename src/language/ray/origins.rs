@@ -83,7 +83,7 @@ impl Origins {
             .zip(parts)
             .map(|(field, part)| {
                 let spans = part.map(|spans| spans[..field.kind.components()].to_vec());
-                Placed::said(field, spans.unwrap_or_default())
+                Placed::explicit(field, spans.unwrap_or_default())
             })
             .collect()
     }
@@ -118,7 +118,7 @@ pub(super) fn hand_out(
         .map_while(|field| {
             let (spans, after) = rest.split_at_checked(field.kind.components())?;
             rest = after;
-            Some(Placed::said(field, spans.to_vec()))
+            Some(Placed::explicit(field, spans.to_vec()))
         })
         .collect()
 }

@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 use std::collections::HashSet;
 
+use super::insertions::insertions;
 use super::origins::{NamedPlace, What, fields};
 use super::table::ObjectKind;
 use super::tree::{quote, spelled};
-use super::unsaid::insertions;
 use super::{Source, lower, room, view};
 use crate::language::node::{FileKind, object_at, place_of};
 use crate::language::placed::{Wanted, edits};

@@ -1,6 +1,7 @@
 //! The University of Utah's `.xml`: elements with attributes, and nested objects.
 
 mod answers;
+mod insertions;
 mod lower;
 mod origins;
 mod room;
@@ -8,7 +9,6 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod tree;
-mod unsaid;
 mod view;
 
 use std::sync::Arc;
@@ -19,7 +19,6 @@ use origins::Origins;
 use tree::Tree;
 
 pub(super) use room::tree_bytes;
-pub use unsaid::Unsaid;
 
 /// An `.xml` text.
 pub(super) type Source = Written<Tree, Origins>;

@@ -119,7 +119,7 @@ impl App {
 
     fn said_view_parts(&self) -> usize {
         let fields = self.source().fields(Node::View);
-        fields.iter().filter(|part| part.is_said()).count()
+        fields.iter().filter(|part| part.is_explicit()).count()
     }
 
     /// Sets components of the current field.

@@ -3,14 +3,13 @@
 use super::insert;
 use super::{Origins, Role};
 use crate::language::node::Node;
-use crate::language::placed::Placed;
+use crate::language::placed::{Implicit, ImplicitAttribute, Insertion, Placed};
 use crate::language::table::Field;
 use crate::language::xml::table::{
     BACKGROUND, CAMERA, CHECKER, ENVIRONMENT, GAMMA, LIGHT_WORDS, MATERIAL_WORDS, OBJECT,
     Parameter, Reading, TEXTURE, Texturing, Word,
 };
 use crate::language::xml::tree::Tree;
-use crate::language::xml::unsaid::{Insertion, Unsaid, Unwritten};
 use crate::text::Span;
 
 /// Maximum number of rows of a node; nobody reads more.
@@ -98,20 +97,20 @@ impl Rows<'_> {
     fn word(&mut self, element: usize, word: &'static Word) {
         let field = &word.field;
         if let Some(said) = self.origins.value(self.tree, element, field.key) {
-            self.placed.push(Placed::said(field, vec![said.value]));
+            self.placed.push(Placed::explicit(field, vec![said.value]));
             return;
         }
         let insertion = insert::attribute(self.tree, element);
         self.placed.push(Placed {
             field,
             spans: vec![insertion.span],
-            unsaid: Some(Box::new(Unsaid {
-                literals: vec![Some(word.missing)],
-                attributes: vec![Unwritten {
-                    component: Some(0),
+            implicit: Some(Box::new(Implicit {
+                defaults: vec![Some(word.missing)],
+                attributes: vec![ImplicitAttribute {
+                    component: 0,
                     name: field.key,
-                    literal: word.missing,
-                    goes_along: false,
+                    default: word.missing,
+                    is_required: false,
                 }],
                 element: None,
                 insertion,
@@ -126,13 +125,13 @@ impl Rows<'_> {
             Holder::Missing(..) => None,
         };
         match element {
-            Some(element) => self.said(element, parameter),
+            Some(element) => self.explicit(element, parameter),
             None => self.missing(holder, parameter),
         }
     }
 
     /// Adds a parameter whose element exists, with its textures.
-    fn said(&mut self, element: usize, parameter: &'static Parameter) {
+    fn explicit(&mut self, element: usize, parameter: &'static Parameter) {
         let mut pending = vec![(element, parameter)];
         while let Some((element, parameter)) = pending.pop() {
             if MOST_ROWS < self.placed.len() {
@@ -149,7 +148,7 @@ impl Rows<'_> {
             let Some(texture) = self.texture(element, parameter) else {
                 continue;
             };
-            self.placed.push(Placed::said(&TEXTURE, vec![texture]));
+            self.placed.push(Placed::explicit(&TEXTURE, vec![texture]));
             self.transforms(element);
             let colours = CHECKER.iter().rev();
             pending.extend(colours.filter_map(|colour| {
@@ -209,25 +208,25 @@ impl Rows<'_> {
         attributes: &[(&'static str, Option<usize>, &'static str)],
         insertion: &Insertion,
     ) {
-        let place = |&(_, said, _): &(_, Option<usize>, _)| {
-            said.map_or(insertion.span, |at| self.tree.attributes[at].value)
+        let place = |&(_, explicit, _): &(_, Option<usize>, _)| {
+            explicit.map_or(insertion.span, |at| self.tree.attributes[at].value)
         };
         let spans = attributes.iter().map(place).collect();
-        let is_said = attributes.iter().all(|(_, said, _)| said.is_some());
-        let unsaid = || {
+        let is_explicit = attributes.iter().all(|(_, explicit, _)| explicit.is_some());
+        let implicit = || {
             let missing = attributes.iter().enumerate();
-            let missing = missing.filter(|(_, (_, said, _))| said.is_none());
-            Box::new(Unsaid {
-                literals: attributes
+            let missing = missing.filter(|(_, (_, explicit, _))| explicit.is_none());
+            Box::new(Implicit {
+                defaults: attributes
                     .iter()
-                    .map(|&(_, said, literal)| said.is_none().then_some(literal))
+                    .map(|&(_, explicit, default)| explicit.is_none().then_some(default))
                     .collect(),
                 attributes: missing
-                    .map(|(component, &(name, _, literal))| Unwritten {
-                        component: Some(component),
+                    .map(|(component, &(name, _, default))| ImplicitAttribute {
+                        component,
                         name,
-                        literal,
-                        goes_along: false,
+                        default,
+                        is_required: false,
                     })
                     .collect(),
                 element: None,
@@ -237,7 +236,7 @@ impl Rows<'_> {
         self.placed.push(Placed {
             field,
             spans,
-            unsaid: (!is_said).then(unsaid),
+            implicit: (!is_explicit).then(implicit),
         });
     }
 
@@ -254,14 +253,14 @@ impl Rows<'_> {
         self.placed.push(Placed {
             field: &parameter.field,
             spans: vec![Span::at(insertion.span.start()); parameter.missing.len()],
-            unsaid: Some(Box::new(Unsaid {
-                literals: parameter.missing.iter().copied().map(Some).collect(),
+            implicit: Some(Box::new(Implicit {
+                defaults: parameter.missing.iter().copied().map(Some).collect(),
                 attributes: attributes
-                    .map(|(component, (&name, &literal))| Unwritten {
-                        component: Some(component),
+                    .map(|(component, (&name, &default))| ImplicitAttribute {
+                        component,
                         name,
-                        literal,
-                        goes_along: literal != parameter.inside,
+                        default,
+                        is_required: default != parameter.inside,
                     })
                     .collect(),
                 element: Some(parameter.element),
