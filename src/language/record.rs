@@ -2,11 +2,9 @@
 
 use glam::{DMat3, DVec3};
 
-use super::coefficients::Coefficients;
 use super::report::Name;
 use super::table::{Field, Kind};
 use crate::geometry::{FLATTEST, normalise};
-use crate::scene::Rgb;
 use crate::text::{Diagnostic, Findings, Span, concise};
 
 /// The tolerance for a direction's length around 1 and for dot products of two around 0.
@@ -192,74 +190,6 @@ impl<'a> Record<'a> {
                 span: part.spans[0].to(part.spans[2]),
             });
         Some([axes.next()?, axes.next()?, axes.next()?])
-    }
-
-    /// Sorts the numbers by kind. They must be complete and readable; otherwise some are left out.
-    pub(super) fn gather(self, fields: impl Iterator<Item = &'static Field>) -> Gathered {
-        let mut gathered = Gathered::default();
-        let (mut points, mut colours, mut numbers, mut choices) = (0, 0, 0, 0);
-        for Part { field, values, .. } in self.parts(fields) {
-            match field.kind {
-                Kind::Point => {
-                    gathered.points[points] = DVec3::from_slice(values);
-                    points += 1;
-                }
-                Kind::Colour => {
-                    gathered.colours[colours] = DVec3::from_slice(values);
-                    colours += 1;
-                }
-                Kind::Number => {
-                    gathered.numbers[numbers] = values[0];
-                    numbers += 1;
-                }
-                Kind::Pixels | Kind::Pair => gathered.pair = [values[0], values[1]],
-                Kind::Choice(_) => {
-                    gathered.choices[choices] = values[0] as usize;
-                    choices += 1;
-                }
-                // No light, material or texture has a direction. References are looked up where they are
-                // read, and the other kinds are in no record.
-                Kind::Direction
-                | Kind::Axis
-                | Kind::Reference(_)
-                | Kind::Name(_)
-                | Kind::Word
-                | Kind::HalfSpace
-                | Kind::Side
-                | Kind::ScaledVector
-                | Kind::ScaledColour
-                | Kind::Rotation => {}
-            }
-        }
-        gathered
-    }
-}
-
-/// The numbers of a light, a material or a texture by kind, each in the order of the table.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Gathered {
-    pub(super) points: [DVec3; 3],
-    pub(super) colours: [Rgb; 3],
-    pub(super) numbers: [f64; 10],
-    /// The index of the word of each choice.
-    pub(super) choices: [usize; 2],
-    pub(super) pair: [f64; 2],
-}
-
-impl Gathered {
-    /// The material described by these numbers.
-    pub(super) fn material(&self) -> Coefficients {
-        let [ambient, diffuse, specular] = self.colours;
-        let [exponent, reflection, transmission, index, ..] = self.numbers;
-        Coefficients {
-            ambient,
-            diffuse,
-            specular,
-            exponent,
-            reflection,
-            transmission,
-            index,
-        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The answers of a `.dat` text.
 
 use super::origins::{ObjectPlace, Place, place};
-use super::table::ObjectKind;
+use super::table::OPERATIONS;
 use super::tree::{is_comment, leaves};
 use super::{Source, lower, room, view, visibility};
 use crate::language::node::{FileKind, object_at, place_of};
@@ -126,10 +126,10 @@ impl Answers for Source {
     }
 
     fn operation(&self, object: usize) -> Option<&str> {
-        let kind = self.origins.objects.get(object)?.kind;
         let fields = self.fields(Node::Object(object));
-        let word = fields.first().filter(|_| kind == ObjectKind::Csg)?;
-        Some(word.spans.first()?.of(&self.text))
+        let is_operator = |placed: &&Placed| placed.field.kind == Kind::Choice(OPERATIONS);
+        let operator = fields.iter().find(is_operator)?;
+        Some(operator.spans.first()?.of(&self.text))
     }
 
     fn identities(&self, node: Node, category: Category) -> Vec<i64> {

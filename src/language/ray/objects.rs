@@ -5,6 +5,7 @@ use super::reader::{Count, LEAST_NUMBERS, Numbers, Reader, component, is_word};
 use super::table::{MATERIAL, ShapeKind};
 use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, Sphere};
 use crate::language::at::At;
+use crate::language::coefficients::Coefficients;
 use crate::language::record::Record;
 use crate::language::report::Name;
 use crate::language::report::quoted;
@@ -186,7 +187,7 @@ impl<'a> Reader<'a> {
             return;
         };
         let material = known.unwrap_or_else(|| {
-            let material = material.gather(MATERIAL.iter()).material();
+            let material = coefficients(material.values);
             self.material(material.into())
         });
         self.objects.push(Object { shape, material });
@@ -308,6 +309,19 @@ impl<'a> Reader<'a> {
 /// The name of an object.
 fn object_name(places: &[ObjectPlace], index: usize) -> String {
     Name::Object(index, places[index].kind.keyword()).to_string()
+}
+
+/// The material described by these numbers.
+fn coefficients(numbers: &[f64]) -> Coefficients {
+    Coefficients {
+        ambient: const { At::<3>::of(MATERIAL, "ka") }.vector(numbers),
+        diffuse: const { At::<3>::of(MATERIAL, "kd") }.vector(numbers),
+        specular: const { At::<3>::of(MATERIAL, "ks") }.vector(numbers),
+        exponent: const { At::<1>::of(MATERIAL, "ns") }.number(numbers),
+        reflection: const { At::<1>::of(MATERIAL, "kr") }.number(numbers),
+        transmission: const { At::<1>::of(MATERIAL, "kt") }.number(numbers),
+        index: const { At::<1>::of(MATERIAL, "ior") }.number(numbers),
+    }
 }
 
 /// The shape described by these numbers; `None` if its directions span no volume.

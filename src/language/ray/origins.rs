@@ -48,11 +48,11 @@ pub(super) struct ObjectPlace {
 }
 
 impl Origins {
-    /// The number of lights that have at least a position.
+    /// The number of lights that have at least their first field.
     pub(super) fn light_count(&self) -> usize {
-        let position = LIGHT[0].kind.components();
+        let [first, ..] = LIGHT;
         let each = table::numbers(LIGHT);
-        (self.lights.1 + each - position) / each
+        (self.lights.1 + each - first.kind.components()) / each
     }
 
     /// The tokens of a node's numbers; none for the view, whose numbers are not tokens.

@@ -1,8 +1,11 @@
 //! Reads the tokens of one record according to the table of fields.
 
+use std::borrow::Cow;
+
 use super::Reader;
+use crate::language::at::At;
 use crate::language::dat::table::{Part, RecordKind};
-use crate::language::record::{Gathered, Record, what};
+use crate::language::record::{Record, what};
 use crate::language::report::Name;
 use crate::language::report::{nearest_word, no_number, number, quoted};
 use crate::language::table::{Field, Kind, Range};
@@ -15,8 +18,8 @@ pub(super) struct Line<'a> {
     pub(super) name: Name,
     /// Its ID, and the place of that.
     pub(super) id: Option<(i64, Span)>,
-    /// The nodes it refers to, in order.
-    pub(super) references: Vec<Option<(i64, Span)>>,
+    /// The IDs it refers to, each with the index of its number and its place.
+    references: Vec<(usize, i64, Span)>,
     /// A free word.
     pub(super) word: Option<Span>,
     /// The numbers of its fields; NaN where malformed.
@@ -45,10 +48,19 @@ impl Line<'_> {
         shape.reduce(Span::to).unwrap_or(material)
     }
 
-    /// Its numbers by kind, if it is valid.
-    pub(super) fn gather(&self) -> Option<Gathered> {
-        self.is_sound
-            .then(|| self.as_record().gather(self.kind.fields()))
+    /// Its numbers if it is valid, otherwise zeros.
+    pub(super) fn numbers_or_zeros(&self) -> Cow<'_, [f64]> {
+        match self.numbers() {
+            Some(numbers) => Cow::Borrowed(numbers),
+            None => Cow::Owned(vec![0.0; self.kind.numbers()]),
+        }
+    }
+
+    /// The ID of the node that a field refers to; `None` if it is missing or malformed.
+    pub(super) fn reference(&self, field: At<1>) -> Option<(i64, Span)> {
+        let mut references = self.references.iter();
+        let found = references.find(|(index, ..)| *index == field.index());
+        found.map(|&(_, id, span)| (id, span))
     }
 
     pub(super) fn as_record(&self) -> Record<'_> {
@@ -174,8 +186,11 @@ impl<'a> Reader<'a> {
                 Kind::Reference(_) => {
                     let name = line.name;
                     let reference = self.identity(token, || format!("{name} {}", field.key));
-                    line.references.push(reference);
-                    reference.map_or(f64::NAN, |(id, _)| id as f64)
+                    let index = line.values.len();
+                    reference.map_or(f64::NAN, |(id, span)| {
+                        line.references.push((index, id, span));
+                        id as f64
+                    })
                 }
                 Kind::Word => {
                     line.word = Some(token);

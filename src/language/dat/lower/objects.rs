@@ -8,8 +8,9 @@ use glam::DVec3;
 use super::{Definition, Drawn, Reader, shapes};
 use crate::geometry::Node as CsgNode;
 use crate::geometry::{Csg, Operation, Quadric, Shape, Solid};
+use crate::language::at::index_of_word;
 use crate::language::dat::origins::ObjectPlace;
-use crate::language::dat::table::{HALF_SPACE, ObjectKind, RecordKind};
+use crate::language::dat::table::{HALF_SPACE, OPERATIONS, ObjectKind, RecordKind};
 use crate::language::record::what;
 use crate::language::report::Name;
 use crate::language::report::{no_number, number, quoted};
@@ -30,12 +31,9 @@ const NAMED: usize = 8;
 /// Maximum number of objects listed in a message.
 const LISTED: usize = 64;
 
-/// The operations, in the order of their words.
-const OPERATIONS: [Operation; 3] = [
-    Operation::Union,
-    Operation::Intersection,
-    Operation::Difference,
-];
+/// The indices of operations among their words.
+const UNION: usize = index_of_word(OPERATIONS, "union");
+const INTERSECTION: usize = index_of_word(OPERATIONS, "intersection");
 
 /// Number of numbers of a half-space.
 const EACH: usize = HALF_SPACE.kind.components();
@@ -58,14 +56,14 @@ impl<'a> Reader<'a> {
             _ => Vec::new(),
         };
         self.surplus(&line);
-        let mut named = line.references.clone().into_iter();
         let (mut material, mut operands) = (None, None);
         if kind == ObjectKind::Csg {
-            let mut operand = || self.known(Category::Object, named.next().flatten());
-            let (first, second) = (operand(), operand());
+            let fields = const { [ObjectKind::Csg.at("first"), ObjectKind::Csg.at("second")] };
+            let [first, second] =
+                fields.map(|field| self.known(Category::Object, line.reference(field)));
             operands = first.zip(second).map(|(first, second)| [first, second]);
         } else {
-            material = self.known(Category::Material, named.next().flatten());
+            material = self.known(Category::Material, line.reference(kind.at("mat")));
         }
         let Some(id) = self.know(Category::Object, &line, self.parts.len()) else {
             return;
@@ -94,10 +92,12 @@ impl<'a> Reader<'a> {
     ) -> Option<Definition> {
         let shape = match kind {
             ObjectKind::Csg => {
-                let operator = const { ObjectKind::Csg.at("operator") }.choice(numbers);
-                return Some(Definition::Combined(
-                    OPERATIONS[operator % OPERATIONS.len()],
-                ));
+                let operator = const { ObjectKind::Csg.at("operator") };
+                return Some(Definition::Combined(match operator.choice(numbers) {
+                    UNION => Operation::Union,
+                    INTERSECTION => Operation::Intersection,
+                    _ => Operation::Difference,
+                }));
             }
             ObjectKind::Sphere => Some(shapes::sphere(numbers)),
             ObjectKind::Ellipsoid => shapes::ellipsoid(numbers),
