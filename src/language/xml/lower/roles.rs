@@ -6,8 +6,8 @@ use super::Reader;
 use crate::language::report::{nearest_word, quoted};
 use crate::language::xml::origins::{NO_WORD, Place, Role, WORDS};
 use crate::language::xml::table::{
-    BACKGROUND, CAMERA, CHECKER, ENVIRONMENT, LightKind, MaterialKind, ObjectKind, Parameter,
-    Reading, TRANSFORMS, Texturing,
+    BACKGROUND, CHECKER, ENVIRONMENT, LightKind, MaterialKind, ObjectKind, Parameter, Reading,
+    TRANSFORMS, Texturing, camera,
 };
 use crate::text::{Diagnostic, Span, visible};
 
@@ -81,7 +81,7 @@ impl<'a> Reader<'a> {
         let name = self.name(element);
         let is = |known: &str| name.eq_ignore_ascii_case(known);
         let among =
-            |parameters: &'static [Parameter]| parameters.iter().find(|known| is(known.element));
+            |all: &[&'static Parameter]| all.iter().copied().find(|known| is(known.element));
         let found = match self.origins.roles[parent] {
             Role::Skipped => return Role::Skipped,
             Role::Root if is("scene") => {
@@ -93,8 +93,8 @@ impl<'a> Reader<'a> {
             Role::Scene if is("light") => self.light_place(element).or(Some(Role::Skipped)),
             Role::Scene if is("background") => Some(Role::Parameter(&BACKGROUND)),
             Role::Scene if is("environment") => Some(Role::Parameter(&ENVIRONMENT)),
-            Role::Camera => among(&CAMERA).map(Role::Parameter),
-            Role::Object(_) => among(&TRANSFORMS).map(Role::Transform),
+            Role::Camera => among(camera::PARAMETERS).map(Role::Parameter),
+            Role::Object(_) => among(TRANSFORMS).map(Role::Transform),
             Role::Light(index) => {
                 let kind = self.origins.lights[index as usize].kind;
                 among(kind.parameters()).map(Role::Parameter)
@@ -103,9 +103,9 @@ impl<'a> Reader<'a> {
                 let kind = self.origins.materials[index as usize].kind;
                 among(kind.parameters()).map(Role::Parameter)
             }
-            Role::Parameter(of) if of.texture == Texturing::Yes => among(&CHECKER)
+            Role::Parameter(of) if of.texture == Texturing::Yes => among(CHECKER)
                 .map(Role::Parameter)
-                .or_else(|| among(&TRANSFORMS).map(Role::Transform)),
+                .or_else(|| among(TRANSFORMS).map(Role::Transform)),
             Role::Root | Role::Scene | Role::Parameter(_) | Role::Transform(_) => None,
         };
         found.unwrap_or_else(|| {
@@ -260,12 +260,12 @@ impl<'a> Reader<'a> {
 
     /// The known children of an element, for messages.
     fn known_in(&self, parent: usize) -> Vec<&'static str> {
-        let names = |parameters: &'static [Parameter]| parameters.iter().map(|known| known.element);
+        let names = |all: &'static [&Parameter]| all.iter().map(|known| known.element);
         match self.origins.roles[parent] {
             Role::Root => vec!["scene", "camera"],
             Role::Scene => vec!["object", "material", "light", "background", "environment"],
-            Role::Camera => names(&CAMERA).collect(),
-            Role::Object(_) => names(&TRANSFORMS).chain(["object"]).collect(),
+            Role::Camera => names(camera::PARAMETERS).collect(),
+            Role::Object(_) => names(TRANSFORMS).chain(["object"]).collect(),
             Role::Light(index) => {
                 let kind = self.origins.lights[index as usize].kind;
                 names(kind.parameters()).collect()
@@ -275,7 +275,7 @@ impl<'a> Reader<'a> {
                 names(kind.parameters()).collect()
             }
             Role::Parameter(of) if of.texture == Texturing::Yes => {
-                names(&CHECKER).chain(names(&TRANSFORMS)).collect()
+                names(CHECKER).chain(names(TRANSFORMS)).collect()
             }
             Role::Parameter(_) | Role::Transform(_) | Role::Skipped => Vec::new(),
         }

@@ -56,7 +56,7 @@ impl Reader<'_> {
         let mut pending = Vec::new();
         let first = self.one_texture(element, parameter, &mut pending);
         while let Some(next) = pending.pop() {
-            let colour = &CHECKER[next.place];
+            let colour = CHECKER[next.place];
             let tinted = Tinted {
                 colour: self.vector_in(next.element, colour),
                 texture: self.one_texture(next.element, colour, &mut pending),

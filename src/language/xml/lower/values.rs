@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::Reader;
 use crate::language::report::{no_number, number};
 use crate::language::table::{Field, Kind};
-use crate::language::xml::table::{Parameter, Reading};
+use crate::language::xml::table::{Extra, Parameter, Reading};
 use crate::text::{Diagnostic, Findings, Severity, Span, concise, is_integer, parse_number};
 
 impl<'a> Reader<'a> {
@@ -160,22 +160,20 @@ impl<'a> Reader<'a> {
         (axis, angle)
     }
 
-    /// A further number of an element, or its default.
+    /// A further number of a parameter, or its default.
     pub(super) fn extra(
         &mut self,
-        element: usize,
+        holder: usize,
         parameter: &'static Parameter,
-        attribute: &str,
+        extra: &Extra,
     ) -> f64 {
-        let extra = parameter
-            .extras
-            .iter()
-            .find(|extra| extra.attribute == attribute);
-        let Some(extra) = extra else {
-            return 0.0;
-        };
-        let missing = extra.missing(self.origins.is_srgb);
-        self.number_or(element, attribute, &extra.field, missing)
+        match self.element_of(Some(holder), parameter) {
+            Some(element) => {
+                let missing = extra.missing(self.origins.is_srgb);
+                self.number_or(element, extra.attribute, &extra.field, missing)
+            }
+            None => plain(extra.missing),
+        }
     }
 
     /// The child that sets a parameter.

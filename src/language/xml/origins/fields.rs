@@ -6,8 +6,8 @@ use crate::language::node::Node;
 use crate::language::placed::{Implicit, ImplicitAttribute, Insertion, Placed};
 use crate::language::table::Field;
 use crate::language::xml::table::{
-    BACKGROUND, CAMERA, CHECKER, ENVIRONMENT, GAMMA, LIGHT_WORDS, MATERIAL_WORDS, OBJECT,
-    Parameter, Reading, TEXTURE, Texturing, Word,
+    BACKGROUND, CHECKER, ENVIRONMENT, LIGHT_WORDS, MATERIAL_WORDS, OBJECT, Parameter, Reading,
+    TEXTURE, Texturing, Word, camera,
 };
 use crate::language::xml::tree::Tree;
 use crate::text::Span;
@@ -24,11 +24,11 @@ pub(in crate::language::xml) fn of(origins: &Origins, tree: &Tree, node: Node) -
     };
     match node {
         Node::View => {
-            for parameter in &CAMERA {
+            for parameter in camera::PARAMETERS {
                 rows.parameter(Holder::camera(origins), parameter);
             }
-            if let Some(camera) = origins.camera {
-                rows.word(camera, &GAMMA);
+            if let Some(element) = origins.camera {
+                rows.word(element, &camera::GAMMA);
             }
         }
         Node::Background => rows.parameter(origins.scene.map(Holder::There), &BACKGROUND),
@@ -84,7 +84,7 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    fn thing(&mut self, element: usize, words: &'static [Word], parameters: &'static [Parameter]) {
+    fn thing(&mut self, element: usize, words: &'static [Word], parameters: &[&'static Parameter]) {
         for word in words {
             self.word(element, word);
         }
@@ -150,7 +150,7 @@ impl Rows<'_> {
             };
             self.placed.push(Placed::explicit(&TEXTURE, vec![texture]));
             self.transforms(element);
-            let colours = CHECKER.iter().rev();
+            let colours = CHECKER.iter().copied().rev();
             pending.extend(colours.filter_map(|colour| {
                 let said = self.origins.parameter(self.tree, element, colour)?;
                 Some((said, colour))
