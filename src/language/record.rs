@@ -122,7 +122,7 @@ impl<'a> Record<'a> {
             report.warning(|| {
                 let message = format!("{}: has length {}, not 1", what(), rounded(length));
                 let hint = match part.field.kind {
-                    Kind::Axis => "it is used as given: the width is counted in lengths of it",
+                    Kind::Axis => "it is used as given: the width is a multiple of its length",
                     _ => "it is normalised; sizes have fields of their own",
                 };
                 Diagnostic::warning(span, message, "a direction of unit length").with_hint(hint)
@@ -151,7 +151,7 @@ impl<'a> Record<'a> {
         if determinant.is_some_and(|det| det < 0.0) {
             report.warning(|| {
                 let cross = format!("{} × {}", a.key, b.key);
-                let message = format!("{} {}: points against {cross}", self.name, c.key);
+                let message = format!("{} {}: points opposite to {cross}", self.name, c.key);
                 Diagnostic::warning(c.span, message, format!("the direction {cross}"))
                     .with_hint("the left-handed frame is used as given")
             });
@@ -253,7 +253,7 @@ fn rounded(value: f64) -> String {
 /// A hint at how a value outside its usual range is treated.
 fn reading(field: &Field) -> String {
     match field.reads_as {
-        Some(value) => format!("it reads as {value}"),
+        Some(value) => format!("it is read as {value}"),
         None => "it is used as given".to_owned(),
     }
 }

@@ -89,7 +89,7 @@ fn number_hint(token: &str, error: NumberError) -> Option<String> {
     }
     if token.matches(',').count() == 1 && reads(&token.replace(',', ".")) && !token.ends_with(',') {
         let pointed = token.replace(',', ".");
-        return Some(format!("decimals follow a point: write {pointed}"));
+        return Some(format!("the decimal separator is a point: write {pointed}"));
     }
     if token.contains(',') && token.split(',').all(|part| part.is_empty() || reads(part)) {
         return Some("numbers are separated by white space, without commas".to_owned());

@@ -188,7 +188,7 @@ impl Reader<'_> {
             let first = first.of(self.text);
             let message = match second {
                 Some(_) => format!("{first}: unknown kind {}", quoted(word)),
-                None => format!("{first}: the line ends where its kind is due"),
+                None => format!("{first}: the line ends before its kind"),
             };
             let diagnostic = Diagnostic::error(place, message, words.join(", "));
             let near = words.iter().find(|known| known.eq_ignore_ascii_case(word));
@@ -208,7 +208,7 @@ impl Reader<'_> {
         let word = word.unwrap_or_default();
         self.report.warning(|| {
             let line = Position::of(self.text, self.tree.span_of(before).start()).line;
-            let message = format!("{}: said in line {line} already", word.of(self.text));
+            let message = format!("{}: already given in line {line}", word.of(self.text));
             Diagnostic::warning(word, message, "one record of this kind")
                 .with_hint("the last one counts")
         });
@@ -232,9 +232,9 @@ impl Reader<'_> {
             Entry::Occupied(_) => {
                 self.report.warning(|| {
                     let word = category.word();
-                    let message = format!("{word} {id}: defined above already");
-                    Diagnostic::warning(span, message, "a number of its own")
-                        .with_hint("this record is dropped")
+                    let message = format!("{word} {id}: already defined above");
+                    Diagnostic::warning(span, message, "a unique ID")
+                        .with_hint("this record is ignored")
                 });
                 None
             }
@@ -254,7 +254,7 @@ impl Reader<'_> {
                 let below = below.filter(|&&record| tree.records_at(span).end <= record);
                 let word = category.word();
                 let message = format!("there is no {word} {id} above");
-                let expected = "the ID of one defined before";
+                let expected = "the ID of one defined above";
                 let shown = self.smallest[category as usize].iter();
                 let shown: Vec<_> = shown.map(ToString::to_string).collect();
                 let hint = match shown.len() {

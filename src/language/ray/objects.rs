@@ -76,8 +76,8 @@ impl<'a> Reader<'a> {
     /// Reports a declared number of objects that differs from the number found.
     fn miscounted(&mut self, count: Count, truth: &str) {
         let found = self.places.len();
-        let says = quoted(count.token.of(self.text));
-        let message = format!("nObjects: says {says}, but {truth}");
+        let declared = quoted(count.token.of(self.text));
+        let message = format!("nObjects: is {declared}, but {truth}");
         self.report.error(|| {
             let hint = match found {
                 _ if self.is_beginning => "it counts the objects".to_owned(),
@@ -220,11 +220,11 @@ impl<'a> Reader<'a> {
         if self.is_cut() {
             return;
         }
-        let says = quoted(count.token.of(self.text));
+        let declared = quoted(count.token.of(self.text));
         let space = if component.is_empty() { "" } else { " " };
         self.report.error(|| {
             let message = format!(
-                "nObjects: says {says}, but the text ends in {}, where {}{space}{component} is due",
+                "nObjects: is {declared}, but the text ends in {}, where {}{space}{component} is expected",
                 record.name, field.key
             );
             Diagnostic::error(count.token, message, "as many as there are objects")
@@ -289,7 +289,7 @@ impl<'a> Reader<'a> {
         let word = token.of(self.text);
         let ignored = counted(self.tokens.end() - self.at, "token");
         self.report.warning(|| {
-            let message = format!("{ignored} after the last object ignored");
+            let message = format!("ignored {ignored} after the last object");
             let diagnostic = Diagnostic::warning(token, message, "the end of the text");
             match ShapeKind::nearest(word) {
                 Some(kind) => diagnostic.with_hint(format!("did you mean `{}`?", kind.keyword())),

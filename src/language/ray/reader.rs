@@ -112,7 +112,7 @@ impl<'a> Reader<'a> {
             self.report.error(|| {
                 Diagnostic::error(
                     Span::at(0),
-                    "the text holds no scene",
+                    "the text contains no scene",
                     "ambient light: red, green and blue",
                 )
                 .with_hint(
@@ -201,10 +201,10 @@ impl<'a> Reader<'a> {
             0 => String::new(),
             rest => format!(" and {}", counted(rest, "number")),
         };
-        let says = quoted(count.token.of(self.text));
+        let declared = quoted(count.token.of(self.text));
         let follow = format!("{}{rest}", counted(whole, "light"));
         self.report.error(|| {
-            let message = format!("nLights: says {says}, but the text has {follow} {place}");
+            let message = format!("nLights: is {declared}, but the text has {follow} {place}");
             let expected = "as many as there are lights";
             Diagnostic::error(count.token, message, expected).with_hint(format!(
                 "a light takes {each} numbers: position x y z, colour red green blue"
@@ -364,7 +364,7 @@ impl<'a> Reader<'a> {
                 Some(token) => format!("before {}", quoted(token.of(self.text))),
                 None => "before the text ends".to_owned(),
             };
-            let message = format!("{what}: missing; {more} due {place}");
+            let message = format!("{what}: missing; {more} expected {place}");
             Diagnostic::error(next.unwrap_or(end), message, field.allowed.words())
         });
     }

@@ -94,7 +94,7 @@ pub(super) fn find(text: &str, tokens: &Tokens, report: &mut Findings) -> Option
                 found = Some(view);
             }
             Ok(_) => report.warning(|| {
-                let message = "view: said before, this comment is ignored";
+                let message = "view: already given, this comment is ignored";
                 Diagnostic::warning(comment, message, "one view comment")
             }),
         }
@@ -118,7 +118,7 @@ fn read(
         };
         let field = &VIEW[index];
         if parts[index].is_some() {
-            let message = format!("view {word}: said twice");
+            let message = format!("view {word}: given twice");
             return Err(Diagnostic::warning(key, message, "each part once"));
         }
         parts[index] = Some(read_part(text, field, &mut rest, comment.end(), report)?);
@@ -222,7 +222,7 @@ pub(super) fn camera(
         target,
         up: part(UP),
         whole: otherwise,
-        remedy: "say eye and target in a comment: // view: eye x y z target x y z",
+        remedy: "give eye and target in a comment: // view: eye x y z target x y z",
     };
     check(&camera, &places, report);
     camera

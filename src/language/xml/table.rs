@@ -200,7 +200,7 @@ pub(super) static BACKGROUND: Parameter = Parameter::colour(
 pub(super) static ENVIRONMENT: Parameter = Parameter::colour(
     "environment",
     ZERO,
-    "What mirrors and glass see behind everything.",
+    "What reflected and refracted rays see behind everything.",
 )
 .textured();
 
@@ -209,11 +209,7 @@ pub(super) const TRANSFORMS: &[&Parameter] = &[&SCALE, &ROTATE, &TRANSLATE];
 
 pub(super) static SCALE: Parameter = Parameter {
     inside: "1",
-    ..Parameter::vector(
-        "scale",
-        ONE,
-        "How many times as large it becomes along each axis.",
-    )
+    ..Parameter::vector("scale", ONE, "The scale factor along each axis.")
 };
 
 pub(super) static ROTATE: Parameter = Parameter {
@@ -244,19 +240,19 @@ pub(super) static OBJECT: [Word; 3] = [
         "type",
         Kind::Choice(ObjectKind::TYPES),
         "group",
-        "What it is; without one it is a group of what is in it.",
+        "What it is; without a type, a group of the objects in it.",
     ),
     word(
         "name",
         Kind::Word,
         "none",
-        "What it is called; of an obj the file, relative to the scene.",
+        "Its name; for an obj, the file, relative to the scene.",
     ),
     word(
         "material",
         Kind::Name(Category::Material),
         "none",
-        "The name of its material; what is in it has its own.",
+        "The name of its material; objects in it have their own.",
     ),
 ];
 
@@ -268,7 +264,12 @@ pub(super) static MATERIAL_WORDS: [Word; 2] = [
         "blinn",
         "How it is shaded.",
     ),
-    word("name", Kind::Word, "none", "The name that objects say."),
+    word(
+        "name",
+        Kind::Word,
+        "none",
+        "The name by which objects refer to it.",
+    ),
 ];
 
 /// The attributes of a light.
@@ -279,7 +280,7 @@ pub(super) static LIGHT_WORDS: [Word; 2] = [
         "none",
         "Where its light comes from.",
     ),
-    word("name", Kind::Word, "none", "What it is called."),
+    word("name", Kind::Word, "none", "Its name."),
 ];
 
 /// The name of a texture: `checkerboard`, or a file.

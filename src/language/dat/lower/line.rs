@@ -126,7 +126,7 @@ impl<'a> Reader<'a> {
                 );
                 let span = rest.clone().last().map_or(first, |last| first.to(last));
                 Diagnostic::warning(span, message, "the end of the line")
-                    .with_hint("what is too much is ignored")
+                    .with_hint("the rest is ignored")
             });
         }
     }
@@ -245,7 +245,10 @@ impl<'a> Reader<'a> {
             let next = missing_part(kind, found - kind.heads());
             let end = Span::at(tokens.clone().last().map_or(0, Span::end));
             let more = counted(missing, "more token");
-            let message = format!("{}: the line ends where {next} is due; {more}", line.name);
+            let message = format!(
+                "{}: the line ends where {next} is expected; {more}",
+                line.name
+            );
             Diagnostic::error(end, message, next.clone())
         });
     }
@@ -279,7 +282,7 @@ fn no_word(name: Name, kind: RecordKind, due: &str, token: Span, word: &str) -> 
     };
     let expected: Vec<_> = dues.iter().map(|due| format!("`{due}`")).collect();
     let expected = expected.join(" or ");
-    let message = format!("{name}: {expected} is due, not {}", quoted(word));
+    let message = format!("{name}: expected {expected}, not {}", quoted(word));
     let diagnostic = Diagnostic::error(token, message, expected);
     if dues.iter().any(|due| word.eq_ignore_ascii_case(due)) {
         diagnostic.with_hint("words are case-sensitive")

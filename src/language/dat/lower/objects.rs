@@ -109,7 +109,11 @@ impl<'a> Reader<'a> {
             let span = line.span_after_material();
             self.report.error(|| {
                 let message = format!("{}: too large, too small or too far away", line.name);
-                Diagnostic::error(span, message, "sizes and places that numbers can hold")
+                Diagnostic::error(
+                    span,
+                    message,
+                    "sizes and positions that numbers can represent",
+                )
             });
         }
         Some(Definition::Solid(shape?, material? as u32))
@@ -135,15 +139,19 @@ impl<'a> Reader<'a> {
         let span = line.span_after_material();
         if quadric.is_empty() {
             self.report.warning(|| {
-                let message = format!("{}: no point is inside", line.name);
-                Diagnostic::warning(span, message, "coefficients that leave an inside")
-                    .with_hint("inside is where the sum is 0 or less")
+                let message = format!("{}: contains no point", line.name);
+                Diagnostic::warning(
+                    span,
+                    message,
+                    "coefficients of a solid that contains points",
+                )
+                .with_hint("inside is where the sum is 0 or less")
             });
         } else if quadric.has_lost_its_shape() {
             self.report.warning(|| {
-                let message = format!("{}: too far from 0 0 0 for its size", line.name);
-                Diagnostic::warning(span, message, "a quadric nearer to 0 0 0")
-                    .with_hint("numbers of 16 digits no longer hold its shape")
+                let message = format!("{}: too far from the origin for its size", line.name);
+                Diagnostic::warning(span, message, "a quadric nearer to the origin")
+                    .with_hint("numbers of 16 digits can't represent its shape")
             });
         }
         Solid::Quadric(Box::new(quadric))
@@ -157,7 +165,7 @@ impl<'a> Reader<'a> {
             let end = line.spans.last().map_or(0, |span| span.end());
             let name = line.name;
             self.report.error(|| {
-                let message = format!("{name}: the line ends where the number of cuts is due");
+                let message = format!("{name}: the line ends before the number of cuts");
                 Diagnostic::error(Span::at(end), message, "a whole number, 0 for no cuts")
             });
             return Vec::new();
@@ -175,11 +183,11 @@ impl<'a> Reader<'a> {
                 let said = quoted(token.of(self.text));
                 let (message, expected) = if have < most {
                     let follow = following(have, "cut");
-                    let message = format!("{name}: says {said} cuts, but {follow}");
+                    let message = format!("{name}: declares {said} cuts, but {follow}");
                     (message, "as many as there are".to_owned())
                 } else {
                     (
-                        format!("{name}: says {said} cuts"),
+                        format!("{name}: declares {said} cuts"),
                         format!("{most} at most"),
                     )
                 };
@@ -227,7 +235,7 @@ impl<'a> Reader<'a> {
         let word = rest.next().unwrap_or_default();
         let Some(token) = rest.next() else {
             self.report.error(|| {
-                let message = "render: the line ends where the number of objects is due";
+                let message = "render: the line ends before the number of objects";
                 let end = Span::at(word.end());
                 Diagnostic::error(end, message, "a whole number, 0 for all objects")
             });
@@ -251,7 +259,7 @@ impl<'a> Reader<'a> {
             if word.of(self.text) != "ID" {
                 self.report.error(|| {
                     let said = quoted(word.of(self.text));
-                    let message = format!("render: `ID` is due, not {said}");
+                    let message = format!("render: expected `ID`, not {said}");
                     Diagnostic::error(word, message, "`ID`")
                 });
                 return;
@@ -265,9 +273,9 @@ impl<'a> Reader<'a> {
             self.report.error(|| {
                 let said = quoted(token.of(self.text));
                 let follow = following(ids.len(), "object");
-                let message = format!("render: says {said}, but {follow} in the line");
+                let message = format!("render: declares {said}, but {follow} in the line");
                 Diagnostic::error(token, message, "as many as there are")
-                    .with_hint("each object is `ID` and its number")
+                    .with_hint("each object is given as `ID` and its number")
             });
             return;
         }

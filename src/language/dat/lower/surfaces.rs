@@ -43,8 +43,8 @@ impl<'a> Reader<'a> {
             let span = POSITION.span(&line.spans).to(DIRECTION.span(&line.spans));
             self.report.error(|| {
                 let message = format!("{} direction: must not be zero", line.name);
-                Diagnostic::error(span, message, "where the light goes")
-                    .with_hint("without a direction the light comes from its position's side")
+                Diagnostic::error(span, message, "the direction in which the light travels")
+                    .with_hint("a position other than 0 0 0 would give the direction too")
             });
             Emitter::Ambient
         });

@@ -21,7 +21,7 @@ impl Reader<'_> {
             .map_or_else(Span::default, |root| self.place(root));
         let whole = camera.map_or(root, |camera| self.place(camera));
         if camera.is_none() {
-            let hint = "it stands at the origin and looks along −z";
+            let hint = "the default is at the origin and looks along −z";
             self.warn(
                 root,
                 || "camera: there is no such element".to_owned(),
@@ -67,7 +67,7 @@ impl Reader<'_> {
             target: place(&TARGET),
             up: place(&UP),
             whole,
-            remedy: "say where it stands and what it looks at: <position/>, <target/>",
+            remedy: "give its position and target: <position/>, <target/>",
         };
         // Malformed numbers were already reported.
         let seen = view.camera();
@@ -87,8 +87,13 @@ impl Reader<'_> {
             self.setting.integrator = Integrator::Path;
             self.setting.transfer = Transfer::Srgb;
         } else if !word.eq_ignore_ascii_case("linear") {
-            let message = || format!("camera gamma: {} is not known", quoted(word));
-            self.warn(said.value, message, "sRGB or linear", "it counts as linear");
+            let message = || format!("camera gamma: unknown value {}", quoted(word));
+            self.warn(
+                said.value,
+                message,
+                "sRGB or linear",
+                "it is treated as linear",
+            );
         }
     }
 

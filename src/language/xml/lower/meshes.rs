@@ -72,7 +72,7 @@ impl<'a> Reader<'a> {
                 name,
             });
         }
-        let message = format!("{}: there is no name", self.called(element));
+        let message = format!("{}: the name is missing", self.called(element));
         let said = attribute.map(|attribute| self.tree.attributes[attribute].value);
         let place = said.unwrap_or_else(|| self.place(element));
         self.error(place, || message, EXPECTED);
@@ -111,7 +111,7 @@ impl<'a> Reader<'a> {
         for finding in findings {
             let object = self.origins.name(Node::Object(named.object));
             let message = || format!("{object}: {finding}");
-            self.warn(span, message, "a file without mistakes", hint);
+            self.warn(span, message, "a file without errors", hint);
         }
     }
 

@@ -80,7 +80,7 @@ impl Reader<'_> {
         self.report.error(|| {
             let message = format!("{name}: must not be 0 along any axis");
             Diagnostic::error(span, message, "numbers other than 0")
-                .with_hint("what is flat may be scaled by a small number, or be a plane")
+                .with_hint("to flatten it, scale by a small number, or use a plane")
         });
     }
 
@@ -90,7 +90,7 @@ impl Reader<'_> {
             if axis == DVec3::ZERO {
                 let (name, span) = (self.called(element), self.attributes_span(element));
                 let message = || format!("{name}: the axis is zero");
-                self.warn(span, message, "an axis: x, y, z", "nothing is turned");
+                self.warn(span, message, "an axis: x, y, z", "the rotation is ignored");
             }
             return DAffine3::IDENTITY;
         };
@@ -145,8 +145,8 @@ impl Reader<'_> {
         let name = self.called(element);
         self.error(
             self.tree.elements[element].name,
-            || format!("{name}: its transforms leave it no volume, or no place"),
-            "transforms that can be undone",
+            || format!("{name}: its transforms flatten it or are too large"),
+            "invertible transforms",
         );
     }
 
@@ -159,7 +159,7 @@ impl Reader<'_> {
                 .origins
                 .value(self.tree, element, "material")
                 .map(|at| at.value);
-            let message = || format!("material: there is none called {}", quoted(said));
+            let message = || format!("material: no material is named {}", quoted(said));
             let hint = "the object is white, whatever light there is";
             self.warn(
                 span.unwrap_or_default(),

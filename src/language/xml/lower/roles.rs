@@ -72,7 +72,7 @@ impl<'a> Reader<'a> {
             self.origins.root = Some(element);
             return Role::Root;
         }
-        let message = || format!("the outermost element is {}", quoted(name));
+        let message = || format!("the root element is {}", quoted(name));
         self.error(place, message, "`<xml>` around `<scene>` and `<camera>`");
         Role::Skipped
     }
@@ -125,11 +125,11 @@ impl<'a> Reader<'a> {
             return role;
         }
         let name = quoted(self.name(element));
-        let message = || format!("{name}: there is one already");
+        let message = || format!("{name}: already given");
         self.warn(
             self.place(element),
             message,
-            "one of them",
+            "only one",
             "this one is skipped",
         );
         Role::Skipped
@@ -140,7 +140,7 @@ impl<'a> Reader<'a> {
             element,
             ObjectKind::of,
             ObjectKind::TYPES,
-            "it counts as a group",
+            "it is treated as a group",
         );
         let depth = match self.tree.elements[element].parent {
             Some(parent) => match self.origins.roles[parent as usize] {
@@ -160,7 +160,7 @@ impl<'a> Reader<'a> {
             element,
             MaterialKind::of,
             MaterialKind::TYPES,
-            "it counts as blinn",
+            "it is treated as blinn",
         );
         let kind = kind.unwrap_or(MaterialKind::Blinn);
         let index = self.origins.materials.len();
@@ -177,7 +177,7 @@ impl<'a> Reader<'a> {
                 .map(|at| at.value);
             let message = || format!("{}: another material has this name", quoted(name));
             let hint = "the last one counts";
-            self.warn(span.unwrap_or_default(), message, "a name of its own", hint);
+            self.warn(span.unwrap_or_default(), message, "a unique name", hint);
         }
         Role::Material(index as u32)
     }
@@ -229,10 +229,10 @@ impl<'a> Reader<'a> {
             let name = self.name(element);
             let nearest = nearest_word(&word.to_ascii_lowercase(), types.iter().copied());
             let hint = match nearest {
-                Some(nearest) => format!("{otherwise}; write {nearest} if that is meant"),
+                Some(nearest) => format!("{otherwise}; did you mean `{nearest}`?"),
                 None => otherwise.to_owned(),
             };
-            let message = || format!("{name} type: {} is not known", quoted(word));
+            let message = || format!("{name}: unknown type {}", quoted(word));
             self.warn(said.value, message, &types.join(" or "), &hint);
         }
         kind
@@ -246,15 +246,15 @@ impl<'a> Reader<'a> {
             known.iter().copied(),
         );
         let hint = match nearest {
-            Some(nearest) => format!("it is skipped; write {nearest} if that is meant"),
-            None => "it is skipped, with all that is in it".to_owned(),
+            Some(nearest) => format!("it is skipped; did you mean `{nearest}`?"),
+            None => "it is skipped with all its content".to_owned(),
         };
         let expected = if known.is_empty() {
             "nothing".to_owned()
         } else {
             known.join(", ")
         };
-        let message = || format!("{name}: not known in {outer}");
+        let message = || format!("{name}: unknown in {outer}");
         self.warn(self.place(element), message, &expected, &hint);
     }
 
@@ -284,7 +284,7 @@ impl<'a> Reader<'a> {
     /// Warns of a parameter overridden by a later one.
     fn said_again(&mut self, element: usize) {
         let name = self.called(element);
-        let message = || format!("{name}: said again further down");
+        let message = || format!("{name}: given again below");
         self.warn(
             self.place(element),
             message,
@@ -314,7 +314,7 @@ impl<'a> Reader<'a> {
             let name = quoted(self.name(element));
             let nearest = nearest_word(&word.to_ascii_lowercase(), known.iter().copied());
             let hint = match nearest {
-                Some(nearest) => format!("it is skipped; write {nearest} if that is meant"),
+                Some(nearest) => format!("it is skipped; did you mean `{nearest}`?"),
                 None => "it is skipped".to_owned(),
             };
             let expected = if known.is_empty() {
@@ -322,7 +322,7 @@ impl<'a> Reader<'a> {
             } else {
                 known.join(", ")
             };
-            let message = || format!("attribute {}: not known of {name}", quoted(word));
+            let message = || format!("attribute {}: unknown in {name}", quoted(word));
             self.warn(place, message, &expected, &hint);
         }
     }
@@ -342,7 +342,7 @@ impl<'a> Reader<'a> {
             };
             self.report.warning(|| {
                 let message = format!(
-                    "{}: text between tags says nothing",
+                    "{}: text between tags has no meaning",
                     quoted(span.of(self.text))
                 );
                 Diagnostic::warning(span, message, "elements").with_hint(hint)

@@ -80,12 +80,12 @@ impl Reader<'_> {
         let said = &self.tree.attributes[attribute];
         let (word, span) = (said.said(self.text), said.value);
         if word.is_empty() {
-            let message = || "texture: there is no name".to_owned();
+            let message = || "texture: the name is missing".to_owned();
             self.warn(
                 span,
                 message,
                 "checkerboard, or a picture file",
-                "there is no texture",
+                "the texture is ignored",
             );
             return None;
         }
@@ -118,8 +118,8 @@ impl Reader<'_> {
         let inverse = transform.map_or(Some(DAffine3::IDENTITY), inverse);
         let inverse = inverse.unwrap_or_else(|| {
             self.report.error(|| {
-                let message = "texture: its transforms leave it no area";
-                Diagnostic::error(span, message, "transforms that can be undone")
+                let message = "texture: its transforms are not invertible";
+                Diagnostic::error(span, message, "invertible transforms")
             });
             DAffine3::IDENTITY
         });

@@ -5,7 +5,7 @@ use crate::language::at::is_same;
 use crate::language::table::{Field, Kind, Range};
 
 pub(in crate::language::xml) static POSITION: Parameter =
-    Parameter::vector("position", ZERO, "Where the camera stands.");
+    Parameter::vector("position", ZERO, "The position of the camera.");
 
 pub(in crate::language::xml) static TARGET: Parameter =
     Parameter::vector("target", &["0", "0", "-1"], "The point it looks at.");
@@ -28,16 +28,14 @@ pub(in crate::language::xml) static FOV: Parameter = Parameter::number(
     &["40"],
 );
 
-pub(in crate::language::xml) static FOCAL_DISTANCE: Parameter = Parameter::number(
-    Field::size("focaldist", "How far away what is sharp stands."),
-    &["1"],
-);
+pub(in crate::language::xml) static FOCAL_DISTANCE: Parameter =
+    Parameter::number(Field::size("focaldist", "The distance in focus."), &["1"]);
 
 pub(in crate::language::xml) static LENS_RADIUS: Parameter = Parameter::number(
     at_least_0(
         "dof",
         0.1,
-        "The radius of the lens: 0 shows everything sharp.",
+        "The radius of the lens; 0 keeps everything in focus.",
     ),
     &["0"],
 );

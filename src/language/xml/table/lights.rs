@@ -3,7 +3,7 @@
 use super::{Parameter, ZERO, at_least_0};
 
 pub(in crate::language::xml) static INTENSITY: Parameter =
-    Parameter::colour("intensity", ZERO, "How bright it is, and in which colour.");
+    Parameter::colour("intensity", ZERO, "Its brightness and colour.");
 
 pub(in crate::language::xml) static DIRECTION: Parameter = Parameter::vector(
     "direction",
@@ -12,7 +12,7 @@ pub(in crate::language::xml) static DIRECTION: Parameter = Parameter::vector(
 );
 
 pub(in crate::language::xml) static POSITION: Parameter =
-    Parameter::vector("position", ZERO, "Where it stands.");
+    Parameter::vector("position", ZERO, "Its position.");
 
 pub(in crate::language::xml) static RADIUS: Parameter = Parameter::number(
     at_least_0("size", 0.1, "Its radius: 0 casts hard shadows."),
@@ -23,7 +23,7 @@ pub(in crate::language::xml) static ATTENUATION: Parameter = Parameter::number(
     at_least_0(
         "attenuation",
         0.01,
-        "Its light is divided by the square of this times the distance; 0: by nothing.",
+        "Its light is divided by the square of this times the distance; 0 for no falloff.",
     ),
     &["0"],
 );

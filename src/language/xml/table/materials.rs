@@ -4,7 +4,7 @@ use super::{Extra, HALF, Parameter, ZERO, at_least_0};
 use crate::language::table::{Field, Range};
 
 pub(in crate::language::xml) static DIFFUSE: Parameter =
-    Parameter::colour("diffuse", HALF, "The colour of light sent back evenly.").textured();
+    Parameter::colour("diffuse", HALF, "The colour of diffuse reflection.").textured();
 
 pub(in crate::language::xml) static SPECULAR: Parameter = Parameter::colour(
     "specular",
@@ -26,12 +26,12 @@ pub(in crate::language::xml) static GLOSSINESS: Parameter = Parameter::number(
 .textured();
 
 pub(in crate::language::xml) static REFLECTION: Parameter =
-    Parameter::colour("reflection", ZERO, "How much is mirrored.")
+    Parameter::colour("reflection", ZERO, "The fraction of light reflected.")
         .textured()
         .with(&[&SPREAD]);
 
 pub(in crate::language::xml) static REFRACTION: Parameter =
-    Parameter::colour("refraction", ZERO, "How much goes through.")
+    Parameter::colour("refraction", ZERO, "The fraction of light transmitted.")
         .textured()
         .with(&[&REFRACTION_INDEX, &SPREAD]);
 
@@ -57,11 +57,11 @@ pub(in crate::language::xml) static REFRACTION_INDEX: Extra = Extra {
 pub(in crate::language::xml) static ABSORPTION: Parameter = Parameter::colour(
     "absorption",
     ZERO,
-    "What is lost inside, per unit of length.",
+    "The light absorbed inside, per unit of length.",
 );
 
 pub(in crate::language::xml) static EMISSION: Parameter =
-    Parameter::colour("emission", ZERO, "What shines by itself.").textured();
+    Parameter::colour("emission", ZERO, "The light it emits.").textured();
 
 /// The parameters of a blinn or phong material.
 pub(super) const GLOSSY: &[&Parameter] = &[
@@ -98,7 +98,7 @@ pub(in crate::language::xml) static INDEX: Parameter =
     Parameter::number(index_of_refraction("ior"), &["1.5"]);
 
 pub(in crate::language::xml) static TRANSMITTANCE: Parameter =
-    Parameter::colour("transmittance", ZERO, "How much goes through.").textured();
+    Parameter::colour("transmittance", ZERO, "The fraction of light transmitted.").textured();
 
 /// The parameters of a microfacet material.
 pub(super) const MICROFACET: &[&Parameter] = &[
