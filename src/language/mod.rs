@@ -254,7 +254,7 @@ pub trait Answers: Editable {
     fn leaves(&self) -> Vec<Span>;
 
     /// The text of a leaf.
-    fn said(&self, leaf: Span) -> &str {
+    fn leaf_text(&self, leaf: Span) -> &str {
         leaf.of(self.text())
     }
 
@@ -379,14 +379,15 @@ pub trait Answers: Editable {
     ///
     /// # Errors
     ///
-    /// Fails with a description of the permitted values if `said` is not one.
-    fn view_saying(
+    /// Fails with a description of the permitted values if `literal` is not one.
+    fn view_with(
         &self,
         camera: &Camera,
         at: (usize, usize),
-        said: &str,
+        literal: &str,
     ) -> Result<Camera, String> {
-        let numbers = view::saying(&self.view_fields(), self.view_numbers(camera), at, said)?;
+        let numbers =
+            view::with_component(&self.view_fields(), self.view_numbers(camera), at, literal)?;
         Ok(self.view_camera(&numbers, camera))
     }
 

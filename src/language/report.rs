@@ -34,8 +34,8 @@ pub(super) fn number(
     };
     let value = parse_number(plain)?;
     report.warning(|| {
-        let said = quoted(token);
-        let message = format!("{}: the `f` at the end of {said} is ignored", what());
+        let shown = quoted(token);
+        let message = format!("{}: the `f` at the end of {shown} is ignored", what());
         let expected = format!("a number without it: {}", quoted(plain).trim_matches('`'));
         Diagnostic::warning(span, message, expected)
             .with_hint("other readers of the format may refuse it")
@@ -52,10 +52,10 @@ pub(super) fn no_number(
     expected: &str,
     error: NumberError,
 ) -> Diagnostic {
-    let said = quoted(token);
+    let shown = quoted(token);
     let message = match error {
-        NumberError::NotANumber => format!("{what}: {said} is not a number"),
-        NumberError::Overflow => format!("{what}: {said} is too large for any number"),
+        NumberError::NotANumber => format!("{what}: {shown} is not a number"),
+        NumberError::Overflow => format!("{what}: {shown} is too large for any number"),
     };
     Diagnostic {
         severity,
@@ -173,10 +173,10 @@ mod tests {
             ("0xffffffffffffffffffffffff", None),
         ] {
             let error = parse_number(token).expect_err("no number");
-            let said = number_hint(token, error);
+            let found = number_hint(token, error);
             match hint {
-                Some(part) => assert!(said.is_some_and(|said| said.contains(part)), "{token}"),
-                None => assert_eq!(said, None, "{token}"),
+                Some(part) => assert!(found.is_some_and(|hint| hint.contains(part)), "{token}"),
+                None => assert_eq!(found, None, "{token}"),
             }
         }
     }

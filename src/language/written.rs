@@ -31,7 +31,7 @@ impl<Tree, Origins: Default> Written<Tree, Origins> {
     }
 
     /// Stores the places found by a lowering, or none if it was refused.
-    pub(super) fn settle(
+    pub(super) fn store(
         &mut self,
         found: Result<(Origins, Lowered), OutOfMemory>,
     ) -> Result<Lowered, OutOfMemory> {

@@ -17,7 +17,7 @@ impl Answers for Source {
     fn lower(&mut self, _: &Meshes) -> Result<Lowered, OutOfMemory> {
         let fits = room::fits(&self.tree);
         let found = fits.map(|()| lower::lower(&self.text, &self.tree));
-        self.settle(found)
+        self.store(found)
     }
 
     fn leaves(&self) -> Vec<Span> {
@@ -84,8 +84,8 @@ impl Answers for Source {
         let before = self.text[..own.start()].trim_end_matches([' ', '\t']);
         let line = line_start(before, before.len().checked_sub(1)?);
         let line = before[skip_white_space(before.as_bytes(), line)..].trim_end();
-        let said = line.trim_start_matches(['#', '/']).trim();
-        (is_comment(line) && !said.is_empty() && node != Node::View).then_some(said)
+        let content = line.trim_start_matches(['#', '/']).trim();
+        (is_comment(line) && !content.is_empty() && node != Node::View).then_some(content)
     }
 
     fn node_at(&self, span: Span) -> Option<Node> {
@@ -159,7 +159,9 @@ impl Answers for Source {
         let places = self.origins.textures.iter().enumerate();
         let file = |(index, at): (usize, &Place)| {
             let fields = place(self.tree.tokens_of(&self.text, at.record), at.kind, 0);
-            let word = fields.iter().find(|said| said.field.kind == Kind::Word)?;
+            let word = fields
+                .iter()
+                .find(|placed| placed.field.kind == Kind::Word)?;
             let span = *word.spans.first()?;
             Some(NamedFile {
                 path: span.of(&self.text).to_owned(),

@@ -76,7 +76,7 @@ struct Reader<'a> {
     tree: &'a Tree,
     report: Findings,
     origins: Origins,
-    camera: camera::Said,
+    camera: camera::Records,
     /// From all records, including those with errors: indices are those of the origins.
     lights: Vec<Light>,
     materials: Vec<Material>,
@@ -111,7 +111,7 @@ impl<'a> Reader<'a> {
             tree,
             report: Findings::default(),
             origins: Origins::default(),
-            camera: camera::Said::default(),
+            camera: camera::Records::default(),
             lights: Vec::new(),
             materials: Vec::new(),
             textures: Vec::new(),
@@ -216,7 +216,7 @@ impl Reader<'_> {
 
     /// Registers the ID of a record, read in `line`. `None` if it is malformed, or, with a warning,
     /// if it is taken; then the record is dropped.
-    fn know(&mut self, category: Category, line: &Line<'_>, index: usize) -> Option<i64> {
+    fn define(&mut self, category: Category, line: &Line<'_>, index: usize) -> Option<i64> {
         let (id, span) = line.id?;
         match self.ids.entry((category, id)) {
             Entry::Vacant(entry) => {
@@ -242,7 +242,7 @@ impl Reader<'_> {
     }
 
     /// The node that a reference names; `None`, with an error, if it is not defined above.
-    fn known(&mut self, category: Category, reference: Option<(i64, Span)>) -> Option<usize> {
+    fn resolve(&mut self, category: Category, reference: Option<(i64, Span)>) -> Option<usize> {
         let (id, span) = reference?;
         let found = self.ids.get(&(category, id)).copied();
         if found.is_none() {
@@ -275,15 +275,15 @@ impl Reader<'_> {
 fn definitions_of(text: &str, tree: &Tree) -> HashMap<(Category, i64), usize> {
     let definition = |record: usize| {
         let tokens = tree.tokens_of(text, record);
-        let said = |at: usize| Some(tokens.clone().nth(at)?.of(text));
-        let (category, place) = match said(0)? {
+        let word = |at: usize| Some(tokens.clone().nth(at)?.of(text));
+        let (category, place) = match word(0)? {
             "light" => (Category::Light, 2),
             "mat" => (Category::Material, 2),
             "texture" => (Category::Texture, 2),
             "obj" => (Category::Object, 3),
             _ => return None,
         };
-        Some(((category, said(place)?.parse().ok()?), record))
+        Some(((category, word(place)?.parse().ok()?), record))
     };
     (0..tree.records.len()).filter_map(definition).collect()
 }

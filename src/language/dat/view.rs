@@ -120,7 +120,7 @@ impl View {
     }
 
     /// The view with these numbers in its `camera` record.
-    pub(super) fn said(numbers: &[f64]) -> Self {
+    pub(super) fn from_camera_record(numbers: &[f64]) -> Self {
         Self {
             is_perspective: PROJECTION.choice(numbers) == PERSPECTIVE,
             eye: EYE.vector(numbers),
@@ -134,11 +134,11 @@ impl View {
     }
 
     /// The view with these numbers in its three records, in the order of [`fields`].
-    fn said_by_all(numbers: &[f64]) -> Self {
+    fn from_numbers(numbers: &[f64]) -> Self {
         Self {
             resolution: RESOLUTION.get(numbers),
             size: size(VIEWPORT.get(numbers)),
-            ..Self::said(numbers)
+            ..Self::from_camera_record(numbers)
         }
     }
 
@@ -192,8 +192,8 @@ fn plain(number: f64) -> f64 {
 /// The camera described by these numbers; `base` is a camera of the same text. Parts whose numbers
 /// agree with `base` are kept bit for bit.
 pub(super) fn camera(numbers: &Numbers, base: &Camera, origins: &Origins) -> Camera {
-    let before = View::said_by_all(&self::numbers(base, origins));
-    let view = View::said_by_all(numbers);
+    let before = View::from_numbers(&self::numbers(base, origins));
+    let view = View::from_numbers(numbers);
     let camera = view.camera();
     let lens = match base.lens {
         // The picture keeps its size at the target.

@@ -69,7 +69,8 @@ fn lower_by<'a>(
     reader.origins.tokens = tree.tokens.len();
     reader.origins.view_comments = tree.tokens.views().count();
     // A view with both eye and target can be checked even if not all objects are known.
-    let judged = reader.report.errors() == 0 || view.as_ref().is_some_and(ViewComment::is_placed);
+    let judged =
+        reader.report.errors() == 0 || view.as_ref().is_some_and(ViewComment::has_eye_and_target);
     let camera = judged.then(|| {
         let bounds = || bounds(objects.iter());
         camera(view.as_ref(), bounds, count, &mut reader.report)

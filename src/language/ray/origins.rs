@@ -109,7 +109,7 @@ impl Origins {
 }
 
 /// Distributes `tokens` to the fields in order, until one is incomplete.
-pub(super) fn hand_out(
+pub(super) fn distribute(
     tokens: &[Span],
     fields: impl Iterator<Item = &'static Field>,
 ) -> Vec<Placed> {

@@ -1,6 +1,6 @@
 //! The insertion of fields that an `.xml` text omits.
 
-use super::tree::spelled;
+use super::tree::escaped;
 use crate::language::placed::{Implicit, Insertion, Piece, Wanted};
 use crate::text::Edit;
 
@@ -40,7 +40,7 @@ fn markup(implicit: &Implicit, values: &[(usize, String)]) -> String {
             None if attribute.is_required => attribute.default,
             None => continue,
         };
-        let value = spelled(value, '"');
+        let value = escaped(value, '"');
         markup.extend([" ", attribute.name, "=\"", &value, "\""]);
     }
     markup.extend(implicit.element.map(|_| "/>"));

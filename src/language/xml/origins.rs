@@ -25,7 +25,7 @@ pub struct Origins {
     pub(super) materials: Vec<Place<MaterialKind>>,
     pub(super) objects: Vec<Place<ObjectKind>>,
     /// The material of each object, by index.
-    pub(super) dressed: Vec<Option<usize>>,
+    pub(super) object_materials: Vec<Option<usize>>,
     /// The drawn objects, ascending: those of the scene.
     pub(super) drawn: Vec<usize>,
     /// The attributes that name files.
@@ -117,10 +117,12 @@ impl Origins {
             Node::Ambient => "ambient".to_owned(),
             Node::Background => "background".to_owned(),
             Node::Environment => "environment".to_owned(),
-            Node::Light(index) => called("light", index, &self.lights, LightKind::word),
-            Node::Material(index) => called("material", index, &self.materials, MaterialKind::word),
+            Node::Light(index) => node_name("light", index, &self.lights, LightKind::word),
+            Node::Material(index) => {
+                node_name("material", index, &self.materials, MaterialKind::word)
+            }
             Node::Texture(index) => format!("texture {}", index + 1),
-            Node::Object(index) => called("object", index, &self.objects, ObjectKind::word),
+            Node::Object(index) => node_name("object", index, &self.objects, ObjectKind::word),
         }
     }
 
@@ -148,9 +150,9 @@ impl Origins {
         holder: usize,
         parameter: &'static Parameter,
     ) -> Option<usize> {
-        let said = Role::Parameter(parameter);
+        let role = Role::Parameter(parameter);
         tree.children(holder)
-            .find(|&at| self.roles.get(at) == Some(&said))
+            .find(|&at| self.roles.get(at) == Some(&role))
     }
 
     /// The element of a node.
@@ -183,7 +185,7 @@ impl Origins {
 }
 
 /// The name of a node: from the text if it has one, otherwise by its number.
-fn called<Kind: Copy>(
+fn node_name<Kind: Copy>(
     what: &str,
     index: usize,
     places: &[Place<Kind>],

@@ -77,7 +77,7 @@ impl View {
     }
 
     /// The view with these numbers of its fields.
-    fn said(numbers: &[&[f64]]) -> Self {
+    fn from_numbers(numbers: &[&[f64]]) -> Self {
         let vector = |at: usize| {
             let factor = numbers[at].get(3).copied().unwrap_or(1.0);
             factor * DVec3::from_slice(numbers[at])
@@ -136,7 +136,7 @@ pub(super) fn camera(numbers: &Numbers, origins: &Origins) -> Camera {
     let numbers: Vec<_> = fields(origins)
         .map(|field| take(&mut rest, field))
         .collect();
-    View::said(&numbers).camera()
+    View::from_numbers(&numbers).camera()
 }
 
 /// Returns the edits that turn the text's camera `before` into `camera`. `fields` are the view's.

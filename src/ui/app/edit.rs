@@ -156,7 +156,7 @@ impl App {
             let place = (self.cursor.field, *component);
             camera = self
                 .source()
-                .view_saying(&camera, place, literal)
+                .view_with(&camera, place, literal)
                 .map_err(|limits| refuse(&format!("must be {limits}")))?;
         }
         if camera.eye == camera.target {

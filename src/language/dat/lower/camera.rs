@@ -23,7 +23,7 @@ const REMEDY: &str = "add a camera: camera perspective eye look up focal near fa
 
 /// The valid records of the camera.
 #[derive(Default)]
-pub(super) struct Said {
+pub(super) struct Records {
     camera: Option<(View, Places)>,
     resolution: Option<[f64; 2]>,
     viewport: Option<Size>,
@@ -51,7 +51,7 @@ impl<'a> Reader<'a> {
                 self.viewport(at.get(numbers), &line.spans);
             }
             _ => {
-                let view = View::said(numbers);
+                let view = View::from_camera_record(numbers);
                 let [near, far] = view.depths;
                 let near = near.max(0.0);
                 if far <= near {
@@ -95,7 +95,7 @@ impl<'a> Reader<'a> {
                 self.report.warning(|| missing(word));
             }
         }
-        let Said {
+        let Records {
             camera,
             resolution,
             viewport,

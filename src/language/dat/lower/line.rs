@@ -32,13 +32,13 @@ pub(super) struct Line<'a> {
     /// Whether all parts in the table are there, valid or not.
     pub(super) is_complete: bool,
     /// Whether all parts are there and valid.
-    pub(super) is_sound: bool,
+    pub(super) is_valid: bool,
 }
 
 impl Line<'_> {
     /// Its numbers, if it is valid.
     pub(super) fn numbers(&self) -> Option<&[f64]> {
-        self.is_sound.then_some(&*self.values)
+        self.is_valid.then_some(&*self.values)
     }
 
     /// The text of an object's shape, after its material.
@@ -94,7 +94,7 @@ impl<'a> Reader<'a> {
             rest,
             kind,
             is_complete: false,
-            is_sound: false,
+            is_valid: false,
         };
         line.is_complete = kind
             .parts()
@@ -105,7 +105,7 @@ impl<'a> Reader<'a> {
         if !line.is_complete && errors == self.report.errors() {
             self.short(kind, tokens, &line);
         }
-        line.is_sound = errors == self.report.errors();
+        line.is_valid = errors == self.report.errors();
         line
     }
 

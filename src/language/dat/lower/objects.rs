@@ -60,16 +60,16 @@ impl<'a> Reader<'a> {
         if kind == ObjectKind::Csg {
             let fields = const { [ObjectKind::Csg.at("first"), ObjectKind::Csg.at("second")] };
             let [first, second] =
-                fields.map(|field| self.known(Category::Object, line.reference(field)));
+                fields.map(|field| self.resolve(Category::Object, line.reference(field)));
             operands = first.zip(second).map(|(first, second)| [first, second]);
         } else {
-            material = self.known(Category::Material, line.reference(kind.at("mat")));
+            material = self.resolve(Category::Material, line.reference(kind.at("mat")));
         }
-        let Some(id) = self.know(Category::Object, &line, self.parts.len()) else {
+        let Some(id) = self.define(Category::Object, &line, self.parts.len()) else {
             return;
         };
-        let is_sound = errors == self.report.errors();
-        let numbers = line.numbers().filter(|_| is_sound);
+        let is_valid = errors == self.report.errors();
+        let numbers = line.numbers().filter(|_| is_valid);
         let solid = numbers.and_then(|numbers| self.solid(kind, numbers, material, &cuts, &line));
         self.parts.push(solid.unwrap_or(Definition::Faulty));
         self.origins.objects.push(ObjectPlace {
@@ -180,14 +180,14 @@ impl<'a> Reader<'a> {
         let fits = usize::try_from(count).is_ok_and(|count| count <= have && count <= most);
         if !fits {
             self.report.error(|| {
-                let said = quoted(token.of(self.text));
+                let shown = quoted(token.of(self.text));
                 let (message, expected) = if have < most {
                     let follow = following(have, "cut");
-                    let message = format!("{name}: declares {said} cuts, but {follow}");
+                    let message = format!("{name}: declares {shown} cuts, but {follow}");
                     (message, "as many as there are".to_owned())
                 } else {
                     (
-                        format!("{name}: declares {said} cuts"),
+                        format!("{name}: declares {shown} cuts"),
                         format!("{most} at most"),
                     )
                 };
@@ -258,8 +258,8 @@ impl<'a> Reader<'a> {
             };
             if word.of(self.text) != "ID" {
                 self.report.error(|| {
-                    let said = quoted(word.of(self.text));
-                    let message = format!("render: expected `ID`, not {said}");
+                    let shown = quoted(word.of(self.text));
+                    let message = format!("render: expected `ID`, not {shown}");
                     Diagnostic::error(word, message, "`ID`")
                 });
                 return;
@@ -271,9 +271,9 @@ impl<'a> Reader<'a> {
         }
         if (ids.len() as i64) < count {
             self.report.error(|| {
-                let said = quoted(token.of(self.text));
+                let shown = quoted(token.of(self.text));
                 let follow = following(ids.len(), "object");
-                let message = format!("render: declares {said}, but {follow} in the line");
+                let message = format!("render: declares {shown}, but {follow} in the line");
                 Diagnostic::error(token, message, "as many as there are")
                     .with_hint("each object is given as `ID` and its number")
             });
@@ -292,7 +292,7 @@ impl<'a> Reader<'a> {
         let mut drawn: Vec<usize> = match std::mem::replace(&mut self.drawn, Drawn::Results) {
             Drawn::Listed(listed) => listed
                 .into_iter()
-                .filter_map(|id| self.known(Category::Object, Some(id)))
+                .filter_map(|id| self.resolve(Category::Object, Some(id)))
                 .collect(),
             Drawn::All(token) => {
                 let [operands, results] = self.operands_and_results();

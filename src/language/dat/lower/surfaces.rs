@@ -34,7 +34,7 @@ impl<'a> Reader<'a> {
         let kind = RecordKind::Light;
         let line = self.line(kind, tokens, |id| Name::Known("light", id, ""));
         self.surplus(&line);
-        let Some(id) = self.know(Category::Light, &line, self.lights.len()) else {
+        let Some(id) = self.define(Category::Light, &line, self.lights.len()) else {
             return;
         };
         self.origins.lights.push(Place { record, kind, id });
@@ -63,7 +63,7 @@ impl<'a> Reader<'a> {
         let kind = RecordKind::Material;
         let line = self.line(kind, tokens, |id| Name::Known("material", id, ""));
         self.surplus(&line);
-        let Some(id) = self.know(Category::Material, &line, self.materials.len()) else {
+        let Some(id) = self.define(Category::Material, &line, self.materials.len()) else {
             return;
         };
         self.origins.materials.push(Place { record, kind, id });
@@ -75,7 +75,7 @@ impl<'a> Reader<'a> {
         let kind = RecordKind::Texture(pattern);
         let line = self.line(kind, tokens, |id| Name::Known("texture", id, ""));
         self.surplus(&line);
-        let Some(id) = self.know(Category::Texture, &line, self.textures.len()) else {
+        let Some(id) = self.define(Category::Texture, &line, self.textures.len()) else {
             return;
         };
         self.origins.textures.push(Place { record, kind, id });
@@ -110,8 +110,8 @@ impl<'a> Reader<'a> {
             UseKind::Colour => const { (COLOUR.at("texture"), COLOUR.at("mat")) },
             UseKind::Bump => const { (BUMP.at("bump"), BUMP.at("mat")) },
         };
-        let texture = self.known(Category::Texture, line.reference(texture));
-        let material = self.known(Category::Material, line.reference(material));
+        let texture = self.resolve(Category::Texture, line.reference(texture));
+        let material = self.resolve(Category::Material, line.reference(material));
         let (Some(texture), Some(material)) = (texture, material) else {
             return;
         };

@@ -35,9 +35,9 @@ impl Reader<'_> {
         let vectors = [&POSITION, &TARGET, &UP];
         self.origins.factors = vectors.map(|parameter| {
             let element = self.element_of(camera, parameter)?;
-            let said = self.origins.value(self.tree, element, "value")?;
+            let attribute = self.origins.value(self.tree, element, "value")?;
             // Reports of malformed numbers are made where they are read.
-            let word = said.said(self.text).trim();
+            let word = attribute.unescaped(self.text).trim();
             Some(parse_number(without_suffix(word).unwrap_or(word)).unwrap_or(1.0))
         });
         let [position, target, up] = vectors.map(|parameter| self.vector(camera, parameter));
@@ -78,10 +78,10 @@ impl Reader<'_> {
     }
 
     fn gamma(&mut self, camera: usize) {
-        let Some(said) = self.origins.value(self.tree, camera, "gamma") else {
+        let Some(attribute) = self.origins.value(self.tree, camera, "gamma") else {
             return;
         };
-        let word = said.said(self.text);
+        let word = attribute.unescaped(self.text);
         if word.eq_ignore_ascii_case("sRGB") {
             self.origins.is_srgb = true;
             self.setting.integrator = Integrator::Path;
@@ -89,7 +89,7 @@ impl Reader<'_> {
         } else if !word.eq_ignore_ascii_case("linear") {
             let message = || format!("camera gamma: unknown value {}", quoted(word));
             self.warn(
-                said.value,
+                attribute.value,
                 message,
                 "sRGB or linear",
                 "it is treated as linear",

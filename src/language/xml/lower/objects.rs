@@ -26,11 +26,11 @@ impl Reader<'_> {
             };
             let errors = self.report.errors();
             let own = self.transform_of(element).unwrap_or(DAffine3::IDENTITY);
-            let is_sound = errors == self.report.errors();
-            let frame = outer.filter(|_| is_sound).map(|outer| outer * own);
+            let is_valid = errors == self.report.errors();
+            let frame = outer.filter(|_| is_valid).map(|outer| outer * own);
             frames.push(frame);
             let material = self.material_of(element);
-            self.origins.dressed.push(material);
+            self.origins.object_materials.push(material);
             let shaped = match self.origins.objects[index].kind {
                 ObjectKind::Group => None,
                 ObjectKind::Obj => self.mesh(index, frame, material),
@@ -76,7 +76,7 @@ impl Reader<'_> {
     }
 
     fn flat(&mut self, element: usize) {
-        let (name, span) = (self.called(element), self.attributes_span(element));
+        let (name, span) = (self.display_name(element), self.attributes_span(element));
         self.report.error(|| {
             let message = format!("{name}: must not be 0 along any axis");
             Diagnostic::error(span, message, "numbers other than 0")
@@ -88,7 +88,7 @@ impl Reader<'_> {
     fn rotation(&mut self, element: usize, axis: DVec3, angle: f64) -> DAffine3 {
         let Some(axis) = normalise(axis) else {
             if axis == DVec3::ZERO {
-                let (name, span) = (self.called(element), self.attributes_span(element));
+                let (name, span) = (self.display_name(element), self.attributes_span(element));
                 let message = || format!("{name}: the axis is zero");
                 self.warn(span, message, "an axis: x, y, z", "the rotation is ignored");
             }
@@ -142,7 +142,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn no_volume(&mut self, element: usize) {
-        let name = self.called(element);
+        let name = self.display_name(element);
         self.error(
             self.tree.elements[element].name,
             || format!("{name}: its transforms flatten it or are too large"),
@@ -152,14 +152,14 @@ impl Reader<'_> {
 
     /// The index of an object's material.
     fn material_of(&mut self, element: usize) -> Option<usize> {
-        let said = self.word(element, "material")?;
-        let found = self.named.get(said).copied();
+        let name = self.word(element, "material")?;
+        let found = self.named.get(name).copied();
         if found.is_none() {
             let span = self
                 .origins
                 .value(self.tree, element, "material")
                 .map(|at| at.value);
-            let message = || format!("material: no material is named {}", quoted(said));
+            let message = || format!("material: no material is named {}", quoted(name));
             let hint = "the object is white, whatever light there is";
             self.warn(
                 span.unwrap_or_default(),

@@ -27,7 +27,7 @@ impl<'a> Reader<'a> {
                     .map_or(NO_WORD, |at| at as u8)
             })
             .collect();
-        let mut said: HashMap<(u32, &'static str), usize> = HashMap::new();
+        let mut parameters: HashMap<(u32, &'static str), usize> = HashMap::new();
         for element in 0..tree.elements.len() {
             let parent = tree.elements[element].parent;
             let role = match parent {
@@ -46,10 +46,10 @@ impl<'a> Reader<'a> {
             self.origins.roles.push(role);
             self.origins.owners.push(owner);
             if let (Role::Parameter(parameter), Some(parent)) = (role, parent)
-                && let Some(before) = said.insert((parent, parameter.element), element)
+                && let Some(before) = parameters.insert((parent, parameter.element), element)
             {
                 self.origins.roles[before] = Role::Skipped;
-                self.said_again(before);
+                self.repeated(before);
             }
             self.check_attributes(element, role);
         }
@@ -222,8 +222,8 @@ impl<'a> Reader<'a> {
         types: &'static [&'static str],
         otherwise: &str,
     ) -> Option<Kind> {
-        let said = self.origins.value(self.tree, element, "type")?;
-        let word = said.said(self.text);
+        let attribute = self.origins.value(self.tree, element, "type")?;
+        let word = attribute.unescaped(self.text);
         let kind = of(word);
         if kind.is_none() {
             let name = self.name(element);
@@ -233,7 +233,7 @@ impl<'a> Reader<'a> {
                 None => otherwise.to_owned(),
             };
             let message = || format!("{name}: unknown type {}", quoted(word));
-            self.warn(said.value, message, &types.join(" or "), &hint);
+            self.warn(attribute.value, message, &types.join(" or "), &hint);
         }
         kind
     }
@@ -282,8 +282,8 @@ impl<'a> Reader<'a> {
     }
 
     /// Warns of a parameter overridden by a later one.
-    fn said_again(&mut self, element: usize) {
-        let name = self.called(element);
+    fn repeated(&mut self, element: usize) {
+        let name = self.display_name(element);
         let message = || format!("{name}: given again below");
         self.warn(
             self.place(element),

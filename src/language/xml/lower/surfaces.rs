@@ -151,11 +151,11 @@ impl Reader<'_> {
             return -direction;
         }
         // Malformed numbers were already reported.
-        if let Some(said) = self
+        if let Some(element) = self
             .element_of(Some(element), &lights::DIRECTION)
             .filter(|_| direction == DVec3::ZERO)
         {
-            self.zero(said);
+            self.zero(element);
         }
         DVec3::Z
     }

@@ -77,8 +77,8 @@ impl Reader<'_> {
     ) -> Option<u32> {
         let attribute = self.origins.attribute(self.tree, element, "texture");
         let attribute = attribute.filter(|_| parameter.texture == Texturing::Yes)?;
-        let said = &self.tree.attributes[attribute];
-        let (word, span) = (said.said(self.text), said.value);
+        let value = &self.tree.attributes[attribute];
+        let (word, span) = (value.unescaped(self.text), value.value);
         if word.is_empty() {
             let message = || "texture: the name is missing".to_owned();
             self.warn(

@@ -10,7 +10,7 @@ use crate::text::{Diagnostic, Findings, Severity, Span, concise, is_integer, par
 
 impl<'a> Reader<'a> {
     /// The name of an element in messages: its node's, and its own if it differs.
-    pub(super) fn called(&self, element: usize) -> String {
+    pub(super) fn display_name(&self, element: usize) -> String {
         let name = self.name(element);
         let node = self.origins.node_of(element);
         match node {
@@ -25,30 +25,30 @@ impl<'a> Reader<'a> {
     /// A word stated by an element; `None` if missing.
     pub(super) fn word(&self, element: usize, word: &str) -> Option<&'a str> {
         let at = self.origins.attribute(self.tree, element, word)?;
-        let said = self.tree.attributes[at].said(self.text);
-        (!said.is_empty()).then_some(said)
+        let word = self.tree.attributes[at].unescaped(self.text);
+        (!word.is_empty()).then_some(word)
     }
 
     /// The name of an attribute's number in messages.
     fn what(&self, element: usize, attribute: usize) -> String {
-        let called = self.called(element);
+        let owner = self.display_name(element);
         match self.tree.attributes[attribute].name.of(self.text) {
-            "value" => called,
-            name => format!("{called} {name}"),
+            "value" => owner,
+            name => format!("{owner} {name}"),
         }
     }
 
     /// The checked number of an attribute; NaN, with an error, if malformed.
     fn number_at(&mut self, element: usize, attribute: usize, field: &Field) -> f64 {
         let span = self.tree.attributes[attribute].value;
-        let word = self.tree.attributes[attribute].said(self.text).trim();
+        let word = self.tree.attributes[attribute].unescaped(self.text).trim();
         let read = if field.kind.is_size() {
             parse_number(word)
         } else {
-            let mut read_over = Findings::default();
+            let mut findings = Findings::default();
             let what = || self.what(element, attribute);
-            let read = number(span, word, &mut read_over, what);
-            self.report.append(read_over);
+            let read = number(span, word, &mut findings, what);
+            self.report.append(findings);
             read
         };
         let what = || self.what(element, attribute);
@@ -137,7 +137,7 @@ impl<'a> Reader<'a> {
         }
         let product = self.number_or(element, "value", field, "1") * vector;
         if !product.is_nan() && !product.is_finite() {
-            let name = self.called(element);
+            let name = self.display_name(element);
             let message = || format!("{name}: too large for any number");
             self.error(self.place(element), message, "numbers up to about 1.8e308");
         }
@@ -197,7 +197,7 @@ impl<'a> Reader<'a> {
 
     /// Reports a direction of zero length.
     pub(super) fn zero(&mut self, element: usize) {
-        let name = self.called(element);
+        let name = self.display_name(element);
         let span = self.attributes_span(element);
         self.report
             .error(|| Diagnostic::error(span, format!("{name}: must not be zero"), "a direction"));

@@ -96,8 +96,9 @@ impl Rows<'_> {
     /// Adds an attribute whose value is a word.
     fn word(&mut self, element: usize, word: &'static Word) {
         let field = &word.field;
-        if let Some(said) = self.origins.value(self.tree, element, field.key) {
-            self.placed.push(Placed::explicit(field, vec![said.value]));
+        if let Some(attribute) = self.origins.value(self.tree, element, field.key) {
+            self.placed
+                .push(Placed::explicit(field, vec![attribute.value]));
             return;
         }
         let insertion = insert::attribute(self.tree, element);
@@ -140,9 +141,9 @@ impl Rows<'_> {
             self.numbers(element, parameter);
             for extra in parameter.extras {
                 let insertion = insert::attribute(self.tree, element);
-                let said = self.origins.attribute(self.tree, element, extra.attribute);
+                let place = self.origins.attribute(self.tree, element, extra.attribute);
                 let missing = extra.missing(self.origins.is_srgb);
-                let attribute = (extra.attribute, said, missing);
+                let attribute = (extra.attribute, place, missing);
                 self.attributes(&extra.field, &[attribute], &insertion);
             }
             let Some(texture) = self.texture(element, parameter) else {
@@ -152,8 +153,8 @@ impl Rows<'_> {
             self.transforms(element);
             let colours = CHECKER.iter().copied().rev();
             pending.extend(colours.filter_map(|colour| {
-                let said = self.origins.parameter(self.tree, element, colour)?;
-                Some((said, colour))
+                let element = self.origins.parameter(self.tree, element, colour)?;
+                Some((element, colour))
             }));
         }
     }
@@ -161,11 +162,11 @@ impl Rows<'_> {
     /// The place of a parameter's texture.
     fn texture(&self, element: usize, parameter: &Parameter) -> Option<Span> {
         let may = parameter.texture == Texturing::Yes;
-        let said = self
+        let attribute = self
             .origins
             .value(self.tree, element, "texture")
             .filter(|_| may);
-        said.map(|said| said.value)
+        attribute.map(|attribute| attribute.value)
     }
 
     fn transforms(&mut self, holder: usize) {

@@ -109,8 +109,8 @@ impl LightKind {
     }
 }
 
-fn place(words: &[&str], said: &str) -> Option<usize> {
+fn place(words: &[&str], name: &str) -> Option<usize> {
     words
         .iter()
-        .position(|word| word.eq_ignore_ascii_case(said))
+        .position(|word| word.eq_ignore_ascii_case(name))
 }

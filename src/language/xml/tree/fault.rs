@@ -5,7 +5,7 @@ use roxmltree::{Error, TextPos};
 use crate::text::{Diagnostic, Span};
 
 /// The diagnostic for an error of the parser, at the place it is about.
-pub(super) fn told(text: &str, error: &Error, unclosed: Option<Span>) -> Diagnostic {
+pub(super) fn diagnostic(text: &str, error: &Error, unclosed: Option<Span>) -> Diagnostic {
     let at = place(text, error.pos());
     let end = Span::at(text.trim_ascii_end().len());
     let here = character(text, at);

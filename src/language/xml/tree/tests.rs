@@ -86,7 +86,7 @@ fn elements_are_in_document_order() {
     let named = tree
         .attribute(EXAMPLE, 2, "name")
         .expect("the first object has a name");
-    assert_eq!(named.said(EXAMPLE), "sphere1");
+    assert_eq!(named.unescaped(EXAMPLE), "sphere1");
     assert_eq!(tree.elements[2].lead.of(EXAMPLE), "\n    ");
     check_tree(EXAMPLE);
     check_leaves(EXAMPLE);
@@ -99,7 +99,7 @@ fn references_in_values_are_resolved() {
     let said: Vec<_> = tree
         .attributes
         .iter()
-        .map(|a| (a.name.of(text), a.said(text)))
+        .map(|a| (a.name.of(text), a.unescaped(text)))
         .collect();
     assert_eq!(said, [("b", "<A\""), ("c", "é f"), ("d", "")]);
     assert_eq!(tree.comments[0].of(text), "<!-- e -->");
@@ -298,10 +298,10 @@ proptest! {
     fn values_are_read_back(value in "[ -~é\t\n\r]{0,12}", quote in prop::sample::select(vec!['"', '\''])) {
         let mut text = format!("<a b={quote}{quote}/>");
         let place = Span::at(6);
-        let inverse = apply(&mut text, &[Edit { span: place, text: spelled(&value, quote).into() }]);
+        let inverse = apply(&mut text, &[Edit { span: place, text: escaped(&value, quote).into() }]);
         let tree = parse(&text);
         prop_assert_eq!(tree.fault, None);
-        prop_assert_eq!(tree.attributes[0].said(&text), &value);
+        prop_assert_eq!(tree.attributes[0].unescaped(&text), &value);
         apply(&mut text, &inverse);
         prop_assert_eq!(text.len(), 9);
     }
