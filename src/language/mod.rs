@@ -42,7 +42,7 @@ pub use placed::{Placed, Wanted};
 pub use room::fits;
 
 /// Declares the languages, one per line, by folder name, which is also the file extension. A folder
-/// provides `Source`, `parse`, `errors_of_beginning`, `tree_bytes` and `LEAVES_KEEP_TO_LINES`.
+/// provides `Source`, `errors_of_beginning`, `tree_bytes` and `LEAVES_KEEP_TO_LINES`.
 macro_rules! languages {
     ($($(#[$doc:meta])* $name:ident in $folder:ident,)+) => {
         /// The supported scene languages.
@@ -98,7 +98,7 @@ macro_rules! languages {
             /// have places only after lowering.
             pub fn new(language: Language, text: Arc<String>) -> Self {
                 match language {
-                    $(Language::$name => Self::$name(Box::new($folder::parse(text))),)+
+                    $(Language::$name => Self::$name(Box::new($folder::Source::new(text))),)+
                 }
             }
 

@@ -105,12 +105,30 @@ fn number_hint(token: &str, error: NumberError) -> Option<String> {
     None
 }
 
-/// Returns the known word closest to a word, if at most one or two typing slips apart.
+/// Adds a question after the word that was probably meant; `otherwise` if none is known.
+pub(super) fn did_you_mean(
+    diagnostic: Diagnostic,
+    meant: Option<&str>,
+    otherwise: Option<&str>,
+) -> Diagnostic {
+    let question = meant.map(|word| format!("did you mean `{word}`?"));
+    Diagnostic {
+        hint: question.or_else(|| otherwise.map(str::to_owned)),
+        ..diagnostic
+    }
+}
+
+/// Returns the known word that differs only in case, otherwise the closest one, if at most one or
+/// two typing slips apart.
 pub(super) fn nearest_word(
     word: &str,
-    known: impl Iterator<Item = &'static str>,
+    known: impl Iterator<Item = &'static str> + Clone,
 ) -> Option<&'static str> {
     const LONGEST: usize = 16;
+    let mut same = known.clone();
+    if let Some(same) = same.find(|known| known.eq_ignore_ascii_case(word)) {
+        return Some(same);
+    }
     if LONGEST < word.len() || !word.is_ascii() {
         return None;
     }

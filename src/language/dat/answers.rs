@@ -5,6 +5,7 @@ use super::table::OPERATIONS;
 use super::tree::{is_comment, leaves};
 use super::{Source, lower, room, view, visibility};
 use crate::language::node::{FileKind, object_at, place_of};
+use crate::language::report::Name;
 use crate::language::table::{Category, Field, Kind};
 use crate::language::view::Numbers;
 use crate::language::words::skip_white_space;
@@ -36,24 +37,21 @@ impl Answers for Source {
     }
 
     fn name(&self, node: Node) -> String {
-        let id = |places: &[Place], index: usize| {
-            places
-                .get(index)
-                .map_or_else(|| "?".to_owned(), |at| at.id.to_string())
+        let named = |category: Category, places: &[Place], index: usize| {
+            let id = places.get(index)?.id;
+            Some(Name::Known(category.word(), id, ""))
         };
-        match node {
-            Node::View => "view".to_owned(),
-            Node::Ambient => "ambient".to_owned(),
-            Node::Background => "background".to_owned(),
-            Node::Environment => "environment".to_owned(),
-            Node::Light(index) => format!("light {}", id(&self.origins.lights, index)),
-            Node::Material(index) => format!("material {}", id(&self.origins.materials, index)),
-            Node::Texture(index) => format!("texture {}", id(&self.origins.textures, index)),
-            Node::Object(index) => match self.origins.objects.get(index) {
-                Some(object) => format!("object {} ({})", object.id, object.kind.keyword()),
-                None => "object ?".to_owned(),
-            },
-        }
+        let name = match node {
+            Node::Light(index) => named(Category::Light, &self.origins.lights, index),
+            Node::Material(index) => named(Category::Material, &self.origins.materials, index),
+            Node::Texture(index) => named(Category::Texture, &self.origins.textures, index),
+            Node::Object(index) => self.origins.objects.get(index).map(|object| {
+                let kind = object.kind.keyword();
+                Name::Known(Category::Object.word(), object.id, kind)
+            }),
+            Node::View | Node::Ambient | Node::Background | Node::Environment => None,
+        };
+        name.map_or_else(|| node.to_string(), |name| name.to_string())
     }
 
     fn fields(&self, node: Node) -> Vec<Placed> {

@@ -16,7 +16,7 @@ use super::table::{Heads, RECORDS, RecordKind, TextureKind, UseKind};
 use super::tree::Tree;
 use crate::geometry::{Operation, Solid};
 use crate::language::Lowered;
-use crate::language::report::{nearest_word, quoted};
+use crate::language::report::{did_you_mean, nearest_word, quoted};
 use crate::language::table::Category;
 use crate::language::words::Words;
 use crate::scene::{Light, Material, Rgb, Scene, Setting, Texture};
@@ -191,14 +191,7 @@ impl Reader<'_> {
                 None => format!("{first}: the line ends before its kind"),
             };
             let diagnostic = Diagnostic::error(place, message, words.join(", "));
-            let near = words.iter().find(|known| known.eq_ignore_ascii_case(word));
-            match near
-                .copied()
-                .or_else(|| nearest_word(word, words.iter().copied()))
-            {
-                Some(near) => diagnostic.with_hint(format!("did you mean `{near}`?")),
-                None => diagnostic,
-            }
+            did_you_mean(diagnostic, nearest_word(word, words.iter().copied()), None)
         });
         None
     }
@@ -288,20 +281,11 @@ fn definitions_of(text: &str, tree: &Tree) -> HashMap<(Category, i64), usize> {
     (0..tree.records.len()).filter_map(definition).collect()
 }
 
-/// The first words of records, for messages.
-fn known_records() -> String {
-    let words: Vec<_> = RECORDS.iter().map(|(word, _)| *word).collect();
-    words.join(", ")
-}
-
 fn unknown_record(span: Span, word: &str) -> Diagnostic {
-    let known = || RECORDS.iter().map(|(word, _)| *word);
-    let expected = known_records();
+    let words = RECORDS.iter().map(|(word, _)| *word);
+    let expected = words.clone().collect::<Vec<_>>().join(", ");
     let message = format!("unknown record {}: the line is skipped", quoted(word));
     let diagnostic = Diagnostic::warning(span, message, expected);
-    let same = known().find(|known| known.eq_ignore_ascii_case(word));
-    match same.or_else(|| nearest_word(word, known())) {
-        Some(near) => diagnostic.with_hint(format!("did you mean `{near}`?")),
-        None => diagnostic.with_hint("`//` or `#` begins a comment line"),
-    }
+    let otherwise = "`//` or `#` begins a comment line";
+    did_you_mean(diagnostic, nearest_word(word, words), Some(otherwise))
 }

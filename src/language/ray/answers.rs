@@ -48,17 +48,11 @@ impl Answers for Source {
 
     fn name(&self, node: Node) -> String {
         match node {
-            Node::View => Name::View.to_string(),
-            Node::Ambient => Name::Ambient.to_string(),
-            Node::Light(index) => Name::Light(index).to_string(),
-            Node::Object(index) => match self.origins.objects.get(index) {
-                Some(object) => Name::Object(index, object.kind.keyword()).to_string(),
-                None => format!("object {}", index + 1),
-            },
-            Node::Material(index) => format!("material {}", index + 1),
-            Node::Texture(index) => format!("texture {}", index + 1),
-            Node::Background => "background".to_owned(),
-            Node::Environment => "environment".to_owned(),
+            Node::Object(index) if index < self.origins.objects.len() => {
+                let kind = self.origins.objects[index].kind;
+                Name::Object(index, kind.keyword()).to_string()
+            }
+            _ => node.to_string(),
         }
     }
 

@@ -7,8 +7,7 @@ use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, S
 use crate::language::at::At;
 use crate::language::coefficients::Coefficients;
 use crate::language::record::Record;
-use crate::language::report::Name;
-use crate::language::report::quoted;
+use crate::language::report::{Name, did_you_mean, quoted};
 use crate::language::table;
 use crate::scene::objects::BLOCK;
 use crate::scene::{Material, Object};
@@ -240,10 +239,8 @@ impl<'a> Reader<'a> {
             let object = self.places.len() + 1;
             let message = format!("object {object}: unknown type {}", quoted(word));
             let diagnostic = Diagnostic::error(token, message, TYPES);
-            match ShapeKind::nearest(word) {
-                Some(kind) => diagnostic.with_hint(format!("did you mean `{}`?", kind.keyword())),
-                None => diagnostic,
-            }
+            let meant = ShapeKind::nearest(word).map(ShapeKind::keyword);
+            did_you_mean(diagnostic, meant, None)
         });
         self.at += 1;
         let from = self.at;
@@ -291,10 +288,8 @@ impl<'a> Reader<'a> {
         self.report.warning(|| {
             let message = format!("ignored {ignored} after the last object");
             let diagnostic = Diagnostic::warning(token, message, "the end of the text");
-            match ShapeKind::nearest(word) {
-                Some(kind) => diagnostic.with_hint(format!("did you mean `{}`?", kind.keyword())),
-                None => diagnostic.with_hint("`//` begins a comment"),
-            }
+            let meant = ShapeKind::nearest(word).map(ShapeKind::keyword);
+            did_you_mean(diagnostic, meant, Some("`//` begins a comment"))
         });
     }
 

@@ -14,7 +14,7 @@ use std::ops::Range;
 use roxmltree::{Document, Error, Node, NodeType, ParsingOptions};
 
 use crate::language::words::{skip_white_space, white_space};
-use crate::language::written::Follow;
+use crate::language::written::Parse;
 use crate::text::{Diagnostic, Span};
 
 /// The elements and comments of a text, each in text order.
@@ -164,9 +164,9 @@ impl Tree {
     }
 }
 
-impl Follow for Tree {
-    fn follow(&mut self, text: &str, _: [Span; 2]) {
-        *self = parse(text);
+impl Parse for Tree {
+    fn parse(text: &str) -> Self {
+        parse(text)
     }
 }
 

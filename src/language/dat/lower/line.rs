@@ -7,7 +7,7 @@ use crate::language::at::At;
 use crate::language::dat::table::{Part, RecordKind};
 use crate::language::record::{Record, what};
 use crate::language::report::Name;
-use crate::language::report::{nearest_word, no_number, number, quoted};
+use crate::language::report::{did_you_mean, nearest_word, no_number, number, quoted};
 use crate::language::table::{Field, Kind, Range};
 use crate::language::words::Words;
 use crate::text::{Diagnostic, Severity, Span, counted, parse_number};
@@ -300,14 +300,7 @@ fn no_choice(
 ) -> Diagnostic {
     let message = format!("{name} {}: unknown word {}", field.key, quoted(word));
     let diagnostic = Diagnostic::error(token, message, field.expected());
-    let same = words
-        .iter()
-        .copied()
-        .find(|known| known.eq_ignore_ascii_case(word));
-    match same.or_else(|| nearest_word(word, words.iter().copied())) {
-        Some(near) => diagnostic.with_hint(format!("did you mean `{near}`?")),
-        None => diagnostic,
-    }
+    did_you_mean(diagnostic, nearest_word(word, words.iter().copied()), None)
 }
 
 /// The first word of a record, as a name with static lifetime.

@@ -93,20 +93,9 @@ impl<'a> Reader<'a> {
             Role::Scene if is("light") => self.light_place(element).or(Some(Role::Skipped)),
             Role::Scene if is("background") => Some(Role::Parameter(&BACKGROUND)),
             Role::Scene if is("environment") => Some(Role::Parameter(&ENVIRONMENT)),
-            Role::Camera => among(camera::PARAMETERS).map(Role::Parameter),
-            Role::Object(_) => among(TRANSFORMS).map(Role::Transform),
-            Role::Light(index) => {
-                let kind = self.origins.lights[index as usize].kind;
-                among(kind.parameters()).map(Role::Parameter)
-            }
-            Role::Material(index) => {
-                let kind = self.origins.materials[index as usize].kind;
-                among(kind.parameters()).map(Role::Parameter)
-            }
-            Role::Parameter(of) if of.texture == Texturing::Yes => among(CHECKER)
+            outer => among(self.parameters_in(outer))
                 .map(Role::Parameter)
-                .or_else(|| among(TRANSFORMS).map(Role::Transform)),
-            Role::Root | Role::Scene | Role::Parameter(_) | Role::Transform(_) => None,
+                .or_else(|| among(transforms_in(outer)).map(Role::Transform)),
         };
         found.unwrap_or_else(|| {
             self.unknown(element, parent);
@@ -258,27 +247,32 @@ impl<'a> Reader<'a> {
         self.warn(self.place(element), message, &expected, &hint);
     }
 
+    /// The parameters of an element.
+    fn parameters_in(&self, role: Role) -> &'static [&'static Parameter] {
+        match role {
+            Role::Camera => camera::PARAMETERS,
+            Role::Light(index) => self.origins.lights[index as usize].kind.parameters(),
+            Role::Material(index) => self.origins.materials[index as usize].kind.parameters(),
+            Role::Parameter(of) if of.texture == Texturing::Yes => CHECKER,
+            _ => &[],
+        }
+    }
+
     /// The known children of an element, for messages.
     fn known_in(&self, parent: usize) -> Vec<&'static str> {
-        let names = |all: &'static [&Parameter]| all.iter().map(|known| known.element);
-        match self.origins.roles[parent] {
-            Role::Root => vec!["scene", "camera"],
-            Role::Scene => vec!["object", "material", "light", "background", "environment"],
-            Role::Camera => names(camera::PARAMETERS).collect(),
-            Role::Object(_) => names(TRANSFORMS).chain(["object"]).collect(),
-            Role::Light(index) => {
-                let kind = self.origins.lights[index as usize].kind;
-                names(kind.parameters()).collect()
-            }
-            Role::Material(index) => {
-                let kind = self.origins.materials[index as usize].kind;
-                names(kind.parameters()).collect()
-            }
-            Role::Parameter(of) if of.texture == Texturing::Yes => {
-                names(CHECKER).chain(names(TRANSFORMS)).collect()
-            }
-            Role::Parameter(_) | Role::Transform(_) | Role::Skipped => Vec::new(),
-        }
+        let parent = self.origins.roles[parent];
+        let parameters = self.parameters_in(parent).iter();
+        let parameters = parameters.chain(transforms_in(parent));
+        let others: &[_] = match parent {
+            Role::Root => &["scene", "camera"],
+            Role::Scene => &["object", "material", "light", "background", "environment"],
+            Role::Object(_) => &["object"],
+            _ => &[],
+        };
+        parameters
+            .map(|known| known.element)
+            .chain(others.iter().copied())
+            .collect()
     }
 
     /// Warns of a parameter overridden by a later one.
@@ -348,6 +342,15 @@ impl<'a> Reader<'a> {
                 Diagnostic::warning(span, message, "elements").with_hint(hint)
             });
         }
+    }
+}
+
+/// The transforms of an element.
+fn transforms_in(role: Role) -> &'static [&'static Parameter] {
+    match role {
+        Role::Object(_) => TRANSFORMS,
+        Role::Parameter(of) if of.texture == Texturing::Yes => TRANSFORMS,
+        _ => &[],
     }
 }
 
