@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::report::Name;
+use super::report::{Name, out_of_range};
 use super::table::{Field, Kind};
 use crate::geometry::{FLATTEST, normalise};
 use crate::text::{Diagnostic, Findings, Span, concise};
@@ -83,22 +83,11 @@ impl<'a> Record<'a> {
             }
             // Formatted only for a message that is kept.
             let what = || what(self.name, field, component);
+            let diagnostic = || out_of_range(field, span, value, &what());
             if field.allowed.contains(value) {
-                report.warning(|| {
-                    let message = format!(
-                        "{}: {} is not {}",
-                        what(),
-                        concise(value),
-                        field.usual.limits()
-                    );
-                    Diagnostic::warning(span, message, field.usual.words())
-                        .with_hint(reading(field))
-                });
+                report.warning(diagnostic);
             } else {
-                report.error(|| {
-                    let message = format!("{}: must be {}", what(), field.allowed.limits());
-                    Diagnostic::error(span, message, field.allowed.words())
-                });
+                report.error(diagnostic);
             }
         }
     }
@@ -247,13 +236,5 @@ fn rounded(value: f64) -> String {
     match format!("{value:.3e}").parse() {
         Ok(rounded) if f64::is_finite(rounded) => concise(rounded),
         _ => "beyond all numbers".to_owned(),
-    }
-}
-
-/// A hint at how a value outside its usual range is treated.
-fn reading(field: &Field) -> String {
-    match field.reads_as {
-        Some(value) => format!("it is read as {value}"),
-        None => "it is used as given".to_owned(),
     }
 }

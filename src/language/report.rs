@@ -2,8 +2,9 @@
 
 use std::fmt;
 
+use super::table::Field;
 use crate::text::{
-    Diagnostic, Findings, NumberError, Severity, Span, parse_number, slips, without_suffix,
+    Diagnostic, Findings, NumberError, Severity, Span, concise, parse_number, slips, without_suffix,
 };
 
 /// A token for display in messages: in backticks, truncated, unprintable characters escaped.
@@ -41,6 +42,43 @@ pub(super) fn number(
             .with_hint("other readers of the format may refuse it")
     });
     Ok(value)
+}
+
+/// Reads a number of a field; NaN, with an error, if it is malformed. `what` names the number.
+pub(super) fn number_of(
+    field: &Field,
+    span: Span,
+    token: &str,
+    report: &mut Findings,
+    what: impl Fn() -> String,
+) -> f64 {
+    let read = if field.kind.is_size() {
+        parse_number(token)
+    } else {
+        number(span, token, report, &what)
+    };
+    read.unwrap_or_else(|error| {
+        report.error(|| {
+            let expected = field.allowed.words();
+            no_number(Severity::Error, span, token, &what(), &expected, error)
+        });
+        f64::NAN
+    })
+}
+
+/// The diagnostic for a number outside the usual range of its field: an error if it is not even
+/// allowed.
+pub(super) fn out_of_range(field: &Field, span: Span, value: f64, what: &str) -> Diagnostic {
+    if !field.allowed.contains(value) {
+        let message = format!("{what}: must be {}", field.allowed.limits());
+        return Diagnostic::error(span, message, field.allowed.words());
+    }
+    let message = format!("{what}: {} is not {}", concise(value), field.usual.limits());
+    let hint = match field.reads_as {
+        Some(value) => format!("it is read as {value}"),
+        None => "it is used as given".to_owned(),
+    };
+    Diagnostic::warning(span, message, field.usual.words()).with_hint(hint)
 }
 
 /// The diagnostic for a token where a number is expected. `what` names the field.

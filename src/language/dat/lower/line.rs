@@ -7,10 +7,10 @@ use crate::language::at::At;
 use crate::language::dat::table::{Part, RecordKind};
 use crate::language::record::{Record, what};
 use crate::language::report::Name;
-use crate::language::report::{did_you_mean, nearest_word, no_number, number, quoted};
+use crate::language::report::{did_you_mean, nearest_word, number_of, quoted};
 use crate::language::table::{Field, Kind, Range};
 use crate::language::words::Words;
-use crate::text::{Diagnostic, Severity, Span, counted, parse_number};
+use crate::text::{Diagnostic, Span, counted};
 
 /// The content of a record.
 pub(super) struct Line<'a> {
@@ -198,18 +198,7 @@ impl<'a> Reader<'a> {
                 }
                 _ => {
                     let what = || what(line.name, field, component);
-                    let read = if field.kind.is_size() {
-                        parse_number(word)
-                    } else {
-                        number(token, word, &mut self.report, what)
-                    };
-                    read.unwrap_or_else(|error| {
-                        let expected = field.allowed.words();
-                        self.report.error(|| {
-                            no_number(Severity::Error, token, word, &what(), &expected, error)
-                        });
-                        f64::NAN
-                    })
+                    number_of(field, token, word, &mut self.report, what)
                 }
             };
             line.values.push(value);

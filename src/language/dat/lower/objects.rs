@@ -13,11 +13,11 @@ use crate::language::dat::origins::ObjectPlace;
 use crate::language::dat::table::{HALF_SPACE, OPERATIONS, ObjectKind, RecordKind};
 use crate::language::record::what;
 use crate::language::report::Name;
-use crate::language::report::{no_number, number, quoted};
-use crate::language::table::{Category, Range};
+use crate::language::report::{number_of, quoted};
+use crate::language::table::Category;
 use crate::language::words::Words;
 use crate::scene::Object;
-use crate::text::{Diagnostic, Severity, Span, counted};
+use crate::text::{Diagnostic, Span, counted};
 
 use super::line::Line;
 
@@ -207,13 +207,7 @@ impl<'a> Reader<'a> {
         for ((value, token), component) in values.iter_mut().zip(tokens).zip(components) {
             let word = token.of(self.text);
             let what = || what(name, HALF_SPACE, component);
-            match number(*token, word, &mut self.report, what) {
-                Ok(number) => *value = number,
-                Err(error) => self.report.error(|| {
-                    let expected = Range::Any.words();
-                    no_number(Severity::Error, *token, word, &what(), &expected, error)
-                }),
-            }
+            *value = number_of(HALF_SPACE, *token, word, &mut self.report, what);
         }
         let [x, y, z, distance] = values;
         let normal = DVec3::new(x, y, z);

@@ -3,10 +3,10 @@
 use glam::DVec3;
 
 use super::Reader;
-use crate::language::report::{no_number, number};
+use crate::language::report::{number_of, out_of_range};
 use crate::language::table::{Field, Kind};
 use crate::language::xml::table::{Extra, Parameter, Reading};
-use crate::text::{Diagnostic, Findings, Severity, Span, concise, is_integer, parse_number};
+use crate::text::{Diagnostic, Findings, Span, is_integer};
 
 impl<'a> Reader<'a> {
     /// The name of an element in messages: its node's, and its own if it differs.
@@ -42,52 +42,27 @@ impl<'a> Reader<'a> {
     fn number_at(&mut self, element: usize, attribute: usize, field: &Field) -> f64 {
         let span = self.tree.attributes[attribute].value;
         let word = self.tree.attributes[attribute].unescaped(self.text).trim();
-        let read = if field.kind.is_size() {
-            parse_number(word)
-        } else {
-            let mut findings = Findings::default();
-            let what = || self.what(element, attribute);
-            let read = number(span, word, &mut findings, what);
-            self.report.append(findings);
-            read
-        };
         let what = || self.what(element, attribute);
-        let value = match read {
-            Ok(value) => value,
-            Err(error) => {
-                let (what, expected) = (what(), field.allowed.words());
-                self.report
-                    .error(|| no_number(Severity::Error, span, word, &what, &expected, error));
-                return f64::NAN;
-            }
-        };
-        let is_side = field.kind == Kind::Side;
-        let fits = !is_side || (is_integer(word) && value <= f64::from(u32::MAX));
-        if !field.allowed.contains(value) || !fits {
-            let limits = if is_side && f64::from(u32::MAX) < value {
+        let mut findings = Findings::default();
+        let value = number_of(field, span, word, &mut findings, what);
+        let is_too_large = field.kind == Kind::Side && f64::from(u32::MAX) < value;
+        let is_fraction = field.kind == Kind::Side && !is_integer(word);
+        if value.is_nan() {
+            // Already reported.
+        } else if !field.allowed.contains(value) || is_too_large || is_fraction {
+            let limits = if is_too_large {
                 format!("{} at most", u32::MAX)
             } else {
                 field.allowed.limits()
             };
             let message = format!("{}: must be {limits}", what());
-            self.error(span, || message, &field.allowed.words());
-            return f64::NAN;
+            findings.error(|| Diagnostic::error(span, message, field.allowed.words()));
+        } else if !field.usual.contains(value) {
+            findings.warning(|| out_of_range(field, span, value, &what()));
         }
-        if !field.usual.contains(value) {
-            let message = format!(
-                "{}: {} is not {}",
-                what(),
-                concise(value),
-                field.usual.limits()
-            );
-            self.warn(
-                span,
-                || message,
-                &field.usual.words(),
-                "it is used as given",
-            );
-        }
-        value
+        let is_valid = findings.errors() == 0;
+        self.report.append(findings);
+        if is_valid { value } else { f64::NAN }
     }
 
     /// A number of an element, or its default.
