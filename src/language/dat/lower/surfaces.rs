@@ -39,7 +39,9 @@ impl<'a> Reader<'a> {
         };
         self.origins.lights.push(Place { record, kind, id });
         let numbers = &*line.numbers_or_zeros();
-        let emitter = emitter(numbers).unwrap_or_else(|| {
+        // The errors of an invalid line were already reported.
+        let emitter = line.numbers().map_or(Some(Emitter::Ambient), emitter);
+        let emitter = emitter.unwrap_or_else(|| {
             let span = POSITION.span(&line.spans).to(DIRECTION.span(&line.spans));
             self.report.error(|| {
                 let message = format!("{} direction: must not be zero", line.name);
