@@ -249,7 +249,7 @@ fn lower(
 /// The span that sets the size of the picture, if there is one.
 fn size_span(source: &Source) -> Option<Span> {
     let view = source.fields(Node::View);
-    let written = view.iter().filter(|placed| placed.is_said());
+    let written = view.iter().filter(|placed| placed.is_explicit());
     let sizes = written.filter(|placed| placed.field.kind.is_size());
     sizes
         .flat_map(|size| size.spans.iter().copied())

@@ -59,7 +59,12 @@ impl At<1> {
         numbers[self.first]
     }
 
-    /// Reads the index of the chosen word.
+    /// The index of the number in its record.
+    pub(super) fn index(self) -> usize {
+        self.first
+    }
+
+    /// Reads the index of the chosen word, to compare with [`index_of_word`].
     pub(super) fn choice(self, numbers: &[f64]) -> usize {
         numbers[self.first] as usize
     }
@@ -82,6 +87,18 @@ pub(super) const fn index_of(fields: &[Field], key: &str) -> usize {
         at += 1;
     }
     panic!("the table has such a field")
+}
+
+/// The index of a word of a choice.
+pub(super) const fn index_of_word(words: &[&str], word: &str) -> usize {
+    let mut at = 0;
+    while at < words.len() {
+        if is_same(words[at], word) {
+            return at;
+        }
+        at += 1;
+    }
+    panic!("the choice has such a word")
 }
 
 /// Whether two keys are equal.

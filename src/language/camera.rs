@@ -42,7 +42,7 @@ pub(super) fn check(camera: &Camera, places: &Places, report: &mut Findings) {
     // Halved, because the difference of two large numbers may overflow.
     let Some(forward) = normalise(0.5 * camera.target - 0.5 * camera.eye) else {
         report.error(|| {
-            let message = "view target: is where the eye is";
+            let message = "view target: coincides with the eye";
             let place = places.eye.to(places.target);
             Diagnostic::error(place, message, "a point other than the eye")
         });
@@ -51,9 +51,9 @@ pub(super) fn check(camera: &Camera, places: &Places, report: &mut Findings) {
     let sine = normalise(camera.up).map_or(0.0, |up| forward.cross(up).length());
     if sine < Camera::LEAST_SINE {
         report.warning(|| {
-            let message = "view up: is the direction of view";
-            Diagnostic::warning(places.up, message, "a direction across the view")
-                .with_hint("the world axis most across the view stands in for it")
+            let message = "view up: is parallel to the direction of view";
+            Diagnostic::warning(places.up, message, "a direction not parallel to the view")
+                .with_hint("the world axis closest to perpendicular is used instead")
         });
     }
 }

@@ -40,10 +40,9 @@ use view::Numbers;
 pub use node::{FileKind, NamedFile, Node, Nodes};
 pub use placed::{Placed, Wanted};
 pub use room::fits;
-pub use xml::Unsaid;
 
 /// Declares the languages, one per line, by folder name, which is also the file extension. A folder
-/// provides `Source`, `parse`, `errors_of_beginning`, `tree_bytes` and `LEAVES_KEEP_TO_LINES`.
+/// provides `Source`, `errors_of_beginning`, `tree_bytes` and `LEAVES_KEEP_TO_LINES`.
 macro_rules! languages {
     ($($(#[$doc:meta])* $name:ident in $folder:ident,)+) => {
         /// The supported scene languages.
@@ -99,7 +98,7 @@ macro_rules! languages {
             /// have places only after lowering.
             pub fn new(language: Language, text: Arc<String>) -> Self {
                 match language {
-                    $(Language::$name => Self::$name(Box::new($folder::parse(text))),)+
+                    $(Language::$name => Self::$name(Box::new($folder::Source::new(text))),)+
                 }
             }
 
@@ -255,7 +254,7 @@ pub trait Answers: Editable {
     fn leaves(&self) -> Vec<Span>;
 
     /// The text of a leaf.
-    fn said(&self, leaf: Span) -> &str {
+    fn leaf_text(&self, leaf: Span) -> &str {
         leaf.of(self.text())
     }
 
@@ -380,14 +379,15 @@ pub trait Answers: Editable {
     ///
     /// # Errors
     ///
-    /// Fails with a description of the permitted values if `said` is not one.
-    fn view_saying(
+    /// Fails with a description of the permitted values if `literal` is not one.
+    fn view_with(
         &self,
         camera: &Camera,
         at: (usize, usize),
-        said: &str,
+        literal: &str,
     ) -> Result<Camera, String> {
-        let numbers = view::saying(&self.view_fields(), self.view_numbers(camera), at, said)?;
+        let numbers =
+            view::with_component(&self.view_fields(), self.view_numbers(camera), at, literal)?;
         Ok(self.view_camera(&numbers, camera))
     }
 

@@ -1,5 +1,7 @@
 //! The nodes of a scene's text: those with fields, their list, and the files they name.
 
+use std::fmt;
+
 use super::partition::partition_point;
 use crate::text::Span;
 
@@ -22,6 +24,22 @@ pub enum Node {
     Texture(usize),
     /// An object, by index.
     Object(usize),
+}
+
+/// The noun for the kind of node, with its number from 1: `light 2`.
+impl fmt::Display for Node {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::View => f.write_str("view"),
+            Self::Ambient => f.write_str("ambient"),
+            Self::Background => f.write_str("background"),
+            Self::Environment => f.write_str("environment"),
+            Self::Light(index) => write!(f, "light {}", index + 1),
+            Self::Material(index) => write!(f, "material {}", index + 1),
+            Self::Texture(index) => write!(f, "texture {}", index + 1),
+            Self::Object(index) => write!(f, "object {}", index + 1),
+        }
+    }
 }
 
 /// The nodes of a scene, ascending. Only the count of each kind is stored, so that a list of

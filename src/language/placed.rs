@@ -2,7 +2,6 @@
 
 use super::Answers;
 use super::table::Field;
-use super::xml::Unsaid;
 use crate::text::{Edit, Span};
 
 /// A field with the places of its components.
@@ -13,8 +12,52 @@ pub struct Placed {
     /// One span per component; empty, at the place for insertion, if the text does not state the
     /// component. No spans at all for a part of the view that only [`Answers::view_edits`] can add.
     pub spans: Vec<Span>,
-    /// Defaults and insertions of components that the text omits, if it could state them.
-    pub(super) unsaid: Option<Box<Unsaid>>,
+    /// Defaults and insertion of components that the text omits, if it could state them.
+    pub(super) implicit: Option<Box<Implicit>>,
+}
+
+/// The implicit part of a field, and how to insert it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Implicit {
+    /// The default of each component; `None` if the text states it.
+    pub(super) defaults: Vec<Option<&'static str>>,
+    /// The attributes to write, in this order.
+    pub(super) attributes: Vec<ImplicitAttribute>,
+    /// The element to write them in, if that is missing too.
+    pub(super) element: Option<&'static str>,
+    /// The place and the surroundings of the insertion.
+    pub(super) insertion: Insertion,
+}
+
+/// A missing attribute.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ImplicitAttribute {
+    /// The component it sets.
+    pub(super) component: usize,
+    pub(super) name: &'static str,
+    pub(super) default: &'static str,
+    /// Whether it must be written with the others, whose presence would change its default.
+    pub(super) is_required: bool,
+}
+
+/// A place for an insertion.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Insertion {
+    /// The text replaced, usually empty.
+    pub(super) span: Span,
+    pub(super) before: Vec<Piece>,
+    /// The text between several insertions at this place.
+    pub(super) between: Vec<Piece>,
+    pub(super) after: Vec<Piece>,
+}
+
+/// A piece of inserted text.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Piece {
+    /// Fixed text.
+    Literal(&'static str),
+    /// A copy of this part of the text.
+    Copy(Span),
 }
 
 /// A field and the new values of its components, by index.
@@ -22,21 +65,21 @@ pub type Wanted<'p> = (&'p Placed, Vec<(usize, String)>);
 
 impl Placed {
     /// A field stated in the text, or a part of the view that is not.
-    pub(super) fn said(field: &'static Field, spans: Vec<Span>) -> Self {
+    pub(super) fn explicit(field: &'static Field, spans: Vec<Span>) -> Self {
         Self {
             field,
             spans,
-            unsaid: None,
+            implicit: None,
         }
     }
 
     /// The default of a component that the text omits.
     pub fn default_of(&self, component: usize) -> Option<&'static str> {
-        *self.unsaid.as_ref()?.literals.get(component)?
+        *self.implicit.as_ref()?.defaults.get(component)?
     }
 
     /// Whether the text states any of the components.
-    pub fn is_said(&self) -> bool {
+    pub fn is_explicit(&self) -> bool {
         (0..self.spans.len()).any(|component| self.default_of(component).is_none())
     }
 
@@ -49,10 +92,10 @@ impl Placed {
 /// Returns the edits that set these components where the text states them.
 pub(super) fn edits<Source: Answers + ?Sized>(source: &Source, wanted: &[Wanted<'_>]) -> Vec<Edit> {
     let edits = wanted.iter().flat_map(|(placed, values)| {
-        let said = values
+        let explicit = values
             .iter()
             .filter(|(component, _)| placed.default_of(*component).is_none());
-        said.filter_map(|(component, literal)| {
+        explicit.filter_map(|(component, literal)| {
             let span = *placed.spans.get(*component)?;
             let text = source.spelled(span, literal).into_owned();
             Some(Edit { span, text })

@@ -2,11 +2,9 @@
 
 use glam::{DMat3, DVec3};
 
-use super::coefficients::Coefficients;
-use super::report::Name;
+use super::report::{Name, out_of_range};
 use super::table::{Field, Kind};
 use crate::geometry::{FLATTEST, normalise};
-use crate::scene::Rgb;
 use crate::text::{Diagnostic, Findings, Span, concise};
 
 /// The tolerance for a direction's length around 1 and for dot products of two around 0.
@@ -85,22 +83,11 @@ impl<'a> Record<'a> {
             }
             // Formatted only for a message that is kept.
             let what = || what(self.name, field, component);
+            let diagnostic = || out_of_range(field, span, value, &what());
             if field.allowed.contains(value) {
-                report.warning(|| {
-                    let message = format!(
-                        "{}: {} is not {}",
-                        what(),
-                        concise(value),
-                        field.usual.limits()
-                    );
-                    Diagnostic::warning(span, message, field.usual.words())
-                        .with_hint(reading(field))
-                });
+                report.warning(diagnostic);
             } else {
-                report.error(|| {
-                    let message = format!("{}: must be {}", what(), field.allowed.limits());
-                    Diagnostic::error(span, message, field.allowed.words())
-                });
+                report.error(diagnostic);
             }
         }
     }
@@ -124,7 +111,7 @@ impl<'a> Record<'a> {
             report.warning(|| {
                 let message = format!("{}: has length {}, not 1", what(), rounded(length));
                 let hint = match part.field.kind {
-                    Kind::Axis => "it is used as given: the width is counted in lengths of it",
+                    Kind::Axis => "it is used as given: the width is a multiple of its length",
                     _ => "it is normalised; sizes have fields of their own",
                 };
                 Diagnostic::warning(span, message, "a direction of unit length").with_hint(hint)
@@ -153,7 +140,7 @@ impl<'a> Record<'a> {
         if determinant.is_some_and(|det| det < 0.0) {
             report.warning(|| {
                 let cross = format!("{} × {}", a.key, b.key);
-                let message = format!("{} {}: points against {cross}", self.name, c.key);
+                let message = format!("{} {}: points opposite to {cross}", self.name, c.key);
                 Diagnostic::warning(c.span, message, format!("the direction {cross}"))
                     .with_hint("the left-handed frame is used as given")
             });
@@ -192,74 +179,6 @@ impl<'a> Record<'a> {
                 span: part.spans[0].to(part.spans[2]),
             });
         Some([axes.next()?, axes.next()?, axes.next()?])
-    }
-
-    /// Sorts the numbers by kind. They must be complete and readable; otherwise some are left out.
-    pub(super) fn gather(self, fields: impl Iterator<Item = &'static Field>) -> Gathered {
-        let mut gathered = Gathered::default();
-        let (mut points, mut colours, mut numbers, mut choices) = (0, 0, 0, 0);
-        for Part { field, values, .. } in self.parts(fields) {
-            match field.kind {
-                Kind::Point => {
-                    gathered.points[points] = DVec3::from_slice(values);
-                    points += 1;
-                }
-                Kind::Colour => {
-                    gathered.colours[colours] = DVec3::from_slice(values);
-                    colours += 1;
-                }
-                Kind::Number => {
-                    gathered.numbers[numbers] = values[0];
-                    numbers += 1;
-                }
-                Kind::Pixels | Kind::Pair => gathered.pair = [values[0], values[1]],
-                Kind::Choice(_) => {
-                    gathered.choices[choices] = values[0] as usize;
-                    choices += 1;
-                }
-                // No light, material or texture has a direction. References are looked up where they are
-                // read, and the other kinds are in no record.
-                Kind::Direction
-                | Kind::Axis
-                | Kind::Reference(_)
-                | Kind::Name(_)
-                | Kind::Word
-                | Kind::HalfSpace
-                | Kind::Side
-                | Kind::ScaledVector
-                | Kind::ScaledColour
-                | Kind::Rotation => {}
-            }
-        }
-        gathered
-    }
-}
-
-/// The numbers of a light, a material or a texture by kind, each in the order of the table.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Gathered {
-    pub(super) points: [DVec3; 3],
-    pub(super) colours: [Rgb; 3],
-    pub(super) numbers: [f64; 10],
-    /// The index of the word of each choice.
-    pub(super) choices: [usize; 2],
-    pub(super) pair: [f64; 2],
-}
-
-impl Gathered {
-    /// The material described by these numbers.
-    pub(super) fn material(&self) -> Coefficients {
-        let [ambient, diffuse, specular] = self.colours;
-        let [exponent, reflection, transmission, index, ..] = self.numbers;
-        Coefficients {
-            ambient,
-            diffuse,
-            specular,
-            exponent,
-            reflection,
-            transmission,
-            index,
-        }
     }
 }
 
@@ -317,13 +236,5 @@ fn rounded(value: f64) -> String {
     match format!("{value:.3e}").parse() {
         Ok(rounded) if f64::is_finite(rounded) => concise(rounded),
         _ => "beyond all numbers".to_owned(),
-    }
-}
-
-/// A hint at how a value outside its usual range is treated.
-fn reading(field: &Field) -> String {
-    match field.reads_as {
-        Some(value) => format!("it reads as {value}"),
-        None => "it is used as given".to_owned(),
     }
 }

@@ -2,8 +2,9 @@
 
 use std::fmt;
 
+use super::table::Field;
 use crate::text::{
-    Diagnostic, Findings, NumberError, Severity, Span, parse_number, slips, without_suffix,
+    Diagnostic, Findings, NumberError, Severity, Span, concise, parse_number, slips, without_suffix,
 };
 
 /// A token for display in messages: in backticks, truncated, unprintable characters escaped.
@@ -34,13 +35,50 @@ pub(super) fn number(
     };
     let value = parse_number(plain)?;
     report.warning(|| {
-        let said = quoted(token);
-        let message = format!("{}: the `f` at the end of {said} is ignored", what());
+        let shown = quoted(token);
+        let message = format!("{}: the `f` at the end of {shown} is ignored", what());
         let expected = format!("a number without it: {}", quoted(plain).trim_matches('`'));
         Diagnostic::warning(span, message, expected)
             .with_hint("other readers of the format may refuse it")
     });
     Ok(value)
+}
+
+/// Reads a number of a field; NaN, with an error, if it is malformed. `what` names the number.
+pub(super) fn number_of(
+    field: &Field,
+    span: Span,
+    token: &str,
+    report: &mut Findings,
+    what: impl Fn() -> String,
+) -> f64 {
+    let read = if field.kind.is_size() {
+        parse_number(token)
+    } else {
+        number(span, token, report, &what)
+    };
+    read.unwrap_or_else(|error| {
+        report.error(|| {
+            let expected = field.allowed.words();
+            no_number(Severity::Error, span, token, &what(), &expected, error)
+        });
+        f64::NAN
+    })
+}
+
+/// The diagnostic for a number outside the usual range of its field: an error if it is not even
+/// allowed.
+pub(super) fn out_of_range(field: &Field, span: Span, value: f64, what: &str) -> Diagnostic {
+    if !field.allowed.contains(value) {
+        let message = format!("{what}: must be {}", field.allowed.limits());
+        return Diagnostic::error(span, message, field.allowed.words());
+    }
+    let message = format!("{what}: {} is not {}", concise(value), field.usual.limits());
+    let hint = match field.reads_as {
+        Some(value) => format!("it is read as {value}"),
+        None => "it is used as given".to_owned(),
+    };
+    Diagnostic::warning(span, message, field.usual.words()).with_hint(hint)
 }
 
 /// The diagnostic for a token where a number is expected. `what` names the field.
@@ -52,10 +90,10 @@ pub(super) fn no_number(
     expected: &str,
     error: NumberError,
 ) -> Diagnostic {
-    let said = quoted(token);
+    let shown = quoted(token);
     let message = match error {
-        NumberError::NotANumber => format!("{what}: {said} is not a number"),
-        NumberError::Overflow => format!("{what}: {said} is too large for any number"),
+        NumberError::NotANumber => format!("{what}: {shown} is not a number"),
+        NumberError::Overflow => format!("{what}: {shown} is too large for any number"),
     };
     Diagnostic {
         severity,
@@ -89,7 +127,7 @@ fn number_hint(token: &str, error: NumberError) -> Option<String> {
     }
     if token.matches(',').count() == 1 && reads(&token.replace(',', ".")) && !token.ends_with(',') {
         let pointed = token.replace(',', ".");
-        return Some(format!("decimals follow a point: write {pointed}"));
+        return Some(format!("the decimal separator is a point: write {pointed}"));
     }
     if token.contains(',') && token.split(',').all(|part| part.is_empty() || reads(part)) {
         return Some("numbers are separated by white space, without commas".to_owned());
@@ -105,12 +143,30 @@ fn number_hint(token: &str, error: NumberError) -> Option<String> {
     None
 }
 
-/// Returns the known word closest to a word, if at most one or two typing slips apart.
+/// Adds a question after the word that was probably meant; `otherwise` if none is known.
+pub(super) fn did_you_mean(
+    diagnostic: Diagnostic,
+    meant: Option<&str>,
+    otherwise: Option<&str>,
+) -> Diagnostic {
+    let question = meant.map(|word| format!("did you mean `{word}`?"));
+    Diagnostic {
+        hint: question.or_else(|| otherwise.map(str::to_owned)),
+        ..diagnostic
+    }
+}
+
+/// Returns the known word that differs only in case, otherwise the closest one, if at most one or
+/// two typing slips apart.
 pub(super) fn nearest_word(
     word: &str,
-    known: impl Iterator<Item = &'static str>,
+    known: impl Iterator<Item = &'static str> + Clone,
 ) -> Option<&'static str> {
     const LONGEST: usize = 16;
+    let mut same = known.clone();
+    if let Some(same) = same.find(|known| known.eq_ignore_ascii_case(word)) {
+        return Some(same);
+    }
     if LONGEST < word.len() || !word.is_ascii() {
         return None;
     }
@@ -173,10 +229,10 @@ mod tests {
             ("0xffffffffffffffffffffffff", None),
         ] {
             let error = parse_number(token).expect_err("no number");
-            let said = number_hint(token, error);
+            let found = number_hint(token, error);
             match hint {
-                Some(part) => assert!(said.is_some_and(|said| said.contains(part)), "{token}"),
-                None => assert_eq!(said, None, "{token}"),
+                Some(part) => assert!(found.is_some_and(|hint| hint.contains(part)), "{token}"),
+                None => assert_eq!(found, None, "{token}"),
             }
         }
     }

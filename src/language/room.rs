@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::Language;
 use crate::memory::{self, Need, OutOfMemory, megabytes};
+use crate::text::counted;
 
 /// Bytes counted in one parallel piece.
 const PIECE: usize = 1 << 18;
@@ -32,6 +33,16 @@ pub fn fits(language: Language, text: &str, beside: usize) -> Result<(), OutOfMe
         bytes: language
             .tree_bytes(&Counts::of(text))
             .saturating_add(beside),
+    })
+}
+
+/// Fails if the scene of a tree does not fit into memory: of `count` parts, each called `noun` and
+/// taking at most `size` bytes.
+pub(super) fn scene_fits(count: usize, noun: &str, size: usize) -> Result<(), OutOfMemory> {
+    let bytes = each(count as u64, size);
+    memory::check(bytes, || Need {
+        what: counted(count, noun),
+        bytes,
     })
 }
 

@@ -202,13 +202,13 @@ pub struct Field {
 
 impl Field {
     /// The index and canonical spelling of a chosen word; `None` if it is unknown.
-    pub fn chosen(&self, said: &str) -> Option<(usize, &'static str)> {
+    pub fn chosen(&self, word: &str) -> Option<(usize, &'static str)> {
         let Kind::Choice(words) = self.kind else {
             return None;
         };
         let mut others = self.other_spellings.iter();
-        let other = others.find(|(other, _)| *other == said);
-        let word = other.map_or(said, |(_, word)| word);
+        let other = others.find(|(other, _)| *other == word);
+        let word = other.map_or(word, |(_, word)| word);
         let place = words.iter().position(|&known| known == word)?;
         Some((place, words[place]))
     }

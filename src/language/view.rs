@@ -16,16 +16,16 @@ pub(super) fn literals(fields: &[&'static Field], numbers: &Numbers) -> Vec<Vec<
     fields.iter().map(literals).collect()
 }
 
-/// Returns the numbers of the view with one component of a field changed to `said`.
+/// Returns the numbers of the view with one component of a field changed to `literal`.
 ///
 /// # Errors
 ///
-/// Fails with a description of the permitted values if `said` is not one.
-pub(super) fn saying(
+/// Fails with a description of the permitted values if `literal` is not one.
+pub(super) fn with_component(
     fields: &[&'static Field],
     mut numbers: Numbers,
     (field, component): (usize, usize),
-    said: &str,
+    literal: &str,
 ) -> Result<Numbers, String> {
     let before = fields.iter().take(field);
     let first: usize = before.map(|field| field.kind.components()).sum();
@@ -35,10 +35,10 @@ pub(super) fn saying(
     };
     *number = match field.kind {
         Kind::Choice(words) => {
-            let (place, _) = field.chosen(said).ok_or_else(|| words.join(" or "))?;
+            let (place, _) = field.chosen(literal).ok_or_else(|| words.join(" or "))?;
             place as f64
         }
-        _ => parse_number(said)
+        _ => parse_number(literal)
             .ok()
             .filter(|&number| field.allowed.contains(number))
             .ok_or_else(|| field.allowed.limits())?,

@@ -20,18 +20,21 @@ pub struct Written<Tree, Origins> {
 }
 
 impl<Tree, Origins: Default> Written<Tree, Origins> {
-    /// A text that is not lowered yet.
-    pub(super) fn new(text: Arc<String>, tree: Tree) -> Self {
+    /// Parses a text.
+    pub(super) fn new(text: Arc<String>) -> Self
+    where
+        Tree: Parse,
+    {
         Self {
+            tree: Tree::parse(&text),
             text,
-            tree,
             origins: Origins::default(),
             former: None,
         }
     }
 
     /// Stores the places found by a lowering, or none if it was refused.
-    pub(super) fn settle(
+    pub(super) fn store(
         &mut self,
         found: Result<(Origins, Lowered), OutOfMemory>,
     ) -> Result<Lowered, OutOfMemory> {
@@ -51,14 +54,20 @@ impl<Tree, Origins: Default> Written<Tree, Origins> {
     }
 }
 
-/// A tree that can follow edits of its text.
-pub(super) trait Follow {
+/// A tree that a text is parsed into.
+pub(super) trait Parse: Sized {
+    /// Parses a text. Never fails: every part of it has a place in the tree.
+    fn parse(text: &str) -> Self;
+
     /// Updates the tree after an edit that replaced the first span by the second; `text` is the new
     /// text.
-    fn follow(&mut self, text: &str, edit: [Span; 2]);
+    fn follow(&mut self, text: &str, edit: [Span; 2]) {
+        let _ = edit;
+        *self = Self::parse(text);
+    }
 }
 
-impl<Tree: Debug + Follow, Origins: Debug + Default> Editable for Written<Tree, Origins> {
+impl<Tree: Debug + Parse, Origins: Debug + Default> Editable for Written<Tree, Origins> {
     fn text(&self) -> &Arc<String> {
         &self.text
     }

@@ -1,10 +1,11 @@
 //! The answers of a `.dat` text.
 
 use super::origins::{ObjectPlace, Place, place};
-use super::table::ObjectKind;
+use super::table::OPERATIONS;
 use super::tree::{is_comment, leaves};
 use super::{Source, lower, room, view, visibility};
 use crate::language::node::{FileKind, object_at, place_of};
+use crate::language::report::Name;
 use crate::language::table::{Category, Field, Kind};
 use crate::language::view::Numbers;
 use crate::language::words::skip_white_space;
@@ -17,7 +18,7 @@ impl Answers for Source {
     fn lower(&mut self, _: &Meshes) -> Result<Lowered, OutOfMemory> {
         let fits = room::fits(&self.tree);
         let found = fits.map(|()| lower::lower(&self.text, &self.tree));
-        self.settle(found)
+        self.store(found)
     }
 
     fn leaves(&self) -> Vec<Span> {
@@ -36,24 +37,21 @@ impl Answers for Source {
     }
 
     fn name(&self, node: Node) -> String {
-        let id = |places: &[Place], index: usize| {
-            places
-                .get(index)
-                .map_or_else(|| "?".to_owned(), |at| at.id.to_string())
+        let named = |category: Category, places: &[Place], index: usize| {
+            let id = places.get(index)?.id;
+            Some(Name::Known(category.word(), id, ""))
         };
-        match node {
-            Node::View => "view".to_owned(),
-            Node::Ambient => "ambient".to_owned(),
-            Node::Background => "background".to_owned(),
-            Node::Environment => "environment".to_owned(),
-            Node::Light(index) => format!("light {}", id(&self.origins.lights, index)),
-            Node::Material(index) => format!("material {}", id(&self.origins.materials, index)),
-            Node::Texture(index) => format!("texture {}", id(&self.origins.textures, index)),
-            Node::Object(index) => match self.origins.objects.get(index) {
-                Some(object) => format!("object {} ({})", object.id, object.kind.keyword()),
-                None => "object ?".to_owned(),
-            },
-        }
+        let name = match node {
+            Node::Light(index) => named(Category::Light, &self.origins.lights, index),
+            Node::Material(index) => named(Category::Material, &self.origins.materials, index),
+            Node::Texture(index) => named(Category::Texture, &self.origins.textures, index),
+            Node::Object(index) => self.origins.objects.get(index).map(|object| {
+                let kind = object.kind.keyword();
+                Name::Known(Category::Object.word(), object.id, kind)
+            }),
+            Node::View | Node::Ambient | Node::Background | Node::Environment => None,
+        };
+        name.map_or_else(|| node.to_string(), |name| name.to_string())
     }
 
     fn fields(&self, node: Node) -> Vec<Placed> {
@@ -84,8 +82,8 @@ impl Answers for Source {
         let before = self.text[..own.start()].trim_end_matches([' ', '\t']);
         let line = line_start(before, before.len().checked_sub(1)?);
         let line = before[skip_white_space(before.as_bytes(), line)..].trim_end();
-        let said = line.trim_start_matches(['#', '/']).trim();
-        (is_comment(line) && !said.is_empty() && node != Node::View).then_some(said)
+        let content = line.trim_start_matches(['#', '/']).trim();
+        (is_comment(line) && !content.is_empty() && node != Node::View).then_some(content)
     }
 
     fn node_at(&self, span: Span) -> Option<Node> {
@@ -126,10 +124,10 @@ impl Answers for Source {
     }
 
     fn operation(&self, object: usize) -> Option<&str> {
-        let kind = self.origins.objects.get(object)?.kind;
         let fields = self.fields(Node::Object(object));
-        let word = fields.first().filter(|_| kind == ObjectKind::Csg)?;
-        Some(word.spans.first()?.of(&self.text))
+        let is_operator = |placed: &&Placed| placed.field.kind == Kind::Choice(OPERATIONS);
+        let operator = fields.iter().find(is_operator)?;
+        Some(operator.spans.first()?.of(&self.text))
     }
 
     fn identities(&self, node: Node, category: Category) -> Vec<i64> {
@@ -159,7 +157,9 @@ impl Answers for Source {
         let places = self.origins.textures.iter().enumerate();
         let file = |(index, at): (usize, &Place)| {
             let fields = place(self.tree.tokens_of(&self.text, at.record), at.kind, 0);
-            let word = fields.iter().find(|said| said.field.kind == Kind::Word)?;
+            let word = fields
+                .iter()
+                .find(|placed| placed.field.kind == Kind::Word)?;
             let span = *word.spans.first()?;
             Some(NamedFile {
                 path: span.of(&self.text).to_owned(),

@@ -16,7 +16,7 @@ use super::table::{Heads, RECORDS, RecordKind, TextureKind, UseKind};
 use super::tree::Tree;
 use crate::geometry::{Operation, Solid};
 use crate::language::Lowered;
-use crate::language::report::{nearest_word, quoted};
+use crate::language::report::{did_you_mean, nearest_word, quoted};
 use crate::language::table::Category;
 use crate::language::words::Words;
 use crate::scene::{Light, Material, Rgb, Scene, Setting, Texture};
@@ -76,7 +76,7 @@ struct Reader<'a> {
     tree: &'a Tree,
     report: Findings,
     origins: Origins,
-    camera: camera::Said,
+    camera: camera::Records,
     /// From all records, including those with errors: indices are those of the origins.
     lights: Vec<Light>,
     materials: Vec<Material>,
@@ -111,7 +111,7 @@ impl<'a> Reader<'a> {
             tree,
             report: Findings::default(),
             origins: Origins::default(),
-            camera: camera::Said::default(),
+            camera: camera::Records::default(),
             lights: Vec::new(),
             materials: Vec::new(),
             textures: Vec::new(),
@@ -188,17 +188,10 @@ impl Reader<'_> {
             let first = first.of(self.text);
             let message = match second {
                 Some(_) => format!("{first}: unknown kind {}", quoted(word)),
-                None => format!("{first}: the line ends where its kind is due"),
+                None => format!("{first}: the line ends before its kind"),
             };
             let diagnostic = Diagnostic::error(place, message, words.join(", "));
-            let near = words.iter().find(|known| known.eq_ignore_ascii_case(word));
-            match near
-                .copied()
-                .or_else(|| nearest_word(word, words.iter().copied()))
-            {
-                Some(near) => diagnostic.with_hint(format!("did you mean `{near}`?")),
-                None => diagnostic,
-            }
+            did_you_mean(diagnostic, nearest_word(word, words.iter().copied()), None)
         });
         None
     }
@@ -208,7 +201,7 @@ impl Reader<'_> {
         let word = word.unwrap_or_default();
         self.report.warning(|| {
             let line = Position::of(self.text, self.tree.span_of(before).start()).line;
-            let message = format!("{}: said in line {line} already", word.of(self.text));
+            let message = format!("{}: already given in line {line}", word.of(self.text));
             Diagnostic::warning(word, message, "one record of this kind")
                 .with_hint("the last one counts")
         });
@@ -216,7 +209,7 @@ impl Reader<'_> {
 
     /// Registers the ID of a record, read in `line`. `None` if it is malformed, or, with a warning,
     /// if it is taken; then the record is dropped.
-    fn know(&mut self, category: Category, line: &Line<'_>, index: usize) -> Option<i64> {
+    fn define(&mut self, category: Category, line: &Line<'_>, index: usize) -> Option<i64> {
         let (id, span) = line.id?;
         match self.ids.entry((category, id)) {
             Entry::Vacant(entry) => {
@@ -232,9 +225,9 @@ impl Reader<'_> {
             Entry::Occupied(_) => {
                 self.report.warning(|| {
                     let word = category.word();
-                    let message = format!("{word} {id}: defined above already");
-                    Diagnostic::warning(span, message, "a number of its own")
-                        .with_hint("this record is dropped")
+                    let message = format!("{word} {id}: already defined above");
+                    Diagnostic::warning(span, message, "a unique ID")
+                        .with_hint("this record is ignored")
                 });
                 None
             }
@@ -242,7 +235,7 @@ impl Reader<'_> {
     }
 
     /// The node that a reference names; `None`, with an error, if it is not defined above.
-    fn known(&mut self, category: Category, reference: Option<(i64, Span)>) -> Option<usize> {
+    fn resolve(&mut self, category: Category, reference: Option<(i64, Span)>) -> Option<usize> {
         let (id, span) = reference?;
         let found = self.ids.get(&(category, id)).copied();
         if found.is_none() {
@@ -254,7 +247,7 @@ impl Reader<'_> {
                 let below = below.filter(|&&record| tree.records_at(span).end <= record);
                 let word = category.word();
                 let message = format!("there is no {word} {id} above");
-                let expected = "the ID of one defined before";
+                let expected = "the ID of one defined above";
                 let shown = self.smallest[category as usize].iter();
                 let shown: Vec<_> = shown.map(ToString::to_string).collect();
                 let hint = match shown.len() {
@@ -275,33 +268,24 @@ impl Reader<'_> {
 fn definitions_of(text: &str, tree: &Tree) -> HashMap<(Category, i64), usize> {
     let definition = |record: usize| {
         let tokens = tree.tokens_of(text, record);
-        let said = |at: usize| Some(tokens.clone().nth(at)?.of(text));
-        let (category, place) = match said(0)? {
+        let word = |at: usize| Some(tokens.clone().nth(at)?.of(text));
+        let (category, place) = match word(0)? {
             "light" => (Category::Light, 2),
             "mat" => (Category::Material, 2),
             "texture" => (Category::Texture, 2),
             "obj" => (Category::Object, 3),
             _ => return None,
         };
-        Some(((category, said(place)?.parse().ok()?), record))
+        Some(((category, word(place)?.parse().ok()?), record))
     };
     (0..tree.records.len()).filter_map(definition).collect()
 }
 
-/// The first words of records, for messages.
-fn known_records() -> String {
-    let words: Vec<_> = RECORDS.iter().map(|(word, _)| *word).collect();
-    words.join(", ")
-}
-
 fn unknown_record(span: Span, word: &str) -> Diagnostic {
-    let known = || RECORDS.iter().map(|(word, _)| *word);
-    let expected = known_records();
+    let words = RECORDS.iter().map(|(word, _)| *word);
+    let expected = words.clone().collect::<Vec<_>>().join(", ");
     let message = format!("unknown record {}: the line is skipped", quoted(word));
     let diagnostic = Diagnostic::warning(span, message, expected);
-    let same = known().find(|known| known.eq_ignore_ascii_case(word));
-    match same.or_else(|| nearest_word(word, known())) {
-        Some(near) => diagnostic.with_hint(format!("did you mean `{near}`?")),
-        None => diagnostic.with_hint("`//` or `#` begins a comment line"),
-    }
+    let otherwise = "`//` or `#` begins a comment line";
+    did_you_mean(diagnostic, nearest_word(word, words), Some(otherwise))
 }

@@ -11,8 +11,6 @@ mod tree;
 mod view;
 mod visibility;
 
-use std::sync::Arc;
-
 use super::written::Written;
 use crate::text::Findings;
 use origins::Origins;
@@ -25,12 +23,6 @@ pub(super) type Source = Written<Tree, Origins>;
 
 /// Whether no leaf crosses a line end.
 pub(super) const LEAVES_KEEP_TO_LINES: bool = true;
-
-/// Parses a text.
-pub(super) fn parse(text: Arc<String>) -> Source {
-    let tree = tree::parse(&text);
-    Source::new(text, tree)
-}
 
 /// Returns the errors of every text with this beginning.
 pub(super) fn errors_of_beginning(beginning: &str) -> Findings {

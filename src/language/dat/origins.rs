@@ -107,7 +107,7 @@ impl Origins {
                 Some(record) => place(tree.tokens_of(text, *record), kind, 0),
                 None => kind
                     .fields()
-                    .map(|field| Placed::said(field, Vec::new()))
+                    .map(|field| Placed::explicit(field, Vec::new()))
                     .collect(),
             })
             .collect()
@@ -147,14 +147,14 @@ pub(super) fn place(tokens: Words<'_>, kind: RecordKind, cuts: usize) -> Vec<Pla
             return placed;
         }
         if let Part::Field(field) = part {
-            placed.push(Placed::said(field, spans));
+            placed.push(Placed::explicit(field, spans));
         }
     }
     if kind == RecordKind::Object(ObjectKind::Quadric) {
         // The half-spaces follow their count.
         let mut rest = rest.skip(1);
         let cuts = (0..cuts).map(|_| rest.by_ref().take(HALF_SPACE.kind.components()).collect());
-        placed.extend(cuts.map(|spans| Placed::said(HALF_SPACE, spans)));
+        placed.extend(cuts.map(|spans| Placed::explicit(HALF_SPACE, spans)));
     }
     placed
 }

@@ -2,10 +2,10 @@
 
 use super::tree::Tree;
 use crate::geometry::{Affine, Shape};
-use crate::language::room::{Counts, each};
-use crate::memory::{self, Need, OutOfMemory};
+use crate::language::room::{Counts, each, scene_fits};
+use crate::memory::OutOfMemory;
 use crate::scene::Material;
-use crate::text::{Span, counted};
+use crate::text::Span;
 
 /// Estimate of the bytes of a record: itself, its place and its name, in several lists.
 const RECORD: usize = 2 * size_of::<Shape>() + 2 * size_of::<Affine>() + size_of::<Material>();
@@ -17,10 +17,5 @@ pub(in crate::language) fn tree_bytes(counts: &Counts) -> u64 {
 
 /// Fails if the tree's scene does not fit into memory.
 pub(super) fn fits(tree: &Tree) -> Result<(), OutOfMemory> {
-    let count = tree.records.len();
-    let bytes = each(count as u64, RECORD);
-    memory::check(bytes, || Need {
-        what: counted(count, "record"),
-        bytes,
-    })
+    scene_fits(tree.records.len(), "record", RECORD)
 }

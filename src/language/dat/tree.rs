@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use crate::language::words::{Words, skip_white_space, trim_end};
-use crate::language::written::Follow;
+use crate::language::written::Parse;
 use crate::text::{Span, line_end};
 
 /// The records of a text, in order. Their tokens are found in the text on demand.
@@ -36,9 +36,9 @@ impl Tree {
     }
 }
 
-impl Follow for Tree {
-    fn follow(&mut self, text: &str, _: [Span; 2]) {
-        *self = parse(text);
+impl Parse for Tree {
+    fn parse(text: &str) -> Self {
+        parse(text)
     }
 }
 

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::origins::{Origins, VIEW};
-use super::table::RecordKind;
+use super::table::{PROJECTIONS, RecordKind};
 use super::tree::Tree;
-use crate::language::at::At;
+use crate::language::at::{At, index_of_word};
 use crate::language::table::{Field, Kind};
 use crate::language::view::{Numbers, beginning, differ, line_ending, literal, take};
 use crate::scene::{Camera, Focus, Lens, Size};
@@ -38,6 +38,10 @@ const RESOLUTION: At<2> = RecordKind::Resolution
 const VIEWPORT: At<2> = RecordKind::Viewport
     .at("viewport")
     .later(COUNT - RecordKind::Viewport.numbers());
+
+/// The indices of projections among their words.
+const PERSPECTIVE: usize = index_of_word(PROJECTIONS, "perspective");
+const ORTHOGRAPHIC: usize = index_of_word(PROJECTIONS, "orthographic");
 
 /// The first word of each record of [`VIEW`].
 const WORDS: [&str; 3] = ["camera", "resolution", "viewport"];
@@ -116,9 +120,9 @@ impl View {
     }
 
     /// The view with these numbers in its `camera` record.
-    pub(super) fn said(numbers: &[f64]) -> Self {
+    pub(super) fn from_camera_record(numbers: &[f64]) -> Self {
         Self {
-            is_perspective: PROJECTION.choice(numbers) == 0,
+            is_perspective: PROJECTION.choice(numbers) == PERSPECTIVE,
             eye: EYE.vector(numbers),
             look: LOOK.vector(numbers),
             up: UP.vector(numbers),
@@ -130,18 +134,23 @@ impl View {
     }
 
     /// The view with these numbers in its three records, in the order of [`fields`].
-    fn said_by_all(numbers: &[f64]) -> Self {
+    fn from_numbers(numbers: &[f64]) -> Self {
         Self {
             resolution: RESOLUTION.get(numbers),
             size: size(VIEWPORT.get(numbers)),
-            ..Self::said(numbers)
+            ..Self::from_camera_record(numbers)
         }
     }
 
     /// The numbers of the view, in the order of [`fields`].
     fn numbers(&self) -> Numbers {
         let mut numbers = vec![0.0; COUNT];
-        PROJECTION.put(&mut numbers, [f64::from(!self.is_perspective)]);
+        let projection = if self.is_perspective {
+            PERSPECTIVE
+        } else {
+            ORTHOGRAPHIC
+        };
+        PROJECTION.put(&mut numbers, [projection as f64]);
         EYE.put(&mut numbers, self.eye.into());
         LOOK.put(&mut numbers, self.look.into());
         UP.put(&mut numbers, self.up.into());
@@ -183,8 +192,8 @@ fn plain(number: f64) -> f64 {
 /// The camera described by these numbers; `base` is a camera of the same text. Parts whose numbers
 /// agree with `base` are kept bit for bit.
 pub(super) fn camera(numbers: &Numbers, base: &Camera, origins: &Origins) -> Camera {
-    let before = View::said_by_all(&self::numbers(base, origins));
-    let view = View::said_by_all(numbers);
+    let before = View::from_numbers(&self::numbers(base, origins));
+    let view = View::from_numbers(numbers);
     let camera = view.camera();
     let lens = match base.lens {
         // The picture keeps its size at the target.

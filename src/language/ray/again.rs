@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::blocks::{Block, block};
 use super::origins::{Origins, ViewPlace};
 use super::tree::Tree;
-use super::view_comment::says_place;
+use super::view_comment::has_eye_and_target;
 use crate::language::node::Node;
 use crate::language::{Before, Lowered};
 use crate::scene::objects::BLOCK;
@@ -40,7 +40,10 @@ pub(super) fn lower(
         return None;
     };
     // A view without eye or target depends on all objects.
-    if !origins.view.is_some_and(|view| says_place(&view.parts)) {
+    if !origins
+        .view
+        .is_some_and(|view| has_eye_and_target(&view.parts))
+    {
         return None;
     }
     let first = object - object % BLOCK;

@@ -1,6 +1,6 @@
 //! The answers of a `.ray` text.
 
-use super::origins::hand_out;
+use super::origins::distribute;
 use super::table::{AMBIENT, LIGHT};
 use super::tree::comment_of_line;
 use super::{Source, again, lower, room, view};
@@ -16,7 +16,7 @@ impl Answers for Source {
     fn lower(&mut self, _: &Meshes) -> Result<Lowered, OutOfMemory> {
         let fits = room::fits(&self.text, &self.tree);
         let found = fits.map(|()| lower::lower(&self.text, &self.tree));
-        self.settle(found)
+        self.store(found)
     }
 
     fn lower_again(
@@ -26,7 +26,7 @@ impl Answers for Source {
         spans: [Span; 2],
     ) -> Result<Lowered, OutOfMemory> {
         match again::lower(&self.text, &self.tree, &self.origins, &before, spans) {
-            Some(found) => self.settle(Ok(found)),
+            Some(found) => self.store(Ok(found)),
             None => self.lower(meshes),
         }
     }
@@ -48,17 +48,11 @@ impl Answers for Source {
 
     fn name(&self, node: Node) -> String {
         match node {
-            Node::View => Name::View.to_string(),
-            Node::Ambient => Name::Ambient.to_string(),
-            Node::Light(index) => Name::Light(index).to_string(),
-            Node::Object(index) => match self.origins.objects.get(index) {
-                Some(object) => Name::Object(index, object.kind.keyword()).to_string(),
-                None => format!("object {}", index + 1),
-            },
-            Node::Material(index) => format!("material {}", index + 1),
-            Node::Texture(index) => format!("texture {}", index + 1),
-            Node::Background => "background".to_owned(),
-            Node::Environment => "environment".to_owned(),
+            Node::Object(index) if index < self.origins.objects.len() => {
+                let kind = self.origins.objects[index].kind;
+                Name::Object(index, kind.keyword()).to_string()
+            }
+            _ => node.to_string(),
         }
     }
 
@@ -67,12 +61,12 @@ impl Answers for Source {
         let tokens = &origins.numbers(&self.tree, node);
         match node {
             Node::View => origins.view_fields(),
-            Node::Ambient => hand_out(tokens, AMBIENT.iter()),
-            Node::Light(_) => hand_out(tokens, LIGHT.iter()),
+            Node::Ambient => distribute(tokens, AMBIENT.iter()),
+            Node::Light(_) => distribute(tokens, LIGHT.iter()),
             Node::Object(index) => origins
                 .objects
                 .get(index)
-                .map(|object| hand_out(tokens, object.kind.fields()))
+                .map(|object| distribute(tokens, object.kind.fields()))
                 .unwrap_or_default(),
             Node::Material(_) | Node::Texture(_) | Node::Background | Node::Environment => {
                 Vec::new()
@@ -115,8 +109,8 @@ impl Answers for Source {
                 .origins
                 .view
                 .is_some_and(|view| view.comment == comment);
-            let said = comment.of(text)[2..].trim();
-            (follows && !said.is_empty() && !is_view).then_some(said)
+            let content = comment.of(text)[2..].trim();
+            (follows && !content.is_empty() && !is_view).then_some(content)
         };
         behind(own.start()).or_else(|| behind(own.end()))
     }

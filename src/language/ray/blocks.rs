@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::lower::{LEAST_NUMBERS, Reader};
 use super::origins::ObjectPlace;
+use super::reader::{LEAST_NUMBERS, Reader};
 use super::table::ShapeKind;
 use super::tree::Tokens;
 use crate::scene::objects::BLOCK;

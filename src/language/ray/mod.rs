@@ -7,6 +7,7 @@ mod blocks;
 mod lower;
 mod objects;
 mod origins;
+mod reader;
 mod room;
 mod table;
 #[cfg(test)]
@@ -14,8 +15,6 @@ mod tests;
 mod tree;
 mod view;
 mod view_comment;
-
-use std::sync::Arc;
 
 use super::written::Written;
 use crate::text::Findings;
@@ -29,12 +28,6 @@ pub(super) type Source = Written<Tree, Origins>;
 
 /// Whether no leaf crosses a line end.
 pub(super) const LEAVES_KEEP_TO_LINES: bool = true;
-
-/// Parses a text.
-pub(super) fn parse(text: Arc<String>) -> Source {
-    let tree = tree::parse(&text);
-    Source::new(text, tree)
-}
 
 /// Returns the errors of every text with this beginning.
 pub(super) fn errors_of_beginning(beginning: &str) -> Findings {

@@ -1,14 +1,13 @@
 //! Reads the objects of a `.ray` text and checks their declared number.
 
-use super::lower::{Count, LEAST_NUMBERS, Numbers, Reader, component, is_word};
-
 use super::origins::ObjectPlace;
+use super::reader::{Count, LEAST_NUMBERS, Numbers, Reader, component, is_word};
 use super::table::{MATERIAL, ShapeKind};
 use crate::geometry::{Affine, Cone, Cuboid, Cylinder, Ellipsoid, Shape, Solid, Sphere};
 use crate::language::at::At;
+use crate::language::coefficients::Coefficients;
 use crate::language::record::Record;
-use crate::language::report::Name;
-use crate::language::report::{nearest_word, quoted};
+use crate::language::report::{Name, did_you_mean, quoted};
 use crate::language::table;
 use crate::scene::objects::BLOCK;
 use crate::scene::{Material, Object};
@@ -76,8 +75,8 @@ impl<'a> Reader<'a> {
     /// Reports a declared number of objects that differs from the number found.
     fn miscounted(&mut self, count: Count, truth: &str) {
         let found = self.places.len();
-        let says = quoted(count.token.of(self.text));
-        let message = format!("nObjects: says {says}, but {truth}");
+        let declared = quoted(count.token.of(self.text));
+        let message = format!("nObjects: is {declared}, but {truth}");
         self.report.error(|| {
             let hint = match found {
                 _ if self.is_beginning => "it counts the objects".to_owned(),
@@ -187,7 +186,7 @@ impl<'a> Reader<'a> {
             return;
         };
         let material = known.unwrap_or_else(|| {
-            let material = material.gather(MATERIAL.iter()).material();
+            let material = coefficients(material.values);
             self.material(material.into())
         });
         self.objects.push(Object { shape, material });
@@ -220,11 +219,11 @@ impl<'a> Reader<'a> {
         if self.is_cut() {
             return;
         }
-        let says = quoted(count.token.of(self.text));
+        let declared = quoted(count.token.of(self.text));
         let space = if component.is_empty() { "" } else { " " };
         self.report.error(|| {
             let message = format!(
-                "nObjects: says {says}, but the text ends in {}, where {}{space}{component} is due",
+                "nObjects: is {declared}, but the text ends in {}, where {}{space}{component} is expected",
                 record.name, field.key
             );
             Diagnostic::error(count.token, message, "as many as there are objects")
@@ -240,10 +239,8 @@ impl<'a> Reader<'a> {
             let object = self.places.len() + 1;
             let message = format!("object {object}: unknown type {}", quoted(word));
             let diagnostic = Diagnostic::error(token, message, TYPES);
-            match nearest_kind(word) {
-                Some(kind) => diagnostic.with_hint(format!("did you mean `{}`?", kind.keyword())),
-                None => diagnostic,
-            }
+            let meant = ShapeKind::nearest(word).map(ShapeKind::keyword);
+            did_you_mean(diagnostic, meant, None)
         });
         self.at += 1;
         let from = self.at;
@@ -289,12 +286,10 @@ impl<'a> Reader<'a> {
         let word = token.of(self.text);
         let ignored = counted(self.tokens.end() - self.at, "token");
         self.report.warning(|| {
-            let message = format!("{ignored} after the last object ignored");
+            let message = format!("ignored {ignored} after the last object");
             let diagnostic = Diagnostic::warning(token, message, "the end of the text");
-            match nearest_kind(word) {
-                Some(kind) => diagnostic.with_hint(format!("did you mean `{}`?", kind.keyword())),
-                None => diagnostic.with_hint("`//` begins a comment"),
-            }
+            let meant = ShapeKind::nearest(word).map(ShapeKind::keyword);
+            did_you_mean(diagnostic, meant, Some("`//` begins a comment"))
         });
     }
 
@@ -311,15 +306,17 @@ fn object_name(places: &[ObjectPlace], index: usize) -> String {
     Name::Object(index, places[index].kind.keyword()).to_string()
 }
 
-/// Returns the kind with the keyword closest to a word, if at most one or two typing slips apart.
-pub(super) fn nearest_kind(word: &str) -> Option<ShapeKind> {
-    const LONGEST: usize = 12;
-    if LONGEST < word.len() || !word.is_ascii() {
-        return None;
+/// The material described by these numbers.
+fn coefficients(numbers: &[f64]) -> Coefficients {
+    Coefficients {
+        ambient: const { At::<3>::of(MATERIAL, "ka") }.vector(numbers),
+        diffuse: const { At::<3>::of(MATERIAL, "kd") }.vector(numbers),
+        specular: const { At::<3>::of(MATERIAL, "ks") }.vector(numbers),
+        exponent: const { At::<1>::of(MATERIAL, "ns") }.number(numbers),
+        reflection: const { At::<1>::of(MATERIAL, "kr") }.number(numbers),
+        transmission: const { At::<1>::of(MATERIAL, "kt") }.number(numbers),
+        index: const { At::<1>::of(MATERIAL, "ior") }.number(numbers),
     }
-    let word = word.to_ascii_lowercase();
-    let keywords = ShapeKind::ALL.iter().map(|kind| kind.keyword());
-    nearest_word(&word, keywords).and_then(ShapeKind::of_word)
 }
 
 /// The shape described by these numbers; `None` if its directions span no volume.
@@ -397,27 +394,4 @@ fn takes(kind: ShapeKind) -> String {
     let shape = table::numbers(kind.geometry());
     let material = kind.numbers() - shape;
     format!("{article} {keyword} takes {shape} numbers and {material} more for its material")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn misspelt_keywords_are_recognised() {
-        for (word, kind) in [
-            ("spere", Some(ShapeKind::Sphere)),
-            ("Shpere", Some(ShapeKind::Sphere)),
-            ("elipsoid", Some(ShapeKind::Ellipsoid)),
-            ("cilinder", Some(ShapeKind::Cylinder)),
-            ("boxx", Some(ShapeKind::Box)),
-            ("cones", Some(ShapeKind::Cone)),
-            ("cube", None),
-            ("torus", None),
-            ("", None),
-            ("sphère", None),
-        ] {
-            assert_eq!(nearest_kind(word), kind, "{word}");
-        }
-    }
 }

@@ -48,11 +48,11 @@ pub(super) struct ObjectPlace {
 }
 
 impl Origins {
-    /// The number of lights that have at least a position.
+    /// The number of lights that have at least their first field.
     pub(super) fn light_count(&self) -> usize {
-        let position = LIGHT[0].kind.components();
+        let [first, ..] = LIGHT;
         let each = table::numbers(LIGHT);
-        (self.lights.1 + each - position) / each
+        (self.lights.1 + each - first.kind.components()) / each
     }
 
     /// The tokens of a node's numbers; none for the view, whose numbers are not tokens.
@@ -83,7 +83,7 @@ impl Origins {
             .zip(parts)
             .map(|(field, part)| {
                 let spans = part.map(|spans| spans[..field.kind.components()].to_vec());
-                Placed::said(field, spans.unwrap_or_default())
+                Placed::explicit(field, spans.unwrap_or_default())
             })
             .collect()
     }
@@ -109,7 +109,7 @@ impl Origins {
 }
 
 /// Distributes `tokens` to the fields in order, until one is incomplete.
-pub(super) fn hand_out(
+pub(super) fn distribute(
     tokens: &[Span],
     fields: impl Iterator<Item = &'static Field>,
 ) -> Vec<Placed> {
@@ -118,7 +118,7 @@ pub(super) fn hand_out(
         .map_while(|field| {
             let (spans, after) = rest.split_at_checked(field.kind.components())?;
             rest = after;
-            Some(Placed::said(field, spans.to_vec()))
+            Some(Placed::explicit(field, spans.to_vec()))
         })
         .collect()
 }

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::blocks;
-use super::lower::LEAST_NUMBERS;
 use super::origins::ObjectPlace;
+use super::reader::LEAST_NUMBERS;
 use super::table::ShapeKind;
 use super::tree::Tree;
 use crate::geometry::Affine;

@@ -1,11 +1,12 @@
 //! The table of fields of `.ray`.
 
 use crate::language::at::At;
+use crate::language::report::nearest_word;
 use crate::language::table::{Field, Kind, Range, numbers};
 
 /// The camera, in a view comment.
 pub(super) const VIEW: &[Field; 5] = &[
-    Field::point("eye", "Where the camera stands."),
+    Field::point("eye", "The position of the camera."),
     Field::point("target", "The point the camera looks at."),
     Field::direction("up", "Which way is up in the picture; of any length."),
     Field {
@@ -34,19 +35,19 @@ pub(super) const AMBIENT: &[Field; 1] = &[Field::colour(
 
 /// A light.
 pub(super) const LIGHT: &[Field; 2] = &[
-    Field::point("position", "Where the light stands."),
-    Field::colour("colour", "What the light sends, at any distance."),
+    Field::point("position", "The position of the light."),
+    Field::colour("colour", "The light it emits, the same at any distance."),
 ];
 
 /// The material of every object, after the fields of its shape.
 pub(super) const MATERIAL: &[Field; 7] = &[
     Field::coefficients(
         "ka",
-        "Ambient coefficient: share of ambient light sent back.",
+        "Ambient coefficient: fraction of ambient light reflected.",
     ),
     Field::coefficients(
         "kd",
-        "Diffuse coefficient: share of light sent back evenly.",
+        "Diffuse coefficient: fraction of light reflected diffusely.",
     ),
     Field::coefficients("ks", "Specular coefficient: strength of the highlight."),
     Field::number(
@@ -60,13 +61,13 @@ pub(super) const MATERIAL: &[Field; 7] = &[
         "kr",
         Range::Unit,
         0.05,
-        "Reflection coefficient: weight of what is mirrored.",
+        "Reflection coefficient: weight of reflected light.",
     ),
     Field::number(
         "kt",
         Range::Unit,
         0.05,
-        "Transparency coefficient: weight of what is seen through it.",
+        "Transparency coefficient: weight of transmitted light.",
     ),
     Field::number(
         "ior",
@@ -190,6 +191,17 @@ impl ShapeKind {
     pub(super) const fn numbers(self) -> usize {
         numbers(self.geometry()) + numbers(MATERIAL)
     }
+
+    /// Returns the kind with the keyword closest to a word, if at most one or two typing slips apart.
+    pub(super) fn nearest(word: &str) -> Option<Self> {
+        const LONGEST: usize = 12;
+        if LONGEST < word.len() || !word.is_ascii() {
+            return None;
+        }
+        let word = word.to_ascii_lowercase();
+        let keywords = Self::ALL.iter().map(|kind| kind.keyword());
+        nearest_word(&word, keywords).and_then(Self::of_word)
+    }
 }
 
 #[cfg(test)]
@@ -225,5 +237,23 @@ mod tests {
             );
         }
         assert_eq!(ShapeKind::of_word("spere"), None);
+    }
+
+    #[test]
+    fn misspelt_keywords_are_recognised() {
+        for (word, kind) in [
+            ("spere", Some(ShapeKind::Sphere)),
+            ("Shpere", Some(ShapeKind::Sphere)),
+            ("elipsoid", Some(ShapeKind::Ellipsoid)),
+            ("cilinder", Some(ShapeKind::Cylinder)),
+            ("boxx", Some(ShapeKind::Box)),
+            ("cones", Some(ShapeKind::Cone)),
+            ("cube", None),
+            ("torus", None),
+            ("", None),
+            ("sphère", None),
+        ] {
+            assert_eq!(ShapeKind::nearest(word), kind, "{word}");
+        }
     }
 }

@@ -5,7 +5,7 @@ mod tokens;
 mod window;
 
 use crate::language::words::{skip_white_space, trim_end};
-use crate::language::written::Follow;
+use crate::language::written::Parse;
 use crate::text::{Span, line_end, next_line};
 
 pub(super) use tokens::Tokens;
@@ -33,7 +33,11 @@ impl Tree {
     }
 }
 
-impl Follow for Tree {
+impl Parse for Tree {
+    fn parse(text: &str) -> Self {
+        parse(text)
+    }
+
     /// Only the lines around the edit are read again.
     fn follow(&mut self, text: &str, [old, changed]: [Span; 2]) {
         scan::follow(self, text, old, changed, scan::PIECE);

@@ -73,7 +73,7 @@ impl View {
     }
 
     /// The view with these numbers, in the order of [`VIEW`].
-    fn said(numbers: &[f64]) -> Self {
+    fn from_numbers(numbers: &[f64]) -> Self {
         let [width, height] = SIZE.get(numbers);
         Self {
             eye: EYE.vector(numbers),
@@ -88,7 +88,7 @@ impl View {
     }
 
     /// The view with these parts, each the numbers of its field in [`VIEW`], or defaults.
-    pub(super) fn said_by_parts<'p>(parts: impl Iterator<Item = Option<&'p [f64]>>) -> Self {
+    pub(super) fn from_parts<'p>(parts: impl Iterator<Item = Option<&'p [f64]>>) -> Self {
         let mut numbers = Self::DEFAULT.numbers();
         let mut rest = &mut numbers[..];
         for (field, part) in VIEW.iter().zip(parts) {
@@ -98,7 +98,7 @@ impl View {
             }
             rest = behind;
         }
-        Self::said(&numbers)
+        Self::from_numbers(&numbers)
     }
 
     /// The numbers of the view, in the order of [`VIEW`].
@@ -121,7 +121,7 @@ pub(super) fn numbers(camera: &Camera) -> Numbers {
 
 /// The camera described by these numbers.
 pub(super) fn camera(numbers: &Numbers) -> Camera {
-    View::said(numbers).camera()
+    View::from_numbers(numbers).camera()
 }
 
 /// Returns the edits that change the text's camera from `before` to `camera`.

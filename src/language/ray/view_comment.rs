@@ -56,8 +56,8 @@ impl ViewComment {
     }
 
     /// Whether it states both eye and target.
-    pub(super) fn is_placed(&self) -> bool {
-        says_place(&self.parts)
+    pub(super) fn has_eye_and_target(&self) -> bool {
+        has_eye_and_target(&self.parts)
     }
 
     /// The span of a part, or of the whole comment if the part is missing.
@@ -69,7 +69,7 @@ impl ViewComment {
 }
 
 /// Whether these parts of a view include both eye and target.
-pub(super) fn says_place<T>(parts: &[Option<T>; VIEW.len()]) -> bool {
+pub(super) fn has_eye_and_target<T>(parts: &[Option<T>; VIEW.len()]) -> bool {
     parts[EYE].is_some() && parts[TARGET].is_some()
 }
 
@@ -83,18 +83,18 @@ pub(super) fn find(text: &str, tokens: &Tokens, report: &mut Findings) -> Option
         else {
             continue;
         };
-        let mut read_over = Findings::default();
-        match read(text, comment, body, &mut read_over) {
+        let mut findings = Findings::default();
+        match read(text, comment, body, &mut findings) {
             Err(malformed) => report.warning(|| Diagnostic {
                 message: format!("{}; the whole comment is ignored", malformed.message),
                 ..malformed
             }),
             Ok(view) if found.is_none() => {
-                report.append(read_over);
+                report.append(findings);
                 found = Some(view);
             }
             Ok(_) => report.warning(|| {
-                let message = "view: said before, this comment is ignored";
+                let message = "view: already given, this comment is ignored";
                 Diagnostic::warning(comment, message, "one view comment")
             }),
         }
@@ -118,7 +118,7 @@ fn read(
         };
         let field = &VIEW[index];
         if parts[index].is_some() {
-            let message = format!("view {word}: said twice");
+            let message = format!("view {word}: given twice");
             return Err(Diagnostic::warning(key, message, "each part once"));
         }
         parts[index] = Some(read_part(text, field, &mut rest, comment.end(), report)?);
@@ -196,23 +196,23 @@ pub(super) fn camera(
     otherwise: Span,
     report: &mut Findings,
 ) -> Camera {
-    let said = |part: usize| comment.is_some_and(|comment| comment.parts[part].is_some());
-    let mut view = View::said_by_parts(VIEW.iter().enumerate().map(|(at, field)| {
+    let has = |part: usize| comment.is_some_and(|comment| comment.parts[part].is_some());
+    let mut view = View::from_parts(VIEW.iter().enumerate().map(|(at, field)| {
         let part = comment?.parts[at].as_ref()?;
         Some(&part.values[..field.kind.components()])
     }));
-    if !(said(EYE) && said(TARGET)) {
+    if !(has(EYE) && has(TARGET)) {
         let (eye, centre) = default_eye_and_target(bounds(), view.fov, DEFAULT_SIDE);
-        if !said(EYE) {
+        if !has(EYE) {
             view.eye = eye;
         }
-        if !said(TARGET) {
+        if !has(TARGET) {
             view.target = centre;
         }
     }
     let camera = view.camera();
     let part = |part| comment.map_or(otherwise, |comment: &ViewComment| comment.span(part));
-    let [eye, target] = match (said(EYE), said(TARGET)) {
+    let [eye, target] = match (has(EYE), has(TARGET)) {
         (true, true) => [part(EYE), part(TARGET)],
         (false, true) => [part(TARGET); 2],
         (_, false) => [part(EYE); 2],
@@ -222,7 +222,7 @@ pub(super) fn camera(
         target,
         up: part(UP),
         whole: otherwise,
-        remedy: "say eye and target in a comment: // view: eye x y z target x y z",
+        remedy: "give eye and target in a comment: // view: eye x y z target x y z",
     };
     check(&camera, &places, report);
     camera

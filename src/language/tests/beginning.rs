@@ -113,7 +113,7 @@ fn hopeless_beginnings_are_errors() {
         (
             Ray,
             &spheres,
-            Some("nObjects: says `1`, but more objects follow"),
+            Some("nObjects: is `1`, but more objects follow"),
         ),
         (Ray, "0 0 0 1 0 0 0 1 1 1 3 sphere 0 0 0 1 0 0 0 1", None),
         (Ray, "0 0 0 100 0 0 0 1 1 1 0 0", None),
@@ -131,12 +131,12 @@ fn hopeless_beginnings_are_errors() {
         (
             Xml,
             "<xml><a b='1' b='2'/> and a good deal more than is cut, and more than is cut, and more, and more",
-            Some("attribute `b`: said twice"),
+            Some("attribute `b`: given twice"),
         ),
         (
             Xml,
             &nested,
-            Some("more than 131072 elements inside one another are refused"),
+            Some("more than 131072 levels of elements are not supported"),
         ),
         (
             Xml,

@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 use std::collections::HashSet;
 
+use super::insertions::insertions;
 use super::origins::{NamedPlace, What, fields};
 use super::table::ObjectKind;
-use super::tree::{quote, spelled};
-use super::unsaid::insertions;
+use super::tree::{escaped, quote};
 use super::{Source, lower, room, view};
 use crate::language::node::{FileKind, object_at, place_of};
 use crate::language::placed::{Wanted, edits};
@@ -21,19 +21,19 @@ impl Answers for Source {
     fn lower(&mut self, meshes: &Meshes) -> Result<Lowered, OutOfMemory> {
         let fits = room::fits(&self.tree);
         let found = fits.map(|()| lower::lower(&self.text, &self.tree, meshes));
-        self.settle(found)
+        self.store(found)
     }
 
     fn leaves(&self) -> Vec<Span> {
         self.tree.leaves(&self.text)
     }
 
-    fn said(&self, leaf: Span) -> &str {
-        self.tree.said(&self.text, leaf)
+    fn leaf_text(&self, leaf: Span) -> &str {
+        self.tree.unescaped(&self.text, leaf)
     }
 
     fn spelled<'v>(&self, leaf: Span, value: &'v str) -> Cow<'v, str> {
-        spelled(value, quote(&self.text, leaf))
+        escaped(value, quote(&self.text, leaf))
     }
 
     fn name(&self, node: Node) -> String {
@@ -82,13 +82,13 @@ impl Answers for Source {
         let (text, tree) = (&*self.text, &self.tree);
         let element = tree.elements.get(self.origins.element(tree, node)?)?;
         let own = element.tag;
-        let said = |comment: &Span| {
-            let said = comment
+        let content = |comment: &Span| {
+            let content = comment
                 .of(text)
                 .strip_prefix("<!--")?
                 .strip_suffix("-->")?
                 .trim();
-            (!said.is_empty()).then_some(said)
+            (!content.is_empty()).then_some(content)
         };
         let next = tree.comments.partition_point(|c| c.start() < own.start());
         let behind = tree.comments.get(next).filter(|comment| {
@@ -102,7 +102,7 @@ impl Answers for Source {
             comment.end() <= own.start()
                 && is_one_line_end(text[comment.end()..own.start()].trim_matches([' ', '\t']))
         });
-        behind.or(before).and_then(said)
+        behind.or(before).and_then(content)
     }
 
     fn node_at(&self, span: Span) -> Option<Node> {
@@ -137,7 +137,7 @@ impl Answers for Source {
             let name = self
                 .origins
                 .value(&self.tree, place.element as usize, "name")?;
-            Some(name.said(&self.text))
+            Some(name.unescaped(&self.text))
         });
         let names = names.filter(|name| !name.is_empty() && known.insert(*name));
         names.map(str::to_owned).collect()
@@ -146,7 +146,7 @@ impl Answers for Source {
     fn files(&self) -> Vec<NamedFile> {
         let (text, tree) = (&*self.text, &self.tree);
         let file = |place: &NamedPlace| {
-            let said = tree.attributes.get(place.attribute)?;
+            let attribute = tree.attributes.get(place.attribute)?;
             let owner = self.origins.name(self.origins.node_of(place.element)?);
             let name = tree.elements.get(place.element)?.name.of(text);
             let (kind, what) = match &place.what {
@@ -162,12 +162,12 @@ impl Answers for Source {
             };
             let path = match &place.what {
                 What::Map(_, path) => path,
-                What::Texture | What::Mesh => said.said(text),
+                What::Texture | What::Mesh => attribute.unescaped(text),
             };
             Some(NamedFile {
                 path: path.to_owned(),
                 kind,
-                span: said.value,
+                span: attribute.value,
                 what,
             })
         };
@@ -180,7 +180,7 @@ impl Answers for Source {
         };
         let drawn = self.origins.drawn.iter();
         drawn
-            .filter(|&&at| self.origins.dressed[at] == Some(material))
+            .filter(|&&at| self.origins.object_materials[at] == Some(material))
             .count()
     }
 
@@ -200,7 +200,7 @@ impl Answers for Source {
     }
 
     fn material(&self, object: usize) -> Option<usize> {
-        *self.origins.dressed.get(object)?
+        *self.origins.object_materials.get(object)?
     }
 
     fn view_fields(&self) -> Vec<&'static Field> {

@@ -33,7 +33,7 @@ pub(super) fn lower(text: &str, tree: &Tree, meshes: &Meshes) -> (Origins, Lower
         textures: Vec::new(),
         named: HashMap::new(),
         white: None,
-        met: HashSet::new(),
+        reported_meshes: HashSet::new(),
         slots: HashMap::new(),
         objects: Vec::new(),
         setting: Setting::default(),
@@ -64,7 +64,7 @@ struct Reader<'a> {
     /// Index of the default material.
     white: Option<usize>,
     /// The meshes seen so far, by name.
-    met: HashSet<&'a str>,
+    reported_meshes: HashSet<&'a str>,
     /// Indices of the materials that meshes define, by mesh name and slot.
     slots: HashMap<&'a str, Vec<u32>>,
     objects: Vec<Object>,

@@ -1,6 +1,7 @@
 //! The University of Utah's `.xml`: elements with attributes, and nested objects.
 
 mod answers;
+mod insertions;
 mod lower;
 mod origins;
 mod room;
@@ -8,10 +9,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod tree;
-mod unsaid;
 mod view;
-
-use std::sync::Arc;
 
 use super::written::Written;
 use crate::text::Findings;
@@ -19,19 +17,12 @@ use origins::Origins;
 use tree::Tree;
 
 pub(super) use room::tree_bytes;
-pub use unsaid::Unsaid;
 
 /// An `.xml` text.
 pub(super) type Source = Written<Tree, Origins>;
 
 /// Whether no leaf crosses a line end.
 pub(super) const LEAVES_KEEP_TO_LINES: bool = false;
-
-/// Parses a text.
-pub(super) fn parse(text: Arc<String>) -> Source {
-    let tree = tree::parse(&text);
-    Source::new(text, tree)
-}
 
 /// Returns the errors of every text with this beginning.
 pub(super) fn errors_of_beginning(beginning: &str) -> Findings {

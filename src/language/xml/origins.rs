@@ -25,7 +25,7 @@ pub struct Origins {
     pub(super) materials: Vec<Place<MaterialKind>>,
     pub(super) objects: Vec<Place<ObjectKind>>,
     /// The material of each object, by index.
-    pub(super) dressed: Vec<Option<usize>>,
+    pub(super) object_materials: Vec<Option<usize>>,
     /// The drawn objects, ascending: those of the scene.
     pub(super) drawn: Vec<usize>,
     /// The attributes that name files.
@@ -112,16 +112,13 @@ pub(super) const NO_WORD: u8 = u8::MAX;
 
 impl Origins {
     pub(super) fn name(&self, node: Node) -> String {
-        match node {
-            Node::View => "view".to_owned(),
-            Node::Ambient => "ambient".to_owned(),
-            Node::Background => "background".to_owned(),
-            Node::Environment => "environment".to_owned(),
-            Node::Light(index) => called("light", index, &self.lights, LightKind::word),
-            Node::Material(index) => called("material", index, &self.materials, MaterialKind::word),
-            Node::Texture(index) => format!("texture {}", index + 1),
-            Node::Object(index) => called("object", index, &self.objects, ObjectKind::word),
-        }
+        let name = match node {
+            Node::Light(index) => node_name(node, self.lights.get(index), LightKind::word),
+            Node::Material(index) => node_name(node, self.materials.get(index), MaterialKind::word),
+            Node::Object(index) => node_name(node, self.objects.get(index), ObjectKind::word),
+            _ => None,
+        };
+        name.unwrap_or_else(|| node.to_string())
     }
 
     /// The attribute of an element with this name, one of [`WORDS`].
@@ -148,9 +145,9 @@ impl Origins {
         holder: usize,
         parameter: &'static Parameter,
     ) -> Option<usize> {
-        let said = Role::Parameter(parameter);
+        let role = Role::Parameter(parameter);
         tree.children(holder)
-            .find(|&at| self.roles.get(at) == Some(&said))
+            .find(|&at| self.roles.get(at) == Some(&role))
     }
 
     /// The element of a node.
@@ -182,20 +179,16 @@ impl Origins {
     }
 }
 
-/// The name of a node: from the text if it has one, otherwise by its number.
-fn called<Kind: Copy>(
-    what: &str,
-    index: usize,
-    places: &[Place<Kind>],
+/// The name of a node with a kind: from the text if it has one, otherwise by its number.
+fn node_name<Kind: Copy>(
+    node: Node,
+    place: Option<&Place<Kind>>,
     word: impl Fn(Kind) -> &'static str,
-) -> String {
-    match places.get(index) {
-        Some(Place {
-            kind,
-            name: Some(name),
-            ..
-        }) => format!("{name} ({})", word(*kind)),
-        Some(place) => format!("{what} {} ({})", index + 1, word(place.kind)),
-        None => format!("{what} {}", index + 1),
-    }
+) -> Option<String> {
+    let place = place?;
+    let kind = word(place.kind);
+    Some(match &place.name {
+        Some(name) => format!("{name} ({kind})"),
+        None => format!("{node} ({kind})"),
+    })
 }

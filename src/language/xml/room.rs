@@ -2,10 +2,10 @@
 
 use super::tree::{Attribute, Element, Tree};
 use crate::geometry::Affine;
-use crate::language::room::{Counts, each};
-use crate::memory::{self, Need, OutOfMemory};
+use crate::language::room::{Counts, each, scene_fits};
+use crate::memory::OutOfMemory;
 use crate::scene::{Material, Object};
-use crate::text::{Span, counted};
+use crate::text::Span;
 
 /// The parser's bytes per node, in growing lists.
 const NODE: usize = 2 * 80;
@@ -25,10 +25,5 @@ pub(in crate::language) fn tree_bytes(counts: &Counts) -> u64 {
 
 /// Fails if the tree's scene does not fit into memory.
 pub(super) fn fits(tree: &Tree) -> Result<(), OutOfMemory> {
-    let count = tree.elements.len();
-    let bytes = each(count as u64, ELEMENT);
-    memory::check(bytes, || Need {
-        what: counted(count, "element"),
-        bytes,
-    })
+    scene_fits(tree.elements.len(), "element", ELEMENT)
 }

@@ -14,7 +14,7 @@ use std::ops::Range;
 use roxmltree::{Document, Error, Node, NodeType, ParsingOptions};
 
 use crate::language::words::{skip_white_space, white_space};
-use crate::language::written::Follow;
+use crate::language::written::Parse;
 use crate::text::{Diagnostic, Span};
 
 /// The elements and comments of a text, each in text order.
@@ -68,7 +68,7 @@ pub struct Attribute {
     /// The text between the quotes.
     pub value: Span,
     /// The value, if references or line ends make it differ from the text.
-    said: Option<Box<str>>,
+    unescaped: Option<Box<str>>,
 }
 
 impl Element {
@@ -85,8 +85,10 @@ impl Element {
 
 impl Attribute {
     /// Its value, with references resolved.
-    pub fn said<'t>(&'t self, text: &'t str) -> &'t str {
-        self.said.as_deref().unwrap_or_else(|| self.value.of(text))
+    pub fn unescaped<'t>(&'t self, text: &'t str) -> &'t str {
+        self.unescaped
+            .as_deref()
+            .unwrap_or_else(|| self.value.of(text))
     }
 }
 
@@ -112,12 +114,12 @@ impl Tree {
     }
 
     /// The attribute value whose text is at a span, with references resolved.
-    pub fn said<'t>(&'t self, text: &'t str, value: Span) -> &'t str {
+    pub fn unescaped<'t>(&'t self, text: &'t str, value: Span) -> &'t str {
         let at = self
             .attributes
             .binary_search_by_key(&value.start(), |attribute| attribute.value.start());
         match at {
-            Ok(at) => self.attributes[at].said(text),
+            Ok(at) => self.attributes[at].unescaped(text),
             Err(_) => value.of(text),
         }
     }
@@ -162,9 +164,9 @@ impl Tree {
     }
 }
 
-impl Follow for Tree {
-    fn follow(&mut self, text: &str, _: [Span; 2]) {
-        *self = parse(text);
+impl Parse for Tree {
+    fn parse(text: &str) -> Self {
+        parse(text)
     }
 }
 
@@ -178,7 +180,7 @@ pub(super) fn parse(text: &str) -> Tree {
     }
     match document(text) {
         Ok(document) => tree.fill(text, &document),
-        Err(error) => tree.fault = Some(fault::told(text, &error, scan.unclosed)),
+        Err(error) => tree.fault = Some(fault::diagnostic(text, &error, scan.unclosed)),
     }
     tree
 }
@@ -198,7 +200,7 @@ pub(super) fn fault_of_beginning(text: &str) -> Option<Diagnostic> {
             None
         }
         Err(error) => {
-            let fault = fault::told(text, &error, None);
+            let fault = fault::diagnostic(text, &error, None);
             (fault.span.start() + NEAR < text.len()).then_some(fault)
         }
     }
@@ -222,26 +224,26 @@ pub(super) fn quote(text: &str, value: Span) -> char {
 }
 
 /// Escapes `value` for use between two of `quote`.
-pub(super) fn spelled(value: &str, quote: char) -> Cow<'_, str> {
+pub(super) fn escaped(value: &str, quote: char) -> Cow<'_, str> {
     let special = |c: char| c == quote || matches!(c, '&' | '<' | '\t' | '\n' | '\r');
     if !value.contains(special) {
         return Cow::Borrowed(value);
     }
-    let mut spelled = String::with_capacity(value.len() + 8);
+    let mut escaped = String::with_capacity(value.len() + 8);
     for c in value.chars() {
         match c {
-            '&' => spelled.push_str("&amp;"),
-            '<' => spelled.push_str("&lt;"),
-            '"' if c == quote => spelled.push_str("&quot;"),
-            '\'' if c == quote => spelled.push_str("&apos;"),
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '"' if c == quote => escaped.push_str("&quot;"),
+            '\'' if c == quote => escaped.push_str("&apos;"),
             // Unescaped, they would be read as blanks.
-            '\t' => spelled.push_str("&#9;"),
-            '\n' => spelled.push_str("&#10;"),
-            '\r' => spelled.push_str("&#13;"),
-            c => spelled.push(c),
+            '\t' => escaped.push_str("&#9;"),
+            '\n' => escaped.push_str("&#10;"),
+            '\r' => escaped.push_str("&#13;"),
+            c => escaped.push(c),
         }
     }
-    Cow::Owned(spelled)
+    Cow::Owned(escaped)
 }
 
 impl Tree {
@@ -271,11 +273,11 @@ impl Tree {
                 }
                 NodeType::PI => self.whole.push(Span::new(range.start, range.end)),
                 NodeType::Text => {
-                    let said = &text[range.clone()];
-                    let start = range.start + said.len() - said.trim_start().len();
-                    let said = said.trim();
-                    if let Some(parent) = parent.filter(|_| !said.is_empty()) {
-                        let span = Span::new(start, start + said.len());
+                    let words = &text[range.clone()];
+                    let start = range.start + words.len() - words.trim_start().len();
+                    let words = words.trim();
+                    if let Some(parent) = parent.filter(|_| !words.is_empty()) {
+                        let span = Span::new(start, start + words.len());
                         self.words.push((span, parent));
                     }
                 }
@@ -304,7 +306,7 @@ impl Tree {
             self.attributes.push(Attribute {
                 name: Span::new(range.start, range.start + name),
                 value,
-                said: (!is_plain).then(|| attribute.value().into()),
+                unescaped: (!is_plain).then(|| attribute.value().into()),
             });
             if !value.is_empty() {
                 self.whole.push(value);

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::Source;
 use super::origins::Origins;
-use super::table::{CAMERA, FOCAL_DISTANCE, FOV, HEIGHT, LENS, POSITION, TARGET, UP, WIDTH};
+use super::table::camera::{self, PARAMETERS, index_of};
 use crate::language::Answers;
 use crate::language::placed::Placed;
 use crate::language::table::Field;
@@ -12,13 +12,23 @@ use crate::language::view::{Numbers, differ, literal, take};
 use crate::scene::{Camera, Focus, Lens, Size};
 use crate::text::{Edit, spell_like};
 
+/// Indices in [`PARAMETERS`].
+const POSITION: usize = index_of(&camera::POSITION);
+const TARGET: usize = index_of(&camera::TARGET);
+const UP: usize = index_of(&camera::UP);
+const FOV: usize = index_of(&camera::FOV);
+const FOCAL_DISTANCE: usize = index_of(&camera::FOCAL_DISTANCE);
+const LENS_RADIUS: usize = index_of(&camera::LENS_RADIUS);
+const WIDTH: usize = index_of(&camera::WIDTH);
+const HEIGHT: usize = index_of(&camera::HEIGHT);
+
 /// Indices of the vectors, in the order of [`Origins::factors`].
 const VECTORS: [usize; 3] = [POSITION, TARGET, UP];
 
 /// The fields of the view that belong to the camera.
 pub(super) fn fields(origins: &Origins) -> impl Iterator<Item = &'static Field> {
     let factors = origins.factors;
-    CAMERA
+    PARAMETERS
         .iter()
         .enumerate()
         .map(move |(at, parameter)| match factors.get(at) {
@@ -67,7 +77,7 @@ impl View {
     }
 
     /// The view with these numbers of its fields.
-    fn said(numbers: &[&[f64]]) -> Self {
+    fn from_numbers(numbers: &[&[f64]]) -> Self {
         let vector = |at: usize| {
             let factor = numbers[at].get(3).copied().unwrap_or(1.0);
             factor * DVec3::from_slice(numbers[at])
@@ -79,7 +89,7 @@ impl View {
             fov: numbers[FOV][0],
             focus: Focus {
                 distance: numbers[FOCAL_DISTANCE][0],
-                lens_radius: numbers[LENS][0],
+                lens_radius: numbers[LENS_RADIUS][0],
             },
             size: Size {
                 width: numbers[WIDTH][0] as u32,
@@ -91,7 +101,7 @@ impl View {
     /// The numbers of the view's fields. A vector keeps the factor that the text multiplies it by,
     /// if possible.
     fn numbers(&self, origins: &Origins) -> Vec<Vec<f64>> {
-        let mut numbers = vec![Vec::new(); CAMERA.len()];
+        let mut numbers = vec![Vec::new(); PARAMETERS.len()];
         let vectors = [self.position, self.target, self.up];
         for ((at, vector), factor) in VECTORS.into_iter().zip(vectors).zip(origins.factors) {
             let Some(factor) = factor else {
@@ -108,7 +118,7 @@ impl View {
         }
         numbers[FOV] = vec![self.fov];
         numbers[FOCAL_DISTANCE] = vec![self.focus.distance];
-        numbers[LENS] = vec![self.focus.lens_radius];
+        numbers[LENS_RADIUS] = vec![self.focus.lens_radius];
         numbers[WIDTH] = vec![self.size.width.into()];
         numbers[HEIGHT] = vec![self.size.height.into()];
         numbers
@@ -126,7 +136,7 @@ pub(super) fn camera(numbers: &Numbers, origins: &Origins) -> Camera {
     let numbers: Vec<_> = fields(origins)
         .map(|field| take(&mut rest, field))
         .collect();
-    View::said(&numbers).camera()
+    View::from_numbers(&numbers).camera()
 }
 
 /// Returns the edits that turn the text's camera `before` into `camera`. `fields` are the view's.

@@ -207,7 +207,7 @@ impl App {
         let placed = self.cursor.fields().get(index)?;
         let source = self.source();
         let said = (0..).zip(&placed.spans).map(|(component, span)| {
-            let said = || source.said(*span).to_owned();
+            let said = || source.leaf_text(*span).to_owned();
             let default = placed.default_of(component);
             default.map_or_else(
                 || (said(), Provenance::Text),

@@ -119,7 +119,7 @@ impl App {
 
     fn said_view_parts(&self) -> usize {
         let fields = self.source().fields(Node::View);
-        fields.iter().filter(|part| part.is_said()).count()
+        fields.iter().filter(|part| part.is_explicit()).count()
     }
 
     /// Sets components of the current field.
@@ -156,7 +156,7 @@ impl App {
             let place = (self.cursor.field, *component);
             camera = self
                 .source()
-                .view_saying(&camera, place, literal)
+                .view_with(&camera, place, literal)
                 .map_err(|limits| refuse(&format!("must be {limits}")))?;
         }
         if camera.eye == camera.target {

@@ -19,11 +19,11 @@ const DEFAULT_SIDE: DVec3 = DVec3::new(0.4, -1.0, 0.3);
 const DEFAULT_ANGLE: f64 = 45.0;
 
 /// How to state a camera.
-const REMEDY: &str = "say a camera: camera perspective eye look up focal near far";
+const REMEDY: &str = "add a camera: camera perspective eye look up focal near far";
 
 /// The valid records of the camera.
 #[derive(Default)]
-pub(super) struct Said {
+pub(super) struct Records {
     camera: Option<(View, Places)>,
     resolution: Option<[f64; 2]>,
     viewport: Option<Size>,
@@ -51,7 +51,7 @@ impl<'a> Reader<'a> {
                 self.viewport(at.get(numbers), &line.spans);
             }
             _ => {
-                let view = View::said(numbers);
+                let view = View::from_camera_record(numbers);
                 let [near, far] = view.depths;
                 let near = near.max(0.0);
                 if far <= near {
@@ -95,7 +95,7 @@ impl<'a> Reader<'a> {
                 self.report.warning(|| missing(word));
             }
         }
-        let Said {
+        let Records {
             camera,
             resolution,
             viewport,
@@ -166,7 +166,7 @@ impl<'a> Reader<'a> {
         let place = resolution.or(camera);
         let place = place.map_or_else(|| Span::at(0), |record| self.tree.span_of(record));
         self.report.error(|| {
-            let message = "resolution: too large or too small beside the focal length";
+            let message = "resolution: too large or too small for the focal length";
             Diagnostic::error(
                 place,
                 message,
@@ -188,7 +188,7 @@ fn height_of(bounds: Aabb) -> f64 {
 
 fn missing(word: &str) -> Diagnostic {
     let otherwise = match word {
-        "camera" => "a view of the whole scene stands in",
+        "camera" => "the default view shows the whole scene",
         "resolution" => "the picture shows the whole scene",
         _ => "the picture has 800 × 600 pixels",
     };

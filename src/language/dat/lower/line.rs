@@ -1,13 +1,16 @@
 //! Reads the tokens of one record according to the table of fields.
 
+use std::borrow::Cow;
+
 use super::Reader;
+use crate::language::at::At;
 use crate::language::dat::table::{Part, RecordKind};
-use crate::language::record::{Gathered, Record, what};
+use crate::language::record::{Record, what};
 use crate::language::report::Name;
-use crate::language::report::{nearest_word, no_number, number, quoted};
+use crate::language::report::{did_you_mean, nearest_word, number_of, quoted};
 use crate::language::table::{Field, Kind, Range};
 use crate::language::words::Words;
-use crate::text::{Diagnostic, Severity, Span, counted, parse_number};
+use crate::text::{Diagnostic, Span, counted};
 
 /// The content of a record.
 pub(super) struct Line<'a> {
@@ -15,8 +18,8 @@ pub(super) struct Line<'a> {
     pub(super) name: Name,
     /// Its ID, and the place of that.
     pub(super) id: Option<(i64, Span)>,
-    /// The nodes it refers to, in order.
-    pub(super) references: Vec<Option<(i64, Span)>>,
+    /// The IDs it refers to, each with the index of its number and its place.
+    references: Vec<(usize, i64, Span)>,
     /// A free word.
     pub(super) word: Option<Span>,
     /// The numbers of its fields; NaN where malformed.
@@ -29,13 +32,13 @@ pub(super) struct Line<'a> {
     /// Whether all parts in the table are there, valid or not.
     pub(super) is_complete: bool,
     /// Whether all parts are there and valid.
-    pub(super) is_sound: bool,
+    pub(super) is_valid: bool,
 }
 
 impl Line<'_> {
     /// Its numbers, if it is valid.
     pub(super) fn numbers(&self) -> Option<&[f64]> {
-        self.is_sound.then_some(&*self.values)
+        self.is_valid.then_some(&*self.values)
     }
 
     /// The text of an object's shape, after its material.
@@ -45,10 +48,19 @@ impl Line<'_> {
         shape.reduce(Span::to).unwrap_or(material)
     }
 
-    /// Its numbers by kind, if it is valid.
-    pub(super) fn gather(&self) -> Option<Gathered> {
-        self.is_sound
-            .then(|| self.as_record().gather(self.kind.fields()))
+    /// Its numbers if it is valid, otherwise zeros.
+    pub(super) fn numbers_or_zeros(&self) -> Cow<'_, [f64]> {
+        match self.numbers() {
+            Some(numbers) => Cow::Borrowed(numbers),
+            None => Cow::Owned(vec![0.0; self.kind.numbers()]),
+        }
+    }
+
+    /// The ID of the node that a field refers to; `None` if it is missing or malformed.
+    pub(super) fn reference(&self, field: At<1>) -> Option<(i64, Span)> {
+        let mut references = self.references.iter();
+        let found = references.find(|(index, ..)| *index == field.index());
+        found.map(|&(_, id, span)| (id, span))
     }
 
     pub(super) fn as_record(&self) -> Record<'_> {
@@ -82,7 +94,7 @@ impl<'a> Reader<'a> {
             rest,
             kind,
             is_complete: false,
-            is_sound: false,
+            is_valid: false,
         };
         line.is_complete = kind
             .parts()
@@ -93,7 +105,7 @@ impl<'a> Reader<'a> {
         if !line.is_complete && errors == self.report.errors() {
             self.short(kind, tokens, &line);
         }
-        line.is_sound = errors == self.report.errors();
+        line.is_valid = errors == self.report.errors();
         line
     }
 
@@ -114,7 +126,7 @@ impl<'a> Reader<'a> {
                 );
                 let span = rest.clone().last().map_or(first, |last| first.to(last));
                 Diagnostic::warning(span, message, "the end of the line")
-                    .with_hint("what is too much is ignored")
+                    .with_hint("the rest is ignored")
             });
         }
     }
@@ -174,8 +186,11 @@ impl<'a> Reader<'a> {
                 Kind::Reference(_) => {
                     let name = line.name;
                     let reference = self.identity(token, || format!("{name} {}", field.key));
-                    line.references.push(reference);
-                    reference.map_or(f64::NAN, |(id, _)| id as f64)
+                    let index = line.values.len();
+                    reference.map_or(f64::NAN, |(id, span)| {
+                        line.references.push((index, id, span));
+                        id as f64
+                    })
                 }
                 Kind::Word => {
                     line.word = Some(token);
@@ -183,18 +198,7 @@ impl<'a> Reader<'a> {
                 }
                 _ => {
                     let what = || what(line.name, field, component);
-                    let read = if field.kind.is_size() {
-                        parse_number(word)
-                    } else {
-                        number(token, word, &mut self.report, what)
-                    };
-                    read.unwrap_or_else(|error| {
-                        let expected = field.allowed.words();
-                        self.report.error(|| {
-                            no_number(Severity::Error, token, word, &what(), &expected, error)
-                        });
-                        f64::NAN
-                    })
+                    number_of(field, token, word, &mut self.report, what)
                 }
             };
             line.values.push(value);
@@ -230,7 +234,10 @@ impl<'a> Reader<'a> {
             let next = missing_part(kind, found - kind.heads());
             let end = Span::at(tokens.clone().last().map_or(0, Span::end));
             let more = counted(missing, "more token");
-            let message = format!("{}: the line ends where {next} is due; {more}", line.name);
+            let message = format!(
+                "{}: the line ends where {next} is expected; {more}",
+                line.name
+            );
             Diagnostic::error(end, message, next.clone())
         });
     }
@@ -264,7 +271,7 @@ fn no_word(name: Name, kind: RecordKind, due: &str, token: Span, word: &str) -> 
     };
     let expected: Vec<_> = dues.iter().map(|due| format!("`{due}`")).collect();
     let expected = expected.join(" or ");
-    let message = format!("{name}: {expected} is due, not {}", quoted(word));
+    let message = format!("{name}: expected {expected}, not {}", quoted(word));
     let diagnostic = Diagnostic::error(token, message, expected);
     if dues.iter().any(|due| word.eq_ignore_ascii_case(due)) {
         diagnostic.with_hint("words are case-sensitive")
@@ -282,14 +289,7 @@ fn no_choice(
 ) -> Diagnostic {
     let message = format!("{name} {}: unknown word {}", field.key, quoted(word));
     let diagnostic = Diagnostic::error(token, message, field.expected());
-    let same = words
-        .iter()
-        .copied()
-        .find(|known| known.eq_ignore_ascii_case(word));
-    match same.or_else(|| nearest_word(word, words.iter().copied())) {
-        Some(near) => diagnostic.with_hint(format!("did you mean `{near}`?")),
-        None => diagnostic,
-    }
+    did_you_mean(diagnostic, nearest_word(word, words.iter().copied()), None)
 }
 
 /// The first word of a record, as a name with static lifetime.

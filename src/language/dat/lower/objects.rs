@@ -8,15 +8,16 @@ use glam::DVec3;
 use super::{Definition, Drawn, Reader, shapes};
 use crate::geometry::Node as CsgNode;
 use crate::geometry::{Csg, Operation, Quadric, Shape, Solid};
+use crate::language::at::index_of_word;
 use crate::language::dat::origins::ObjectPlace;
-use crate::language::dat::table::{HALF_SPACE, ObjectKind, RecordKind};
+use crate::language::dat::table::{HALF_SPACE, OPERATIONS, ObjectKind, RecordKind};
 use crate::language::record::what;
 use crate::language::report::Name;
-use crate::language::report::{no_number, number, quoted};
-use crate::language::table::{Category, Range};
+use crate::language::report::{number_of, quoted};
+use crate::language::table::Category;
 use crate::language::words::Words;
 use crate::scene::Object;
-use crate::text::{Diagnostic, Severity, Span, counted};
+use crate::text::{Diagnostic, Span, counted};
 
 use super::line::Line;
 
@@ -30,12 +31,9 @@ const NAMED: usize = 8;
 /// Maximum number of objects listed in a message.
 const LISTED: usize = 64;
 
-/// The operations, in the order of their words.
-const OPERATIONS: [Operation; 3] = [
-    Operation::Union,
-    Operation::Intersection,
-    Operation::Difference,
-];
+/// The indices of operations among their words.
+const UNION: usize = index_of_word(OPERATIONS, "union");
+const INTERSECTION: usize = index_of_word(OPERATIONS, "intersection");
 
 /// Number of numbers of a half-space.
 const EACH: usize = HALF_SPACE.kind.components();
@@ -58,20 +56,20 @@ impl<'a> Reader<'a> {
             _ => Vec::new(),
         };
         self.surplus(&line);
-        let mut named = line.references.clone().into_iter();
         let (mut material, mut operands) = (None, None);
         if kind == ObjectKind::Csg {
-            let mut operand = || self.known(Category::Object, named.next().flatten());
-            let (first, second) = (operand(), operand());
+            let fields = const { [ObjectKind::Csg.at("first"), ObjectKind::Csg.at("second")] };
+            let [first, second] =
+                fields.map(|field| self.resolve(Category::Object, line.reference(field)));
             operands = first.zip(second).map(|(first, second)| [first, second]);
         } else {
-            material = self.known(Category::Material, named.next().flatten());
+            material = self.resolve(Category::Material, line.reference(kind.at("mat")));
         }
-        let Some(id) = self.know(Category::Object, &line, self.parts.len()) else {
+        let Some(id) = self.define(Category::Object, &line, self.parts.len()) else {
             return;
         };
-        let is_sound = errors == self.report.errors();
-        let numbers = line.numbers().filter(|_| is_sound);
+        let is_valid = errors == self.report.errors();
+        let numbers = line.numbers().filter(|_| is_valid);
         let solid = numbers.and_then(|numbers| self.solid(kind, numbers, material, &cuts, &line));
         self.parts.push(solid.unwrap_or(Definition::Faulty));
         self.origins.objects.push(ObjectPlace {
@@ -94,10 +92,12 @@ impl<'a> Reader<'a> {
     ) -> Option<Definition> {
         let shape = match kind {
             ObjectKind::Csg => {
-                let operator = const { ObjectKind::Csg.at("operator") }.choice(numbers);
-                return Some(Definition::Combined(
-                    OPERATIONS[operator % OPERATIONS.len()],
-                ));
+                let operator = const { ObjectKind::Csg.at("operator") };
+                return Some(Definition::Combined(match operator.choice(numbers) {
+                    UNION => Operation::Union,
+                    INTERSECTION => Operation::Intersection,
+                    _ => Operation::Difference,
+                }));
             }
             ObjectKind::Sphere => Some(shapes::sphere(numbers)),
             ObjectKind::Ellipsoid => shapes::ellipsoid(numbers),
@@ -109,7 +109,11 @@ impl<'a> Reader<'a> {
             let span = line.span_after_material();
             self.report.error(|| {
                 let message = format!("{}: too large, too small or too far away", line.name);
-                Diagnostic::error(span, message, "sizes and places that numbers can hold")
+                Diagnostic::error(
+                    span,
+                    message,
+                    "sizes and positions that numbers can represent",
+                )
             });
         }
         Some(Definition::Solid(shape?, material? as u32))
@@ -135,15 +139,19 @@ impl<'a> Reader<'a> {
         let span = line.span_after_material();
         if quadric.is_empty() {
             self.report.warning(|| {
-                let message = format!("{}: no point is inside", line.name);
-                Diagnostic::warning(span, message, "coefficients that leave an inside")
-                    .with_hint("inside is where the sum is 0 or less")
+                let message = format!("{}: contains no point", line.name);
+                Diagnostic::warning(
+                    span,
+                    message,
+                    "coefficients of a solid that contains points",
+                )
+                .with_hint("inside is where the sum is 0 or less")
             });
         } else if quadric.has_lost_its_shape() {
             self.report.warning(|| {
-                let message = format!("{}: too far from 0 0 0 for its size", line.name);
-                Diagnostic::warning(span, message, "a quadric nearer to 0 0 0")
-                    .with_hint("numbers of 16 digits no longer hold its shape")
+                let message = format!("{}: too far from the origin for its size", line.name);
+                Diagnostic::warning(span, message, "a quadric nearer to the origin")
+                    .with_hint("numbers of 16 digits can't represent its shape")
             });
         }
         Solid::Quadric(Box::new(quadric))
@@ -157,7 +165,7 @@ impl<'a> Reader<'a> {
             let end = line.spans.last().map_or(0, |span| span.end());
             let name = line.name;
             self.report.error(|| {
-                let message = format!("{name}: the line ends where the number of cuts is due");
+                let message = format!("{name}: the line ends before the number of cuts");
                 Diagnostic::error(Span::at(end), message, "a whole number, 0 for no cuts")
             });
             return Vec::new();
@@ -172,14 +180,14 @@ impl<'a> Reader<'a> {
         let fits = usize::try_from(count).is_ok_and(|count| count <= have && count <= most);
         if !fits {
             self.report.error(|| {
-                let said = quoted(token.of(self.text));
+                let shown = quoted(token.of(self.text));
                 let (message, expected) = if have < most {
                     let follow = following(have, "cut");
-                    let message = format!("{name}: says {said} cuts, but {follow}");
+                    let message = format!("{name}: declares {shown} cuts, but {follow}");
                     (message, "as many as there are".to_owned())
                 } else {
                     (
-                        format!("{name}: says {said} cuts"),
+                        format!("{name}: declares {shown} cuts"),
                         format!("{most} at most"),
                     )
                 };
@@ -199,13 +207,7 @@ impl<'a> Reader<'a> {
         for ((value, token), component) in values.iter_mut().zip(tokens).zip(components) {
             let word = token.of(self.text);
             let what = || what(name, HALF_SPACE, component);
-            match number(*token, word, &mut self.report, what) {
-                Ok(number) => *value = number,
-                Err(error) => self.report.error(|| {
-                    let expected = Range::Any.words();
-                    no_number(Severity::Error, *token, word, &what(), &expected, error)
-                }),
-            }
+            *value = number_of(HALF_SPACE, *token, word, &mut self.report, what);
         }
         let [x, y, z, distance] = values;
         let normal = DVec3::new(x, y, z);
@@ -227,7 +229,7 @@ impl<'a> Reader<'a> {
         let word = rest.next().unwrap_or_default();
         let Some(token) = rest.next() else {
             self.report.error(|| {
-                let message = "render: the line ends where the number of objects is due";
+                let message = "render: the line ends before the number of objects";
                 let end = Span::at(word.end());
                 Diagnostic::error(end, message, "a whole number, 0 for all objects")
             });
@@ -250,8 +252,8 @@ impl<'a> Reader<'a> {
             };
             if word.of(self.text) != "ID" {
                 self.report.error(|| {
-                    let said = quoted(word.of(self.text));
-                    let message = format!("render: `ID` is due, not {said}");
+                    let shown = quoted(word.of(self.text));
+                    let message = format!("render: expected `ID`, not {shown}");
                     Diagnostic::error(word, message, "`ID`")
                 });
                 return;
@@ -263,11 +265,11 @@ impl<'a> Reader<'a> {
         }
         if (ids.len() as i64) < count {
             self.report.error(|| {
-                let said = quoted(token.of(self.text));
+                let shown = quoted(token.of(self.text));
                 let follow = following(ids.len(), "object");
-                let message = format!("render: says {said}, but {follow} in the line");
+                let message = format!("render: declares {shown}, but {follow} in the line");
                 Diagnostic::error(token, message, "as many as there are")
-                    .with_hint("each object is `ID` and its number")
+                    .with_hint("each object is given as `ID` and its number")
             });
             return;
         }
@@ -284,7 +286,7 @@ impl<'a> Reader<'a> {
         let mut drawn: Vec<usize> = match std::mem::replace(&mut self.drawn, Drawn::Results) {
             Drawn::Listed(listed) => listed
                 .into_iter()
-                .filter_map(|id| self.known(Category::Object, Some(id)))
+                .filter_map(|id| self.resolve(Category::Object, Some(id)))
                 .collect(),
             Drawn::All(token) => {
                 let [operands, results] = self.operands_and_results();

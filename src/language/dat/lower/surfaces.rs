@@ -7,42 +7,55 @@ use glam::DVec2;
 
 use super::Reader;
 use crate::geometry::normalise;
+use crate::language::at::{At, index_of_word};
 use crate::language::coefficients::Coefficients;
 use crate::language::dat::origins::{Place, UsePlace};
-use crate::language::dat::table::{RecordKind, TextureKind, UseKind};
-use crate::language::record::Gathered;
+use crate::language::dat::table::{RecordKind, SHADOWS, SOURCES, TextureKind, UseKind};
 use crate::language::report::Name;
 use crate::language::table::Category;
 use crate::language::words::Words;
 use crate::scene::{Bump, Emitter, Falloff, Light, Pattern, Shadows, Side, Texture, Tinted};
 use crate::text::Diagnostic;
 
+const LIGHT: RecordKind = RecordKind::Light;
+const POSITION: At<3> = LIGHT.at("position");
+const DIRECTION: At<3> = LIGHT.at("direction");
+
+/// The indices of the types of lights, and of whether they cast shadows, among their words.
+const POINT: usize = index_of_word(SOURCES, "pnt");
+const DISTANT: usize = index_of_word(SOURCES, "inf");
+const SHADOW_ON: usize = index_of_word(SHADOWS, "shadow_on");
+
+const COLOUR: RecordKind = RecordKind::Use(UseKind::Colour);
+const BUMP: RecordKind = RecordKind::Use(UseKind::Bump);
+
 impl<'a> Reader<'a> {
     pub(super) fn light(&mut self, record: usize, tokens: &Words<'a>) {
         let kind = RecordKind::Light;
         let line = self.line(kind, tokens, |id| Name::Known("light", id, ""));
         self.surplus(&line);
-        let Some(id) = self.know(Category::Light, &line, self.lights.len()) else {
+        let Some(id) = self.define(Category::Light, &line, self.lights.len()) else {
             return;
         };
         self.origins.lights.push(Place { record, kind, id });
-        let said = line.gather().unwrap_or_default();
-        let emitter = emitter(&said).unwrap_or_else(|| {
-            // The position and the direction, after the type.
-            let span = line.spans[1].to(line.spans[6]);
+        let numbers = &*line.numbers_or_zeros();
+        // The errors of an invalid line were already reported.
+        let emitter = line.numbers().map_or(Some(Emitter::Ambient), emitter);
+        let emitter = emitter.unwrap_or_else(|| {
+            let span = POSITION.span(&line.spans).to(DIRECTION.span(&line.spans));
             self.report.error(|| {
                 let message = format!("{} direction: must not be zero", line.name);
-                Diagnostic::error(span, message, "where the light goes")
-                    .with_hint("without a direction the light comes from its position's side")
+                Diagnostic::error(span, message, "the direction in which the light travels")
+                    .with_hint("a position other than 0 0 0 would give the direction too")
             });
             Emitter::Ambient
         });
         self.lights.push(Light {
             emitter,
-            colour: said.colours[0],
+            colour: const { LIGHT.at("colour") }.vector(numbers),
             scale: PI,
-            shadows: match said.choices[1] {
-                0 => Shadows::Cast,
+            shadows: match const { LIGHT.at("shadow") }.choice(numbers) {
+                SHADOW_ON => Shadows::Cast,
                 _ => Shadows::Off,
             },
         });
@@ -52,31 +65,11 @@ impl<'a> Reader<'a> {
         let kind = RecordKind::Material;
         let line = self.line(kind, tokens, |id| Name::Known("material", id, ""));
         self.surplus(&line);
-        let Some(id) = self.know(Category::Material, &line, self.materials.len()) else {
+        let Some(id) = self.define(Category::Material, &line, self.materials.len()) else {
             return;
         };
         self.origins.materials.push(Place { record, kind, id });
-        let said = line.gather().unwrap_or_default();
-        let [
-            ambient,
-            diffuse,
-            specular,
-            exponent,
-            transmission,
-            reflection,
-            index,
-            ..,
-        ] = said.numbers;
-        let colour = said.colours[0];
-        let material = Coefficients {
-            ambient: ambient * colour,
-            diffuse: diffuse * colour,
-            specular: specular * colour,
-            exponent,
-            reflection,
-            transmission,
-            index,
-        };
+        let material = coefficients(&line.numbers_or_zeros());
         self.materials.push(material.into());
     }
 
@@ -84,24 +77,30 @@ impl<'a> Reader<'a> {
         let kind = RecordKind::Texture(pattern);
         let line = self.line(kind, tokens, |id| Name::Known("texture", id, ""));
         self.surplus(&line);
-        let Some(id) = self.know(Category::Texture, &line, self.textures.len()) else {
+        let Some(id) = self.define(Category::Texture, &line, self.textures.len()) else {
             return;
         };
         self.origins.textures.push(Place { record, kind, id });
-        let said = line.gather().unwrap_or_default();
-        let file = line.word.map_or("", |word| word.of(self.text));
-        let plain = |colour| Tinted {
-            colour,
-            texture: None,
+        let numbers = &*line.numbers_or_zeros();
+        let (repeat, pattern) = match pattern {
+            TextureKind::Checker => {
+                const CHECKER: RecordKind = RecordKind::Texture(TextureKind::Checker);
+                let colours = const { [CHECKER.at("first"), CHECKER.at("second")] };
+                let squares = colours.map(|at| Tinted {
+                    colour: at.vector(numbers),
+                    texture: None,
+                });
+                let side = Side::One;
+                let repeat = const { CHECKER.at("repeat") };
+                (repeat, Pattern::Checker { squares, side })
+            }
+            TextureKind::Image => {
+                let file = line.word.map_or("", |word| word.of(self.text));
+                let repeat = const { RecordKind::Texture(TextureKind::Image).at("repeat") };
+                (repeat, Pattern::Image(file.to_owned()))
+            }
         };
-        let pattern = match pattern {
-            TextureKind::Checker => Pattern::Checker {
-                squares: [said.colours[0], said.colours[1]].map(plain),
-                side: Side::One,
-            },
-            TextureKind::Image => Pattern::Image(file.to_owned()),
-        };
-        let repeat = DVec2::from_array(said.pair);
+        let repeat = DVec2::from_array(repeat.get(numbers));
         self.textures.push(Texture::repeated(repeat, pattern));
     }
 
@@ -109,10 +108,12 @@ impl<'a> Reader<'a> {
         let kind = RecordKind::Use(purpose);
         let line = self.line(kind, tokens, |id| Name::Known("use", id, ""));
         self.surplus(&line);
-        let texture = line.references.first().copied().flatten();
-        let texture = self.known(Category::Texture, texture);
-        let material = line.references.get(1).copied().flatten();
-        let material = self.known(Category::Material, material);
+        let (texture, material) = match purpose {
+            UseKind::Colour => const { (COLOUR.at("texture"), COLOUR.at("mat")) },
+            UseKind::Bump => const { (BUMP.at("bump"), BUMP.at("mat")) },
+        };
+        let texture = self.resolve(Category::Texture, line.reference(texture));
+        let material = self.resolve(Category::Material, line.reference(material));
         let (Some(texture), Some(material)) = (texture, material) else {
             return;
         };
@@ -132,7 +133,6 @@ impl<'a> Reader<'a> {
                 self.warn_of_repetition(before.record, tokens.clone().nth(1));
             }
         }
-        let said = line.gather().unwrap_or_default();
         if let Some(material) = self.materials.get_mut(material) {
             let texture = texture as u32;
             let maps = material.maps.get_or_insert_default();
@@ -143,10 +143,9 @@ impl<'a> Reader<'a> {
                     maps.specular = Some(texture);
                 }
                 UseKind::Bump => {
-                    maps.bump = Some(Bump {
-                        texture,
-                        height: said.numbers[0],
-                    });
+                    let height = const { BUMP.at("height") };
+                    let height = height.number(&line.numbers_or_zeros());
+                    maps.bump = Some(Bump { texture, height });
                 }
             }
         }
@@ -154,24 +153,42 @@ impl<'a> Reader<'a> {
 }
 
 /// The emitter of a light; `None` for a distant light without direction.
-fn emitter(said: &Gathered) -> Option<Emitter> {
-    let [position, direction, _] = said.points;
-    let [a0, a1, a2, exponent, ..] = said.numbers;
-    Some(match said.choices[0] {
-        0 => Emitter::Point {
-            position,
-            radius: 0.0,
-            falloff: Falloff {
-                radial: [a0, a1, a2],
-                spot: normalise(direction)
-                    .filter(|_| 0.0 < exponent)
-                    .map(|direction| (direction, exponent)),
-            },
-        },
-        1 => {
+fn emitter(numbers: &[f64]) -> Option<Emitter> {
+    let position = POSITION.vector(numbers);
+    let direction = DIRECTION.vector(numbers);
+    Some(match const { LIGHT.at("source") }.choice(numbers) {
+        POINT => {
+            let radial = const { [LIGHT.at("a0"), LIGHT.at("a1"), LIGHT.at("a2")] };
+            let exponent = const { LIGHT.at("aa") }.number(numbers);
+            let direction = normalise(direction).filter(|_| 0.0 < exponent);
+            Emitter::Point {
+                position,
+                radius: 0.0,
+                falloff: Falloff {
+                    radial: radial.map(|at| at.number(numbers)),
+                    spot: direction.map(|direction| (direction, exponent)),
+                },
+            }
+        }
+        DISTANT => {
             let toward = normalise(direction).map(|direction| -direction);
             Emitter::Distant(toward.or_else(|| normalise(position))?)
         }
         _ => Emitter::Ambient,
     })
+}
+
+/// The material described by these numbers.
+fn coefficients(numbers: &[f64]) -> Coefficients {
+    const MATERIAL: RecordKind = RecordKind::Material;
+    let colour = const { MATERIAL.at("RGB") }.vector(numbers);
+    Coefficients {
+        ambient: const { MATERIAL.at("Ka") }.number(numbers) * colour,
+        diffuse: const { MATERIAL.at("Kd") }.number(numbers) * colour,
+        specular: const { MATERIAL.at("Ks") }.number(numbers) * colour,
+        exponent: const { MATERIAL.at("ns") }.number(numbers),
+        reflection: const { MATERIAL.at("Kr") }.number(numbers),
+        transmission: const { MATERIAL.at("Kt") }.number(numbers),
+        index: const { MATERIAL.at("ior") }.number(numbers),
+    }
 }

@@ -72,7 +72,7 @@ pub(super) const CAMERA: &[Part] = &[
         PROJECTIONS,
         "Rays from the eye (perspective), or side by side (orthographic).",
     ),
-    point("eye", "Where the camera stands."),
+    point("eye", "The position of the camera."),
     point("look", "The point the camera looks at."),
     point("up", "Which way is up in the picture; of any length."),
     size(
@@ -118,12 +118,12 @@ pub(super) const LIGHT: &[Part] = &[
         SOURCES,
         "From a point (pnt), from infinitely far (inf), from everywhere (amb).",
     ),
-    point("position", "Where a point light stands."),
+    point("position", "The position of a point light."),
     point(
         "direction",
-        "Where the light goes; all zero for a point light that sends the same everywhere.",
+        "Where the light travels; all zero for a point light that emits equally in all directions.",
     ),
-    colour("colour", "What the light sends."),
+    colour("colour", "The light it emits."),
     number(
         "a0",
         Range::NotNegative,
@@ -149,7 +149,7 @@ pub(super) const LIGHT: &[Part] = &[
     choice(
         "shadow",
         SHADOWS,
-        "Whether objects keep this light from others.",
+        "Whether objects cast shadows in this light.",
     ),
 ];
 
@@ -162,11 +162,11 @@ pub(super) const MATERIAL: &[Part] = &[
     )),
     share(
         "Ka",
-        "Ambient coefficient: share of ambient light sent back.",
+        "Ambient coefficient: fraction of ambient light reflected.",
     ),
     share(
         "Kd",
-        "Diffuse coefficient: share of light sent back evenly.",
+        "Diffuse coefficient: fraction of light reflected diffusely.",
     ),
     number(
         "Ks",
@@ -185,9 +185,9 @@ pub(super) const MATERIAL: &[Part] = &[
     ),
     share(
         "Kt",
-        "Transmission coefficient: weight of what is seen through it.",
+        "Transmission coefficient: weight of transmitted light.",
     ),
-    share("Kr", "Reflection coefficient: weight of what is mirrored."),
+    share("Kr", "Reflection coefficient: weight of reflected light."),
     Part::Field(
         Field::number(
             "ior",
@@ -291,7 +291,7 @@ pub(in crate::language::dat) const HALF_SPACE: &Field = &Field {
     kind: Kind::HalfSpace,
     ..Field::point(
         "cut",
-        "Only what has n·x ≤ d stays; the normal n is of any length above 0.",
+        "Only points with n·x ≤ d remain; the normal n may have any length above 0.",
     )
 };
 
@@ -355,6 +355,6 @@ pub(super) const USE_BUMP: &[Part] = &[
         "height",
         Range::Any,
         0.01,
-        "How high the brightest places stand, in world units.",
+        "The height of the brightest places, in world units.",
     ),
 ];

@@ -297,7 +297,7 @@ fn fields_of_the_view_take_typed_values() {
                 for said in typed {
                     let at = (field, component);
                     let new = source
-                        .view_saying(&camera, at, said)
+                        .view_with(&camera, at, said)
                         .unwrap_or_else(|must| panic!("{key}: {must}"));
                     let edits = source.view_edits(&camera, &new);
                     let mut after = text.clone();
@@ -328,7 +328,7 @@ fn a_projection_is_set_by_its_name() {
     let (source, lowered) = read(&text);
     let camera = lowered.scene.expect("no errors").camera;
     let new = source
-        .view_saying(&camera, (0, 0), "orthographic")
+        .view_with(&camera, (0, 0), "orthographic")
         .expect("a word");
     // The plane at distance 1 is 0.6 high; the target is at distance 5.
     let Lens::Orthographic(height) = new.lens else {
@@ -342,8 +342,8 @@ fn a_projection_is_set_by_its_name() {
         after.starts_with("camera orthographic 0 0 5  0 0 0  0 1 0  1 0 100\n"),
         "{after}"
     );
-    let refused = source.view_saying(&camera, (0, 0), "fisheye");
+    let refused = source.view_with(&camera, (0, 0), "fisheye");
     assert_eq!(refused, Err("perspective or orthographic".to_owned()));
-    let zero = source.view_saying(&camera, (4, 0), "0");
+    let zero = source.view_with(&camera, (4, 0), "0");
     assert_eq!(zero, Err("greater than 0".to_owned()));
 }

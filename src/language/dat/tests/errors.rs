@@ -60,7 +60,7 @@ fn numbers_are_decimal_and_finite() {
         "obj quadric ID 1 mat ID 0  1 0 0 0 1 0 0 1 0 -1  0f\n#~ 50 error: object 1 (quadric) number of cuts: must be a whole number, not `0f`",
         "obj sphere ID 1f mat ID 0  0 0 0  1\n#~ 15 error: obj ID: must be a whole number, not `1f`",
         "render 0f\n#~ 8 error: render: the number of objects: must be a whole number, not `0f`",
-        "viewport 8f 6\n#~ 1 warning: viewport: said in line 3 already\n#~ 10 error: viewport width: `8f` is not a number",
+        "viewport 8f 6\n#~ 1 warning: viewport: already given in line 3\n#~ 10 error: viewport width: `8f` is not a number",
     ]);
 }
 
@@ -83,7 +83,7 @@ obj ball ID 2 mat ID 0  0 0 0  1
         #~ 5 error: obj: unknown kind `ball`
 obj sphere ID 3 mat ID 8  0 0 0
         #~ 24 error: there is no material 8 above
-        #~ 32 error: object 3 (sphere): the line ends where radius is due; 1 more token
+        #~ 32 error: object 3 (sphere): the line ends where radius is expected; 1 more token
 obj quadric ID 4 mat ID 0  1 0 0 0 1 0 0 1 0 z  2  0 0 0 1  a 1 b 2
         #~ 46 error: object 4 (quadric) J: `z` is not a number
         #~ 52 error: object 4 (quadric) cut: its normal must not be zero
@@ -136,7 +136,7 @@ fn unusual_numbers_give_warnings_with_the_value_used() {
             "mat ID 1 1 1 1  .1 .8 .1 -5 0 0 1",
             26,
             "material 1 ns: -5",
-            "it reads as 0",
+            "it is read as 0",
         ),
         (
             "mat ID 1 1 1 1  .1 .8 .1 5 2 0 1",
@@ -148,7 +148,7 @@ fn unusual_numbers_give_warnings_with_the_value_used() {
             "mat ID 1 1 1 1  .1 .8 .1 5 0 0 -2",
             32,
             "material 1 ior: -2",
-            "it reads as 1",
+            "it is read as 1",
         ),
         (
             "light ID 1 pnt 0 0 0 0 0 1 1 1 1 -1 0 0 0 shadow_on",
@@ -160,7 +160,7 @@ fn unusual_numbers_give_warnings_with_the_value_used() {
             "light ID 1 pnt 0 0 0 0 0 1 1 1 1 1 0 0 -1 shadow_on",
             40,
             "light 1 aa: -1",
-            "it reads as 0",
+            "it is read as 0",
         ),
     ] {
         check_under(&[&format!("{record}\n#~ {place} warning: {what} is not ")]);
@@ -188,7 +188,7 @@ fn directions_must_span_a_volume() {
         "obj box ID 1 BALL 1 0 0 -1 0 0 0 0 1 1 1 1\n#~ 36 error: object 1 (box) v: is parallel to u",
         "obj box ID 1 BALL 1 0 0 0 1 0 .6 .8 0 1 1 1\n#~ 42 error: object 1 (box) w: lies in the plane of the other two",
         "obj box ID 1 BALL 1 0 0 .6 .8 0 0 0 1 1 1 1\n#~ 36 warning: object 1 (box) v: not at a right angle to u",
-        "obj box ID 1 BALL 1 0 0 0 1 0 0 0 -1 1 1 1\n#~ 42 warning: object 1 (box) w: points against u × v",
+        "obj box ID 1 BALL 1 0 0 0 1 0 0 0 -1 1 1 1\n#~ 42 warning: object 1 (box) w: points opposite to u × v",
         "light ID 1 inf 0 0 0  0 0 0  1 1 1  1 0 0  0 shadow_on\n#~ 16 error: light 1 direction: must not be zero",
     ]);
 }
@@ -199,13 +199,13 @@ fn unknown_words_are_reported() {
         "light ID 1 spot 0 0 0 0 0 0 1 1 1 1 0 0 0 shadow_on\n#~ 12 error: light 1 source: unknown word `spot`",
         "light ID 1 PNT 0 0 0 0 0 0 1 1 1 1 0 0 0 shadow_on\n#~ 12 error: light 1 source: unknown word `PNT`",
         "light ID 1 pnt 0 0 0 0 0 0 1 1 1 1 0 0 0 on\n#~ 42 error: light 1 shadow: unknown word `on`",
-        "light id 1 pnt 0 0 0 0 0 0 1 1 1 1 0 0 0 shadow_on\n#~ 7 error: light: `ID` is due, not `id`",
-        "obj\n#~ 4 error: obj: the line ends where its kind is due",
+        "light id 1 pnt 0 0 0 0 0 0 1 1 1 1 0 0 0 shadow_on\n#~ 7 error: light: expected `ID`, not `id`",
+        "obj\n#~ 4 error: obj: the line ends before its kind",
         "obj csg ID 1 union ID 0 ID 0\n#~ 5 error: obj: unknown kind `csg`",
-        "obj sphere ID 1 material ID 0 0 0 0 1\n#~ 17 error: object 1 (sphere): `mat` is due, not `material`",
+        "obj sphere ID 1 material ID 0 0 0 0 1\n#~ 17 error: object 1 (sphere): expected `mat`, not `material`",
         "obj CSG ID 1 minus ID 0 ID 0\n#~ 14 error: object 1 (CSG) operator: unknown word `minus`",
-        "texture ID 1 Image 1 1 a.png\n#~ 14 error: texture 1: `checker` or `image` is due, not `Image`",
-        "texture ID 1 stripes 1 1\n#~ 14 error: texture 1: `checker` or `image` is due, not `stripes`",
+        "texture ID 1 Image 1 1 a.png\n#~ 14 error: texture 1: expected `checker` or `image`, not `Image`",
+        "texture ID 1 stripes 1 1\n#~ 14 error: texture 1: expected `checker` or `image`, not `stripes`",
         "use color ID 1 mat ID 0\n#~ 5 error: use: unknown kind `color`",
         // Records for other readers are skipped; keywords are case-sensitive.
         "fog 1 2 3\n#~ 1 warning: unknown record `fog`: the line is skipped",
@@ -242,27 +242,27 @@ fn unknown_words_are_reported() {
 fn incomplete_records_are_reported_at_their_end() {
     check(
         "viewport 80
-#~ 12 error: viewport: the line ends where viewport height is due; 1 more token
+#~ 12 error: viewport: the line ends where viewport height is expected; 1 more token
 camera perspective 0 0
-#~ 23 error: camera: the line ends where eye z is due; 10 more tokens
+#~ 23 error: camera: the line ends where eye z is expected; 10 more tokens
 resolution
-#~ 11 error: resolution: the line ends where resolution across is due; 2 more tokens
+#~ 11 error: resolution: the line ends where resolution across is expected; 2 more tokens
 light ID
-#~ 9 error: light: the line ends where a number for ID is due; 16 more tokens
+#~ 9 error: light: the line ends where a number for ID is expected; 16 more tokens
 mat ID 0 1 1 1
-#~ 15 error: material 0: the line ends where Ka is due; 7 more tokens
+#~ 15 error: material 0: the line ends where Ka is expected; 7 more tokens
 obj sphere ID 0
-#~ 16 error: object 0 (sphere): the line ends where `mat` is due; 7 more tokens
+#~ 16 error: object 0 (sphere): the line ends where `mat` is expected; 7 more tokens
 obj quadric ID 1 mat ID 0 1 0 0 0 1 0 0 1 0 -1
-#~ 47 error: object 1 (quadric): the line ends where the number of cuts is due
+#~ 47 error: object 1 (quadric): the line ends before the number of cuts
 texture ID 0 image 1 1
-#~ 23 error: texture 0: the line ends where file is due; 1 more token
+#~ 23 error: texture 0: the line ends where file is expected; 1 more token
 use bump ID 0 mat ID 0
-#~ 23 error: use: the line ends where height is due; 1 more token
+#~ 23 error: use: the line ends where height is expected; 1 more token
 render
-#~ 7 error: render: the line ends where the number of objects is due
+#~ 7 error: render: the line ends before the number of objects
 light 
-#~ 6 error: light: the line ends where `ID` is due; 17 more tokens",
+#~ 6 error: light: the line ends where `ID` is expected; 17 more tokens",
     );
 }
 
@@ -281,8 +281,8 @@ fn surplus_tokens_are_ignored() {
 #[test]
 fn ids_are_unique_and_defined_before_use() {
     check_under(&[
-        "mat ID 0 1 1 1 0 0 0 0 0 0 0\n#~ 8 warning: material 0: defined above already",
-        "obj sphere ID 0 BALL 2\n#~ 15 warning: object 0: defined above already",
+        "mat ID 0 1 1 1 0 0 0 0 0 0 0\n#~ 8 warning: material 0: already defined above",
+        "obj sphere ID 0 BALL 2\n#~ 15 warning: object 0: already defined above",
         "obj sphere ID 1.0 BALL 2\n#~ 15 error: obj ID: must be a whole number, not `1.0`",
         "obj sphere ID 99999999999999999999 BALL 2\n#~ 15 error: obj ID: must be a whole number, not",
         "obj sphere ID 1 mat ID x 0 0 0 1\n#~ 24 error: object 1 (sphere) mat: must be a whole number, not `x`",
@@ -292,7 +292,7 @@ fn ids_are_unique_and_defined_before_use() {
         "obj CSG ID 1 union ID 0 ID 2\n#~ 28 error: there is no object 2 above\nobj sphere ID 2 BALL 1",
         "obj CSG ID 1 union ID 1 ID 1\n#~ 23 error: there is no object 1 above\n#~ 28 error: there is no object 1 above",
         "use colour ID 1 mat ID 0\n#~ 15 error: there is no texture 1 above\ntexture ID 1 checker 1 1 1 1 1 0 0 0",
-        "light ID 1 inf 0 0 1 0 0 0 1 1 1 1 0 0 0 shadow_on\nlight ID 1 inf 0 0 1 0 0 0 1 1 1 1 0 0 0 shadow_on\n#~ 10 warning: light 1: defined above already",
+        "light ID 1 inf 0 0 1 0 0 0 1 1 1 1 0 0 0 shadow_on\nlight ID 1 inf 0 0 1 0 0 0 1 1 1 1 0 0 0 shadow_on\n#~ 10 warning: light 1: already defined above",
         // Records with errors still define their ID: no error follows from another.
         "obj sphere ID 1 BALL x\n#~ 33 error: object 1 (sphere) radius: `x` is not a number\nobj CSG ID 2 union ID 0 ID 1\nrender 2 ID 1 ID 2",
     ]);
@@ -319,22 +319,22 @@ fn the_last_of_repeated_records_counts() {
     let text = spelled(
         "VIEW
 camera orthographic 9 9 9  0 0 0  0 1 0  1 0 100
-#~ 1 warning: camera: said in line 1 already
+#~ 1 warning: camera: already given in line 1
 resolution 1 1
-#~ 1 warning: resolution: said in line 2 already
+#~ 1 warning: resolution: already given in line 2
 viewport 8 6
-#~ 1 warning: viewport: said in line 3 already
+#~ 1 warning: viewport: already given in line 3
 render 1 ID 1
 mat ID 0 MAT
 texture ID 0 checker 1 1 1 1 1 0 0 0
 texture ID 1 checker 2 2 1 1 1 0 0 0
 use colour ID 0 mat ID 0
 use colour ID 1 mat ID 0
-#~ 5 warning: colour: said in line 14 already
+#~ 5 warning: colour: already given in line 14
 obj sphere ID 0 BALL 1
 obj sphere ID 1 BALL 2
 render 1 ID 0
-#~ 1 warning: render: said in line 10 already",
+#~ 1 warning: render: already given in line 10",
     );
     check(&text);
     let scene = read(&text).1.scene.expect("there are no errors");
@@ -352,18 +352,18 @@ render 1 ID 0
 #[test]
 fn declared_counts_must_match() {
     check_under(&[
-        "render 2 ID 0\n#~ 8 error: render: says `2`, but 1 object follows in the line",
-        "render 2 ID 0 ID\n#~ 8 error: render: says `2`, but 1 object follows in the line",
-        "render 1 0\n#~ 8 error: render: says `1`, but 0 objects follow in the line",
-        "render 1 id 0\n#~ 10 error: render: `ID` is due, not `id`",
+        "render 2 ID 0\n#~ 8 error: render: declares `2`, but 1 object follows in the line",
+        "render 2 ID 0 ID\n#~ 8 error: render: declares `2`, but 1 object follows in the line",
+        "render 1 0\n#~ 8 error: render: declares `1`, but 0 objects follow in the line",
+        "render 1 id 0\n#~ 10 error: render: expected `ID`, not `id`",
         "render 1 ID x\n#~ 13 error: render ID: must be a whole number, not `x`",
         "render -1\n#~ 8 error: render: the number of objects must be 0 or more",
         "render all\n#~ 8 error: render: the number of objects: must be a whole number, not `all`",
-        "render 9000000000000000000 ID 0\n#~ 8 error: render: says `9000000000000000000`, but 1 object follows in the line",
-        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 2 1 0 0 1\n#~ 49 error: object 1 (quadric): says `2` cuts, but 1 cut follows",
-        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 1 1 0 0\n#~ 49 error: object 1 (quadric): says `1` cuts, but 0 cuts follow",
-        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 -1 1 0 0 1\n#~ 49 error: object 1 (quadric): says `-1` cuts",
-        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 9000000000000000000\n#~ 49 error: object 1 (quadric): says `9000000000000000000` cuts",
+        "render 9000000000000000000 ID 0\n#~ 8 error: render: declares `9000000000000000000`, but 1 object follows in the line",
+        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 2 1 0 0 1\n#~ 49 error: object 1 (quadric): declares `2` cuts, but 1 cut follows",
+        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 1 1 0 0\n#~ 49 error: object 1 (quadric): declares `1` cuts, but 0 cuts follow",
+        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 -1 1 0 0 1\n#~ 49 error: object 1 (quadric): declares `-1` cuts",
+        "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 9000000000000000000\n#~ 49 error: object 1 (quadric): declares `9000000000000000000` cuts",
         "obj quadric ID 1 BALL 0 0 1 0 0 1 -1 some 1 0 0 1\n#~ 49 error: object 1 (quadric) number of cuts: must be a whole number, not `some`",
     ]);
 }
@@ -371,10 +371,10 @@ fn declared_counts_must_match() {
 #[test]
 fn empty_regions_give_warnings() {
     check_under(&[
-        "obj quadric ID 1 mat ID 0 1 0 0 0 1 0 0 1 0 1 0\n#~ 27 warning: object 1 (quadric): no point is inside",
-        "obj quadric ID 1 mat ID 0 1 0 0 0 1 0 0 1 0 -1 1 0 0 1 -2\n#~ 27 warning: object 1 (quadric): no point is inside",
+        "obj quadric ID 1 mat ID 0 1 0 0 0 1 0 0 1 0 1 0\n#~ 27 warning: object 1 (quadric): contains no point",
+        "obj quadric ID 1 mat ID 0 1 0 0 0 1 0 0 1 0 -1 1 0 0 1 -2\n#~ 27 warning: object 1 (quadric): contains no point",
         // A sphere of radius 1 around (10⁶, 0, 0).
-        "obj quadric ID 1 mat ID 0 1 0 0 -1e6 1 0 0 1 0 999999999999 0\n#~ 27 warning: object 1 (quadric): too far from 0 0 0 for its size",
+        "obj quadric ID 1 mat ID 0 1 0 0 -1e6 1 0 0 1 0 999999999999 0\n#~ 27 warning: object 1 (quadric): too far from the origin for its size",
     ]);
 }
 

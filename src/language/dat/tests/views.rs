@@ -100,15 +100,15 @@ fn unusable_views_are_reported_at_their_records() {
     for (view, expected) in [
         (
             "camera perspective 1 2 3  1 2 3  0 1 0  1 0 9\n",
-            "1:20 error: view target: is where the eye is",
+            "1:20 error: view target: coincides with the eye",
         ),
         (
             "camera perspective 0 0 5  0 0 0  0 0 -3  1 0 9\n",
-            "1:34 warning: view up: is the direction of view",
+            "1:34 warning: view up: is parallel to the direction of view",
         ),
         (
             "camera perspective 0 0 5  0 0 0  0 0 0  1 0 9\n",
-            "1:34 warning: view up: is the direction of view",
+            "1:34 warning: view up: is parallel to the direction of view",
         ),
         (
             "viewport 4294967296 1\n",

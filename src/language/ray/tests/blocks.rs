@@ -30,7 +30,7 @@ fn text(objects: usize, declared: usize, warned: usize) -> String {
 
 /// Parses and lowers a text.
 pub(super) fn read(text: &str) -> (ray::Source, Lowered) {
-    let mut source = ray::parse(Arc::new(text.to_owned()));
+    let mut source = ray::Source::new(Arc::new(text.to_owned()));
     let lowered = source.lower(&Meshes::default()).expect("there is memory");
     (source, lowered)
 }

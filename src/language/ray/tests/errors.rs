@@ -110,7 +110,7 @@ fn directions_have_unit_length_and_right_angles() {
         "HEAD 1 ellipsoid 0 0 0 1 0 0 0 1 0\n0 .6 .8 //~ 1 warning: object 1 (ellipsoid) v3: not at a right angle to v2\n1 1 1 MAT",
         "HEAD 1 ellipsoid 0 0 0 1 0 0 0 1 0\n.6 0 .8 //~ 1 warning: object 1 (ellipsoid) v3: not at a right angle to v1\n1 1 1 MAT",
         "HEAD 1 box 0 0 0 1 0 0 0 1 0\n0 0.0009 1\n1 1 1 MAT",
-        "HEAD 1 cylinder 0 0 0 1 0 0 0 1 0\n0 0 -1 //~ 1 warning: object 1 (cylinder) axis: points against a1 × a2\n1 1 1 MAT",
+        "HEAD 1 cylinder 0 0 0 1 0 0 0 1 0\n0 0 -1 //~ 1 warning: object 1 (cylinder) axis: points opposite to a1 × a2\n1 1 1 MAT",
         "HEAD 1 box 0 0 0 1 0 0\n-1 0 0 //~ 1 error: object 1 (box) vw: is parallel to vl\n0 0 1 1 1 1 MAT",
         "HEAD 1 box 0 0 0 1 0 0 0 1 0\n0 1 0 //~ 1 error: object 1 (box) vh: is parallel to vw\n1 1 1 MAT",
         "HEAD 1 box 0 0 0 1 0 0 0 1 0\n.6 .8 0 //~ 1 error: object 1 (box) vh: lies in the plane of the other two\n1 1 1 MAT",
@@ -130,11 +130,11 @@ fn capital_keywords_give_warnings() {
 #[test]
 fn missing_numbers_are_reported_where_the_next_object_begins() {
     for case in [
-        "HEAD 2 box 0 0 0 AXES 1 1\nsphere //~ 1 error: object 1 (box) height: missing; 14 more numbers due before `sphere`\n0 0 0 1 MAT",
-        "HEAD 2 sphere 0 0\nbox //~ 1 error: object 1 (sphere) centre z: missing; 15 more numbers due before `box`\n0 0 0 AXES 1 1 1 MAT",
+        "HEAD 2 box 0 0 0 AXES 1 1\nsphere //~ 1 error: object 1 (box) height: missing; 14 more numbers expected before `sphere`\n0 0 0 1 MAT",
+        "HEAD 2 sphere 0 0\nbox //~ 1 error: object 1 (sphere) centre z: missing; 15 more numbers expected before `box`\n0 0 0 AXES 1 1 1 MAT",
         "HEAD 2 sphere\nsphere //~ 1 error: object 1 (sphere) centre x: missing; 17 more\n0 0 0\n0 //~ 1 error: object 2 (sphere) radius: must be\nMAT",
         // A misspelt keyword of the next object is recognised.
-        "HEAD 2 sphere 0 0 0 1 0 0 0 0 0 0 0 0 0 5 0 0\nspere //~ 1 error: object 1 (sphere) ior: missing; 1 more number due before `spere` //~ 1 error: object 2: unknown type `spere`\n0 0 0 1 MAT",
+        "HEAD 2 sphere 0 0 0 1 0 0 0 0 0 0 0 0 0 5 0 0\nspere //~ 1 error: object 1 (sphere) ior: missing; 1 more number expected before `spere` //~ 1 error: object 2: unknown type `spere`\n0 0 0 1 MAT",
     ] {
         check(case);
     }
@@ -169,14 +169,14 @@ fn unknown_types_are_skipped() {
 #[test]
 fn the_declared_number_of_objects_must_match() {
     for case in [
-        "HEAD\n1 //~ 1 error: nObjects: says `1`, but 1 more object follows\nsphere 0 0 0 1 MAT sphere 0 0 0 1 MAT",
-        "HEAD\n1 //~ 1 error: nObjects: says `1`, but 2 more objects follow\nsphere 0 0 0 1 MAT sphere 0 0 0 1 MAT cone 0 0 0 AXES 1 1 1 MAT",
-        "HEAD 1 sphere 0 0 0 1 MAT\n7 8 //~ 1 warning: 2 tokens after the last object ignored",
-        "HEAD 1 sphere 0 0 0 1 MAT\nthe end //~ 1 warning: 2 tokens after the last object ignored",
-        "HEAD\n3 //~ 1 error: nObjects: says `3`, but the text ends after object 1 (sphere)\nsphere 0 0 0 1 MAT",
-        "HEAD\n2 //~ 1 error: nObjects: says `2`, but the text ends in object 2 (box), where length is due\nsphere 0 0 0 1 MAT box 0 0 0 AXES",
-        "HEAD\n1 //~ 1 error: nObjects: says `1`, but the text ends in object 1 (sphere), where centre y is due\nsphere 0",
-        "HEAD\n1 //~ 1 error: nObjects: says `1`, but the text ends before any object",
+        "HEAD\n1 //~ 1 error: nObjects: is `1`, but 1 more object follows\nsphere 0 0 0 1 MAT sphere 0 0 0 1 MAT",
+        "HEAD\n1 //~ 1 error: nObjects: is `1`, but 2 more objects follow\nsphere 0 0 0 1 MAT sphere 0 0 0 1 MAT cone 0 0 0 AXES 1 1 1 MAT",
+        "HEAD 1 sphere 0 0 0 1 MAT\n7 8 //~ 1 warning: ignored 2 tokens after the last object",
+        "HEAD 1 sphere 0 0 0 1 MAT\nthe end //~ 1 warning: ignored 2 tokens after the last object",
+        "HEAD\n3 //~ 1 error: nObjects: is `3`, but the text ends after object 1 (sphere)\nsphere 0 0 0 1 MAT",
+        "HEAD\n2 //~ 1 error: nObjects: is `2`, but the text ends in object 2 (box), where length is expected\nsphere 0 0 0 1 MAT box 0 0 0 AXES",
+        "HEAD\n1 //~ 1 error: nObjects: is `1`, but the text ends in object 1 (sphere), where centre y is expected\nsphere 0",
+        "HEAD\n1 //~ 1 error: nObjects: is `1`, but the text ends before any object",
         "HEAD\n0 //~ 1 error: nObjects: must be a whole number, 1 or more, not `0`\nsphere 0 0 0 1 MAT",
         "HEAD\n1.5 //~ 1 error: nObjects: must be a whole number, 1 or more, not `1.5`\nsphere 0 0 0 1 MAT",
         "HEAD\n1.0 //~ 1 error: nObjects: must be a whole number, 1 or more, not `1.0`\nsphere 0 0 0 1 MAT",
@@ -185,11 +185,11 @@ fn the_declared_number_of_objects_must_match() {
         "// view: size 80 6e1 //~ 18 warning: view size height: must be a whole number, 1 or more\nHEAD 1 sphere 0 0 0 1 MAT",
         "HEAD\n-1 //~ 1 error: nObjects: must be\nsphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius: must be\nMAT",
         "HEAD\nmany //~ 1 error: nObjects: `many` is not a number\nsphere 0 0 0 1 MAT",
-        "HEAD\n99999999999999999999999 //~ 1 error: nObjects: says `99999999999999999999999`, but the text ends after\nsphere 0 0 0 1 MAT",
+        "HEAD\n99999999999999999999999 //~ 1 error: nObjects: is `99999999999999999999999`, but the text ends after\nsphere 0 0 0 1 MAT",
         "HEAD\nsphere //~ 1 error: nObjects: missing before `sphere`\n0 0 0 1 MAT",
         "HEAD //~ 23 error: nObjects: missing, the text ends here",
         // With an unreadable number of objects, an incomplete last object is still reported.
-        "HEAD\n0 //~ 1 error: nObjects: must be\nsphere 0 0\n0 //~ 2 error: object 1 (sphere) radius: missing; 14 more numbers due before the text ends",
+        "HEAD\n0 //~ 1 error: nObjects: must be\nsphere 0 0\n0 //~ 2 error: object 1 (sphere) radius: missing; 14 more numbers expected before the text ends",
     ] {
         check(case);
     }
@@ -199,18 +199,18 @@ fn the_declared_number_of_objects_must_match() {
 fn the_declared_number_of_lights_must_match() {
     for case in [
         // Too many lights declared: an object begins where a light's number is expected.
-        "1 1 1\n2 //~ 1 error: nLights: says `2`, but the text has 1 light before `sphere`\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
-        "1 1 1\n2 //~ 1 error: nLights: says `2`, but the text has 1 light and 3 numbers before `sphere`\n0 5 5 1 1 1 0 0 1 sphere 0 0 0 1 MAT",
-        "1 1 1\n1 //~ 1 error: nLights: says `1`, but the text has 0 lights before `sphere`\n1 sphere 0 0 0 1 MAT",
+        "1 1 1\n2 //~ 1 error: nLights: is `2`, but the text has 1 light before `sphere`\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
+        "1 1 1\n2 //~ 1 error: nLights: is `2`, but the text has 1 light and 3 numbers before `sphere`\n0 5 5 1 1 1 0 0 1 sphere 0 0 0 1 MAT",
+        "1 1 1\n1 //~ 1 error: nLights: is `1`, but the text has 0 lights before `sphere`\n1 sphere 0 0 0 1 MAT",
         // Too few lights declared.
-        "1 1 1\n1 //~ 1 error: nLights: says `1`, but the text has 2 lights before `sphere`\n0 5 5 1 1 1  3 5 5 1 1 1  1 sphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius\nMAT",
-        "1 1 1\n2 //~ 1 error: nLights: says `2`, but the text has 1 light and 2 numbers before the text ends\n0 5 5 1 1 1 1 2",
+        "1 1 1\n1 //~ 1 error: nLights: is `1`, but the text has 2 lights before `sphere`\n0 5 5 1 1 1  3 5 5 1 1 1  1 sphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius\nMAT",
+        "1 1 1\n2 //~ 1 error: nLights: is `2`, but the text has 1 light and 2 numbers before the text ends\n0 5 5 1 1 1 1 2",
         "1 1 1\n0 //~ 1 error: nLights: must be a whole number, 1 or more, not `0`\n0 5 5 1 1 1 1 sphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius\nMAT",
         "1 1 1\nabc //~ 1 error: nLights: `abc` is not a number\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
         "1 1 1\n2.5 //~ 1 error: nLights: must be\n0 5 5 1 1 1 0 5 sphere 0 0 0 1 MAT",
         "1 1 1\nsphere //~ 1 error: nLights: missing before `sphere`\n0 0 0 1 MAT",
         "1 1 1 //~ 6 error: nLights: missing, the text ends here",
-        "1 1 1\n99999999999999999999 //~ 1 error: nLights: says `99999999999999999999`, but the text has 1 light before `sphere`\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
+        "1 1 1\n99999999999999999999 //~ 1 error: nLights: is `99999999999999999999`, but the text has 1 light before `sphere`\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
     ] {
         check(case);
     }
@@ -219,11 +219,11 @@ fn the_declared_number_of_lights_must_match() {
 #[test]
 fn a_scene_without_its_beginning_is_a_single_error() {
     for case in [
-        " //~ 1 error: the text holds no scene",
-        "// nothing but words //~ 1 error: the text holds no scene",
+        " //~ 1 error: the text contains no scene",
+        "// nothing but words //~ 1 error: the text contains no scene",
         "\u{FEFF}\r\n",
-        "1 1 //~ 4 error: ambient colour blue: missing; 1 more number due before the text ends",
-        "1\nsphere //~ 1 error: ambient colour green: missing; 2 more numbers due before `sphere`\n0 0 0 1 MAT",
+        "1 1 //~ 4 error: ambient colour blue: missing; 1 more number expected before the text ends",
+        "1\nsphere //~ 1 error: ambient colour green: missing; 2 more numbers expected before `sphere`\n0 0 0 1 MAT",
     ] {
         if case.contains("//~") {
             check(case);
@@ -231,7 +231,7 @@ fn a_scene_without_its_beginning_is_a_single_error() {
             let (_, lowered) = read(case);
             assert_eq!(
                 shown(case, &lowered),
-                ["1:1 error: the text holds no scene"]
+                ["1:1 error: the text contains no scene"]
             );
         }
     }
@@ -251,7 +251,7 @@ fn messages_contain_expectation_and_hint() {
         [
             (
                 "a number greater than 0",
-                "decimals follow a point: write 1.5"
+                "the decimal separator is a point: write 1.5"
             ),
             (
                 "sphere, ellipsoid, box, cylinder or cone",

@@ -180,7 +180,7 @@ fn a_malformed_view_is_ignored_entirely_with_a_warning() {
         ),
         (
             "// view: fov 30 fov 40",
-            "1:17 warning: view fov: said twice",
+            "1:17 warning: view fov: given twice",
         ),
         (
             "// view: fov 0",
@@ -224,7 +224,7 @@ fn the_first_well_formed_view_counts() {
         said[..2],
         [
             "1:13 warning: view fov: missing; the whole comment is ignored",
-            "3:1 warning: view: said before, this comment is ignored"
+            "3:1 warning: view: already given, this comment is ignored"
         ]
     );
     let text = spelled(&format!("{BODY} // view: fov 30\n// view: fov 60"));
@@ -240,23 +240,23 @@ fn an_unusable_view_is_reported_at_its_parts() {
     for (line, diagnostic) in [
         (
             "// view: eye 1 2 3 target 1 2 3",
-            "1:14 error: view target: is where the eye is",
+            "1:14 error: view target: coincides with the eye",
         ),
         (
             "// view: fov 9 target 1 2 3 eye 1 2 3",
-            "1:23 error: view target: is where the eye is",
+            "1:23 error: view target: coincides with the eye",
         ),
         (
             "// view: fov 9 eye 0 0 0",
-            "1:20 error: view target: is where the eye is",
+            "1:20 error: view target: coincides with the eye",
         ),
         (
             "// view: eye 0 5 0",
-            "1:1 warning: view up: is the direction of view",
+            "1:1 warning: view up: is parallel to the direction of view",
         ),
         (
             "// view: eye 0 0 5 up 0 0 -2",
-            "1:23 warning: view up: is the direction of view",
+            "1:23 warning: view up: is parallel to the direction of view",
         ),
         (
             "// view: eye 0 0 1e308 target 0 0 -1e308 up 0 0 1",
@@ -287,7 +287,7 @@ fn a_view_is_checked_despite_other_errors() {
     assert_eq!(
         shown(&text, &lowered),
         [
-            "1:14 error: view target: is where the eye is",
+            "1:14 error: view target: coincides with the eye",
             "2:39 error: object 1 (sphere) radius: must be greater than 0",
         ]
     );

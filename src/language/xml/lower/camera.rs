@@ -4,7 +4,8 @@ use super::Reader;
 use crate::language::camera::{Places, check};
 use crate::language::report::quoted;
 use crate::language::xml::table::{
-    BACKGROUND, CAMERA, ENVIRONMENT, FOCAL_DISTANCE, FOV, HEIGHT, LENS, POSITION, TARGET, UP, WIDTH,
+    BACKGROUND, ENVIRONMENT, Parameter,
+    camera::{FOCAL_DISTANCE, FOV, HEIGHT, LENS_RADIUS, POSITION, TARGET, UP, WIDTH},
 };
 use crate::language::xml::view::View;
 use crate::scene::{Camera, Focus, Integrator, Size, Transfer};
@@ -20,7 +21,7 @@ impl Reader<'_> {
             .map_or_else(Span::default, |root| self.place(root));
         let whole = camera.map_or(root, |camera| self.place(camera));
         if camera.is_none() {
-            let hint = "it stands at the origin and looks along −z";
+            let hint = "the default is at the origin and looks along −z";
             self.warn(
                 root,
                 || "camera: there is no such element".to_owned(),
@@ -31,18 +32,18 @@ impl Reader<'_> {
         if let Some(camera) = camera {
             self.gamma(camera);
         }
-        let vectors = [POSITION, TARGET, UP];
-        self.origins.factors = vectors.map(|at| {
-            let element = self.element_of(camera, &CAMERA[at])?;
-            let said = self.origins.value(self.tree, element, "value")?;
+        let vectors = [&POSITION, &TARGET, &UP];
+        self.origins.factors = vectors.map(|parameter| {
+            let element = self.element_of(camera, parameter)?;
+            let attribute = self.origins.value(self.tree, element, "value")?;
             // Reports of malformed numbers are made where they are read.
-            let word = said.said(self.text).trim();
+            let word = attribute.unescaped(self.text).trim();
             Some(parse_number(without_suffix(word).unwrap_or(word)).unwrap_or(1.0))
         });
-        let [position, target, up] = vectors.map(|at| self.vector(camera, &CAMERA[at]));
-        let numbers = [FOV, FOCAL_DISTANCE, LENS, WIDTH, HEIGHT];
+        let [position, target, up] = vectors.map(|parameter| self.vector(camera, parameter));
+        let numbers = [&FOV, &FOCAL_DISTANCE, &LENS_RADIUS, &WIDTH, &HEIGHT];
         let [fov, distance, lens_radius, width, height] =
-            numbers.map(|at| self.number(camera, &CAMERA[at]));
+            numbers.map(|parameter| self.number(camera, parameter));
         let view = View {
             position,
             target,
@@ -57,16 +58,16 @@ impl Reader<'_> {
                 height: height as u32,
             },
         };
-        let place = |at: usize| {
-            let element = self.element_of(camera, &CAMERA[at]);
+        let place = |parameter: &'static Parameter| {
+            let element = self.element_of(camera, parameter);
             element.map_or(whole, |element| self.attributes_span(element))
         };
         let places = Places {
-            eye: place(POSITION),
-            target: place(TARGET),
-            up: place(UP),
+            eye: place(&POSITION),
+            target: place(&TARGET),
+            up: place(&UP),
             whole,
-            remedy: "say where it stands and what it looks at: <position/>, <target/>",
+            remedy: "give its position and target: <position/>, <target/>",
         };
         // Malformed numbers were already reported.
         let seen = view.camera();
@@ -77,17 +78,22 @@ impl Reader<'_> {
     }
 
     fn gamma(&mut self, camera: usize) {
-        let Some(said) = self.origins.value(self.tree, camera, "gamma") else {
+        let Some(attribute) = self.origins.value(self.tree, camera, "gamma") else {
             return;
         };
-        let word = said.said(self.text);
+        let word = attribute.unescaped(self.text);
         if word.eq_ignore_ascii_case("sRGB") {
             self.origins.is_srgb = true;
             self.setting.integrator = Integrator::Path;
             self.setting.transfer = Transfer::Srgb;
         } else if !word.eq_ignore_ascii_case("linear") {
-            let message = || format!("camera gamma: {} is not known", quoted(word));
-            self.warn(said.value, message, "sRGB or linear", "it counts as linear");
+            let message = || format!("camera gamma: unknown value {}", quoted(word));
+            self.warn(
+                attribute.value,
+                message,
+                "sRGB or linear",
+                "it is treated as linear",
+            );
         }
     }
 

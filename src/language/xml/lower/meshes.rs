@@ -58,7 +58,7 @@ impl<'a> Reader<'a> {
 
     fn named_mesh(&mut self, object: usize, element: usize) -> Option<Named<'a>> {
         let attribute = self.origins.attribute(self.tree, element, "name");
-        let name = attribute.map_or("", |at| self.tree.attributes[at].said(self.text));
+        let name = attribute.map_or("", |at| self.tree.attributes[at].unescaped(self.text));
         if let Some(attribute) = attribute.filter(|_| !name.is_empty()) {
             self.origins.files.push(NamedPlace {
                 element,
@@ -72,9 +72,9 @@ impl<'a> Reader<'a> {
                 name,
             });
         }
-        let message = format!("{}: there is no name", self.called(element));
-        let said = attribute.map(|attribute| self.tree.attributes[attribute].value);
-        let place = said.unwrap_or_else(|| self.place(element));
+        let message = format!("{}: the name is missing", self.display_name(element));
+        let value = attribute.map(|attribute| self.tree.attributes[attribute].value);
+        let place = value.unwrap_or_else(|| self.place(element));
         self.error(place, || message, EXPECTED);
         None
     }
@@ -83,8 +83,8 @@ impl<'a> Reader<'a> {
     fn model(&mut self, named: Named<'a>) -> Option<&'a Arc<Model>> {
         match self.meshes.get(named.name)? {
             Ok(model) => {
-                if self.met.insert(named.name) {
-                    self.doubt(named, &model.warnings, "");
+                if self.reported_meshes.insert(named.name) {
+                    self.warn_of(named, &model.warnings, "");
                 }
                 Some(model)
             }
@@ -106,12 +106,12 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn doubt(&mut self, named: Named<'a>, findings: &[Finding], hint: &str) {
+    fn warn_of(&mut self, named: Named<'a>, findings: &[Finding], hint: &str) {
         let span = self.tree.attributes[named.attribute].value;
         for finding in findings {
             let object = self.origins.name(Node::Object(named.object));
             let message = || format!("{object}: {finding}");
-            self.warn(span, message, "a file without mistakes", hint);
+            self.warn(span, message, "a file without errors", hint);
         }
     }
 
@@ -121,7 +121,7 @@ impl<'a> Reader<'a> {
             return tags.clone();
         }
         let hint = "faces without a material are white, whatever light there is";
-        self.doubt(named, &model.library_warnings, hint);
+        self.warn_of(named, &model.library_warnings, hint);
         let mut tags = Vec::with_capacity(model.materials.len());
         for material in &model.materials {
             let index = match material {

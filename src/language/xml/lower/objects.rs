@@ -26,11 +26,11 @@ impl Reader<'_> {
             };
             let errors = self.report.errors();
             let own = self.transform_of(element).unwrap_or(DAffine3::IDENTITY);
-            let is_sound = errors == self.report.errors();
-            let frame = outer.filter(|_| is_sound).map(|outer| outer * own);
+            let is_valid = errors == self.report.errors();
+            let frame = outer.filter(|_| is_valid).map(|outer| outer * own);
             frames.push(frame);
             let material = self.material_of(element);
-            self.origins.dressed.push(material);
+            self.origins.object_materials.push(material);
             let shaped = match self.origins.objects[index].kind {
                 ObjectKind::Group => None,
                 ObjectKind::Obj => self.mesh(index, frame, material),
@@ -76,11 +76,11 @@ impl Reader<'_> {
     }
 
     fn flat(&mut self, element: usize) {
-        let (name, span) = (self.called(element), self.attributes_span(element));
+        let (name, span) = (self.display_name(element), self.attributes_span(element));
         self.report.error(|| {
             let message = format!("{name}: must not be 0 along any axis");
             Diagnostic::error(span, message, "numbers other than 0")
-                .with_hint("what is flat may be scaled by a small number, or be a plane")
+                .with_hint("to flatten it, scale by a small number, or use a plane")
         });
     }
 
@@ -88,9 +88,9 @@ impl Reader<'_> {
     fn rotation(&mut self, element: usize, axis: DVec3, angle: f64) -> DAffine3 {
         let Some(axis) = normalise(axis) else {
             if axis == DVec3::ZERO {
-                let (name, span) = (self.called(element), self.attributes_span(element));
+                let (name, span) = (self.display_name(element), self.attributes_span(element));
                 let message = || format!("{name}: the axis is zero");
-                self.warn(span, message, "an axis: x, y, z", "nothing is turned");
+                self.warn(span, message, "an axis: x, y, z", "the rotation is ignored");
             }
             return DAffine3::IDENTITY;
         };
@@ -142,24 +142,24 @@ impl Reader<'_> {
     }
 
     pub(super) fn no_volume(&mut self, element: usize) {
-        let name = self.called(element);
+        let name = self.display_name(element);
         self.error(
             self.tree.elements[element].name,
-            || format!("{name}: its transforms leave it no volume, or no place"),
-            "transforms that can be undone",
+            || format!("{name}: its transforms flatten it or are too large"),
+            "invertible transforms",
         );
     }
 
     /// The index of an object's material.
     fn material_of(&mut self, element: usize) -> Option<usize> {
-        let said = self.word(element, "material")?;
-        let found = self.named.get(said).copied();
+        let name = self.word(element, "material")?;
+        let found = self.named.get(name).copied();
         if found.is_none() {
             let span = self
                 .origins
                 .value(self.tree, element, "material")
                 .map(|at| at.value);
-            let message = || format!("material: there is none called {}", quoted(said));
+            let message = || format!("material: no material is named {}", quoted(name));
             let hint = "the object is white, whatever light there is";
             self.warn(
                 span.unwrap_or_default(),

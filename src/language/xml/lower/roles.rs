@@ -6,8 +6,8 @@ use super::Reader;
 use crate::language::report::{nearest_word, quoted};
 use crate::language::xml::origins::{NO_WORD, Place, Role, WORDS};
 use crate::language::xml::table::{
-    BACKGROUND, CAMERA, CHECKER, ENVIRONMENT, LightKind, MaterialKind, ObjectKind, Parameter,
-    Reading, TRANSFORMS, Texturing,
+    BACKGROUND, CHECKER, ENVIRONMENT, LightKind, MaterialKind, ObjectKind, Parameter, Reading,
+    TRANSFORMS, Texturing, camera,
 };
 use crate::text::{Diagnostic, Span, visible};
 
@@ -27,7 +27,7 @@ impl<'a> Reader<'a> {
                     .map_or(NO_WORD, |at| at as u8)
             })
             .collect();
-        let mut said: HashMap<(u32, &'static str), usize> = HashMap::new();
+        let mut parameters: HashMap<(u32, &'static str), usize> = HashMap::new();
         for element in 0..tree.elements.len() {
             let parent = tree.elements[element].parent;
             let role = match parent {
@@ -46,10 +46,10 @@ impl<'a> Reader<'a> {
             self.origins.roles.push(role);
             self.origins.owners.push(owner);
             if let (Role::Parameter(parameter), Some(parent)) = (role, parent)
-                && let Some(before) = said.insert((parent, parameter.element), element)
+                && let Some(before) = parameters.insert((parent, parameter.element), element)
             {
                 self.origins.roles[before] = Role::Skipped;
-                self.said_again(before);
+                self.repeated(before);
             }
             self.check_attributes(element, role);
         }
@@ -72,7 +72,7 @@ impl<'a> Reader<'a> {
             self.origins.root = Some(element);
             return Role::Root;
         }
-        let message = || format!("the outermost element is {}", quoted(name));
+        let message = || format!("the root element is {}", quoted(name));
         self.error(place, message, "`<xml>` around `<scene>` and `<camera>`");
         Role::Skipped
     }
@@ -81,7 +81,7 @@ impl<'a> Reader<'a> {
         let name = self.name(element);
         let is = |known: &str| name.eq_ignore_ascii_case(known);
         let among =
-            |parameters: &'static [Parameter]| parameters.iter().find(|known| is(known.element));
+            |all: &[&'static Parameter]| all.iter().copied().find(|known| is(known.element));
         let found = match self.origins.roles[parent] {
             Role::Skipped => return Role::Skipped,
             Role::Root if is("scene") => {
@@ -93,20 +93,9 @@ impl<'a> Reader<'a> {
             Role::Scene if is("light") => self.light_place(element).or(Some(Role::Skipped)),
             Role::Scene if is("background") => Some(Role::Parameter(&BACKGROUND)),
             Role::Scene if is("environment") => Some(Role::Parameter(&ENVIRONMENT)),
-            Role::Camera => among(&CAMERA).map(Role::Parameter),
-            Role::Object(_) => among(&TRANSFORMS).map(Role::Transform),
-            Role::Light(index) => {
-                let kind = self.origins.lights[index as usize].kind;
-                among(kind.parameters()).map(Role::Parameter)
-            }
-            Role::Material(index) => {
-                let kind = self.origins.materials[index as usize].kind;
-                among(kind.parameters()).map(Role::Parameter)
-            }
-            Role::Parameter(of) if of.texture == Texturing::Yes => among(&CHECKER)
+            outer => among(self.parameters_in(outer))
                 .map(Role::Parameter)
-                .or_else(|| among(&TRANSFORMS).map(Role::Transform)),
-            Role::Root | Role::Scene | Role::Parameter(_) | Role::Transform(_) => None,
+                .or_else(|| among(transforms_in(outer)).map(Role::Transform)),
         };
         found.unwrap_or_else(|| {
             self.unknown(element, parent);
@@ -125,11 +114,11 @@ impl<'a> Reader<'a> {
             return role;
         }
         let name = quoted(self.name(element));
-        let message = || format!("{name}: there is one already");
+        let message = || format!("{name}: already given");
         self.warn(
             self.place(element),
             message,
-            "one of them",
+            "only one",
             "this one is skipped",
         );
         Role::Skipped
@@ -140,7 +129,7 @@ impl<'a> Reader<'a> {
             element,
             ObjectKind::of,
             ObjectKind::TYPES,
-            "it counts as a group",
+            "it is treated as a group",
         );
         let depth = match self.tree.elements[element].parent {
             Some(parent) => match self.origins.roles[parent as usize] {
@@ -160,7 +149,7 @@ impl<'a> Reader<'a> {
             element,
             MaterialKind::of,
             MaterialKind::TYPES,
-            "it counts as blinn",
+            "it is treated as blinn",
         );
         let kind = kind.unwrap_or(MaterialKind::Blinn);
         let index = self.origins.materials.len();
@@ -177,7 +166,7 @@ impl<'a> Reader<'a> {
                 .map(|at| at.value);
             let message = || format!("{}: another material has this name", quoted(name));
             let hint = "the last one counts";
-            self.warn(span.unwrap_or_default(), message, "a name of its own", hint);
+            self.warn(span.unwrap_or_default(), message, "a unique name", hint);
         }
         Role::Material(index as u32)
     }
@@ -222,18 +211,18 @@ impl<'a> Reader<'a> {
         types: &'static [&'static str],
         otherwise: &str,
     ) -> Option<Kind> {
-        let said = self.origins.value(self.tree, element, "type")?;
-        let word = said.said(self.text);
+        let attribute = self.origins.value(self.tree, element, "type")?;
+        let word = attribute.unescaped(self.text);
         let kind = of(word);
         if kind.is_none() {
             let name = self.name(element);
             let nearest = nearest_word(&word.to_ascii_lowercase(), types.iter().copied());
             let hint = match nearest {
-                Some(nearest) => format!("{otherwise}; write {nearest} if that is meant"),
+                Some(nearest) => format!("{otherwise}; did you mean `{nearest}`?"),
                 None => otherwise.to_owned(),
             };
-            let message = || format!("{name} type: {} is not known", quoted(word));
-            self.warn(said.value, message, &types.join(" or "), &hint);
+            let message = || format!("{name}: unknown type {}", quoted(word));
+            self.warn(attribute.value, message, &types.join(" or "), &hint);
         }
         kind
     }
@@ -246,45 +235,50 @@ impl<'a> Reader<'a> {
             known.iter().copied(),
         );
         let hint = match nearest {
-            Some(nearest) => format!("it is skipped; write {nearest} if that is meant"),
-            None => "it is skipped, with all that is in it".to_owned(),
+            Some(nearest) => format!("it is skipped; did you mean `{nearest}`?"),
+            None => "it is skipped with all its content".to_owned(),
         };
         let expected = if known.is_empty() {
             "nothing".to_owned()
         } else {
             known.join(", ")
         };
-        let message = || format!("{name}: not known in {outer}");
+        let message = || format!("{name}: unknown in {outer}");
         self.warn(self.place(element), message, &expected, &hint);
+    }
+
+    /// The parameters of an element.
+    fn parameters_in(&self, role: Role) -> &'static [&'static Parameter] {
+        match role {
+            Role::Camera => camera::PARAMETERS,
+            Role::Light(index) => self.origins.lights[index as usize].kind.parameters(),
+            Role::Material(index) => self.origins.materials[index as usize].kind.parameters(),
+            Role::Parameter(of) if of.texture == Texturing::Yes => CHECKER,
+            _ => &[],
+        }
     }
 
     /// The known children of an element, for messages.
     fn known_in(&self, parent: usize) -> Vec<&'static str> {
-        let names = |parameters: &'static [Parameter]| parameters.iter().map(|known| known.element);
-        match self.origins.roles[parent] {
-            Role::Root => vec!["scene", "camera"],
-            Role::Scene => vec!["object", "material", "light", "background", "environment"],
-            Role::Camera => names(&CAMERA).collect(),
-            Role::Object(_) => names(&TRANSFORMS).chain(["object"]).collect(),
-            Role::Light(index) => {
-                let kind = self.origins.lights[index as usize].kind;
-                names(kind.parameters()).collect()
-            }
-            Role::Material(index) => {
-                let kind = self.origins.materials[index as usize].kind;
-                names(kind.parameters()).collect()
-            }
-            Role::Parameter(of) if of.texture == Texturing::Yes => {
-                names(&CHECKER).chain(names(&TRANSFORMS)).collect()
-            }
-            Role::Parameter(_) | Role::Transform(_) | Role::Skipped => Vec::new(),
-        }
+        let parent = self.origins.roles[parent];
+        let parameters = self.parameters_in(parent).iter();
+        let parameters = parameters.chain(transforms_in(parent));
+        let others: &[_] = match parent {
+            Role::Root => &["scene", "camera"],
+            Role::Scene => &["object", "material", "light", "background", "environment"],
+            Role::Object(_) => &["object"],
+            _ => &[],
+        };
+        parameters
+            .map(|known| known.element)
+            .chain(others.iter().copied())
+            .collect()
     }
 
     /// Warns of a parameter overridden by a later one.
-    fn said_again(&mut self, element: usize) {
-        let name = self.called(element);
-        let message = || format!("{name}: said again further down");
+    fn repeated(&mut self, element: usize) {
+        let name = self.display_name(element);
+        let message = || format!("{name}: given again below");
         self.warn(
             self.place(element),
             message,
@@ -314,7 +308,7 @@ impl<'a> Reader<'a> {
             let name = quoted(self.name(element));
             let nearest = nearest_word(&word.to_ascii_lowercase(), known.iter().copied());
             let hint = match nearest {
-                Some(nearest) => format!("it is skipped; write {nearest} if that is meant"),
+                Some(nearest) => format!("it is skipped; did you mean `{nearest}`?"),
                 None => "it is skipped".to_owned(),
             };
             let expected = if known.is_empty() {
@@ -322,7 +316,7 @@ impl<'a> Reader<'a> {
             } else {
                 known.join(", ")
             };
-            let message = || format!("attribute {}: not known of {name}", quoted(word));
+            let message = || format!("attribute {}: unknown in {name}", quoted(word));
             self.warn(place, message, &expected, &hint);
         }
     }
@@ -342,12 +336,21 @@ impl<'a> Reader<'a> {
             };
             self.report.warning(|| {
                 let message = format!(
-                    "{}: text between tags says nothing",
+                    "{}: text between tags has no meaning",
                     quoted(span.of(self.text))
                 );
                 Diagnostic::warning(span, message, "elements").with_hint(hint)
             });
         }
+    }
+}
+
+/// The transforms of an element.
+fn transforms_in(role: Role) -> &'static [&'static Parameter] {
+    match role {
+        Role::Object(_) => TRANSFORMS,
+        Role::Parameter(of) if of.texture == Texturing::Yes => TRANSFORMS,
+        _ => &[],
     }
 }
 

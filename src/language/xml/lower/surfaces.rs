@@ -6,21 +6,15 @@ use glam::DVec3;
 
 use super::Reader;
 use crate::geometry::normalise;
-use crate::language::xml::table::{
-    AMBIENT, DIRECT, LightKind, MATERIAL, MICROFACET, MaterialKind, POINT, Parameter,
+use crate::language::xml::table::materials::{
+    ABSORPTION, COLOUR, DIFFUSE, EMISSION, GLOSSINESS, INDEX, METALLIC, REFLECTION, REFRACTION,
+    REFRACTION_INDEX, ROUGHNESS, SPECULAR, SPREAD, TRANSMITTANCE,
 };
+use crate::language::xml::table::{LightKind, MaterialKind, lights};
 use crate::scene::{
     Dielectric, Emitter, Faces, Falloff, Gloss, Highlight, Integrator, Light, Maps, Material,
     Mirror, Reflectance, Rgb, Shadows,
 };
-
-/// The parameter of a list with this name.
-fn called(parameters: &'static [Parameter], element: &str) -> &'static Parameter {
-    parameters
-        .iter()
-        .find(|parameter| parameter.element == element)
-        .expect("the table has what is read from it")
-}
 
 impl Reader<'_> {
     pub(super) fn material(&mut self, index: usize) {
@@ -37,25 +31,16 @@ impl Reader<'_> {
     }
 
     fn glossy(&mut self, element: usize, highlight: fn(Gloss) -> Highlight) -> Material {
-        let of = |name| called(&MATERIAL, name);
-        let diffuse = self.tinted(element, of("diffuse"));
-        let specular = self.tinted(element, of("specular"));
-        let (exponent, exponent_map) = self.textured(element, of("glossiness"));
-        let [reflection, refraction] = ["reflection", "refraction"].map(of);
-        let mirrored = self.element_of(Some(element), reflection);
-        let refracted = self.element_of(Some(element), refraction);
-        let spread = |reader: &mut Self, element: Option<usize>, parameter| {
-            element.map_or(0.0, |element| {
-                reader.extra(element, parameter, "glossiness")
-            })
-        };
-        let mirror = self.tinted(element, reflection);
-        let mirror_spread = spread(self, mirrored, reflection);
-        let dielectric = self.tinted(element, refraction);
-        let dielectric_spread = spread(self, refracted, refraction);
-        let index = refracted.map_or(1.0, |at| self.extra(at, refraction, "index"));
-        let absorption = self.vector(Some(element), of("absorption"));
-        let emission = self.tinted(element, of("emission"));
+        let diffuse = self.tinted(element, &DIFFUSE);
+        let specular = self.tinted(element, &SPECULAR);
+        let (exponent, exponent_map) = self.textured(element, &GLOSSINESS);
+        let mirror = self.tinted(element, &REFLECTION);
+        let mirror_spread = self.extra(element, &REFLECTION, &SPREAD);
+        let dielectric = self.tinted(element, &REFRACTION);
+        let dielectric_spread = self.extra(element, &REFRACTION, &SPREAD);
+        let index = self.extra(element, &REFRACTION, &REFRACTION_INDEX);
+        let absorption = self.vector(Some(element), &ABSORPTION);
+        let emission = self.tinted(element, &EMISSION);
         let maps = Maps {
             diffuse: diffuse.texture,
             specular: specular.texture,
@@ -91,14 +76,13 @@ impl Reader<'_> {
     }
 
     fn microfacet(&mut self, element: usize) -> Material {
-        let of = |name| called(&MICROFACET, name);
-        let colour = self.tinted(element, of("color"));
-        let (roughness, roughness_map) = self.textured(element, of("roughness"));
-        let (metallic, metallic_map) = self.textured(element, of("metallic"));
-        let dielectric = self.tinted(element, of("transmittance"));
-        let index = self.number(Some(element), of("ior"));
-        let absorption = self.vector(Some(element), of("absorption"));
-        let emission = self.tinted(element, of("emission"));
+        let colour = self.tinted(element, &COLOUR);
+        let (roughness, roughness_map) = self.textured(element, &ROUGHNESS);
+        let (metallic, metallic_map) = self.textured(element, &METALLIC);
+        let dielectric = self.tinted(element, &TRANSMITTANCE);
+        let index = self.number(Some(element), &INDEX);
+        let absorption = self.vector(Some(element), &ABSORPTION);
+        let emission = self.tinted(element, &EMISSION);
         let maps = Maps {
             diffuse: colour.texture,
             roughness: roughness_map,
@@ -143,11 +127,11 @@ impl Reader<'_> {
         };
         let light = match kind {
             LightKind::Ambient => Light {
-                colour: self.vector(Some(element), called(&AMBIENT, "intensity")),
+                colour: self.vector(Some(element), &lights::INTENSITY),
                 ..dark
             },
             LightKind::Direct => {
-                let colour = self.vector(Some(element), called(&DIRECT, "intensity"));
+                let colour = self.vector(Some(element), &lights::INTENSITY);
                 let emitter = Emitter::Distant(self.toward(element));
                 Light {
                     emitter,
@@ -162,27 +146,25 @@ impl Reader<'_> {
 
     /// The unit vector toward a light, opposite to its direction.
     fn toward(&mut self, element: usize) -> DVec3 {
-        let parameter = called(&DIRECT, "direction");
-        let direction = self.vector(Some(element), parameter);
+        let direction = self.vector(Some(element), &lights::DIRECTION);
         if let Some(direction) = normalise(direction) {
             return -direction;
         }
         // Malformed numbers were already reported.
-        if let Some(said) = self
-            .element_of(Some(element), parameter)
+        if let Some(element) = self
+            .element_of(Some(element), &lights::DIRECTION)
             .filter(|_| direction == DVec3::ZERO)
         {
-            self.zero(said);
+            self.zero(element);
         }
         DVec3::Z
     }
 
     fn point(&mut self, element: usize, dark: Light) -> Light {
-        let of = |name| called(&POINT, name);
-        let colour = self.vector(Some(element), of("intensity"));
-        let position = self.vector(Some(element), of("position"));
-        let radius = self.number(Some(element), of("size"));
-        let attenuation = self.number(Some(element), of("attenuation"));
+        let colour = self.vector(Some(element), &lights::INTENSITY);
+        let position = self.vector(Some(element), &lights::POSITION);
+        let radius = self.number(Some(element), &lights::RADIUS);
+        let attenuation = self.number(Some(element), &lights::ATTENUATION);
         let falloff = if 0.0 < attenuation {
             Falloff {
                 radial: [0.0, 0.0, attenuation * attenuation],

@@ -56,7 +56,7 @@ impl Reader<'_> {
         let mut pending = Vec::new();
         let first = self.one_texture(element, parameter, &mut pending);
         while let Some(next) = pending.pop() {
-            let colour = &CHECKER[next.place];
+            let colour = CHECKER[next.place];
             let tinted = Tinted {
                 colour: self.vector_in(next.element, colour),
                 texture: self.one_texture(next.element, colour, &mut pending),
@@ -77,15 +77,15 @@ impl Reader<'_> {
     ) -> Option<u32> {
         let attribute = self.origins.attribute(self.tree, element, "texture");
         let attribute = attribute.filter(|_| parameter.texture == Texturing::Yes)?;
-        let said = &self.tree.attributes[attribute];
-        let (word, span) = (said.said(self.text), said.value);
+        let value = &self.tree.attributes[attribute];
+        let (word, span) = (value.unescaped(self.text), value.value);
         if word.is_empty() {
-            let message = || "texture: there is no name".to_owned();
+            let message = || "texture: the name is missing".to_owned();
             self.warn(
                 span,
                 message,
                 "checkerboard, or a picture file",
-                "there is no texture",
+                "the texture is ignored",
             );
             return None;
         }
@@ -118,8 +118,8 @@ impl Reader<'_> {
         let inverse = transform.map_or(Some(DAffine3::IDENTITY), inverse);
         let inverse = inverse.unwrap_or_else(|| {
             self.report.error(|| {
-                let message = "texture: its transforms leave it no area";
-                Diagnostic::error(span, message, "transforms that can be undone")
+                let message = "texture: its transforms are not invertible";
+                Diagnostic::error(span, message, "invertible transforms")
             });
             DAffine3::IDENTITY
         });

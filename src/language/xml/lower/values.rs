@@ -3,14 +3,14 @@
 use glam::DVec3;
 
 use super::Reader;
-use crate::language::report::{no_number, number};
+use crate::language::report::{number_of, out_of_range};
 use crate::language::table::{Field, Kind};
-use crate::language::xml::table::{Parameter, Reading};
-use crate::text::{Diagnostic, Findings, Severity, Span, concise, is_integer, parse_number};
+use crate::language::xml::table::{Extra, Parameter, Reading};
+use crate::text::{Diagnostic, Findings, Span, is_integer};
 
 impl<'a> Reader<'a> {
     /// The name of an element in messages: its node's, and its own if it differs.
-    pub(super) fn called(&self, element: usize) -> String {
+    pub(super) fn display_name(&self, element: usize) -> String {
         let name = self.name(element);
         let node = self.origins.node_of(element);
         match node {
@@ -25,69 +25,44 @@ impl<'a> Reader<'a> {
     /// A word stated by an element; `None` if missing.
     pub(super) fn word(&self, element: usize, word: &str) -> Option<&'a str> {
         let at = self.origins.attribute(self.tree, element, word)?;
-        let said = self.tree.attributes[at].said(self.text);
-        (!said.is_empty()).then_some(said)
+        let word = self.tree.attributes[at].unescaped(self.text);
+        (!word.is_empty()).then_some(word)
     }
 
     /// The name of an attribute's number in messages.
     fn what(&self, element: usize, attribute: usize) -> String {
-        let called = self.called(element);
+        let owner = self.display_name(element);
         match self.tree.attributes[attribute].name.of(self.text) {
-            "value" => called,
-            name => format!("{called} {name}"),
+            "value" => owner,
+            name => format!("{owner} {name}"),
         }
     }
 
     /// The checked number of an attribute; NaN, with an error, if malformed.
     fn number_at(&mut self, element: usize, attribute: usize, field: &Field) -> f64 {
         let span = self.tree.attributes[attribute].value;
-        let word = self.tree.attributes[attribute].said(self.text).trim();
-        let read = if field.kind.is_size() {
-            parse_number(word)
-        } else {
-            let mut read_over = Findings::default();
-            let what = || self.what(element, attribute);
-            let read = number(span, word, &mut read_over, what);
-            self.report.append(read_over);
-            read
-        };
+        let word = self.tree.attributes[attribute].unescaped(self.text).trim();
         let what = || self.what(element, attribute);
-        let value = match read {
-            Ok(value) => value,
-            Err(error) => {
-                let (what, expected) = (what(), field.allowed.words());
-                self.report
-                    .error(|| no_number(Severity::Error, span, word, &what, &expected, error));
-                return f64::NAN;
-            }
-        };
-        let is_side = field.kind == Kind::Side;
-        let fits = !is_side || (is_integer(word) && value <= f64::from(u32::MAX));
-        if !field.allowed.contains(value) || !fits {
-            let limits = if is_side && f64::from(u32::MAX) < value {
+        let mut findings = Findings::default();
+        let value = number_of(field, span, word, &mut findings, what);
+        let is_too_large = field.kind == Kind::Side && f64::from(u32::MAX) < value;
+        let is_fraction = field.kind == Kind::Side && !is_integer(word);
+        if value.is_nan() {
+            // Already reported.
+        } else if !field.allowed.contains(value) || is_too_large || is_fraction {
+            let limits = if is_too_large {
                 format!("{} at most", u32::MAX)
             } else {
                 field.allowed.limits()
             };
             let message = format!("{}: must be {limits}", what());
-            self.error(span, || message, &field.allowed.words());
-            return f64::NAN;
+            findings.error(|| Diagnostic::error(span, message, field.allowed.words()));
+        } else if !field.usual.contains(value) {
+            findings.warning(|| out_of_range(field, span, value, &what()));
         }
-        if !field.usual.contains(value) {
-            let message = format!(
-                "{}: {} is not {}",
-                what(),
-                concise(value),
-                field.usual.limits()
-            );
-            self.warn(
-                span,
-                || message,
-                &field.usual.words(),
-                "it is used as given",
-            );
-        }
-        value
+        let is_valid = findings.errors() == 0;
+        self.report.append(findings);
+        if is_valid { value } else { f64::NAN }
     }
 
     /// A number of an element, or its default.
@@ -137,7 +112,7 @@ impl<'a> Reader<'a> {
         }
         let product = self.number_or(element, "value", field, "1") * vector;
         if !product.is_nan() && !product.is_finite() {
-            let name = self.called(element);
+            let name = self.display_name(element);
             let message = || format!("{name}: too large for any number");
             self.error(self.place(element), message, "numbers up to about 1.8e308");
         }
@@ -160,22 +135,20 @@ impl<'a> Reader<'a> {
         (axis, angle)
     }
 
-    /// A further number of an element, or its default.
+    /// A further number of a parameter, or its default.
     pub(super) fn extra(
         &mut self,
-        element: usize,
+        holder: usize,
         parameter: &'static Parameter,
-        attribute: &str,
+        extra: &Extra,
     ) -> f64 {
-        let extra = parameter
-            .extras
-            .iter()
-            .find(|extra| extra.attribute == attribute);
-        let Some(extra) = extra else {
-            return 0.0;
-        };
-        let missing = extra.missing(self.origins.is_srgb);
-        self.number_or(element, attribute, &extra.field, missing)
+        match self.element_of(Some(holder), parameter) {
+            Some(element) => {
+                let missing = extra.missing(self.origins.is_srgb);
+                self.number_or(element, extra.attribute, &extra.field, missing)
+            }
+            None => plain(extra.missing),
+        }
     }
 
     /// The child that sets a parameter.
@@ -199,7 +172,7 @@ impl<'a> Reader<'a> {
 
     /// Reports a direction of zero length.
     pub(super) fn zero(&mut self, element: usize) {
-        let name = self.called(element);
+        let name = self.display_name(element);
         let span = self.attributes_span(element);
         self.report
             .error(|| Diagnostic::error(span, format!("{name}: must not be zero"), "a direction"));

@@ -3,14 +3,13 @@
 use super::insert;
 use super::{Origins, Role};
 use crate::language::node::Node;
-use crate::language::placed::Placed;
+use crate::language::placed::{Implicit, ImplicitAttribute, Insertion, Placed};
 use crate::language::table::Field;
 use crate::language::xml::table::{
-    BACKGROUND, CAMERA, CHECKER, ENVIRONMENT, GAMMA, LIGHT_WORDS, MATERIAL_WORDS, OBJECT,
-    Parameter, Reading, TEXTURE, Texturing, Word,
+    BACKGROUND, CHECKER, ENVIRONMENT, LIGHT_WORDS, MATERIAL_WORDS, OBJECT, Parameter, Reading,
+    TEXTURE, Texturing, Word, camera,
 };
 use crate::language::xml::tree::Tree;
-use crate::language::xml::unsaid::{Insertion, Unsaid, Unwritten};
 use crate::text::Span;
 
 /// Maximum number of rows of a node; nobody reads more.
@@ -25,11 +24,11 @@ pub(in crate::language::xml) fn of(origins: &Origins, tree: &Tree, node: Node) -
     };
     match node {
         Node::View => {
-            for parameter in &CAMERA {
+            for parameter in camera::PARAMETERS {
                 rows.parameter(Holder::camera(origins), parameter);
             }
-            if let Some(camera) = origins.camera {
-                rows.word(camera, &GAMMA);
+            if let Some(element) = origins.camera {
+                rows.word(element, &camera::GAMMA);
             }
         }
         Node::Background => rows.parameter(origins.scene.map(Holder::There), &BACKGROUND),
@@ -85,7 +84,7 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    fn thing(&mut self, element: usize, words: &'static [Word], parameters: &'static [Parameter]) {
+    fn thing(&mut self, element: usize, words: &'static [Word], parameters: &[&'static Parameter]) {
         for word in words {
             self.word(element, word);
         }
@@ -97,21 +96,22 @@ impl Rows<'_> {
     /// Adds an attribute whose value is a word.
     fn word(&mut self, element: usize, word: &'static Word) {
         let field = &word.field;
-        if let Some(said) = self.origins.value(self.tree, element, field.key) {
-            self.placed.push(Placed::said(field, vec![said.value]));
+        if let Some(attribute) = self.origins.value(self.tree, element, field.key) {
+            self.placed
+                .push(Placed::explicit(field, vec![attribute.value]));
             return;
         }
         let insertion = insert::attribute(self.tree, element);
         self.placed.push(Placed {
             field,
             spans: vec![insertion.span],
-            unsaid: Some(Box::new(Unsaid {
-                literals: vec![Some(word.missing)],
-                attributes: vec![Unwritten {
-                    component: Some(0),
+            implicit: Some(Box::new(Implicit {
+                defaults: vec![Some(word.missing)],
+                attributes: vec![ImplicitAttribute {
+                    component: 0,
                     name: field.key,
-                    literal: word.missing,
-                    goes_along: false,
+                    default: word.missing,
+                    is_required: false,
                 }],
                 element: None,
                 insertion,
@@ -126,13 +126,13 @@ impl Rows<'_> {
             Holder::Missing(..) => None,
         };
         match element {
-            Some(element) => self.said(element, parameter),
+            Some(element) => self.explicit(element, parameter),
             None => self.missing(holder, parameter),
         }
     }
 
     /// Adds a parameter whose element exists, with its textures.
-    fn said(&mut self, element: usize, parameter: &'static Parameter) {
+    fn explicit(&mut self, element: usize, parameter: &'static Parameter) {
         let mut pending = vec![(element, parameter)];
         while let Some((element, parameter)) = pending.pop() {
             if MOST_ROWS < self.placed.len() {
@@ -141,20 +141,20 @@ impl Rows<'_> {
             self.numbers(element, parameter);
             for extra in parameter.extras {
                 let insertion = insert::attribute(self.tree, element);
-                let said = self.origins.attribute(self.tree, element, extra.attribute);
+                let place = self.origins.attribute(self.tree, element, extra.attribute);
                 let missing = extra.missing(self.origins.is_srgb);
-                let attribute = (extra.attribute, said, missing);
+                let attribute = (extra.attribute, place, missing);
                 self.attributes(&extra.field, &[attribute], &insertion);
             }
             let Some(texture) = self.texture(element, parameter) else {
                 continue;
             };
-            self.placed.push(Placed::said(&TEXTURE, vec![texture]));
+            self.placed.push(Placed::explicit(&TEXTURE, vec![texture]));
             self.transforms(element);
-            let colours = CHECKER.iter().rev();
+            let colours = CHECKER.iter().copied().rev();
             pending.extend(colours.filter_map(|colour| {
-                let said = self.origins.parameter(self.tree, element, colour)?;
-                Some((said, colour))
+                let element = self.origins.parameter(self.tree, element, colour)?;
+                Some((element, colour))
             }));
         }
     }
@@ -162,11 +162,11 @@ impl Rows<'_> {
     /// The place of a parameter's texture.
     fn texture(&self, element: usize, parameter: &Parameter) -> Option<Span> {
         let may = parameter.texture == Texturing::Yes;
-        let said = self
+        let attribute = self
             .origins
             .value(self.tree, element, "texture")
             .filter(|_| may);
-        said.map(|said| said.value)
+        attribute.map(|attribute| attribute.value)
     }
 
     fn transforms(&mut self, holder: usize) {
@@ -209,25 +209,25 @@ impl Rows<'_> {
         attributes: &[(&'static str, Option<usize>, &'static str)],
         insertion: &Insertion,
     ) {
-        let place = |&(_, said, _): &(_, Option<usize>, _)| {
-            said.map_or(insertion.span, |at| self.tree.attributes[at].value)
+        let place = |&(_, explicit, _): &(_, Option<usize>, _)| {
+            explicit.map_or(insertion.span, |at| self.tree.attributes[at].value)
         };
         let spans = attributes.iter().map(place).collect();
-        let is_said = attributes.iter().all(|(_, said, _)| said.is_some());
-        let unsaid = || {
+        let is_explicit = attributes.iter().all(|(_, explicit, _)| explicit.is_some());
+        let implicit = || {
             let missing = attributes.iter().enumerate();
-            let missing = missing.filter(|(_, (_, said, _))| said.is_none());
-            Box::new(Unsaid {
-                literals: attributes
+            let missing = missing.filter(|(_, (_, explicit, _))| explicit.is_none());
+            Box::new(Implicit {
+                defaults: attributes
                     .iter()
-                    .map(|&(_, said, literal)| said.is_none().then_some(literal))
+                    .map(|&(_, explicit, default)| explicit.is_none().then_some(default))
                     .collect(),
                 attributes: missing
-                    .map(|(component, &(name, _, literal))| Unwritten {
-                        component: Some(component),
+                    .map(|(component, &(name, _, default))| ImplicitAttribute {
+                        component,
                         name,
-                        literal,
-                        goes_along: false,
+                        default,
+                        is_required: false,
                     })
                     .collect(),
                 element: None,
@@ -237,7 +237,7 @@ impl Rows<'_> {
         self.placed.push(Placed {
             field,
             spans,
-            unsaid: (!is_said).then(unsaid),
+            implicit: (!is_explicit).then(implicit),
         });
     }
 
@@ -254,14 +254,14 @@ impl Rows<'_> {
         self.placed.push(Placed {
             field: &parameter.field,
             spans: vec![Span::at(insertion.span.start()); parameter.missing.len()],
-            unsaid: Some(Box::new(Unsaid {
-                literals: parameter.missing.iter().copied().map(Some).collect(),
+            implicit: Some(Box::new(Implicit {
+                defaults: parameter.missing.iter().copied().map(Some).collect(),
                 attributes: attributes
-                    .map(|(component, (&name, &literal))| Unwritten {
-                        component: Some(component),
+                    .map(|(component, (&name, &default))| ImplicitAttribute {
+                        component,
                         name,
-                        literal,
-                        goes_along: literal != parameter.inside,
+                        default,
+                        is_required: default != parameter.inside,
                     })
                     .collect(),
                 element: Some(parameter.element),

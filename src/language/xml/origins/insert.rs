@@ -1,7 +1,7 @@
 //! Where to insert missing elements and attributes in an `.xml` text.
 
+use crate::language::placed::{Insertion, Piece};
 use crate::language::xml::tree::Tree;
-use crate::language::xml::unsaid::{Insertion, Piece};
 use crate::text::Span;
 
 /// Where to insert another attribute of an element.
@@ -31,10 +31,10 @@ pub(super) fn child(tree: &Tree, parent: usize) -> Insertion {
     }
     let mut between = vec![Piece::Copy(own.lead)];
     if !own.lead.is_empty() {
-        between.push(Piece::Words("  "));
+        between.push(Piece::Literal("  "));
     }
     if own.is_empty_tag() {
-        let mut before = vec![Piece::Words(">")];
+        let mut before = vec![Piece::Literal(">")];
         before.extend(&between);
         return Insertion {
             span: Span::new(own.attributes_end as usize, own.tag.end()),
@@ -42,9 +42,9 @@ pub(super) fn child(tree: &Tree, parent: usize) -> Insertion {
             between,
             after: vec![
                 Piece::Copy(own.lead),
-                Piece::Words("</"),
+                Piece::Literal("</"),
                 Piece::Copy(own.name),
-                Piece::Words(">"),
+                Piece::Literal(">"),
             ],
         };
     }
@@ -75,13 +75,13 @@ pub(super) fn grandchild(
             .any(|piece| matches!(piece, Piece::Copy(span) if !span.is_empty()));
     let mut between = lead.clone();
     if is_indented {
-        between.push(Piece::Words("  "));
+        between.push(Piece::Literal("  "));
     }
     let mut before = outer.before;
-    before.push(Piece::Words(open));
+    before.push(Piece::Literal(open));
     before.extend(&between);
     let mut after = lead;
-    after.push(Piece::Words(close));
+    after.push(Piece::Literal(close));
     after.extend(outer.after);
     Insertion {
         span: outer.span,

@@ -1,6 +1,6 @@
 //! The kinds of objects, materials and lights, named by `type`.
 
-use super::{AMBIENT, DIRECT, MATERIAL, MICROFACET, POINT, Parameter};
+use super::{Parameter, lights, materials};
 
 /// The kinds of objects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,10 +75,10 @@ impl MaterialKind {
     }
 
     /// Its parameters.
-    pub(in crate::language::xml) fn parameters(self) -> &'static [Parameter] {
+    pub(in crate::language::xml) fn parameters(self) -> &'static [&'static Parameter] {
         match self {
-            Self::Blinn | Self::Phong => &MATERIAL,
-            Self::Microfacet => &MICROFACET,
+            Self::Blinn | Self::Phong => materials::GLOSSY,
+            Self::Microfacet => materials::MICROFACET,
         }
     }
 }
@@ -100,17 +100,17 @@ impl LightKind {
     }
 
     /// Its parameters.
-    pub(in crate::language::xml) fn parameters(self) -> &'static [Parameter] {
+    pub(in crate::language::xml) fn parameters(self) -> &'static [&'static Parameter] {
         match self {
-            Self::Ambient => &AMBIENT,
-            Self::Direct => &DIRECT,
-            Self::Point => &POINT,
+            Self::Ambient => lights::AMBIENT,
+            Self::Direct => lights::DIRECT,
+            Self::Point => lights::POINT,
         }
     }
 }
 
-fn place(words: &[&str], said: &str) -> Option<usize> {
+fn place(words: &[&str], name: &str) -> Option<usize> {
     words
         .iter()
-        .position(|word| word.eq_ignore_ascii_case(said))
+        .position(|word| word.eq_ignore_ascii_case(name))
 }

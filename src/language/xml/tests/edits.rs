@@ -28,7 +28,7 @@ fn values(text: &str) -> Vec<(Node, &'static str, Vec<String>)> {
         let row = |placed: Placed| {
             let value = |component: usize| match placed.default_of(component) {
                 Some(default) => default.to_owned(),
-                None => source.said(placed.spans[component]).to_owned(),
+                None => source.leaf_text(placed.spans[component]).to_owned(),
             };
             let values = (0..placed.spans.len()).map(value).collect();
             (node, placed.field.key, values)

@@ -44,7 +44,7 @@ fn each_mistake_has_its_message() {
         ),
         (
             "<object type='sphere'><scale x='1e200'/><scale x='1e200'/></object>",
-            "error: object 1 (sphere): its transforms leave it no volume, or no place",
+            "error: object 1 (sphere): its transforms flatten it or are too large",
         ),
         (
             "<object type='sphere'><translate x='1e300' value='1e300'/></object>",
@@ -60,27 +60,27 @@ fn each_mistake_has_its_message() {
         ),
         (
             "<object type='spere'/>",
-            "warning: object type: `spere` is not known",
+            "warning: object: unknown type `spere`",
         ),
         (
             "<object type='sphere' material='m'/>",
-            "warning: material: there is none called `m`",
+            "warning: material: no material is named `m`",
         ),
         (
             "<object type='obj'/>",
-            "error: object 1 (obj): there is no name",
+            "error: object 1 (obj): the name is missing",
         ),
         (
             "<object size='1'/>",
-            "warning: attribute `size`: not known of `object`",
+            "warning: attribute `size`: unknown in `object`",
         ),
         (
             "<object><scale r='1'/></object>",
-            "warning: attribute `r`: not known of `scale`",
+            "warning: attribute `r`: unknown in `scale`",
         ),
         (
             "<object><sacle/></object>",
-            "warning: `sacle`: not known in `object`",
+            "warning: `sacle`: unknown in `object`",
         ),
     ] {
         let wrong = wrong(scene);
@@ -93,7 +93,7 @@ fn lights_and_surroundings_are_checked() {
     for (scene, expected) in [
         (
             "<light type='spot'/>",
-            "warning: light type: `spot` is not known",
+            "warning: light: unknown type `spot`",
         ),
         ("<light/>", "warning: light: no type"),
         (
@@ -110,25 +110,25 @@ fn lights_and_surroundings_are_checked() {
         ),
         (
             "<light type='ambient'><position/></light>",
-            "warning: `position`: not known in `light`",
+            "warning: `position`: unknown in `light`",
         ),
         (
             "<light type='ambient'><intensity value='1'/><intensity/></light>",
-            "warning: light 1 (ambient) intensity: said again further down",
+            "warning: light 1 (ambient) intensity: given again below",
         ),
         (
             "<light type='ambient'><intensity>1</intensity></light>",
-            "warning: `1`: text between tags says nothing",
+            "warning: `1`: text between tags has no meaning",
         ),
         (
             "<background texture=''/>",
-            "warning: texture: there is no name",
+            "warning: texture: the name is missing",
         ),
         (
             "<background value='0' texture='a.png'><scale x='0'/></background>",
             "error: background scale: must not be 0 along any axis",
         ),
-        ("<camera/>", "warning: `camera`: not known in `scene`"),
+        ("<camera/>", "warning: `camera`: unknown in `scene`"),
     ] {
         let wrong = wrong(scene);
         assert!(wrong.contains(&expected.to_owned()), "{scene}: {wrong:#?}");
@@ -140,7 +140,7 @@ fn unsuitable_properties_of_materials_give_warnings() {
     for (material, expected) in [
         (
             "<material type='glass'/>",
-            "warning: material type: `glass` is not known",
+            "warning: material: unknown type `glass`",
         ),
         (
             "<material name='a'/><material name='a'/>",
@@ -148,15 +148,15 @@ fn unsuitable_properties_of_materials_give_warnings() {
         ),
         (
             "<material><roughness/></material>",
-            "warning: `roughness`: not known in `material`",
+            "warning: `roughness`: unknown in `material`",
         ),
         (
             "<material name='a'><diffuse R='1'/></material>",
-            "warning: attribute `R`: not known of `diffuse`",
+            "warning: attribute `R`: unknown in `diffuse`",
         ),
         (
             "<material><absorption texture='a.png'/></material>",
-            "warning: attribute `texture`: not known of `absorption`",
+            "warning: attribute `texture`: unknown in `absorption`",
         ),
         (
             "<material><glossiness value='-1'/></material>",
@@ -175,10 +175,7 @@ fn unsuitable_properties_of_materials_give_warnings() {
 fn the_camera_and_the_root_are_checked() {
     let of = |camera: &str| format!("<xml><scene/>{camera}</xml>");
     for (text, expected) in [
-        (
-            "<scene/>".to_owned(),
-            "error: the outermost element is `scene`",
-        ),
+        ("<scene/>".to_owned(), "error: the root element is `scene`"),
         (
             "<xml><camera/></xml>".to_owned(),
             "warning: scene: there is no such element",
@@ -187,12 +184,9 @@ fn the_camera_and_the_root_are_checked() {
             "<xml><scene/></xml>".to_owned(),
             "warning: camera: there is no such element",
         ),
-        (
-            of("<camera/><camera/>"),
-            "warning: `camera`: there is one already",
-        ),
-        (of("<scene/>"), "warning: `scene`: there is one already"),
-        (of("<lens/>"), "warning: `lens`: not known in `xml`"),
+        (of("<camera/><camera/>"), "warning: `camera`: already given"),
+        (of("<scene/>"), "warning: `scene`: already given"),
+        (of("<lens/>"), "warning: `lens`: unknown in `xml`"),
         (
             of("<camera><fov value='180'/></camera>"),
             "error: view fov: must be greater than 0 and less than 180",
@@ -207,15 +201,15 @@ fn the_camera_and_the_root_are_checked() {
         ),
         (
             of("<camera><target/></camera>"),
-            "error: view target: is where the eye is",
+            "error: view target: coincides with the eye",
         ),
         (
             of("<camera><up z='1'/></camera>"),
-            "warning: view up: is the direction of view",
+            "warning: view up: is parallel to the direction of view",
         ),
         (
             of("<camera gamma='2.2'/>"),
-            "warning: camera gamma: `2.2` is not known",
+            "warning: camera gamma: unknown value `2.2`",
         ),
         (
             "<xml><scene>".to_owned(),
@@ -235,13 +229,13 @@ fn all_errors_are_reported_at_once_at_their_places() {
     let (_, lowered) = read(text);
     let expected = [
         "4:14 error: object 1 (sphere) scale x: `a` is not a number",
-        "5:5 warning: `turn`: not known in `object`",
+        "5:5 warning: `turn`: unknown in `object`",
         "8:15 error: light 1 (direct) direction: must not be zero",
         "11:22 error: view fov: must be greater than 0 and less than 180",
     ];
     assert_eq!(shown(text, &lowered), expected);
     let hint = lowered.diagnostics[1].hint.as_deref();
-    assert_eq!(hint, Some("it is skipped, with all that is in it"));
+    assert_eq!(hint, Some("it is skipped with all its content"));
     assert_eq!(lowered.diagnostics[0].span, Span::new(53, 54));
 }
 
@@ -250,5 +244,5 @@ fn misspelt_words_are_recognised() {
     let text = around("<obejct/>");
     let (_, lowered) = read(&text);
     let hint = lowered.diagnostics[0].hint.as_deref();
-    assert_eq!(hint, Some("it is skipped; write object if that is meant"));
+    assert_eq!(hint, Some("it is skipped; did you mean `object`?"));
 }

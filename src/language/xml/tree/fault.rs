@@ -5,7 +5,7 @@ use roxmltree::{Error, TextPos};
 use crate::text::{Diagnostic, Span};
 
 /// The diagnostic for an error of the parser, at the place it is about.
-pub(super) fn told(text: &str, error: &Error, unclosed: Option<Span>) -> Diagnostic {
+pub(super) fn diagnostic(text: &str, error: &Error, unclosed: Option<Span>) -> Diagnostic {
     let at = place(text, error.pos());
     let end = Span::at(text.trim_ascii_end().len());
     let here = character(text, at);
@@ -19,31 +19,31 @@ pub(super) fn told(text: &str, error: &Error, unclosed: Option<Span>) -> Diagnos
             format!("`&{name};` is not known"),
             "&amp; &lt; &gt; &quot; &apos; or the number of a character",
         )
-        .with_hint("the sign & itself is written &amp;"),
+        .with_hint("a literal & is written &amp;"),
         Error::MalformedEntityReference(_) => Diagnostic::error(
             here,
-            "`&` begins no reference",
-            "`&amp;` for the sign itself",
+            "`&` does not begin a reference",
+            "`&amp;` for a literal &",
         ),
         Error::InvalidAttributeValue(_) | Error::InvalidChar(b'"' | b'\'', b'<', _) => {
             less_than(here)
         }
         Error::DuplicatedAttribute(name, _) => Diagnostic::error(
             word(text, at),
-            format!("attribute `{name}`: said twice"),
+            format!("attribute `{name}`: given twice"),
             "each attribute once",
         ),
         Error::UnclosedRootNode => {
             let open = unclosed.unwrap_or(end);
             let message = format!("`{}>` is never closed", open.of(text));
             let name = open.of(text).trim_start_matches('<');
-            Diagnostic::error(open, message, format!("`</{name}>` after what is in it"))
+            Diagnostic::error(open, message, format!("`</{name}>` after its content"))
         }
         // The parser ignores a tag that breaks off.
         Error::UnexpectedEndOfStream | Error::NoRootNode => match unclosed {
             Some(open) => {
                 let message = format!("the text ends inside `{}>`", open.of(text));
-                Diagnostic::error(open, message, "the rest of the tag, and what closes it")
+                Diagnostic::error(open, message, "the rest of the tag and its end tag")
             }
             None => Diagnostic::error(end, "there is no element", "an element"),
         },
@@ -70,15 +70,13 @@ pub(super) fn told(text: &str, error: &Error, unclosed: Option<Span>) -> Diagnos
             format!("`{expected}` is missing"),
             format!("`{expected}`"),
         ),
-        Error::InvalidName(_) => Diagnostic::error(here, "here no name begins", "a name")
-            .with_hint("the sign < itself is written &lt;"),
+        Error::InvalidName(_) => Diagnostic::error(here, "a name can't begin here", "a name")
+            .with_hint("a literal < is written &lt;"),
         Error::InvalidComment(_) => {
             let expected = "no `--` before the `-->` that ends it";
-            Diagnostic::error(here, "the comment holds `--`", expected)
+            Diagnostic::error(here, "the comment contains `--`", expected)
         }
-        Error::InvalidCharacterData(_) => {
-            Diagnostic::error(here, "`]]>` stands in a text", "`]]&gt;`")
-        }
+        Error::InvalidCharacterData(_) => Diagnostic::error(here, "`]]>` in text", "`]]&gt;`"),
         Error::UnknownNamespace(prefix, _) => Diagnostic::error(
             word(text, at),
             format!("the prefix `{prefix}` is not declared"),
@@ -86,21 +84,21 @@ pub(super) fn told(text: &str, error: &Error, unclosed: Option<Span>) -> Diagnos
         ),
         Error::UnexpectedDeclaration(_) => Diagnostic::error(
             until(text, at, '>'),
-            "the XML declaration does not stand at the beginning",
+            "the XML declaration is not at the beginning",
             "an element",
         ),
         Error::UnknownToken(_) => {
             Diagnostic::error(here, "this is not part of XML", "an element or a comment")
-                .with_hint("nothing but comments stands before and after the outermost element")
+                .with_hint("only comments are allowed before and after the root element")
         }
         _ => Diagnostic::error(here, format!("this is not XML: {error}"), "well-formed XML"),
     }
 }
 
 fn less_than(span: Span) -> Diagnostic {
-    let message = "`<` stands in a value";
-    Diagnostic::error(span, message, "`&lt;` for the sign itself")
-        .with_hint("or the quote that ends the value is missing")
+    let message = "`<` in an attribute value";
+    Diagnostic::error(span, message, "`&lt;` for a literal <")
+        .with_hint("or the closing quote of the value is missing")
 }
 
 /// The byte offset of a line and a column in characters, both from 1.

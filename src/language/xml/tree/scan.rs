@@ -60,21 +60,22 @@ pub(super) fn scan(text: &str) -> Scan {
                 name_spaces += 1;
                 if MOST_NAME_SPACES < name_spaces {
                     let span = Span::new(start + at, start + at + name.len());
-                    let message = format!("more than {MOST_NAME_SPACES} name spaces are refused");
+                    let message =
+                        format!("more than {MOST_NAME_SPACES} namespaces are not supported");
                     let expected = "elements without prefixes";
                     return refuse(Diagnostic::error(span, message, expected));
                 }
             }
             if MOST_ATTRIBUTES < tag.matches('=').count() {
                 let span = Span::new(start, start + name);
-                let message = format!("more than {MOST_ATTRIBUTES} attributes are refused");
+                let message = format!("more than {MOST_ATTRIBUTES} attributes are not supported");
                 return refuse(Diagnostic::error(span, message, "fewer attributes"));
             }
             if !tag.ends_with("/>") {
                 if open.len() == MOST_LEVELS {
                     let span = Span::new(start, start + name);
                     let message =
-                        format!("more than {MOST_LEVELS} elements inside one another are refused");
+                        format!("more than {MOST_LEVELS} levels of elements are not supported");
                     return refuse(Diagnostic::error(span, message, "fewer levels"));
                 }
                 open.push(Span::new(start, start + name));
@@ -103,7 +104,7 @@ pub(super) fn tag_end(text: &str, from: usize) -> usize {
 }
 
 fn doctype(span: Span) -> Diagnostic {
-    let message = "document type declarations are refused";
+    let message = "document type declarations are not supported";
     Diagnostic::error(span, message, "an element")
         .with_hint("remove it: scenes need none, and entities are not resolved")
 }
