@@ -122,6 +122,34 @@ fn an_ambiguous_insertion_covers_all_its_possible_places() {
 }
 
 #[test]
+fn the_places_of_an_ambiguous_insertion_end_at_the_change_before_it() {
+    check(&[(
+        "0 1\n0 0 0\n1 1",
+        "0 1\n0 0 5\n1 1",
+        "0 0 0 0 0\n1 1",
+        "0 {0 0 0|0 0 5|0 0 0 0}\n1 1",
+    )]);
+}
+
+#[test]
+fn of_equal_leaves_at_the_end_the_last_is_removed_whatever_was_inserted_before() {
+    check(&[
+        (
+            "1 1 0 0 1 1 1 1",
+            "1 1 0 0 1 1 5 1",
+            "0 1 1 0 0 1 1 1",
+            "0 1 1 0 0 1 1 5",
+        ),
+        (
+            "1 1 1 1 1 0 0",
+            "1 1 1 1 5 0 0",
+            "1 1 0 1 1 1 0",
+            "1 1 0 1 1 5 0",
+        ),
+    ]);
+}
+
+#[test]
 fn leaves_never_run_together() {
     check(&[
         // Mine removes the line break, theirs opens a comment before it.

@@ -227,7 +227,13 @@ fn without_unnamed_files_the_attributes_are_kept_too() {
     use rustix::fs::{XattrFlags, getxattr, setxattr};
     use std::fs::Permissions;
     use std::os::unix::fs::{MetadataExt, PermissionsExt, chown};
-    for (call, error) in [("link", Errno::OPNOTSUPP), ("create", Errno::NOSYS)] {
+    for (call, error) in [
+        ("link", Errno::OPNOTSUPP),
+        ("link", Errno::PERM),
+        ("link", Errno::XDEV),
+        ("link", Errno::MLINK),
+        ("create", Errno::NOSYS),
+    ] {
         let case = Case::all().swap_remove(1);
         fs::set_permissions(&case.path, Permissions::from_mode(0o640)).expect("ours");
         // Only an administrator can give a file away, and not every file system has attributes.
@@ -247,13 +253,13 @@ fn without_unnamed_files_the_attributes_are_kept_too() {
         outcome.expect("there is another way");
         assert_eq!(content(&case.path), "other");
         let after = fs::metadata(&case.path).map(of).expect("there");
-        assert_eq!(after, before, "{call}");
+        assert_eq!(after, before, "{call}: {error}");
         if has_note {
             let mut value = [0; 4];
             let length = getxattr(&case.path, "user.note", &mut value).expect(call);
             assert_eq!(&value[..length], b"mine");
         }
-        assert_eq!(case.left_behind(), [""; 0], "{call}");
+        assert_eq!(case.left_behind(), [""; 0], "{call}: {error}");
     }
 }
 
