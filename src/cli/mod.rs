@@ -397,7 +397,7 @@ impl RenderArguments {
             None if to_stdout => ImageFormat::Bmp,
             None => ImageFormat::of_path(&self.output).ok_or_else(|| {
                 format!(
-                    "cannot tell the format of {}: use the extension {}, or --format",
+                    "can't tell the format of {}: use the extension {}, or --format",
                     self.output.display(),
                     known_extensions()
                 )

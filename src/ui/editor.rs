@@ -66,7 +66,7 @@ enum Part {
 /// Opens the user's editor on a file at a line, from 1, and waits for it to end.
 pub(super) fn run(path: &Path, line: usize) -> Result<(), String> {
     let (program, status) = open(path, line).map_err(|reason| {
-        format!("can't start the editor: {reason}; $VISUAL or $EDITOR names another one")
+        format!("can't start the editor: {reason}; set $VISUAL or $EDITOR to another one")
     })?;
     ending(&program, status)
 }
@@ -75,7 +75,7 @@ pub(super) fn run(path: &Path, line: usize) -> Result<(), String> {
 fn open(path: &Path, line: usize) -> Result<(String, ExitStatus), String> {
     let command = said("VISUAL")?.or(said("EDITOR")?);
     let words = words(command.as_deref().unwrap_or(DEFAULT))?;
-    let (program, own) = words.split_first().ok_or("it has no name")?;
+    let (program, own) = words.split_first().ok_or("the command is empty")?;
     let path = place(path).map_err(|error| error.to_string())?;
     let status = Command::new(program)
         .args(own)
@@ -118,7 +118,7 @@ fn words(said: &str) -> Result<Vec<String>, String> {
     if Path::new(said).is_absolute() && Path::new(said).is_file() {
         return Ok(vec![said.to_owned()]);
     }
-    shlex::split(said).ok_or_else(|| format!("`{said}` has a quote without its pair"))
+    shlex::split(said).ok_or_else(|| format!("`{said}` has an unmatched quote"))
 }
 
 /// The absolute path of a file, with single slashes.

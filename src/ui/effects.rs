@@ -377,7 +377,7 @@ impl World {
 
     #[cfg(not(unix))]
     fn suspend(&mut self) -> Result<(), String> {
-        Err("this system can't stop a program until it is continued".to_owned())
+        Err("this system can't suspend programs".to_owned())
     }
 }
 

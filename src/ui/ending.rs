@@ -44,7 +44,7 @@ pub enum Error {
     },
     /// The argument is neither a file nor the name of a scene.
     #[error(
-        "no such file or command `{path}`; the commands are render, check and doctor, scenes end in .ray, .dat or .xml",
+        "no such file or command `{path}`; the commands are render, check and doctor; scenes end in .ray, .dat or .xml",
         path = path.display()
     )]
     NoSuch {
@@ -52,12 +52,12 @@ pub enum Error {
         path: PathBuf,
     },
     /// Standard output is not a terminal.
-    #[error("the interface needs a terminal; to make a picture: halflight render SCENE -o FILE")]
+    #[error("the interface needs a terminal; to render a picture, run halflight render SCENE -o FILE")]
     NoTerminal,
     /// The terminal cannot position text.
     #[error(
-        "TERM=dumb: the interface needs a terminal that can move its cursor; if this one can, set \
-         TERM, such as to xterm; to make a picture: halflight render SCENE -o FILE"
+        "TERM=dumb: the interface needs a terminal with cursor control; if this one has it, set \
+         TERM=xterm; to render a picture, run halflight render SCENE -o FILE"
     )]
     DumbTerminal,
     /// No thread can be started.

@@ -11,7 +11,7 @@ use crate::text::{Findings, Severity, counted};
 use crate::ui::msg::Effect;
 
 /// Shown when a picture would lack files that are still being read.
-pub(super) const STILL_READING: &str = "the scene's files are still being read";
+pub(super) const STILL_READING: &str = "still reading the scene's files";
 
 /// The state of the files that the scene names.
 #[derive(Debug, Default)]
@@ -169,7 +169,7 @@ impl Assets {
     pub(super) fn faults(&self) -> (Option<Severity>, String) {
         let meshes = self.meshes.unreadable();
         let count = meshes + self.troubles.len();
-        let words = format!("{} can't be read: ! shows why", counted(count, "file"));
+        let words = format!("can't read {}: press ! to see why", counted(count, "file"));
         match (count, meshes) {
             (0, _) => (None, "all files can be read now".to_owned()),
             (_, 0) => (Some(Severity::Warning), words),

@@ -191,9 +191,9 @@ impl Cursor {
             (_, false) => Stride::Coarse,
         };
         match self.stride {
-            Stride::Fine => "nudges are a tenth of a step",
-            Stride::Plain => "nudges are one step",
-            Stride::Coarse => "nudges are ten steps",
+            Stride::Fine => "nudge step ×0.1",
+            Stride::Plain => "nudge step ×1",
+            Stride::Coarse => "nudge step ×10",
         }
     }
 

@@ -132,14 +132,14 @@ impl App {
     pub fn losses(&self) -> Option<String> {
         let name = self.disk.name();
         let text = if self.document.is_dirty() {
-            Some(format!("{name} has edits that are not saved"))
+            Some(format!("{name} has unsaved edits"))
         } else {
             let is_missing = self.disk.state == OnDisk::Missing;
             is_missing.then(|| format!("{name} no longer exists"))
         };
         let export = self.jobs.export.as_ref().map(|export| {
             let name = export.destination.path.display();
-            format!("the export to {name} is not done")
+            format!("{name} is still being exported")
         });
         let save = self.jobs.file_being_saved();
         let save = save.map(|path| format!("{} is still being written", path.display()));

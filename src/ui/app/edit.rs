@@ -182,7 +182,7 @@ impl App {
     /// Hides the selected object, or shows it again.
     pub(super) fn toggle_visibility(&mut self) {
         let Node::Object(object) = self.cursor.selected() else {
-            self.overlays.fail("only objects are shown or hidden");
+            self.overlays.fail("only objects can be shown or hidden");
             return;
         };
         let (wanted, done) = match self.source().drawn(object) {

@@ -125,6 +125,6 @@ impl App {
     /// Warns that the requested action needs the scene.
     pub(super) fn warn_of_opening(&mut self) {
         self.overlays
-            .warn(format!("{} is still being opened", self.disk.name()));
+            .warn(format!("still opening {}", self.disk.name()));
     }
 }

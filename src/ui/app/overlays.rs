@@ -196,6 +196,6 @@ impl Overlays {
 
     pub(super) fn show_past_message(&mut self) {
         self.message = self.past.take();
-        self.suggest("there was no message yet");
+        self.suggest("no messages yet");
     }
 }

@@ -181,7 +181,7 @@ impl Pictures {
     pub(super) fn toggle_integrator(&mut self, scene: Option<&Scene>) -> &'static str {
         let (other, words) = match self.integrator(scene) {
             Integrator::Whitted => (Integrator::Path, "path tracing"),
-            Integrator::Path => (Integrator::Whitted, "Whitted's rays"),
+            Integrator::Path => (Integrator::Whitted, "Whitted ray tracing"),
         };
         self.quality.integrator = None;
         if self.integrator(scene) != other {
@@ -197,10 +197,10 @@ impl Pictures {
         self.aov = aov;
         match aov {
             None => "light",
-            Some(Aov::Depth) => "depth: the nearest white, the farthest black",
+            Some(Aov::Depth) => "depth: nearest white, farthest black",
             Some(Aov::Normal) => "normals: -1 to 1 as 0 to 255",
-            Some(Aov::Object) => "objects: a colour each",
-            Some(Aov::Albedo) => "albedo: colours without light",
+            Some(Aov::Object) => "objects: one colour each",
+            Some(Aov::Albedo) => "albedo: unlit colours",
         }
     }
 

@@ -30,7 +30,7 @@ impl App {
             return Vec::new();
         }
         if self.jobs.quit && self.jobs.still_writing().is_some() {
-            let words = "will quit once the save finishes; Ctrl-C or :q! quits now";
+            let words = "will quit once the save finishes; use Ctrl-C or :q! to quit now";
             self.overlays.suggest(words);
         }
         self.jobs.count_seconds()

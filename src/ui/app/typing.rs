@@ -56,8 +56,8 @@ impl App {
         };
         if nudged == literal {
             self.overlays.warn(match field.kind {
-                Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => "there is no other",
-                _ => "the number is too large for this step",
+                Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => "there are no other choices",
+                _ => "the step is too small to change this number",
             });
         } else if let Err(refused) = self.assign(&[(self.cursor.component, nudged)]) {
             self.overlays.fail(refused.message);
@@ -113,7 +113,7 @@ impl App {
                 _ => None,
             });
             let expected = words.unwrap_or_else(|| "one number".to_owned());
-            let message = format!("{expected} is expected here");
+            let message = format!("expected {expected}");
             Err(Diagnostic::error(Span::at(0), message, expected))
         };
         match outcome {
@@ -178,7 +178,7 @@ impl App {
         }
         if self.mode != Mode::Edit {
             self.overlays
-                .say("values are pasted into fields: e edits the selected thing's");
+                .say("values paste into fields: press e to edit them");
             return;
         }
         let values = self.literals_of(said);
@@ -190,7 +190,7 @@ impl App {
         }
         let Some(values) = values else {
             self.overlays
-                .fail("what was pasted is not one number, nor one for each component");
+                .fail("can't paste this: expected one number, or one per component");
             return;
         };
         self.cursor.typing = None;

@@ -83,7 +83,7 @@ impl ColourDepth {
     /// The name of the depth, with the option for a terminal that shows more.
     pub fn cure(self) -> String {
         format!(
-            "{}; if the terminal has 24-bit colour: --color 24 or COLORTERM=truecolor",
+            "{}; if the terminal has 24-bit colour, use --color 24 or COLORTERM=truecolor",
             self.name()
         )
     }

@@ -47,7 +47,7 @@ fn heading(app: &App) -> String {
         .map(|(count, noun)| counted(count, noun))
         .collect();
     if said.is_empty() {
-        said.push("nothing is wrong".to_owned());
+        said.push("no errors or warnings".to_owned());
     }
     if diagnostics.len() < errors + warnings {
         said.push(format!("{} listed", diagnostics.len()));

@@ -156,7 +156,7 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
         format!(" {}", field.field.unit)
     };
     let nudge = match field.field.kind {
-        Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => " · h l: the next".to_owned(),
+        Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => " · h l: change".to_owned(),
         Kind::Word => String::new(),
         _ => format!(" · step {}{unit}", app.step(field.field)),
     };

@@ -64,7 +64,7 @@ fn actions_that_need_a_scene_are_refused_until_it_is_read() {
         let effects = press(&mut app, said);
         assert!(effects.is_empty(), "{said}: {effects:?}");
         let message = app.overlays.message.as_ref().expect("it says why");
-        assert_eq!(message.text, "scene.ray is still being opened", "{said}");
+        assert_eq!(message.text, "still opening scene.ray", "{said}");
     }
     let (mut app, _) = opening();
     app.update(Msg::Paste("1 2 3".to_owned()));

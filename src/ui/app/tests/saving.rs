@@ -147,7 +147,7 @@ fn the_text_of_a_running_save_is_not_a_change() {
     press(&mut app, "lw");
     outside(&mut app, &mine.replace("1.5", "1.7"));
     assert!(
-        words(&app).starts_with("the file's changes are merged"),
+        words(&app).starts_with("merged the file's changes"),
         "{}",
         words(&app)
     );
@@ -213,7 +213,7 @@ fn another_failure_does_not_hide_why_a_save_failed() {
 fn a_dismissed_message_can_be_shown_again() {
     let mut app = open(SCENE);
     press(&mut app, "M");
-    assert_eq!(words(&app), "there was no message yet");
+    assert_eq!(words(&app), "no messages yet");
     app.update(Msg::Failed("a: Permission denied (os error 13)".to_owned()));
     for keys in ["M", "jM", "jkM"] {
         press(&mut app, keys);
