@@ -239,7 +239,7 @@ fn lower(
             loaded = assets.read(&wanted);
         }
     }
-    lowered.diagnostics = assets::report(&loaded.troubles, &files, lowered.diagnostics);
+    lowered.diagnostics = assets::report(&loaded.picture_errors, &files, lowered.diagnostics);
     for (name, found) in &loaded.elsewhere {
         print_message("note", &format!("{name} is read from {}", found.display()));
     }

@@ -196,8 +196,8 @@ mod tests {
                 let others = Chunks::of(Language::Ray, window.theirs.of(&other));
                 let hunks = hunks(&chunks, &others);
                 let bytes = |hunk: &Hunk| [
-                    chunks.span(&hunk.base).later(window.base.start()),
-                    others.span(&hunk.other).later(window.theirs.start()),
+                    chunks.span(&hunk.base).shifted(window.base.start()),
+                    others.span(&hunk.other).shifted(window.theirs.start()),
                 ];
                 (!window.is_narrow(&chunks, &hunks)).then(|| hunks.hunks.iter().map(bytes).collect())
             };

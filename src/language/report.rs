@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::text::{
-    Diagnostic, Findings, NumberError, Severity, Span, parse_number, slips, without_suffix,
+    Diagnostic, Findings, NumberError, Severity, Span, edit_distance, parse_number, without_suffix,
 };
 
 /// A token for display in messages: in backticks, truncated, unprintable characters escaped.
@@ -115,7 +115,7 @@ pub(super) fn nearest_word(
         return None;
     }
     known
-        .map(|known| (slips(word, known), known))
+        .map(|known| (edit_distance(word, known), known))
         .filter(|&(slips, known)| {
             // Two slips would make a short word unrecognisable.
             let allowed = if known.len() < 5 { 1 } else { 2 };

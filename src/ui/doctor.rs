@@ -42,7 +42,10 @@ pub fn examine(scene: Option<&Path>) -> String {
             colours(answers.as_ref(), behind_tmux(), variable),
         ),
         ("synchronized", synchronized(answers.as_ref())),
-        ("mouse", vec!["captured; --no-mouse disables this".to_owned()]),
+        (
+            "mouse",
+            vec!["captured; --no-mouse disables this".to_owned()],
+        ),
         ("clipboard", vec!["not used".to_owned()]),
         ("link", link(variable)),
         ("changes", changes(&folder)),
@@ -70,14 +73,14 @@ fn terminal(has_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> Ve
         "TMUX",
         "SSH_CONNECTION",
     ];
-    let said: Vec<_> = names
+    let variables: Vec<_> = names
         .into_iter()
         .map(|name| match variable(name) {
             Some(value) => format!("{name}={value}"),
             None => format!("{name} not set"),
         })
         .collect();
-    let mut lines = vec![said.join(", ")];
+    let mut lines = vec![variables.join(", ")];
     if !has_terminal {
         lines.push("input or output is not a terminal: no queries sent".to_owned());
     }
@@ -112,7 +115,7 @@ fn colours(
     if depth == ColourDepth::TrueColour {
         return lines;
     }
-    let (shows_more, said) = match (answers, behind_tmux) {
+    let (shows_more, finding) = match (answers, behind_tmux) {
         (Some(answers), _) if answers.has_true_colour() => {
             (true, "the terminal reports 24-bit colour, so it is used")
         }
@@ -128,7 +131,7 @@ fn colours(
         }
         (Some(_), None) => (false, "the terminal does not report 24-bit colour"),
     };
-    lines.push(said.to_owned());
+    lines.push(finding.to_owned());
     if !shows_more {
         lines.push(depth.cure());
     }
@@ -219,8 +222,9 @@ fn processor() -> String {
             ("fma", std::arch::is_x86_feature_detected!("fma")),
             ("avx512f", std::arch::is_x86_feature_detected!("avx512f")),
         ];
-        let said = known.map(|(name, has)| format!("{name} {}", if has { "yes" } else { "no" }));
-        format!("x86_64: {}", said.join(", "))
+        let features =
+            known.map(|(name, has)| format!("{name} {}", if has { "yes" } else { "no" }));
+        format!("x86_64: {}", features.join(", "))
     }
     #[cfg(not(target_arch = "x86_64"))]
     {
@@ -324,7 +328,10 @@ mod tests {
                 state,
             }],
         };
-        assert_eq!(synchronized(Some(&answers(2))), ["supported by the terminal"]);
+        assert_eq!(
+            synchronized(Some(&answers(2))),
+            ["supported by the terminal"]
+        );
         assert!(synchronized(Some(&answers(0)))[0].contains("does not report support"));
     }
 }

@@ -230,7 +230,7 @@ impl World {
             Effect::CheckTarget(id, to) => self.writers.check(id, to),
             Effect::CheckPlace(path) => self.writers.check_place(path),
             Effect::FindBackups(scene) => self.writers.find_backups(scene),
-            Effect::Read(path, known) => self.reader.read(path, known),
+            Effect::Read(path, baseline) => self.reader.read(path, baseline),
             Effect::Free(unneeded) => self.freeing.order(unneeded),
             Effect::Save {
                 id,

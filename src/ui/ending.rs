@@ -52,7 +52,9 @@ pub enum Error {
         path: PathBuf,
     },
     /// Standard output is not a terminal.
-    #[error("the interface needs a terminal; to render a picture, run halflight render SCENE -o FILE")]
+    #[error(
+        "the interface needs a terminal; to render a picture, run halflight render SCENE -o FILE"
+    )]
     NoTerminal,
     /// The terminal cannot position text.
     #[error(

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use crossterm::event::{KeyEvent, MouseEvent};
 
-use super::reading::{Known, Reading};
+use super::reading::{Baseline, Reading};
 use super::recovery::{Claim, Found, Sought};
 use super::terminal::{ColourDepth, Mouse};
 use crate::assets::{Loaded, Wanted};
@@ -140,7 +140,7 @@ pub enum Effect {
     /// Checks whether a picture can be written there; a failure is reported by [`Msg::Exported`].
     CheckTarget(ExportId, Destination),
     /// Reads the scene file, reported by [`Msg::Read`].
-    Read(PathBuf, Known),
+    Read(PathBuf, Baseline),
     /// Frees a value on another thread: for a large scene this takes longer than a key may wait.
     Free(Arc<dyn Any + Send + Sync>),
     /// Writes the scene file, reported by [`Msg::Saved`].

@@ -221,9 +221,7 @@ fn check_target(to: &Destination) -> Result<(), String> {
         return Err(format!("{shown} is the scene itself: name another file"));
     }
     if to.named.iter().any(|named| file::is_same(path, named)) {
-        return Err(format!(
-            "{shown} is used by the scene: name another file"
-        ));
+        return Err(format!("{shown} is used by the scene: name another file"));
     }
     let reason = match to.existing {
         Existing::Kept => Some("exists"),
@@ -233,7 +231,9 @@ fn check_target(to: &Destination) -> Result<(), String> {
         Existing::Own(_) | Existing::Overwritten => None,
     };
     if let Some(reason) = reason.filter(|_| path.symlink_metadata().is_ok()) {
-        return Err(format!("{shown} {reason}: use :export! {shown} to overwrite it"));
+        return Err(format!(
+            "{shown} {reason}: use :export! {shown} to overwrite it"
+        ));
     }
     file::check_target(path).map_err(|error| format!("{shown}: {error}"))
 }

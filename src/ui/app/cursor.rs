@@ -10,7 +10,7 @@ use crate::ui::keymap::Stride;
 use crate::ui::layout::{self, Areas};
 
 /// The maximum number of parts listed for a combined object.
-const MOST_PARTS: usize = 32;
+const MAX_PARTS: usize = 32;
 
 /// The selection in the list and in the fields.
 #[derive(Debug)]
@@ -85,7 +85,7 @@ impl Cursor {
     }
 
     /// The parts of the selected object in order, each with its depth below it; at most the first
-    /// `MOST_PARTS`. Empty unless the object is a combination.
+    /// `MAX_PARTS`. Empty unless the object is a combination.
     pub fn parts(&self) -> &[(usize, Node)] {
         &self.parts
     }
@@ -118,7 +118,7 @@ impl Cursor {
         self.selected = node;
         self.fields = source.fields(node);
         self.parts = match node {
-            Node::Object(object) => source.parts(object, 1 + MOST_PARTS).split_off(1),
+            Node::Object(object) => source.parts(object, 1 + MAX_PARTS).split_off(1),
             _ => Vec::new(),
         };
     }

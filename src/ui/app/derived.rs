@@ -206,15 +206,15 @@ impl App {
     pub(super) fn field_row(&self, index: usize) -> Option<FieldRow> {
         let placed = self.cursor.fields().get(index)?;
         let source = self.source();
-        let said = (0..).zip(&placed.spans).map(|(component, span)| {
-            let said = || source.said(*span).to_owned();
+        let written = (0..).zip(&placed.spans).map(|(component, span)| {
+            let literal = || source.said(*span).to_owned();
             let default = placed.default_of(component);
             default.map_or_else(
-                || (said(), Provenance::Text),
+                || (literal(), Provenance::Text),
                 |default| (default.to_owned(), Provenance::Default),
             )
         });
-        let (said, sources): (Vec<_>, Vec<_>) = said.unzip();
+        let (literals, sources): (Vec<_>, Vec<_>) = written.unzip();
         let row = |literals, source| FieldRow {
             field: placed.field,
             literals,
@@ -232,14 +232,14 @@ impl App {
             return Some(row(shown(view), Provenance::WorkingView));
         }
         Some(match scene {
-            Some(scene) if said.is_empty() => row(shown(&scene.camera), Provenance::Default),
-            None if said.is_empty() => row(
+            Some(scene) if literals.is_empty() => row(shown(&scene.camera), Provenance::Default),
+            None if literals.is_empty() => row(
                 vec!["?".to_owned(); placed.field.kind.components()],
                 Provenance::Default,
             ),
             _ => FieldRow {
                 field: placed.field,
-                literals: said,
+                literals,
                 sources,
             },
         })

@@ -8,7 +8,7 @@ use super::journal::Journal;
 use crate::file::ReadError;
 use crate::text::Findings;
 use crate::ui::msg::{Effect, Timer};
-use crate::ui::reading::{Known, Place};
+use crate::ui::reading::{Baseline, Place};
 
 /// The scene's file.
 #[derive(Debug, Default)]
@@ -121,22 +121,22 @@ impl Disk {
     }
 
     /// Reads the file.
-    pub(super) fn read(&self, known: Known) -> Vec<Effect> {
+    pub(super) fn read(&self, baseline: Baseline) -> Vec<Effect> {
         let path = self.path.clone();
-        let read = path.map(|path| Effect::Read(path, known));
+        let read = path.map(|path| Effect::Read(path, baseline));
         read.into_iter().collect()
     }
 
     /// Reads the file, which may have to settle again.
-    pub(super) fn read_again(&mut self, known: Known) -> Vec<Effect> {
+    pub(super) fn read_again(&mut self, baseline: Baseline) -> Vec<Effect> {
         self.settle = Settle::Idle;
-        self.read(known)
+        self.read(baseline)
     }
 
     /// Reads the file and accepts what it holds.
-    pub(super) fn read_finally(&mut self, known: Known) -> Vec<Effect> {
+    pub(super) fn read_finally(&mut self, baseline: Baseline) -> Vec<Effect> {
         self.settle = Settle::Final;
-        self.read(known)
+        self.read(baseline)
     }
 
     /// Makes the next reading answer the user.

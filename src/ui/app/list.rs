@@ -116,7 +116,7 @@ impl App {
 
     /// Whether a node's name or comment contains a word in lower case.
     fn is_called(&self, node: Node, word: &str) -> bool {
-        let holds = |said: &str| said.to_lowercase().contains(word);
+        let holds = |text: &str| text.to_lowercase().contains(word);
         holds(&self.source().name(node)) || self.source().comment(node).is_some_and(holds)
     }
 

@@ -15,7 +15,7 @@ use crate::language::Lowered;
 use crate::text::{Edit, Findings, Position, counted, smallest_edit};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Guard};
-use crate::ui::reading::{Known, News, Reading};
+use crate::ui::reading::{Baseline, News, Reading};
 
 /// Many programs empty a file before writing it: errors must persist for this long.
 const QUIET: Duration = Duration::from_millis(100);
@@ -53,7 +53,7 @@ const SAME_NOW: Words = Words {
 
 impl App {
     pub(super) fn read_again(&mut self) -> Vec<Effect> {
-        self.disk.read_again(self.known())
+        self.disk.read_again(self.baseline())
     }
 
     /// Rereads the scene's file and the files that it names, for `:e`.
@@ -69,12 +69,12 @@ impl App {
     }
 
     pub(super) fn read_effect(&self) -> Vec<Effect> {
-        self.disk.read(self.known())
+        self.disk.read(self.baseline())
     }
 
     /// The state that a reading of the file is compared with.
-    pub(super) fn known(&self) -> Known {
-        Known {
+    pub(super) fn baseline(&self) -> Baseline {
+        Baseline {
             scene: self.document.snapshot(),
             saving: self.text_being_saved().cloned(),
             meshes: self.assets.meshes.clone(),
@@ -85,20 +85,20 @@ impl App {
     /// changes, neither an edit nor a mesh. With a million objects, changes arrive about a second
     /// after the last edit.
     fn is_known(&self, reading: &Reading) -> bool {
-        let known = &reading.known;
+        let baseline = &reading.baseline;
         let saving = |text: Option<&Arc<String>>| text.map(Arc::as_ptr);
-        if saving(known.saving.as_ref()) != saving(self.text_being_saved()) {
+        if saving(baseline.saving.as_ref()) != saving(self.text_being_saved()) {
             return false;
         }
         if reading.news.is_none() {
-            return Arc::ptr_eq(&known.scene.saved, self.document.saved());
+            return Arc::ptr_eq(&baseline.scene.saved, self.document.saved());
         }
-        known.scene.is_of(&self.document) && known.meshes == self.assets.meshes
+        baseline.scene.is_of(&self.document) && baseline.meshes == self.assets.meshes
     }
 
     pub(super) fn settled(&mut self) -> Vec<Effect> {
         if self.disk.is_waiting() {
-            self.disk.read_finally(self.known())
+            self.disk.read_finally(self.baseline())
         } else {
             Vec::new()
         }
@@ -143,14 +143,14 @@ impl App {
         let effects = self.take_text(reading, is_final);
         let folder = place.folder.display();
         if before.id != place.id {
-            let said = self
+            let message = self
                 .overlays
                 .message
                 .take()
-                .map(|said| format!("; {}", said.text));
-            let said = said.unwrap_or_default();
+                .map(|message| format!("; {}", message.text));
+            let message = message.unwrap_or_default();
             self.overlays
-                .warn(format!("{folder} is now a different folder{said}"));
+                .warn(format!("{folder} is now a different folder{message}"));
         } else if before.folder != place.folder {
             self.overlays
                 .warn(format!("the scene's folder was moved to {folder}"));
@@ -234,8 +234,10 @@ impl App {
             if sound {
                 self.disk.sound = Some(Arc::clone(&held.text));
             }
-            self.overlays
-                .fail(format!("the scene has {}", counted(self.error_count(), "error")));
+            self.overlays.fail(format!(
+                "the scene has {}",
+                counted(self.error_count(), "error")
+            ));
         } else {
             let sound = self.disk.sound.take();
             let from_sound = sound.map(|sound| smallest_edit(&sound, self.document.text()));
@@ -255,8 +257,7 @@ impl App {
             });
         }
         if lost {
-            self.overlays
-                .warn("typed value dropped: its field is gone");
+            self.overlays.warn("typed value dropped: its field is gone");
         }
     }
 
@@ -264,7 +265,8 @@ impl App {
     pub(super) fn save(&mut self) -> Vec<Effect> {
         let Some(path) = self.disk.path.clone() else {
             self.overlays.open_prompt(PromptKind::Command, "w ");
-            self.overlays.say("this scene has no file yet: enter a name");
+            self.overlays
+                .say("this scene has no file yet: enter a name");
             return Vec::new();
         };
         if !self.document.is_dirty() && self.disk.state == OnDisk::Known {
@@ -355,7 +357,8 @@ impl App {
     /// Opens the user's editor at the cursor.
     pub(super) fn open_editor(&mut self) -> Vec<Effect> {
         let Some(path) = self.disk.path.clone() else {
-            self.overlays.fail("this scene has no file yet: use :w FILE to create one");
+            self.overlays
+                .fail("this scene has no file yet: use :w FILE to create one");
             return Vec::new();
         };
         // A file with errors that is kept apart from the edits must be corrected first.

@@ -78,7 +78,7 @@ impl App {
             SaveOutcome::ChangedOnDisk => {
                 let words = "the file has changed: nothing was written yet";
                 self.overlays.warn(words);
-                self.disk.read_finally(self.known())
+                self.disk.read_finally(self.baseline())
             }
             SaveOutcome::Failed(reason) => {
                 self.overlays.fail(reason);

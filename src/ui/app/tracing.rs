@@ -97,8 +97,7 @@ impl App {
             return Vec::new();
         }
         let Some(job) = self.trace_job() else {
-            self.overlays
-                .fail("no picture: the scene has errors");
+            self.overlays.fail("no picture: the scene has errors");
             return Vec::new();
         };
         // A picture too large for a picture file is also too large to look at.

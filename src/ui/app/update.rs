@@ -134,12 +134,12 @@ impl App {
             // As in other programs, Backspace in an empty line closes it.
             KeyCode::Backspace if prompt.input.value().is_empty() => self.close_prompt(),
             KeyCode::Enter => {
-                let (kind, said) = (prompt.kind, prompt.input.value().to_owned());
+                let (kind, typed) = (prompt.kind, prompt.input.value().to_owned());
                 self.overlays.prompt = None;
                 match kind {
-                    PromptKind::Command => return self.command(&said),
+                    PromptKind::Command => return self.command(&typed),
                     PromptKind::Search => {
-                        self.cursor.searched = said;
+                        self.cursor.searched = typed;
                         self.search(1);
                     }
                 }

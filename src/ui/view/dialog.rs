@@ -48,7 +48,9 @@ fn offered(app: &App, offer: &Offer) -> String {
         (Since::Changed, 0) => format!(" The {text} has changed since; both will be merged."),
         (Since::Changed, count) => {
             let both = counted(count, "place");
-            format!(" The {text} has changed since, {both} in both: you will be asked which to keep.")
+            format!(
+                " The {text} has changed since, {both} in both: you will be asked which to keep."
+            )
         }
     };
     let damage = if offer.is_damaged() {
@@ -127,7 +129,7 @@ fn conflict(app: &App, merge: &Merge, at: usize, from: &Outside, area: Rect, buf
         let each = (row.room() - was.as_ref().map_or(0, |was| was.width())) / 2;
         let mine = from.mine();
         for (side, name) in [(mine, "mine"), (mine.other(), theirs)] {
-            let text = conflict.said(side);
+            let text = conflict.text(side);
             let chosen = conflict.decision == Some(side);
             let mark = if chosen { "● " } else { "○ " };
             let style = if chosen { theme::GOOD } else { theme::DIM };
@@ -212,7 +214,12 @@ mod tests {
         retype(&mut app, " 0.25 //", " 0.5 //");
         app.overlays.dialog = Some(Dialog::Quit);
         let text = drawn(&app, super::render, 80, 24).join("\n");
-        for part in ["test.ray has unsaved edits", "y quit", "w save and quit", "n stay"] {
+        for part in [
+            "test.ray has unsaved edits",
+            "y quit",
+            "w save and quit",
+            "n stay",
+        ] {
             assert!(text.contains(part), "{part:?} in\n{text}");
         }
     }

@@ -223,7 +223,7 @@ fn a_mesh_arrives_later_and_the_picture_follows_its_file() {
         "'/>\n</scene>",
         "'/>\n  <object type='obj' name='b.obj'/>\n</scene>",
     );
-    let late = Reading::new(more.clone(), app.known()).expect("it fits into memory");
+    let late = Reading::new(more.clone(), app.baseline()).expect("it fits into memory");
     let asks = app.update(Msg::AssetsChanged);
     assert_eq!(asked(&asks), Some(wanted_mesh(&[])));
     for other in [

@@ -111,7 +111,7 @@ fn a_reading_compared_with_an_outdated_text_is_repeated() {
     let mut app = open(SCENE);
     let late = |app: &App| {
         let theirs = app.document.text().replace("1.5", "1.7");
-        let reading = Reading::new(theirs, app.known()).expect("it fits into memory");
+        let reading = Reading::new(theirs, app.baseline()).expect("it fits into memory");
         Msg::Read(PathBuf::from("scene.ray"), Ok(reading))
     };
     let before = late(&app);
@@ -241,7 +241,7 @@ fn a_moved_or_replaced_folder_is_reported() {
         let mut app = open(SCENE);
         let mut read = |text: &str, place| {
             app.overlays.message = None;
-            let reading = Reading::new(text.to_owned(), app.known()).expect("it fits");
+            let reading = Reading::new(text.to_owned(), app.baseline()).expect("it fits");
             let reading = Reading { place, ..reading };
             app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(reading)));
             words(&app).to_owned()
@@ -256,7 +256,7 @@ fn a_moved_or_replaced_folder_is_reported() {
 #[test]
 fn an_unchanged_file_is_not_read_again_because_of_an_edit() {
     let mut app = open(SCENE);
-    let reading = Reading::new(SCENE.to_owned(), app.known()).expect("it fits into memory");
+    let reading = Reading::new(SCENE.to_owned(), app.baseline()).expect("it fits into memory");
     press(&mut app, "jjjel");
     let effects = app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(reading)));
     assert!(

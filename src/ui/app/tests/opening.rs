@@ -14,14 +14,14 @@ fn opening() -> (App, Vec<Effect>) {
 
 /// The message with the first reading of a file that holds this text.
 fn read(effects: &[Effect], text: &str) -> Msg {
-    let known = effects.iter().find_map(|effect| match effect {
-        Effect::Read(path, known) => Some((path.clone(), known.clone())),
+    let baseline = effects.iter().find_map(|effect| match effect {
+        Effect::Read(path, baseline) => Some((path.clone(), baseline.clone())),
         _ => None,
     });
-    let (path, known) = known.expect("it is to be read");
+    let (path, baseline) = baseline.expect("it is to be read");
     Msg::Read(
         path,
-        Ok(Reading::new(text.to_owned(), known).expect("it fits")),
+        Ok(Reading::new(text.to_owned(), baseline).expect("it fits")),
     )
 }
 
