@@ -20,7 +20,7 @@ pub type PictureErrors = BTreeMap<String, PictureError>;
 pub struct PictureError {
     /// The reason, as the end of a sentence.
     reason: String,
-    /// A possible remedy.
+    /// What the user may do, or the paths tried.
     hint: Option<String>,
     /// What is shown instead.
     shown: Shown,
@@ -29,7 +29,7 @@ pub struct PictureError {
 /// What is shown instead of a picture that cannot be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shown {
-    /// Magenta.
+    /// Magenta, because no version could be read so far.
     Magenta,
     /// The last version that could be read.
     Last,

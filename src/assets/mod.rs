@@ -178,7 +178,7 @@ struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    /// Reads one file.
+    /// Reads one file whole, and notes where it was found.
     fn content(&mut self, name: &str) -> Result<Content, Failure> {
         let mut content = self.gate.read(name, &mut self.room.bytes)?;
         self.note(name, content.elsewhere.take());

@@ -30,7 +30,7 @@ pub struct Conflict {
     pub span: Span,
     /// The text of the common ancestor.
     pub base: String,
-    /// The edited text.
+    /// The text being edited, in `span`.
     pub mine: String,
     /// The text from outside.
     pub theirs: String,
@@ -62,7 +62,7 @@ enum Piece {
 }
 
 impl Side {
-    /// The other side.
+    /// `Theirs` for `Mine` and the reverse.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -366,7 +366,7 @@ impl<'h> Walk<'h> {
         }
     }
 
-    /// The next hunk.
+    /// The next hunk, without passing it.
     fn peek(&self) -> Option<&'h Hunk> {
         self.hunks.first()
     }

@@ -39,9 +39,9 @@ impl Window {
 /// The spans from the first to the last difference between two texts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Change {
-    /// The replaced text.
+    /// The span in the base that is replaced.
     base: Span,
-    /// The new text.
+    /// The span in the other text that replaces it.
     other: Span,
 }
 

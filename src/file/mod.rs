@@ -107,7 +107,7 @@ pub enum ReadError {
         text: String,
         /// The first such replacement in `text`.
         span: Span,
-        /// The invalid byte.
+        /// The first invalid byte.
         byte: u8,
         /// The most likely encoding, by its iconv name.
         encoding: &'static str,

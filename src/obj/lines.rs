@@ -113,7 +113,7 @@ pub(super) struct Findings {
 }
 
 impl Findings {
-    /// Adds an error.
+    /// Adds an error; line and column count from 1.
     pub(super) fn error(&mut self, line: usize, column: usize, message: impl Into<String>) {
         let finding = self.finding(line, column, message.into());
         self.errors.push(finding);

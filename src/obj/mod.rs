@@ -30,7 +30,7 @@ const MAX_FINDINGS: usize = 10;
 /// A mesh with its materials.
 #[derive(Debug)]
 pub struct Model {
-    /// The triangles.
+    /// The triangles, with their slots of materials.
     pub mesh: Arc<Mesh>,
     /// The material of each slot; `None` for triangles without one, or with one that no library
     /// defines.

@@ -42,17 +42,17 @@ const FORMS: &[(&[&str], Form)] = &[
 /// The form that most editors support.
 const OTHERS: Form = &[Line, File];
 
-/// Arguments in order.
+/// The arguments that tell an editor the file and line, in order.
 type Form = &'static [Part];
 
 use Part::{File, FileLine, Line, LocalFile, Text};
 
-/// One argument.
+/// One argument of an editor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Part {
-    /// A constant.
+    /// An option, passed unchanged.
     Text(&'static str),
-    /// `+LINE`.
+    /// `+LINE`, which most editors understand.
     Line,
     /// The path of the file.
     File,

@@ -11,13 +11,13 @@ use crate::memory::NoThreads;
 /// How the interface ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// The user quit.
+    /// The user quit, by key or command.
     Quit,
     /// It was interrupted by a signal.
     Interrupted,
     /// Another signal requested its end.
     Terminated {
-        /// The signal number.
+        /// The signal's number, such as 15 for SIGTERM.
         signal: u8,
     },
     /// The terminal is gone.
@@ -48,7 +48,7 @@ pub enum Error {
         path = path.display()
     )]
     NoSuch {
-        /// The argument.
+        /// The argument as given.
         path: PathBuf,
     },
     /// Standard output is not a terminal.
@@ -65,7 +65,7 @@ pub enum Error {
     /// No thread can be started.
     #[error(transparent)]
     NoThreads(#[from] NoThreads),
-    /// The terminal failed.
+    /// Reading from or writing to the terminal failed.
     #[error("terminal: {0}")]
     Terminal(#[from] io::Error),
 }

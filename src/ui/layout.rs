@@ -13,7 +13,7 @@ pub enum Zoom {
     /// The picture beside the list and the fields.
     #[default]
     Panels,
-    /// Only the picture.
+    /// Only the picture, without list and fields.
     Picture,
 }
 

@@ -22,7 +22,7 @@ const LARGE: usize = 1 << 20;
 enum Order {
     /// Watch this file instead of the previous one.
     Watch(PathBuf),
-    /// Read this file.
+    /// Read this file and compare it with the baseline.
     Read(PathBuf, Baseline),
 }
 

@@ -67,7 +67,7 @@ pub enum News {
     Broken(Arc<String>, Findings),
 }
 
-/// A lowered text.
+/// What a text that was read means, and how it differs from the text under edit.
 #[derive(Debug)]
 pub struct Meaning {
     /// The result of lowering.

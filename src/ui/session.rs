@@ -69,7 +69,7 @@ struct Session {
 /// How soon the screen must be drawn.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Urgency {
-    /// Nothing changed.
+    /// Nothing changed: no drawing is due.
     Never,
     /// The picture was refined.
     Soon,

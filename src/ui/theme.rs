@@ -14,16 +14,16 @@ pub(crate) const ACCENT: Style = Style::new().fg(Color::Cyan);
 /// Secondary text: explanations, units, defaults. A grey that is legible on black and on white.
 pub(crate) const DIM: Style = Style::new().fg(Color::Indexed(245));
 
-/// Titles.
+/// Titles, file names and the item under the cursor.
 pub(crate) const BOLD: Style = Style::new().add_modifier(Modifier::BOLD);
 
-/// Success.
+/// Messages of success, and chosen sides of conflicts.
 pub(crate) const GOOD: Style = Style::new().fg(Color::Green);
 
 /// Warnings and unsaved changes.
 pub(crate) const WARNING: Style = Style::new().fg(Color::Yellow);
 
-/// Errors.
+/// Errors in texts, and failures.
 pub(crate) const ERROR: Style = Style::new().fg(Color::Red);
 
 /// The character under a cursor.

@@ -16,7 +16,7 @@ use crate::file::{ReadError, Version};
 use crate::image_file;
 use crate::render::Frame;
 
-/// The writing threads.
+/// Starts a thread for each file to write, and waits for all of them at the end.
 pub(super) struct Writers {
     sender: Sender<Event>,
     /// Cloned into each thread and dropped when it ends.
@@ -25,7 +25,7 @@ pub(super) struct Writers {
 }
 
 impl Writers {
-    /// Starts without threads.
+    /// Threads send their results to `sender`.
     pub(super) fn new(sender: Sender<Event>) -> Self {
         let (at_work, all_ended) = mpsc::channel();
         Self {
@@ -198,7 +198,7 @@ fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), Refusal> {
     }
 }
 
-/// Writes a picture.
+/// Writes a picture unless that would replace a file that others wrote.
 fn export(frame: &Frame, to: Destination) -> Result<Exported, String> {
     check_target(&to)?;
     let may = || check_target(&to).map_err(Refusal::Other);

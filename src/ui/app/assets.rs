@@ -49,7 +49,7 @@ pub(super) enum Notice {
     Faults,
     /// Where files were found, other than where first looked for.
     Elsewhere(String),
-    /// Files have changed.
+    /// Files have changed on disk and were read again.
     Reloaded,
 }
 

@@ -17,15 +17,15 @@ use crate::ui::msg::{Effect, Existing, Guard};
 enum Command {
     /// Save, optionally to another file.
     Write(Option<PathBuf>, Force),
-    /// Quit.
+    /// Quit; with `!` without asking.
     Quit(Force),
-    /// Save and quit.
+    /// Save, then quit if that succeeds.
     WriteQuit,
     /// Read the file again.
     Reread,
-    /// Export a picture.
+    /// Export what is shown to a picture file.
     Export(Picture, Force),
-    /// Cancel the export.
+    /// Cancel the running export.
     ExportCancel,
     /// Trace at full size.
     Render,
@@ -35,7 +35,7 @@ enum Command {
     ViewReset,
     /// Set the size of the output picture.
     Size(Size),
-    /// Show the keys.
+    /// Open the help page.
     Help,
 }
 
@@ -82,7 +82,7 @@ const fn form(names: &'static [&'static str], arguments: Arguments, words: &'sta
 use Arguments as A;
 use Command as C;
 
-/// All commands.
+/// All commands, in the order of the help page.
 #[rustfmt::skip]
 const TABLE: &[Form] = &[
     form(&["w", "write"], A::File(|file| C::Write(file, Force::No)), "save the scene, or save it as FILE"),

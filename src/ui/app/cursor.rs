@@ -74,7 +74,7 @@ impl Default for Cursor {
 }
 
 impl Cursor {
-    /// The selected node.
+    /// The selected node; the view until something else is selected.
     pub fn selected(&self) -> Node {
         self.selected
     }
@@ -95,7 +95,7 @@ impl Cursor {
         self.fields.get(self.field)
     }
 
-    /// Selects a node.
+    /// Selects a node and drops a value being typed.
     pub fn select(&mut self, node: Node, source: &Source) {
         self.typing = None;
         if node != self.selected {

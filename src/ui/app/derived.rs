@@ -73,7 +73,7 @@ impl App {
         self.pictures.camera(self.own_camera())
     }
 
-    /// The scene's camera.
+    /// The scene's own camera, regardless of the working view.
     pub(super) fn own_camera(&self) -> Option<Camera> {
         self.scene.as_ref().map(|scene| scene.camera)
     }

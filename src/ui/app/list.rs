@@ -7,7 +7,7 @@ use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{self, Areas};
 
 impl App {
-    /// Selects a node.
+    /// Selects a node; ends the current undo step.
     pub(super) fn select(&mut self, node: Node) {
         self.document.end_step();
         self.cursor.select(node, self.document.source());

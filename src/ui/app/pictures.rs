@@ -11,7 +11,7 @@ use crate::ui::msg::Target;
 /// The preview and the full-size trace.
 #[derive(Debug)]
 pub struct Pictures {
-    /// The preview.
+    /// The preview beside the list, restarted at each change.
     pub preview: Picture,
     /// The full-size trace, once requested.
     pub trace: Option<Picture>,
@@ -51,10 +51,10 @@ pub struct Quality {
 /// Whether the selected object is outlined in the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Outline {
-    /// In SELECT mode.
+    /// It is outlined in SELECT mode.
     #[default]
     Marked,
-    /// Never.
+    /// It is never outlined.
     Hidden,
 }
 

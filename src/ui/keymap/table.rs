@@ -24,7 +24,7 @@ pub(super) struct Binding {
 /// The contexts of a binding.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Scope {
-    /// Only these contexts.
+    /// Active only in these contexts.
     These(&'static [Context]),
     /// All modes and the list of errors.
     Everywhere,

@@ -28,7 +28,7 @@ pub enum Choice {
     /// Derived from the environment.
     #[default]
     Auto,
-    /// A fixed depth.
+    /// This depth, whatever the environment says.
     Fixed(ColourDepth),
 }
 
@@ -117,7 +117,7 @@ pub(super) enum Ink {
     Default,
     /// A palette index; the first sixteen depend on the theme.
     Index(u8),
-    /// Red, green, blue.
+    /// Red, green and blue, 0 to 255.
     Rgb(u8, u8, u8),
 }
 

@@ -18,11 +18,11 @@ use crate::text::visible;
 /// Owner of the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ownership {
-    /// The interface.
+    /// The interface draws on it.
     Ours,
-    /// Another program, temporarily.
+    /// Another program, such as the editor, until it ends.
     Lent,
-    /// The parent program.
+    /// The parent program: its modes are restored.
     GivenBack,
 }
 

@@ -17,7 +17,7 @@ use crate::ui::keymap::{Mode, Stride};
 use crate::ui::layout;
 use crate::ui::theme;
 
-/// Draws the fields.
+/// Draws the fields of the selected node and a description of the current one.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let focused = app.mode == Mode::Edit;
     let stride = match app.cursor.stride {

@@ -16,7 +16,7 @@ use crate::ui::theme;
 /// Minimum width of a comment, in columns.
 const COMMENT: usize = 6;
 
-/// Draws the list.
+/// Draws the list of lights and objects with names and comments.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let selected = app.selected_row();
     let nodes = app.nodes();

@@ -60,7 +60,7 @@ const RESOLUTION: Duration = Duration::from_millis(1);
 /// The estimated rate and round trip of a line.
 #[derive(Debug)]
 pub(super) struct Estimate {
-    /// Bytes per second.
+    /// The current estimate, in bytes per second.
     rate: u32,
     /// The last rate that proved right.
     settled: Option<u32>,
