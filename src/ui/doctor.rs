@@ -258,7 +258,7 @@ fn folders(scene: Option<&Path>, folder: &Path) -> Vec<String> {
     vec![
         format!("current: {current}"),
         format!("unsaved edits are kept in {kept}"),
-        format!("pictures and meshes are read from under {readable}; --assets adds folders"),
+        format!("pictures and meshes are read below {readable}; --assets adds folders"),
     ]
 }
 

@@ -209,7 +209,7 @@ fn a_silent_terminal_gets_the_hint_once() {
     session.send("?");
     session.wait_for(" Keys ");
     session.send("/--color");
-    session.wait_for("24-bit colour, where");
+    session.wait_for("use 24-bit colour even");
     session.send([ESC, ESC].concat());
     wait_until_gone(&mut session, " Keys ");
     quit(session);

@@ -41,10 +41,7 @@ const DIALOGS: [(&str, Context); 5] = [
 
 /// Command line arguments.
 const START: [(&str, &str); 2] = [
-    (
-        "--color 24",
-        "24-bit colour, if the terminal doesn't announce it",
-    ),
+    ("--color 24", "use 24-bit colour even if not detected"),
     ("halflight doctor", "what was detected, and why"),
 ];
 

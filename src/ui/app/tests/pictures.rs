@@ -177,7 +177,7 @@ fn only_pictures_of_this_session_are_overwritten_unasked() {
 }
 
 #[test]
-fn exports_of_a_text_with_errors_announce_the_last_scene_without() {
+fn exports_of_a_text_with_errors_announce_the_last_valid_scene() {
     for said in ["b", "<F5>"] {
         let mut app = open(SCENE);
         outside(&mut app, "x");
@@ -185,7 +185,11 @@ fn exports_of_a_text_with_errors_announce_the_last_scene_without() {
         outside(&mut app, "x");
         assert!(0 < app.error_count());
         press(&mut app, said);
-        assert!(words(&app).contains("without"), "{said}: {}", words(&app));
+        assert!(
+            words(&app).contains("the last valid scene"),
+            "{said}: {}",
+            words(&app)
+        );
     }
 }
 
