@@ -104,7 +104,11 @@ impl Own {
         let (mut lowered, mut files) = lower(&loaded);
         for _ in 0..2 {
             loaded = assets.read(&Wanted::new(&self.path, &files));
-            assert!(loaded.troubles.is_empty(), "{:?}", loaded.troubles);
+            assert!(
+                loaded.picture_errors.is_empty(),
+                "{:?}",
+                loaded.picture_errors
+            );
             (lowered, files) = lower(&loaded);
         }
         assert_eq!(*lowered.diagnostics, [], "{}", self.path.display());

@@ -105,7 +105,11 @@ fn the_courses_own_files_are_read_listed_and_edited() {
         let (mut source, _) = read(&text);
         let files = source.files();
         let loaded = Assets::new(&[]).read(&Wanted::new(&path, &files));
-        assert!(loaded.troubles.is_empty(), "{name}: {:?}", loaded.troubles);
+        assert!(
+            loaded.picture_errors.is_empty(),
+            "{name}: {:?}",
+            loaded.picture_errors
+        );
         let lowered = source.lower(&loaded.meshes).expect("there is memory");
         let said: Vec<_> = lowered
             .diagnostics

@@ -19,7 +19,7 @@ use rustix::fs::{Mode, OFlags};
 /// An open folder and its path.
 #[derive(Debug)]
 pub(super) struct Folder {
-    /// The canonical path.
+    /// The canonical path, without links.
     real: PathBuf,
     #[cfg(unix)]
     descriptor: OwnedFd,
@@ -31,7 +31,7 @@ pub(super) struct Folder {
 pub struct NoFolder {
     /// The folder as given.
     path: PathBuf,
-    /// The system's error.
+    /// The system's error on opening it.
     source: io::Error,
 }
 
@@ -65,7 +65,7 @@ impl Folder {
         })
     }
 
-    /// The canonical path.
+    /// The canonical path, without links.
     pub(super) fn real(&self) -> &Path {
         &self.real
     }

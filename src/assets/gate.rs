@@ -12,8 +12,8 @@ use std::path::{Component, Path, PathBuf};
 
 use rayon::prelude::*;
 
+use super::failure::Failure;
 use super::folder::Folder;
-use super::trouble::Failure;
 use crate::file::{self, directory_of};
 
 /// The folders that a scene's files may be read from.

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::Reading;
+use super::failure::Failure;
 use super::gate::Content;
-use super::trouble::Failure;
 use crate::obj::{self, Model};
 use crate::scene::{Meshes, NoMesh, beside};
 

@@ -2,11 +2,11 @@
 //! read, from the scene's folder, its parent, and folders that the user names. Independent of what
 //! the files are used for.
 
+mod failure;
 mod folder;
 mod gate;
 mod meshes;
 mod pictures;
-mod trouble;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
@@ -16,19 +16,19 @@ use crate::language::{FileKind, NamedFile};
 use crate::obj;
 use crate::scene::{Image, Images, Meshes};
 
+use failure::Failure;
 use gate::{Content, Gate, Stream};
 use meshes::KnownMesh;
-use trouble::Failure;
 
+pub use failure::{PictureError, PictureErrors, report};
 pub use folder::{NoFolder, check_folders};
-pub use trouble::{Trouble, Troubles, report};
 
 /// The limits for all files of a scene in total: 512 MiB of files, 384 MiB of decoded pictures, and
 /// as many triangles as a single mesh may have.
 const LIMITS: Room = Room {
     bytes: 512 << 20,
     pixels: 1 << 27,
-    triangles: obj::MOST_TRIANGLES,
+    triangles: obj::MAX_TRIANGLES,
 };
 
 /// Reads files and keeps the last results: files whose bytes are known are not decoded again.
@@ -82,7 +82,7 @@ pub struct Loaded {
     /// The meshes, by name.
     pub meshes: Meshes,
     /// The errors by name, for pictures that are missing or not up to date.
-    pub troubles: Troubles,
+    pub picture_errors: PictureErrors,
     /// The paths by name, for files that were not at the first path tried.
     pub elsewhere: BTreeMap<String, PathBuf>,
     /// The paths to watch: see [`Assets::places`].
@@ -135,13 +135,13 @@ impl Assets {
             room: self.limits,
         };
         let meshes = reading.meshes(&wanted.meshes);
-        let (images, troubles) = reading.pictures(&wanted.pictures);
+        let (images, picture_errors) = reading.pictures(&wanted.pictures);
         let elsewhere = reading.elsewhere;
         self.known = reading.now;
         Loaded {
             images,
             meshes,
-            troubles,
+            picture_errors,
             elsewhere,
             files: self.places(wanted),
         }
@@ -178,7 +178,7 @@ struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    /// Reads one file.
+    /// Reads one file whole, and notes where it was found.
     fn content(&mut self, name: &str) -> Result<Content, Failure> {
         let mut content = self.gate.read(name, &mut self.room.bytes)?;
         self.note(name, content.elsewhere.take());

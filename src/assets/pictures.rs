@@ -3,16 +3,16 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use super::trouble::{Failure, Shown, Troubles};
+use super::failure::{Failure, PictureErrors, Shown};
 use super::{Known, Reading};
 use crate::image_file::{self, Unreadable};
 use crate::scene::{Image, Images};
 
 impl Reading<'_> {
     /// Reads pictures. Returns also the errors of those that are missing or not up to date.
-    pub(super) fn pictures(&mut self, names: &BTreeSet<String>) -> (Images, Troubles) {
+    pub(super) fn pictures(&mut self, names: &BTreeSet<String>) -> (Images, PictureErrors) {
         let mut images = Vec::new();
-        let mut troubles = Troubles::new();
+        let mut picture_errors = PictureErrors::new();
         for name in names {
             let place = self.gate.place(name);
             let image = match self.picture(name) {
@@ -24,7 +24,7 @@ impl Reading<'_> {
                         Some(_) => Shown::Last,
                         None => Shown::Magenta,
                     };
-                    troubles.insert(name.clone(), failure.trouble(shown));
+                    picture_errors.insert(name.clone(), failure.picture_error(shown));
                     last
                 }
             };
@@ -37,7 +37,7 @@ impl Reading<'_> {
                 }
             }
         }
-        (images.into_iter().collect(), troubles)
+        (images.into_iter().collect(), picture_errors)
     }
 
     /// Reads one picture. Returns it with the hash of its file.

@@ -47,21 +47,21 @@ impl Place {
         let loaded = Assets::new(folders).read(&self.wanted(&[name]));
         assert_eq!(
             loaded.images.get(name).is_some(),
-            loaded.troubles.is_empty()
+            loaded.picture_errors.is_empty()
         );
-        loaded.troubles.get(name).map(message_of)
+        loaded.picture_errors.get(name).map(message_of)
     }
 }
 
 /// The message with its hint in parentheses.
-fn message_of(trouble: &Trouble) -> String {
+fn message_of(error: &PictureError) -> String {
     let file = NamedFile {
         path: String::new(),
         kind: FileKind::Picture,
         span: Span::at(0),
         what: "texture 1 file".to_owned(),
     };
-    let Diagnostic { message, hint, .. } = trouble.at(&file);
+    let Diagnostic { message, hint, .. } = error.at(&file);
     format!("{message} ({})", hint.unwrap_or_default())
 }
 
@@ -162,8 +162,8 @@ fn the_reason_why_a_picture_cannot_be_read_is_precise() {
         ("folder.png", "is a folder, not a file"),
         ("pipe.png", "is a pipe, not a file"),
         ("loop.png", "symbolic links"),
-        ("empty.png", "is not a picture of a known format"),
-        ("text.png", "is not a picture of a known format"),
+        ("empty.png", "is not in a known picture format"),
+        ("text.png", "is not in a known picture format"),
         ("half.ppm", "is not a valid picture: "),
         (
             "huge.ppm",
@@ -209,7 +209,7 @@ fn a_partly_written_file_keeps_its_last_picture() {
         place.write("a.ppm", content);
         let loaded = assets.read(&wanted);
         assert_eq!(pixel(&loaded, "a.ppm"), Some(RED));
-        let message = message_of(&loaded.troubles["a.ppm"]);
+        let message = message_of(&loaded.picture_errors["a.ppm"]);
         assert!(message.contains("; its last picture is kept"), "{message}");
     }
     fs::remove_file(place.at("a.ppm")).expect("it is there");
@@ -217,7 +217,7 @@ fn a_partly_written_file_keeps_its_last_picture() {
     place.write("a.ppm", ppm(BLUE));
     let loaded = assets.read(&wanted);
     assert_eq!(pixel(&loaded, "a.ppm"), Some(BLUE));
-    assert!(loaded.troubles.is_empty());
+    assert!(loaded.picture_errors.is_empty());
 }
 
 #[test]
@@ -231,7 +231,7 @@ fn a_picture_replaced_by_something_unreadable_is_kept() {
     let mut keeps = |reason: &str| {
         let loaded = assets.read(&wanted);
         assert_eq!(pixel(&loaded, "a.ppm"), Some(RED), "{reason}");
-        let message = message_of(&loaded.troubles["a.ppm"]);
+        let message = message_of(&loaded.picture_errors["a.ppm"]);
         assert!(message.contains(reason), "{message}");
     };
     keeps("no such file; its last picture is kept");
@@ -256,8 +256,12 @@ fn pictures_beyond_the_limits_are_left_out() {
         let mut assets = Assets::new(&[]);
         assets.limits = limits;
         let loaded = assets.read(&wanted);
-        let message = |(name, trouble)| format!("{name}: {}", message_of(trouble));
-        loaded.troubles.iter().map(message).collect::<Vec<_>>()
+        let message = |(name, error)| format!("{name}: {}", message_of(error));
+        loaded
+            .picture_errors
+            .iter()
+            .map(message)
+            .collect::<Vec<_>>()
     };
     // The fourth equals the first.
     let found = refused(Room {
@@ -338,7 +342,7 @@ fn every_place_that_names_a_file_gets_a_warning() {
         what: "texture 1 file".to_owned(),
     };
     let files = [file(9, "none"), file(5, "other"), file(3, "none")];
-    let found = report(&loaded.troubles, &files, Findings::default());
+    let found = report(&loaded.picture_errors, &files, Findings::default());
     assert_eq!(found.warnings(), 2);
     let starts: Vec<_> = found.iter().map(|found| found.span.start()).collect();
     assert_eq!(starts, [3, 9]);

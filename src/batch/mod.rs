@@ -209,7 +209,7 @@ fn check_beginning(
     let findings = warnings.apply(findings);
     print_all_findings(path, beginning, &findings);
     let read = counted(beginning.len(), "byte");
-    let note = format!("only the first {read} of {} were read", path.display());
+    let note = format!("{}: only the first {read} were read", path.display());
     print_message("note", &note);
     Err(Error::Invalid {
         errors: findings.errors(),
@@ -239,7 +239,7 @@ fn lower(
             loaded = assets.read(&wanted);
         }
     }
-    lowered.diagnostics = assets::report(&loaded.troubles, &files, lowered.diagnostics);
+    lowered.diagnostics = assets::report(&loaded.picture_errors, &files, lowered.diagnostics);
     for (name, found) in &loaded.elsewhere {
         print_message("note", &format!("{name} is read from {}", found.display()));
     }

@@ -101,7 +101,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
         let samples = counted(frame.progress.over_budget as usize, "sample");
         print_message(
             "note",
-            &format!("{samples} ran out of rays and may be too dark; try a smaller --depth"),
+            &format!("{samples} ran out of rays and may be too dark; try a lower --depth"),
         );
     }
     write(work, &frame)
@@ -130,7 +130,7 @@ fn check_references(work: &Render, files: &[PathBuf]) -> Result<(), Error> {
     match &work.output {
         Output::File(path) if files.iter().any(|named| file::is_same(path, named)) => {
             Err(Error::Refused(format!(
-                "{}: is a file that the scene uses; name another file for the picture",
+                "{}: is used by the scene; name another file for the picture",
                 path.display()
             )))
         }

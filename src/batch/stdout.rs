@@ -18,7 +18,7 @@ pub(super) fn is_terminal() -> bool {
 pub(super) fn check() -> io::Result<()> {
     if is_placeholder() {
         Err(io::Error::other(
-            "closed (or the null device, open for reading too)",
+            "closed (or the null device, opened for reading too)",
         ))
     } else {
         Ok(())

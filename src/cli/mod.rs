@@ -20,7 +20,7 @@ use crate::file::ReadError;
 use crate::image_file::{FORMATS, ImageFormat, known_extensions};
 use crate::render::{DEFAULT_SPP, MAX_SPP};
 use crate::scene::Size;
-use crate::text::{slips, visible};
+use crate::text::{edit_distance, visible};
 use crate::ui;
 use crate::ui::terminal::Mouse;
 
@@ -325,7 +325,7 @@ fn likely_command(scene: &Path) -> Option<String> {
     let word = scene.to_str().filter(|word| !word.contains(['.', '/']))?;
     let cli = Cli::command();
     let mut names = cli.get_subcommands().map(clap::Command::get_name);
-    let command = names.find(|name| slips(word, name) <= 2)?;
+    let command = names.find(|name| edit_distance(word, name) <= 2)?;
     Some(command.to_owned())
 }
 
@@ -397,7 +397,7 @@ impl RenderArguments {
             None if to_stdout => ImageFormat::Bmp,
             None => ImageFormat::of_path(&self.output).ok_or_else(|| {
                 format!(
-                    "cannot tell the format of {}: use the extension {}, or --format",
+                    "can't tell the format of {}: use the extension {}, or --format",
                     self.output.display(),
                     known_extensions()
                 )

@@ -29,7 +29,7 @@ pub(super) struct Chunks<'t> {
 }
 
 impl<'t> Chunks<'t> {
-    /// Splits a text.
+    /// Splits a text at the bounds of its tokens and comments.
     pub(super) fn of(language: Language, text: &'t str) -> Self {
         let leaves = Source::new(language, Arc::new(text.to_owned())).leaves();
         let mut bounds = Vec::with_capacity(2 * leaves.len() + 2);
@@ -49,7 +49,7 @@ impl<'t> Chunks<'t> {
         self.bounds.len() - 1
     }
 
-    /// The text.
+    /// The whole text, of which the chunks are parts.
     pub(super) fn text(&self) -> &'t str {
         self.text
     }

@@ -30,7 +30,7 @@ pub struct Conflict {
     pub span: Span,
     /// The text of the common ancestor.
     pub base: String,
-    /// The edited text.
+    /// The text being edited, in `span`.
     pub mine: String,
     /// The text from outside.
     pub theirs: String,
@@ -62,7 +62,7 @@ enum Piece {
 }
 
 impl Side {
-    /// The other side.
+    /// `Theirs` for `Mine` and the reverse.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -74,7 +74,7 @@ impl Side {
 
 impl Conflict {
     /// The text of one side.
-    pub fn said(&self, side: Side) -> &str {
+    pub fn text(&self, side: Side) -> &str {
         match side {
             Side::Mine => &self.mine,
             Side::Theirs => &self.theirs,
@@ -159,15 +159,15 @@ fn resolve(
         let (merged, open) = sides.merge(language, window)?;
         let later = |piece| match piece {
             Piece::Theirs(edit) => Piece::Theirs(Edit {
-                span: edit.span.later(window.mine.start()),
+                span: edit.span.shifted(window.mine.start()),
                 ..edit
             }),
             Piece::Conflict(index) => Piece::Conflict(index + conflicts.len()),
         };
         pieces.extend(merged.into_iter().map(later));
         conflicts.extend(open.into_iter().map(|conflict| Conflict {
-            span: conflict.span.later(window.mine.start()),
-            ancestor: conflict.ancestor.later(window.base.start()),
+            span: conflict.span.shifted(window.mine.start()),
+            ancestor: conflict.ancestor.shifted(window.base.start()),
             ..conflict
         }));
     }
@@ -366,7 +366,7 @@ impl<'h> Walk<'h> {
         }
     }
 
-    /// The next hunk.
+    /// The next hunk, without passing it.
     fn peek(&self) -> Option<&'h Hunk> {
         self.hunks.first()
     }

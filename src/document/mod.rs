@@ -83,7 +83,7 @@ impl Document {
         self.source.lower_again(meshes, before, spans)
     }
 
-    /// The text.
+    /// The current text, with unsaved edits.
     pub fn text(&self) -> &str {
         self.source.text()
     }

@@ -39,9 +39,9 @@ impl Window {
 /// The spans from the first to the last difference between two texts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Change {
-    /// The replaced text.
+    /// The span in the base that is replaced.
     base: Span,
-    /// The new text.
+    /// The span in the other text that replaces it.
     other: Span,
 }
 
@@ -196,8 +196,8 @@ mod tests {
                 let others = Chunks::of(Language::Ray, window.theirs.of(&other));
                 let hunks = hunks(&chunks, &others);
                 let bytes = |hunk: &Hunk| [
-                    chunks.span(&hunk.base).later(window.base.start()),
-                    others.span(&hunk.other).later(window.theirs.start()),
+                    chunks.span(&hunk.base).shifted(window.base.start()),
+                    others.span(&hunk.other).shifted(window.theirs.start()),
                 ];
                 (!window.is_narrow(&chunks, &hunks)).then(|| hunks.hunks.iter().map(bytes).collect())
             };

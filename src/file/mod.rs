@@ -42,7 +42,7 @@ const BEGINNING: usize = 1 << 20;
 const WRONG_LINE: usize = 1 << 10;
 
 /// A file with more NUL bytes than this counts as binary.
-const MOST_ZEROS: usize = 100;
+const MAX_NULS: usize = 100;
 
 /// Why a scene's text could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -107,7 +107,7 @@ pub enum ReadError {
         text: String,
         /// The first such replacement in `text`.
         span: Span,
-        /// The invalid byte.
+        /// The first invalid byte.
         byte: u8,
         /// The most likely encoding, by its iconv name.
         encoding: &'static str,
@@ -201,7 +201,7 @@ fn first_zero(bytes: &[u8]) -> Option<usize> {
         return None;
     }
     let zeros: usize = bytes.iter().map(|&byte| usize::from(byte == 0)).sum();
-    if zeros <= MOST_ZEROS {
+    if zeros <= MAX_NULS {
         return None;
     }
     bytes.iter().position(|&byte| byte == 0)

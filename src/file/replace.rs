@@ -205,7 +205,7 @@ fn restore(file: &File, backup: Backup, path: &Path, error: io::Error) -> io::Er
     let copy = backup.path();
     let beside = (directory_of(copy) == directory_of(path)).then(|| copy.file_name());
     let shown = beside.flatten().map_or(copy, Path::new).display();
-    let reason = format!("the file is damaged, its previous content is in {shown}: {error}");
+    let reason = format!("the file is damaged; its previous content is in {shown}: {error}");
     io::Error::new(error.kind(), reason)
 }
 

@@ -21,7 +21,10 @@ pub(super) fn open(path: &Path) -> io::Result<File> {
         match super::without_waiting(OpenOptions::new().write(true)).open(path) {
             Err(error) if Errno::from_io_error(&error) == Some(Errno::NXIO) => {
                 if deadline <= Instant::now() {
-                    return Err(io::Error::new(error.kind(), "no process reads this pipe"));
+                    return Err(io::Error::new(
+                        error.kind(),
+                        "no process is reading this pipe",
+                    ));
                 }
                 thread::sleep(PAUSE);
             }

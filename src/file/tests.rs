@@ -409,7 +409,7 @@ mod unix {
     fn a_pipe_without_a_reader_is_an_error() {
         let directory = directory();
         let error = deliver_to(&pipe_in(&directory), "x").expect_err("nobody reads it");
-        assert_eq!(error.to_string(), "no process reads this pipe");
+        assert_eq!(error.to_string(), "no process is reading this pipe");
     }
 
     #[test]

@@ -25,10 +25,10 @@ const MAX_HEADER: u64 = 16 << 20;
 #[derive(Debug, thiserror::Error)]
 pub enum Unreadable {
     /// Not a picture, or one of an unknown format.
-    #[error("is not a picture of a known format")]
+    #[error("is not in a known picture format")]
     Unknown,
     /// Uses an unsupported feature of the named format.
-    #[error("is a {0} of an unsupported kind")]
+    #[error("is an unsupported kind of {0}")]
     Unsupported(&'static str),
     /// Truncated or inconsistent, with a description.
     #[error("is not a valid picture: {0}")]

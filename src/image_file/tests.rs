@@ -348,7 +348,7 @@ fn a_picture_is_whole_whichever_call_fails() {
     let (old, new) = (frame(1, 1, &[RED]), frame(2, 1, &[RED, RED]));
     let write = |frame: &Frame| -> io::Result<()> { save(frame, &path, || Ok(())).map(drop) };
     let bytes = |frame: &Frame| {
-        write(frame).expect("nothing is wrong");
+        write(frame).expect("no errors or warnings");
         std::fs::read(&path).expect("a file")
     };
     let (whole, before) = (bytes(&new), bytes(&old));
@@ -453,7 +453,7 @@ fn damage_is_reported_without_the_decoders_messages() {
     ] {
         let bytes = encoded(format, &gradient());
         let damaged = format!("is not a valid picture: its {name} data is damaged");
-        let unsupported = format!("is a {name} of an unsupported kind");
+        let unsupported = format!("is an unsupported kind of {name}");
         let mut found = 0;
         for at in 2..bytes.len().min(300) {
             let mut corrupt = bytes.clone();

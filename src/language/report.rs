@@ -4,7 +4,8 @@ use std::fmt;
 
 use super::table::Field;
 use crate::text::{
-    Diagnostic, Findings, NumberError, Severity, Span, concise, parse_number, slips, without_suffix,
+    Diagnostic, Findings, NumberError, Severity, Span, concise, edit_distance, parse_number,
+    without_suffix,
 };
 
 /// A token for display in messages: in backticks, truncated, unprintable characters escaped.
@@ -171,7 +172,7 @@ pub(super) fn nearest_word(
         return None;
     }
     known
-        .map(|known| (slips(word, known), known))
+        .map(|known| (edit_distance(word, known), known))
         .filter(|&(slips, known)| {
             // Two slips would make a short word unrecognisable.
             let allowed = if known.len() < 5 { 1 } else { 2 };

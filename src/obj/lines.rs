@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::str;
 
-use super::{Finding, MOST_FINDINGS};
+use super::{Finding, MAX_FINDINGS};
 use crate::text::{NumberError, parse_number, visible};
 
 /// A statement: a line, or several lines of which all except the last end in `\`.
@@ -113,15 +113,15 @@ pub(super) struct Findings {
 }
 
 impl Findings {
-    /// Adds an error.
+    /// Adds an error; line and column count from 1.
     pub(super) fn error(&mut self, line: usize, column: usize, message: impl Into<String>) {
         let finding = self.finding(line, column, message.into());
         self.errors.push(finding);
     }
 
-    /// Adds a warning, unless there are [`MOST_FINDINGS`] already.
+    /// Adds a warning, unless there are [`MAX_FINDINGS`] already.
     pub(super) fn warn(&mut self, line: usize, column: usize, message: impl Into<String>) {
-        if self.warnings.len() < MOST_FINDINGS {
+        if self.warnings.len() < MAX_FINDINGS {
             let finding = self.finding(line, column, message.into());
             self.warnings.push(finding);
         }
@@ -129,7 +129,7 @@ impl Findings {
 
     /// Whether there are enough errors to stop reading.
     pub(super) fn is_full(&self) -> bool {
-        MOST_FINDINGS <= self.errors.len()
+        MAX_FINDINGS <= self.errors.len()
     }
 
     fn finding(&self, line: usize, column: usize, message: String) -> Finding {

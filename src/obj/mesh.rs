@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 
 use super::lines::{Findings, Statement, Word, statements};
 use super::plain::{self, Part, Plain, push_corners};
-use super::{Finding, MOST_FINDINGS, MOST_LIBRARIES, Model, mtl};
+use super::{Finding, MAX_FINDINGS, MAX_LIBRARIES, Model, mtl};
 use crate::geometry::{ABSENT, Mesh, MeshError, MeshParts, SlotRun};
 use crate::text::{counted, visible};
 
@@ -192,8 +192,8 @@ impl Reading {
                 if names.text.is_empty() {
                     return Err((statement.end(), "mtllib: the name is missing".into()));
                 }
-                if self.libraries.len() == MOST_LIBRARIES {
-                    let message = format!("more than {MOST_LIBRARIES} mtllib statements");
+                if self.libraries.len() == MAX_LIBRARIES {
+                    let message = format!("more than {MAX_LIBRARIES} mtllib statements");
                     return Err((keyword.column, message));
                 }
                 let library = (names.name(), statement.line, names.column);
@@ -339,7 +339,7 @@ impl Reading {
             let read: Vec<_> = match library(&names) {
                 Err(_) if several => names
                     .split_ascii_whitespace()
-                    .take(MOST_LIBRARIES)
+                    .take(MAX_LIBRARIES)
                     .map(|name| (name.to_owned(), library(name)))
                     .collect(),
                 bytes => vec![(names, bytes)],
@@ -351,7 +351,7 @@ impl Reading {
                         Err(errors) => findings.warnings.extend(errors),
                     },
                     Err(reason) => {
-                        let message = format!("cannot read `{}`: {reason}", visible(&name));
+                        let message = format!("can't read `{}`: {reason}", visible(&name));
                         findings.warn(line, column, message);
                     }
                 }
@@ -368,7 +368,7 @@ impl Reading {
             }
             by_slot.push(material);
         }
-        findings.warnings.truncate(MOST_FINDINGS);
+        findings.warnings.truncate(MAX_FINDINGS);
         (by_slot, findings.warnings)
     }
 }

@@ -19,18 +19,18 @@ use crate::geometry::Mesh;
 pub use mtl::Material;
 
 /// The maximum number of triangles of a mesh, which with its tree takes less than 2 GB.
-pub const MOST_TRIANGLES: usize = 1 << 24;
+pub const MAX_TRIANGLES: usize = 1 << 24;
 
 /// The maximum number of libraries that a mesh may name.
-pub const MOST_LIBRARIES: usize = 64;
+pub const MAX_LIBRARIES: usize = 64;
 
 /// The maximum number of errors, and of warnings, to report. Reading stops at the last error.
-const MOST_FINDINGS: usize = 10;
+const MAX_FINDINGS: usize = 10;
 
 /// A mesh with its materials.
 #[derive(Debug)]
 pub struct Model {
-    /// The triangles.
+    /// The triangles, with their slots of materials.
     pub mesh: Arc<Mesh>,
     /// The material of each slot; `None` for triangles without one, or with one that no library
     /// defines.
@@ -78,5 +78,5 @@ pub fn read<B: AsRef<[u8]>>(
     bytes: &[u8],
     library: impl FnMut(&str) -> Result<B, String>,
 ) -> Result<Model, Vec<Finding>> {
-    mesh::read(bytes, MOST_TRIANGLES, library)
+    mesh::read(bytes, MAX_TRIANGLES, library)
 }

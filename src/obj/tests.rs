@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
-use super::{MOST_FINDINGS, Material, Model, mesh, plain, read};
+use super::{MAX_FINDINGS, Material, Model, mesh, plain, read};
 use crate::geometry::{Affine, Instance, Ray, Shape};
 
 const SQUARE: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
@@ -174,7 +174,7 @@ fn several_libraries_on_a_line_are_read_one_by_one() {
     assert_eq!(asked, ["a.mtl b.mtl", "a.mtl", "b.mtl"]);
     assert_eq!(
         messages(&model.library_warnings),
-        ["line 1, column 8: cannot read `a.mtl`: no such file"]
+        ["line 1, column 8: can't read `a.mtl`: no such file"]
     );
     assert_eq!(
         model.materials[1].as_ref().map(|m| &*m.library),
@@ -336,9 +336,9 @@ fn several_errors_are_reported_up_to_a_limit() {
         .collect();
     assert_eq!(lines, [5, 6, 7]);
     let many = "f\n".repeat(1000);
-    assert_eq!(read_alone(&many).expect_err("errors").len(), MOST_FINDINGS);
+    assert_eq!(read_alone(&many).expect_err("errors").len(), MAX_FINDINGS);
     let doubts = format!("{SQUARE}f 1 2 3\n{}", "what\n".repeat(1000));
-    assert_eq!(model(&doubts).warnings.len(), MOST_FINDINGS);
+    assert_eq!(model(&doubts).warnings.len(), MAX_FINDINGS);
 }
 
 #[test]

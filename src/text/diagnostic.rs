@@ -14,7 +14,7 @@ pub enum Severity {
 /// A message about one span of a text. File name, line and excerpt are added on display.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// Error or warning.
+    /// Whether this prevents rendering.
     pub severity: Severity,
     /// The offending text; empty if something is missing there.
     pub span: Span,
@@ -46,7 +46,7 @@ impl Diagnostic {
         }
     }
 
-    /// Adds a hint.
+    /// Adds advice on how to correct the text, in the imperative.
     #[must_use]
     pub fn with_hint(self, hint: impl Into<String>) -> Self {
         Self {

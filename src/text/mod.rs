@@ -4,12 +4,12 @@ mod codes;
 mod counted;
 mod diagnostic;
 mod edit;
+mod edit_distance;
 mod findings;
 mod lines;
 mod number;
 mod percentage;
 mod seek;
-mod slips;
 mod span;
 mod visible;
 
@@ -17,6 +17,7 @@ pub use codes::without_codes;
 pub use counted::counted;
 pub use diagnostic::{Diagnostic, Severity};
 pub use edit::{Edit, apply, cover, difference, smallest_edit};
+pub use edit_distance::edit_distance;
 pub use findings::Findings;
 pub use lines::{is_line_end, is_one_line_end, line_end, line_start, next_line};
 pub use number::{
@@ -24,6 +25,5 @@ pub use number::{
 };
 pub use percentage::percentage;
 pub use seek::first_byte;
-pub use slips::slips;
 pub use span::{Position, Span, mark_len};
 pub use visible::visible;

@@ -29,7 +29,7 @@ impl Span {
 
     /// Moves the span by a number of bytes towards the end.
     #[must_use]
-    pub fn later(self, bytes: usize) -> Self {
+    pub fn shifted(self, bytes: usize) -> Self {
         Self::new(self.start() + bytes, self.end() + bytes)
     }
 

@@ -88,7 +88,7 @@ impl<S: Fn(Msg) + Send + Sync + 'static> Work<S> {
                 Ok(watcher) => self.watcher = Some(watcher),
                 Err(error) => {
                     (self.send)(Msg::Failed(format!(
-                        "changes of the scene's files go unnoticed: {error}; try --poll"
+                        "can't watch the scene's files for changes: {error}; try --poll"
                     )));
                     return false;
                 }

@@ -42,7 +42,10 @@ pub fn examine(scene: Option<&Path>) -> String {
             colours(answers.as_ref(), behind_tmux(), variable),
         ),
         ("synchronized", synchronized(answers.as_ref())),
-        ("mouse", vec!["taken; --no-mouse leaves it".to_owned()]),
+        (
+            "mouse",
+            vec!["captured; --no-mouse disables this".to_owned()],
+        ),
         ("clipboard", vec!["not used".to_owned()]),
         ("link", link(variable)),
         ("changes", changes(&folder)),
@@ -70,16 +73,16 @@ fn terminal(has_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> Ve
         "TMUX",
         "SSH_CONNECTION",
     ];
-    let said: Vec<_> = names
+    let variables: Vec<_> = names
         .into_iter()
         .map(|name| match variable(name) {
             Some(value) => format!("{name}={value}"),
             None => format!("{name} not set"),
         })
         .collect();
-    let mut lines = vec![said.join(", ")];
+    let mut lines = vec![variables.join(", ")];
     if !has_terminal {
-        lines.push("input or output is not a terminal: nothing was asked".to_owned());
+        lines.push("input or output is not a terminal: no queries sent".to_owned());
     }
     lines
 }
@@ -104,31 +107,31 @@ fn colours(
         )];
     }
     let why = if variable("COLORTERM").is_some() {
-        "by COLORTERM and TERM"
+        "from COLORTERM and TERM"
     } else {
-        "by TERM alone"
+        "from TERM alone"
     };
     let mut lines = vec![format!("{} {why}", depth.name())];
     if depth == ColourDepth::TrueColour {
         return lines;
     }
-    let (shows_more, said) = match (answers, behind_tmux) {
+    let (shows_more, finding) = match (answers, behind_tmux) {
         (Some(answers), _) if answers.has_true_colour() => {
-            (true, "the terminal reports 24-bit colour, which is used")
+            (true, "the terminal reports 24-bit colour, so it is used")
         }
-        (_, Some(true)) => (true, "tmux sends its terminal 24-bit colour, which is used"),
+        (_, Some(true)) => (true, "tmux passes on 24-bit colour, so it is used"),
         (_, Some(false)) => (
             false,
-            "tmux takes its terminal for one without 24-bit colour; if it has it: \
+            "tmux assumes that its terminal lacks 24-bit colour; if it has it: \
              set -as terminal-features ',*:RGB'",
         ),
-        (None, None) => (false, "the terminal was not asked"),
+        (None, None) => (false, "the terminal was not queried"),
         (Some(answers), None) if answers.is_silent() => {
-            (false, "the terminal does not answer within 200 ms")
+            (false, "the terminal did not answer within 200 ms")
         }
         (Some(_), None) => (false, "the terminal does not report 24-bit colour"),
     };
-    lines.push(said.to_owned());
+    lines.push(finding.to_owned());
     if !shows_more {
         lines.push(depth.cure());
     }
@@ -138,9 +141,9 @@ fn colours(
 fn synchronized(answers: Option<&Answers>) -> Vec<String> {
     vec![
         match answers {
-            None => "sent; the terminal was not asked whether it knows it",
-            Some(answers) if answers.mode(SYNCHRONIZED).is_some() => "known to the terminal",
-            Some(_) => "sent; the terminal does not say that it knows it, and may show half frames",
+            None => "sent; support unknown: the terminal was not queried",
+            Some(answers) if answers.mode(SYNCHRONIZED).is_some() => "supported by the terminal",
+            Some(_) => "sent; the terminal does not report support and may show partial frames",
         }
         .to_owned(),
     ]
@@ -149,11 +152,11 @@ fn synchronized(answers: Option<&Answers>) -> Vec<String> {
 fn link(variable: impl Fn(&str) -> Option<String>) -> Vec<String> {
     let words = match Budget::of_environment(variable) {
         Budget::Measured => {
-            "the terminal is at the other end of SSH: pictures follow what the line takes"
+            "the terminal is connected over SSH: pictures are paced to the measured speed"
                 .to_owned()
         }
         Budget::Fixed(rate @ 1..) => format!(
-            "a multiplexer at the other end of SSH: {} KB/s for pictures",
+            "a multiplexer over SSH: pictures are limited to {} KB/s",
             rate / 1000
         ),
         Budget::Fixed(0) | Budget::Local => "local: no limit".to_owned(),
@@ -164,9 +167,9 @@ fn link(variable: impl Fn(&str) -> Option<String>) -> Vec<String> {
 fn changes(folder: &Path) -> Vec<String> {
     vec![match network_file_system(folder) {
         Some(name) => {
-            format!("the folder is on {name}, which may send no notices of changes: use --poll")
+            format!("the folder is on {name}, which may not send change notifications: use --poll")
         }
-        None => "by the system's notices; --poll compares instead".to_owned(),
+        None => "from system notifications; --poll checks periodically instead".to_owned(),
     }]
 }
 
@@ -219,8 +222,9 @@ fn processor() -> String {
             ("fma", std::arch::is_x86_feature_detected!("fma")),
             ("avx512f", std::arch::is_x86_feature_detected!("avx512f")),
         ];
-        let said = known.map(|(name, has)| format!("{name} {}", if has { "yes" } else { "no" }));
-        format!("x86_64: {}", said.join(", "))
+        let features =
+            known.map(|(name, has)| format!("{name} {}", if has { "yes" } else { "no" }));
+        format!("x86_64: {}", features.join(", "))
     }
     #[cfg(not(target_arch = "x86_64"))]
     {
@@ -233,7 +237,7 @@ fn memory_limits() -> Vec<String> {
     let mut limits = memory::limits();
     limits.sort_by_key(|available| available.bytes);
     if limits.is_empty() {
-        return vec!["no limit is known".to_owned()];
+        return vec!["no known limit".to_owned()];
     }
     let line = |available: &Available| {
         let free = memory::megabytes(available.bytes);
@@ -287,7 +291,7 @@ mod tests {
                 None,
                 None,
                 &[("TERM", "xterm-256color"), ("COLORTERM", "truecolor")][..],
-                "24-bit by COLORTERM",
+                "24-bit from COLORTERM",
                 false,
             ),
             (
@@ -297,8 +301,8 @@ mod tests {
                 "NO_COLOR is set",
                 false,
             ),
-            (None, None, FAR, "was not asked", true),
-            (Some(&[][..]), None, FAR, "does not answer within", true),
+            (None, None, FAR, "was not queried", true),
+            (Some(&[][..]), None, FAR, "did not answer within", true),
             (
                 Some(&[Reply::Attributes]),
                 None,
@@ -307,7 +311,7 @@ mod tests {
                 true,
             ),
             (Some(&[Reply::TrueColour]), None, FAR, "is used", false),
-            (Some(&[]), Some(true), FAR, "tmux sends", false),
+            (Some(&[]), Some(true), FAR, "tmux passes on", false),
             (Some(&[]), Some(false), FAR, "terminal-features", true),
         ] {
             let said = said(answers, tmux, variables);
@@ -324,7 +328,10 @@ mod tests {
                 state,
             }],
         };
-        assert_eq!(synchronized(Some(&answers(2))), ["known to the terminal"]);
-        assert!(synchronized(Some(&answers(0)))[0].contains("does not say"));
+        assert_eq!(
+            synchronized(Some(&answers(2))),
+            ["supported by the terminal"]
+        );
+        assert!(synchronized(Some(&answers(0)))[0].contains("does not report support"));
     }
 }

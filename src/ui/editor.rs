@@ -42,17 +42,17 @@ const FORMS: &[(&[&str], Form)] = &[
 /// The form that most editors support.
 const OTHERS: Form = &[Line, File];
 
-/// Arguments in order.
+/// The arguments that tell an editor the file and line, in order.
 type Form = &'static [Part];
 
 use Part::{File, FileLine, Line, LocalFile, Text};
 
-/// One argument.
+/// One argument of an editor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Part {
-    /// A constant.
+    /// An option, passed unchanged.
     Text(&'static str),
-    /// `+LINE`.
+    /// `+LINE`, which most editors understand.
     Line,
     /// The path of the file.
     File,
@@ -66,16 +66,16 @@ enum Part {
 /// Opens the user's editor on a file at a line, from 1, and waits for it to end.
 pub(super) fn run(path: &Path, line: usize) -> Result<(), String> {
     let (program, status) = open(path, line).map_err(|reason| {
-        format!("can't start the editor: {reason}; $VISUAL or $EDITOR names another one")
+        format!("can't start the editor: {reason}; set $VISUAL or $EDITOR to another one")
     })?;
     ending(&program, status)
 }
 
 /// Starts the editor and waits; returns its program and exit status.
 fn open(path: &Path, line: usize) -> Result<(String, ExitStatus), String> {
-    let command = said("VISUAL")?.or(said("EDITOR")?);
+    let command = variable("VISUAL")?.or(variable("EDITOR")?);
     let words = words(command.as_deref().unwrap_or(DEFAULT))?;
-    let (program, own) = words.split_first().ok_or("it has no name")?;
+    let (program, own) = words.split_first().ok_or("the command is empty")?;
     let path = place(path).map_err(|error| error.to_string())?;
     let status = Command::new(program)
         .args(own)
@@ -103,9 +103,9 @@ fn ending(program: &str, status: ExitStatus) -> Result<(), String> {
 }
 
 /// The value of an environment variable, if set.
-fn said(name: &str) -> Result<Option<String>, String> {
+fn variable(name: &str) -> Result<Option<String>, String> {
     match env::var(name) {
-        Ok(said) => Ok(Some(said).filter(|said| !said.trim().is_empty())),
+        Ok(value) => Ok(Some(value).filter(|value| !value.trim().is_empty())),
         Err(VarError::NotPresent) => Ok(None),
         Err(VarError::NotUnicode(_)) => Err(format!("${name} is not UTF-8 text")),
     }
@@ -114,11 +114,11 @@ fn said(name: &str) -> Result<Option<String>, String> {
 /// Splits a command into its program and arguments, with a shell's quotes and backslashes. An
 /// absolute path of a program may contain spaces without them; a relative one may not, as it could
 /// come with a scene.
-fn words(said: &str) -> Result<Vec<String>, String> {
-    if Path::new(said).is_absolute() && Path::new(said).is_file() {
-        return Ok(vec![said.to_owned()]);
+fn words(command: &str) -> Result<Vec<String>, String> {
+    if Path::new(command).is_absolute() && Path::new(command).is_file() {
+        return Ok(vec![command.to_owned()]);
     }
-    shlex::split(said).ok_or_else(|| format!("`{said}` has a quote without its pair"))
+    shlex::split(command).ok_or_else(|| format!("`{command}` has an unmatched quote"))
 }
 
 /// The absolute path of a file, with single slashes.

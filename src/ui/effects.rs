@@ -230,7 +230,7 @@ impl World {
             Effect::CheckTarget(id, to) => self.writers.check(id, to),
             Effect::CheckPlace(path) => self.writers.check_place(path),
             Effect::FindBackups(scene) => self.writers.find_backups(scene),
-            Effect::Read(path, known) => self.reader.read(path, known),
+            Effect::Read(path, baseline) => self.reader.read(path, baseline),
             Effect::Free(unneeded) => self.freeing.order(unneeded),
             Effect::Save {
                 id,
@@ -377,7 +377,7 @@ impl World {
 
     #[cfg(not(unix))]
     fn suspend(&mut self) -> Result<(), String> {
-        Err("this system can't stop a program until it is continued".to_owned())
+        Err("this system can't suspend programs".to_owned())
     }
 }
 

@@ -11,13 +11,13 @@ use crate::memory::NoThreads;
 /// How the interface ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// The user quit.
+    /// The user quit, by key or command.
     Quit,
     /// It was interrupted by a signal.
     Interrupted,
     /// Another signal requested its end.
     Terminated {
-        /// The signal number.
+        /// The signal's number, such as 15 for SIGTERM.
         signal: u8,
     },
     /// The terminal is gone.
@@ -44,26 +44,28 @@ pub enum Error {
     },
     /// The argument is neither a file nor the name of a scene.
     #[error(
-        "no such file or command `{path}`; the commands are render, check and doctor, scenes end in .ray, .dat or .xml",
+        "no such file or command `{path}`; the commands are render, check and doctor; scenes end in .ray, .dat or .xml",
         path = path.display()
     )]
     NoSuch {
-        /// The argument.
+        /// The argument as given.
         path: PathBuf,
     },
     /// Standard output is not a terminal.
-    #[error("the interface needs a terminal; to make a picture: halflight render SCENE -o FILE")]
+    #[error(
+        "the interface needs a terminal; to render a picture, run halflight render SCENE -o FILE"
+    )]
     NoTerminal,
     /// The terminal cannot position text.
     #[error(
-        "TERM=dumb: the interface needs a terminal that can move its cursor; if this one can, set \
-         TERM, such as to xterm; to make a picture: halflight render SCENE -o FILE"
+        "TERM=dumb: the interface needs a terminal with cursor control; if this one has it, set \
+         TERM=xterm; to render a picture, run halflight render SCENE -o FILE"
     )]
     DumbTerminal,
     /// No thread can be started.
     #[error(transparent)]
     NoThreads(#[from] NoThreads),
-    /// The terminal failed.
+    /// Reading from or writing to the terminal failed.
     #[error("terminal: {0}")]
     Terminal(#[from] io::Error),
 }

@@ -21,7 +21,7 @@ const TAB: usize = 4;
 /// A text with its diagnostics, and the state of their list.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wrong<'a> {
-    /// The text.
+    /// The text that the spans of `findings` refer to.
     pub(crate) text: &'a str,
     /// The diagnostics of the text.
     pub(crate) findings: &'a Findings,

@@ -6,10 +6,10 @@ use std::time::Instant;
 use super::msg::{Msg, Target};
 use super::terminal::{self, Reply};
 
-/// One event.
+/// What the session waits for.
 #[derive(Debug)]
 pub(crate) enum Event {
-    /// A message.
+    /// A message for the state of the interface.
     Msg(Msg),
     /// A renderer has a newer frame.
     Ready(Target),

@@ -12,7 +12,7 @@ pub(super) struct Freeing {
 }
 
 impl Freeing {
-    /// Starts the thread.
+    /// Starts the thread, which ends when this is dropped.
     pub(super) fn start() -> io::Result<Self> {
         let (unneeded, inbox) = mpsc::channel();
         thread::Builder::new()

@@ -13,7 +13,7 @@ pub enum Zoom {
     /// The picture beside the list and the fields.
     #[default]
     Panels,
-    /// Only the picture.
+    /// Only the picture, without list and fields.
     Picture,
 }
 
@@ -47,14 +47,14 @@ const FULL: (u16, u16) = (80, 24);
 /// Minimum size for panels below the picture, and for a line of hints.
 const STACKED: (u16, u16) = (40, 16);
 /// Minimum size for anything other than a notice.
-pub const LEAST: (u16, u16) = (20, 6);
+pub const MIN_SIZE: (u16, u16) = (20, 6);
 
 /// Divides the screen. All areas lie inside `area` and are disjoint, except for the errors; below
-/// [`LEAST`] all are empty. `fields` is the number of fields of the selected node: beside the
+/// [`MIN_SIZE`] all are empty. `fields` is the number of fields of the selected node: beside the
 /// picture, the list gets the lines that they do not need.
 pub fn arrange(area: Rect, zoom: Zoom, fields: usize) -> Areas {
     let fits = |(width, height)| width <= area.width && height <= area.height;
-    if !fits(LEAST) {
+    if !fits(MIN_SIZE) {
         return Areas::default();
     }
     let (rest, status) = split_bottom(area, 1);

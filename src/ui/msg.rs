@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use crossterm::event::{KeyEvent, MouseEvent};
 
-use super::reading::{Known, Reading};
+use super::reading::{Baseline, Reading};
 use super::recovery::{Claim, Found, Sought};
 use super::terminal::{ColourDepth, Mouse};
 use crate::assets::{Loaded, Wanted};
@@ -23,7 +23,7 @@ pub enum Target {
     Preview,
     /// The full-size trace started by F5.
     Trace,
-    /// A background export.
+    /// An export, traced in the background.
     Export,
 }
 
@@ -36,12 +36,12 @@ pub struct ExportId(pub u32);
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct SaveId(pub u32);
 
-/// One event.
+/// Everything that can change the state: input, results of effects, timers, signals.
 #[derive(Debug)]
 pub enum Msg {
     /// A key was pressed.
     Key(KeyEvent),
-    /// Text was pasted.
+    /// Text was pasted, possibly of several lines.
     Paste(String),
     /// A mouse event over a cell.
     Mouse(MouseEvent),
@@ -85,7 +85,7 @@ pub enum Msg {
     Interrupt,
     /// The process received a signal that requests its end.
     Terminate {
-        /// The signal number.
+        /// The signal's number, such as 15 for SIGTERM.
         signal: u8,
     },
     /// The terminal is gone.
@@ -118,7 +118,7 @@ pub enum SaveOutcome {
     Saved {
         /// Path of the file.
         path: PathBuf,
-        /// The text written.
+        /// The text that was written, now the file's content.
         text: Arc<String>,
     },
     /// The file holds text that this session neither wrote nor read: nothing was written.
@@ -140,12 +140,12 @@ pub enum Effect {
     /// Checks whether a picture can be written there; a failure is reported by [`Msg::Exported`].
     CheckTarget(ExportId, Destination),
     /// Reads the scene file, reported by [`Msg::Read`].
-    Read(PathBuf, Known),
+    Read(PathBuf, Baseline),
     /// Frees a value on another thread: for a large scene this takes longer than a key may wait.
     Free(Arc<dyn Any + Send + Sync>),
     /// Writes the scene file, reported by [`Msg::Saved`].
     Save {
-        /// Identifies the save.
+        /// Repeated in [`Msg::Saved`].
         id: SaveId,
         /// Path of the file.
         path: PathBuf,
@@ -185,7 +185,7 @@ pub enum Effect {
     DropKept(Arc<Claim>),
     /// Lends the terminal to the user's editor, reported by [`Msg::EditorClosed`].
     OpenEditor {
-        /// File to open.
+        /// Path of the file to open.
         path: PathBuf,
         /// Line number, from 1.
         line: usize,
@@ -198,7 +198,7 @@ pub enum Effect {
     TakeTerminal,
     /// Stops the process until it is continued.
     Suspend,
-    /// Ends the program.
+    /// Ends the session; running saves and exports are awaited for a limited time.
     Quit,
 }
 
@@ -209,7 +209,7 @@ pub enum Guard {
     Holding(Arc<String>),
     /// Nothing: the file must not exist.
     Absent,
-    /// Any file.
+    /// Whatever the file holds, or nothing.
     Anything,
 }
 
@@ -242,6 +242,6 @@ pub enum Existing {
     Kept,
     /// It is replaced if it still has this version, which this session wrote.
     Own(Version),
-    /// It is replaced.
+    /// It is replaced, whoever wrote it.
     Overwritten,
 }

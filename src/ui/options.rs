@@ -18,15 +18,15 @@ pub struct Options {
     pub poll: Option<Duration>,
     /// Limit of terminal output, in bytes per second; 0 means no limit.
     pub bandwidth: Option<u32>,
-    /// The colour depth.
+    /// The colour depth, or how to detect it.
     pub colour: Choice,
     /// Whether the mouse is taken from the terminal.
     pub mouse: Mouse,
-    /// Samples per pixel.
+    /// Samples per pixel of full-size traces and exports.
     pub spp: Option<u32>,
     /// Maximum number of bounces.
     pub depth: Option<u32>,
-    /// The initial integrator.
+    /// The integrator to start with; `None` leaves the choice to the scene.
     pub integrator: Option<Integrator>,
     /// Reconstruction filter of full-size traces and exports.
     pub filter: Filter,

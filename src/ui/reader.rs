@@ -9,7 +9,7 @@ use std::thread;
 
 use super::heap;
 use super::msg::Msg;
-use super::reading::{Known, Place, Reading};
+use super::reading::{Baseline, Place, Reading};
 use crate::file;
 use crate::file::ReadError;
 use crate::memory;
@@ -22,8 +22,8 @@ const LARGE: usize = 1 << 20;
 enum Order {
     /// Watch this file instead of the previous one.
     Watch(PathBuf),
-    /// Read this file.
-    Read(PathBuf, Known),
+    /// Read this file and compare it with the baseline.
+    Read(PathBuf, Baseline),
 }
 
 /// Handle of the thread that watches, reads and lowers the scene file. Nothing else waits for it,
@@ -57,8 +57,8 @@ impl Reader {
 
     /// Reads a file, reported by [`Msg::Read`]. Of several pending orders only the last is carried
     /// out.
-    pub(super) fn read(&self, path: PathBuf, known: Known) -> Result<(), String> {
-        self.order(Order::Read(path, known))
+    pub(super) fn read(&self, path: PathBuf, baseline: Baseline) -> Result<(), String> {
+        self.order(Order::Read(path, baseline))
     }
 
     fn order(&self, order: Order) -> Result<(), String> {
@@ -84,7 +84,7 @@ fn follow(
     while let Ok(first) = inbox.recv() {
         let mut orders = vec![first];
         orders.extend(inbox.try_iter());
-        while let Some((path, known)) = last(orders, &mut watch) {
+        while let Some((path, baseline)) = last(orders, &mut watch) {
             let read = read(&path);
             orders = inbox.try_iter().collect();
             if orders.iter().any(|order| matches!(order, Order::Read(..))) {
@@ -92,12 +92,12 @@ fn follow(
             }
             let understand = |text: String| {
                 if text.len() < LARGE {
-                    return Reading::new(text, known);
+                    return Reading::new(text, baseline);
                 }
                 heap::keep_large();
                 match &*pool {
-                    Ok(pool) => pool.install(|| Reading::new(text, known)),
-                    Err(_) => Reading::new(text, known),
+                    Ok(pool) => pool.install(|| Reading::new(text, baseline)),
+                    Err(_) => Reading::new(text, baseline),
                 }
             };
             let reading = read.and_then(|text| {
@@ -114,13 +114,13 @@ fn follow(
 }
 
 /// Carries out the orders to watch and returns the last file to read.
-fn last(orders: Vec<Order>, mut watch: impl FnMut(PathBuf)) -> Option<(PathBuf, Known)> {
+fn last(orders: Vec<Order>, mut watch: impl FnMut(PathBuf)) -> Option<(PathBuf, Baseline)> {
     let mut last = None;
     for order in orders {
         match order {
             // Before the file is read, so that no later change is missed.
             Order::Watch(path) => watch(path),
-            Order::Read(path, known) => last = Some((path, known)),
+            Order::Read(path, baseline) => last = Some((path, baseline)),
         }
     }
     last
@@ -139,7 +139,7 @@ fn watch(
     match Watcher::new(&path, method, move || changed(Msg::FileChanged)) {
         Ok(new) => *watcher = Some(new),
         Err(error) => send(Msg::Failed(format!(
-            "changes of {} go unnoticed: {error}; try --poll",
+            "{}: can't watch for changes: {error}; try --poll",
             path[0].display()
         ))),
     }
@@ -154,12 +154,12 @@ mod tests {
     use std::cell::{Cell, RefCell};
 
     fn order(name: &str) -> Order {
-        let known = Known {
+        let baseline = Baseline {
             scene: Document::new(Language::Ray, String::new()).snapshot(),
             saving: None,
             meshes: Meshes::default(),
         };
-        Order::Read(name.into(), known)
+        Order::Read(name.into(), baseline)
     }
 
     /// The files read and the files reported, if `during` is ordered while the first one is being

@@ -13,7 +13,7 @@ use crate::text::{Edit, Findings, smallest_edit};
 
 /// State that a text read from disk is compared with.
 #[derive(Clone, Debug)]
-pub struct Known {
+pub struct Baseline {
     /// The text under edit, and the text last saved or loaded.
     pub scene: Snapshot,
     /// The text that is being written to the file.
@@ -26,7 +26,7 @@ pub struct Known {
 #[derive(Debug)]
 pub struct Reading {
     /// The state when the reading was requested.
-    pub known: Known,
+    pub baseline: Baseline,
     /// The change found; `None` if the file holds the text last saved or the one being saved.
     pub news: Option<Box<News>>,
     /// The folder that the file was read from, if known.
@@ -67,7 +67,7 @@ pub enum News {
     Broken(Arc<String>, Findings),
 }
 
-/// A lowered text.
+/// What a text that was read means, and how it differs from the text under edit.
 #[derive(Debug)]
 pub struct Meaning {
     /// The result of lowering.
@@ -78,15 +78,16 @@ pub struct Meaning {
 
 impl Reading {
     /// Parses and lowers a text. Fails if that would take more memory than is available.
-    pub fn new(text: String, known: Known) -> Result<Self, OutOfMemory> {
+    pub fn new(text: String, baseline: Baseline) -> Result<Self, OutOfMemory> {
         let is_own = |own: &Arc<String>| **own == text;
-        let news = if is_own(&known.scene.saved) || known.saving.as_ref().is_some_and(is_own) {
+        let news = if is_own(&baseline.scene.saved) || baseline.saving.as_ref().is_some_and(is_own)
+        {
             None
         } else {
-            Some(Box::new(News::new(text, &known)?))
+            Some(Box::new(News::new(text, &baseline)?))
         };
         Ok(Self {
-            known,
+            baseline,
             news,
             place: None,
         })
@@ -94,12 +95,12 @@ impl Reading {
 }
 
 impl News {
-    fn new(text: String, known: &Known) -> Result<Self, OutOfMemory> {
-        let before = &known.scene;
+    fn new(text: String, baseline: &Baseline) -> Result<Self, OutOfMemory> {
+        let before = &baseline.scene;
         // A document keeps the saved text beside the one under edit.
         language::fits(before.language, &text, text.len())?;
         let mut document = Document::new(before.language, text);
-        let lowered = document.lower(&known.meshes)?;
+        let lowered = document.lower(&baseline.meshes)?;
         let edit = |text: &str| smallest_edit(before.text(), text);
         if before.edited.is_none() {
             let edit = edit(document.text());
@@ -112,7 +113,7 @@ impl News {
             Ok(merged) => merged,
             Err(merge) => return Ok(Self::Conflict(merge)),
         };
-        let lowered = merged.document.lower(&known.meshes)?;
+        let lowered = merged.document.lower(&baseline.meshes)?;
         let edit = edit(merged.document.text());
         Ok(Self::Merged(merged, Meaning { lowered, edit }))
     }

@@ -69,7 +69,7 @@ struct Session {
 /// How soon the screen must be drawn.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Urgency {
-    /// Nothing changed.
+    /// Nothing changed: no drawing is due.
     Never,
     /// The picture was refined.
     Soon,
@@ -165,7 +165,7 @@ impl Session {
         let words = match self.world.close(terminal, files) {
             End::Nothing => None,
             End::Kept => Some(format!(
-                "unsaved edits are kept; halflight{path} offers them"
+                "unsaved edits are kept; run halflight{path} to restore them"
             )),
             End::Lost(reason) => Some(format!("not all unsaved edits are kept: {reason}")),
         };

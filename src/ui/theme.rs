@@ -14,16 +14,16 @@ pub(crate) const ACCENT: Style = Style::new().fg(Color::Cyan);
 /// Secondary text: explanations, units, defaults. A grey that is legible on black and on white.
 pub(crate) const DIM: Style = Style::new().fg(Color::Indexed(245));
 
-/// Titles.
+/// Titles, file names and the item under the cursor.
 pub(crate) const BOLD: Style = Style::new().add_modifier(Modifier::BOLD);
 
-/// Success.
+/// Messages of success, and chosen sides of conflicts.
 pub(crate) const GOOD: Style = Style::new().fg(Color::Green);
 
 /// Warnings and unsaved changes.
 pub(crate) const WARNING: Style = Style::new().fg(Color::Yellow);
 
-/// Errors.
+/// Errors in texts, and failures.
 pub(crate) const ERROR: Style = Style::new().fg(Color::Red);
 
 /// The character under a cursor.
@@ -51,7 +51,7 @@ pub(crate) const fn severity(severity: Option<Severity>) -> Style {
 }
 
 /// Minimum value of the brightest channel of a swatch; a darker dot is lost on a dark screen.
-const LEAST_BRIGHT: f64 = 0.4;
+const MIN_BRIGHT: f64 = 0.4;
 
 /// The style of a dot in a colour of the scene, clamped to the displayable range. Dark colours are
 /// brightened without changing their hue.
@@ -60,8 +60,8 @@ pub(crate) fn swatch(colour: Rgb) -> Style {
     let brightest = shown.into_iter().fold(0.0, f64::max);
     let [red, green, blue] = shown.map(|channel| {
         let lifted = match brightest {
-            0.0 => LEAST_BRIGHT,
-            _ => channel * (LEAST_BRIGHT / brightest).max(1.0),
+            0.0 => MIN_BRIGHT,
+            _ => channel * (MIN_BRIGHT / brightest).max(1.0),
         };
         (255.0 * lifted).round() as u8
     });

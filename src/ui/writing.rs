@@ -16,7 +16,7 @@ use crate::file::{ReadError, Version};
 use crate::image_file;
 use crate::render::Frame;
 
-/// The writing threads.
+/// Starts a thread for each file to write, and waits for all of them at the end.
 pub(super) struct Writers {
     sender: Sender<Event>,
     /// Cloned into each thread and dropped when it ends.
@@ -25,7 +25,7 @@ pub(super) struct Writers {
 }
 
 impl Writers {
-    /// Starts without threads.
+    /// Threads send their results to `sender`.
     pub(super) fn new(sender: Sender<Event>) -> Self {
         let (at_work, all_ended) = mpsc::channel();
         Self {
@@ -44,7 +44,7 @@ impl Writers {
         guard: Guard,
     ) -> Result<(), String> {
         let shown = path.display();
-        let panicked = SaveOutcome::Failed(format!("{shown}: the scene can't be written"));
+        let panicked = SaveOutcome::Failed(format!("{shown}: can't write the scene"));
         self.start(
             "save",
             Some(&self.at_work),
@@ -61,7 +61,7 @@ impl Writers {
         to: Destination,
     ) -> Result<(), String> {
         let shown = to.path.display();
-        let panicked = Err(format!("{shown}: the picture can't be written"));
+        let panicked = Err(format!("{shown}: can't write the picture"));
         self.start(
             "export",
             Some(&self.at_work),
@@ -73,7 +73,7 @@ impl Writers {
     /// Checks whether a picture can be written there; a failure is reported by [`Msg::Exported`].
     pub(super) fn check(&self, id: ExportId, to: Destination) -> Result<(), String> {
         let shown = to.path.display();
-        let panicked = Err(format!("{shown}: the picture can't be written"));
+        let panicked = Err(format!("{shown}: can't write the picture"));
         self.start("check", None, Msg::Exported(id, panicked), move || {
             check_target(&to)
                 .err()
@@ -83,7 +83,7 @@ impl Writers {
 
     /// Checks whether a scene can be written there; a failure is reported by [`Msg::Failed`].
     pub(super) fn check_place(&self, path: PathBuf) -> Result<(), String> {
-        let panicked = Msg::Failed(format!("{}: can't be examined", path.display()));
+        let panicked = Msg::Failed(format!("{}: can't check the path", path.display()));
         self.start("check", None, panicked, move || {
             let refused = file::check_replaceable(&path).err()?;
             Some(Msg::Failed(format!("{}: {refused}", path.display())))
@@ -192,13 +192,13 @@ fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), Refusal> {
         (Some(_), Err(error)) => Err(Refusal::Other(error.to_string())),
         (None, _) => {
             let path = path.display();
-            let reason = format!("{path} exists: :w! {path} overwrites it");
+            let reason = format!("{path} exists: use :w! {path} to overwrite it");
             Err(Refusal::Other(reason))
         }
     }
 }
 
-/// Writes a picture.
+/// Writes a picture unless that would replace a file that others wrote.
 fn export(frame: &Frame, to: Destination) -> Result<Exported, String> {
     check_target(&to)?;
     let may = || check_target(&to).map_err(Refusal::Other);
@@ -209,7 +209,7 @@ fn export(frame: &Frame, to: Destination) -> Result<Exported, String> {
         }),
         Err(Refusal::Io(error)) => Err(format!("{}: {error}", to.path.display())),
         Err(Refusal::Other(reason)) => Err(reason),
-        Err(Refusal::Changed) => Err(format!("{}: it has changed", to.path.display())),
+        Err(Refusal::Changed) => Err(format!("{}: has changed", to.path.display())),
     }
 }
 
@@ -221,9 +221,7 @@ fn check_target(to: &Destination) -> Result<(), String> {
         return Err(format!("{shown} is the scene itself: name another file"));
     }
     if to.named.iter().any(|named| file::is_same(path, named)) {
-        return Err(format!(
-            "{shown} is a file that the scene uses: name another file"
-        ));
+        return Err(format!("{shown} is used by the scene: name another file"));
     }
     let reason = match to.existing {
         Existing::Kept => Some("exists"),
@@ -233,7 +231,9 @@ fn check_target(to: &Destination) -> Result<(), String> {
         Existing::Own(_) | Existing::Overwritten => None,
     };
     if let Some(reason) = reason.filter(|_| path.symlink_metadata().is_ok()) {
-        return Err(format!("{shown} {reason}: :export! {shown} overwrites it"));
+        return Err(format!(
+            "{shown} {reason}: use :export! {shown} to overwrite it"
+        ));
     }
     file::check_target(path).map_err(|error| format!("{shown}: {error}"))
 }
@@ -317,7 +317,7 @@ mod tests {
                 named: vec![place.path().join("x/../bricks.png"), texture.clone()],
             };
             let refused = check_target(&to).expect_err("one file");
-            assert!(refused.contains("that the scene uses"), "{refused}");
+            assert!(refused.contains("used by the scene"), "{refused}");
         }
     }
 
@@ -346,7 +346,7 @@ mod tests {
         std::fs::write(&path, "theirs").expect("it is ours");
         let refused = check_target(&to(Existing::Own(exported))).expect_err("it was changed");
         assert!(
-            refused.contains("has changed since it was exported: :export! "),
+            refused.contains("has changed since it was exported: use :export! "),
             "{refused}"
         );
         std::fs::remove_file(&path).expect("it is there");

@@ -52,7 +52,7 @@ fn the_doctor_reports_without_a_terminal() {
     let report = String::from_utf8(output.stdout).expect("UTF-8");
     for words in [
         "TERM=xterm-256color",
-        "256 colours by TERM alone",
+        "256 colours from TERM alone",
         "--color 24",
         "threads",
         "unsaved edits are kept in",

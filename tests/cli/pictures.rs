@@ -43,7 +43,7 @@ fn a_picture_never_replaces_a_file_that_its_scene_uses() {
     fs::hard_link(place.at("skin.ppm"), place.at("hard.bmp")).expect("linked");
     for output in ["skin.ppm", "./skin.ppm", "hard.bmp"] {
         let stderr = place.stderr(&format!("render a.dat --spp 1 -o {output}"), 2);
-        let reason = "is a file that the scene uses; name another file for the picture";
+        let reason = "is used by the scene; name another file for the picture";
         assert_eq!(stderr, format!("error: {output}: {reason}\n"));
         assert_eq!(place.read("skin.ppm"), SKIN.as_bytes());
     }
@@ -56,7 +56,7 @@ fn a_picture_is_written_to_a_named_pipe_with_a_reader() {
     let place = Place::new();
     mknodat(CWD, place.at("pipe"), FileType::Fifo, Mode::RWXU, 0).expect("a pipe");
     let stderr = place.stderr("render ball.ray -o pipe --format ppm", 1);
-    assert_eq!(stderr, "error: pipe: no process reads this pipe\n");
+    assert_eq!(stderr, "error: pipe: no process is reading this pipe\n");
     let pipe = place.at("pipe");
     let reader = std::thread::spawn(move || fs::read(pipe));
     assert_eq!(place.stderr("render ball.ray -o pipe --format ppm", 0), "");

@@ -12,7 +12,7 @@ fn ctrl_c_asks_before_edits_are_lost() {
         let place = Place::new();
         let mut session = place.open_edited();
         session.send(CTRL_C);
-        session.wait_for("balls.ray has edits that are not saved");
+        session.wait_for("balls.ray has unsaved edits");
         session.send(answer);
         let words = if kept == 0 { "" } else { KEPT };
         assert_end_with(session, 0, words);
@@ -404,7 +404,7 @@ fn an_export_does_not_replace_a_picture_written_by_another_program() {
     }
     place.write("a.bmp", "theirs");
     session.send(export);
-    session.wait_for("a.bmp has changed since it was exported: :export! a.bmp overwrites it");
+    session.wait_for("a.bmp has changed since it was exported: use :export! a.bmp to overwrite it");
     assert_eq!(place.read("a.bmp"), "theirs");
     quit(session);
 }
@@ -418,7 +418,7 @@ fn a_moved_folder_is_reported() {
     let absolute = place.at("old/balls.ray").display().to_string();
     for (name, words) in [
         ("balls.ray", "the scene's folder was moved to"),
-        (&absolute, "another folder is at"),
+        (&absolute, "is now a different folder"),
     ] {
         let arguments = ["--color", "24", name];
         let mut session = Session::start(&place.at("old"), &arguments, (250, 40), &[]);

@@ -161,7 +161,7 @@ const QUESTION: &[u8] = b"\x1bP$qm\x1b\\";
 const ANSWER: &str = "\x1bP1$r0;38:2::49:73:87m\x1b\\";
 
 /// The hint if nothing answers.
-const CURE: &str = "256 colours; if the terminal has 24-bit colour: --color 24";
+const CURE: &str = "256 colours; if the terminal has 24-bit colour, use --color 24";
 
 /// A session as in a login over SSH: the environment promises 256 colours.
 fn start_far(place: &Place) -> Session {
@@ -209,7 +209,7 @@ fn a_silent_terminal_gets_the_hint_once() {
     session.send("?");
     session.wait_for(" Keys ");
     session.send("/--color");
-    session.wait_for("24-bit colour, where");
+    session.wait_for("use 24-bit colour even");
     session.send([ESC, ESC].concat());
     wait_until_gone(&mut session, " Keys ");
     quit(session);
@@ -286,9 +286,9 @@ fn the_doctor_reports_the_answers_of_the_terminal() {
     assert!(status.success());
     let text = session.text();
     for words in [
-        "256 colours by TERM alone",
+        "256 colours from TERM alone",
         "the terminal reports 24-bit colour",
-        "known to the terminal",
+        "supported by the terminal",
     ] {
         assert!(text.contains(words), "{text}");
     }

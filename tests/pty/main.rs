@@ -132,7 +132,7 @@ impl Place {
 }
 
 /// Printed at the end if unsaved edits are stored for recovery.
-const KEPT: &str = "unsaved edits are kept; halflight balls.ray offers them";
+const KEPT: &str = "unsaved edits are kept; run halflight balls.ray to restore them";
 
 /// Wide enough for long messages beside the file name.
 const WIDE: (u16, u16) = (150, 40);

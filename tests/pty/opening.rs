@@ -20,7 +20,7 @@ fn keys_are_answered_while_a_scene_is_read() {
     let place = Place::new();
     let mut session = open_long(&place);
     session.send("w");
-    session.wait_for("long.ray is still being opened");
+    session.wait_for("still opening long.ray");
     session.send("?");
     session.wait_for(" Keys ");
     session.send(ESC);

@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::assets;
-use crate::assets::{Loaded, Troubles, Wanted};
+use crate::assets::{Loaded, PictureErrors, Wanted};
 use crate::language::Source;
 use crate::scene::{Images, Meshes};
 use crate::text::{Findings, Severity, counted};
 use crate::ui::msg::Effect;
 
 /// Shown when a picture would lack files that are still being read.
-pub(super) const STILL_READING: &str = "the scene's files are still being read";
+pub(super) const STILL_READING: &str = "still reading the scene's files";
 
 /// The state of the files that the scene names.
 #[derive(Debug, Default)]
@@ -27,7 +27,7 @@ pub struct Assets {
     /// Whether any requested file is still awaited.
     awaited: bool,
     /// Problems with pictures; those with meshes are in `meshes`.
-    troubles: Troubles,
+    picture_errors: PictureErrors,
     /// Where files were found other than where first looked for, by name; each was announced.
     elsewhere: BTreeMap<String, PathBuf>,
     /// The paths of the files that were read.
@@ -49,7 +49,7 @@ pub(super) enum Notice {
     Faults,
     /// Where files were found, other than where first looked for.
     Elsewhere(String),
-    /// Files have changed.
+    /// Files have changed on disk and were read again.
     Reloaded,
 }
 
@@ -83,7 +83,7 @@ impl Assets {
             let path = path.filter(|_| !files.is_empty());
             self.want(path.map(|path| Wanted::new(path, &files)));
         }
-        assets::report(&self.troubles, &files, found)
+        assets::report(&self.picture_errors, &files, found)
     }
 
     fn want(&mut self, wanted: Option<Wanted>) {
@@ -101,7 +101,7 @@ impl Assets {
         if wanted.is_none() {
             self.images = Images::default();
             self.meshes = Meshes::default();
-            self.troubles.clear();
+            self.picture_errors.clear();
             self.files.clear();
         }
         self.asked = wanted;
@@ -131,7 +131,7 @@ impl Assets {
         let meshes = self.meshes != loaded.meshes;
         let images = self.images != loaded.images;
         let unreadable = self.meshes.unreadable() + loaded.meshes.unreadable();
-        let faults = self.troubles != loaded.troubles || meshes && 0 < unreadable;
+        let faults = self.picture_errors != loaded.picture_errors || meshes && 0 < unreadable;
         let elsewhere = self.found_elsewhere(loaded.elsewhere);
         let reloaded = (!is_first && (meshes || images)).then_some(Notice::Reloaded);
         let notice = match elsewhere {
@@ -141,7 +141,7 @@ impl Assets {
         };
         self.images = loaded.images;
         self.meshes = loaded.meshes;
-        self.troubles = loaded.troubles;
+        self.picture_errors = loaded.picture_errors;
         self.files = loaded.files;
         Some(News {
             images,
@@ -168,8 +168,8 @@ impl Assets {
     /// The message that counts the unreadable files, and its severity.
     pub(super) fn faults(&self) -> (Option<Severity>, String) {
         let meshes = self.meshes.unreadable();
-        let count = meshes + self.troubles.len();
-        let words = format!("{} can't be read: ! shows why", counted(count, "file"));
+        let count = meshes + self.picture_errors.len();
+        let words = format!("can't read {}: press ! to see why", counted(count, "file"));
         match (count, meshes) {
             (0, _) => (None, "all files can be read now".to_owned()),
             (_, 0) => (Some(Severity::Warning), words),

@@ -8,7 +8,7 @@ use crate::image_file::ImageFormat;
 use crate::language::Language;
 use crate::render::MAX_SPP;
 use crate::scene::{Camera, Size};
-use crate::text::slips;
+use crate::text::edit_distance;
 use crate::ui::keymap::{self, HelpLine};
 use crate::ui::msg::{Effect, Existing, Guard};
 
@@ -17,15 +17,15 @@ use crate::ui::msg::{Effect, Existing, Guard};
 enum Command {
     /// Save, optionally to another file.
     Write(Option<PathBuf>, Force),
-    /// Quit.
+    /// Quit; with `!` without asking.
     Quit(Force),
-    /// Save and quit.
+    /// Save, then quit if that succeeds.
     WriteQuit,
     /// Read the file again.
     Reread,
-    /// Export a picture.
+    /// Export what is shown to a picture file.
     Export(Picture, Force),
-    /// Cancel the export.
+    /// Cancel the running export.
     ExportCancel,
     /// Trace at full size.
     Render,
@@ -35,7 +35,7 @@ enum Command {
     ViewReset,
     /// Set the size of the output picture.
     Size(Size),
-    /// Show the keys.
+    /// Open the help page.
     Help,
 }
 
@@ -82,23 +82,23 @@ const fn form(names: &'static [&'static str], arguments: Arguments, words: &'sta
 use Arguments as A;
 use Command as C;
 
-/// All commands.
+/// All commands, in the order of the help page.
 #[rustfmt::skip]
 const TABLE: &[Form] = &[
-    form(&["w", "write"], A::File(|file| C::Write(file, Force::No)), "save the scene, or under another name"),
-    form(&["w!", "write!"], A::File(|file| C::Write(file, Force::Yes)), "save over changes of the file"),
+    form(&["w", "write"], A::File(|file| C::Write(file, Force::No)), "save the scene, or save it as FILE"),
+    form(&["w!", "write!"], A::File(|file| C::Write(file, Force::Yes)), "save, overwriting changes on disk"),
     form(&["q", "quit"], A::Nothing(C::Quit(Force::No)), "quit"),
     form(&["q!", "quit!"], A::Nothing(C::Quit(Force::Yes)), "quit without asking"),
     form(&["wq", "x"], A::Nothing(C::WriteQuit), "save and quit"),
-    form(&["e", "reread"], A::Nothing(C::Reread), "read the file again"),
-    form(&["export"], A::Picture(|picture| C::Export(picture, Force::No)), "write a picture of what is shown"),
-    form(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "write it over a file that is there"),
-    form(&["export cancel"], A::Nothing(C::ExportCancel), "stop writing it"),
+    form(&["e", "reread"], A::Nothing(C::Reread), "reload the file"),
+    form(&["export"], A::Picture(|picture| C::Export(picture, Force::No)), "export a picture of what is shown"),
+    form(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "export, overwriting an existing file"),
+    form(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
     form(&["render"], A::Nothing(C::Render), "trace at full size"),
     form(&["view save"], A::Nothing(C::ViewSave), "write the view into the scene"),
-    form(&["view reset"], A::Nothing(C::ViewReset), "back to the scene's view"),
-    form(&["size"], A::Size(C::Size), "size of the picture in the scene"),
-    form(&["help"], A::Nothing(C::Help), "this page"),
+    form(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
+    form(&["size"], A::Size(C::Size), "set the picture size in the scene"),
+    form(&["help"], A::Nothing(C::Help), "show this page"),
 ];
 
 impl Form {
@@ -119,7 +119,7 @@ impl Form {
         let name = self.names[0];
         match &self.arguments {
             A::Nothing(command) if rest.is_empty() => Ok(command.clone()),
-            A::Nothing(_) => Err(format!("{name} takes nothing after it")),
+            A::Nothing(_) => Err(format!("{name} takes no arguments")),
             A::File(command) => Ok(command((!rest.is_empty()).then(|| PathBuf::from(rest)))),
             A::Picture(command) => picture(rest).map(command),
             A::Size(command) => {
@@ -161,7 +161,7 @@ fn picture(rest: &str) -> Result<Picture, String> {
     let mut spp = None;
     if let Some(count) = words.last().and_then(|word| word.parse().ok()) {
         if !(1..=MAX_SPP).contains(&count) {
-            return Err(format!("{count}: samples a pixel are 1 to {MAX_SPP}"));
+            return Err(format!("{count}: samples per pixel must be 1 to {MAX_SPP}"));
         }
         spp = Some(count);
         words.pop();
@@ -189,23 +189,25 @@ fn wrong_word(words: &[&str]) -> Option<String> {
         word.starts_with(|c: char| c.is_ascii_digit()) && word.chars().all(known)
     };
     if numbers("") {
-        Some(format!("{word}: samples a pixel are 1 to {MAX_SPP}"))
+        Some(format!("{word}: samples per pixel must be 1 to {MAX_SPP}"))
     } else if numbers("xX×*") {
-        Some(format!("`{word}` is not a size such as 800x600"))
+        Some(format!("`{word}`: expected a size such as 800x600"))
     } else if words.last().is_some_and(is_picture) || !words.iter().any(is_picture) {
         None
     } else {
-        Some(format!("`{word}` is neither a size nor samples a pixel"))
+        Some(format!("`{word}` is neither a size nor a sample count"))
     }
 }
 
 fn unknown(name: &str) -> String {
     let names: Vec<_> = TABLE.iter().map(|form| form.names[0]).collect();
-    let nearest = names.iter().min_by_key(|known| slips(name, known));
-    match nearest.filter(|known| slips(name, known) <= 2 && slips(name, known) < known.len()) {
-        Some(nearest) => format!("{name} is not a command; did you mean {nearest}?"),
+    let nearest = names.iter().min_by_key(|known| edit_distance(name, known));
+    match nearest
+        .filter(|known| edit_distance(name, known) <= 2 && edit_distance(name, known) < known.len())
+    {
+        Some(nearest) => format!("unknown command `{name}`: did you mean {nearest}?"),
         None => format!(
-            "{name} is not a command; the commands are {}",
+            "unknown command `{name}`; the commands are {}",
             names.join(", ")
         ),
     }
@@ -306,7 +308,7 @@ impl App {
     fn set_size(&mut self, size: Size) {
         let Some(scene) = self.scene.clone().filter(|_| self.error_count() == 0) else {
             self.overlays
-                .fail("the size can't be written while the scene has errors");
+                .fail("can't set the size while the scene has errors");
             return;
         };
         let camera = Camera {

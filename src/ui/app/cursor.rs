@@ -10,7 +10,7 @@ use crate::ui::keymap::Stride;
 use crate::ui::layout::{self, Areas};
 
 /// The maximum number of parts listed for a combined object.
-const MOST_PARTS: usize = 32;
+const MAX_PARTS: usize = 32;
 
 /// The selection in the list and in the fields.
 #[derive(Debug)]
@@ -74,7 +74,7 @@ impl Default for Cursor {
 }
 
 impl Cursor {
-    /// The selected node.
+    /// The selected node; the view until something else is selected.
     pub fn selected(&self) -> Node {
         self.selected
     }
@@ -85,7 +85,7 @@ impl Cursor {
     }
 
     /// The parts of the selected object in order, each with its depth below it; at most the first
-    /// `MOST_PARTS`. Empty unless the object is a combination.
+    /// `MAX_PARTS`. Empty unless the object is a combination.
     pub fn parts(&self) -> &[(usize, Node)] {
         &self.parts
     }
@@ -95,7 +95,7 @@ impl Cursor {
         self.fields.get(self.field)
     }
 
-    /// Selects a node.
+    /// Selects a node and drops a value being typed.
     pub fn select(&mut self, node: Node, source: &Source) {
         self.typing = None;
         if node != self.selected {
@@ -118,7 +118,7 @@ impl Cursor {
         self.selected = node;
         self.fields = source.fields(node);
         self.parts = match node {
-            Node::Object(object) => source.parts(object, 1 + MOST_PARTS).split_off(1),
+            Node::Object(object) => source.parts(object, 1 + MAX_PARTS).split_off(1),
             _ => Vec::new(),
         };
     }
@@ -191,9 +191,9 @@ impl Cursor {
             (_, false) => Stride::Coarse,
         };
         match self.stride {
-            Stride::Fine => "nudges are a tenth of a step",
-            Stride::Plain => "nudges are one step",
-            Stride::Coarse => "nudges are ten steps",
+            Stride::Fine => "nudge step ×0.1",
+            Stride::Plain => "nudge step ×1",
+            Stride::Coarse => "nudge step ×10",
         }
     }
 

@@ -73,7 +73,7 @@ impl App {
         self.pictures.camera(self.own_camera())
     }
 
-    /// The scene's camera.
+    /// The scene's own camera, regardless of the working view.
     pub(super) fn own_camera(&self) -> Option<Camera> {
         self.scene.as_ref().map(|scene| scene.camera)
     }
@@ -132,14 +132,14 @@ impl App {
     pub fn losses(&self) -> Option<String> {
         let name = self.disk.name();
         let text = if self.document.is_dirty() {
-            Some(format!("{name} has edits that are not saved"))
+            Some(format!("{name} has unsaved edits"))
         } else {
             let is_missing = self.disk.state == OnDisk::Missing;
             is_missing.then(|| format!("{name} no longer exists"))
         };
         let export = self.jobs.export.as_ref().map(|export| {
             let name = export.destination.path.display();
-            format!("the export to {name} is not done")
+            format!("{name} is still being exported")
         });
         let save = self.jobs.file_being_saved();
         let save = save.map(|path| format!("{} is still being written", path.display()));
@@ -206,15 +206,15 @@ impl App {
     pub(super) fn field_row(&self, index: usize) -> Option<FieldRow> {
         let placed = self.cursor.fields().get(index)?;
         let source = self.source();
-        let said = (0..).zip(&placed.spans).map(|(component, span)| {
-            let said = || source.leaf_text(*span).to_owned();
+        let written = (0..).zip(&placed.spans).map(|(component, span)| {
+            let literal = || source.leaf_text(*span).to_owned();
             let default = placed.default_of(component);
             default.map_or_else(
-                || (said(), Provenance::Text),
+                || (literal(), Provenance::Text),
                 |default| (default.to_owned(), Provenance::Default),
             )
         });
-        let (said, sources): (Vec<_>, Vec<_>) = said.unzip();
+        let (literals, sources): (Vec<_>, Vec<_>) = written.unzip();
         let row = |literals, source| FieldRow {
             field: placed.field,
             literals,
@@ -232,14 +232,14 @@ impl App {
             return Some(row(shown(view), Provenance::WorkingView));
         }
         Some(match scene {
-            Some(scene) if said.is_empty() => row(shown(&scene.camera), Provenance::Default),
-            None if said.is_empty() => row(
+            Some(scene) if literals.is_empty() => row(shown(&scene.camera), Provenance::Default),
+            None if literals.is_empty() => row(
                 vec!["?".to_owned(); placed.field.kind.components()],
                 Provenance::Default,
             ),
             _ => FieldRow {
                 field: placed.field,
-                literals: said,
+                literals,
                 sources,
             },
         })

@@ -8,9 +8,9 @@ use super::journal::Journal;
 use crate::file::ReadError;
 use crate::text::Findings;
 use crate::ui::msg::{Effect, Timer};
-use crate::ui::reading::{Known, Place};
+use crate::ui::reading::{Baseline, Place};
 
-/// The scene's file.
+/// The scene's file, and the state of reading it.
 #[derive(Debug, Default)]
 pub struct Disk {
     /// The path of the scene; `None` for the embedded one until it is saved.
@@ -53,7 +53,7 @@ pub enum OnDisk {
 /// A file on disk with errors, kept apart from unsaved edits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Broken {
-    /// Its content.
+    /// The content of the file.
     pub(super) text: Arc<String>,
     /// Its errors and warnings.
     pub(super) diagnostics: Findings,
@@ -79,7 +79,7 @@ pub(super) enum Reader {
 /// The state of waiting for a file that is being written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Settle {
-    /// Not waiting.
+    /// The file is not known to be changing.
     #[default]
     Idle,
     /// The file must remain unchanged for a while.
@@ -120,23 +120,23 @@ impl Disk {
         self.path.as_deref() == Some(path)
     }
 
-    /// Reads the file.
-    pub(super) fn read(&self, known: Known) -> Vec<Effect> {
+    /// Reads the file, to be compared with `baseline`; no effect for a scene without a file.
+    pub(super) fn read(&self, baseline: Baseline) -> Vec<Effect> {
         let path = self.path.clone();
-        let read = path.map(|path| Effect::Read(path, known));
+        let read = path.map(|path| Effect::Read(path, baseline));
         read.into_iter().collect()
     }
 
     /// Reads the file, which may have to settle again.
-    pub(super) fn read_again(&mut self, known: Known) -> Vec<Effect> {
+    pub(super) fn read_again(&mut self, baseline: Baseline) -> Vec<Effect> {
         self.settle = Settle::Idle;
-        self.read(known)
+        self.read(baseline)
     }
 
     /// Reads the file and accepts what it holds.
-    pub(super) fn read_finally(&mut self, known: Known) -> Vec<Effect> {
+    pub(super) fn read_finally(&mut self, baseline: Baseline) -> Vec<Effect> {
         self.settle = Settle::Final;
-        self.read(known)
+        self.read(baseline)
     }
 
     /// Makes the next reading answer the user.

@@ -88,7 +88,7 @@ impl App {
     /// Makes edits. If they add errors, or an error touches one of them, returns that error and
     /// leaves the text as before.
     pub(super) fn try_edits(&mut self, edits: &[Edit]) -> Result<(), Diagnostic> {
-        let said = self.said_view_parts();
+        let written = self.written_view_parts();
         let errors = self.error_count();
         match edits {
             [edit] if !edit.span.is_empty() => self.document.set(edit.span, &edit.text),
@@ -106,7 +106,7 @@ impl App {
             refused = found.first_error();
         }
         // An error in a view comment is only a warning, but it disables the whole view.
-        if refused.is_none() && self.said_view_parts() < said {
+        if refused.is_none() && self.written_view_parts() < written {
             refused = found.iter().find(touches).or_else(|| found.first());
         }
         if let Some(refused) = refused.cloned() {
@@ -117,7 +117,7 @@ impl App {
         Ok(())
     }
 
-    fn said_view_parts(&self) -> usize {
+    fn written_view_parts(&self) -> usize {
         let fields = self.source().fields(Node::View);
         fields.iter().filter(|part| part.is_explicit()).count()
     }
@@ -140,8 +140,8 @@ impl App {
 
     /// Sets components of the working view, or of a part of the view that the text omits.
     fn assign_view(&mut self, field: &Field, values: &[(usize, String)]) -> Result<(), Diagnostic> {
-        let refuse = |said: &str| {
-            let message = format!("view {}: {said}", field.key);
+        let refuse = |reason: &str| {
+            let message = format!("view {}: {reason}", field.key);
             Diagnostic::error(Span::at(0), message, field.allowed.words())
         };
         let scene = self.scene.clone().filter(|_| self.error_count() == 0);
@@ -182,7 +182,7 @@ impl App {
     /// Hides the selected object, or shows it again.
     pub(super) fn toggle_visibility(&mut self) {
         let Node::Object(object) = self.cursor.selected() else {
-            self.overlays.fail("only objects are shown or hidden");
+            self.overlays.fail("only objects can be shown or hidden");
             return;
         };
         let (wanted, done) = match self.source().drawn(object) {

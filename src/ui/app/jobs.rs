@@ -22,7 +22,7 @@ const PATIENCE: u32 = 2;
 /// Saves and exports under way.
 #[derive(Debug, Default)]
 pub struct Jobs {
-    /// The running export.
+    /// The running export; there is at most one.
     pub export: Option<Export>,
     /// The ID of the latest export.
     last: ExportId,
@@ -46,19 +46,19 @@ pub struct Jobs {
 /// A running export.
 #[derive(Debug)]
 pub struct Export {
-    /// Its ID.
+    /// Distinguishes its outcome from that of a cancelled export.
     pub id: ExportId,
-    /// Its current stage.
+    /// Whether it is traced or written.
     pub stage: Stage,
     /// The file to write.
     pub destination: Destination,
-    /// Size in pixels.
+    /// Size of its picture in pixels.
     pub size: Size,
-    /// Samples per pixel.
+    /// Samples per pixel of its picture.
     pub spp: u32,
     /// What it shows instead of light.
     pub aov: Option<Aov>,
-    /// Progress of tracing.
+    /// Progress of tracing; `None` before the first frame.
     pub progress: Option<Progress>,
     /// Seconds since its file began to be written.
     pub written_for: u32,
@@ -224,7 +224,7 @@ impl Jobs {
 }
 
 impl Export {
-    /// Stops tracing.
+    /// Stops tracing; writing can't be stopped.
     pub(super) fn stop(&self) -> Vec<Effect> {
         match self.stage {
             Stage::Tracing => vec![Effect::Stop(Target::Export)],

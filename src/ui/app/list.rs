@@ -7,7 +7,7 @@ use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{self, Areas};
 
 impl App {
-    /// Selects a node.
+    /// Selects a node; ends the current undo step.
     pub(super) fn select(&mut self, node: Node) {
         self.document.end_step();
         self.cursor.select(node, self.document.source());
@@ -116,7 +116,7 @@ impl App {
 
     /// Whether a node's name or comment contains a word in lower case.
     fn is_called(&self, node: Node, word: &str) -> bool {
-        let holds = |said: &str| said.to_lowercase().contains(word);
+        let holds = |text: &str| text.to_lowercase().contains(word);
         holds(&self.source().name(node)) || self.source().comment(node).is_some_and(holds)
     }
 
@@ -124,7 +124,7 @@ impl App {
         self.overlays.errors = match self.overlays.errors {
             Some(_) => None,
             None if self.wrong().findings.is_empty() => {
-                self.overlays.say("no errors, no warnings");
+                self.overlays.say("no errors or warnings");
                 None
             }
             None => Some(0),
@@ -138,7 +138,7 @@ impl App {
         };
         if self.is_disk_wrong() {
             self.overlays
-                .warn("it is in the file on disk: E opens the editor at the line");
+                .warn("this is in the file on disk: press E to edit that line");
             return;
         }
         let Some(span) = self.diagnostics.get(at).map(|diagnostic| diagnostic.span) else {
@@ -153,14 +153,14 @@ impl App {
             }
             None => self
                 .overlays
-                .warn("nothing to select there: E opens the editor at the line"),
+                .warn("nothing to select there: press E to edit that line"),
         }
     }
 
     /// Starts picking, in the middle of the picture or where the last pick was.
     pub(super) fn start_pick(&mut self) {
         let Some((cells, _)) = self.raster() else {
-            self.overlays.fail("there is no room for a picture");
+            self.overlays.fail("no room for a picture");
             return;
         };
         if self.pictures.cross == (0, 0) {
@@ -192,10 +192,10 @@ impl App {
     /// are known by their numbers in the scene shown, which may differ from the text's.
     pub fn node_under(&self, x: u32, y: u32) -> Result<Option<Node>, &'static str> {
         if 0 < self.error_count() {
-            return Err("the text has errors: the picture is of the last scene without");
+            return Err("the text has errors: the picture shows the last valid scene");
         }
         if self.picture().is_outdated() {
-            return Err("the picture is not of the changed scene yet");
+            return Err("the picture doesn't show the changed scene yet");
         }
         let object = self.picture().shown.object_at(x, y);
         Ok(object.map(|object| Node::Object(self.source().object(object))))
@@ -210,7 +210,7 @@ impl App {
                     self.mode = Mode::Select;
                 }
             }
-            Ok(None) => self.overlays.say("nothing is there"),
+            Ok(None) => self.overlays.say("nothing there"),
             Err(reason) => self.overlays.warn(reason),
         }
     }

@@ -31,10 +31,10 @@ pub(super) fn next(words: &[impl AsRef<str>], literal: &str, steps: i8) -> Optio
 }
 
 /// Completes an unambiguous prefix of a word, ignoring case.
-pub(super) fn word_meant<'w>(words: &[&'w str], said: &str) -> Option<&'w str> {
+pub(super) fn word_meant<'w>(words: &[&'w str], text: &str) -> Option<&'w str> {
     let begins = |word: &&&str| {
-        let start = word.get(..said.len());
-        start.is_some_and(|start| start.eq_ignore_ascii_case(said))
+        let start = word.get(..text.len());
+        start.is_some_and(|start| start.eq_ignore_ascii_case(text))
     };
     let mut meant = words.iter().filter(begins);
     let first = meant.next()?;
@@ -47,18 +47,18 @@ pub(super) fn plain(literal: &str) -> &str {
 }
 
 /// Whether a text may be a single number or word; the parser decides whether it is.
-pub(super) fn is_one(said: &str) -> bool {
-    !said.is_empty()
-        && !said.contains(|c: char| c.is_whitespace() || c.is_control())
-        && !said.contains("//")
-        && !said.contains("\\\\")
+pub(super) fn is_one(text: &str) -> bool {
+    !text.is_empty()
+        && !text.contains(|c: char| c.is_whitespace() || c.is_control())
+        && !text.contains("//")
+        && !text.contains("\\\\")
 }
 
 /// Splits a text into the literals of a field with several components: `0.1 0.2 0.3` separated by
 /// blanks or commas, `#rrggbb` for a colour, `800x600` for a size. For a scaled vector the first
 /// three suffice.
-pub(super) fn all_of(kind: Kind, said: &str) -> Option<Vec<String>> {
-    match (kind, said.strip_prefix('#')) {
+pub(super) fn all_of(kind: Kind, text: &str) -> Option<Vec<String>> {
+    match (kind, text.strip_prefix('#')) {
         (Kind::Colour, Some(digits)) => return colour(digits),
         (Kind::ScaledColour, Some(digits)) => {
             let channels = colour(digits)?;
@@ -68,7 +68,7 @@ pub(super) fn all_of(kind: Kind, said: &str) -> Option<Vec<String>> {
     }
     let split =
         |c: char| c.is_whitespace() || matches!(c, ',' | ';') || (kind == Kind::Pixels && c == 'x');
-    let bare = said.trim_matches(['(', ')', '[', ']', '<', '>']);
+    let bare = text.trim_matches(['(', ')', '[', ']', '<', '>']);
     let words: Vec<_> = bare
         .split(split)
         .filter(|word| !word.is_empty())
@@ -141,7 +141,7 @@ mod tests {
     #[test]
     fn unambiguous_prefixes_of_words_are_completed() {
         let words = ["shadow_on", "shadow_off", "point"];
-        for (said, meant) in [
+        for (text, meant) in [
             ("p", Some("point")),
             ("SHADOW_ON", Some("shadow_on")),
             ("shadow_o", None),
@@ -149,13 +149,13 @@ mod tests {
             ("points", None),
             ("é", None),
         ] {
-            assert_eq!(word_meant(&words, said), meant, "{said}");
+            assert_eq!(word_meant(&words, text), meant, "{text}");
         }
     }
 
     #[test]
     fn triples_colours_and_sizes_fill_all_components() {
-        for (kind, said, expected) in [
+        for (kind, text, expected) in [
             (Kind::Point, "0.1 0.2 0.3", Some("0.1 0.2 0.3")),
             (Kind::Point, "(1, -2e3, .5)", Some("1 -2e3 .5")),
             (Kind::Colour, "1;1;1", Some("1 1 1")),
@@ -173,8 +173,8 @@ mod tests {
             (Kind::Point, "1 2 x", None),
             (Kind::Number, "1", None),
         ] {
-            let all = all_of(kind, said).map(|all| all.join(" "));
-            assert_eq!(all.as_deref(), expected, "{said}");
+            let all = all_of(kind, text).map(|all| all.join(" "));
+            assert_eq!(all.as_deref(), expected, "{text}");
         }
     }
 }

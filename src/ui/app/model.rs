@@ -19,7 +19,7 @@ use crate::ui::terminal::Mouse;
 /// owns its own state.
 #[derive(Debug)]
 pub struct App {
-    /// The text.
+    /// The text under edit, its history and its saved version.
     pub document: Document,
     /// The errors and warnings of the current text.
     pub diagnostics: Findings,

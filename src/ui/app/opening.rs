@@ -19,9 +19,9 @@ use crate::ui::terminal::Mouse;
 pub struct Opening {
     /// The path of the scene; `None` for the embedded one.
     pub path: Option<PathBuf>,
-    /// Its language.
+    /// The language of its text.
     pub language: Language,
-    /// Its text.
+    /// Its text, unless that is still to be read.
     pub text: OpeningText,
     /// Quality of the pictures.
     pub quality: Quality,
@@ -125,6 +125,6 @@ impl App {
     /// Warns that the requested action needs the scene.
     pub(super) fn warn_of_opening(&mut self) {
         self.overlays
-            .warn(format!("{} is still being opened", self.disk.name()));
+            .warn(format!("still opening {}", self.disk.name()));
     }
 }

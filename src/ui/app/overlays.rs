@@ -16,11 +16,11 @@ pub struct Overlays {
     pub prompt: Option<Prompt>,
     /// A question that must be answered first.
     pub dialog: Option<Dialog>,
-    /// The help page.
+    /// The help page, if open.
     pub help: Option<Help>,
     /// The selected diagnostic while the list of errors has the keys. Errors are always shown.
     pub errors: Option<usize>,
-    /// The current message.
+    /// The message in the status line; the next key dismisses it.
     pub message: Option<Message>,
     /// The message that a key dismissed.
     past: Option<Message>,
@@ -29,7 +29,7 @@ pub struct Overlays {
 /// A line being typed at the bottom.
 #[derive(Debug)]
 pub struct Prompt {
-    /// Its purpose.
+    /// What happens with the line on Enter.
     pub kind: PromptKind,
     /// The text and its cursor.
     pub input: Input,
@@ -65,9 +65,9 @@ pub enum Dialog {
 /// The origin of a text that is merged with the edited one.
 #[derive(Clone, Debug)]
 pub enum Outside {
-    /// The scene's file.
+    /// The scene's file, changed by another program.
     File,
-    /// A recovery journal.
+    /// A recovery journal of an earlier run.
     Kept(Arc<Claim>, Since),
 }
 
@@ -81,7 +81,7 @@ impl Outside {
     }
 }
 
-/// The help page.
+/// The state of the help page.
 #[derive(Debug, Default)]
 pub struct Help {
     /// The first line shown; at most the last of [`App::help_lines`](super::App::help_lines).
@@ -95,7 +95,7 @@ pub struct Help {
 /// The effect of keys on the help page.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum HelpFocus {
-    /// Keys scroll.
+    /// Keys scroll the page or close it.
     #[default]
     Lines,
     /// Keys are typed into the search.
@@ -105,7 +105,7 @@ pub enum HelpFocus {
 /// A message to the user.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
-    /// `None` for success.
+    /// `None` for success and information.
     pub severity: Option<Severity>,
     /// Its text, without the system's error numbers.
     pub text: String,
@@ -196,6 +196,6 @@ impl Overlays {
 
     pub(super) fn show_past_message(&mut self) {
         self.message = self.past.take();
-        self.suggest("there was no message yet");
+        self.suggest("no messages yet");
     }
 }

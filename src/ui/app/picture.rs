@@ -20,7 +20,7 @@ pub struct Picture {
     pub wanted: Option<u64>,
     /// The size requested last.
     pub asked: Option<Size>,
-    /// The newest frame.
+    /// The newest frame; `None` before the first.
     pub latest: Option<Arc<Frame>>,
     /// The picture on screen.
     pub shown: Shown,

@@ -11,7 +11,7 @@ use crate::ui::msg::Target;
 /// The preview and the full-size trace.
 #[derive(Debug)]
 pub struct Pictures {
-    /// The preview.
+    /// The preview beside the list, restarted at each change.
     pub preview: Picture,
     /// The full-size trace, once requested.
     pub trace: Option<Picture>,
@@ -51,10 +51,10 @@ pub struct Quality {
 /// Whether the selected object is outlined in the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Outline {
-    /// In SELECT mode.
+    /// It is outlined in SELECT mode.
     #[default]
     Marked,
-    /// Never.
+    /// It is never outlined.
     Hidden,
 }
 
@@ -181,7 +181,7 @@ impl Pictures {
     pub(super) fn toggle_integrator(&mut self, scene: Option<&Scene>) -> &'static str {
         let (other, words) = match self.integrator(scene) {
             Integrator::Whitted => (Integrator::Path, "path tracing"),
-            Integrator::Path => (Integrator::Whitted, "Whitted's rays"),
+            Integrator::Path => (Integrator::Whitted, "Whitted ray tracing"),
         };
         self.quality.integrator = None;
         if self.integrator(scene) != other {
@@ -197,10 +197,10 @@ impl Pictures {
         self.aov = aov;
         match aov {
             None => "light",
-            Some(Aov::Depth) => "depth: the nearest white, the farthest black",
+            Some(Aov::Depth) => "depth: nearest white, farthest black",
             Some(Aov::Normal) => "normals: -1 to 1 as 0 to 255",
-            Some(Aov::Object) => "objects: a colour each",
-            Some(Aov::Albedo) => "albedo: colours without light",
+            Some(Aov::Object) => "objects: one colour each",
+            Some(Aov::Albedo) => "albedo: unlit colours",
         }
     }
 

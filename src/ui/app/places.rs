@@ -20,7 +20,7 @@ impl App {
         let line = Position::of(self.document.text(), first.span.start()).line;
         Some(match self.error_count() {
             1 => format!("line {line} has an error"),
-            errors => format!("{errors} errors, the first in line {line}"),
+            errors => format!("{errors} errors, the first on line {line}"),
         })
     }
 }
@@ -40,7 +40,7 @@ pub(super) fn name_of(source: &Source, span: Span) -> Option<String> {
         }
         [node] => Some(name_in(source, *node, span)),
         [first, .., last] if NAMED < touched.len() => Some(format!(
-            "{} things, {} to {}",
+            "{} items, {} to {}",
             touched.len(),
             source.name(*first),
             source.name(*last)
@@ -115,7 +115,7 @@ sphere 2 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1
                 at("sphere 2") + 3,
                 "object 2 (sphere), object 3 (sphere)",
             ),
-            (0, text.len(), "5 things, ambient to object 3 (sphere)"),
+            (0, text.len(), "5 items, ambient to object 3 (sphere)"),
         ] {
             let span = Span::new(from, until);
             let found = name_of(&source, span);

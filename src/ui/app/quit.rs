@@ -41,7 +41,7 @@ impl App {
         }
         if self.jobs.export.is_some() {
             self.overlays
-                .say("quits when the export is written; x cancels it");
+                .say("will quit once the export finishes; press x to cancel it");
             return Vec::new();
         }
         self.jobs.quit = false;

@@ -12,10 +12,10 @@ use crate::document::Adopted;
 use crate::file;
 use crate::file::ReadError;
 use crate::language::Lowered;
-use crate::text::{Edit, Findings, Position, smallest_edit};
+use crate::text::{Edit, Findings, Position, counted, smallest_edit};
 use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Guard};
-use crate::ui::reading::{Known, News, Reading};
+use crate::ui::reading::{Baseline, News, Reading};
 
 /// Many programs empty a file before writing it: errors must persist for this long.
 const QUIET: Duration = Duration::from_millis(100);
@@ -36,31 +36,31 @@ const RELOADED: Words = Words {
     end: "",
 };
 const MERGED: Words = Words {
-    came: "the file's changes are merged with your edits",
-    same: "the picture stays the same",
-    end: "; u undoes the merge",
+    came: "merged the file's changes with your edits",
+    same: "the picture is unchanged",
+    end: "; press u to undo the merge",
 };
 const ADOPTED: Words = Words {
     came: "merged",
-    same: "the picture stays the same",
-    end: "; u undoes the merge",
+    same: "the picture is unchanged",
+    end: "; press u to undo the merge",
 };
 const SAME_NOW: Words = Words {
-    came: "the file has the same changes now",
+    came: "the file now has the same changes",
     same: "nothing is unsaved",
     end: "",
 };
 
 impl App {
     pub(super) fn read_again(&mut self) -> Vec<Effect> {
-        self.disk.read_again(self.known())
+        self.disk.read_again(self.baseline())
     }
 
     /// Rereads the scene's file and the files that it names, for `:e`.
     pub(super) fn reread(&mut self) -> Vec<Effect> {
         if self.disk.path.is_none() {
             self.overlays
-                .fail("this scene has no file to read: :w FILE creates one");
+                .fail("this scene has no file yet: use :w FILE to create one");
         }
         self.disk.answer_user();
         let mut effects = self.read_again();
@@ -69,12 +69,12 @@ impl App {
     }
 
     pub(super) fn read_effect(&self) -> Vec<Effect> {
-        self.disk.read(self.known())
+        self.disk.read(self.baseline())
     }
 
     /// The state that a reading of the file is compared with.
-    pub(super) fn known(&self) -> Known {
-        Known {
+    pub(super) fn baseline(&self) -> Baseline {
+        Baseline {
             scene: self.document.snapshot(),
             saving: self.text_being_saved().cloned(),
             meshes: self.assets.meshes.clone(),
@@ -85,20 +85,20 @@ impl App {
     /// changes, neither an edit nor a mesh. With a million objects, changes arrive about a second
     /// after the last edit.
     fn is_known(&self, reading: &Reading) -> bool {
-        let known = &reading.known;
+        let baseline = &reading.baseline;
         let saving = |text: Option<&Arc<String>>| text.map(Arc::as_ptr);
-        if saving(known.saving.as_ref()) != saving(self.text_being_saved()) {
+        if saving(baseline.saving.as_ref()) != saving(self.text_being_saved()) {
             return false;
         }
         if reading.news.is_none() {
-            return Arc::ptr_eq(&known.scene.saved, self.document.saved());
+            return Arc::ptr_eq(&baseline.scene.saved, self.document.saved());
         }
-        known.scene.is_of(&self.document) && known.meshes == self.assets.meshes
+        baseline.scene.is_of(&self.document) && baseline.meshes == self.assets.meshes
     }
 
     pub(super) fn settled(&mut self) -> Vec<Effect> {
         if self.disk.is_waiting() {
-            self.disk.read_finally(self.known())
+            self.disk.read_finally(self.baseline())
         } else {
             Vec::new()
         }
@@ -143,14 +143,14 @@ impl App {
         let effects = self.take_text(reading, is_final);
         let folder = place.folder.display();
         if before.id != place.id {
-            let said = self
+            let message = self
                 .overlays
                 .message
                 .take()
-                .map(|said| format!("; {}", said.text));
-            let said = said.unwrap_or_default();
+                .map(|message| format!("; {}", message.text));
+            let message = message.unwrap_or_default();
             self.overlays
-                .warn(format!("another folder is at {folder} now{said}"));
+                .warn(format!("{folder} is now a different folder{message}"));
         } else if before.folder != place.folder {
             self.overlays
                 .warn(format!("the scene's folder was moved to {folder}"));
@@ -172,7 +172,7 @@ impl App {
             // While the file is being saved, the outcome of the save determines its state.
             if self.disk.state != OnDisk::Known && self.text_being_saved().is_none() {
                 self.disk.stands(OnDisk::Known);
-                self.overlays.say("the file is back to its saved text");
+                self.overlays.say("the file matches the saved text again");
             } else if reader == Reader::User {
                 self.overlays
                     .say(format!("{} has not changed", self.disk.name()));
@@ -219,7 +219,7 @@ impl App {
         self.disk.state = OnDisk::Broken;
         self.disk.broken = Some(Broken { text, diagnostics });
         self.overlays.fail(format!(
-            "line {line} of the file on disk has an error: E opens it, :w! overwrites it"
+            "line {line} of the file on disk has an error: press E to edit it, or use :w! to overwrite it"
         ));
     }
 
@@ -234,8 +234,10 @@ impl App {
             if sound {
                 self.disk.sound = Some(Arc::clone(&held.text));
             }
-            self.overlays
-                .fail(format!("the scene has errors: {}", self.error_count()));
+            self.overlays.fail(format!(
+                "the scene has {}",
+                counted(self.error_count(), "error")
+            ));
         } else {
             let sound = self.disk.sound.take();
             let from_sound = sound.map(|sound| smallest_edit(&sound, self.document.text()));
@@ -255,8 +257,7 @@ impl App {
             });
         }
         if lost {
-            self.overlays
-                .warn("the value being typed is dropped: its field is gone");
+            self.overlays.warn("typed value dropped: its field is gone");
         }
     }
 
@@ -264,7 +265,8 @@ impl App {
     pub(super) fn save(&mut self) -> Vec<Effect> {
         let Some(path) = self.disk.path.clone() else {
             self.overlays.open_prompt(PromptKind::Command, "w ");
-            self.overlays.say("this scene has no file yet: name one");
+            self.overlays
+                .say("this scene has no file yet: enter a name");
             return Vec::new();
         };
         if !self.document.is_dirty() && self.disk.state == OnDisk::Known {
@@ -295,7 +297,7 @@ impl App {
             format!(":w! {}", path.display())
         };
         self.overlays
-            .fail(format!("{errors}: {force} writes it anyway"));
+            .fail(format!("{errors}: use {force} to save anyway"));
         true
     }
 
@@ -325,7 +327,7 @@ impl App {
         if let Some(open) = merge.conflicts.iter().position(|c| c.decision.is_none()) {
             *at = open;
             self.overlays
-                .warn("decide every conflict first: m mine, t the file's");
+                .warn("decide every conflict first: press m for mine, t for the file's");
             return Vec::new();
         }
         let Some(Dialog::Conflict { merge, from, .. }) = self.overlays.dialog.take() else {
@@ -347,7 +349,7 @@ impl App {
             }
             Adopted::OutOfDate => self
                 .overlays
-                .warn("the file was saved since: nothing is merged"),
+                .warn("the file was saved meanwhile: nothing was merged"),
         }
         Vec::new()
     }
@@ -355,13 +357,14 @@ impl App {
     /// Opens the user's editor at the cursor.
     pub(super) fn open_editor(&mut self) -> Vec<Effect> {
         let Some(path) = self.disk.path.clone() else {
-            self.overlays.fail("there is no file yet: :w FILE");
+            self.overlays
+                .fail("this scene has no file yet: use :w FILE to create one");
             return Vec::new();
         };
         // A file with errors that is kept apart from the edits must be corrected first.
         if self.document.is_dirty() && self.disk.state != OnDisk::Broken {
             self.overlays
-                .warn("there are unsaved edits: w saves them, then E");
+                .warn("there are unsaved edits: press w to save them, then E");
             return Vec::new();
         }
         let wrong = self.wrong();

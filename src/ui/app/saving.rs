@@ -30,7 +30,7 @@ impl App {
             return Vec::new();
         }
         if self.jobs.quit && self.jobs.still_writing().is_some() {
-            let words = "will quit once the save finishes; Ctrl-C or :q! quits now";
+            let words = "will quit once the save finishes; use Ctrl-C or :q! to quit now";
             self.overlays.suggest(words);
         }
         self.jobs.count_seconds()
@@ -78,7 +78,7 @@ impl App {
             SaveOutcome::ChangedOnDisk => {
                 let words = "the file has changed: nothing was written yet";
                 self.overlays.warn(words);
-                self.disk.read_finally(self.known())
+                self.disk.read_finally(self.baseline())
             }
             SaveOutcome::Failed(reason) => {
                 self.overlays.fail(reason);

@@ -97,8 +97,7 @@ impl App {
             return Vec::new();
         }
         let Some(job) = self.trace_job() else {
-            self.overlays
-                .fail("there is no picture: the scene has errors");
+            self.overlays.fail("no picture: the scene has errors");
             return Vec::new();
         };
         // A picture too large for a picture file is also too large to look at.
@@ -112,7 +111,7 @@ impl App {
         }
         if 0 < self.error_count() {
             self.overlays
-                .warn("the text has errors: this is the last scene without");
+                .warn("the text has errors: this is the last valid scene");
         }
         if is_begun {
             return Vec::new();
@@ -225,7 +224,7 @@ impl App {
         let format = ImageFormat::of_path(path);
         let refused = match (format, &job) {
             _ if self.jobs.export.is_some() => {
-                Some("an export is under way: x cancels it".to_owned())
+                Some("an export is already running: press x to cancel it".to_owned())
             }
             _ if self.assets.are_awaited() => Some(STILL_READING.to_owned()),
             (None, _) => Some(format!(
@@ -233,7 +232,7 @@ impl App {
                 path.display(),
                 known_extensions()
             )),
-            (_, None) => Some("there is no picture: the scene has errors".to_owned()),
+            (_, None) => Some("no picture: the scene has errors".to_owned()),
             (Some(format), Some(_)) => format.refuses(size),
         };
         let job = match (refused, job) {
@@ -277,7 +276,7 @@ impl App {
         if self.error_count() == 0 {
             self.overlays.say(format!("exporting {what}to {to}"));
         } else {
-            let why = "the text has errors: this is the last scene without";
+            let why = "the text has errors: this is the last valid scene";
             self.overlays
                 .warn(format!("exporting {what}to {to}; {why}"));
         }
@@ -320,7 +319,7 @@ impl App {
             .filter(|_| self.mode == Mode::Trace);
         if let Some(trace) = seen.filter(|trace| trace.wanted.is_some() && !trace.is_complete()) {
             trace.wanted = None;
-            self.overlays.say("stopped; F5 restarts");
+            self.overlays.say("stopped; press F5 to restart");
             return vec![Effect::Stop(Target::Trace)];
         }
         self.cancel_export()

@@ -56,8 +56,10 @@ impl App {
         };
         if nudged == literal {
             self.overlays.warn(match field.kind {
-                Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => "there is no other",
-                _ => "the number is too large for this step",
+                Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => {
+                    "there are no other choices"
+                }
+                _ => "the step is too small to change this number",
             });
         } else if let Err(refused) = self.assign(&[(self.cursor.component, nudged)]) {
             self.overlays.fail(refused.message);
@@ -102,8 +104,8 @@ impl App {
         let Some(typing) = &self.cursor.typing else {
             return true;
         };
-        let said = typing.input.value().trim().to_owned();
-        let outcome = if let Some(values) = self.literals_of(&said) {
+        let typed = typing.input.value().trim().to_owned();
+        let outcome = if let Some(values) = self.literals_of(&typed) {
             self.assign_whole(&values)
         } else {
             let words = self.current().and_then(|(field, _)| match field.kind {
@@ -113,7 +115,7 @@ impl App {
                 _ => None,
             });
             let expected = words.unwrap_or_else(|| "one number".to_owned());
-            let message = format!("{expected} is expected here");
+            let message = format!("expected {expected}");
             Err(Diagnostic::error(Span::at(0), message, expected))
         };
         match outcome {
@@ -139,15 +141,15 @@ impl App {
     }
 
     /// The components that a typed or pasted text sets: the current one, or all of the field.
-    fn literals_of(&self, said: &str) -> Option<Vec<(usize, String)>> {
+    fn literals_of(&self, typed: &str) -> Option<Vec<(usize, String)>> {
         let field = self.cursor.current()?.field;
         let kind = field.kind;
-        if let Some(all) = literals::all_of(kind, said) {
+        if let Some(all) = literals::all_of(kind, typed) {
             return Some(all.into_iter().enumerate().collect());
         }
         if let Kind::Choice(words) = kind
-            && field.chosen(said).is_none()
-            && let Some(word) = literals::word_meant(words, said)
+            && field.chosen(typed).is_none()
+            && let Some(word) = literals::word_meant(words, typed)
         {
             return Some(vec![(self.cursor.component, word.to_owned())]);
         }
@@ -155,16 +157,16 @@ impl App {
             kind,
             Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) | Kind::Word
         );
-        let said = if is_number && !kind.is_size() {
-            literals::plain(said)
+        let typed = if is_number && !kind.is_size() {
+            literals::plain(typed)
         } else {
-            said
+            typed
         };
-        literals::is_one(said).then(|| vec![(self.cursor.component, said.to_owned())])
+        literals::is_one(typed).then(|| vec![(self.cursor.component, typed.to_owned())])
     }
 
     pub(super) fn paste(&mut self, text: &str) {
-        let said = text.trim();
+        let pasted = text.trim();
         if let Some(prompt) = &mut self.overlays.prompt {
             line::insert(&mut prompt.input, text);
             return;
@@ -178,10 +180,10 @@ impl App {
         }
         if self.mode != Mode::Edit {
             self.overlays
-                .say("values are pasted into fields: e edits the selected thing's");
+                .say("values paste into fields: press e to edit them");
             return;
         }
-        let values = self.literals_of(said);
+        let values = self.literals_of(pasted);
         let is_whole = values.as_ref().is_some_and(|values| 1 < values.len());
         if let (Some(typing), false) = (&mut self.cursor.typing, is_whole) {
             typing.refused = None;
@@ -190,7 +192,7 @@ impl App {
         }
         let Some(values) = values else {
             self.overlays
-                .fail("what was pasted is not one number, nor one for each component");
+                .fail("can't paste this: expected one number, or one per component");
             return;
         };
         self.cursor.typing = None;

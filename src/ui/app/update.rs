@@ -32,7 +32,7 @@ impl App {
             Msg::Started(target, generation) => self.pictures.want(target, Some(generation)),
             Msg::Frame(target, frame) => return self.frame(target, frame),
             Msg::Refused(target, reason) => self.ended(target, reason),
-            Msg::Ended(target) => self.ended(target, "the picture can't be traced to its end"),
+            Msg::Ended(target) => self.ended(target, "the renderer stopped early"),
             Msg::FileChanged => return self.read_again(),
             // The scene may have been given another name since the request.
             Msg::Read(path, read) if !self.disk.is_own(&path) => drop(read),
@@ -88,7 +88,7 @@ impl App {
                     .map(|(key, _)| key)
                     .collect();
                 self.overlays
-                    .warn(format!("the question comes first: {}", keys.join(", ")));
+                    .warn(format!("answer the question first: {}", keys.join(", ")));
                 Vec::new()
             }
             None if context == Context::Opening => {
@@ -134,12 +134,12 @@ impl App {
             // As in other programs, Backspace in an empty line closes it.
             KeyCode::Backspace if prompt.input.value().is_empty() => self.close_prompt(),
             KeyCode::Enter => {
-                let (kind, said) = (prompt.kind, prompt.input.value().to_owned());
+                let (kind, typed) = (prompt.kind, prompt.input.value().to_owned());
                 self.overlays.prompt = None;
                 match kind {
-                    PromptKind::Command => return self.command(&said),
+                    PromptKind::Command => return self.command(&typed),
                     PromptKind::Search => {
-                        self.cursor.searched = said;
+                        self.cursor.searched = typed;
                         self.search(1);
                     }
                 }
@@ -216,7 +216,7 @@ impl App {
                 self.overlays.fail(if self.assets.are_awaited() {
                     STILL_READING
                 } else {
-                    "there is no picture: the scene has errors"
+                    "no picture: the scene has errors"
                 });
             }
             Mode::Edit if self.cursor.fields().is_empty() => {

@@ -13,7 +13,7 @@ impl App {
         };
         match settled(change(camera), &camera) {
             Some(moved) => self.pictures.set_view(moved, self.own_camera()),
-            None => self.overlays.fail("the camera can go no further"),
+            None => self.overlays.fail("the camera can't move any further"),
         }
     }
 
@@ -33,7 +33,7 @@ impl App {
         };
         let bounds = bounds.unwrap_or_else(|| scene.bounds());
         if bounds.is_empty() {
-            self.overlays.say("there is nothing to look at");
+            self.overlays.say("nothing to frame");
             return;
         }
         let (centre, radius) = (bounds.centre(), bounds.half_diagonal());
@@ -43,19 +43,19 @@ impl App {
     /// Writes the working view into the text as an ordinary edit.
     pub(super) fn save_view(&mut self) {
         let (Some(view), Some(scene)) = (self.pictures.view, self.scene.clone()) else {
-            self.overlays.say("the view is the scene's own");
+            self.overlays.say("the view is unchanged");
             return;
         };
         if 0 < self.error_count() {
             self.overlays
-                .fail("the view can't be written while the scene has errors");
+                .fail("can't save the view while the scene has errors");
             return;
         }
         self.document.end_step();
         match self.write_camera(&view, &scene.camera) {
             Ok(()) => {
                 self.pictures.view = None;
-                self.overlays.say("the view is in the scene's text now");
+                self.overlays.say("the view is now in the scene's text");
             }
             Err(refused) => self.overlays.fail(refused.message),
         }

@@ -7,7 +7,7 @@ use crate::render::Aov;
 pub enum Mode {
     /// Selects a node in the list or in the picture.
     Select,
-    /// Moving the camera.
+    /// Moves the camera; the text changes only when the view is saved.
     View,
     /// Edits the fields of the selected node.
     Edit,
@@ -24,11 +24,11 @@ pub enum Context {
     In(Mode),
     /// The first reading of a scene.
     Opening,
-    /// The help page.
+    /// The help page is open.
     Help,
     /// The list of errors.
     Errors,
-    /// A merge conflict.
+    /// The question how to resolve a merge.
     Conflict,
     /// The question whether to quit.
     Quit,
@@ -93,13 +93,13 @@ pub enum Action {
     Cross(i32, i32),
     /// Stops the work in progress.
     Stop,
-    /// Exports a picture.
+    /// Exports what is shown, under the scene's name.
     Export,
-    /// Saves the scene.
+    /// Saves the scene to its file; in the quit dialog, then quits.
     Save,
-    /// Undoes one step.
+    /// Undoes the last step and selects what it changed.
     Undo,
-    /// Redoes one step.
+    /// Redoes the step undone last and selects what it changed.
     Redo,
     /// Opens the user's editor.
     Editor,
@@ -113,15 +113,15 @@ pub enum Action {
     Zoom,
     /// Shows one of the auxiliary images, or the lit picture.
     Show(Option<Aov>),
-    /// Switches the integrator.
+    /// Switches between Whitted ray tracing and path tracing.
     Integrator,
     /// Takes the mouse or leaves it to the terminal.
     Mouse,
-    /// Redraws everything.
+    /// Redraws every cell, in case another program has written over them.
     Repaint,
     /// Stops the program until it is continued.
     Suspend,
-    /// Ends the program.
+    /// Quits; asks first if something would be lost.
     Quit,
     /// Ends the program; immediately if repeated.
     Interrupt,
@@ -133,7 +133,7 @@ pub enum Action {
     AllMine,
     /// Resolves all conflicts with the text of the file.
     AllTheirs,
-    /// Answers no.
+    /// Declines an offer; discards the edits of an earlier run.
     No,
 }
 
@@ -142,7 +142,7 @@ pub enum Action {
 pub enum Stride {
     /// A tenth of the field's step.
     Fine,
-    /// The field's step.
+    /// The step of the field's table entry.
     #[default]
     Plain,
     /// Ten times the field's step.

@@ -34,27 +34,24 @@ const MODES: [(&str, Context); 5] = [
 const DIALOGS: [(&str, Context); 5] = [
     ("the list of errors", Context::Errors),
     ("this page", Context::Help),
-    ("when the file changed too", Context::Conflict),
-    ("when asked whether to quit", Context::Quit),
-    ("when edits were found", Context::Recover),
+    ("merge conflicts", Context::Conflict),
+    ("when asked to confirm quitting", Context::Quit),
+    ("when unsaved edits were found", Context::Recover),
 ];
 
 /// Command line arguments.
 const START: [(&str, &str); 2] = [
-    (
-        "--color 24",
-        "24-bit colour, where the terminal does not say it has it",
-    ),
+    ("--color 24", "use 24-bit colour even if not detected"),
     ("halflight doctor", "what was detected, and why"),
 ];
 
 const MOUSE: [(&str, &str); 6] = [
     ("click the list", "select"),
-    ("click a field", "put the cursor there"),
+    ("click a field", "move the cursor there"),
     ("click it again", "type a value"),
-    ("click the picture", "select what is there"),
+    ("click the picture", "select the object there"),
     ("drag it in VIEW", "orbit"),
-    ("wheel", "scroll; in VIEW nearer or farther"),
+    ("wheel", "scroll; in VIEW, dolly"),
 ];
 
 /// An input and its description.
@@ -92,7 +89,7 @@ pub fn help(search: &str, mode: Mode, commands: Vec<Entry>) -> Vec<HelpLine> {
     let owned = |(keys, words): &(&str, &'static str)| ((*keys).to_owned(), *words);
     add("commands", commands);
     add("mouse", MOUSE.iter().map(owned).collect());
-    add("starting it", START.iter().map(owned).collect());
+    add("command line", START.iter().map(owned).collect());
     lines
 }
 

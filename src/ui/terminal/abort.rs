@@ -19,7 +19,7 @@ use signal_hook::consts::{SIGABRT, SIGFPE, SIGILL, SIGSYS, SIGTRAP};
 use signal_hook::low_level;
 use signal_hook_registry::register_signal_unchecked;
 
-use super::panics::{Shared, Tenure};
+use super::panics::{Ownership, Shared};
 use super::tty;
 
 /// The signals with the message printed on the restored screen: Rust's own message before an abort
@@ -51,9 +51,9 @@ pub(super) fn install(shared: &Arc<Shared>, leave: &'static str) -> io::Result<(
     for (signal, words) in FATAL {
         let (terminal, modes, shared) = (tty::keyboard()?, modes.clone(), Arc::clone(shared));
         let restore = move || {
-            if shared.tenure_amid_signal() == Tenure::Ours {
+            if shared.ownership_in_signal() == Ownership::Ours {
                 shared.output().fall_silent();
-                let kept = if shared.are_edits_kept() { KEPT } else { "" };
+                let kept = if shared.has_kept_edits() { KEPT } else { "" };
                 let parts = [leave, words, kept, "\r\n"];
                 let _ = parts.iter().all(|part| write(part.as_bytes()));
                 let _ = tcsetattr(&terminal, OptionalActions::Now, &modes);

@@ -28,7 +28,7 @@ pub enum Choice {
     /// Derived from the environment.
     #[default]
     Auto,
-    /// A fixed depth.
+    /// This depth, whatever the environment says.
     Fixed(ColourDepth),
 }
 
@@ -83,7 +83,7 @@ impl ColourDepth {
     /// The name of the depth, with the option for a terminal that shows more.
     pub fn cure(self) -> String {
         format!(
-            "{}; if the terminal has 24-bit colour: --color 24 or COLORTERM=truecolor",
+            "{}; if the terminal has 24-bit colour, use --color 24 or COLORTERM=truecolor",
             self.name()
         )
     }
@@ -117,7 +117,7 @@ pub(super) enum Ink {
     Default,
     /// A palette index; the first sixteen depend on the theme.
     Index(u8),
-    /// Red, green, blue.
+    /// Red, green and blue, 0 to 255.
     Rgb(u8, u8, u8),
 }
 

@@ -54,7 +54,7 @@ enum Mode {
 /// The first token of the pending bytes.
 #[derive(Debug, PartialEq, Eq)]
 enum Token {
-    /// Incomplete.
+    /// The beginning of a sequence whose end has yet to arrive.
     Unfinished,
     /// The number of bytes and their event.
     Event(usize, Event),

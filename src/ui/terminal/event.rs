@@ -17,9 +17,9 @@ pub enum Event {
     Reply(Reply),
     /// The window has a new size, in cells.
     Resize {
-        /// Number of columns.
+        /// Width in cells.
         columns: u16,
-        /// Number of rows.
+        /// Height in cells.
         rows: u16,
     },
     /// The process received a request to stop until continued.
@@ -30,7 +30,7 @@ pub enum Event {
     HangUp,
     /// The process received a signal that requests its end, for example from `kill`.
     Terminate {
-        /// The signal number.
+        /// The signal's number, such as 15 for SIGTERM.
         signal: u8,
     },
     /// The process was interrupted by a signal; Ctrl-C on the keyboard is a key.

@@ -15,7 +15,7 @@ use super::abort;
 use super::backend::AnsiBackend;
 use super::colour::ColourDepth;
 use super::output::Output;
-use super::panics::{Shared, Tenure};
+use super::panics::{Ownership, Shared};
 use super::query;
 use super::reply::ASK_STATUS;
 use super::tty::{self, Line};
@@ -80,7 +80,7 @@ impl Terminal {
 
     /// Whether the terminal is neither lent nor given back.
     pub fn is_ours(&self) -> bool {
-        *self.shared.tenure() == Tenure::Ours
+        *self.shared.ownership() == Ownership::Ours
     }
 
     /// Whether the terminal has accepted everything drawn. A frame drawn earlier is only delayed,
@@ -130,21 +130,21 @@ impl Terminal {
     /// Lends the terminal to another program; does nothing if the interface does not own it. Fails
     /// if the terminal accepts no output.
     pub fn leave(&mut self) -> io::Result<()> {
-        give_back(&self.shared, Tenure::Lent, Instant::now() + PATIENCE)
+        give_back(&self.shared, Ownership::Lent, Instant::now() + PATIENCE)
     }
 
     /// Gives the terminal back for good, waiting until `deadline` at most.
     pub fn close(self, deadline: Instant) {
         // A terminal that accepts nothing is gone, or nobody sees what it shows.
-        let _ = give_back(&self.shared, Tenure::GivenBack, deadline);
+        let _ = give_back(&self.shared, Ownership::GivenBack, deadline);
     }
 
     /// Takes the terminal back from another program, or from a shell that changed its modes while
     /// the process was stopped. The next frame is drawn in full.
     pub fn reenter(&mut self) -> io::Result<()> {
         {
-            let mut tenure = self.shared.tenure();
-            if *tenure == Tenure::Ours {
+            let mut ownership = self.shared.ownership();
+            if *ownership == Ownership::Ours {
                 // crossterm assumes that raw mode persists once set, and leaving it to set it again
                 // would echo keys typed meanwhile.
                 #[cfg(unix)]
@@ -155,7 +155,7 @@ impl Terminal {
             // This query enables escape sequences in a Windows console.
             #[cfg(windows)]
             let _ = crossterm::ansi_support::supports_ansi();
-            *tenure = Tenure::Ours;
+            *ownership = Ownership::Ours;
             let output = self.shared.output();
             output.send(ENTER.as_bytes())?;
             output.send(mouse_sequence(self.mouse).as_bytes())?;
@@ -202,15 +202,15 @@ impl Drop for Terminal {
 /// Gives the terminal back for good. A terminal that cannot be written to is gone and needs no
 /// restoring.
 fn restore(shared: &Shared) {
-    let _ = give_back(shared, Tenure::GivenBack, Instant::now() + PATIENCE);
+    let _ = give_back(shared, Ownership::GivenBack, Instant::now() + PATIENCE);
 }
 
 /// Restores the screen and the modes. Output still pending is dropped: the sequence that restores
 /// the screen ends any incomplete one.
-fn give_back(shared: &Shared, to: Tenure, deadline: Instant) -> io::Result<()> {
-    let mut tenure = shared.tenure();
-    let before = std::mem::replace(&mut *tenure, to);
-    if before != Tenure::Ours {
+fn give_back(shared: &Shared, to: Ownership, deadline: Instant) -> io::Result<()> {
+    let mut ownership = shared.ownership();
+    let before = std::mem::replace(&mut *ownership, to);
+    if before != Ownership::Ours {
         return Ok(());
     }
     let written = shared.output().send_last(LEAVE.as_bytes(), deadline);

@@ -34,7 +34,7 @@ const MEASURED: Duration = Duration::from_secs(1);
 /// One byte in units of the bucket, in which a nanosecond at one byte per second is one unit.
 const BYTE: i128 = 1_000_000_000;
 
-/// Limit on pictures.
+/// The limit on the rate at which pictures are sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Budget {
     /// Bytes per second; 0 means no limit.
@@ -88,9 +88,9 @@ enum Pace {
 /// Parameters of the bucket.
 #[derive(Clone, Copy, Debug)]
 struct Bucket {
-    /// Bytes per second.
+    /// Bytes that flow in per second.
     rate: u32,
-    /// Capacity in bytes.
+    /// The most bytes that it holds.
     capacity: u64,
     /// Minimum number of bytes for a piece of picture to be sent.
     worth: u64,

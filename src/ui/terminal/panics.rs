@@ -17,12 +17,12 @@ use crate::text::visible;
 
 /// Owner of the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Tenure {
-    /// The interface.
+pub(super) enum Ownership {
+    /// The interface draws on it.
     Ours,
-    /// Another program, temporarily.
+    /// Another program, such as the editor, until it ends.
     Lent,
-    /// The parent program.
+    /// The parent program: its modes are restored.
     GivenBack,
 }
 
@@ -31,8 +31,8 @@ pub(super) enum Tenure {
 pub(super) struct Shared {
     interface: ThreadId,
     output: Output,
-    tenure: Mutex<Tenure>,
-    are_edits_kept: AtomicBool,
+    ownership: Mutex<Ownership>,
+    has_kept_edits: AtomicBool,
     panics: Mutex<Vec<String>>,
 }
 
@@ -42,8 +42,8 @@ impl Shared {
         let shared = Arc::new(Self {
             interface: thread::current().id(),
             output,
-            tenure: Mutex::new(Tenure::GivenBack),
-            are_edits_kept: AtomicBool::new(false),
+            ownership: Mutex::new(Ownership::GivenBack),
+            has_kept_edits: AtomicBool::new(false),
             panics: Mutex::new(Vec::new()),
         });
         let previous = panic::take_hook();
@@ -61,30 +61,32 @@ impl Shared {
     }
 
     /// Locks the owner of the terminal; held while the ownership changes.
-    pub(super) fn tenure(&self) -> MutexGuard<'_, Tenure> {
+    pub(super) fn ownership(&self) -> MutexGuard<'_, Ownership> {
         // A panic while it was locked has left a valid value.
-        self.tenure.lock().unwrap_or_else(PoisonError::into_inner)
+        self.ownership
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The owner of the terminal, for a signal handler, which must not wait; the interface while
     /// the ownership is changing.
     #[cfg(unix)]
-    pub(super) fn tenure_amid_signal(&self) -> Tenure {
-        match self.tenure.try_lock() {
-            Ok(tenure) => *tenure,
-            Err(TryLockError::Poisoned(tenure)) => *tenure.into_inner(),
-            Err(TryLockError::WouldBlock) => Tenure::Ours,
+    pub(super) fn ownership_in_signal(&self) -> Ownership {
+        match self.ownership.try_lock() {
+            Ok(ownership) => *ownership,
+            Err(TryLockError::Poisoned(ownership)) => *ownership.into_inner(),
+            Err(TryLockError::WouldBlock) => Ownership::Ours,
         }
     }
 
     /// Whether the current unsaved edits are stored for recovery, for a signal handler.
     #[cfg(unix)]
-    pub(super) fn are_edits_kept(&self) -> bool {
-        self.are_edits_kept.load(Ordering::Relaxed)
+    pub(super) fn has_kept_edits(&self) -> bool {
+        self.has_kept_edits.load(Ordering::Relaxed)
     }
 
     pub(super) fn note_kept_edits(&self, are_kept: bool) {
-        self.are_edits_kept.store(are_kept, Ordering::Relaxed);
+        self.has_kept_edits.store(are_kept, Ordering::Relaxed);
     }
 
     /// Returns the panics of other threads since the last call.
@@ -98,7 +100,7 @@ impl Shared {
             restore(self);
             true
         } else {
-            *self.tenure() == Tenure::GivenBack
+            *self.ownership() == Ownership::GivenBack
         };
         if reported_at_once {
             tty::complain(text);

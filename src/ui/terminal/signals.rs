@@ -21,7 +21,7 @@ use signal_hook::consts::{
 };
 use signal_hook::low_level::{self, pipe};
 
-use super::panics::Tenure;
+use super::panics::Ownership;
 use super::{Event, tty};
 
 /// Time for the interface to end after its terminal is gone.
@@ -72,7 +72,7 @@ impl Signals {
         }
         let watch = Watch {
             inbox,
-            tenure: Tenure::Ours,
+            ownership: Ownership::Ours,
             tty: Some(tty::keyboard()?),
             arrivals,
         };
@@ -145,7 +145,7 @@ fn stop_alone() {
 
 struct Watch {
     inbox: UnixStream,
-    tenure: Tenure,
+    ownership: Ownership,
     /// `None` once the terminal is gone.
     tty: Option<OwnedFd>,
     arrivals: Vec<(i32, UnixStream)>,
@@ -173,21 +173,21 @@ impl Watch {
                 Err(_) => return,
             }
             let reported: Vec<_> = sources.iter().map(PollFd::revents).collect();
-            let mut tenure = self.tenure;
+            let mut ownership = self.ownership;
             if !reported[0].is_empty() {
                 let mut orders = [0; 64];
                 match (&self.inbox).read(&mut orders) {
-                    Ok(count @ 1..) if orders[count - 1] == LENT => tenure = Tenure::Lent,
-                    Ok(1..) => tenure = Tenure::Ours,
+                    Ok(count @ 1..) if orders[count - 1] == LENT => ownership = Ownership::Lent,
+                    Ok(1..) => ownership = Ownership::Ours,
                     Ok(0) => return,
                     Err(_) => {}
                 }
             }
             // Signals that arrived before the terminal was taken back were meant for the other
             // program.
-            let theirs = [self.tenure, tenure].contains(&Tenure::Lent);
-            let whose = if theirs { Tenure::Lent } else { tenure };
-            self.tenure = tenure;
+            let theirs = [self.ownership, ownership].contains(&Ownership::Lent);
+            let whose = if theirs { Ownership::Lent } else { ownership };
+            self.ownership = ownership;
             let tty = reported
                 .get(self.arrivals.len() + 1)
                 .copied()
@@ -219,7 +219,7 @@ enum Line {
     Down,
 }
 
-fn report(signal: i32, whose: Tenure, line: &mut Line, send: &impl Fn(Event)) {
+fn report(signal: i32, whose: Ownership, line: &mut Line, send: &impl Fn(Event)) {
     match signal {
         // Without a terminal, only requests to end are still reported.
         SIGHUP | SIGWINCH | SIGTSTP | SIGCONT if *line == Line::Down => {}
@@ -230,8 +230,8 @@ fn report(signal: i32, whose: Tenure, line: &mut Line, send: &impl Fn(Event)) {
             send(Event::HangUp);
         }
         // The terminal is taken back when the other program ends in any case.
-        SIGINT | SIGQUIT | SIGCONT if whose == Tenure::Lent => {}
-        SIGTSTP if whose == Tenure::Lent => stop_alone(),
+        SIGINT | SIGQUIT | SIGCONT if whose == Ownership::Lent => {}
+        SIGTSTP if whose == Ownership::Lent => stop_alone(),
         SIGWINCH => {
             let size = tty::size();
             send(Event::Resize {

@@ -50,7 +50,7 @@ struct Glyph {
 }
 
 impl Characters {
-    /// Prepares a picture.
+    /// Computes the lightness of a picture's pixels.
     pub(super) fn of(shown: &Shown) -> Self {
         let lights: [f32; 256] = std::array::from_fn(|value| light([value as u8; 3])[0]);
         let lightness = shown.pixels.iter().map(|&pixel| {

@@ -45,21 +45,23 @@ fn offered(app: &App, offer: &Offer) -> String {
     let text = text_name(app);
     let since = match (offer.since, offer.conflicts()) {
         (Since::Same, _) => String::new(),
-        (Since::Changed, 0) => format!(" The {text} has changed since; both are merged."),
+        (Since::Changed, 0) => format!(" The {text} has changed since; both will be merged."),
         (Since::Changed, count) => {
             let both = counted(count, "place");
-            format!(" The {text} has changed since, {both} in both: you will be asked.")
+            format!(
+                " The {text} has changed since, {both} in both: you will be asked which to keep."
+            )
         }
     };
     let damage = if offer.is_damaged() {
-        " Part of their journal is damaged: these are the last that are intact. It is set aside, not \
+        " Part of their journal is damaged: these are the last intact edits. It is set aside, not \
          deleted."
     } else {
         ""
     };
     format!(
         "{} has unsaved edits from an earlier run: {places} {differ} from the {text}.{since}{damage} \
-         Take them?",
+         Restore them?",
         app.disk.name(),
     )
 }
@@ -99,7 +101,7 @@ fn conflict(app: &App, merge: &Merge, at: usize, from: &Outside, area: Rect, buf
     };
     let inner = frame(title, (width, height), area, buffer);
     let (list, _) = layout::split_bottom(inner, keys.len() as u16);
-    let head = format!("Both the {theirs} and unsaved edits changed these. Which is to stand?");
+    let head = format!("Both the {theirs} and unsaved edits changed these. Which should stay?");
     let head = &head;
     Row::new(buffer, list, 0).skip(1).put(head, Style::new());
 
@@ -127,7 +129,7 @@ fn conflict(app: &App, merge: &Merge, at: usize, from: &Outside, area: Rect, buf
         let each = (row.room() - was.as_ref().map_or(0, |was| was.width())) / 2;
         let mine = from.mine();
         for (side, name) in [(mine, "mine"), (mine.other(), theirs)] {
-            let text = conflict.said(side);
+            let text = conflict.text(side);
             let chosen = conflict.decision == Some(side);
             let mark = if chosen { "● " } else { "○ " };
             let style = if chosen { theme::GOOD } else { theme::DIM };
@@ -212,7 +214,12 @@ mod tests {
         retype(&mut app, " 0.25 //", " 0.5 //");
         app.overlays.dialog = Some(Dialog::Quit);
         let text = drawn(&app, super::render, 80, 24).join("\n");
-        for part in ["test.ray has edits", "y quit", "w save and quit", "n stay"] {
+        for part in [
+            "test.ray has unsaved edits",
+            "y quit",
+            "w save and quit",
+            "n stay",
+        ] {
             assert!(text.contains(part), "{part:?} in\n{text}");
         }
     }

@@ -3,7 +3,7 @@
 //! The result for a pixel depends only on its position and colour, so that an unchanged picture
 //! sends nothing.
 
-/// Number of thresholds.
+/// The number of thresholds, one for each cell of the pattern.
 pub(super) const STEPS: u32 = 64;
 
 /// The threshold of a pixel, less than [`STEPS`]: Bayer's 8×8 matrix (B. E. Bayer, “An optimum

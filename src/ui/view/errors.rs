@@ -41,18 +41,18 @@ fn heading(app: &App) -> String {
         return format!("{} in the file on disk", counted(errors, "error"));
     }
     let kinds = [(errors, "error"), (warnings, "warning")];
-    let mut said: Vec<_> = kinds
+    let mut parts: Vec<_> = kinds
         .into_iter()
         .filter(|&(count, _)| 0 < count)
         .map(|(count, noun)| counted(count, noun))
         .collect();
-    if said.is_empty() {
-        said.push("nothing is wrong".to_owned());
+    if parts.is_empty() {
+        parts.push("no errors or warnings".to_owned());
     }
     if diagnostics.len() < errors + warnings {
-        said.push(format!("{} listed", diagnostics.len()));
+        parts.push(format!("{} listed", diagnostics.len()));
     }
-    said.join(", ")
+    parts.join(", ")
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ use crate::ui::keymap::{Mode, Stride};
 use crate::ui::layout;
 use crate::ui::theme;
 
-/// Draws the fields.
+/// Draws the fields of the selected node and a description of the current one.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let focused = app.mode == Mode::Edit;
     let stride = match app.cursor.stride {
@@ -156,7 +156,7 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
         format!(" {}", field.field.unit)
     };
     let nudge = match field.field.kind {
-        Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => " · h l: the next".to_owned(),
+        Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => " · h l: change".to_owned(),
         Kind::Word => String::new(),
         _ => format!(" · step {}{unit}", app.step(field.field)),
     };

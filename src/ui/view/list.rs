@@ -16,7 +16,7 @@ use crate::ui::theme;
 /// Minimum width of a comment, in columns.
 const COMMENT: usize = 6;
 
-/// Draws the list.
+/// Draws the list of lights and objects with names and comments.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let selected = app.selected_row();
     let nodes = app.nodes();
@@ -69,7 +69,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         let comment = comment.filter(|_| name.len() + 2 + COMMENT <= room);
         row.put_in(&name, room, style);
         let room = room.saturating_sub(name.len());
-        let beside = comment.map_or_else(String::new, |said| format!("  {}", visible(said)));
+        let beside = comment.map_or_else(String::new, |comment| format!("  {}", visible(comment)));
         let beside = format!("{:room$}", shorten(&beside, room));
         row.put_in(&beside, room, style.patch(theme::DIM));
         row.put(end, mark.map_or(style, |(_, mark)| style.patch(*mark)));

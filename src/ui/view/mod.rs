@@ -28,7 +28,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 
 use super::app::App;
-use super::layout::{self, LEAST};
+use super::layout::{self, MIN_SIZE};
 use super::theme;
 pub use inks::Inks;
 
@@ -89,7 +89,7 @@ fn rule(app: &App, area: Rect, buffer: &mut Buffer) {
 
 /// Draws the notice that the screen is too small, as far as it fits.
 fn too_small(area: Rect, buffer: &mut Buffer) {
-    let (width, height) = LEAST;
+    let (width, height) = MIN_SIZE;
     let text = format!("needs {width}×{height}");
     let line = Rect::new(0, 0, text.chars().count() as u16, 1);
     row::Row::new(buffer, layout::centred(area, line), 0).put(&text, Style::new());

@@ -41,7 +41,7 @@ pub(crate) fn render_hint(app: &App, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// Draws a prompt.
+/// Draws a line being typed, with its cursor.
 pub(crate) fn render_prompt(prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
     let sign = match prompt.kind {
         PromptKind::Command => ":",

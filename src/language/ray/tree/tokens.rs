@@ -118,7 +118,8 @@ impl Piece {
 
     /// The span of a token in the text.
     fn get(&self, number: usize) -> Span {
-        self.span(number, self.end_before(number)).later(self.start)
+        self.span(number, self.end_before(number))
+            .shifted(self.start)
     }
 
     /// The tokens from one on that begin with a letter, with their indices in the text.
@@ -130,7 +131,7 @@ impl Piece {
             let (number, start) = (number as usize, start as usize);
             let before = start - usize::from(self.steps[number].gap);
             let span = self.span(number, before);
-            (self.first + number, span.later(self.start))
+            (self.first + number, span.shifted(self.start))
         })
     }
 }
@@ -206,7 +207,7 @@ impl Tokens {
             spans.extend((first..last).map(|number| {
                 let span = piece.span(number, end);
                 end = span.end();
-                span.later(piece.start)
+                span.shifted(piece.start)
             }));
         }
     }

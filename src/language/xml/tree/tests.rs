@@ -229,7 +229,11 @@ fn excessive_attributes_and_namespaces_are_refused() {
     let spaces: Vec<_> = (0..2000).map(|at| format!("<a xmlns:b{at}='c'>")).collect();
     for text in [format!("<a {}/>", attributes.join(" ")), spaces.concat()] {
         let fault = parse(&text).fault.expect("the text is refused");
-        assert!(fault.message.contains("are not supported"), "{}", fault.message);
+        assert!(
+            fault.message.contains("are not supported"),
+            "{}",
+            fault.message
+        );
     }
 }
 

@@ -68,7 +68,7 @@ fn a_picture_is_traced_once_its_textures_are_read() {
     assert_eq!(asked(&effects), Some(skin.clone()));
     assert!(!traces(&effects) && app.assets.are_awaited());
     assert!(!traces(&press(&mut app, "b")));
-    assert_eq!(words(&app), "the scene's files are still being read");
+    assert_eq!(words(&app), "still reading the scene's files");
     press(&mut app, "<F5>");
     assert_eq!(app.mode, Mode::Select);
 
@@ -141,7 +141,7 @@ fn a_missing_texture_is_a_warning_at_its_name() {
     let skin = wanted(&["skin.ppm"]);
     let missing = Assets::new(&[]).read(&skin);
     assert!(traces(&app.update(Msg::AssetsRead(skin.clone(), missing))));
-    assert_eq!(words(&app), "1 file can't be read: ! shows why");
+    assert_eq!(words(&app), "can't read 1 file: press ! to see why");
     let said = |app: &App| {
         let (text, found) = (app.wrong().text, app.wrong().findings);
         let found = found.first()?;
@@ -223,7 +223,7 @@ fn a_mesh_arrives_later_and_the_picture_follows_its_file() {
         "'/>\n</scene>",
         "'/>\n  <object type='obj' name='b.obj'/>\n</scene>",
     );
-    let late = Reading::new(more.clone(), app.known()).expect("it fits into memory");
+    let late = Reading::new(more.clone(), app.baseline()).expect("it fits into memory");
     let asks = app.update(Msg::AssetsChanged);
     assert_eq!(asked(&asks), Some(wanted_mesh(&[])));
     for other in [
@@ -257,7 +257,7 @@ fn a_broken_mesh_is_an_error_and_the_picture_is_kept() {
     let effects = app.update(Msg::AssetsRead(wanted_mesh(&[]), broken()));
     assert!(!traces(&effects));
     assert_eq!(app.scene, scene);
-    assert_eq!(words(&app), "1 file can't be read: ! shows why");
+    assert_eq!(words(&app), "can't read 1 file: press ! to see why");
     let (text, found) = (app.wrong().text, app.wrong().findings);
     let error = found.first_error().expect("it is reported");
     assert_eq!(error.span.of(text), "a.obj");

@@ -144,7 +144,7 @@ fn objects_are_hidden_and_shown_by_the_render_record() {
     assert_eq!(words(&app), "the last object that is drawn can't be hidden");
     app.select(Node::Light(0));
     press(&mut app, " ");
-    assert_eq!(words(&app), "only objects are shown or hidden");
+    assert_eq!(words(&app), "only objects can be shown or hidden");
 }
 
 #[test]

@@ -111,7 +111,7 @@ fn a_reading_compared_with_an_outdated_text_is_repeated() {
     let mut app = open(SCENE);
     let late = |app: &App| {
         let theirs = app.document.text().replace("1.5", "1.7");
-        let reading = Reading::new(theirs, app.known()).expect("it fits into memory");
+        let reading = Reading::new(theirs, app.baseline()).expect("it fits into memory");
         Msg::Read(PathBuf::from("scene.ray"), Ok(reading))
     };
     let before = late(&app);
@@ -181,7 +181,7 @@ fn a_file_equal_to_the_edits_counts_as_saved() {
     outside(&mut app, &mine);
     assert!(!app.document.is_dirty());
     assert!(
-        words(&app).starts_with("the file has the same changes now"),
+        words(&app).starts_with("the file now has the same changes"),
         "{}",
         words(&app)
     );
@@ -197,15 +197,15 @@ fn a_file_equal_to_the_edits_counts_as_saved() {
     assert!(app.document.is_dirty());
     assert_eq!(
         words(&app),
-        "the file's changes are merged with your edits: the picture stays the same; \
-         u undoes the merge"
+        "merged the file's changes with your edits: the picture is unchanged; \
+         press u to undo the merge"
     );
     let other = one.replace("4 0 0", "5 0 0");
     outside(&mut app, &other);
     assert_eq!(
         words(&app),
-        "the file's changes are merged with your edits: object 2 (sphere) centre x; \
-         u undoes the merge"
+        "merged the file's changes with your edits: object 2 (sphere) centre x; \
+         press u to undo the merge"
     );
 }
 
@@ -227,7 +227,7 @@ fn a_moved_or_replaced_folder_is_reported() {
     };
     let (one, two) = (at("one"), at("two"));
     let moved = format!("the scene's folder was moved to {}", two.display());
-    let replaced = format!("another folder is at {} now", one.display());
+    let replaced = format!("{} is now a different folder", one.display());
     let theirs = SCENE.replace("1.5", "1.7");
     let news = "; reloaded: object 1 (sphere) radius";
     for (then, text, expected) in [
@@ -241,7 +241,7 @@ fn a_moved_or_replaced_folder_is_reported() {
         let mut app = open(SCENE);
         let mut read = |text: &str, place| {
             app.overlays.message = None;
-            let reading = Reading::new(text.to_owned(), app.known()).expect("it fits");
+            let reading = Reading::new(text.to_owned(), app.baseline()).expect("it fits");
             let reading = Reading { place, ..reading };
             app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(reading)));
             words(&app).to_owned()
@@ -256,7 +256,7 @@ fn a_moved_or_replaced_folder_is_reported() {
 #[test]
 fn an_unchanged_file_is_not_read_again_because_of_an_edit() {
     let mut app = open(SCENE);
-    let reading = Reading::new(SCENE.to_owned(), app.known()).expect("it fits into memory");
+    let reading = Reading::new(SCENE.to_owned(), app.baseline()).expect("it fits into memory");
     press(&mut app, "jjjel");
     let effects = app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(reading)));
     assert!(
@@ -357,7 +357,7 @@ fn a_missing_file_is_reported_after_a_while_until_it_is_back() {
     assert_eq!(app.disk.state, OnDisk::Missing);
     outside(&mut app, SCENE);
     assert_eq!(app.disk.state, OnDisk::Known);
-    assert_eq!(words(&app), "the file is back to its saved text");
+    assert_eq!(words(&app), "the file matches the saved text again");
 }
 
 #[test]
@@ -432,10 +432,10 @@ fn a_text_with_errors_is_written_only_by_force() {
         let saves = wants(&effects, |effect| matches!(effect, Effect::Save { .. }));
         (saves, words(&app).to_owned())
     };
-    let refused = "line 13 has an error: :w! writes it anyway";
+    let refused = "line 13 has an error: use :w! to save anyway";
     assert_eq!(saves("jelw"), (false, refused.to_owned()));
     assert_eq!(saves("jel:wq<Enter>"), (false, refused.to_owned()));
-    let other = "line 13 has an error: :w! b.ray writes it anyway";
+    let other = "line 13 has an error: use :w! b.ray to save anyway";
     assert_eq!(saves("jel:w b.ray<Enter>"), (false, other.to_owned()));
     assert!(saves("jel:w!<Enter>").0);
     assert!(saves("jel:w! b.ray<Enter>").0);
@@ -551,7 +551,7 @@ fn commands_and_pastes_without_effect_say_why() {
     assert!(app.overlays.prompt.is_some() && words(&app).contains("no file yet"));
     press(&mut app, "<Esc>");
     app.update(Msg::Paste("1 2 3".to_owned()));
-    assert!(words(&app).contains("pasted into fields"));
+    assert!(words(&app).contains("values paste into fields"));
 }
 
 /// The reason for the question is gone: the file holds the base of the edits again.

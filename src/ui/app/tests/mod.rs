@@ -154,7 +154,7 @@ fn outside(app: &mut App, text: &str) -> Vec<Effect> {
 
 /// Delivers a reading of a file.
 fn read(app: &mut App, path: &str, text: &str) -> Vec<Effect> {
-    let reading = Reading::new(text.to_owned(), app.known()).expect("it fits into memory");
+    let reading = Reading::new(text.to_owned(), app.baseline()).expect("it fits into memory");
     app.update(Msg::Read(PathBuf::from(path), Ok(reading)))
 }
 

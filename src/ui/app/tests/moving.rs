@@ -206,7 +206,7 @@ fn picking_works_only_for_the_scene_on_screen() {
     let selected = app.cursor.selected();
     click(&mut app, cells.x, cells.y);
     assert_eq!(app.cursor.selected(), selected);
-    assert!(words(&app).contains("not of the changed scene yet"));
+    assert!(words(&app).contains("doesn't show the changed scene yet"));
     press(&mut app, "p<Enter>");
     assert_eq!((app.mode, app.cursor.selected()), (Mode::Pick, selected));
 }

@@ -14,14 +14,14 @@ fn opening() -> (App, Vec<Effect>) {
 
 /// The message with the first reading of a file that holds this text.
 fn read(effects: &[Effect], text: &str) -> Msg {
-    let known = effects.iter().find_map(|effect| match effect {
-        Effect::Read(path, known) => Some((path.clone(), known.clone())),
+    let baseline = effects.iter().find_map(|effect| match effect {
+        Effect::Read(path, baseline) => Some((path.clone(), baseline.clone())),
         _ => None,
     });
-    let (path, known) = known.expect("it is to be read");
+    let (path, baseline) = baseline.expect("it is to be read");
     Msg::Read(
         path,
-        Ok(Reading::new(text.to_owned(), known).expect("it fits")),
+        Ok(Reading::new(text.to_owned(), baseline).expect("it fits")),
     )
 }
 
@@ -64,7 +64,7 @@ fn actions_that_need_a_scene_are_refused_until_it_is_read() {
         let effects = press(&mut app, said);
         assert!(effects.is_empty(), "{said}: {effects:?}");
         let message = app.overlays.message.as_ref().expect("it says why");
-        assert_eq!(message.text, "scene.ray is still being opened", "{said}");
+        assert_eq!(message.text, "still opening scene.ray", "{said}");
     }
     let (mut app, _) = opening();
     app.update(Msg::Paste("1 2 3".to_owned()));

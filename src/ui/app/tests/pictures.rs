@@ -54,10 +54,10 @@ fn impossible_commands_are_refused_with_a_reason() {
         (":export a.bmp 70000<Enter>", "samples"),
         (
             ":export a.bmp 10x<Enter>",
-            "`10x` is not a size such as 800x600",
+            "`10x`: expected a size such as 800x600",
         ),
-        (":export a.bmp 10x 4<Enter>", "`10x` is not a size"),
-        (":export 10x<Enter>", "`10x` is not a size"),
+        (":export a.bmp 10x 4<Enter>", "`10x`: expected a size"),
+        (":export 10x<Enter>", "`10x`: expected a size"),
         (":export a.bmp 99999999999<Enter>", "99999999999: samples"),
         (":export a.bmp fine<Enter>", "`fine` is neither"),
         (":export cancel<Enter>", "nothing is running"),
@@ -177,7 +177,7 @@ fn only_pictures_of_this_session_are_overwritten_unasked() {
 }
 
 #[test]
-fn exports_of_a_text_with_errors_announce_the_last_scene_without() {
+fn exports_of_a_text_with_errors_announce_the_last_valid_scene() {
     for said in ["b", "<F5>"] {
         let mut app = open(SCENE);
         outside(&mut app, "x");
@@ -185,7 +185,11 @@ fn exports_of_a_text_with_errors_announce_the_last_scene_without() {
         outside(&mut app, "x");
         assert!(0 < app.error_count());
         press(&mut app, said);
-        assert!(words(&app).contains("without"), "{said}: {}", words(&app));
+        assert!(
+            words(&app).contains("the last valid scene"),
+            "{said}: {}",
+            words(&app)
+        );
     }
 }
 
@@ -224,7 +228,7 @@ fn an_export_ends_with_its_worker() {
     press(&mut app, "bqw");
     app.update(Msg::Ended(Target::Export));
     assert!(app.jobs.export.is_none() && !app.jobs.quit);
-    assert!(words(&app).contains("can't be traced"), "{}", words(&app));
+    assert!(words(&app).contains("stopped early"), "{}", words(&app));
     press(&mut app, "b");
     assert!(app.jobs.export.is_some());
     assert!(app.update(Msg::Ended(Target::Preview)).is_empty());
@@ -304,7 +308,7 @@ fn f5_restarts_a_stopped_trace_but_not_a_running_one() {
     app.update(Msg::Started(Target::Trace, 1));
     assert!(!begun(&press(&mut app, "<F5>")));
     press(&mut app, "x");
-    assert_eq!(words(&app), "stopped; F5 restarts");
+    assert_eq!(words(&app), "stopped; press F5 to restart");
     assert!(begun(&press(&mut app, "<F5>")));
     press(&mut app, "<Esc>");
     assert_eq!(app.mode, Mode::Select);

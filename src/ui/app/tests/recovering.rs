@@ -204,7 +204,7 @@ fn kept_edits_can_be_restored_and_undone() {
     let offer = kept(&app, SCENE, &mine);
     app.update(recovered(offer));
     press(&mut app, "j");
-    assert_eq!(words(&app), "the question comes first: r, d, Esc");
+    assert_eq!(words(&app), "answer the question first: r, d, Esc");
     let effects = press(&mut app, "r");
     // The old journal is removed once the new one is written; others may be left.
     let adopted = |effect: &Effect| matches!(effect, Effect::AdoptKept(_));

@@ -125,7 +125,7 @@ fn a_waiting_save_may_replace_what_the_previous_one_wrote() {
 fn the_text_of_a_running_save_is_not_a_change() {
     let mut app = open(SCENE);
     // Notice of a change before the save.
-    let late = Reading::new(SCENE.replace("1.5", "1.7"), app.known()).expect("it fits");
+    let late = Reading::new(SCENE.replace("1.5", "1.7"), app.baseline()).expect("it fits");
     press(&mut app, "jjjelw");
     let mine = app.document.text().to_owned();
     let said = words(&app).to_owned();
@@ -135,7 +135,7 @@ fn the_text_of_a_running_save_is_not_a_change() {
     // A reading that was compared with other texts is repeated.
     let effects = app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(late)));
     assert!(wants(&effects, |effect| matches!(effect, Effect::Read(..))));
-    let early = Reading::new(mine.clone(), app.known()).expect("it fits");
+    let early = Reading::new(mine.clone(), app.baseline()).expect("it fits");
     let text = app.document.shared_text();
     saved(&mut app, 1, "scene.ray", &text);
     let effects = app.update(Msg::Read(PathBuf::from("scene.ray"), Ok(early)));
@@ -147,7 +147,7 @@ fn the_text_of_a_running_save_is_not_a_change() {
     press(&mut app, "lw");
     outside(&mut app, &mine.replace("1.5", "1.7"));
     assert!(
-        words(&app).starts_with("the file's changes are merged"),
+        words(&app).starts_with("merged the file's changes"),
         "{}",
         words(&app)
     );
@@ -213,7 +213,7 @@ fn another_failure_does_not_hide_why_a_save_failed() {
 fn a_dismissed_message_can_be_shown_again() {
     let mut app = open(SCENE);
     press(&mut app, "M");
-    assert_eq!(words(&app), "there was no message yet");
+    assert_eq!(words(&app), "no messages yet");
     app.update(Msg::Failed("a: Permission denied (os error 13)".to_owned()));
     for keys in ["M", "jM", "jkM"] {
         press(&mut app, keys);

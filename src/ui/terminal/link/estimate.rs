@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 /// Rate assumed before the first reply, in bytes per second.
 const FIRST_RATE: u32 = 32_000;
 
-const LEAST_RATE: u32 = 2_000;
-const MOST_RATE: u32 = 64_000_000;
+const MIN_RATE: u32 = 2_000;
+const MAX_RATE: u32 = 64_000_000;
 
 /// Share of the rate available to pictures, in per cent: an estimate that is a quarter too high
 /// causes no queue.
@@ -27,7 +27,7 @@ const MEASURED_BURST: Duration = Duration::from_millis(50);
 const TELLING: Duration = Duration::from_millis(25);
 
 /// Minimum size of a piece of picture, in bytes: about ten cells.
-const LEAST_BURST: u64 = 256;
+const MIN_BURST: u64 = 256;
 
 /// Delay of a reply from which the line counts as overloaded.
 const SLACK: Duration = Duration::from_millis(30);
@@ -60,7 +60,7 @@ const RESOLUTION: Duration = Duration::from_millis(1);
 /// The estimated rate and round trip of a line.
 #[derive(Debug)]
 pub(super) struct Estimate {
-    /// Bytes per second.
+    /// The current estimate, in bytes per second.
     rate: u32,
     /// The last rate that proved right.
     settled: Option<u32>,
@@ -121,7 +121,7 @@ impl Estimate {
     /// Starts with a line that accepted this many bytes per second.
     pub(super) fn of_slow(rate: u32) -> Self {
         Self {
-            rate: rate.clamp(LEAST_RATE, MOST_RATE),
+            rate: rate.clamp(MIN_RATE, MAX_RATE),
             settled: None,
             round_trip: None,
             stage: Stage::Empty,
@@ -150,7 +150,7 @@ impl Estimate {
         let measured = now.is_some_and(|now| self.wants_burst(now));
         let time = if measured { MEASURED_BURST } else { BURST };
         let bytes = u64::from(self.rate) * time.as_millis() as u64 / 1000;
-        bytes.max(LEAST_BURST)
+        bytes.max(MIN_BURST)
     }
 
     pub(super) fn sent(&mut self, bytes: u64, now: Instant) {
@@ -314,7 +314,7 @@ impl Estimate {
     }
 
     fn set_rate(&mut self, rate: f64) {
-        self.rate = (rate as u32).clamp(LEAST_RATE, MOST_RATE);
+        self.rate = (rate as u32).clamp(MIN_RATE, MAX_RATE);
     }
 
     /// When the queue will be empty; `None` before anything was sent.

@@ -2,7 +2,7 @@
 
 /// The Levenshtein distance in characters: the smallest number of insertions, deletions and
 /// replacements (Wagner and Fischer, "The string-to-string correction problem", 1974).
-pub fn slips(from: &str, to: &str) -> usize {
+pub fn edit_distance(from: &str, to: &str) -> usize {
     let mut row: Vec<usize> = (0..=to.chars().count()).collect();
     for (i, a) in from.chars().enumerate() {
         let mut diagonal = row[0];

@@ -13,14 +13,14 @@ use crate::memory::OutOfMemory;
 use crate::text::{Diagnostic, Findings, without_codes};
 
 /// The errors of pictures by name.
-pub type Troubles = BTreeMap<String, Trouble>;
+pub type PictureErrors = BTreeMap<String, PictureError>;
 
 /// The error of a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Trouble {
+pub struct PictureError {
     /// The reason, as the end of a sentence.
     reason: String,
-    /// A possible remedy.
+    /// What the user may do, or the paths tried.
     hint: Option<String>,
     /// What is shown instead.
     shown: Shown,
@@ -29,7 +29,7 @@ pub struct Trouble {
 /// What is shown instead of a picture that cannot be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shown {
-    /// Magenta.
+    /// Magenta, because no version could be read so far.
     Magenta,
     /// The last version that could be read.
     Last,
@@ -44,7 +44,7 @@ impl fmt::Display for Shown {
     }
 }
 
-impl Trouble {
+impl PictureError {
     /// The warning at a place in the text that names the picture.
     pub(super) fn at(&self, file: &NamedFile) -> Diagnostic {
         let message = format!("{}: {}; {}", file.what, self.reason, self.shown);
@@ -58,13 +58,17 @@ impl Trouble {
 }
 
 /// Adds the errors of a scene's pictures to the findings in its text.
-pub fn report(troubles: &Troubles, files: &[NamedFile], mut findings: Findings) -> Findings {
-    if troubles.is_empty() {
+pub fn report(
+    picture_errors: &PictureErrors,
+    files: &[NamedFile],
+    mut findings: Findings,
+) -> Findings {
+    if picture_errors.is_empty() {
         return findings;
     }
     for file in files.iter().filter(|file| file.kind == FileKind::Picture) {
-        if let Some(trouble) = troubles.get(&file.path) {
-            findings.warning(|| trouble.at(file));
+        if let Some(error) = picture_errors.get(&file.path) {
+            findings.warning(|| error.at(file));
         }
     }
     findings.sorted()
@@ -96,8 +100,8 @@ pub(super) enum Failure {
 
 impl Failure {
     /// The error for a picture with this failure.
-    pub(super) fn trouble(&self, shown: Shown) -> Trouble {
-        Trouble {
+    pub(super) fn picture_error(&self, shown: Shown) -> PictureError {
+        PictureError {
             reason: self.to_string(),
             hint: self.hint(),
             shown,
