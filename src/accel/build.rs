@@ -35,7 +35,7 @@ const UNCHECKED: usize = 1024;
 pub(super) fn build(
     count: usize,
     aabb: &(impl Fn(u32) -> Aabb + Sync),
-    cancelled: &(impl Fn() -> bool + Sync),
+    cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Result<Bvh, Cancelled> {
     let cancel = CancelCheck(cancelled);
     cancel.check()?;
@@ -85,7 +85,7 @@ fn collect_references(
     count: u32,
     aabb: &(impl Fn(u32) -> Aabb + Sync),
     reference: DVec3,
-    cancel: &CancelCheck<impl Fn() -> bool + Sync>,
+    cancel: &CancelCheck<'_>,
 ) -> Result<(Vec<Reference>, Vec<u32>), Cancelled> {
     let mut references = Vec::with_capacity(count as usize);
     let mut unbounded = Vec::new();
@@ -149,7 +149,7 @@ fn grow(
     spare: &mut [Reference],
     part: &Part,
     level: usize,
-    cancel: &CancelCheck<impl Fn() -> bool + Sync>,
+    cancel: &CancelCheck<'_>,
     nodes: &mut Vec<Node>,
 ) -> Result<(), Cancelled> {
     if UNCHECKED <= part.count {
@@ -230,7 +230,7 @@ fn divide(
     spare: &mut [Reference],
     whole: &Part,
     level: usize,
-    cancel: &CancelCheck<impl Fn() -> bool + Sync>,
+    cancel: &CancelCheck<'_>,
 ) -> Result<ArrayVec<Part, WIDTH>, Cancelled> {
     let mut parts = ArrayVec::new();
     parts.push(*whole);

@@ -18,10 +18,11 @@ pub(super) struct Reference {
 #[derive(Debug)]
 pub(super) struct Cancelled;
 
-/// The caller's cancellation callback, as a check that fails.
-pub(super) struct CancelCheck<'a, F>(pub(super) &'a F);
+/// The caller's cancellation callback, as a check that fails. A trait object, since it is called
+/// once per chunk: with a type parameter, the builder would be compiled again for each caller.
+pub(super) struct CancelCheck<'a>(pub(super) &'a (dyn Fn() -> bool + Sync));
 
-impl<F: Fn() -> bool + Sync> CancelCheck<'_, F> {
+impl CancelCheck<'_> {
     pub(super) fn check(&self) -> Result<(), Cancelled> {
         if (self.0)() { Err(Cancelled) } else { Ok(()) }
     }
@@ -55,7 +56,7 @@ impl Extent {
     /// Computes the extent of references.
     pub(super) fn of(
         references: &[Reference],
-        cancel: &CancelCheck<impl Fn() -> bool + Sync>,
+        cancel: &CancelCheck<'_>,
     ) -> Result<Self, Cancelled> {
         gather(references, cancel, Self::EMPTY, Self::measure, |a, b| {
             Self {
@@ -93,7 +94,7 @@ pub(super) fn by_area(
     references: &mut [Reference],
     spare: &mut [Reference],
     extent: &Extent,
-    cancel: &CancelCheck<impl Fn() -> bool + Sync>,
+    cancel: &CancelCheck<'_>,
 ) -> Result<usize, Cancelled> {
     let division = match references.len() {
         0..MANY => cheapest::<3, { BINS / 2 }>([0, 1, 2], references, extent, cancel),
@@ -138,7 +139,7 @@ fn cheapest<const AXES: usize, const COUNT: usize>(
     axes: [usize; AXES],
     references: &[Reference],
     extent: &Extent,
-    cancel: &CancelCheck<impl Fn() -> bool + Sync>,
+    cancel: &CancelCheck<'_>,
 ) -> Result<Option<Division>, Cancelled> {
     let grids = axes.map(|axis| Grid::new(&extent.centres, axis, COUNT));
     let rows = gather(
@@ -281,7 +282,7 @@ fn cost(bounds: &Bounds, count: u32) -> f64 {
 /// Reduces chunks of references, in parallel if there are several, with a check before each.
 fn gather<T: Send>(
     references: &[Reference],
-    cancel: &CancelCheck<impl Fn() -> bool + Sync>,
+    cancel: &CancelCheck<'_>,
     empty: T,
     measure: impl Fn(&[Reference]) -> T + Sync,
     merge: impl Fn(T, T) -> T + Sync,
@@ -301,7 +302,7 @@ fn gather<T: Send>(
 fn partition(
     references: &mut [Reference],
     spare: &mut [Reference],
-    cancel: &CancelCheck<impl Fn() -> bool + Sync>,
+    cancel: &CancelCheck<'_>,
     belongs_first: impl Fn(&Reference) -> bool + Sync,
 ) -> Result<usize, Cancelled> {
     if references.len() <= SHARED {

@@ -8,7 +8,8 @@ use std::ops::{Index, Range};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use similar::{Algorithm, DiffOp, capture_diff_deadline};
+use similar::DiffOp;
+use similar::algorithms::{Capture, Compact, Replace, myers};
 
 use crate::language::{Language, Source};
 use crate::text::Span;
@@ -150,9 +151,11 @@ pub(super) fn hunks(base: &Chunks, other: &Chunks) -> Hunks {
 fn differences(base: &Chunks, other: &Chunks) -> Vec<Hunk> {
     let deadline = Instant::now().checked_add(PATIENCE);
     let (old, new) = (0..base.len(), 0..other.len());
-    let ops = capture_diff_deadline(Algorithm::Myers, base, old, other, new, deadline);
+    // `capture_diff_deadline` would do the same, and compile all other algorithms too.
+    let mut capture = Compact::new(Replace::new(Capture::new()), base, other);
+    let Ok(()) = myers::diff_deadline(&mut capture, base, old, other, new, deadline);
     let mut hunks: Vec<Hunk> = Vec::new();
-    for op in ops {
+    for op in capture.into_inner().into_inner().into_ops() {
         if matches!(op, DiffOp::Equal { .. }) {
             continue;
         }

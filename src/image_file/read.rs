@@ -1,7 +1,7 @@
 //! Decodes picture files into textures. Files are untrusted: sizes are checked before memory is
 //! allocated, and data that the pixels do not need is not read.
 
-use std::io::{BufRead, BufReader, ErrorKind, Read, Seek};
+use std::io::{BufReader, ErrorKind, Read, Seek};
 use std::panic::{self, AssertUnwindSafe};
 
 use image::error::UnsupportedErrorKind;
@@ -70,15 +70,20 @@ fn by_format(mut file: impl Read + Seek, room: u64) -> Result<Image, Unreadable>
     file.seek_relative(back).map_err(unreadable)?;
     let format = image::guess_format(&magic).map_err(|_| Unreadable::Unknown)?;
     match format {
-        ImageFormat::Png => pixels(BufReader::new(Sieve::png(file)), format, room),
-        ImageFormat::Jpeg => pixels(BufReader::new(Sieve::jpeg(file)), format, room),
-        _ => pixels(BufReader::new(file), format, room),
+        ImageFormat::Png => pixels(&mut Sieve::png(file), format, room),
+        ImageFormat::Jpeg => pixels(&mut Sieve::jpeg(file), format, room),
+        _ => pixels(&mut file, format, room),
     }
 }
 
-fn pixels(file: impl BufRead + Seek, format: ImageFormat, room: u64) -> Result<Image, Unreadable> {
+/// A file, whole or filtered. As a trait object, so that all decoders are compiled only once.
+trait Input: Read + Seek {}
+
+impl<R: Read + Seek> Input for R {}
+
+fn pixels(file: &mut dyn Input, format: ImageFormat, room: u64) -> Result<Image, Unreadable> {
     let broken = |error| unreadable(error, format);
-    let mut reader = ImageReader::with_format(file, format);
+    let mut reader = ImageReader::with_format(BufReader::new(file), format);
     let limits = |bytes| {
         let mut limits = Limits::default();
         limits.max_alloc = Some(bytes);
