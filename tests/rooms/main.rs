@@ -80,6 +80,7 @@ const ARROWS: &[(&str, &[&str])] = &[
 /// Each dependency and the rooms that use it; `*` means all.
 const DEPENDENCIES: &[(&str, &str)] = &[
     ("annotate_snippets", "batch"),
+    ("anstyle_lossy", "ui"),
     ("arrayvec", "accel"),
     ("clap", "cli"),
     ("crossterm", "ui"),

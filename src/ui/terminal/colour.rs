@@ -5,8 +5,8 @@
 
 use std::env;
 
+use anstyle_lossy::palette::Palette;
 use ratatui::style::Color;
-use termprofile::anstyle::RgbColor;
 use termprofile::{DetectorSettings, EnvVarSource, IsTerminal, TermProfile, TermVars};
 
 /// The colours that a terminal can show, from fewest to most.
@@ -110,6 +110,28 @@ impl ColourDepth {
     }
 }
 
+/// The sixteen colours: the mean light of xterm's, the Linux console's, the Tango palette's and
+/// Windows' original ones. Pictures made for the mean are closer than chafa's in each of these
+/// themes; those made for xterm's alone are not.
+pub(in crate::ui) const THEME: [[u8; 3]; 16] = [
+    [0, 0, 0],
+    [180, 0, 0],
+    [38, 167, 2],
+    [178, 153, 0],
+    [23, 51, 181],
+    [160, 39, 161],
+    [2, 167, 167],
+    [202, 202, 202],
+    [109, 109, 109],
+    [251, 47, 47],
+    [83, 248, 49],
+    [254, 250, 58],
+    [85, 103, 244],
+    [238, 78, 237],
+    [49, 248, 248],
+    [251, 251, 251],
+];
+
 /// A colour as sent to the terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ink {
@@ -122,13 +144,14 @@ pub(super) enum Ink {
 }
 
 fn nearest_of_256(red: u8, green: u8, blue: u8) -> u8 {
-    termprofile::rgb_to_ansi256(RgbColor(red, green, blue))
+    anstyle_lossy::rgb_to_xterm((red, green, blue).into()).index()
 }
 
 fn nearest_of_16(index: u8) -> u8 {
+    let theme = || Palette(THEME.map(|[red, green, blue]| (red, green, blue).into()));
     match index {
         0..16 => index,
-        _ => termprofile::ansi256_to_ansi16(index) as u8,
+        _ => anstyle_lossy::xterm_to_ansi(index.into(), theme()) as u8,
     }
 }
 

@@ -5,31 +5,10 @@
 
 use super::dither;
 use super::oklab::{light, luma, oklab};
+use crate::ui::terminal::THEME;
 
 /// The levels of each channel in the 6×6×6 cube of the 256 colours.
 const CUBE: [u8; 6] = [0, 95, 135, 175, 215, 255];
-
-/// The sixteen colours: the mean light of xterm's, the Linux console's, the Tango palette's and
-/// Windows' original ones. Pictures made for the mean are closer than chafa's in each of these
-/// themes; those made for xterm's alone are not.
-const THEME: [[u8; 3]; 16] = [
-    [0, 0, 0],
-    [180, 0, 0],
-    [38, 167, 2],
-    [178, 153, 0],
-    [23, 51, 181],
-    [160, 39, 161],
-    [2, 167, 167],
-    [202, 202, 202],
-    [109, 109, 109],
-    [251, 47, 47],
-    [83, 248, 49],
-    [254, 250, 58],
-    [85, 103, 244],
-    [238, 78, 237],
-    [49, 248, 248],
-    [251, 251, 251],
-];
 
 /// Number of pixels in a mix.
 const PARTS: usize = 8;
