@@ -163,6 +163,7 @@ impl Affine {
     }
 
     /// Maps a world point into the space of the unit solid.
+    #[inline]
     pub(super) fn position(&self, point: DVec3) -> DVec3 {
         self.dual_products(point - self.origin)
     }
@@ -204,6 +205,7 @@ impl Affine {
 
     /// The texture coordinates at a hit, from those at its position on the unit solid. Gradients
     /// are transformed by the inverse transpose, as normals are.
+    #[inline]
     pub(super) fn chart(&self, ray: &Ray, hit: Hit, chart: impl FnOnce(DVec3) -> Chart) -> Chart {
         chart(self.position(ray.at(hit.t))).with_gradients(|gradient| self.gradient(gradient))
     }

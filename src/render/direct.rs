@@ -149,6 +149,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
     }
 
     /// Transmittance of a shadow ray; 1 without one.
+    #[inline]
     pub(crate) fn visibility(&mut self, shadow: Option<Shadow<f64>>) -> f64 {
         let Some(Shadow { rays, ends }) = shadow else {
             return 1.0;

@@ -163,6 +163,7 @@ impl Lobes {
     }
 
     /// Samples a direction by three numbers in 0..1. It may point below the surface, into darkness.
+    #[inline]
     pub(crate) fn choose(&self, point: &Point, lobe: f64, place: [f64; 2]) -> DVec3 {
         if lobe < self.even {
             return warp::by_cosine(point.normal, place);

@@ -19,6 +19,7 @@ pub(crate) fn mirror<N: Lanes>(direction: Vector<N>, normal: Vector<N>) -> Vecto
 }
 
 /// Reflects one unit direction.
+#[inline]
 pub(crate) fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
     mirror(direction.into(), normal.into()).into()
 }
@@ -114,6 +115,7 @@ impl Refraction {
 }
 
 /// The transmittance along a path (Beer, Lambert): e^(−absorption · length).
+#[inline]
 pub(crate) fn transmitted(absorption: Rgb, length: f64) -> Rgb {
     if absorption == Rgb::ZERO {
         return Rgb::ONE;
@@ -150,6 +152,7 @@ pub(crate) fn spread(
 /// The power of a highlight: cosineⁿ, 0 for a negative cosine; 0⁰ = 1, and n < 0 counts as 0.
 /// Integer exponents up to 4096 use repeated squaring, which is exact to a few ulp, equal on all
 /// machines and ten times as fast as the general power.
+#[inline]
 pub(crate) fn power(cosine: f64, exponent: f64) -> f64 {
     if cosine < 0.0 {
         return 0.0;

@@ -43,6 +43,7 @@ impl Sampler {
     }
 
     /// The place in the pixel, 0..1 from its top left corner; the centre for sample 0.
+    #[inline]
     pub(crate) fn place_in_pixel(self) -> [f64; 2] {
         if self.index == 0 {
             return [0.5, 0.5];

@@ -13,6 +13,7 @@ pub(crate) fn in_cone(axis: DVec3, versine: f64, [u, v]: [f64; 2]) -> DVec3 {
 }
 
 /// Samples a direction around a unit vector with density cos θ / π.
+#[inline]
 pub(crate) fn by_cosine(normal: DVec3, [u, v]: [f64; 2]) -> DVec3 {
     around(normal, (1.0 - u).sqrt(), u.sqrt(), v)
 }
