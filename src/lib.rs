@@ -15,8 +15,9 @@
 //! Files that the text names enter as values: meshes at `lower`, pictures at `build`. Files that
 //! those name in turn are treated as if the text named them.
 //!
-//! The only state outside the text is the working view: orbiting moves it in memory until the user
-//! saves it, which is an edit like any other.
+//! The only part of a scene outside the text is the working view: orbiting moves it in memory until
+//! the user saves it, which is an edit like any other. Settings such as the integrator and the
+//! displayed channel belong to the session.
 //!
 //! # The rooms, in reading order
 //!
@@ -31,15 +32,15 @@
 //! | [`document`] | sole owner of a source, its undo history and its saved text | individual languages, files |
 //! | [`accel`] | bounding volume hierarchies | what the boxes contain |
 //! | [`render`] | renders scenes: worker, integrators, film, tone mapping | documents, files, terminals |
-//! | [`file`](mod@file) | reads scenes and replaces files atomically | what the bytes mean |
+//! | [`file`](mod@file) | reads scenes and replaces files, atomically where the file system allows it | what the bytes mean |
 //! | [`image_file`] | picture files: writes frames, reads textures | what is in a scene |
-//! | [`assets`] | reads the pictures and meshes that scenes name | what they are used for |
+//! | [`assets`] | reads the pictures and meshes that scenes name | how they are shaded |
 //! | [`watch`] | reports changes of paths on disk | what the files contain |
 //! | [`ui`] | the terminal: the only room that knows ratatui and crossterm | how pixels are computed |
 //! | [`batch`] | headless work: check, render | terminals |
 //! | [`cli`] | arguments and exit codes | how the work is done |
 //!
-//! `tests/rooms` enforces the dependencies between rooms and lists the only permitted cycles of files.
+//! `tests/rooms` enforces the dependencies between rooms and forbids cycles between sibling files.
 //!
 //! # Invariants
 //!

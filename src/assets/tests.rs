@@ -162,8 +162,8 @@ fn the_reason_why_a_picture_cannot_be_read_is_precise() {
         ("folder.png", "is a folder, not a file"),
         ("pipe.png", "is a pipe, not a file"),
         ("loop.png", "symbolic links"),
-        ("empty.png", "is not in a known picture format"),
-        ("text.png", "is not in a known picture format"),
+        ("empty.png", "is not in a supported picture format"),
+        ("text.png", "is not in a supported picture format"),
         ("half.ppm", "is not a valid picture: "),
         (
             "huge.ppm",

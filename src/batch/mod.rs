@@ -25,10 +25,10 @@ pub use render::{Output, Render, render};
 /// Why headless work failed. The work has already printed it.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// A scene can't be read.
+    /// A scene cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// An assets folder can't be read.
+    /// An assets folder cannot be read.
     #[error(transparent)]
     Assets(#[from] NoFolder),
     /// A file whose extension is not that of a scene.
@@ -40,10 +40,10 @@ pub enum Error {
         /// The number of errors.
         errors: usize,
     },
-    /// The picture can't be rendered, for a reason known before tracing.
+    /// The picture cannot be rendered, for a reason known before tracing.
     #[error("{0}")]
     Refused(String),
-    /// The picture file can't be created.
+    /// The picture file cannot be created.
     #[error("{path}: {source}", path = path.display())]
     Create {
         /// The file.
@@ -51,7 +51,7 @@ pub enum Error {
         /// The error of the file system.
         source: io::Error,
     },
-    /// The picture can't be written.
+    /// The picture cannot be written.
     #[error("{to}: {source}")]
     Write {
         /// The file name, or `standard output`.
@@ -59,7 +59,7 @@ pub enum Error {
         /// The error of the system.
         source: io::Error,
     },
-    /// The machine can't trace the picture.
+    /// The machine cannot trace the picture.
     #[error(transparent)]
     Untraced(#[from] Refusal),
     /// The renderer ended without a picture.

@@ -111,7 +111,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
 fn check_output(work: &Render) -> Result<(), Error> {
     match &work.output {
         Output::File(path) if file::is_same(path, &work.scene) => Err(Error::Refused(format!(
-            "{}: is the scene itself; name another file for the picture",
+            "cannot overwrite {}: it is the scene itself; name another file",
             path.display()
         ))),
         Output::File(path) => file::check_target(path).map_err(|source| Error::Create {
@@ -130,7 +130,7 @@ fn check_references(work: &Render, files: &[PathBuf]) -> Result<(), Error> {
     match &work.output {
         Output::File(path) if files.iter().any(|named| file::is_same(path, named)) => {
             Err(Error::Refused(format!(
-                "{}: is used by the scene; name another file for the picture",
+                "cannot overwrite {}: the scene uses it; name another file",
                 path.display()
             )))
         }

@@ -46,7 +46,7 @@ pub(super) fn render(name: &str, text: &str, diagnostics: &[Diagnostic], style: 
 fn one(name: &str, text: &str, diagnostic: &Diagnostic, renderer: &Renderer) -> String {
     let Position { line, column } = Position::of(text, diagnostic.span.start());
     let mut title = String::new();
-    // Writing to a string can't fail.
+    // Writing to a string cannot fail.
     let _ = write!(
         title,
         "{}:{line}:{column}: {}",

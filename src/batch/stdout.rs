@@ -9,7 +9,7 @@ use crate::render::Frame;
 /// on writes longer than its own buffer in one or two pieces.
 const CHUNK: usize = 1 << 20;
 
-/// Whether standard output is a terminal, which can't show a picture file.
+/// Whether standard output is a terminal, which cannot show a picture file.
 pub(super) fn is_terminal() -> bool {
     io::stdout().is_terminal()
 }

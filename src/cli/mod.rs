@@ -34,7 +34,7 @@ pub const USAGE: u8 = 2;
 pub const INVALID: u8 = 65;
 /// A scene is missing or unreadable.
 pub const NO_INPUT: u8 = 66;
-/// The picture file can't be created.
+/// The picture file cannot be created.
 pub const NO_OUTPUT: u8 = 73;
 
 /// The terminal of the interface is gone; the code shells report for `SIGHUP`.
@@ -152,7 +152,7 @@ impl Stop {
         // The text quotes arguments, which may contain anything.
         let mut text = String::new();
         for line in error.to_string().lines() {
-            // Writing to a string can't fail.
+            // Writing to a string cannot fail.
             let _ = writeln!(text, "{}", visible(line));
         }
         Self {
@@ -233,8 +233,8 @@ impl StrictnessArguments {
 
 #[derive(Args, Debug)]
 struct AssetArguments {
-    /// Also allow pictures and meshes to be read from this folder, in addition to the scene's
-    /// folder and the folder above it; repeatable
+    /// Also allow pictures and meshes to be read from this folder, not only from the scene's folder
+    /// and, unless it is /, your home or writable by everyone, the folder above it; repeatable
     #[arg(long = "assets", value_name = "DIR")]
     folders: Vec<PathBuf>,
 }
@@ -281,7 +281,7 @@ struct InterfaceArguments {
     /// Pixel filter of full-size traces and exports; the preview always uses box
     #[arg(long, value_name = "FILTER", value_enum, default_value_t)]
     filter: FilterChoice,
-    /// Number of tracing threads, 1 to 1024 [default: one fewer than the number of cores]
+    /// Number of tracing threads, 1 to 1024 [default: one per core, one fewer for the preview]
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
     #[command(flatten)]
@@ -371,7 +371,7 @@ struct RenderArguments {
     /// Random seed, 0 to 4294967295
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u32,
-    /// Render the first surface under each pixel instead of light
+    /// Render a property of the first surface under each pixel instead of light
     #[arg(long, value_name = "AOV", value_enum)]
     aov: Option<AovChoice>,
     /// Transfer curve from colours to 8-bit values [default: linear, unless the scene sets srgb]
@@ -397,7 +397,7 @@ impl RenderArguments {
             None if to_stdout => ImageFormat::Bmp,
             None => ImageFormat::of_path(&self.output).ok_or_else(|| {
                 format!(
-                    "can't tell the format of {}: use the extension {}, or --format",
+                    "cannot tell the format of {}: use the extension {}, or --format",
                     self.output.display(),
                     known_extensions()
                 )

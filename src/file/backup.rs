@@ -36,7 +36,7 @@ impl Backup {
                 // Overwriting in place may be necessary just because the folder is not writable.
                 if is_refusal(&first) {
                     let shown = folder.display();
-                    let reason = format!("can't back it up in {shown}: {second}");
+                    let reason = format!("cannot back it up in {shown}: {second}");
                     io::Error::new(second.kind(), reason)
                 } else {
                     first

@@ -25,7 +25,7 @@ const MAX_HEADER: u64 = 16 << 20;
 #[derive(Debug, thiserror::Error)]
 pub enum Unreadable {
     /// Not a picture, or one of an unknown format.
-    #[error("is not in a known picture format")]
+    #[error("is not in a supported picture format")]
     Unknown,
     /// Uses an unsupported feature of the named format.
     #[error("is an unsupported kind of {0}")]
@@ -45,7 +45,7 @@ pub enum Unreadable {
     #[error("the scene's textures have too many pixels in total")]
     NoRoom,
     /// Out of memory, or its decoder needs more than [`MAX_MEMORY`].
-    #[error("needs more memory than is available for a texture (512 MiB)")]
+    #[error("needs more memory than a texture may use (512 MiB), or than is available")]
     NoMemory,
 }
 
@@ -146,7 +146,7 @@ fn unreadable(error: ImageError, format: ImageFormat) -> Unreadable {
             _ => Unreadable::Unsupported(name),
         },
         ImageError::IoError(error) if error.kind() == ErrorKind::UnexpectedEof => {
-            Unreadable::Broken("it ends too early".to_owned())
+            Unreadable::Broken("it is truncated".to_owned())
         }
         ImageError::IoError(error) => Unreadable::Broken(error.to_string()),
         _ => Unreadable::Broken(format!("its {name} data is damaged")),

@@ -465,7 +465,7 @@ fn damage_is_reported_without_the_decoders_messages() {
             found += usize::from(message == damaged);
             let is_known = message == damaged
                 || message == unsupported
-                || message.ends_with("it ends too early")
+                || message.ends_with("it is truncated")
                 || !matches!(error, Unreadable::Broken(_) | Unreadable::Unsupported(_));
             assert!(is_known, "{format:?} at {at}: {message}");
         }

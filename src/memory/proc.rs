@@ -2,7 +2,7 @@
 
 use std::fs;
 
-/// The text of a table; empty if it can't be read.
+/// The text of a table; empty if it cannot be read.
 pub(super) fn read(path: impl AsRef<std::path::Path>) -> String {
     fs::read_to_string(path).unwrap_or_default()
 }

@@ -14,7 +14,7 @@ const SHARE: u64 = 4;
 
 /// The error that no threads can be started.
 #[derive(Clone, Debug, thiserror::Error)]
-#[error("can't start threads")]
+#[error("cannot start threads")]
 pub struct NoThreads;
 
 /// The number of threads that a pool may have, from 1 to `wanted`.

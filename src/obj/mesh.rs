@@ -351,7 +351,7 @@ impl Reading {
                         Err(errors) => findings.warnings.extend(errors),
                     },
                     Err(reason) => {
-                        let message = format!("can't read `{}`: {reason}", visible(&name));
+                        let message = format!("cannot read `{}`: {reason}", visible(&name));
                         findings.warn(line, column, message);
                     }
                 }

@@ -174,7 +174,7 @@ fn several_libraries_on_a_line_are_read_one_by_one() {
     assert_eq!(asked, ["a.mtl b.mtl", "a.mtl", "b.mtl"]);
     assert_eq!(
         messages(&model.library_warnings),
-        ["line 1, column 8: can't read `a.mtl`: no such file"]
+        ["line 1, column 8: cannot read `a.mtl`: no such file"]
     );
     assert_eq!(
         model.materials[1].as_ref().map(|m| &*m.library),

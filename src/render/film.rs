@@ -93,14 +93,14 @@ impl Film {
     pub(crate) fn bytes(settings: &Settings, frames: Frames) -> u64 {
         let size = settings.size;
         let bytes = |count: usize, each: usize| (count as u64).saturating_mul(each as u64);
-        let told = match frames {
+        let values = match frames {
             Frames::Live => size_of::<u32>(),
             Frames::Last => 0,
             Frames::LastWithValues => size_of::<[f32; 3]>(),
         };
         let tile = Tile::bytes(remembers(size, frames));
         let tiles = bytes(TileShape::of(size).count(size), tile);
-        tiles.saturating_add(bytes(size.pixels(), size_of::<[u8; 3]>() + told))
+        tiles.saturating_add(bytes(size.pixels(), size_of::<[u8; 3]>() + values))
     }
 
     /// Creates an empty film; reserves memory for its tiles and the finished picture.
@@ -293,13 +293,13 @@ impl Film {
         Some(raster)
     }
 
-    /// Appends the pixels of some rows of tiles, each computed by `told` from the pixel that
+    /// Appends the pixels of some rows of tiles, each computed by `develop` from the pixel that
     /// represents it.
     pub(crate) fn develop_rows<T: Clone + Default + Send>(
         &self,
         rows: Range<usize>,
         developed: &mut Vec<T>,
-        told: impl Fn(&Tile, usize) -> T + Sync,
+        develop: impl Fn(&Tile, usize) -> T + Sync,
     ) {
         let Size { width, height } = self.size;
         let (across, shape) = (self.shape.across(self.size), self.shape);
@@ -316,7 +316,7 @@ impl Film {
                 for (y, line) in (row as u32 * shape.height..).zip(lines) {
                     let line = &mut line[left as usize..right as usize];
                     for (x, pixel) in (left..).zip(line) {
-                        *pixel = told(tile, tile.known([x, y]));
+                        *pixel = develop(tile, tile.known([x, y]));
                     }
                 }
             }

@@ -26,7 +26,7 @@ pub enum Refusal {
     #[error("the renderer has stopped")]
     Ended,
     /// The worker's threads cannot be started; whatever `wake` owned is dropped.
-    #[error("can't start the rendering threads ({count}): {reason}; --threads N sets how many")]
+    #[error("cannot start the rendering threads ({count}): {reason}; --threads N sets how many")]
     Threads {
         /// Number of tracing threads.
         count: usize,
@@ -38,8 +38,7 @@ pub enum Refusal {
     OutOfMemory(#[from] OutOfMemory),
     /// The picture needs more memory than is available.
     #[error(
-        "{}x{}: tracing it takes {:.1} GB of memory, more than the system gives; a smaller size \
-         takes less",
+        "cannot trace {}x{}: not enough memory for the {:.1} GB it needs; choose a smaller size",
         size.width, size.height, *bytes as f64 / 1e9
     )]
     Memory {

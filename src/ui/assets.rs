@@ -74,7 +74,7 @@ impl<S: Fn(Msg) + Send + Sync + 'static> Work<S> {
     }
 
     /// Watches the files of the scene from now on. Returns whether the set of files changed; always
-    /// `false` if they can't be watched, so that the next order tries again.
+    /// `false` if they cannot be watched, so that the next order tries again.
     fn watch(&mut self, wanted: &Wanted) -> bool {
         let places = self.assets.places(wanted);
         if places == self.watched {
@@ -88,7 +88,7 @@ impl<S: Fn(Msg) + Send + Sync + 'static> Work<S> {
                 Ok(watcher) => self.watcher = Some(watcher),
                 Err(error) => {
                     (self.send)(Msg::Failed(format!(
-                        "can't watch the scene's files for changes: {error}; try --poll"
+                        "cannot watch the scene's files for changes: {error}; try --poll"
                     )));
                     return false;
                 }

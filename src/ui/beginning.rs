@@ -24,7 +24,7 @@ pub(super) struct Beginning {
 }
 
 impl Beginning {
-    /// Starts reading the scene and waits for [`PATIENCE`] at most. Fails if the scene can't be
+    /// Starts reading the scene and waits for [`PATIENCE`] at most. Fails if the scene cannot be
     /// read.
     pub(super) fn new(
         app: App,

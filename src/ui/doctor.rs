@@ -58,7 +58,7 @@ pub fn examine(scene: Option<&Path>) -> String {
     for (label, lines) in findings {
         for (at, line) in lines.iter().enumerate() {
             let label = if at == 0 { label } else { "" };
-            // Writing to a string can't fail.
+            // Writing to a string cannot fail.
             let _ = writeln!(text, "{label:<14}{}", visible(line));
         }
     }

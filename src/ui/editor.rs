@@ -66,7 +66,7 @@ enum Part {
 /// Opens the user's editor on a file at a line, from 1, and waits for it to end.
 pub(super) fn run(path: &Path, line: usize) -> Result<(), String> {
     let (program, status) = open(path, line).map_err(|reason| {
-        format!("can't start the editor: {reason}; set $VISUAL or $EDITOR to another one")
+        format!("cannot start the editor: {reason}; set $VISUAL or $EDITOR to another one")
     })?;
     ending(&program, status)
 }

@@ -377,7 +377,7 @@ impl World {
 
     #[cfg(not(unix))]
     fn suspend(&mut self) -> Result<(), String> {
-        Err("this system can't suspend programs".to_owned())
+        Err("this system cannot suspend programs".to_owned())
     }
 }
 

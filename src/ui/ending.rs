@@ -27,17 +27,17 @@ pub enum Ending {
 /// Error that ends the interface or prevents it from starting.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// The scene can't be read.
+    /// The scene cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
     /// The file name extension is not that of a scene language.
     #[error(transparent)]
     UnknownLanguage(#[from] UnknownLanguage),
-    /// A folder of assets can't be read.
+    /// A folder of assets cannot be read.
     #[error(transparent)]
     Assets(#[from] NoFolder),
     /// The path is a folder.
-    #[error("{path}: is a folder, not a scene", path = path.display())]
+    #[error("cannot open {path}: it is a folder, not a scene", path = path.display())]
     Folder {
         /// Path of the folder.
         path: PathBuf,

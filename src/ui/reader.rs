@@ -139,7 +139,7 @@ fn watch(
     match Watcher::new(&path, method, move || changed(Msg::FileChanged)) {
         Ok(new) => *watcher = Some(new),
         Err(error) => send(Msg::Failed(format!(
-            "{}: can't watch for changes: {error}; try --poll",
+            "{}: cannot watch for changes: {error}; try --poll",
             path[0].display()
         ))),
     }

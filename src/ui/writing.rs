@@ -44,7 +44,7 @@ impl Writers {
         guard: Guard,
     ) -> Result<(), String> {
         let shown = path.display();
-        let panicked = SaveOutcome::Failed(format!("{shown}: can't write the scene"));
+        let panicked = SaveOutcome::Failed(format!("{shown}: cannot write the scene"));
         self.start(
             "save",
             Some(&self.at_work),
@@ -61,7 +61,7 @@ impl Writers {
         to: Destination,
     ) -> Result<(), String> {
         let shown = to.path.display();
-        let panicked = Err(format!("{shown}: can't write the picture"));
+        let panicked = Err(format!("{shown}: cannot write the picture"));
         self.start(
             "export",
             Some(&self.at_work),
@@ -73,7 +73,7 @@ impl Writers {
     /// Checks whether a picture can be written there; a failure is reported by [`Msg::Exported`].
     pub(super) fn check(&self, id: ExportId, to: Destination) -> Result<(), String> {
         let shown = to.path.display();
-        let panicked = Err(format!("{shown}: can't write the picture"));
+        let panicked = Err(format!("{shown}: cannot write the picture"));
         self.start("check", None, Msg::Exported(id, panicked), move || {
             check_target(&to)
                 .err()
@@ -83,7 +83,7 @@ impl Writers {
 
     /// Checks whether a scene can be written there; a failure is reported by [`Msg::Failed`].
     pub(super) fn check_place(&self, path: PathBuf) -> Result<(), String> {
-        let panicked = Msg::Failed(format!("{}: can't check the path", path.display()));
+        let panicked = Msg::Failed(format!("{}: cannot check the path", path.display()));
         self.start("check", None, panicked, move || {
             let refused = file::check_replaceable(&path).err()?;
             Some(Msg::Failed(format!("{}: {refused}", path.display())))
@@ -218,10 +218,14 @@ fn check_target(to: &Destination) -> Result<(), String> {
     let (path, shown) = (&to.path, to.path.display());
     let scene = to.scene.as_deref();
     if scene.is_some_and(|scene| file::is_same(path, scene)) {
-        return Err(format!("{shown} is the scene itself: name another file"));
+        return Err(format!(
+            "cannot overwrite {shown}: it is the scene itself; name another file"
+        ));
     }
     if to.named.iter().any(|named| file::is_same(path, named)) {
-        return Err(format!("{shown} is used by the scene: name another file"));
+        return Err(format!(
+            "cannot overwrite {shown}: the scene uses it; name another file"
+        ));
     }
     let reason = match to.existing {
         Existing::Kept => Some("exists"),
@@ -317,7 +321,7 @@ mod tests {
                 named: vec![place.path().join("x/../bricks.png"), texture.clone()],
             };
             let refused = check_target(&to).expect_err("one file");
-            assert!(refused.contains("used by the scene"), "{refused}");
+            assert!(refused.contains("the scene uses it"), "{refused}");
         }
     }
 

@@ -188,7 +188,7 @@ fn cases() -> Vec<Case> {
         case(
             "less.xml",
             many("<", LONG),
-            "a name can't begin here",
+            "a name cannot begin here",
             96 * MB,
         ),
         case(

@@ -34,7 +34,7 @@ fn threads_that_cannot_start_are_an_error() {
     let place = Place::new();
     let (code, stderr) = without_threads(&place, "render ball.ray -o a.ppm --threads 3");
     assert_eq!(code, Some(1), "{stderr}");
-    let first = "error: can't start the rendering threads (3): ";
+    let first = "error: cannot start the rendering threads (3): ";
     assert!(stderr.starts_with(first), "{stderr}");
     assert!(
         stderr.ends_with("; --threads N sets how many\n"),
@@ -72,7 +72,7 @@ fn work_under_any_memory_limit_succeeds_or_is_refused() {
                 Some(1) => {
                     refused += 1;
                     let has_reason = stderr.contains("out of memory: ")
-                        || stderr.contains("can't start threads");
+                        || stderr.contains("cannot start threads");
                     assert!(
                         has_reason && stderr.contains("error: "),
                         "{line} in {limit} kB: {stderr}"

@@ -193,7 +193,7 @@ fn the_picture_follows_changes_of_its_texture_files() {
 
         // Half a picture changes nothing but is reported.
         place.write("skin.ppm", "P3\n1 1\n255\n0");
-        session.wait_for("can't read 1 file: press ! to see why");
+        session.wait_for("cannot read 1 file: press ! to see why");
         session.send("!");
         session.wait_for("its last picture is kept");
         wait_for_colour(&mut session, BLUE);
@@ -225,7 +225,7 @@ fn the_picture_follows_changes_of_meshes_libraries_and_their_pictures() {
         wait_for_colour(&mut session, BLUE);
 
         place.write("a.obj", "v 1 2\n");
-        session.wait_for("can't read 1 file: press ! to see why");
+        session.wait_for("cannot read 1 file: press ! to see why");
         session.send("!");
         session.wait_for("line 1, column 6: v: expected 3 numbers");
         wait_for_colour(&mut session, BLUE);

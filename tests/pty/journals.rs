@@ -139,7 +139,7 @@ fn edits_are_stored_once_their_folder_can_be_created() {
     fs::create_dir_all(place.at(".local/state")).expect("the folder is new");
     place.write(".local/state/halflight", "in the way");
     let mut session = place.open_edited();
-    session.wait_for("unsaved edits can't be kept for recovery");
+    session.wait_for("unsaved edits cannot be kept for recovery");
     session.wait_for("[not kept]");
     fs::remove_file(place.at(".local/state/halflight")).expect("it is there");
     wait_until_gone(&mut session, "not kept");

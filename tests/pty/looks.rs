@@ -248,7 +248,7 @@ fn file_contents_never_reach_the_terminal_raw() {
     session.wait_for("1 error");
     session.wait_for("␛]52;c;ZXZpbA==");
     // Keys typed while the editor has the terminal are echoed.
-    let refused = "can't start the editor";
+    let refused = "cannot start the editor";
     session.send("!E");
     session.wait_for(refused);
     session.send("!G");

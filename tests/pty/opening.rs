@@ -1,4 +1,4 @@
-//! Files that take long to read, and files that can't be read.
+//! Files that take long to read, and files that cannot be read.
 
 use std::io::Write;
 

@@ -125,12 +125,12 @@ fn a_library_that_cannot_be_read_is_a_warning() {
     for (library, warning) in [
         (
             "none.mtl",
-            "line 1, column 8: can't read `none.mtl`: no such file".to_owned(),
+            "line 1, column 8: cannot read `none.mtl`: no such file".to_owned(),
         ),
         (
             absolute.as_str(),
             format!(
-                "line 1, column 8: can't read `{absolute}`: absolute paths are not allowed \
+                "line 1, column 8: cannot read `{absolute}`: absolute paths are not allowed \
                  (allow it with --assets {})",
                 folder.display()
             ),

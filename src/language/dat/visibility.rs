@@ -25,7 +25,7 @@ pub(super) fn edits(
         _ => return Ok(Vec::new()),
     }
     if drawn.is_empty() {
-        return Err("the last object that is drawn can't be hidden");
+        return Err("the last visible object cannot be hidden");
     }
     let edit = |span, text| Edit { span, text };
     let id = |object: usize| origins.objects.get(object).map(|at| at.id);

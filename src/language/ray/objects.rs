@@ -180,7 +180,7 @@ impl<'a> Reader<'a> {
         let Some(shape) = shape(geometry.values, kind) else {
             let span = geometry.spans[0].to(geometry.spans[geometry.spans.len() - 1]);
             self.report.error(|| {
-                let message = format!("{}: its directions span no volume", record.name);
+                let message = format!("{}: its directions are linearly dependent", record.name);
                 Diagnostic::error(span, message, "three directions at right angles")
             });
             return;
@@ -319,7 +319,7 @@ fn coefficients(numbers: &[f64]) -> Coefficients {
     }
 }
 
-/// The shape described by these numbers; `None` if its directions span no volume.
+/// The shape described by these numbers; `None` if its directions are linearly dependent.
 fn shape(numbers: &[f64], kind: ShapeKind) -> Option<Shape> {
     const ELLIPSOID: Frame = Frame::of(
         ShapeKind::Ellipsoid,

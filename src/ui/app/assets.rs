@@ -45,7 +45,7 @@ pub(super) struct News {
 
 /// What to tell the user about files that were read.
 pub(super) enum Notice {
-    /// Different files can't be read than before: [`Assets::faults`].
+    /// Different files cannot be read than before: [`Assets::faults`].
     Faults,
     /// Where files were found, other than where first looked for.
     Elsewhere(String),
@@ -169,7 +169,7 @@ impl Assets {
     pub(super) fn faults(&self) -> (Option<Severity>, String) {
         let meshes = self.meshes.unreadable();
         let count = meshes + self.picture_errors.len();
-        let words = format!("can't read {}: press ! to see why", counted(count, "file"));
+        let words = format!("cannot read {}: press ! to see why", counted(count, "file"));
         match (count, meshes) {
             (0, _) => (None, "all files can be read now".to_owned()),
             (_, 0) => (Some(Severity::Warning), words),

@@ -308,7 +308,7 @@ impl App {
     fn set_size(&mut self, size: Size) {
         let Some(scene) = self.scene.clone().filter(|_| self.error_count() == 0) else {
             self.overlays
-                .fail("can't set the size while the scene has errors");
+                .fail("cannot set the size while the scene has errors");
             return;
         };
         let camera = Camera {

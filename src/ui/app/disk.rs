@@ -43,7 +43,7 @@ pub enum OnDisk {
     Known,
     /// It holds something else; the user has to decide.
     Changed,
-    /// It can't be read, or it has errors and is not taken until they are corrected, because there
+    /// It cannot be read, or it has errors and is not taken until they are corrected, because there
     /// are unsaved edits.
     Broken,
     /// It does not exist.

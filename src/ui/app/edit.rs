@@ -146,7 +146,7 @@ impl App {
         };
         let scene = self.scene.clone().filter(|_| self.error_count() == 0);
         let (Some(scene), Some(camera)) = (scene, self.camera()) else {
-            return Err(refuse("can't be set while the scene has errors"));
+            return Err(refuse("cannot be set while the scene has errors"));
         };
         // The picture's size exists only in the text: setting it must not write the working view.
         let is_size = field.kind.is_size();

@@ -69,7 +69,7 @@ pub struct Export {
 pub enum Stage {
     /// Its picture is being traced.
     Tracing,
-    /// Its file is being written, which can't be stopped.
+    /// Its file is being written, which cannot be stopped.
     Writing,
 }
 
@@ -224,7 +224,7 @@ impl Jobs {
 }
 
 impl Export {
-    /// Stops tracing; writing can't be stopped.
+    /// Stops tracing; writing cannot be stopped.
     pub(super) fn stop(&self) -> Vec<Effect> {
         match self.stage {
             Stage::Tracing => vec![Effect::Stop(Target::Export)],

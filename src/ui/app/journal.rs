@@ -175,8 +175,8 @@ impl Journal {
     }
 }
 
-/// The message about edits that can't be kept.
+/// The message about edits that cannot be kept.
 fn words(reason: &str) -> String {
-    let words = format!("unsaved edits can't be kept for recovery: {reason}");
+    let words = format!("unsaved edits cannot be kept for recovery: {reason}");
     without_codes(&words).into_owned()
 }

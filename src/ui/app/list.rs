@@ -188,14 +188,14 @@ impl App {
         self.pick(u32::from(column), 2 * u32::from(row));
     }
 
-    /// The node under a pixel of the picture on screen. Fails if it can't be determined: objects
+    /// The node under a pixel of the picture on screen. Fails if it cannot be determined: objects
     /// are known by their numbers in the scene shown, which may differ from the text's.
     pub fn node_under(&self, x: u32, y: u32) -> Result<Option<Node>, &'static str> {
         if 0 < self.error_count() {
             return Err("the text has errors: the picture shows the last valid scene");
         }
         if self.picture().is_outdated() {
-            return Err("the picture doesn't show the changed scene yet");
+            return Err("the preview does not show the changed scene yet");
         }
         let object = self.picture().shown.object_at(x, y);
         Ok(object.map(|object| Node::Object(self.source().object(object))))

@@ -257,7 +257,8 @@ impl App {
             });
         }
         if lost {
-            self.overlays.warn("typed value dropped: its field is gone");
+            self.overlays
+                .warn("typed value discarded: its field no longer exists");
         }
     }
 
@@ -327,7 +328,7 @@ impl App {
         if let Some(open) = merge.conflicts.iter().position(|c| c.decision.is_none()) {
             *at = open;
             self.overlays
-                .warn("decide every conflict first: press m for mine, t for the file's");
+                .warn("resolve all conflicts first: press m for mine, t for the file's");
             return Vec::new();
         }
         let Some(Dialog::Conflict { merge, from, .. }) = self.overlays.dialog.take() else {

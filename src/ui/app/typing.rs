@@ -192,7 +192,7 @@ impl App {
         }
         let Some(values) = values else {
             self.overlays
-                .fail("can't paste this: expected one number, or one per component");
+                .fail("cannot paste this: expected one number, or one per component");
             return;
         };
         self.cursor.typing = None;

@@ -13,7 +13,7 @@ impl App {
         };
         match settled(change(camera), &camera) {
             Some(moved) => self.pictures.set_view(moved, self.own_camera()),
-            None => self.overlays.fail("the camera can't move any further"),
+            None => self.overlays.fail("the camera cannot move any further"),
         }
     }
 
@@ -48,7 +48,7 @@ impl App {
         };
         if 0 < self.error_count() {
             self.overlays
-                .fail("can't save the view while the scene has errors");
+                .fail("cannot save the view while the scene has errors");
             return;
         }
         self.document.end_step();

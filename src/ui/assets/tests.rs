@@ -4,7 +4,7 @@ use std::os::unix::fs::PermissionsExt;
 
 use super::*;
 
-/// A folder that may be searched but not listed can't be watched.
+/// A folder that may be searched but not listed cannot be watched.
 #[test]
 fn files_that_could_not_be_watched_are_retried() {
     let directory = tempfile::tempdir().expect("a directory");

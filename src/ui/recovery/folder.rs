@@ -123,13 +123,13 @@ impl Folder {
         }
     }
 
-    /// Why a file can't be one of ours, phrased to follow its name.
+    /// Why a file cannot be one of ours, phrased to follow its name.
     pub(super) fn refusal(metadata: &Metadata) -> Option<&'static str> {
         let not_regular = Some(NOT_REGULAR).filter(|_| !metadata.is_file());
         not_regular.or_else(|| system::suspicion(metadata))
     }
 
-    /// Whether a name in the folder is taken; `false` if that can't be determined.
+    /// Whether a name in the folder is taken; `false` if that cannot be determined.
     pub(super) fn holds(&self, name: &str) -> bool {
         self.place(name).symlink_metadata().is_ok()
     }
@@ -295,7 +295,7 @@ mod unix {
         Ok(())
     }
 
-    /// Explains why a name can't be opened as a folder.
+    /// Explains why a name cannot be opened as a folder.
     fn obstacle(folder: impl AsFd, name: &str, path: &Path, error: Errno) -> io::Error {
         let found = statat(folder, name, AtFlags::SYMLINK_NOFOLLOW);
         let kind = found.map(|stat| FileType::from_raw_mode(stat.st_mode));

@@ -29,7 +29,7 @@ pub(crate) enum Order {
 pub(crate) enum Outcome {
     /// The text of this revision is kept, or the reason why not.
     Kept(u64, Result<(), String>),
-    /// The reason why kept edits can't be removed.
+    /// The reason why kept edits cannot be removed.
     Failed(String),
 }
 
@@ -133,7 +133,7 @@ fn follow(inbox: &Receiver<Order>, report: impl Fn(Outcome)) -> End {
         };
         if let Err(error) = removed {
             report(Outcome::Failed(format!(
-                "kept edits can't be removed: {error}"
+                "kept edits cannot be removed: {error}"
             )));
         }
     }

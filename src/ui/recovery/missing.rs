@@ -1,4 +1,4 @@
-//! Edits kept of a scene that can't be opened any more.
+//! Edits kept of a scene that cannot be opened any more.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ pub(crate) fn base_of(path: &Path, language: Language) -> Option<String> {
     base_in(&folder::state().ok()?, path, language)
 }
 
-/// The addition to the message that a scene can't be opened, if edits of it are kept.
+/// The addition to the message that a scene cannot be opened, if edits of it are kept.
 pub(crate) fn note(path: &Path, is_missing: bool) -> Option<String> {
     note_in(&folder::state().ok()?, path, is_missing)
 }
@@ -38,7 +38,7 @@ pub(super) fn note_in(state: &Path, path: &Path, is_missing: bool) -> Option<Str
     let (path, place) = (path.display(), claim.place());
     let place = place.display();
     Some(if is_missing {
-        format!("{place} may hold unsaved edits of it, but can't be used without the file")
+        format!("{place} may hold unsaved edits of it, but cannot be used without the file")
     } else {
         format!(
             "unsaved edits of it are kept in {place}; halflight {path} offers them once it can \

@@ -96,7 +96,7 @@ pub(crate) fn look_for(
     let spawned = thread::Builder::new()
         .name("recovery".to_owned())
         .spawn(look);
-    let words = |error: io::Error| format!("kept edits can't be looked for: {error}");
+    let words = |error: io::Error| format!("kept edits cannot be looked for: {error}");
     spawned.map(drop).map_err(words)
 }
 
@@ -196,7 +196,7 @@ impl Found {
                 let _ = claim.remove();
             }
             Content::OfAnotherScene => {
-                self.complain(format!("{} is of another scene", place.display()));
+                self.complain(format!("{} belongs to another scene", place.display()));
             }
             Content::OfAnotherVersion => {
                 self.complain(format!(

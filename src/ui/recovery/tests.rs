@@ -439,7 +439,7 @@ const LEFT: &[Left] = &[
             parts(&other, BASE, &["1 2 4"]).concat()
         },
         offered: None,
-        said: Some("-0.ray is of another scene"),
+        said: Some("-0.ray belongs to another scene"),
         name_ends: "-0.ray",
     },
     Left {

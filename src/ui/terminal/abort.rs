@@ -6,7 +6,7 @@
 //! its handler has its own stack, this one does not.
 #![allow(
     unsafe_code,
-    reason = "a handler that runs during an abort can't be registered otherwise"
+    reason = "a handler that runs during an abort cannot be registered otherwise"
 )]
 
 use std::io;

@@ -40,9 +40,9 @@ impl ColourDepth {
 
     /// Returns the depth for a terminal described by these environment variables.
     ///
-    /// Any value of `NO_COLOR` turns colours off unless the user chose a depth. Inside tmux, only
-    /// 256 colours are certain unless `COLORTERM` promises all: tmux accepts all and reduces them
-    /// for a client that has fewer.
+    /// Any nonempty value of `NO_COLOR` turns colours off unless the user chose a depth. Inside
+    /// tmux, only 256 colours are certain unless `COLORTERM` promises all: tmux accepts all and
+    /// reduces them for a client that has fewer.
     pub fn detect_from(choice: Choice, variable: impl Fn(&str) -> Option<String>) -> Self {
         if let Choice::Fixed(depth) = choice {
             return depth;

@@ -109,7 +109,7 @@ pub(crate) fn ask() -> io::Result<Answers> {
     Ok(interview.answers)
 }
 
-/// Returns no answers: replies can't be read on this system.
+/// Returns no answers: replies cannot be read on this system.
 #[cfg(not(unix))]
 pub(crate) fn ask() -> io::Result<Answers> {
     Ok(Answers::default())

@@ -63,7 +63,7 @@ struct Segment {
     style: Style,
 }
 
-/// The message, if the status line can't show all of it.
+/// The message, if the status line cannot show all of it.
 pub(crate) fn long_message(app: &App, glyphs: Glyphs, width: u16) -> Option<&Message> {
     let message = app.overlays.message.as_ref()?;
     is_message_long(&segments(app, glyphs), usize::from(width)).then_some(message)

@@ -297,7 +297,7 @@ fn a_message_longer_than_the_status_line_is_shown_in_full() {
     let name = "n".repeat(255);
     for text in [
         "merged the file's changes with your edits: sphere 1 radius; press u to undo the merge",
-        "unsaved edits can't be kept for recovery: /home/somebody/.local/state/halflight/recovery: \
+        "unsaved edits cannot be kept for recovery: /home/somebody/.local/state/halflight/recovery: \
          others may write there; chmod go-w /home/somebody/.local/state/halflight/recovery",
         &format!("{name}.ray: File name too long"),
     ] {

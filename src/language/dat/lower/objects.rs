@@ -108,7 +108,7 @@ impl<'a> Reader<'a> {
         if shape.is_none() {
             let span = line.span_after_material();
             self.report.error(|| {
-                let message = format!("{}: too large, too small or too far away", line.name);
+                let message = format!("{}: its size or position is out of range", line.name);
                 Diagnostic::error(
                     span,
                     message,
@@ -139,7 +139,7 @@ impl<'a> Reader<'a> {
         let span = line.span_after_material();
         if quadric.is_empty() {
             self.report.warning(|| {
-                let message = format!("{}: contains no point", line.name);
+                let message = format!("{}: the solid is empty", line.name);
                 Diagnostic::warning(
                     span,
                     message,
@@ -151,7 +151,7 @@ impl<'a> Reader<'a> {
             self.report.warning(|| {
                 let message = format!("{}: too far from the origin for its size", line.name);
                 Diagnostic::warning(span, message, "a quadric nearer to the origin")
-                    .with_hint("numbers of 16 digits can't represent its shape")
+                    .with_hint("double precision cannot represent its shape")
             });
         }
         Solid::Quadric(Box::new(quadric))

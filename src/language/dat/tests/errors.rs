@@ -97,7 +97,7 @@ render 1 ID 9
 #[test]
 fn overflowing_solids_are_reported_at_their_numbers() {
     check_under(&[
-        "obj cylinder ID 1 mat ID 0  1e308 0 0  -1 0 0  1 1.7e308\n#~ 29 error: object 1 (cylinder): too large, too small or too far away",
+        "obj cylinder ID 1 mat ID 0  1e308 0 0  -1 0 0  1 1.7e308\n#~ 29 error: object 1 (cylinder): its size or position is out of range",
     ]);
 }
 
@@ -371,8 +371,8 @@ fn declared_counts_must_match() {
 #[test]
 fn empty_regions_give_warnings() {
     check_under(&[
-        "obj quadric ID 1 mat ID 0 1 0 0 0 1 0 0 1 0 1 0\n#~ 27 warning: object 1 (quadric): contains no point",
-        "obj quadric ID 1 mat ID 0 1 0 0 0 1 0 0 1 0 -1 1 0 0 1 -2\n#~ 27 warning: object 1 (quadric): contains no point",
+        "obj quadric ID 1 mat ID 0 1 0 0 0 1 0 0 1 0 1 0\n#~ 27 warning: object 1 (quadric): the solid is empty",
+        "obj quadric ID 1 mat ID 0 1 0 0 0 1 0 0 1 0 -1 1 0 0 1 -2\n#~ 27 warning: object 1 (quadric): the solid is empty",
         // A sphere of radius 1 around (10⁶, 0, 0).
         "obj quadric ID 1 mat ID 0 1 0 0 -1e6 1 0 0 1 0 999999999999 0\n#~ 27 warning: object 1 (quadric): too far from the origin for its size",
     ]);

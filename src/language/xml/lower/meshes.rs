@@ -120,7 +120,7 @@ impl<'a> Reader<'a> {
         if let Some(tags) = self.slots.get(named.name) {
             return tags.clone();
         }
-        let hint = "faces without a material are white, whatever light there is";
+        let hint = "faces without a material are unlit white";
         self.warn_of(named, &model.library_warnings, hint);
         let mut tags = Vec::with_capacity(model.materials.len());
         for material in &model.materials {

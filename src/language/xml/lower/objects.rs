@@ -160,7 +160,7 @@ impl Reader<'_> {
                 .value(self.tree, element, "material")
                 .map(|at| at.value);
             let message = || format!("material: no material is named {}", quoted(name));
-            let hint = "the object is white, whatever light there is";
+            let hint = "the object is unlit white";
             self.warn(
                 span.unwrap_or_default(),
                 message,

@@ -49,7 +49,7 @@ pub(super) fn diagnostic(text: &str, error: &Error, unclosed: Option<Span>) -> D
         },
         Error::NonXmlChar(c, _) => Diagnostic::error(
             here,
-            format!("{c:?} is not a character of XML"),
+            format!("{c:?} is not allowed in XML"),
             "a printable character",
         ),
         Error::InvalidChar(expected, ..) => {
@@ -70,7 +70,7 @@ pub(super) fn diagnostic(text: &str, error: &Error, unclosed: Option<Span>) -> D
             format!("`{expected}` is missing"),
             format!("`{expected}`"),
         ),
-        Error::InvalidName(_) => Diagnostic::error(here, "a name can't begin here", "a name")
+        Error::InvalidName(_) => Diagnostic::error(here, "a name cannot begin here", "a name")
             .with_hint("a literal < is written &lt;"),
         Error::InvalidComment(_) => {
             let expected = "no `--` before the `-->` that ends it";

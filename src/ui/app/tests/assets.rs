@@ -141,7 +141,7 @@ fn a_missing_texture_is_a_warning_at_its_name() {
     let skin = wanted(&["skin.ppm"]);
     let missing = Assets::new(&[]).read(&skin);
     assert!(traces(&app.update(Msg::AssetsRead(skin.clone(), missing))));
-    assert_eq!(words(&app), "can't read 1 file: press ! to see why");
+    assert_eq!(words(&app), "cannot read 1 file: press ! to see why");
     let said = |app: &App| {
         let (text, found) = (app.wrong().text, app.wrong().findings);
         let found = found.first()?;
@@ -257,7 +257,7 @@ fn a_broken_mesh_is_an_error_and_the_picture_is_kept() {
     let effects = app.update(Msg::AssetsRead(wanted_mesh(&[]), broken()));
     assert!(!traces(&effects));
     assert_eq!(app.scene, scene);
-    assert_eq!(words(&app), "can't read 1 file: press ! to see why");
+    assert_eq!(words(&app), "cannot read 1 file: press ! to see why");
     let (text, found) = (app.wrong().text, app.wrong().findings);
     let error = found.first_error().expect("it is reported");
     assert_eq!(error.span.of(text), "a.obj");

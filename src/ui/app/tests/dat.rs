@@ -141,7 +141,7 @@ fn objects_are_hidden_and_shown_by_the_render_record() {
     press(&mut app, " ");
     app.select(Node::Object(2));
     press(&mut app, " ");
-    assert_eq!(words(&app), "the last object that is drawn can't be hidden");
+    assert_eq!(words(&app), "the last visible object cannot be hidden");
     app.select(Node::Light(0));
     press(&mut app, " ");
     assert_eq!(words(&app), "only objects can be shown or hidden");

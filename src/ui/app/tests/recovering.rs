@@ -27,7 +27,7 @@ fn elapse(app: &mut App) -> Vec<Effect> {
     app.update(Msg::Elapsed(Timer::Keep))
 }
 
-const IS_FULL: &str = "unsaved edits can't be kept for recovery: it is full";
+const IS_FULL: &str = "unsaved edits cannot be kept for recovery: it is full";
 
 fn fail(app: &mut App, revision: u64) -> Vec<Effect> {
     app.update(Msg::Kept(revision, Err("it is full".to_owned())))

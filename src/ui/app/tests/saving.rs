@@ -202,10 +202,10 @@ fn another_failure_does_not_hide_why_a_save_failed() {
     press(&mut app, "jjjelw");
     let failed = SaveOutcome::Failed("scene.ray: no space left".to_owned());
     app.update(Msg::Saved(SaveId(1), failed));
-    app.update(Msg::Failed("the unsaved edits can't be kept".to_owned()));
+    app.update(Msg::Failed("the unsaved edits cannot be kept".to_owned()));
     assert_eq!(
         words(&app),
-        "scene.ray: no space left; the unsaved edits can't be kept"
+        "scene.ray: no space left; the unsaved edits cannot be kept"
     );
 }
 
