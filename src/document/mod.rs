@@ -1,6 +1,6 @@
 //! The sole owner of a scene's text and tree, its undo history and the text last saved.
 //!
-//! A document knows no files and no scenes; it receives texts and edits.
+//! A document receives texts and edits. It knows no files, and passes lowered scenes on unread.
 
 mod history;
 mod hunks;

@@ -34,7 +34,8 @@ pub enum ImageFormat {
     Hdr,
 }
 
-/// The formats with their file extensions, of which the first is also the format's name.
+/// The formats in the order of their declaration, with their file extensions, of which the first is
+/// also the format's name.
 pub const FORMATS: [(ImageFormat, &[&str]); 8] = [
     (ImageFormat::Bmp, &["bmp"]),
     (ImageFormat::Ppm, &["ppm"]),
@@ -45,6 +46,14 @@ pub const FORMATS: [(ImageFormat, &[&str]); 8] = [
     (ImageFormat::Exr, &["exr"]),
     (ImageFormat::Hdr, &["hdr"]),
 ];
+
+const _: () = {
+    let mut at = 0;
+    while at < FORMATS.len() {
+        assert!(FORMATS[at].0 as usize == at, "the order of declaration");
+        at += 1;
+    }
+};
 
 /// The maximum number of pixels of a picture in any format. Tracing takes about 40 bytes per pixel:
 /// 10 GB at this limit.
@@ -114,16 +123,7 @@ impl ImageFormat {
 
     /// The name in lower case, e.g. `bmp`.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Bmp => "bmp",
-            Self::Ppm => "ppm",
-            Self::Png => "png",
-            Self::Tiff => "tiff",
-            Self::Gif => "gif",
-            Self::Jpeg => "jpeg",
-            Self::Exr => "exr",
-            Self::Hdr => "hdr",
-        }
+        FORMATS[self as usize].1[0]
     }
 }
 

@@ -235,6 +235,6 @@ pub(super) fn what(name: Name, field: &Field, component: &str) -> String {
 fn rounded(value: f64) -> String {
     match format!("{value:.3e}").parse() {
         Ok(rounded) if f64::is_finite(rounded) => concise(rounded),
-        _ => "beyond all numbers".to_owned(),
+        _ => "above 1.8e308".to_owned(),
     }
 }

@@ -1,8 +1,8 @@
 //! The elements of the tables of fields: kinds, ranges, steps and units.
 //!
 //! Each language has one table of the fields of each kind of node, with their order and ranges.
-//! Lowering takes its grammar from it, the editor its names, ranges and steps: there is no second
-//! list of what an object holds. A table knows neither text nor values.
+//! Lowering takes its grammar from it, the editor its names, ranges and steps: no second list of
+//! the fields of an object exists. A table knows neither text nor values.
 
 /// The kind of a field's numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

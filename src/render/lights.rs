@@ -85,7 +85,7 @@ impl Light {
                 intensity: self.colour,
                 scale: self.scale,
             }),
-            _ => None,
+            Emitter::Point { .. } | Emitter::Distant(_) | Emitter::Ambient => None,
         }
     }
 }

@@ -44,7 +44,10 @@ fn a_picture_never_replaces_a_file_that_its_scene_uses() {
     for output in ["skin.ppm", "./skin.ppm", "hard.bmp"] {
         let stderr = place.stderr(&format!("render a.dat --spp 1 -o {output}"), 2);
         let reason = "the scene uses it; name another file";
-        assert_eq!(stderr, format!("error: cannot overwrite {output}: {reason}\n"));
+        assert_eq!(
+            stderr,
+            format!("error: cannot overwrite {output}: {reason}\n")
+        );
         assert_eq!(place.read("skin.ppm"), SKIN.as_bytes());
     }
 }

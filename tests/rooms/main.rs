@@ -1,5 +1,5 @@
-//! The rooms and their dependencies, as described in `src/lib.rs`: an import that is not listed
-//! here is a deliberate design decision, and so is a cycle of files.
+//! The rooms and their dependencies, as described in `src/lib.rs`. Listing another import, or
+//! permitting a cycle of files, is a decision about the design.
 
 mod sources;
 

@@ -163,9 +163,8 @@ impl App {
             self.overlays.fail("no room for a picture");
             return;
         };
-        if self.pictures.cross == (0, 0) {
-            self.pictures.cross = (cells.width / 2, cells.height / 2);
-        }
+        let centre = (cells.width / 2, cells.height / 2);
+        self.pictures.cross.get_or_insert(centre);
         self.mode = Mode::Pick;
         self.move_cross(0, 0);
     }
@@ -174,18 +173,20 @@ impl App {
         let Some((cells, _)) = self.raster() else {
             return;
         };
+        let Some((column, row)) = &mut self.pictures.cross else {
+            return;
+        };
         let moved = |at: u16, by: i32, cells: u16| {
             (i32::from(at) + by).clamp(0, i32::from(cells.max(1)) - 1) as u16
         };
-        self.pictures.cross = (
-            moved(self.pictures.cross.0, right, cells.width),
-            moved(self.pictures.cross.1, down, cells.height),
-        );
+        *column = moved(*column, right, cells.width);
+        *row = moved(*row, down, cells.height);
     }
 
     pub(super) fn pick_cross(&mut self) {
-        let (column, row) = self.pictures.cross;
-        self.pick(u32::from(column), 2 * u32::from(row));
+        if let Some((column, row)) = self.pictures.cross {
+            self.pick(u32::from(column), 2 * u32::from(row));
+        }
     }
 
     /// The node under a pixel of the picture on screen. Fails if it cannot be determined: objects

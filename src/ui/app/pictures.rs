@@ -23,8 +23,9 @@ pub struct Pictures {
     pub aov: Option<Aov>,
     /// Whether the selected object is outlined in SELECT mode.
     pub(super) outline: Outline,
-    /// The cell of the crosshair in [`Mode::Pick`], relative to the picture's upper left corner.
-    pub cross: (u16, u16),
+    /// The cell of the crosshair in [`Mode::Pick`], relative to the picture's upper left corner;
+    /// `None` before the first pick.
+    pub cross: Option<(u16, u16)>,
     /// Bytes sent to the terminal during the last second, while a picture waits for a slow link.
     pub net: Option<usize>,
     /// Whether the pictures must be traced again.
@@ -68,7 +69,7 @@ impl Pictures {
             quality,
             aov: None,
             outline: Outline::default(),
-            cross: (0, 0),
+            cross: None,
             net: None,
             due: false,
             drag: None,

@@ -58,12 +58,14 @@ impl App {
 
     /// Rereads the scene's file and the files that it names, for `:e`.
     pub(super) fn reread(&mut self) -> Vec<Effect> {
-        if self.disk.path.is_none() {
+        let mut effects = if self.disk.path.is_some() {
+            self.disk.answer_user();
+            self.read_again()
+        } else {
             self.overlays
                 .fail("this scene has no file yet: use :w FILE to create one");
-        }
-        self.disk.answer_user();
-        let mut effects = self.read_again();
+            Vec::new()
+        };
         effects.extend(self.assets.read());
         effects
     }

@@ -67,7 +67,9 @@ fn opening(name: &str, bytes: u64) -> String {
 
 /// Marks the cell to pick from and names the object there.
 fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
-    let (column, row) = app.pictures.cross;
+    let Some((column, row)) = app.pictures.cross else {
+        return;
+    };
     let (x, y) = (cells.x.saturating_add(column), cells.y.saturating_add(row));
     if cells.contains((x, y).into())
         && let Some(cell) = buffer.cell_mut((x, y))

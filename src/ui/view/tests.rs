@@ -274,7 +274,7 @@ fn every_screen_can_be_drawn_at_every_size() {
         for mode in MODES {
             let mut app = app();
             app.mode = mode;
-            app.pictures.cross = (3, 300);
+            app.pictures.cross = Some((3, 300));
             change(&mut app);
             for &(width, height) in &sizes {
                 let lines = screen(&mut app, width, height);

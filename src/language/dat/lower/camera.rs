@@ -192,6 +192,6 @@ fn missing(word: &str) -> Diagnostic {
         "resolution" => "the picture shows the whole scene",
         _ => "the picture has 800 × 600 pixels",
     };
-    let message = format!("{word}: there is no such record");
+    let message = format!("no `{word}` record");
     Diagnostic::warning(Span::at(0), message, format!("a `{word}` record")).with_hint(otherwise)
 }

@@ -23,7 +23,7 @@ pub(super) const MISSING: [&str; 3] = ["camera", "resolution", "viewport"];
 fn check_missing(said: &[String], words: &[&str]) {
     let expected: Vec<_> = words
         .iter()
-        .map(|word| format!("1:1 warning: {word}: there is no such record"))
+        .map(|word| format!("1:1 warning: no `{word}` record"))
         .collect();
     assert_eq!(said, expected);
 }
@@ -118,7 +118,7 @@ fn unusable_views_are_reported_at_their_records() {
         let (_, said) = seen(view);
         let said: Vec<_> = said
             .into_iter()
-            .filter(|line| !line.contains("no such record"))
+            .filter(|line| !line.contains("warning: no `"))
             .collect();
         assert!(
             said.len() == 1 && said[0].starts_with(expected),

@@ -24,7 +24,7 @@ impl Reader<'_> {
             let hint = "the default is at the origin and looks along −z";
             self.warn(
                 root,
-                || "camera: there is no such element".to_owned(),
+                || "no `camera` element".to_owned(),
                 "`<camera>` in `<xml>`",
                 hint,
             );
@@ -106,7 +106,7 @@ impl Reader<'_> {
                 .root
                 .map_or_else(Span::default, |root| self.place(root));
             self.report.warning(|| {
-                let message = "scene: there is no such element";
+                let message = "no `scene` element";
                 Diagnostic::warning(root, message, "`<scene>` in `<xml>`")
             });
             return;

@@ -178,11 +178,11 @@ fn the_camera_and_the_root_are_checked() {
         ("<scene/>".to_owned(), "error: the root element is `scene`"),
         (
             "<xml><camera/></xml>".to_owned(),
-            "warning: scene: there is no such element",
+            "warning: no `scene` element",
         ),
         (
             "<xml><scene/></xml>".to_owned(),
-            "warning: camera: there is no such element",
+            "warning: no `camera` element",
         ),
         (of("<camera/><camera/>"), "warning: `camera`: already given"),
         (of("<scene/>"), "warning: `scene`: already given"),

@@ -412,6 +412,19 @@ fn a_scene_without_a_file_asks_for_one() {
 }
 
 #[test]
+fn a_reread_without_a_file_is_not_answered_later() {
+    let mut app = open(SCENE);
+    app.disk.path = None;
+    press(&mut app, ":e<Enter>");
+    assert!(words(&app).contains("has no file yet"), "{}", words(&app));
+    press(&mut app, "<Esc>:w new.ray<Enter>");
+    let text = app.document.shared_text();
+    saved(&mut app, 1, "new.ray", &text);
+    outside(&mut app, SCENE);
+    assert_eq!(words(&app), "wrote new.ray");
+}
+
+#[test]
 fn a_reload_without_unsaved_edits_cannot_be_undone() {
     let mut app = open(SCENE);
     let theirs = SCENE.replace("1.5", "1.7");
@@ -476,7 +489,7 @@ fn a_value_being_typed_survives_a_reload() {
 }
 
 #[test]
-fn a_value_being_typed_is_dropped_with_its_field() {
+fn a_value_being_typed_is_discarded_with_its_field() {
     let mut app = open(SCENE);
     press(&mut app, "Gejjj7");
     let objects = SCENE.find("2\nsphere").expect("a count of objects");
@@ -485,7 +498,7 @@ fn a_value_being_typed_is_dropped_with_its_field() {
     app.update(Msg::Elapsed(Timer::Settled));
     outside(&mut app, &theirs);
     assert!(app.cursor.typing.is_none(), "{:?}", app.cursor.selected());
-    assert!(words(&app).contains("dropped"), "{}", words(&app));
+    assert!(words(&app).contains("discarded"), "{}", words(&app));
 }
 
 #[test]

@@ -97,6 +97,20 @@ fn picking_selects_the_object_under_the_cross() {
 }
 
 #[test]
+fn picking_starts_where_the_last_pick_was() {
+    let mut app = open(SCENE);
+    show_half(&mut app);
+    for cross in [(0, 0), (1, 0)] {
+        press(&mut app, "p");
+        press(&mut app, &"HK".repeat(99));
+        press(&mut app, &"l".repeat(cross.0.into()));
+        press(&mut app, "<Esc>p");
+        assert_eq!(app.pictures.cross, Some(cross));
+        press(&mut app, "<Esc>");
+    }
+}
+
+#[test]
 fn the_first_object_is_selected_at_the_start() {
     assert_eq!(opened(SCENE).0.cursor.selected(), Node::Object(0));
     let mut app = opened(SCENE).0;
@@ -206,7 +220,7 @@ fn picking_works_only_for_the_scene_on_screen() {
     let selected = app.cursor.selected();
     click(&mut app, cells.x, cells.y);
     assert_eq!(app.cursor.selected(), selected);
-    assert!(words(&app).contains("doesn't show the changed scene yet"));
+    assert!(words(&app).contains("does not show the changed scene yet"));
     press(&mut app, "p<Enter>");
     assert_eq!((app.mode, app.cursor.selected()), (Mode::Pick, selected));
 }
