@@ -70,14 +70,17 @@ fn median_centre(count: u32, aabb: impl Fn(u32) -> Aabb) -> (DVec3, f64) {
     let step = count as usize / 1000 + 1;
     let centres = (0..count).step_by(step).map(|index| aabb(index).centre());
     let centres: Vec<DVec3> = centres.filter(|centre| centre.is_finite()).collect();
-    let median = |of: &dyn Fn(&DVec3) -> f64| {
-        let mut values: Vec<f64> = centres.iter().map(of).collect();
-        values.sort_unstable_by(f64::total_cmp);
-        values.get(values.len() / 2).copied().unwrap_or(0.0)
-    };
-    let middle = DVec3::new(median(&|c| c.x), median(&|c| c.y), median(&|c| c.z));
-    let spread = median(&|centre| (centre - middle).abs().max_element());
-    (middle, spread)
+    let [x, y, z] = [0, 1, 2].map(|axis| median(centres.iter().map(|centre| centre[axis])));
+    let middle = DVec3::new(x, y, z);
+    let distance = |centre: &DVec3| (centre - middle).abs().max_element();
+    (middle, median(centres.iter().map(distance)))
+}
+
+/// The upper median; 0 of none.
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_unstable_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// Returns the nonempty boxes with finite planes, and the indices of those without.

@@ -9,7 +9,7 @@ use super::optics::{fresnel, mirror, refract_all, spread};
 use super::probe::{Point, Sample, Seen};
 use super::sampler::{Sampler, Use};
 use super::surfaces::Landing;
-use super::wave::{Wave, Way};
+use super::wave::{RayState, Wave};
 use crate::geometry::lanes::{Eight, Row, Simd, WIDTH, bits};
 use crate::geometry::{Packet, Ray, Rays};
 use crate::scene::{Material, Reflectance, Rgb};
@@ -50,14 +50,14 @@ impl Wave<'_> {
         let packet = &self.rays[packet];
         let last = self.arrived.len().min(first + WIDTH);
         let all = &self.arrived[first..last];
-        let ways = &self.ways[first..last];
+        let states = &self.states[first..last];
         let mut specular = None;
-        for (lane, (arrived, way)) in all.iter().zip(ways).enumerate() {
+        for (lane, (arrived, state)) in all.iter().zip(states).enumerate() {
             let Some(material) = arrived.found.material(&self.mapped) else {
                 continue;
             };
-            seen[way.tree].radiance += arrived.weight * arrived.radiance;
-            if way.bounce == depth {
+            seen[state.tree].radiance += arrived.weight * arrived.radiance;
+            if state.bounce == depth {
                 continue;
             }
             let mirrored = material.mirrored(landing.is_front(lane));
@@ -72,14 +72,14 @@ impl Wave<'_> {
                 Some(specular) => specular,
                 None => &*specular.insert(Specular::new(simd, packet, landing, found())),
             };
-            let pending = &mut self.trees[way.tree].pending;
+            let pending = &mut self.trees[state.tree].pending;
             let push = |branch: Branch| {
                 if branch.weight != Rgb::ZERO {
-                    pending.push((branch.ray, branch.way(way, arrived.weight)));
+                    pending.push((branch.ray, branch.state(state, arrived.weight)));
                 }
             };
-            let sampler = samples[way.tree].sampler;
-            let numbers = |purpose| sampler.pair(way.node, purpose);
+            let sampler = samples[state.tree].sampler;
+            let numbers = |purpose| sampler.pair(state.node, purpose);
             specular.branch((packet, landing), lane, material, numbers, push);
         }
     }
@@ -203,8 +203,8 @@ impl Branch {
     /// Returns the state of its ray, given the state `from` of the incoming ray and the `weight` of
     /// the point's radiance in the pixel.
     #[inline(always)]
-    fn way(&self, from: &Way, weight: Rgb) -> Way {
-        Way {
+    fn state(&self, from: &RayState, weight: Rgb) -> RayState {
+        RayState {
             tree: from.tree,
             weight: weight * self.weight,
             absorption: self.absorption,

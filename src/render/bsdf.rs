@@ -53,9 +53,9 @@ impl<'m> Bsdf<'m> {
             && is_lit
             && Microfacets::is_perfect(roughness * roughness)
         {
-            let straight = material.facets_reflectance(metallic);
+            let f0 = material.facets_reflectance(metallic);
             let cosine = point.normal.dot(point.view);
-            mirror += straight + (Rgb::ONE - straight) * schlick(cosine);
+            mirror += f0 + (Rgb::ONE - f0) * schlick(cosine);
         }
         let total = of_lobes + strength(mirror) + strength(material.dielectric.tint);
         let chance = |strength: f64| if total == 0.0 { 0.0 } else { strength / total };
@@ -76,10 +76,10 @@ impl<'m> Bsdf<'m> {
         sampler: Sampler,
         bounce: u32,
     ) -> Option<BsdfSample> {
-        let [way, u, v, _] = sampler.four(bounce, Use::Bounce);
-        let way = self.in_order(way);
-        if way < self.lobes_chance {
-            let direction = self.lobes.choose(point, way / self.lobes_chance, [u, v]);
+        let [choice, u, v, _] = sampler.four(bounce, Use::Bounce);
+        let choice = self.in_order(choice);
+        if choice < self.lobes_chance {
+            let direction = self.lobes.choose(point, choice / self.lobes_chance, [u, v]);
             let scattered = self.lobes.scatter(point, direction);
             let density = self.lobes_chance * scattered.density;
             let leads_on = scattered.value != Rgb::ZERO && 0.0 < density;
@@ -104,8 +104,8 @@ impl<'m> Bsdf<'m> {
         };
         let losses = self.material.losses(point.front);
         let mirrored = reflect(ray.direction, point.normal);
-        let way = way - self.lobes_chance;
-        if way < self.mirror_chance {
+        let choice = choice - self.lobes_chance;
+        if choice < self.mirror_chance {
             let tangent = self.material.mirror.spread;
             let direction = spread(mirrored, tangent, point.normal, numbers);
             return specular(direction, self.mirror / self.mirror_chance, losses.mirrored);
@@ -116,14 +116,14 @@ impl<'m> Bsdf<'m> {
             return None;
         }
         let weight = dielectric.tint / chance;
-        let way = (way - self.mirror_chance) / chance;
+        let choice = (choice - self.mirror_chance) / chance;
         let tangent = dielectric.spread;
         let indices = self.material.indices(point.front);
         let Refraction {
             reflectance,
             refracted,
         } = Refraction::new(ray.direction, point.normal, indices, dielectric.reflectance);
-        if let Some(refracted) = refracted.filter(|_| reflectance <= way) {
+        if let Some(refracted) = refracted.filter(|_| reflectance <= choice) {
             let direction = spread(refracted, tangent, -point.normal, numbers);
             return specular(direction, weight, losses.refracted);
         }
@@ -133,11 +133,11 @@ impl<'m> Bsdf<'m> {
 
     /// Rotates the number that chooses a component, so that their order is lobes, mirror, boundary;
     /// for a highlight that is not a lobe, the lobes come last.
-    fn in_order(&self, way: f64) -> f64 {
+    fn in_order(&self, choice: f64) -> f64 {
         let Highlight::Phong(_) = self.material.highlight else {
-            return way;
+            return choice;
         };
-        let turned = way + self.lobes_chance;
+        let turned = choice + self.lobes_chance;
         if turned < 1.0 { turned } else { turned - 1.0 }
     }
 }

@@ -41,7 +41,7 @@ impl Projection {
     /// Prepares a camera for `raster` pixels. The aspect ratio is the camera's own, so that a
     /// preview of only approximately that ratio shows the same framing.
     pub(crate) fn new(camera: &Camera, raster: Size) -> Self {
-        let forward = direction(way(camera.eye, camera.target));
+        let forward = direction(offset(camera.eye, camera.target));
         let right = direction(forward.cross(upright(forward, direction(camera.up))));
         let (bundle, half_height) = match camera.lens {
             Lens::Perspective(angle) => {
@@ -164,7 +164,7 @@ fn upright(forward: DVec3, up: DVec3) -> DVec3 {
 }
 
 /// The vector between two points, halved if it would overflow `f64`.
-fn way(from: DVec3, to: DVec3) -> DVec3 {
+fn offset(from: DVec3, to: DVec3) -> DVec3 {
     let whole = to - from;
     if whole.is_finite() {
         whole

@@ -95,14 +95,14 @@ pub(crate) fn shadow<N: Lanes>(
             ends: toward.x.all(f64::INFINITY),
         });
     };
-    let way = source - origin;
-    let distance = way.length();
+    let offset = source - origin;
+    let distance = offset.length();
     // The surface that contains the light must not block it: the ray ends before that surface by
     // more than its rounding error.
     let reach = origin.abs().larger(source.abs()).largest();
     let rays = Rays {
         origin,
-        direction: way.over(distance),
+        direction: offset.over(distance),
     };
     let ends = distance - distance.all(32.0) * reach.larger(distance).ulp();
     Some(Shadow { rays, ends })

@@ -165,12 +165,12 @@ impl SphereLight {
 
     /// The distance at which a ray hits the sphere; `None` if it misses or starts inside.
     pub(crate) fn hit(&self, ray: &Ray) -> Option<f64> {
-        let way = self.centre - ray.origin;
-        let along = way.dot(ray.direction);
-        let aside = (way - along * ray.direction).length_squared();
+        let offset = self.centre - ray.origin;
+        let along = offset.dot(ray.direction);
+        let aside = (offset - along * ray.direction).length_squared();
         let square = self.radius * self.radius;
         let half = square - aside;
-        let is_outside = square < way.length_squared();
+        let is_outside = square < offset.length_squared();
         (is_outside && 0.0 < along && 0.0 <= half).then(|| along - half.sqrt())
     }
 

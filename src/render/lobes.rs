@@ -68,14 +68,14 @@ impl Lobes {
                 roughness,
                 metallic,
             } => {
-                let straight = material.facets_reflectance(metallic);
+                let f0 = material.facets_reflectance(metallic);
                 let alpha = roughness * roughness;
                 if Microfacets::is_perfect(alpha) {
                     (Glossy::None, 0.0)
                 } else {
                     // At grazing incidence everything is reflected.
-                    let gloss = strength(straight).max(0.25);
-                    (Glossy::Microfacets(straight, alpha), gloss)
+                    let gloss = strength(f0).max(0.25);
+                    (Glossy::Microfacets(f0, alpha), gloss)
                 }
             }
         };
@@ -152,10 +152,10 @@ impl Lobes {
                 let density = (exponent + 1.0) / TAU * raised;
                 (specular * density, density)
             }
-            Glossy::Microfacets(straight, alpha) => {
+            Glossy::Microfacets(f0, alpha) => {
                 let facets = Microfacets::new(point.normal, alpha);
                 let halfway = (toward + view).normalize();
-                let colour = straight + (Rgb::ONE - straight) * schlick(view.dot(halfway));
+                let colour = f0 + (Rgb::ONE - f0) * schlick(view.dot(halfway));
                 let (value, density) = facets.scatter(view, toward, halfway);
                 (colour * value, density)
             }

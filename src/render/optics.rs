@@ -76,8 +76,8 @@ pub(crate) fn fresnel(first: f64, incident: f64, second: f64, refracted: f64) ->
     } else {
         return 0.0;
     };
-    let straight = normal_reflectance(first, second);
-    straight + (1.0 - straight) * schlick(cosine)
+    let f0 = normal_reflectance(first, second);
+    f0 + (1.0 - f0) * schlick(cosine)
 }
 
 /// Light at the boundary of a transparent solid.

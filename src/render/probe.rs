@@ -144,8 +144,8 @@ impl World {
     ) -> (Point, &'m Material) {
         let shape = &self.scene.objects[nearest.object as usize].shape;
         let surface = shape.surface(ray, nearest.hit);
-        let (material, raised) = self.material(nearest, || (*ray, surface.shading));
-        let normal = raised.unwrap_or(surface.shading);
+        let (material, bumped) = self.material(nearest, || (*ray, surface.shading));
+        let normal = bumped.unwrap_or(surface.shading);
         // Bumps do not affect which side is seen.
         let front = ray.direction.dot(surface.normal) < 0.0;
         let point = Point {
@@ -177,8 +177,8 @@ impl World {
         let (ray, normal) = coming();
         let chart = object.shape.chart(&ray, nearest.hit);
         let applied = self.textures.applied(maps, material, chart.uv);
-        let raised = maps.bump;
-        let raised = raised.map(|bump| self.textures.raised(bump, &chart, normal));
-        (Cow::Owned(applied), raised)
+        let bumped = maps.bump;
+        let bumped = bumped.map(|bump| self.textures.bumped(bump, &chart, normal));
+        (Cow::Owned(applied), bumped)
     }
 }

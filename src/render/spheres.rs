@@ -57,7 +57,7 @@ impl Spheres {
         // The padding is as long as a run.
         let run: &[[f64; 4]; RUN] = self.0[places.start..]
             .first_chunk()
-            .expect("so many places");
+            .expect("the padding holds a full run");
         let radius = row(simd, run, 3);
         let all = (1 << places.len()) - 1;
         let spheres = bits::<S>(radius.equals(radius)) & all;

@@ -125,7 +125,7 @@ impl Textures {
     }
 
     /// Perturbs an outward unit normal by a bump map.
-    pub(crate) fn raised(&self, bump: Bump, chart: &Chart, normal: DVec3) -> DVec3 {
+    pub(crate) fn bumped(&self, bump: Bump, chart: &Chart, normal: DVec3) -> DVec3 {
         let slope = bump.height * self.slope(bump.texture, chart);
         let tangential = slope - slope.dot(normal) * normal;
         (normal - tangential).normalize()

@@ -9,7 +9,7 @@ use crate::scene::{Material, Rgb};
 
 /// The state of a ray apart from its geometry.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Way {
+pub(super) struct RayState {
     /// Index of its sample.
     pub(super) tree: usize,
     /// Weight of its radiance in the pixel.
@@ -25,7 +25,7 @@ pub(super) struct Way {
 #[derive(Debug, Default)]
 pub(super) struct Tree {
     /// Rays yet to be traced, last in first out.
-    pub(super) pending: Vec<(Ray, Way)>,
+    pub(super) pending: Vec<(Ray, RayState)>,
     traced: u32,
 }
 
@@ -73,7 +73,7 @@ pub(crate) struct Wave<'w> {
     growing: Vec<usize>,
     /// The rays of the front and their states.
     pub(super) rays: Packets,
-    pub(super) ways: Vec<Way>,
+    pub(super) states: Vec<RayState>,
     /// Nearest hits of the front.
     pub(super) nearest: Vec<Option<Nearest>>,
     /// Surface points of the front.
@@ -98,7 +98,7 @@ impl Wave<'_> {
         self.growing.clear();
         self.growing.extend(0..samples.len());
         for (number, (tree, sample)) in self.trees.iter_mut().zip(samples).enumerate() {
-            let way = Way {
+            let state = RayState {
                 tree: number,
                 weight: Rgb::ONE,
                 absorption: Rgb::ZERO,
@@ -107,24 +107,24 @@ impl Wave<'_> {
             };
             tree.traced = 0;
             tree.pending.clear();
-            tree.pending.push((sample.ray, way));
+            tree.pending.push((sample.ray, state));
         }
     }
 
     /// Moves the next ray of each tree to the front; returns whether there are any.
     pub(super) fn advance(&mut self, samples: &[Sample], counts: &mut Counts) -> bool {
         self.rays.clear();
-        self.ways.clear();
+        self.states.clear();
         let Self {
             trees,
             growing,
             rays,
-            ways,
+            states,
             ..
         } = self;
         growing.retain(|&number| {
             let tree = &mut trees[number];
-            let Some((ray, way)) = tree.pending.pop() else {
+            let Some((ray, state)) = tree.pending.pop() else {
                 return false;
             };
             if tree.traced == RAY_BUDGET {
@@ -132,15 +132,15 @@ impl Wave<'_> {
                 return false;
             }
             tree.traced += 1;
-            let end = match way.bounce {
+            let end = match state.bounce {
                 0 => samples[number].reach,
                 _ => f64::INFINITY,
             };
             rays.push(&ray, end);
-            ways.push(way);
+            states.push(state);
             true
         });
-        counts.rays += ways.len() as u64;
-        !ways.is_empty()
+        counts.rays += states.len() as u64;
+        !states.is_empty()
     }
 }

@@ -16,7 +16,7 @@ use super::optics::transmitted;
 use super::probe::{Probe, Sample, Seen};
 use super::sampler::Use;
 use super::touched::Touched;
-use super::wave::{Arrived, Found, Wave, Way};
+use super::wave::{Arrived, Found, RayState, Wave};
 use super::world::World;
 use crate::geometry::lanes::{Simd, WIDTH, bits, dispatch};
 use crate::scene::{Light, Rgb};
@@ -84,7 +84,7 @@ impl<'w, C: Fn() -> bool> Probe<'w, C> {
             }
             // Empty unless dependencies are recorded.
             for ((&(ray, _), &transmittance), &touched) in asking.zip(&self.crossed.touched) {
-                let seen = &mut seen[wave.ways[ray].tree];
+                let seen = &mut seen[wave.states[ray].tree];
                 seen.touched |= touched;
                 if transmittance != 0.0 {
                     seen.touched |= Touched::light(number);
@@ -99,17 +99,17 @@ impl<'w> Wave<'w> {
     fn arrive(&mut self, world: &'w World, samples: &[Sample], seen: &mut [Seen]) {
         self.arrived.clear();
         self.mapped.clear();
-        for (number, (nearest, way)) in self.nearest.iter().zip(&self.ways).enumerate() {
-            let seen = &mut seen[way.tree];
+        for (number, (nearest, state)) in self.nearest.iter().zip(&self.states).enumerate() {
+            let seen = &mut seen[state.tree];
             let (packet, lane) = (&self.rays[number / WIDTH], number % WIDTH);
             let landing = &mut self.landings[number / WIDTH];
             let mut arrived = Arrived {
                 found: Found::Nothing,
-                weight: way.weight,
+                weight: state.weight,
                 radiance: Rgb::ZERO,
             };
             if let Some(nearest) = *nearest {
-                if way.bounce == 0 {
+                if state.bounce == 0 {
                     seen.object = nearest.object;
                 }
                 seen.touched |= Touched::object(nearest.object);
@@ -121,11 +121,11 @@ impl<'w> Wave<'w> {
                     }
                 };
                 let coming = || (packet.ray(lane), turned(landing.normal.get(lane)));
-                let (material, raised) = world.material(nearest, coming);
-                if let Some(normal) = raised {
+                let (material, bumped) = world.material(nearest, coming);
+                if let Some(normal) = bumped {
                     landing.normal.set(lane, turned(normal));
                 }
-                arrived.weight = way.through(nearest);
+                arrived.weight = state.through(nearest);
                 if material.is_lit(landing.is_front(lane)) {
                     arrived.radiance = material.glow(world.ambient);
                 }
@@ -137,9 +137,9 @@ impl<'w> Wave<'w> {
                     }
                 };
             } else {
-                let screen = samples[way.tree].screen;
-                let around = world.around(&packet.ray(lane), way.bounce, screen);
-                seen.radiance += way.weight * around;
+                let screen = samples[state.tree].screen;
+                let around = world.around(&packet.ray(lane), state.bounce, screen);
+                seen.radiance += state.weight * around;
             }
             self.arrived.push(arrived);
         }
@@ -169,12 +169,12 @@ impl<'w> Wave<'w> {
         let last = self.arrived.len().min(first + WIDTH);
         let arrived = &mut self.arrived[first..last];
         if let Some(sphere) = light.sphere() {
-            for (lane, (arrived, way)) in arrived.iter().zip(&self.ways[first..]).enumerate() {
+            for (lane, (arrived, state)) in arrived.iter().zip(&self.states[first..]).enumerate() {
                 if let Found::Nothing = arrived.found {
                     continue;
                 }
-                let sampler = samples[way.tree].sampler;
-                let place = sampler.pair(way.node, Use::Light(number as u32));
+                let sampler = samples[state.tree].sampler;
+                let place = sampler.pair(state.node, Use::Light(number as u32));
                 let point = landing.surface.point.get(lane);
                 // Without random numbers the centre is sampled.
                 if let Some(chosen) = place.and_then(|place| sphere.choose(point, place)) {
@@ -205,7 +205,7 @@ impl<'w> Wave<'w> {
             };
             match &facing.shadow {
                 None => {
-                    seen[self.ways[first + lane].tree].touched |= Touched::light(number);
+                    seen[self.states[first + lane].tree].touched |= Touched::light(number);
                     arrived.radiance += unblocked;
                 }
                 Some(Shadow { rays, ends }) => {
@@ -217,7 +217,7 @@ impl<'w> Wave<'w> {
     }
 }
 
-impl Way {
+impl RayState {
     /// Weight of the radiance at a hit in the pixel.
     fn through(&self, nearest: Nearest) -> Rgb {
         self.weight * transmitted(self.absorption, nearest.hit.t)

@@ -45,13 +45,13 @@ fn cases() -> Vec<Case> {
         case(
             "objects.ray",
             format!("{HEAD}100000000"),
-            "nObjects: is `100000000`, but the text ends before any object",
+            "nObjects is `100000000`, but the text ends before any object",
             0,
         ),
         case(
             "lights.ray",
             "0 0 0 100000000".to_owned(),
-            "nLights: is `100000000`, but the text has 0 lights",
+            "nLights is `100000000`, but the text has 0 lights",
             0,
         ),
         case(
@@ -194,7 +194,7 @@ fn cases() -> Vec<Case> {
         case(
             "spheres.ray",
             format!("{HEAD}1 {}", many(SPHERE, LONG)),
-            "nObjects: is `1`, but more objects follow",
+            "nObjects is `1`, but more objects follow",
             16 * MB,
         ),
     ]

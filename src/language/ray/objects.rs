@@ -76,7 +76,7 @@ impl<'a> Reader<'a> {
     fn miscounted(&mut self, count: Count, truth: &str) {
         let found = self.places.len();
         let declared = quoted(count.token.of(self.text));
-        let message = format!("nObjects: is {declared}, but {truth}");
+        let message = format!("nObjects is {declared}, but {truth}");
         self.report.error(|| {
             let hint = match found {
                 _ if self.is_beginning => "it counts the objects".to_owned(),
@@ -223,7 +223,7 @@ impl<'a> Reader<'a> {
         let space = if component.is_empty() { "" } else { " " };
         self.report.error(|| {
             let message = format!(
-                "nObjects: is {declared}, but the text ends in {}, where {}{space}{component} is expected",
+                "nObjects is {declared}, but the text ends in {}, where {}{space}{component} is expected",
                 record.name, field.key
             );
             Diagnostic::error(count.token, message, "as many as there are objects")

@@ -204,7 +204,7 @@ impl<'a> Reader<'a> {
         let declared = quoted(count.token.of(self.text));
         let follow = format!("{}{rest}", counted(whole, "light"));
         self.report.error(|| {
-            let message = format!("nLights: is {declared}, but the text has {follow} {place}");
+            let message = format!("nLights is {declared}, but the text has {follow} {place}");
             let expected = "as many as there are lights";
             Diagnostic::error(count.token, message, expected).with_hint(format!(
                 "a light takes {each} numbers: position x y z, colour red green blue"

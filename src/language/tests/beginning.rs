@@ -113,7 +113,7 @@ fn hopeless_beginnings_are_errors() {
         (
             Ray,
             &spheres,
-            Some("nObjects: is `1`, but more objects follow"),
+            Some("nObjects is `1`, but more objects follow"),
         ),
         (Ray, "0 0 0 1 0 0 0 1 1 1 3 sphere 0 0 0 1 0 0 0 1", None),
         (Ray, "0 0 0 100 0 0 0 1 1 1 0 0", None),

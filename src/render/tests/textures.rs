@@ -236,7 +236,7 @@ fn bumps_tilt_normals_like_a_displaced_surface() {
             texture: 0,
             height: amount,
         };
-        let normal = textures.raised(bump, &chart, surface.normal);
+        let normal = textures.bumped(bump, &chart, surface.normal);
         let place = DVec2::from_array(repeat) * chart.uv;
         let grows = DVec2::new(
             bright(place.x + half.x, place.y) - bright(place.x - half.x, place.y),
@@ -285,7 +285,7 @@ fn a_constant_gradient_is_a_constant_tilt() {
             texture: 0,
             height: amount,
         };
-        let normal = textures.raised(bump, &shape.chart(&down, hit), DVec3::Z);
+        let normal = textures.bumped(bump, &shape.chart(&down, hit), DVec3::Z);
         let slope = amount * 0.5 * 256.0 / 255.0;
         let expected = DVec3::new(-slope, 0.0, 1.0).normalize();
         assert!((normal - expected).length() < 1e-12, "{normal} {expected}");
@@ -344,7 +344,7 @@ fn bumps_do_not_flip_a_surface() {
         texture: 0,
         height: 1e6,
     };
-    let normal = textures.raised(bump, &shape.chart(&down, hit), DVec3::Z);
+    let normal = textures.bumped(bump, &shape.chart(&down, hit), DVec3::Z);
     assert_eq!(normal, DVec3::Z);
 }
 

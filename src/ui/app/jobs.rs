@@ -25,7 +25,7 @@ pub struct Jobs {
     /// The running export; there is at most one.
     pub export: Option<Export>,
     /// The ID of the latest export.
-    last: ExportId,
+    last_export: ExportId,
     /// The versions of the pictures written so far, by path. They may be overwritten as long as
     /// they are unchanged.
     written: HashMap<PathBuf, Version>,
@@ -203,8 +203,8 @@ impl Jobs {
 
     /// Returns the ID of a new export.
     pub(super) fn next_export(&mut self) -> ExportId {
-        self.last.0 += 1;
-        self.last
+        self.last_export.0 += 1;
+        self.last_export
     }
 
     /// Records that a picture was written.

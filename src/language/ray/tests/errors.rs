@@ -169,14 +169,14 @@ fn unknown_types_are_skipped() {
 #[test]
 fn the_declared_number_of_objects_must_match() {
     for case in [
-        "HEAD\n1 //~ 1 error: nObjects: is `1`, but 1 more object follows\nsphere 0 0 0 1 MAT sphere 0 0 0 1 MAT",
-        "HEAD\n1 //~ 1 error: nObjects: is `1`, but 2 more objects follow\nsphere 0 0 0 1 MAT sphere 0 0 0 1 MAT cone 0 0 0 AXES 1 1 1 MAT",
+        "HEAD\n1 //~ 1 error: nObjects is `1`, but 1 more object follows\nsphere 0 0 0 1 MAT sphere 0 0 0 1 MAT",
+        "HEAD\n1 //~ 1 error: nObjects is `1`, but 2 more objects follow\nsphere 0 0 0 1 MAT sphere 0 0 0 1 MAT cone 0 0 0 AXES 1 1 1 MAT",
         "HEAD 1 sphere 0 0 0 1 MAT\n7 8 //~ 1 warning: ignored 2 tokens after the last object",
         "HEAD 1 sphere 0 0 0 1 MAT\nthe end //~ 1 warning: ignored 2 tokens after the last object",
-        "HEAD\n3 //~ 1 error: nObjects: is `3`, but the text ends after object 1 (sphere)\nsphere 0 0 0 1 MAT",
-        "HEAD\n2 //~ 1 error: nObjects: is `2`, but the text ends in object 2 (box), where length is expected\nsphere 0 0 0 1 MAT box 0 0 0 AXES",
-        "HEAD\n1 //~ 1 error: nObjects: is `1`, but the text ends in object 1 (sphere), where centre y is expected\nsphere 0",
-        "HEAD\n1 //~ 1 error: nObjects: is `1`, but the text ends before any object",
+        "HEAD\n3 //~ 1 error: nObjects is `3`, but the text ends after object 1 (sphere)\nsphere 0 0 0 1 MAT",
+        "HEAD\n2 //~ 1 error: nObjects is `2`, but the text ends in object 2 (box), where length is expected\nsphere 0 0 0 1 MAT box 0 0 0 AXES",
+        "HEAD\n1 //~ 1 error: nObjects is `1`, but the text ends in object 1 (sphere), where centre y is expected\nsphere 0",
+        "HEAD\n1 //~ 1 error: nObjects is `1`, but the text ends before any object",
         "HEAD\n0 //~ 1 error: nObjects: must be a whole number, 1 or more, not `0`\nsphere 0 0 0 1 MAT",
         "HEAD\n1.5 //~ 1 error: nObjects: must be a whole number, 1 or more, not `1.5`\nsphere 0 0 0 1 MAT",
         "HEAD\n1.0 //~ 1 error: nObjects: must be a whole number, 1 or more, not `1.0`\nsphere 0 0 0 1 MAT",
@@ -185,7 +185,7 @@ fn the_declared_number_of_objects_must_match() {
         "// view: size 80 6e1 //~ 18 warning: view size height: must be a whole number, 1 or more\nHEAD 1 sphere 0 0 0 1 MAT",
         "HEAD\n-1 //~ 1 error: nObjects: must be\nsphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius: must be\nMAT",
         "HEAD\nmany //~ 1 error: nObjects: `many` is not a number\nsphere 0 0 0 1 MAT",
-        "HEAD\n99999999999999999999999 //~ 1 error: nObjects: is `99999999999999999999999`, but the text ends after\nsphere 0 0 0 1 MAT",
+        "HEAD\n99999999999999999999999 //~ 1 error: nObjects is `99999999999999999999999`, but the text ends after\nsphere 0 0 0 1 MAT",
         "HEAD\nsphere //~ 1 error: nObjects: missing before `sphere`\n0 0 0 1 MAT",
         "HEAD //~ 23 error: nObjects: missing, the text ends here",
         // With an unreadable number of objects, an incomplete last object is still reported.
@@ -199,18 +199,18 @@ fn the_declared_number_of_objects_must_match() {
 fn the_declared_number_of_lights_must_match() {
     for case in [
         // Too many lights declared: an object begins where a light's number is expected.
-        "1 1 1\n2 //~ 1 error: nLights: is `2`, but the text has 1 light before `sphere`\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
-        "1 1 1\n2 //~ 1 error: nLights: is `2`, but the text has 1 light and 3 numbers before `sphere`\n0 5 5 1 1 1 0 0 1 sphere 0 0 0 1 MAT",
-        "1 1 1\n1 //~ 1 error: nLights: is `1`, but the text has 0 lights before `sphere`\n1 sphere 0 0 0 1 MAT",
+        "1 1 1\n2 //~ 1 error: nLights is `2`, but the text has 1 light before `sphere`\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
+        "1 1 1\n2 //~ 1 error: nLights is `2`, but the text has 1 light and 3 numbers before `sphere`\n0 5 5 1 1 1 0 0 1 sphere 0 0 0 1 MAT",
+        "1 1 1\n1 //~ 1 error: nLights is `1`, but the text has 0 lights before `sphere`\n1 sphere 0 0 0 1 MAT",
         // Too few lights declared.
-        "1 1 1\n1 //~ 1 error: nLights: is `1`, but the text has 2 lights before `sphere`\n0 5 5 1 1 1  3 5 5 1 1 1  1 sphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius\nMAT",
-        "1 1 1\n2 //~ 1 error: nLights: is `2`, but the text has 1 light and 2 numbers before the text ends\n0 5 5 1 1 1 1 2",
+        "1 1 1\n1 //~ 1 error: nLights is `1`, but the text has 2 lights before `sphere`\n0 5 5 1 1 1  3 5 5 1 1 1  1 sphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius\nMAT",
+        "1 1 1\n2 //~ 1 error: nLights is `2`, but the text has 1 light and 2 numbers before the text ends\n0 5 5 1 1 1 1 2",
         "1 1 1\n0 //~ 1 error: nLights: must be a whole number, 1 or more, not `0`\n0 5 5 1 1 1 1 sphere 0 0 0\n0 //~ 1 error: object 1 (sphere) radius\nMAT",
         "1 1 1\nabc //~ 1 error: nLights: `abc` is not a number\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
         "1 1 1\n2.5 //~ 1 error: nLights: must be\n0 5 5 1 1 1 0 5 sphere 0 0 0 1 MAT",
         "1 1 1\nsphere //~ 1 error: nLights: missing before `sphere`\n0 0 0 1 MAT",
         "1 1 1 //~ 6 error: nLights: missing, the text ends here",
-        "1 1 1\n99999999999999999999 //~ 1 error: nLights: is `99999999999999999999`, but the text has 1 light before `sphere`\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
+        "1 1 1\n99999999999999999999 //~ 1 error: nLights is `99999999999999999999`, but the text has 1 light before `sphere`\n0 5 5 1 1 1 1 sphere 0 0 0 1 MAT",
     ] {
         check(case);
     }
