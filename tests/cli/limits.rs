@@ -93,7 +93,7 @@ fn a_picture_that_does_not_fit_in_memory_is_an_error() {
     let output = in_shell(&place, "ulimit -v 2000000", line);
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{stderr}");
-    let expected = "error: 16384x16384: tracing it takes ";
+    let expected = "error: cannot trace 16384x16384: not enough memory for the ";
     assert!(stderr.starts_with(expected), "{stderr}");
     assert_eq!(stderr.lines().count(), 1, "{stderr}");
     assert_eq!(place.names(), ["ball.ray"]);
