@@ -113,7 +113,7 @@ impl ColourDepth {
 /// The sixteen colours: the mean light of xterm's, the Linux console's, the Tango palette's and
 /// Windows' original ones. Pictures made for the mean are closer than chafa's in each of these
 /// themes; those made for xterm's alone are not.
-pub(in crate::ui) const THEME: [[u8; 3]; 16] = [
+pub(crate) const THEME: [[u8; 3]; 16] = [
     [0, 0, 0],
     [180, 0, 0],
     [38, 167, 2],

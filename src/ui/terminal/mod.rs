@@ -27,7 +27,7 @@ pub(crate) mod tmux;
 mod tty;
 
 pub use backend::AnsiBackend;
-pub(in crate::ui) use colour::THEME;
+pub(crate) use colour::THEME;
 pub use colour::{Choice, ColourDepth};
 #[cfg(unix)]
 pub use decode::Decoder;
