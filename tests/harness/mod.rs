@@ -236,7 +236,12 @@ impl Session {
             poll(&mut [PollFd::new(&line, PollFlags::OUT)], at_once) != Ok(0)
         };
         while has_room() {
-            assert!(Instant::now() < deadline, "the buffer is never full");
+            let is_late = deadline <= Instant::now();
+            assert!(
+                !is_late,
+                "the buffer is never full; ended: {:?}",
+                self.ended()
+            );
             self.send(CTRL_L);
             std::thread::sleep(POLL);
         }
