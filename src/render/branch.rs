@@ -60,7 +60,7 @@ impl Wave<'_> {
             if state.bounce == depth {
                 continue;
             }
-            let mirrored = material.mirrored(landing.is_front(lane));
+            let mirrored = material.mirrored(landing.side(lane));
             if mirrored == Rgb::ZERO && material.dielectric.tint == Rgb::ZERO {
                 continue;
             }
@@ -96,7 +96,7 @@ impl<S: Simd> Specular<S> {
         let mut ratios = Row::all(1.0);
         for (lane, material) in materials.enumerate() {
             if let Some(material) = material {
-                let [from, to] = material.indices(landing.is_front(lane));
+                let [from, to] = material.indices(landing.side(lane));
                 ratios.0[lane] = from / to;
             }
         }
@@ -128,11 +128,11 @@ impl<S: Simd> Specular<S> {
         numbers: impl Fn(Use) -> Option<[f64; 2]>,
         mut push: impl FnMut(Branch),
     ) {
-        let front = landing.is_front(lane);
+        let side = landing.side(lane);
         let point = || landing.point(packet, lane);
         let dielectric = &material.dielectric;
-        let losses = material.losses(front);
-        let mut by_mirror = material.mirrored(front);
+        let losses = material.losses(side);
+        let mut by_mirror = material.mirrored(side);
         let mut by_boundary = Rgb::ZERO;
         if dielectric.tint != Rgb::ZERO {
             let passes = self.passes >> lane & 1 == 1;
@@ -142,7 +142,7 @@ impl<S: Simd> Specular<S> {
                 (Some(_), Reflectance::TotalOnly) => 0.0,
                 (Some(ray), Reflectance::Schlick) => {
                     let point = point();
-                    let [from, to] = material.indices(front);
+                    let [from, to] = material.indices(side);
                     let incident = point.view.dot(point.normal);
                     fresnel(from, incident, to, -ray.direction.dot(point.normal))
                 }

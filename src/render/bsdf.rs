@@ -42,10 +42,10 @@ pub(crate) struct BsdfSample {
 impl<'m> Bsdf<'m> {
     #[inline(always)]
     pub(crate) fn at(point: &Point, material: &'m Material) -> Self {
-        let is_lit = material.is_lit(point.front);
+        let is_lit = material.is_lit(point.side);
         let (lobes, of_lobes) = Lobes::of(point, material);
         let of_lobes = if is_lit { of_lobes } else { 0.0 };
-        let mut mirror = material.mirror_tint(point.front);
+        let mut mirror = material.mirror_tint(point.side);
         if let Highlight::Microfacet {
             roughness,
             metallic,
@@ -102,7 +102,7 @@ impl<'m> Bsdf<'m> {
                 chosen: None,
             })
         };
-        let losses = self.material.losses(point.front);
+        let losses = self.material.losses(point.side);
         let mirrored = reflect(ray.direction, point.normal);
         let choice = choice - self.lobes_chance;
         if choice < self.mirror_chance {
@@ -118,7 +118,7 @@ impl<'m> Bsdf<'m> {
         let weight = dielectric.tint / chance;
         let choice = (choice - self.mirror_chance) / chance;
         let tangent = dielectric.spread;
-        let indices = self.material.indices(point.front);
+        let indices = self.material.indices(point.side);
         let Refraction {
             reflectance,
             refracted,

@@ -96,7 +96,7 @@ impl<C: Fn() -> bool> Probe<'_, C> {
         let mut mapped = None;
         let (point, material) = world.arrive(&path.ray, nearest, &mut mapped);
         let bsdf = Bsdf::at(&point, material);
-        if material.is_lit(point.front) {
+        if material.is_lit(point.side) {
             let light = self.light_of_all(&point, &bsdf, path.bounce, sample.sampler);
             seen.radiance += path.throughput * (material.emission + light);
         }

@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 use super::frame::NO_OBJECT;
 use super::intersect::{Crossed, Nearest};
 use super::sampler::Sampler;
+use super::shading::Side;
 use super::touched::Touched;
 use super::world::World;
 use crate::geometry::{Ray, Surface};
@@ -103,8 +104,7 @@ pub(crate) struct Point {
     pub(crate) surface: Surface,
     /// Shading normal including bumps, flipped on back faces.
     pub(crate) normal: DVec3,
-    /// Whether the front face was hit.
-    pub(crate) front: bool,
+    pub(crate) side: Side,
     /// Unit vector toward the origin of the ray.
     pub(crate) view: DVec3,
 }
@@ -147,11 +147,11 @@ impl World {
         let (material, bumped) = self.material(nearest, || (*ray, surface.shading));
         let normal = bumped.unwrap_or(surface.shading);
         // Bumps do not affect which side is seen.
-        let front = ray.direction.dot(surface.normal) < 0.0;
+        let side = Side::hit(ray.direction, surface.normal);
         let point = Point {
             surface,
-            normal: if front { normal } else { -normal },
-            front,
+            normal: side.turn(normal),
+            side,
             view: -ray.direction,
         };
         let material = match material {

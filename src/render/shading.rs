@@ -5,8 +5,17 @@
     reason = "this must be inlined into callers compiled for wider vectors"
 )]
 
+use glam::DVec3;
+
 use super::optics::{self, normal_reflectance, power};
 use crate::scene::{Faces, Highlight, Material, Rgb};
+
+/// The side of a surface that a ray hits, by the geometric normal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Side {
+    Front,
+    Back,
+}
 
 /// Absorption per unit of length along the rays that leave a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,10 +90,10 @@ impl Material {
 
     /// Weight of a reflected ray in Whitted ray tracing, microfacets' normal reflectance included.
     #[inline]
-    pub(crate) fn mirrored(&self, front: bool) -> Rgb {
-        let tint = self.mirror_tint(front);
+    pub(crate) fn mirrored(&self, side: Side) -> Rgb {
+        let tint = self.mirror_tint(side);
         match self.highlight {
-            Highlight::Microfacet { metallic, .. } if front => {
+            Highlight::Microfacet { metallic, .. } if side == Side::Front => {
                 tint + self.facets_reflectance(metallic)
             }
             _ => tint,
@@ -93,18 +102,18 @@ impl Material {
 
     /// Weight of mirror reflection.
     #[inline]
-    pub(crate) fn mirror_tint(&self, front: bool) -> Rgb {
-        if self.mirror.faces.include(front) {
+    pub(crate) fn mirror_tint(&self, side: Side) -> Rgb {
+        if self.mirror.faces.include(side) {
             self.mirror.tint
         } else {
             Rgb::ZERO
         }
     }
 
-    /// Whether a face emits light and reflects that of lights.
+    /// Whether a side emits light and reflects that of lights.
     #[inline]
-    pub(crate) fn is_lit(&self, front: bool) -> bool {
-        self.lit.include(front)
+    pub(crate) fn is_lit(&self, side: Side) -> bool {
+        self.lit.include(side)
     }
 
     /// Effective index of refraction, above 0.
@@ -115,36 +124,53 @@ impl Material {
 
     /// Indices of refraction on the incident and the transmitted side.
     #[inline]
-    pub(crate) fn indices(&self, front: bool) -> [f64; 2] {
-        if front {
-            [1.0, self.index()]
-        } else {
-            [self.index(), 1.0]
+    pub(crate) fn indices(&self, side: Side) -> [f64; 2] {
+        match side {
+            Side::Front => [1.0, self.index()],
+            Side::Back => [self.index(), 1.0],
         }
     }
 
     /// Absorption along the rays that leave the surface; only inside the solid.
     #[inline]
-    pub(crate) fn losses(&self, front: bool) -> Losses {
+    pub(crate) fn losses(&self, side: Side) -> Losses {
         let [inside, outside] = [self.dielectric.absorption, Rgb::ZERO];
-        if front {
-            Losses {
-                refracted: inside,
-                mirrored: outside,
-            }
+        let [refracted, mirrored] = match side {
+            Side::Front => [inside, outside],
+            Side::Back => [outside, inside],
+        };
+        Losses {
+            refracted,
+            mirrored,
+        }
+    }
+}
+
+impl Side {
+    /// The side of a surface with outward `normal` that a ray in `direction` hits.
+    #[inline]
+    pub(crate) fn hit(direction: DVec3, normal: DVec3) -> Self {
+        if direction.dot(normal) < 0.0 {
+            Self::Front
         } else {
-            Losses {
-                refracted: outside,
-                mirrored: inside,
-            }
+            Self::Back
+        }
+    }
+
+    /// Turns an outward normal to this side.
+    #[inline]
+    pub(crate) fn turn(self, normal: DVec3) -> DVec3 {
+        match self {
+            Self::Front => normal,
+            Self::Back => -normal,
         }
     }
 }
 
 impl Faces {
-    /// Whether the front or back face is included.
+    /// Whether a side is included.
     #[inline]
-    pub(crate) fn include(self, front: bool) -> bool {
-        front || self == Self::Both
+    pub(crate) fn include(self, side: Side) -> bool {
+        side == Side::Front || self == Self::Both
     }
 }

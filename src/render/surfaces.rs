@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use super::intersect::Nearest;
 use super::probe::Point;
+use super::shading::Side;
 use super::world::World;
 use crate::geometry::lanes::{Eight, Lanes, Row, Simd, Vector, WIDTH, bits, dispatch, mask};
 use crate::geometry::{Hits, Packet, Rays, Shape, Solid, Surface, Surfaces, sphere_surfaces};
@@ -24,9 +25,13 @@ pub(crate) struct Landing {
 }
 
 impl Landing {
-    /// Whether the ray in a lane hit a front face.
-    pub(crate) fn is_front(&self, lane: usize) -> bool {
-        self.front >> lane & 1 == 1
+    /// The side hit by the ray in a lane.
+    pub(crate) fn side(&self, lane: usize) -> Side {
+        if self.front >> lane & 1 == 1 {
+            Side::Front
+        } else {
+            Side::Back
+        }
     }
 
     /// Returns the point in a lane of a packet.
@@ -39,7 +44,7 @@ impl Landing {
                 scale: self.surface.scale.0[lane],
             },
             normal: self.normal.get(lane),
-            front: self.is_front(lane),
+            side: self.side(lane),
             view: -packet.rays.direction.get(lane),
         }
     }

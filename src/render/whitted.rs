@@ -113,20 +113,14 @@ impl<'w> Wave<'w> {
                     seen.object = nearest.object;
                 }
                 seen.touched |= Touched::object(nearest.object);
-                let turned = |normal: DVec3| {
-                    if landing.is_front(lane) {
-                        normal
-                    } else {
-                        -normal
-                    }
-                };
-                let coming = || (packet.ray(lane), turned(landing.normal.get(lane)));
+                let side = landing.side(lane);
+                let coming = || (packet.ray(lane), side.turn(landing.normal.get(lane)));
                 let (material, bumped) = world.material(nearest, coming);
                 if let Some(normal) = bumped {
-                    landing.normal.set(lane, turned(normal));
+                    landing.normal.set(lane, side.turn(normal));
                 }
                 arrived.weight = state.through(nearest);
-                if material.is_lit(landing.is_front(lane)) {
+                if material.is_lit(side) {
                     arrived.radiance = material.glow(world.ambient);
                 }
                 arrived.found = match material {
@@ -189,7 +183,7 @@ impl<'w> Wave<'w> {
             lit &= lit - 1;
             let arrived = &mut arrived[lane];
             let material = match arrived.found.material(&self.mapped) {
-                Some(material) if material.is_lit(landing.is_front(lane)) => material,
+                Some(material) if material.is_lit(landing.side(lane)) => material,
                 _ => continue,
             };
             let halfway = || {
