@@ -166,8 +166,8 @@ impl Ticket<'_> {
     }
 
     /// Whether a finished frame is no longer wanted; a first frame is shown despite newer jobs.
-    fn unwanted(&self, shown: bool) -> bool {
-        self.shared.is_quitting() || (shown && self.shared.is_old(self.generation))
+    fn unwanted(&self, published: Option<Instant>) -> bool {
+        self.shared.is_quitting() || (published.is_some() && self.shared.is_old(self.generation))
     }
 }
 
@@ -277,8 +277,8 @@ impl<'s, W: Fn() + Sync> Picture<'s, W> {
     fn publish(&mut self) {
         let begun = Instant::now();
         let complete = self.whole_samples == self.spp;
-        let (ticket, shown) = (self.ticket, self.published.is_some());
-        let unwanted = || ticket.unwanted(shown);
+        let (ticket, published) = (self.ticket, self.published);
+        let unwanted = || ticket.unwanted(published);
         let raster = match self.frames {
             _ if complete => self.film.finish(unwanted),
             Frames::Live => self.film.develop(unwanted),

@@ -82,7 +82,12 @@ pub(super) fn bounds(form: &Form, half_spaces: &[HalfSpace]) -> Aabb {
         rises,
     };
     region.try_all();
-    region.into_box(half_spaces.is_empty())
+    // Without planes no point is accepted by the tolerance of one.
+    region.into_box(if half_spaces.is_empty() {
+        4.0 * f64::EPSILON
+    } else {
+        TOLERANCE
+    })
 }
 
 /// The function without terms that may be rounding of its coefficients: they would matter at the
@@ -241,12 +246,11 @@ impl Region<'_> {
         }
     }
 
-    fn into_box(self, whole: bool) -> Aabb {
+    /// The box around the region, with a relative padding.
+    fn into_box(self, padding: f64) -> Aabb {
         if !self.low.cmple(self.high).all() {
             return Aabb::EMPTY;
         }
-        // Without planes no point was accepted by the tolerance of one.
-        let padding = if whole { 4.0 * f64::EPSILON } else { TOLERANCE };
         let mut bounds = Aabb {
             min: DVec3::NEG_INFINITY,
             max: DVec3::INFINITY,

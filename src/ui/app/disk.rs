@@ -78,7 +78,7 @@ pub(super) enum Reader {
 
 /// The state of waiting for a file that is being written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Settle {
+pub(super) enum Settle {
     /// The file is not known to be changing.
     #[default]
     Idle,
@@ -160,13 +160,13 @@ impl Disk {
         self.settle == Settle::Waiting
     }
 
-    /// Ends the wait; returns whether this reading is accepted.
-    pub(super) fn is_final(&mut self) -> bool {
-        std::mem::take(&mut self.settle) == Settle::Final
+    /// Ends the wait, and returns how far the file had settled.
+    pub(super) fn take_settle(&mut self) -> Settle {
+        std::mem::take(&mut self.settle)
     }
 
     /// Sets the file's state and forgets its errors.
-    pub(super) fn stands(&mut self, state: OnDisk) {
+    pub(super) fn set_state(&mut self, state: OnDisk) {
         self.state = state;
         self.broken = None;
     }

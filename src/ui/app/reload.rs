@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::cursor::Held;
-use super::disk::{Broken, Reader};
+use super::disk::{Broken, Reader, Settle};
 use super::{App, Dialog, OnDisk, Outside, PromptKind};
 use crate::document::Adopted;
 use crate::file;
@@ -114,15 +114,15 @@ impl App {
             effects.push(Effect::Free(Arc::new(read)));
             return effects;
         }
-        let is_final = self.disk.is_final();
+        let settle = self.disk.take_settle();
         match read {
-            Ok(reading) => self.take_reading(reading, is_final),
-            Err(error) if !is_final => self.disk.wait(match error {
+            Ok(reading) => self.take_reading(reading, settle),
+            Err(error) if settle != Settle::Final => self.disk.wait(match error {
                 ReadError::NotFound { .. } => GONE,
                 _ => QUIET,
             }),
             Err(error) => {
-                self.disk.stands(match error {
+                self.disk.set_state(match error {
                     ReadError::NotFound { .. } => OnDisk::Missing,
                     _ => OnDisk::Broken,
                 });
@@ -135,14 +135,14 @@ impl App {
     }
 
     /// Takes a reading; reports if the scene's folder was moved or replaced by another one.
-    fn take_reading(&mut self, mut reading: Reading, is_final: bool) -> Vec<Effect> {
+    fn take_reading(&mut self, mut reading: Reading, settle: Settle) -> Vec<Effect> {
         let Some(place) = reading.place.take() else {
-            return self.take_text(reading, is_final);
+            return self.take_text(reading, settle);
         };
         let before = self.disk.move_to(place.clone());
         let before = before.unwrap_or_else(|| place.clone());
         self.overlays.message.take_if(|_| before.id != place.id);
-        let effects = self.take_text(reading, is_final);
+        let effects = self.take_text(reading, settle);
         let folder = place.folder.display();
         if before.id != place.id {
             let message = self
@@ -160,7 +160,7 @@ impl App {
         effects
     }
 
-    fn take_text(&mut self, reading: Reading, is_final: bool) -> Vec<Effect> {
+    fn take_text(&mut self, reading: Reading, settle: Settle) -> Vec<Effect> {
         let reader = self.disk.take_reader();
         // An undecided merge is obsolete, regardless of what the file holds now.
         if let Some(Dialog::Conflict {
@@ -173,7 +173,7 @@ impl App {
         let Some(news) = reading.news else {
             // While the file is being saved, the outcome of the save determines its state.
             if self.disk.state != OnDisk::Known && self.text_being_saved().is_none() {
-                self.disk.stands(OnDisk::Known);
+                self.disk.set_state(OnDisk::Known);
                 self.overlays.say("the file matches the saved text again");
             } else if reader == Reader::User {
                 self.overlays
@@ -181,13 +181,13 @@ impl App {
             }
             return Vec::new();
         };
-        if news.is_broken() && !is_final {
+        if news.is_broken() && settle != Settle::Final {
             let mut effects = self.disk.wait(QUIET);
             effects.push(Effect::Free(Arc::new(news)));
             return effects;
         }
         let held = self.cursor.hold(self.document.shared_text());
-        self.disk.stands(OnDisk::Known);
+        self.disk.set_state(OnDisk::Known);
         let (document, meaning, words) = match *news {
             News::Text(document, meaning) => (self.document.load(document), meaning, RELOADED),
             News::Merged(merged, meaning) => {

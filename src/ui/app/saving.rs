@@ -1,6 +1,6 @@
 //! Saving the text and handling the outcomes.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::{App, OnDisk};
@@ -39,41 +39,19 @@ impl App {
     /// Takes the outcome of a save, and starts the one that waited for it.
     pub(super) fn was_saved(&mut self, id: SaveId, outcome: SaveOutcome) -> Vec<Effect> {
         let ended = self.jobs.end_save(id);
-        // What the file holds from now on.
-        let written = match &outcome {
-            SaveOutcome::Saved { text, .. } => Some(Arc::clone(text)),
-            SaveOutcome::ChangedOnDisk | SaveOutcome::Failed(_) => None,
-        };
         // A quit waits for the newest save.
         let quit = ended.is_newest && std::mem::take(&mut self.jobs.quit);
-        let mut effects = self.take_outcome(outcome, ended.is_late, quit);
-        effects.extend(self.jobs.go_on(ended, written));
-        effects
-    }
-
-    fn take_outcome(&mut self, outcome: SaveOutcome, is_late: bool, quit: bool) -> Vec<Effect> {
-        match outcome {
-            SaveOutcome::Saved { path, .. } if is_late => {
-                self.overlays.say(format!("wrote {}", path.display()));
-                Vec::new()
-            }
+        // What the file holds from now on.
+        let mut written = None;
+        let mut effects = match outcome {
             SaveOutcome::Saved { path, text } => {
-                self.document.mark_saved(text);
-                self.disk.stands(OnDisk::Known);
                 self.overlays.say(format!("wrote {}", path.display()));
-                let mut effects = Vec::new();
-                if !self.disk.is_own(&path) {
-                    self.disk.rename(path);
-                    effects.extend(self.watch());
-                    // The scene's files are now looked for in another folder.
-                    self.relower();
+                written = Some(Arc::clone(&text));
+                if ended.is_late {
+                    Vec::new()
+                } else {
+                    self.take_saved(path, text)
                 }
-                effects.extend(self.keep_the_rest());
-                if quit {
-                    self.jobs.quit = true;
-                    effects.extend(self.quit_when_done());
-                }
-                effects
             }
             SaveOutcome::ChangedOnDisk => {
                 let words = "the file has changed: nothing was written yet";
@@ -84,6 +62,27 @@ impl App {
                 self.overlays.fail(reason);
                 Vec::new()
             }
+        };
+        if quit && written.is_some() {
+            self.jobs.quit = true;
+            effects.extend(self.quit_when_done());
         }
+        effects.extend(self.jobs.go_on(ended, written));
+        effects
+    }
+
+    /// Makes a file that now holds `text` the scene's file.
+    fn take_saved(&mut self, path: PathBuf, text: Arc<String>) -> Vec<Effect> {
+        self.document.mark_saved(text);
+        self.disk.set_state(OnDisk::Known);
+        let mut effects = Vec::new();
+        if !self.disk.is_own(&path) {
+            self.disk.rename(path);
+            effects.extend(self.watch());
+            // The scene's files are now looked for in another folder.
+            self.relower();
+        }
+        effects.extend(self.keep_the_rest());
+        effects
     }
 }
