@@ -10,9 +10,6 @@ use crate::scene::{Images, Meshes};
 use crate::text::{Findings, Severity, counted};
 use crate::ui::msg::Effect;
 
-/// Shown when a picture would lack files that are still being read.
-pub(super) const STILL_READING: &str = "still reading the scene's files";
-
 /// The state of the files that the scene names.
 #[derive(Debug, Default)]
 pub struct Assets {

@@ -10,7 +10,7 @@ use crate::render::MAX_SPP;
 use crate::scene::{Camera, Size};
 use crate::text::edit_distance;
 use crate::ui::keymap::{self, HelpLine};
-use crate::ui::msg::{Effect, Existing, Guard};
+use crate::ui::msg::{Effect, Guard};
 
 /// A parsed command line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,7 +41,7 @@ enum Command {
 
 /// Whether a command ends with `!`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Force {
+pub(super) enum Force {
     No,
     Yes,
 }
@@ -252,21 +252,11 @@ impl App {
             Command::Write(file, force) => return self.write(file, force),
             Command::Quit(Force::No) => return self.quit(),
             Command::Quit(Force::Yes) => return self.quit_anyway(),
-            Command::WriteQuit => {
-                self.jobs.quit = self.disk.path.is_some();
-                if self.jobs.quit && self.is_saved() {
-                    return self.quit_when_done();
-                }
-                return self.save();
-            }
+            Command::WriteQuit => return self.save_and_quit(),
             Command::Reread => return self.reread(),
             Command::Export(Picture { path, size, spp }, force) => {
                 let path = path.unwrap_or_else(|| self.export_path());
-                let existing = match force {
-                    Force::No => Existing::Kept,
-                    Force::Yes => Existing::Overwritten,
-                };
-                return self.start_export(&path, size, spp, existing);
+                return self.start_export(&path, size, spp, force);
             }
             Command::ExportCancel => return self.cancel_export(),
             Command::Render => return self.start_trace(),

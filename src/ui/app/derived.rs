@@ -12,7 +12,7 @@ use crate::language::table::Field;
 use crate::language::{Node, Nodes, Source};
 use crate::scene::{Camera, Integrator, Size};
 use crate::ui::errors::{self, Panel, Wrong};
-use crate::ui::keymap::{Context, Mode, Stride};
+use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{Areas, Zoom, arrange, raster};
 
 /// The picture size without a scene.
@@ -152,11 +152,7 @@ impl App {
 
     /// The size of one nudge of a field.
     pub fn step(&self, field: &Field) -> f64 {
-        match self.cursor.stride {
-            Stride::Fine => field.step / 10.0,
-            Stride::Plain => field.step,
-            Stride::Coarse => field.step * 10.0,
-        }
+        self.cursor.stride.of(field.step)
     }
 
     /// The object to outline in the picture.

@@ -1,7 +1,6 @@
 //! The mouse.
 
 use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
-use tui_input::Input;
 
 use super::App;
 use super::camera::{dollied, orbited};
@@ -101,10 +100,7 @@ impl App {
         self.mode = Mode::Edit;
         self.focus_field(field, component);
         if self.cursor.click((field, component)) {
-            let row = self.field_row(field);
-            let literal = row.and_then(|row| row.literals.get(component).cloned());
-            self.cursor
-                .type_value(Input::from(literal.unwrap_or_default()));
+            self.type_current();
             return Vec::new();
         }
         vec![Effect::Later(super::DOUBLE_CLICK, Timer::Click)]

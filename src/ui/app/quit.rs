@@ -8,10 +8,16 @@ impl App {
     pub(super) fn save_key(&mut self) -> Vec<Effect> {
         if let Some(Dialog::Quit) = self.overlays.dialog {
             self.overlays.dialog = None;
-            self.jobs.quit = true;
-            if self.is_saved() {
-                return self.quit_when_done();
-            }
+            return self.save_and_quit();
+        }
+        self.save()
+    }
+
+    /// Saves if necessary, then quits. A scene without a file first gets a name.
+    pub(super) fn save_and_quit(&mut self) -> Vec<Effect> {
+        self.jobs.quit = true;
+        if self.is_saved() {
+            return self.quit_when_done();
         }
         self.save()
     }

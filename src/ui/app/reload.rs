@@ -128,7 +128,11 @@ impl App {
                 });
                 self.overlays.errors = None;
                 self.jobs.quit = false;
-                self.overlays.fail(error.to_string());
+                let hint = match error {
+                    ReadError::NotFound { .. } => "; press w to write it again",
+                    _ => "",
+                };
+                self.overlays.fail(format!("{error}{hint}"));
                 Vec::new()
             }
         }
@@ -278,7 +282,8 @@ impl App {
             return self.read_effect();
         }
         if let OnDisk::Changed | OnDisk::Broken = self.disk.state {
-            // The question is asked again with what the file holds now.
+            // The question is asked again with what the file holds now; nothing is saved.
+            self.jobs.quit = false;
             return self.read_effect();
         }
         if self.refuses_errors(&path) {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::assets::STILL_READING;
+use super::command::Force;
 use super::{App, Export, Picture, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
 use crate::render::{Filter, Frame, Frames, Job, Settings, default_depth};
@@ -79,6 +79,22 @@ impl App {
         })
     }
 
+    /// The job of a picture in the quality of exports, or the reason why there is none.
+    fn final_job(&self, size: Size, spp: u32) -> Result<Job, &'static str> {
+        let job = self.job(size, spp, self.pictures.quality.filter);
+        job.filter(|_| !self.assets.are_awaited())
+            .ok_or_else(|| self.no_picture())
+    }
+
+    /// The reason why there is no picture.
+    pub(super) fn no_picture(&self) -> &'static str {
+        if self.assets.are_awaited() {
+            "still reading the scene's files"
+        } else {
+            "no picture: the scene has errors; press ! to list them"
+        }
+    }
+
     fn trace_job(&self) -> Option<Job> {
         self.job(
             self.output(),
@@ -92,13 +108,12 @@ impl App {
         if self.mode == Mode::Trace && is_begun {
             return Vec::new();
         }
-        if self.assets.are_awaited() {
-            self.overlays.fail(STILL_READING);
-            return Vec::new();
-        }
-        let Some(job) = self.trace_job() else {
-            self.overlays.fail("no picture: the scene has errors");
-            return Vec::new();
+        let job = match self.final_job(self.output(), self.pictures.quality.spp) {
+            Ok(job) => job,
+            Err(reason) => {
+                self.overlays.fail(reason);
+                return Vec::new();
+            }
         };
         // A picture too large for a picture file is also too large to look at.
         if let Some(reason) = ImageFormat::Bmp.refuses(job.settings.size) {
@@ -190,7 +205,7 @@ impl App {
 
     /// Exports to the scene's folder under the scene's name.
     pub(super) fn export_default(&mut self) -> Vec<Effect> {
-        self.start_export(&self.export_path(), None, None, Existing::Kept)
+        self.start_export(&self.export_path(), None, None, Force::No)
     }
 
     /// The scene's path with a picture's extension, distinct for each AOV so that they don't
@@ -208,52 +223,51 @@ impl App {
         scene.with_extension(extension)
     }
 
-    /// Exports the scene as currently seen. [`Existing::Kept`] keeps only files written by others.
+    /// The job whose picture an export to `path` writes, or the reason why there is none.
+    fn export_job(&self, path: &Path, size: Size, spp: u32) -> Result<Job, String> {
+        if self.jobs.export.is_some() {
+            return Err("an export is already running: press x to cancel it".to_owned());
+        }
+        let format = ImageFormat::of_path(path).ok_or_else(|| {
+            let (name, known) = (path.display(), known_extensions());
+            format!("{name}: picture files end in {known}")
+        })?;
+        let job = self.final_job(size, spp)?;
+        let frames = format.frames();
+        format.refuses(size).map_or(Ok(Job { frames, ..job }), Err)
+    }
+
+    /// Exports the scene as currently seen. Unless forced, files written by others are kept.
     pub(super) fn start_export(
         &mut self,
         path: &Path,
         size: Option<Size>,
         spp: Option<u32>,
-        existing: Existing,
+        force: Force,
     ) -> Vec<Effect> {
         let size = size.unwrap_or_else(|| self.output());
         let spp = self
             .pictures
             .samples(spp.unwrap_or(self.pictures.quality.spp));
-        let job = self.job(size, spp, self.pictures.quality.filter);
-        let format = ImageFormat::of_path(path);
-        let refused = match (format, &job) {
-            _ if self.jobs.export.is_some() => {
-                Some("an export is already running: press x to cancel it".to_owned())
-            }
-            _ if self.assets.are_awaited() => Some(STILL_READING.to_owned()),
-            (None, _) => Some(format!(
-                "{}: picture files end in {}",
-                path.display(),
-                known_extensions()
-            )),
-            (_, None) => Some("no picture: the scene has errors".to_owned()),
-            (Some(format), Some(_)) => format.refuses(size),
-        };
-        let job = match (refused, job) {
-            (None, Some(job)) => job,
-            (reason, _) => {
-                self.overlays.fail(reason.unwrap_or_default());
+        let job = match self.export_job(path, size, spp) {
+            Ok(job) => job,
+            Err(reason) => {
+                self.overlays.fail(reason);
                 return Vec::new();
             }
         };
-        let frames = format.map_or(Frames::Last, ImageFormat::frames);
-        let existing = match existing {
-            Existing::Kept => self.jobs.existing(path),
-            Existing::Own(_) | Existing::Overwritten => existing,
-        };
         let destination = Destination {
             path: path.to_owned(),
-            existing,
+            existing: match force {
+                Force::No => self.jobs.existing(path),
+                Force::Yes => Existing::Overwritten,
+            },
             scene: self.disk.path.clone(),
             named: self.assets.files().to_vec(),
         };
-        let traced = self.traced(size, spp).filter(|_| frames == Frames::Last);
+        let traced = self
+            .traced(size, spp)
+            .filter(|_| job.frames == Frames::Last);
         let id = self.jobs.next_export();
         self.jobs.export = Some(Export {
             id,
@@ -289,14 +303,7 @@ impl App {
         let camera = Camera { size, ..job.camera };
         vec![
             Effect::CheckTarget(id, destination),
-            Effect::Trace(
-                Target::Export,
-                Job {
-                    camera,
-                    frames,
-                    ..job
-                },
-            ),
+            Effect::Trace(Target::Export, Job { camera, ..job }),
         ]
     }
 

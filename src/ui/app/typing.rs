@@ -3,7 +3,7 @@
 use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
-use super::{App, line, literals};
+use super::{App, HelpFocus, line, literals};
 use crate::language::table::{Field, Kind};
 use crate::text::{Diagnostic, Span};
 use crate::ui::keymap::{Mode, Stride};
@@ -25,11 +25,7 @@ impl App {
             Stride::Plain => self.cursor.stride,
             held => held,
         };
-        let step = match stride {
-            Stride::Fine => field.step / 10.0,
-            Stride::Plain => field.step,
-            Stride::Coarse => field.step * 10.0,
-        };
+        let step = stride.of(field.step);
         let nudged = match field.kind {
             Kind::Choice(words) => {
                 let word = field
@@ -167,11 +163,18 @@ impl App {
 
     pub(super) fn paste(&mut self, text: &str) {
         let pasted = text.trim();
+        if self.overlays.dialog.is_some() {
+            return;
+        }
         if let Some(prompt) = &mut self.overlays.prompt {
             line::insert(&mut prompt.input, text);
             return;
         }
-        if self.overlays.dialog.is_some() || self.overlays.help.is_some() {
+        if let Some(help) = &mut self.overlays.help {
+            if help.focus == HelpFocus::Search {
+                line::insert(&mut help.search, text);
+                help.top = 0;
+            }
             return;
         }
         if self.disk.is_opening() {

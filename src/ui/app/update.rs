@@ -3,7 +3,6 @@
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
-use super::assets::STILL_READING;
 use super::camera::{dollied, panned, stepped, widened};
 use super::{App, Help, HelpFocus, PromptKind, line};
 use crate::ui::keymap::{self, Action, Context, Mode};
@@ -213,11 +212,7 @@ impl App {
         match mode {
             Mode::Trace => return self.start_trace(),
             Mode::View | Mode::Pick if self.scene.is_none() => {
-                self.overlays.fail(if self.assets.are_awaited() {
-                    STILL_READING
-                } else {
-                    "no picture: the scene has errors"
-                });
+                self.overlays.fail(self.no_picture());
             }
             Mode::Edit if self.cursor.fields().is_empty() => {
                 self.overlays.fail("nothing to edit here");

@@ -148,3 +148,14 @@ pub enum Stride {
     /// Ten times the field's step.
     Coarse,
 }
+
+impl Stride {
+    /// The size of one nudge of a field with this step.
+    pub fn of(self, step: f64) -> f64 {
+        match self {
+            Self::Fine => step / 10.0,
+            Self::Plain => step,
+            Self::Coarse => step * 10.0,
+        }
+    }
+}

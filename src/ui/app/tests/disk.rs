@@ -567,6 +567,15 @@ fn commands_and_pastes_without_effect_say_why() {
     assert!(words(&app).contains("values paste into fields"));
 }
 
+#[test]
+fn text_is_pasted_into_the_line_that_keys_go_to() {
+    let mut app = open(SCENE);
+    press(&mut app, "?/");
+    app.update(Msg::Paste("undo".to_owned()));
+    let help = app.overlays.help.as_ref().expect("it is open");
+    assert_eq!(help.search.value(), "undo");
+}
+
 /// The reason for the question is gone: the file holds the base of the edits again.
 #[test]
 fn a_conflict_ends_when_its_change_is_reverted() {

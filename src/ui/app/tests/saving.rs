@@ -23,6 +23,10 @@ pub(super) fn saved(app: &mut App, id: u32, path: &str, text: &Arc<String>) -> V
     app.update(Msg::Saved(SaveId(id), outcome))
 }
 
+fn quits(effects: &[Effect]) -> bool {
+    wants(effects, |effect| matches!(effect, Effect::Quit))
+}
+
 /// The saves among the effects: number, file, guard.
 fn saves(effects: &[Effect]) -> Vec<(u32, String, Guard)> {
     let saves = effects.iter().filter_map(|effect| match effect {
@@ -155,7 +159,6 @@ fn the_text_of_a_running_save_is_not_a_change() {
 
 #[test]
 fn a_quit_waits_for_a_hanging_save_unless_forced() {
-    let quits = |effects: &[Effect]| wants(effects, |effect| matches!(effect, Effect::Quit));
     let keeps = |effects: &[Effect]| {
         wants(effects, |effect| {
             matches!(effect, Effect::WriteRecovery { .. })
@@ -183,6 +186,37 @@ fn a_quit_waits_for_a_hanging_save_unless_forced() {
     press(&mut app, "jjjel:wq<Enter>");
     let text = app.document.shared_text();
     assert!(quits(&saved(&mut app, 1, "scene.ray", &text)));
+}
+
+/// The file was changed by others, so the first `:wq` saves nothing; a later `w` only saves.
+#[test]
+fn a_conflict_cancels_the_quit_that_waits_for_the_save() {
+    for quit in [":wq<Enter>", "qw"] {
+        let mut app = open(SCENE);
+        press(&mut app, "jjjel");
+        let theirs = SCENE.replace("sphere\n0 0 0", "sphere\n9 0 0");
+        outside(&mut app, &theirs);
+        press(&mut app, "<Esc>");
+        assert!(saves(&press(&mut app, quit)).is_empty());
+        outside(&mut app, &theirs);
+        press(&mut app, "m<Enter>");
+        assert_eq!(saves(&press(&mut app, "w")).len(), 1, "{quit}");
+        let text = app.document.shared_text();
+        let effects = saved(&mut app, 1, "scene.ray", &text);
+        assert!(!quits(&effects), "{quit}");
+    }
+}
+
+#[test]
+fn save_and_quit_asks_for_a_missing_name_and_then_quits() {
+    for quit in [":wq<Enter>", "qw"] {
+        let mut app = open(SCENE);
+        app.disk.path = None;
+        assert!(!quits(&press(&mut app, &format!("jjjel{quit}"))));
+        assert_eq!(saves(&press(&mut app, "new.ray<Enter>")).len(), 1, "{quit}");
+        let text = app.document.shared_text();
+        assert!(quits(&saved(&mut app, 1, "new.ray", &text)), "{quit}");
+    }
 }
 
 #[test]
