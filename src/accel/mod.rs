@@ -100,10 +100,6 @@ impl Bvh {
     /// depend on them.
     ///
     /// Each index is visited at most once. The visits of a ray that is not finite are unspecified.
-    #[expect(
-        clippy::inline_always,
-        reason = "this must be inlined into callers compiled for wider vectors"
-    )]
     #[inline(always)]
     pub fn traverse<S: Simd>(
         &self,
@@ -117,10 +113,6 @@ impl Bvh {
 
     /// The same for the rays of a packet whose bit in `lanes` is 1: `visit` gets the lanes that may
     /// hit the boxes, and the limits, and returns the new limits.
-    #[expect(
-        clippy::inline_always,
-        reason = "this must be inlined into callers compiled for wider vectors"
-    )]
     #[inline(always)]
     pub fn traverse_packet<S: Simd>(
         &self,

@@ -180,10 +180,6 @@ impl Node {
     }
 
     /// The planes of all children across an axis, those of `side` first.
-    #[expect(
-        clippy::inline_always,
-        reason = "this must be inlined into callers compiled for wider vectors"
-    )]
     #[inline(always)]
     pub(super) fn planes<S: Simd>(&self, simd: S, axis: usize, side: usize) -> [Singles<S>; 2] {
         let sides = &self.planes[axis];
@@ -202,10 +198,6 @@ impl Node {
 
     /// Returns the distances at which the ray enters the children's boxes, or starts inside, and a
     /// mask of the children whose box it may enter at a distance up to `limit`.
-    #[expect(
-        clippy::inline_always,
-        reason = "this must be inlined into callers compiled for wider vectors"
-    )]
     #[inline(always)]
     pub(super) fn entries<S: Simd>(&self, ray: &SlabRay<S>, limit: f32) -> ([f32; WIDTH], u32) {
         let simd = ray.slopes[0].inverse.simd;

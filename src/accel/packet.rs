@@ -11,11 +11,6 @@
 //! singly from the root, for any measure of coherence (on a sphereflake of mirrors single rays only
 //! took 1.3 times as long as packets only, and no mixture less).
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use std::ops::Range;
 
 use arrayvec::ArrayVec;

@@ -14,11 +14,6 @@
 //! Along an axis where a distance might overflow, or the inverse is not a normal number, a ray hits
 //! everything. A direction of 0 is no such case: its inverse is infinite.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use super::Bvh;
 use crate::geometry::Rays;
 use crate::geometry::lanes::{Lanes, Simd, SimdBase, Singles, Vector};

@@ -36,10 +36,6 @@ impl Bvh {
 }
 
 /// See [`Bvh::traverse`].
-#[expect(
-    clippy::inline_always,
-    reason = "this must be inlined into callers compiled for wider vectors"
-)]
 #[inline(always)]
 pub(super) fn traverse<S: Simd>(
     bvh: &Bvh,
@@ -106,10 +102,6 @@ pub(super) fn traverse<S: Simd>(
 }
 
 /// Inserts a child among those from `base` on, which stay sorted with the nearest on top.
-#[expect(
-    clippy::inline_always,
-    reason = "this must be inlined into callers compiled for wider vectors"
-)]
 #[inline(always)]
 pub(super) fn insert<L: Copy>(
     stack: &mut ArrayVec<Pending<L>, STACK>,

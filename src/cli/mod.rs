@@ -340,14 +340,17 @@ other formats keep every pixel with 8 bits per channel.
 
 The same scene and options give the same bytes on every machine and with any number of threads.";
 
+fn output_help() -> String {
+    let known = known_extensions();
+    format!("Picture file, in the format of its extension: {known}; - for standard output")
+}
+
 #[derive(Args, Debug)]
 struct RenderArguments {
     /// Scene file: .ray, .dat or .xml
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// Picture file, in the format of its extension (.bmp, .ppm, .png, .tiff, .gif, .jpeg, .exr,
-    /// .hdr); - for standard output
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", help = output_help())]
     output: PathBuf,
     /// Picture format, regardless of the file's extension [default for -o -: bmp]
     #[arg(long, value_name = "FORMAT", value_parser = format_names())]

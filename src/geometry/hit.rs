@@ -1,10 +1,5 @@
 //! Intersections of rays and shapes.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use smallvec::SmallVec;
 
 use super::lanes::{Eight, Simd, SimdBase, WIDTH, bits};

@@ -6,11 +6,6 @@
 //! (2019), chapter 7; M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 4th edition,
 //! section 6.8.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use super::lanes::{Lanes, Vector};
 use super::{Aabb, Rays};
 

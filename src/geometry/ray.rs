@@ -1,10 +1,5 @@
 //! Single rays and packets of rays.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use std::ops::Deref;
 
 use glam::DVec3;

@@ -1,10 +1,5 @@
 //! The shapes that rays intersect: solids, their combinations, and surfaces.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use std::sync::Arc;
 
 use super::hit::{Hit, Hits, Spans};

@@ -1,10 +1,5 @@
 //! The solids, which rays intersect and set operations combine.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use super::hit::{Crossings, Hit, Hits, Spans};
 use super::lanes::{Eight, Lanes, Simd};
 use super::line::Ends;

@@ -1,10 +1,5 @@
 //! Spheres, intersected in world space, where rays have unit speed; see [`ball`] for the formula.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use glam::DVec3;
 
 use super::lanes::{Eight, Lanes, Simd, Vector};

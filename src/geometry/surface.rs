@@ -1,10 +1,5 @@
 //! Points on surfaces, single or one per lane.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use glam::DVec3;
 
 use super::lanes::{Eight, Lanes, Row, Simd, Vector};

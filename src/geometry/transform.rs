@@ -1,10 +1,5 @@
 //! Affine frames, which place unit solids in the world.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use glam::DVec3;
 
 use super::lanes::{Lanes, Vector};

@@ -7,11 +7,6 @@
 //! vertices, so two triangles agree on the side of a shared edge, and edges belong to both: no ray
 //! slips through a closed mesh, however the vertices were rounded.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use glam::DVec3;
 
 use super::lanes::{Eight, Lanes, Simd, SimdBase, WIDTH, bits};

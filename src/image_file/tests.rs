@@ -94,14 +94,16 @@ fn decoded(format: ImageFormat, frame: &Frame) -> Image {
 
 #[test]
 fn lossless_formats_round_trip() {
-    use ImageFormat::{Bmp, Gif, Png, Ppm, Tiff};
+    use ImageFormat::{Exr, Gif, Hdr, Jpeg};
+    let exact = FORMATS.map(|(format, _)| format).into_iter();
+    let exact = exact.filter(|format| !matches!(format, Jpeg | Exr | Hdr));
     let few = frame(3, 2, &[RED, GREEN, BLUE, RED, RED, GREEN]);
-    for format in [Bmp, Ppm, Png, Tiff, Gif] {
+    for format in exact.clone() {
         let expected = Image::new(few.size, few.pixels.clone());
         assert_eq!(Some(decoded(format, &few)), expected, "{format:?}");
     }
     let many = gradient();
-    for format in [Bmp, Ppm, Png, Tiff] {
+    for format in exact.filter(|format| *format != Gif) {
         let expected = Image::new(many.size, many.pixels.clone());
         assert_eq!(Some(decoded(format, &many)), expected, "{format:?}");
     }

@@ -32,7 +32,7 @@ use std::sync::Arc;
 
 use crate::memory::OutOfMemory;
 use crate::scene::{Camera, Meshes, Scene};
-use crate::text::{Diagnostic, Edit, Findings, Span};
+use crate::text::{Diagnostic, Edit, Findings, Span, alternatives};
 use room::Counts;
 use table::{Category, Field};
 use view::Numbers;
@@ -156,11 +156,7 @@ impl Language {
 
 /// The extensions of all languages, as a list for a message.
 fn extensions() -> String {
-    let extensions = Language::ALL.map(|language| format!(".{}", language.extension()));
-    match &extensions[..] {
-        [others @ .., last] => format!("{} or {last}", others.join(", ")),
-        [] => String::new(),
-    }
+    alternatives(Language::ALL.map(|language| format!(".{}", language.extension())))
 }
 
 /// The result of lowering a text.

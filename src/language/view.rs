@@ -63,11 +63,6 @@ pub(super) fn literal(field: &Field, number: f64) -> String {
     }
 }
 
-/// Whether a number's text must change; both zeros are written as 0.
-pub(super) fn differ(old: f64, new: f64) -> bool {
-    old.partial_cmp(&new) != Some(std::cmp::Ordering::Equal)
-}
-
 /// The line ending of the text's first line, assumed for all others.
 pub(super) fn line_ending(text: &str) -> &'static str {
     let from = line_end(text, 0);

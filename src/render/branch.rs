@@ -1,10 +1,5 @@
 //! Secondary rays of Whitted ray tracing.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use super::optics::{fresnel, mirror, refract_all, spread};
 use super::probe::{Point, Sample, Seen};
 use super::sampler::{Sampler, Use};

@@ -1,10 +1,5 @@
 //! Scattering of paths at surfaces: choice of the next direction, with its probability.
 
-#![expect(
-    clippy::inline_always,
-    reason = "the parts of a path's step are inlined into it: calls move large values"
-)]
-
 use glam::DVec3;
 
 use super::lobes::{Lobes, strength};

@@ -1,10 +1,5 @@
 //! Camera rays.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use glam::DVec3;
 
 use super::warp;

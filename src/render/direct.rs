@@ -1,10 +1,5 @@
 //! Direct light from lights, for single points or eight lanes.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use glam::DVec3;
 
 use super::lights::{self, Incoming};

@@ -1,10 +1,5 @@
 //! Intersection of rays with a world: nearest hits and transmittance.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use std::ops::Range;
 
 use super::structures::Search;

@@ -23,10 +23,6 @@ pub(crate) struct Incoming<N> {
 
 /// Returns the light arriving at points, from its centre if it has a size; `None` for ambient
 /// light.
-#[expect(
-    clippy::inline_always,
-    reason = "this must be inlined into callers compiled for wider vectors"
-)]
 #[inline(always)]
 pub(crate) fn incoming<N: Lanes>(light: &Light, points: Vector<N>) -> Option<Incoming<N>> {
     match light.emitter {
@@ -60,10 +56,6 @@ pub(crate) fn attenuation(light: &Light, point: DVec3, toward: DVec3) -> f64 {
 
 impl<S: Simd> Incoming<Eight<S>> {
     /// Replaces the direction and origin of the light in a lane.
-    #[expect(
-        clippy::inline_always,
-        reason = "this must be inlined into callers compiled for wider vectors"
-    )]
     #[inline(always)]
     pub(crate) fn put(&mut self, lane: usize, incoming: Incoming<f64>) {
         self.toward.put(lane, incoming.toward.into());

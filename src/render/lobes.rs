@@ -3,11 +3,6 @@
 //!
 //! Mirrors and dielectrics are excluded: they scatter into one direction or a narrow cone.
 
-#![expect(
-    clippy::inline_always,
-    reason = "the parts of a path's step are inlined into it: calls move large values"
-)]
-
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;

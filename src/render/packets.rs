@@ -1,10 +1,5 @@
 //! Intersection of rays with a world in packets of eight.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use std::ops::Range;
 
 use super::intersect::{Closest, Crossed, Nearest};

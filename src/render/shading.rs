@@ -1,10 +1,5 @@
 //! Evaluation of materials at a point, for both integrators.
 
-#![expect(
-    clippy::inline_always,
-    reason = "this must be inlined into callers compiled for wider vectors"
-)]
-
 use glam::DVec3;
 
 use super::optics::{self, normal_reflectance, power};

@@ -1,10 +1,5 @@
 //! The inputs of tracing a picture, and its camera samples.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use glam::{DVec2, DVec3};
 
 use super::camera::Projection;

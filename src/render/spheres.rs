@@ -42,10 +42,6 @@ impl Spheres {
 
     /// Intersects a ray, equal in each lane, with the spheres of a run before a limit; also returns
     /// a bit for each position of the run that holds another shape.
-    #[expect(
-        clippy::inline_always,
-        reason = "this must be inlined into callers compiled for wider vectors"
-    )]
     #[inline(always)]
     pub(crate) fn hits<S: Simd>(
         &self,
@@ -76,10 +72,6 @@ impl Spheres {
 }
 
 /// One coordinate of each sphere.
-#[expect(
-    clippy::inline_always,
-    reason = "this must be inlined into callers compiled for wider vectors"
-)]
 #[inline(always)]
 fn row<S: Simd>(simd: S, spheres: &[[f64; 4]; RUN], number: usize) -> Eight<S> {
     let mut row = [0.0; RUN];

@@ -57,10 +57,6 @@ impl Structures {
     }
 
     /// Returns a hit of an object, which is this instance, with `0 < t < limit`.
-    #[expect(
-        clippy::inline_always,
-        reason = "this must be inlined into callers compiled for wider vectors"
-    )]
     #[inline(always)]
     pub(crate) fn hit<S: Simd>(
         &self,
@@ -96,10 +92,6 @@ impl Structures {
     }
 
     /// Returns hits of a packet's rays whose bit in `lanes` is 1.
-    #[expect(
-        clippy::inline_always,
-        reason = "this must be inlined into callers compiled for wider vectors"
-    )]
     #[inline(always)]
     pub(crate) fn hits<S: Simd>(
         &self,

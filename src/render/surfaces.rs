@@ -1,10 +1,5 @@
 //! The surface points hit by packets of eight rays.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use glam::DVec3;
 
 use super::intersect::Nearest;

@@ -1,10 +1,5 @@
 //! Recursive ray tracing (Whitted, "An Improved Illumination Model for Shaded Display", 1980).
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use std::borrow::Cow;
 
 use glam::DVec3;

@@ -14,7 +14,7 @@ mod span;
 mod visible;
 
 pub use codes::without_codes;
-pub use counted::counted;
+pub use counted::{alternatives, counted};
 pub use diagnostic::{Diagnostic, Severity};
 pub use edit::{Edit, apply, cover, difference, smallest_edit};
 pub use edit_distance::edit_distance;

@@ -1,10 +1,5 @@
 //! Packets of lines through a CSG solid, if boundaries are far apart.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use smallvec::SmallVec;
 
 use super::evaluate::{Lists, Slopes};

@@ -1,10 +1,5 @@
 //! Evaluation of the steps of a CSG solid, for single lines and packets.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use smallvec::SmallVec;
 
 use super::{Csg, Kind, Leaf, Operation};

@@ -8,11 +8,6 @@
 //! unordered lists ([`apart`]); the others one by one, with coincident boundaries resolved
 //! ([`exact`]).
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 mod apart;
 mod evaluate;
 mod exact;

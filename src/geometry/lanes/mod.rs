@@ -4,11 +4,6 @@
 //! whatever vectors the machine has: no operation here depends on its neighbours, and products are
 //! fused only where [`Lanes::mul_add`] says so.
 
-#![expect(
-    clippy::inline_always,
-    reason = "a caller compiled for wider vectors must take these with it"
-)]
-
 mod vector;
 
 use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};

@@ -1,10 +1,5 @@
 //! Packets of rays against a mesh.
 
-#![expect(
-    clippy::inline_always,
-    reason = "these must be inlined into callers compiled for wider vectors"
-)]
-
 use super::{Instance, Mesh, MeshLine};
 use crate::geometry::lanes::{Eight, Simd, SimdBase, WIDTH};
 use crate::geometry::triangle::ShearedLines;

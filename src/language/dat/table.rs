@@ -9,7 +9,7 @@ use parts::{
     SPHERE, USE_BUMP, USE_COLOUR, VIEWPORT,
 };
 
-pub(super) use parts::HALF_SPACE;
+pub(super) use parts::{HALF_SPACE, OPERATIONS, PROJECTIONS, SHADOWS, SOURCES};
 
 /// A part of a record, after the words that identify its kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -129,15 +129,6 @@ const OBJECTS: &[(&str, RecordKind)] = &[
     ("CSG", RecordKind::Object(ObjectKind::Csg)),
     ("quadric", RecordKind::Object(ObjectKind::Quadric)),
 ];
-
-/// The projections of a camera.
-pub(super) const PROJECTIONS: &[&str] = &["perspective", "orthographic"];
-/// The types of lights.
-pub(super) const SOURCES: &[&str] = &["pnt", "inf", "amb"];
-/// Whether a light casts shadows.
-pub(super) const SHADOWS: &[&str] = &["shadow_on", "shadow_off"];
-/// The operations that combine two objects.
-pub(super) const OPERATIONS: &[&str] = &["union", "intersection", "difference"];
 
 impl ObjectKind {
     /// The position of the numbers of the field with this key.

@@ -7,7 +7,7 @@ use super::table::{PROJECTIONS, RecordKind};
 use super::tree::Tree;
 use crate::language::at::{At, index_of_word};
 use crate::language::table::{Field, Kind};
-use crate::language::view::{Numbers, beginning, differ, line_ending, literal, take};
+use crate::language::view::{Numbers, beginning, line_ending, literal, take};
 use crate::scene::{Camera, Focus, Lens, Size};
 use crate::text::{Edit, Span, spell_like};
 
@@ -254,7 +254,7 @@ pub(super) fn edits(
                 let fields = fields.flat_map(|at| std::iter::repeat_n(at, at.kind.components()));
                 let spans = tree.tokens_of(text, *record).skip(1);
                 let numbers = fields.zip(spans).zip(old.iter().zip(new));
-                let changed = numbers.filter(|(_, (old, new))| differ(**old, **new));
+                let changed = numbers.filter(|(_, (old, new))| old != new);
                 edits.extend(changed.map(|((field, span), (_, &number))| Edit {
                     span,
                     text: respelled(span.of(text), field, number),

@@ -11,7 +11,7 @@ use crate::language::report::{Name, did_you_mean, quoted};
 use crate::language::table;
 use crate::scene::objects::BLOCK;
 use crate::scene::{Material, Object};
-use crate::text::{Diagnostic, Span, counted};
+use crate::text::{Diagnostic, Span, alternatives, counted};
 
 /// Number of materials a new one is compared with. Colours come from short lists, or all differ.
 const MOST_COMPARED: usize = 32;
@@ -20,7 +20,9 @@ const MOST_COMPARED: usize = 32;
 const SPELLINGS: usize = 8;
 
 /// The keywords of objects, for messages.
-const TYPES: &str = "sphere, ellipsoid, box, cylinder or cone";
+fn keywords() -> String {
+    alternatives(ShapeKind::ALL.map(ShapeKind::keyword))
+}
 
 impl<'a> Reader<'a> {
     /// Reads objects to the end of the text and compares their number with the declared one.
@@ -80,7 +82,7 @@ impl<'a> Reader<'a> {
         self.report.error(|| {
             let hint = match found {
                 _ if self.is_beginning => "it counts the objects".to_owned(),
-                0 => format!("an object begins with {TYPES}"),
+                0 => format!("an object begins with {}", keywords()),
                 found => format!("there are {found}: write {found}"),
             };
             Diagnostic::error(count.token, message, "as many as there are objects").with_hint(hint)
@@ -238,7 +240,7 @@ impl<'a> Reader<'a> {
         self.report.error(|| {
             let object = self.places.len() + 1;
             let message = format!("object {object}: unknown type {}", quoted(word));
-            let diagnostic = Diagnostic::error(token, message, TYPES);
+            let diagnostic = Diagnostic::error(token, message, keywords());
             let meant = ShapeKind::nearest(word).map(ShapeKind::keyword);
             did_you_mean(diagnostic, meant, None)
         });
@@ -268,7 +270,7 @@ impl<'a> Reader<'a> {
                 Some(last) => format!("{}: {too_many}", object_name(&self.places, last)),
                 None => format!("nObjects: {too_many} after it"),
             };
-            let diagnostic = Diagnostic::error(span, message, TYPES);
+            let diagnostic = Diagnostic::error(span, message, keywords());
             match previous {
                 _ if LEAST_NUMBERS <= surplus => {
                     diagnostic.with_hint("is the next object's type missing?")

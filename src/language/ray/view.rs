@@ -8,7 +8,7 @@ use super::origins::Origins;
 use super::table::VIEW;
 use crate::language::at::At;
 use crate::language::table::{self, Field};
-use crate::language::view::{Numbers, beginning, differ, line_ending, literal, take};
+use crate::language::view::{Numbers, beginning, line_ending, literal, take};
 use crate::scene::{Camera, Focus, Lens, Size};
 use crate::text::{Edit, Span, spell_like};
 
@@ -138,7 +138,7 @@ pub(super) fn edits(text: &str, origins: &Origins, before: &Camera, camera: &Cam
                 .iter()
                 .zip(new)
                 .zip(spans)
-                .filter(|((old, new), _)| differ(**old, **new));
+                .filter(|((old, new), _)| old != new);
             edits.extend(changed.map(|((_, &value), span)| Edit {
                 span,
                 text: spell_like(span.of(text), value + 0.0),

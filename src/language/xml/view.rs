@@ -8,7 +8,7 @@ use super::table::camera::{self, PARAMETERS, index_of};
 use crate::language::Answers;
 use crate::language::placed::Placed;
 use crate::language::table::Field;
-use crate::language::view::{Numbers, differ, literal, take};
+use crate::language::view::{Numbers, literal, take};
 use crate::scene::{Camera, Focus, Lens, Size};
 use crate::text::{Edit, spell_like};
 
@@ -150,7 +150,7 @@ pub(super) fn edits(
     let [mut old, new] = [before, camera].map(|camera| View::of(camera).numbers(origins));
     for (at, factor) in VECTORS.into_iter().zip(origins.factors) {
         // A vector that the text multiplies by 0 needs another factor.
-        if factor.is_some_and(|factor| differ(factor, old[at][3])) && old[at] != new[at] {
+        if factor.is_some_and(|factor| factor != old[at][3]) && old[at] != new[at] {
             old[at] = vec![f64::NAN; 4];
         }
     }
@@ -159,7 +159,7 @@ pub(super) fn edits(
         .zip(old.iter().zip(&new))
         .map(|(placed, (old, new))| {
             let components = old.iter().zip(new).enumerate();
-            let changed = components.filter(|(_, (old, new))| differ(**old, **new));
+            let changed = components.filter(|(_, (old, new))| old != new);
             let spelled = changed.map(|(component, (_, &number))| {
                 let spelled = match placed.default_of(component) {
                     Some(_) => literal(placed.field, number),

@@ -1,7 +1,16 @@
 //! The parts of every record, in the order of the text.
 
-use super::{OPERATIONS, PROJECTIONS, Part, SHADOWS, SOURCES};
+use super::Part;
 use crate::language::table::{Category, Field, Kind, Range};
+
+/// The projections of a camera.
+pub(in crate::language::dat) const PROJECTIONS: &[&str] = &["perspective", "orthographic"];
+/// The types of lights.
+pub(in crate::language::dat) const SOURCES: &[&str] = &["pnt", "inf", "amb"];
+/// Whether a light casts shadows.
+pub(in crate::language::dat) const SHADOWS: &[&str] = &["shadow_on", "shadow_off"];
+/// The operations that combine two objects.
+pub(in crate::language::dat) const OPERATIONS: &[&str] = &["union", "intersection", "difference"];
 
 const fn choice(key: &'static str, words: &'static [&'static str], doc: &'static str) -> Part {
     Part::Field(Field {

@@ -67,7 +67,7 @@ impl Model {
             nodes.push((Node::Light(index), None, say(random, &mut LIGHT.iter())));
         }
         for index in 0..=random.below(4) {
-            let kind = ShapeKind::ALL[random.below(5)];
+            let kind = ShapeKind::ALL[random.below(ShapeKind::ALL.len())];
             nodes.push((
                 Node::Object(index),
                 Some(kind),
