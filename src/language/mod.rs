@@ -155,7 +155,7 @@ impl Language {
 }
 
 /// The extensions of all languages, as a list for a message.
-fn extensions() -> String {
+pub(crate) fn extensions() -> String {
     alternatives(Language::ALL.map(|language| format!(".{}", language.extension())))
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crate::assets::NoFolder;
 use crate::file::ReadError;
-use crate::language::UnknownLanguage;
+use crate::language::{UnknownLanguage, extensions};
 use crate::memory::NoThreads;
 
 /// How the interface ended.
@@ -44,7 +44,8 @@ pub enum Error {
     },
     /// The argument is neither a file nor the name of a scene.
     #[error(
-        "no such file or command `{path}`; the commands are render, check and doctor; scenes end in .ray, .dat or .xml",
+        "no such file or command `{path}`; the commands are render, check and doctor; scenes end in {}",
+        extensions(),
         path = path.display()
     )]
     NoSuch {

@@ -223,9 +223,13 @@ fn expand(prefix: &[String], tree: &str, found: &mut Vec<(Vec<String>, String)>)
     }
 }
 
-/// The paths in code outside of imports: `row::Row::new`.
+/// The paths in code outside of imports and of visibilities: `row::Row::new`.
 fn inline_paths(code: &str) -> impl Iterator<Item = Vec<String>> + '_ {
     let lines = code.lines().filter(|line| !line.contains("use "));
+    let lines = lines.map(|line| match line.split_once("pub(in ") {
+        Some((_, rest)) => rest.split_once(')').map_or(rest, |(_, item)| item),
+        None => line,
+    });
     let words = lines.flat_map(|line| line.split(|c: char| !in_name(c) && c != ':'));
     let paths = words.filter(|word| word.contains("::") && word.ends_with(in_name));
     paths.map(|path| path.split("::").map(str::to_owned).collect())
