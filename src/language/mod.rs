@@ -298,11 +298,10 @@ pub trait Answers: Editable {
     /// The nodes whose text overlaps `span`, in text order.
     fn nodes_in(&self, span: Span) -> Vec<Node>;
 
-    /// The parts of an object: itself, then the objects it combines, each with its depth below the
-    /// first. At most `limit`; a single one if it is not a combination.
+    /// The objects that an object combines, each with its depth below it, from 1; at most `limit`.
     fn parts(&self, object: usize, limit: usize) -> Vec<(usize, Node)> {
-        let _ = limit;
-        vec![(0, Node::Object(object))]
+        let _ = (object, limit);
+        Vec::new()
     }
 
     /// The word for how an object combines others: `union`. `None` if it does not.
@@ -403,6 +402,6 @@ pub trait Answers: Editable {
         wanted: Visibility,
     ) -> Result<Vec<Edit>, &'static str> {
         let _ = (object, wanted);
-        Err("in this language every object is drawn")
+        Err("this language cannot hide objects")
     }
 }

@@ -60,7 +60,7 @@ impl<'a> Record<'a> {
             match part.field.kind {
                 Kind::Direction | Kind::Axis => self.check_direction(&part, report),
                 // Checked when they were read.
-                Kind::Choice(_) | Kind::Reference(_) | Kind::Word => {}
+                Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) | Kind::Word => {}
                 _ => self.check_numbers(&part, report),
             }
         }

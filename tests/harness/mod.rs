@@ -9,8 +9,8 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
 use portable_pty::{Child, CommandBuilder, ExitStatus, MasterPty, PtySize, native_pty_system};
-use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{Mode, OFlags};
+use rustix::io::Errno;
 
 /// Nothing takes this long; a test that waits longer has failed.
 const WATCHDOG: Duration = Duration::from_secs(30);
@@ -223,28 +223,24 @@ impl Session {
         while self.read(WATCHDOG).is_some() {}
     }
 
-    /// Stops reading, like a terminal that hangs, until the output buffer is full.
+    /// Stops reading, like a terminal that hangs, with a full output buffer.
+    ///
+    /// The program alone might leave room: a writer that waits is woken by the last read, possibly
+    /// before the system has moved bytes to make room, and not again afterwards.
     #[allow(dead_code, reason = "not every test needs it")]
     pub(crate) fn hang(&mut self) {
         self.stop_reading();
         let name = self.terminal().tty_name().expect("a name");
-        let open = OFlags::WRONLY | OFlags::NOCTTY | OFlags::CLOEXEC;
+        let open = OFlags::WRONLY | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::CLOEXEC;
         let line = rustix::fs::open(name, open, Mode::empty()).expect("it can be opened");
-        let deadline = Instant::now() + WATCHDOG;
-        let has_room = || {
-            let at_once = Some(&Timespec::default());
-            poll(&mut [PollFd::new(&line, PollFlags::OUT)], at_once) != Ok(0)
+        // Terminals ignore NULs.
+        let full = loop {
+            if let Err(error) = rustix::io::write(&line, &[0; 1 << 10]) {
+                break error;
+            }
         };
-        while has_room() {
-            let is_late = deadline <= Instant::now();
-            assert!(
-                !is_late,
-                "the buffer is never full; ended: {:?}",
-                self.ended()
-            );
-            self.send(CTRL_L);
-            std::thread::sleep(POLL);
-        }
+        assert_eq!(full, Errno::AGAIN);
+        self.send(CTRL_L);
     }
 
     /// Stops the reading thread, which ends after one more chunk of output.

@@ -106,11 +106,12 @@ impl Answers for Source {
     fn parts(&self, object: usize, limit: usize) -> Vec<(usize, Node)> {
         let mut parts = Vec::new();
         let mut pending = vec![(0, object)];
-        while let Some((depth, object)) = pending.pop() {
-            if parts.len() == limit {
-                break;
+        while let Some((depth, object)) = pending.pop()
+            && parts.len() < limit
+        {
+            if 0 < depth {
+                parts.push((depth, Node::Object(object)));
             }
-            parts.push((depth, Node::Object(object)));
             let operands = self
                 .origins
                 .objects

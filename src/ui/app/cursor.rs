@@ -118,7 +118,7 @@ impl Cursor {
         self.selected = node;
         self.fields = source.fields(node);
         self.parts = match node {
-            Node::Object(object) => source.parts(object, 1 + MAX_PARTS).split_off(1),
+            Node::Object(object) => source.parts(object, MAX_PARTS),
             _ => Vec::new(),
         };
     }

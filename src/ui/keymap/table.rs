@@ -96,7 +96,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(SELECT, &[c('v')], A::Go(View), "move the camera"),
     bind(SELECT, &[c('p')], A::Go(Pick), "pick in the picture"),
     bind(SELECT, &[key(Tab)], A::Cycle(1), "next light or object"),
-    bind(LIST_AND_FIELDS, &[c(' ')], A::Visibility, "show or hide the object (.dat)"),
+    bind(LIST_AND_FIELDS, &[c(' ')], A::Visibility, "show or hide the object"),
     bind(SELECT, &[c('/')], A::Search, "search for a name"),
     bind(LONG_LISTS, &[c('g')], A::G, "first"),
     bind(LONG_LISTS, &[c('G'), key(End)], A::Last, "last"),

@@ -416,8 +416,9 @@ render 1 ID 9",
     let object = Node::Object;
     assert_eq!(source.comment(object(0)), Some("the eye"));
     assert_eq!(source.comment(object(1)), None);
-    let parts = [(0, object(2)), (1, object(0)), (1, object(1))];
+    let parts = [(1, object(0)), (1, object(1))];
     assert_eq!(source.parts(2, 10), parts);
+    assert_eq!(source.parts(2, 1), parts[..1]);
     assert_eq!(source.users(Node::Material(0)), 2);
     assert_eq!(source.users(Node::Texture(0)), 2);
     let drawn = [0, 1, 2].map(|index| source.drawn(index));

@@ -1,5 +1,7 @@
 //! Messages for texts that are not XML.
 
+use std::fmt::Display;
+
 use roxmltree::{Error, TextPos};
 
 use crate::text::{Diagnostic, Span};
@@ -52,23 +54,12 @@ pub(super) fn diagnostic(text: &str, error: &Error, unclosed: Option<Span>) -> D
             format!("{c:?} is not allowed in XML"),
             "a printable character",
         ),
-        Error::InvalidChar(expected, ..) => {
-            let expected = char::from(*expected);
-            Diagnostic::error(
-                here,
-                format!("`{expected}` is missing"),
-                format!("`{expected}`"),
-            )
-        }
+        Error::InvalidChar(expected, ..) => missing(here, char::from(*expected)),
+        Error::InvalidString(expected, _) => missing(here, expected),
         Error::InvalidChar2(expected, ..) => Diagnostic::error(
             here,
             format!("{expected} is missing"),
             (*expected).to_owned(),
-        ),
-        Error::InvalidString(expected, _) => Diagnostic::error(
-            here,
-            format!("`{expected}` is missing"),
-            format!("`{expected}`"),
         ),
         Error::InvalidName(_) => Diagnostic::error(here, "a name cannot begin here", "a name")
             .with_hint("a literal < is written &lt;"),
@@ -139,4 +130,9 @@ fn until(text: &str, at: usize, mark: char) -> Span {
         }
         _ => character(text, at),
     }
+}
+
+/// A mark that the syntax requires and the text lacks.
+fn missing(here: Span, mark: impl Display) -> Diagnostic {
+    Diagnostic::error(here, format!("`{mark}` is missing"), format!("`{mark}`"))
 }
