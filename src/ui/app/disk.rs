@@ -115,9 +115,10 @@ impl Disk {
         self.unread.is_some()
     }
 
-    /// Whether a path is the scene's.
+    /// Whether a path is the scene's, spelled with or without a leading `./`.
     pub(super) fn is_own(&self, path: &Path) -> bool {
-        self.path.as_deref() == Some(path)
+        let plain = |path| Path::strip_prefix(path, ".").unwrap_or(path);
+        self.path.as_deref().map(plain) == Some(plain(path))
     }
 
     /// Reads the file, to be compared with `baseline`; no effect for a scene without a file.

@@ -2,8 +2,9 @@
 
 use super::App;
 use super::camera::{framed, settled};
+use crate::geometry::Aabb;
 use crate::language::Node;
-use crate::scene::Camera;
+use crate::scene::{Camera, Scene};
 
 impl App {
     /// Applies a move, unless the resulting camera would see nothing.
@@ -22,22 +23,35 @@ impl App {
         let Some(scene) = self.scene.clone() else {
             return;
         };
-        let bounds = match self.cursor.selected() {
-            Node::Object(index) => {
-                let drawn = self.source().drawn(index);
-                let object = drawn.and_then(|at| scene.objects.get(at as usize));
-                let bounds = object.map(|object| object.shape.bounds());
-                bounds.filter(|bounds| bounds.is_bounded() && !bounds.is_empty())
-            }
-            _ => None,
+        let selected = self.cursor.selected();
+        let own = match selected {
+            Node::Object(index) => self.bounds_of(&scene, index).map_err(Some),
+            _ => Err(None),
         };
-        let bounds = bounds.unwrap_or_else(|| scene.bounds());
+        let bounds = own.unwrap_or_else(|_| scene.bounds());
         if bounds.is_empty() {
             self.overlays.say("nothing to frame");
             return;
         }
         let (centre, radius) = (bounds.centre(), bounds.half_diagonal());
         self.move_camera(|camera| framed(camera, centre, radius));
+        if let Err(Some(reason)) = own {
+            let name = self.source().name(selected);
+            let message = format!("{name} {reason}: this is the whole scene");
+            self.overlays.say(message);
+        }
+    }
+
+    /// The bounding box of an object, or why it has none.
+    fn bounds_of(&self, scene: &Scene, object: usize) -> Result<Aabb, &'static str> {
+        let drawn = self.source().drawn(object).ok_or("is not drawn")?;
+        let object = scene.objects.get(drawn as usize).ok_or("is not drawn")?;
+        let bounds = object.shape.bounds();
+        if bounds.is_bounded() && !bounds.is_empty() {
+            Ok(bounds)
+        } else {
+            Err("has no finite size")
+        }
     }
 
     /// Writes the working view into the text as an ordinary edit.

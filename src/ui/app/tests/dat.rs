@@ -213,3 +213,18 @@ fn a_scene_keeps_its_language() {
         Effect::Save { .. }
     )));
 }
+
+#[test]
+fn a_hidden_object_is_not_framed_in_silence() {
+    let mut app = at(Node::Object(3));
+    press(&mut app, "vf");
+    let framed = app.camera();
+    assert_eq!(words(&app), "");
+    press(&mut app, "<Esc> vf");
+    assert!(
+        words(&app).ends_with("is not drawn: this is the whole scene"),
+        "{}",
+        words(&app)
+    );
+    assert_ne!(app.camera(), framed);
+}

@@ -124,6 +124,19 @@ fn a_waiting_save_may_replace_what_the_previous_one_wrote() {
     }
 }
 
+#[test]
+fn a_leading_dot_does_not_make_it_another_file() {
+    let mut app = open(SCENE);
+    let effects = press(&mut app, "jjjel:w ./scene.ray<Enter>");
+    let text = app.document.text().to_owned();
+    let expected = (
+        1,
+        "scene.ray".to_owned(),
+        Guard::Holding(Arc::new(SCENE.to_owned())),
+    );
+    assert_eq!(saves(&effects), [expected], "{text}");
+}
+
 /// The watcher may be faster than the outcome of the save.
 #[test]
 fn the_text_of_a_running_save_is_not_a_change() {
