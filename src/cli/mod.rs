@@ -20,7 +20,7 @@ use crate::file::ReadError;
 use crate::image_file::{FORMATS, ImageFormat, known_extensions};
 use crate::render::{DEFAULT_SPP, MAX_SPP};
 use crate::scene::Size;
-use crate::text::{edit_distance, visible};
+use crate::text::{nearest_word, visible};
 use crate::ui;
 use crate::ui::terminal::Mouse;
 
@@ -324,9 +324,8 @@ impl InterfaceArguments {
 fn likely_command(scene: &Path) -> Option<String> {
     let word = scene.to_str().filter(|word| !word.contains(['.', '/']))?;
     let cli = Cli::command();
-    let mut names = cli.get_subcommands().map(clap::Command::get_name);
-    let command = names.find(|name| edit_distance(word, name) <= 2)?;
-    Some(command.to_owned())
+    let names = cli.get_subcommands().map(clap::Command::get_name);
+    nearest_word(word, names).map(str::to_owned)
 }
 
 const RENDER_EXAMPLES: &str = "\

@@ -4,8 +4,7 @@ use std::fmt;
 
 use super::table::Field;
 use crate::text::{
-    Diagnostic, Findings, NumberError, Severity, Span, concise, edit_distance, parse_number,
-    without_suffix,
+    Diagnostic, Findings, NumberError, Severity, Span, concise, parse_number, without_suffix,
 };
 
 /// A token for display in messages: in backticks, truncated, unprintable characters escaped.
@@ -155,31 +154,6 @@ pub(super) fn did_you_mean(
         hint: question.or_else(|| otherwise.map(str::to_owned)),
         ..diagnostic
     }
-}
-
-/// Returns the known word that differs only in case, otherwise the closest one, if at most one or
-/// two typing slips apart.
-pub(super) fn nearest_word(
-    word: &str,
-    known: impl Iterator<Item = &'static str> + Clone,
-) -> Option<&'static str> {
-    const LONGEST: usize = 16;
-    let mut same = known.clone();
-    if let Some(same) = same.find(|known| known.eq_ignore_ascii_case(word)) {
-        return Some(same);
-    }
-    if LONGEST < word.len() || !word.is_ascii() {
-        return None;
-    }
-    known
-        .map(|known| (edit_distance(word, known), known))
-        .filter(|&(slips, known)| {
-            // Two slips would make a short word unrecognisable.
-            let allowed = if known.len() < 5 { 1 } else { 2 };
-            slips <= allowed
-        })
-        .min_by_key(|&(slips, _)| slips)
-        .map(|(_, known)| known)
 }
 
 /// A node's name, formatted only when a message needs it.

@@ -4,9 +4,9 @@ mod codes;
 mod counted;
 mod diagnostic;
 mod edit;
-mod edit_distance;
 mod findings;
 mod lines;
+mod nearest;
 mod number;
 mod percentage;
 mod seek;
@@ -17,9 +17,9 @@ pub use codes::without_codes;
 pub use counted::{alternatives, counted};
 pub use diagnostic::{Diagnostic, Severity};
 pub use edit::{Edit, apply, cover, difference, smallest_edit};
-pub use edit_distance::edit_distance;
 pub use findings::Findings;
 pub use lines::{is_line_end, is_one_line_end, line_end, line_start, next_line};
+pub use nearest::nearest_word;
 pub use number::{
     NumberError, concise, decimals, is_integer, parse_number, spell_like, without_suffix,
 };

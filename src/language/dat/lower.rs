@@ -16,11 +16,11 @@ use super::table::{Heads, RECORDS, RecordKind, TextureKind, UseKind};
 use super::tree::Tree;
 use crate::geometry::{Operation, Solid};
 use crate::language::Lowered;
-use crate::language::report::{did_you_mean, nearest_word, quoted};
+use crate::language::report::{did_you_mean, quoted};
 use crate::language::table::Category;
 use crate::language::words::Words;
 use crate::scene::{Light, Material, Rgb, Scene, Setting, Texture};
-use crate::text::{Diagnostic, Findings, Position, Span};
+use crate::text::{Diagnostic, Findings, Position, Span, nearest_word};
 use line::Line;
 
 /// Maximum number of IDs listed in a message.

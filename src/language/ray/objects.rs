@@ -241,8 +241,7 @@ impl<'a> Reader<'a> {
             let object = self.places.len() + 1;
             let message = format!("object {object}: unknown type {}", quoted(word));
             let diagnostic = Diagnostic::error(token, message, keywords());
-            let meant = ShapeKind::nearest(word).map(ShapeKind::keyword);
-            did_you_mean(diagnostic, meant, None)
+            did_you_mean(diagnostic, ShapeKind::nearest(word), None)
         });
         self.at += 1;
         let from = self.at;
@@ -290,8 +289,11 @@ impl<'a> Reader<'a> {
         self.report.warning(|| {
             let message = format!("ignored {ignored} after the last object");
             let diagnostic = Diagnostic::warning(token, message, "the end of the text");
-            let meant = ShapeKind::nearest(word).map(ShapeKind::keyword);
-            did_you_mean(diagnostic, meant, Some("`//` begins a comment"))
+            did_you_mean(
+                diagnostic,
+                ShapeKind::nearest(word),
+                Some("`//` begins a comment"),
+            )
         });
     }
 

@@ -1,8 +1,8 @@
 //! The table of fields of `.ray`.
 
 use crate::language::at::At;
-use crate::language::report::nearest_word;
 use crate::language::table::{Field, Kind, Range, numbers};
+use crate::text::nearest_word;
 
 /// The camera, in a view comment.
 pub(super) const VIEW: &[Field; 5] = &[
@@ -192,15 +192,9 @@ impl ShapeKind {
         numbers(self.geometry()) + numbers(MATERIAL)
     }
 
-    /// Returns the kind with the keyword closest to a word, if at most one or two typing slips apart.
-    pub(super) fn nearest(word: &str) -> Option<Self> {
-        const LONGEST: usize = 12;
-        if LONGEST < word.len() || !word.is_ascii() {
-            return None;
-        }
-        let word = word.to_ascii_lowercase();
-        let keywords = Self::ALL.iter().map(|kind| kind.keyword());
-        nearest_word(&word, keywords).and_then(Self::of_word)
+    /// The keyword that a word was probably meant to be.
+    pub(super) fn nearest(word: &str) -> Option<&'static str> {
+        nearest_word(word, Self::ALL.map(Self::keyword))
     }
 }
 
@@ -251,9 +245,13 @@ mod tests {
             ("cube", None),
             ("torus", None),
             ("", None),
-            ("sphère", None),
+            ("sphère", Some(ShapeKind::Sphere)),
         ] {
-            assert_eq!(ShapeKind::nearest(word), kind, "{word}");
+            assert_eq!(
+                ShapeKind::nearest(word),
+                kind.map(ShapeKind::keyword),
+                "{word}"
+            );
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::image_file::ImageFormat;
 use crate::language::Language;
 use crate::render::MAX_SPP;
 use crate::scene::{Camera, Size};
-use crate::text::edit_distance;
+use crate::text::nearest_word;
 use crate::ui::keymap::{self, HelpLine};
 use crate::ui::msg::{Effect, Guard};
 
@@ -201,10 +201,7 @@ fn wrong_word(words: &[&str]) -> Option<String> {
 
 fn unknown(name: &str) -> String {
     let names: Vec<_> = TABLE.iter().map(|form| form.names[0]).collect();
-    let nearest = names.iter().min_by_key(|known| edit_distance(name, known));
-    match nearest
-        .filter(|known| edit_distance(name, known) <= 2 && edit_distance(name, known) < known.len())
-    {
+    match nearest_word(name, names.iter().copied()) {
         Some(nearest) => format!("unknown command `{name}`: did you mean {nearest}?"),
         None => format!(
             "unknown command `{name}`; the commands are {}",

@@ -7,10 +7,10 @@ use crate::language::at::At;
 use crate::language::dat::table::{Part, RecordKind};
 use crate::language::record::{Record, what};
 use crate::language::report::Name;
-use crate::language::report::{did_you_mean, nearest_word, number_of, quoted};
+use crate::language::report::{did_you_mean, number_of, quoted};
 use crate::language::table::{Field, Kind, Range};
 use crate::language::words::Words;
-use crate::text::{Diagnostic, Span, counted};
+use crate::text::{Diagnostic, Span, counted, nearest_word};
 
 /// The content of a record.
 pub(super) struct Line<'a> {

@@ -3,13 +3,13 @@
 use std::collections::HashMap;
 
 use super::Reader;
-use crate::language::report::{nearest_word, quoted};
+use crate::language::report::quoted;
 use crate::language::xml::origins::{NO_WORD, Place, Role, WORDS};
 use crate::language::xml::table::{
     BACKGROUND, CHECKER, ENVIRONMENT, LightKind, MaterialKind, ObjectKind, Parameter, Reading,
     TRANSFORMS, Texturing, camera,
 };
-use crate::text::{Diagnostic, Span, visible};
+use crate::text::{Diagnostic, Span, nearest_word, visible};
 
 impl<'a> Reader<'a> {
     /// Gives every element its role and every attribute its word. Unknown elements are skipped with
@@ -216,7 +216,7 @@ impl<'a> Reader<'a> {
         let kind = of(word);
         if kind.is_none() {
             let name = self.name(element);
-            let nearest = nearest_word(&word.to_ascii_lowercase(), types.iter().copied());
+            let nearest = nearest_word(word, types.iter().copied());
             let hint = match nearest {
                 Some(nearest) => format!("{otherwise}; did you mean `{nearest}`?"),
                 None => otherwise.to_owned(),
@@ -230,10 +230,7 @@ impl<'a> Reader<'a> {
     fn unknown(&mut self, element: usize, parent: usize) {
         let (name, outer) = (quoted(self.name(element)), quoted(self.name(parent)));
         let known = self.known_in(parent);
-        let nearest = nearest_word(
-            &self.name(element).to_ascii_lowercase(),
-            known.iter().copied(),
-        );
+        let nearest = nearest_word(self.name(element), known.iter().copied());
         let hint = match nearest {
             Some(nearest) => format!("it is skipped; did you mean `{nearest}`?"),
             None => "it is skipped with all its content".to_owned(),
@@ -306,7 +303,7 @@ impl<'a> Reader<'a> {
             let place = self.tree.attributes[at].name;
             let word = place.of(self.text);
             let name = quoted(self.name(element));
-            let nearest = nearest_word(&word.to_ascii_lowercase(), known.iter().copied());
+            let nearest = nearest_word(word, known.iter().copied());
             let hint = match nearest {
                 Some(nearest) => format!("it is skipped; did you mean `{nearest}`?"),
                 None => "it is skipped".to_owned(),

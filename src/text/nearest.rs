@@ -1,0 +1,66 @@
+//! The known word that a misspelt one was probably meant to be.
+
+/// Returns the known word closest to a word, regardless of case: at most two typing slips apart,
+/// and one if it is short.
+pub fn nearest_word<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let close = known.into_iter().filter_map(|known| {
+        // More slips would make a short word unrecognisable.
+        let allowed = match known.len() {
+            0 | 1 => 0,
+            2..=4 => 1,
+            _ => 2,
+        };
+        // Spares the distance of words of a different length, which may be very long.
+        if allowed < known.len().abs_diff(word.len()) {
+            return None;
+        }
+        let slips = edit_distance(word, known);
+        (slips <= allowed).then_some((slips, known))
+    });
+    close
+        .min_by_key(|&(slips, _)| slips)
+        .map(|(_, known)| known)
+}
+
+/// The Levenshtein distance in characters, regardless of case: the smallest number of insertions,
+/// deletions and replacements (Wagner and Fischer, "The string-to-string correction problem", 1974).
+fn edit_distance(from: &str, to: &str) -> usize {
+    let mut row: Vec<usize> = (0..=to.chars().count()).collect();
+    for (i, a) in from.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, b) in to.chars().enumerate() {
+            let replaced = diagonal + usize::from(!a.eq_ignore_ascii_case(&b));
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row.last().copied().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_word_is_few_slips_away() {
+        let known = ["box", "Sphere", "spheres", "torus", "x", "y"];
+        let long = "s".repeat(100_000);
+        for (word, nearest) in [
+            ("sphere", Some("Sphere")),
+            ("SPHERES", Some("spheres")),
+            ("spehre", Some("Sphere")),
+            ("sphère", Some("Sphere")),
+            ("shperse", Some("spheres")),
+            ("tours", Some("torus")),
+            ("bxo", None),
+            ("bx", Some("box")),
+            ("X", Some("x")),
+            ("z", None),
+            ("", None),
+            (&long, None),
+        ] {
+            assert_eq!(nearest_word(word, known), nearest, "{word:.20}");
+        }
+    }
+}
