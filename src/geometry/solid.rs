@@ -38,16 +38,16 @@ impl Solid {
 
     /// Adds the parts of the ray's line inside the solid.
     pub fn spans(&self, ray: &Ray, spans: &mut Spans) {
-        match self {
-            Self::Quadric(quadric) => spans.extend(quadric.crossings(ray).into_iter().flatten()),
-            _ => spans.extend(self.ends(&ray.into()).map(Crossings::from)),
+        match self.as_quadric() {
+            Some(quadric) => spans.extend(quadric.crossings(ray).into_iter().flatten()),
+            None => spans.extend(self.ends(&ray.into()).map(Crossings::from)),
         }
     }
 
     /// The nearest hit with `0 < t < limit`, entering or leaving.
     #[inline]
     pub fn hit(&self, ray: &Ray, limit: f64) -> Option<Hit> {
-        if let Self::Quadric(quadric) = self {
+        if let Some(quadric) = self.as_quadric() {
             return quadric.hit(ray, limit);
         }
         let (end, hit) = self.ends(&ray.into())?.nearest(limit);
@@ -63,17 +63,30 @@ impl Solid {
         limits: Eight<S>,
         lanes: u32,
     ) -> Option<Hits> {
-        match self {
-            Self::Quadric(quadric) => {
+        match self.as_quadric() {
+            Some(quadric) => {
                 Hits::one_by_one(lanes, |lane| quadric.hit(&rays.ray(lane), limits[lane]))
             }
-            _ => self.ends(rays)?.hits(limits, lanes),
+            None => self.ends(rays)?.hits(limits, lanes),
         }
     }
 
     /// Whether every line hits the solid in at most one span: all but quadrics.
     pub(super) fn is_simple(&self) -> bool {
-        !matches!(self, Self::Quadric(_))
+        self.as_quadric().is_none()
+    }
+
+    /// The solid that a line may hit in several spans, one ray at a time; `None` if it is simple.
+    #[inline(always)]
+    fn as_quadric(&self) -> Option<&Quadric> {
+        match self {
+            Self::Quadric(quadric) => Some(quadric),
+            Self::Sphere(_)
+            | Self::Ellipsoid(_)
+            | Self::Cuboid(_)
+            | Self::Cylinder(_)
+            | Self::Cone(_) => None,
+        }
     }
 
     /// The crossings of a simple solid in each lane; `None` for quadrics.

@@ -64,9 +64,20 @@ impl At<1> {
         self.first
     }
 
-    /// Reads the index of the chosen word, to compare with [`index_of_word`].
-    pub(super) fn choice(self, numbers: &[f64]) -> usize {
-        numbers[self.first] as usize
+    /// Reads the meaning of the chosen word.
+    pub(super) fn choice<T: Copy>(self, numbers: &[f64], choices: &[(&str, T)]) -> T {
+        choices[numbers[self.first] as usize].1
+    }
+
+    /// Writes the word with this meaning.
+    pub(super) fn choose<T: Copy + PartialEq>(
+        self,
+        numbers: &mut [f64],
+        choices: &[(&str, T)],
+        meaning: T,
+    ) {
+        let index = choices.iter().position(|choice| choice.1 == meaning);
+        numbers[self.first] = index.expect("every meaning has a word") as f64;
     }
 }
 
@@ -89,16 +100,17 @@ pub(super) const fn index_of(fields: &[Field], key: &str) -> usize {
     panic!("the table has such a field")
 }
 
-/// The index of a word of a choice.
-pub(super) const fn index_of_word(words: &[&str], word: &str) -> usize {
+/// The words of a choice, without their meanings.
+pub(super) const fn words<T, const N: usize>(
+    choices: &[(&'static str, T); N],
+) -> [&'static str; N] {
+    let mut words = [""; N];
     let mut at = 0;
-    while at < words.len() {
-        if is_same(words[at], word) {
-            return at;
-        }
+    while at < N {
+        words[at] = choices[at].0;
         at += 1;
     }
-    panic!("the choice has such a word")
+    words
 }
 
 /// Whether two keys are equal.

@@ -4,6 +4,7 @@ use super::origins::{ObjectPlace, Place, place};
 use super::table::OPERATIONS;
 use super::tree::{is_comment, leaves};
 use super::{Source, lower, room, view, visibility};
+use crate::language::at::words;
 use crate::language::node::{FileKind, object_at, place_of};
 use crate::language::report::Name;
 use crate::language::table::{Category, Field, Kind};
@@ -126,7 +127,8 @@ impl Answers for Source {
 
     fn operation(&self, object: usize) -> Option<&str> {
         let fields = self.fields(Node::Object(object));
-        let is_operator = |placed: &&Placed| placed.field.kind == Kind::Choice(OPERATIONS);
+        let operator = Kind::Choice(const { &words(&OPERATIONS) });
+        let is_operator = |placed: &&Placed| placed.field.kind == operator;
         let operator = fields.iter().find(is_operator)?;
         Some(operator.spans.first()?.of(&self.text))
     }

@@ -9,7 +9,7 @@ use parts::{
     SPHERE, USE_BUMP, USE_COLOUR, VIEWPORT,
 };
 
-pub(super) use parts::{HALF_SPACE, OPERATIONS, PROJECTIONS, SHADOWS, SOURCES};
+pub(super) use parts::{HALF_SPACE, LightKind, OPERATIONS, PROJECTIONS, SHADOWS, SOURCES};
 
 /// A part of a record, after the words that identify its kind.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::origins::{Origins, VIEW};
 use super::table::{PROJECTIONS, RecordKind};
 use super::tree::Tree;
-use crate::language::at::{At, index_of_word};
+use crate::language::at::At;
 use crate::language::table::{Field, Kind};
 use crate::language::view::{Numbers, beginning, line_ending, literal, take};
 use crate::scene::{Camera, Focus, Lens, Size};
@@ -38,10 +38,6 @@ const RESOLUTION: At<2> = RecordKind::Resolution
 const VIEWPORT: At<2> = RecordKind::Viewport
     .at("viewport")
     .later(COUNT - RecordKind::Viewport.numbers());
-
-/// The indices of projections among their words.
-const PERSPECTIVE: usize = index_of_word(PROJECTIONS, "perspective");
-const ORTHOGRAPHIC: usize = index_of_word(PROJECTIONS, "orthographic");
 
 /// The first word of each record of [`VIEW`].
 const WORDS: [&str; 3] = ["camera", "resolution", "viewport"];
@@ -122,7 +118,7 @@ impl View {
     /// The view with these numbers in its `camera` record.
     pub(super) fn from_camera_record(numbers: &[f64]) -> Self {
         Self {
-            is_perspective: PROJECTION.choice(numbers) == PERSPECTIVE,
+            is_perspective: PROJECTION.choice(numbers, &PROJECTIONS),
             eye: EYE.vector(numbers),
             look: LOOK.vector(numbers),
             up: UP.vector(numbers),
@@ -145,12 +141,7 @@ impl View {
     /// The numbers of the view, in the order of [`fields`].
     fn numbers(&self) -> Numbers {
         let mut numbers = vec![0.0; COUNT];
-        let projection = if self.is_perspective {
-            PERSPECTIVE
-        } else {
-            ORTHOGRAPHIC
-        };
-        PROJECTION.put(&mut numbers, [projection as f64]);
+        PROJECTION.choose(&mut numbers, &PROJECTIONS, self.is_perspective);
         EYE.put(&mut numbers, self.eye.into());
         LOOK.put(&mut numbers, self.look.into());
         UP.put(&mut numbers, self.up.into());

@@ -7,8 +7,7 @@ use glam::DVec3;
 
 use super::{Definition, Drawn, Reader, shapes};
 use crate::geometry::Node as CsgNode;
-use crate::geometry::{Csg, Operation, Quadric, Shape, Solid};
-use crate::language::at::index_of_word;
+use crate::geometry::{Csg, Quadric, Shape, Solid};
 use crate::language::dat::origins::ObjectPlace;
 use crate::language::dat::table::{HALF_SPACE, OPERATIONS, ObjectKind, RecordKind};
 use crate::language::record::what;
@@ -30,10 +29,6 @@ const NAMED: usize = 8;
 
 /// Maximum number of objects listed in a message.
 const LISTED: usize = 64;
-
-/// The indices of operations among their words.
-const UNION: usize = index_of_word(OPERATIONS, "union");
-const INTERSECTION: usize = index_of_word(OPERATIONS, "intersection");
 
 /// Number of numbers of a half-space.
 const EACH: usize = HALF_SPACE.kind.components();
@@ -93,11 +88,8 @@ impl<'a> Reader<'a> {
         let shape = match kind {
             ObjectKind::Csg => {
                 let operator = const { ObjectKind::Csg.at("operator") };
-                return Some(Definition::Combined(match operator.choice(numbers) {
-                    UNION => Operation::Union,
-                    INTERSECTION => Operation::Intersection,
-                    _ => Operation::Difference,
-                }));
+                let operation = operator.choice(numbers, &OPERATIONS);
+                return Some(Definition::Combined(operation));
             }
             ObjectKind::Sphere => Some(shapes::sphere(numbers)),
             ObjectKind::Ellipsoid => shapes::ellipsoid(numbers),

@@ -7,24 +7,19 @@ use glam::DVec2;
 
 use super::Reader;
 use crate::geometry::normalise;
-use crate::language::at::{At, index_of_word};
+use crate::language::at::At;
 use crate::language::coefficients::Coefficients;
 use crate::language::dat::origins::{Place, UsePlace};
-use crate::language::dat::table::{RecordKind, SHADOWS, SOURCES, TextureKind, UseKind};
+use crate::language::dat::table::{LightKind, RecordKind, SHADOWS, SOURCES, TextureKind, UseKind};
 use crate::language::report::Name;
 use crate::language::table::Category;
 use crate::language::words::Words;
-use crate::scene::{Bump, Emitter, Falloff, Light, Pattern, Shadows, Side, Texture, Tinted};
+use crate::scene::{Bump, Emitter, Falloff, Light, Pattern, Side, Texture, Tinted};
 use crate::text::Diagnostic;
 
 const LIGHT: RecordKind = RecordKind::Light;
 const POSITION: At<3> = LIGHT.at("position");
 const DIRECTION: At<3> = LIGHT.at("direction");
-
-/// The indices of the types of lights, and of whether they cast shadows, among their words.
-const POINT: usize = index_of_word(SOURCES, "pnt");
-const DISTANT: usize = index_of_word(SOURCES, "inf");
-const SHADOW_ON: usize = index_of_word(SHADOWS, "shadow_on");
 
 const COLOUR: RecordKind = RecordKind::Use(UseKind::Colour);
 const BUMP: RecordKind = RecordKind::Use(UseKind::Bump);
@@ -54,10 +49,7 @@ impl<'a> Reader<'a> {
             emitter,
             colour: const { LIGHT.at("colour") }.vector(numbers),
             scale: PI,
-            shadows: match const { LIGHT.at("shadow") }.choice(numbers) {
-                SHADOW_ON => Shadows::Cast,
-                _ => Shadows::Off,
-            },
+            shadows: const { LIGHT.at("shadow") }.choice(numbers, &SHADOWS),
         });
     }
 
@@ -156,26 +148,28 @@ impl<'a> Reader<'a> {
 fn emitter(numbers: &[f64]) -> Option<Emitter> {
     let position = POSITION.vector(numbers);
     let direction = DIRECTION.vector(numbers);
-    Some(match const { LIGHT.at("source") }.choice(numbers) {
-        POINT => {
-            let radial = const { [LIGHT.at("a0"), LIGHT.at("a1"), LIGHT.at("a2")] };
-            let exponent = const { LIGHT.at("aa") }.number(numbers);
-            let direction = normalise(direction).filter(|_| 0.0 < exponent);
-            Emitter::Point {
-                position,
-                radius: 0.0,
-                falloff: Falloff {
-                    radial: radial.map(|at| at.number(numbers)),
-                    spot: direction.map(|direction| (direction, exponent)),
-                },
+    Some(
+        match const { LIGHT.at("source") }.choice(numbers, &SOURCES) {
+            LightKind::Point => {
+                let radial = const { [LIGHT.at("a0"), LIGHT.at("a1"), LIGHT.at("a2")] };
+                let exponent = const { LIGHT.at("aa") }.number(numbers);
+                let direction = normalise(direction).filter(|_| 0.0 < exponent);
+                Emitter::Point {
+                    position,
+                    radius: 0.0,
+                    falloff: Falloff {
+                        radial: radial.map(|at| at.number(numbers)),
+                        spot: direction.map(|direction| (direction, exponent)),
+                    },
+                }
             }
-        }
-        DISTANT => {
-            let toward = normalise(direction).map(|direction| -direction);
-            Emitter::Distant(toward.or_else(|| normalise(position))?)
-        }
-        _ => Emitter::Ambient,
-    })
+            LightKind::Distant => {
+                let toward = normalise(direction).map(|direction| -direction);
+                Emitter::Distant(toward.or_else(|| normalise(position))?)
+            }
+            LightKind::Ambient => Emitter::Ambient,
+        },
+    )
 }
 
 /// The material described by these numbers.

@@ -1,16 +1,37 @@
 //! The parts of every record, in the order of the text.
 
 use super::Part;
+use crate::geometry::Operation;
+use crate::language::at::words;
 use crate::language::table::{Category, Field, Kind, Range};
+use crate::scene::Shadows;
 
-/// The projections of a camera.
-pub(in crate::language::dat) const PROJECTIONS: &[&str] = &["perspective", "orthographic"];
+/// The projections of a camera, and whether they are perspective.
+pub(in crate::language::dat) const PROJECTIONS: [(&str, bool); 2] =
+    [("perspective", true), ("orthographic", false)];
 /// The types of lights.
-pub(in crate::language::dat) const SOURCES: &[&str] = &["pnt", "inf", "amb"];
+pub(in crate::language::dat) const SOURCES: [(&str, LightKind); 3] = [
+    ("pnt", LightKind::Point),
+    ("inf", LightKind::Distant),
+    ("amb", LightKind::Ambient),
+];
 /// Whether a light casts shadows.
-pub(in crate::language::dat) const SHADOWS: &[&str] = &["shadow_on", "shadow_off"];
+pub(in crate::language::dat) const SHADOWS: [(&str, Shadows); 2] =
+    [("shadow_on", Shadows::Cast), ("shadow_off", Shadows::Off)];
 /// The operations that combine two objects.
-pub(in crate::language::dat) const OPERATIONS: &[&str] = &["union", "intersection", "difference"];
+pub(in crate::language::dat) const OPERATIONS: [(&str, Operation); 3] = [
+    ("union", Operation::Union),
+    ("intersection", Operation::Intersection),
+    ("difference", Operation::Difference),
+];
+
+/// Where a light comes from.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::language::dat) enum LightKind {
+    Point,
+    Distant,
+    Ambient,
+}
 
 const fn choice(key: &'static str, words: &'static [&'static str], doc: &'static str) -> Part {
     Part::Field(Field {
@@ -78,7 +99,7 @@ const MATERIAL_ID: Part = reference("mat", Category::Material, "The material, by
 pub(super) const CAMERA: &[Part] = &[
     choice(
         "projection",
-        PROJECTIONS,
+        const { &words(&PROJECTIONS) },
         "Rays from the eye (perspective), or side by side (orthographic).",
     ),
     point("eye", "The position of the camera."),
@@ -124,7 +145,7 @@ pub(super) const LIGHT: &[Part] = &[
     Part::Id,
     choice(
         "source",
-        SOURCES,
+        const { &words(&SOURCES) },
         "From a point (pnt), from infinitely far (inf), from everywhere (amb).",
     ),
     point("position", "The position of a point light."),
@@ -157,7 +178,7 @@ pub(super) const LIGHT: &[Part] = &[
     ),
     choice(
         "shadow",
-        SHADOWS,
+        const { &words(&SHADOWS) },
         "Whether objects cast shadows in this light.",
     ),
 ];
@@ -261,7 +282,7 @@ pub(super) const CSG: &[Part] = &[
     ID,
     Part::Id,
     Part::Field(Field {
-        kind: Kind::Choice(OPERATIONS),
+        kind: Kind::Choice(const { &words(&OPERATIONS) }),
         other_spellings: &[("intersect", "intersection")],
         ..Field::point(
             "operator",
