@@ -32,11 +32,11 @@
 //! | [`document`] | sole owner of a source, its undo history and its saved text | individual languages, files |
 //! | [`accel`] | bounding volume hierarchies | what the boxes contain |
 //! | [`render`] | renders scenes: worker, integrators, film, tone mapping | documents, files, terminals |
-//! | [`file`](mod@file) | reads scenes and replaces files, atomically where the file system allows it | what the bytes mean |
+//! | [`file`](mod@file) | reads scenes and replaces files, atomically where the file system allows it; says why it could not | what the bytes mean |
 //! | [`image_file`] | picture files: writes frames, reads textures | what is in a scene |
 //! | [`assets`] | reads the pictures and meshes that scenes name | how they are shaded |
 //! | [`watch`] | reports changes of paths on disk | what the files contain |
-//! | [`ui`] | the terminal: the only room that knows ratatui and crossterm | how pixels are computed |
+//! | [`ui`] | the terminal: the only room that knows ratatui and crossterm; commands are rows of `app/command.rs`, keys of `keymap/table.rs` | how pixels are computed |
 //! | [`batch`] | headless work: check, render | terminals |
 //! | [`cli`] | arguments and exit codes | how the work is done |
 //!

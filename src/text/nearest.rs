@@ -51,7 +51,7 @@ mod tests {
             ("SPHERES", Some("spheres")),
             ("spehre", Some("Sphere")),
             ("sphère", Some("Sphere")),
-            ("shperse", Some("spheres")),
+            ("shperse", None),
             ("tours", Some("torus")),
             ("bxo", None),
             ("bx", Some("box")),

@@ -24,22 +24,24 @@ impl App {
             return;
         };
         let selected = self.cursor.selected();
-        let own = match selected {
-            Node::Object(index) => self.bounds_of(&scene, index).map_err(Some),
-            _ => Err(None),
+        let (bounds, unframed) = match selected {
+            Node::Object(object) => match self.bounds_of(&scene, object) {
+                Ok(bounds) => (bounds, None),
+                Err(reason) => (scene.bounds(), Some(reason)),
+            },
+            _ => (scene.bounds(), None),
         };
-        let bounds = own.unwrap_or_else(|_| scene.bounds());
         if bounds.is_empty() {
             self.overlays.say("nothing to frame");
             return;
         }
-        let (centre, radius) = (bounds.centre(), bounds.half_diagonal());
-        self.move_camera(|camera| framed(camera, centre, radius));
-        if let Err(Some(reason)) = own {
+        if let Some(reason) = unframed {
             let name = self.source().name(selected);
             let message = format!("{name} {reason}: this is the whole scene");
             self.overlays.say(message);
         }
+        let (centre, radius) = (bounds.centre(), bounds.half_diagonal());
+        self.move_camera(|camera| framed(camera, centre, radius));
     }
 
     /// The bounding box of an object, or why it has none.
