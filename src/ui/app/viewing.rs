@@ -2,9 +2,8 @@
 
 use super::App;
 use super::camera::{framed, settled};
-use crate::geometry::Aabb;
 use crate::language::Node;
-use crate::scene::{Camera, Scene};
+use crate::scene::Camera;
 
 impl App {
     /// Applies a move, unless the resulting camera would see nothing.
@@ -25,10 +24,15 @@ impl App {
         };
         let selected = self.cursor.selected();
         let (bounds, unframed) = match selected {
-            Node::Object(object) => match self.bounds_of(&scene, object) {
-                Ok(bounds) => (bounds, None),
-                Err(reason) => (scene.bounds(), Some(reason)),
-            },
+            Node::Object(object) => {
+                let drawn = self.source().drawn(object);
+                let drawn = drawn.and_then(|index| scene.objects.get(index as usize));
+                match drawn.map(|object| object.shape.bounds()) {
+                    Some(bounds) if bounds.is_bounded() && !bounds.is_empty() => (bounds, None),
+                    Some(_) => (scene.bounds(), Some("has no finite size")),
+                    None => (scene.bounds(), Some("is not drawn")),
+                }
+            }
             _ => (scene.bounds(), None),
         };
         if bounds.is_empty() {
@@ -42,18 +46,6 @@ impl App {
         }
         let (centre, radius) = (bounds.centre(), bounds.half_diagonal());
         self.move_camera(|camera| framed(camera, centre, radius));
-    }
-
-    /// The bounding box of an object, or why it has none.
-    fn bounds_of(&self, scene: &Scene, object: usize) -> Result<Aabb, &'static str> {
-        let drawn = self.source().drawn(object).ok_or("is not drawn")?;
-        let object = scene.objects.get(drawn as usize).ok_or("is not drawn")?;
-        let bounds = object.shape.bounds();
-        if bounds.is_bounded() && !bounds.is_empty() {
-            Ok(bounds)
-        } else {
-            Err("has no finite size")
-        }
     }
 
     /// Writes the working view into the text as an ordinary edit.
