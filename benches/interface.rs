@@ -422,7 +422,7 @@ fn scene(text: &str) -> Arc<Scene> {
 fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
     let (wake, woken) = mpsc::channel();
     let cores = thread::available_parallelism().map_or(1, usize::from);
-    let renderer = Renderer::new(Threads::Exactly(cores), move || {
+    let mut renderer = Renderer::new(Threads::Exactly(cores), move || {
         let _ = wake.send(());
     });
     let settings = Settings {

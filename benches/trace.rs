@@ -243,10 +243,10 @@ fn portrait(shape: Shape, lights: &[Light]) -> Scene {
 /// The median time of tracing a scene on `threads` threads, and the frame.
 fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
     let (wake, woken) = mpsc::channel();
-    let renderer = Renderer::new(Threads::Exactly(threads), move || {
+    let mut renderer = Renderer::new(Threads::Exactly(threads), move || {
         let _ = wake.send(());
     });
-    let trace = || {
+    let mut trace = || {
         let settings = Settings {
             size: SIZE,
             spp: 1,

@@ -111,7 +111,7 @@ fn trace(scene: &Arc<Scene>, threads: usize) -> Arc<Frame> {
         .into_iter()
         .collect();
     let (wake, woken) = mpsc::channel();
-    let renderer = Renderer::new(Threads::Exactly(threads), move || {
+    let mut renderer = Renderer::new(Threads::Exactly(threads), move || {
         let _ = wake.send(());
     });
     renderer

@@ -205,7 +205,7 @@ fn length_power(field: &Field, component: usize) -> i32 {
 fn trace(scene: &Arc<Scene>, images: Images, size: Size, spp: u32) -> Arc<Frame> {
     let (wake, woken) = mpsc::channel();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let renderer = Renderer::new(Threads::Exactly(threads), move || {
+    let mut renderer = Renderer::new(Threads::Exactly(threads), move || {
         let _ = wake.send(());
     });
     let settings = Settings {

@@ -50,7 +50,7 @@ fn covers(i: f64, j: f64, size: [f64; 2]) -> Option<bool> {
 fn the_example_is_white_on_black() {
     let scene = Arc::new(read(EXAMPLE).1.scene.expect("there are no errors"));
     let (wake, woken) = mpsc::channel();
-    let renderer = Renderer::new(Threads::Exactly(2), move || {
+    let mut renderer = Renderer::new(Threads::Exactly(2), move || {
         let _ = wake.send(());
     });
     let job = Job {

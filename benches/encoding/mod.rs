@@ -76,7 +76,7 @@ pub(crate) fn opened(scene: &str, terminal: (u16, u16)) -> (App, Job) {
 
 fn traced(job: Job) -> Arc<Frame> {
     let (wake, woken) = mpsc::channel();
-    let renderer = Renderer::new(Threads::Preview, move || {
+    let mut renderer = Renderer::new(Threads::Preview, move || {
         let _ = wake.send(());
     });
     renderer.restart(job).expect("the worker runs");

@@ -123,7 +123,7 @@ fn of(path: &Path, spp: u32, depth: Option<u32>) -> Phases {
     // First, as freed memory may later stay resident.
     let before = resident();
     let opened = Opened::new(path, language, &text);
-    let stage = Stage::new(depth);
+    let mut stage = Stage::new(depth);
     stage.build(&opened);
     let open = resident().saturating_sub(before);
     let objects = opened.objects();
@@ -137,7 +137,7 @@ fn of(path: &Path, spp: u32, depth: Option<u32>) -> Phases {
             break;
         }
         let opened = Opened::new(path, language, &text);
-        let stage = Stage::new(depth);
+        let mut stage = Stage::new(depth);
         let build = stage.build(&opened);
         let (render, frame) = stage.trace(&opened.scene, &opened.images, WHOLE, spp);
         rays = frame.progress.rays;
@@ -227,7 +227,7 @@ impl Stage {
         let renderer = Renderer::new(Threads::Exactly(THREADS), move || {
             let _ = wake.send(());
         });
-        let stage = Self {
+        let mut stage = Self {
             renderer,
             woken,
             depth,
@@ -240,13 +240,13 @@ impl Stage {
     }
 
     /// Builds a scene for a picture of one pixel and returns the time.
-    fn build(&self, opened: &Opened) -> Duration {
+    fn build(&mut self, opened: &Opened) -> Duration {
         self.trace(&opened.scene, &opened.images, PIXEL, 1).0
     }
 
     /// Traces a picture and returns the time.
     fn trace(
-        &self,
+        &mut self,
         scene: &Arc<Scene>,
         images: &Images,
         size: Size,

@@ -89,7 +89,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
     let (wake, woken) = mpsc::channel();
     // Kept to the end, so that its threads free memory while the picture is written. Starting them
     // before reading the scene was no faster.
-    let renderer = Renderer::new(Threads::Exactly(work.threads), move || {
+    let mut renderer = Renderer::new(Threads::Exactly(work.threads), move || {
         // This fails only while the renderer is being dropped.
         let _ = wake.send(());
     });

@@ -332,16 +332,10 @@ pub trait Answers: Editable {
         None
     }
 
-    /// The IDs that a field of a node may refer to: those of a category defined before the node's
-    /// text, ascending.
-    fn identities(&self, node: Node, category: Category) -> Vec<i64> {
+    /// The values of a field of a node that refers to nodes of a category: the IDs defined before
+    /// the node's text, ascending, or all names, in text order, without duplicates.
+    fn references(&self, node: Node, category: Category) -> Vec<String> {
         let _ = (node, category);
-        Vec::new()
-    }
-
-    /// The names that a field may refer to: those of a category, in text order, without duplicates.
-    fn names(&self, category: Category) -> Vec<String> {
-        let _ = category;
         Vec::new()
     }
 

@@ -47,6 +47,14 @@ impl Kind {
         matches!(self, Self::Pixels | Self::Side)
     }
 
+    /// Whether its components are numbers rather than words or IDs.
+    pub const fn is_numeric(self) -> bool {
+        !matches!(
+            self,
+            Self::Choice(_) | Self::Reference(_) | Self::Name(_) | Self::Word
+        )
+    }
+
     /// The number of components.
     pub const fn components(self) -> usize {
         self.component_names().len()

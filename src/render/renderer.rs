@@ -1,6 +1,5 @@
 //! The handle to a worker that traces pictures in the background.
 
-use std::cell::RefCell;
 use std::mem;
 use std::sync::mpsc::{self, Sender};
 use std::sync::{Arc, Weak};
@@ -34,7 +33,7 @@ pub struct Renderer {
     /// The reason if threads cannot be started; [`Refusal::Ended`] only during drop.
     worker: Result<Worker, Refusal>,
     /// The scene of the last accepted job.
-    accepted: RefCell<Weak<Scene>>,
+    accepted: Weak<Scene>,
 }
 
 #[derive(Debug)]
@@ -53,17 +52,17 @@ impl Renderer {
         Self {
             shared,
             worker: worker.map_err(|reason| Refusal::Threads { count, reason }),
-            accepted: RefCell::default(),
+            accepted: Weak::new(),
         }
     }
 
     /// Makes `job` the one to trace and returns its generation, greater than all before. Cancels
     /// the current job, except a first coarse picture younger than 50 ms; a refused job cancels
     /// nothing.
-    pub fn restart(&self, job: Job) -> Result<u64, Refusal> {
+    pub fn restart(&mut self, job: Job) -> Result<u64, Refusal> {
         let worker = self.worker.as_ref().map_err(Refusal::clone)?;
         let size = job.settings.size;
-        refusal::fits(&job, self.accepted.borrow().upgrade().as_ref())?;
+        refusal::fits(&job, self.accepted.upgrade().as_ref())?;
         let scene = Arc::downgrade(&job.scene);
         let film = Film::new(&job.settings, job.frames);
         let film = film.map_err(|NoMemory { bytes }| Refusal::Memory { size, bytes })?;
@@ -74,7 +73,7 @@ impl Renderer {
             film,
         };
         worker.orders.send(order).map_err(|_| Refusal::Ended)?;
-        self.accepted.replace(scene);
+        self.accepted = scene;
         Ok(generation)
     }
 

@@ -45,7 +45,7 @@ impl Beginning {
                 break;
             };
             beginning.step(msg);
-            if let Some(error) = beginning.app.disk.unreadable.take() {
+            if let Some(error) = beginning.app.disk.take_failure() {
                 return Err(error.into());
             }
         }

@@ -126,8 +126,8 @@ pub fn note(options: &Options, error: &Error) -> Option<String> {
     let path = options.scene.as_deref();
     let path = path.unwrap_or_else(|| Path::new(DEFAULT_SCENE));
     match error {
-        Error::Read(error) => recovery::note(path, matches!(error, ReadError::NotFound { .. })),
-        Error::Folder { .. } => recovery::note(path, false),
+        Error::Read(ReadError::NotFound { .. }) => recovery::note_for_missing(path),
+        Error::Read(_) | Error::Folder { .. } => recovery::note_for_unreadable(path),
         _ => None,
     }
 }

@@ -156,7 +156,7 @@ impl Session {
 
     /// Restores the terminal and prints there what became of unsaved edits.
     fn close(mut self) -> Result<Ending, Error> {
-        let unreadable = self.app.disk.unreadable.take();
+        let unreadable = self.app.disk.take_failure();
         let path = self.app.disk.path.as_deref();
         let path = path.map_or_else(String::new, |path| format!(" {}", argument(path)));
         // The end of the process frees a large scene immediately.

@@ -133,7 +133,7 @@ impl Answers for Source {
         Some(operator.spans.first()?.of(&self.text))
     }
 
-    fn identities(&self, node: Node, category: Category) -> Vec<i64> {
+    fn references(&self, node: Node, category: Category) -> Vec<String> {
         let records = self.origins.records(node).map(|(record, _)| record);
         let Some(record) = records.max() else {
             return Vec::new();
@@ -153,7 +153,7 @@ impl Answers for Source {
         let before = given.into_iter().filter(|&(at, _)| at < record);
         let mut identities: Vec<_> = before.map(|(_, id)| id).collect();
         identities.sort_unstable();
-        identities
+        identities.iter().map(i64::to_string).collect()
     }
 
     fn files(&self) -> Vec<NamedFile> {

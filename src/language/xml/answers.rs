@@ -128,7 +128,7 @@ impl Answers for Source {
         nodes
     }
 
-    fn names(&self, category: Category) -> Vec<String> {
+    fn references(&self, _: Node, category: Category) -> Vec<String> {
         if category != Category::Material {
             return Vec::new();
         }

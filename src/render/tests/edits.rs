@@ -342,23 +342,23 @@ fn samples_over_their_budget_are_counted_once() {
 #[test]
 fn a_renderer_keeps_pixels_that_an_edit_does_not_affect() {
     let mut random = Random(52);
-    let (renderer, woken) = renderer(2);
+    let (mut renderer, woken) = renderer(2);
     let settings = settings(61, 37, 5);
     let mut scene = Arc::new(still(8, &mut random));
-    let first = restart(&renderer, job(&scene, settings));
+    let first = restart(&mut renderer, job(&scene, settings));
     finish(&renderer, &woken, first);
     let (mut traced, mut all) = (0, 0);
     for _ in 0..12 {
         // Each is cancelled by the next as soon as it has shown a frame.
         scene = Arc::new(edited(&scene, &mut random));
-        restart(&renderer, job(&scene, settings));
+        restart(&mut renderer, job(&scene, settings));
         woken.recv().expect("a first frame");
         renderer.latest();
         scene = Arc::new(edited(&scene, &mut random));
-        let generation = restart(&renderer, job(&scene, settings));
+        let generation = restart(&mut renderer, job(&scene, settings));
         let kept = finish(&renderer, &woken, generation);
-        let (other, other_woken) = super::renderer(2);
-        let generation = restart(&other, job(&scene, settings));
+        let (mut other, other_woken) = super::renderer(2);
+        let generation = restart(&mut other, job(&scene, settings));
         let anew = finish(&other, &other_woken, generation);
         assert!(kept.pixels == anew.pixels && kept.objects == anew.objects);
         let told = |frame: &Frame| Progress {

@@ -17,7 +17,7 @@ fn edge(filter: Filter, spp: u32) -> Arc<Frame> {
         height: 2,
     };
     let scene = Arc::new(scene);
-    let (renderer, woken) = renderer(1);
+    let (mut renderer, woken) = renderer(1);
     let job = Job {
         frames: Frames::LastWithValues,
         ..job(
@@ -28,7 +28,7 @@ fn edge(filter: Filter, spp: u32) -> Arc<Frame> {
             },
         )
     };
-    let generation = restart(&renderer, job);
+    let generation = restart(&mut renderer, job);
     finish(&renderer, &woken, generation)
 }
 

@@ -24,7 +24,7 @@ fn values(aov: Aov, spp: u32) -> Arc<Frame> {
     scene.camera.size = SIZE;
     // The part before the near limit counts toward the distance.
     scene.camera.depths = [1.5, 100.0];
-    let (renderer, woken) = renderer(2);
+    let (mut renderer, woken) = renderer(2);
     let job = Job {
         camera: scene.camera,
         scene: Arc::new(scene),
@@ -35,7 +35,7 @@ fn values(aov: Aov, spp: u32) -> Arc<Frame> {
         },
         frames: Frames::LastWithValues,
     };
-    let generation = restart(&renderer, job);
+    let generation = restart(&mut renderer, job);
     finish(&renderer, &woken, generation)
 }
 
@@ -96,7 +96,7 @@ fn normals_objects_and_albedos_belong_to_the_first_surface() {
 #[test]
 fn radiance_is_returned_unclamped_on_request() {
     let bright = scene(&[(sphere([0.0; 3], 1.0), grey(3.5))], &[]);
-    let (renderer, woken) = renderer(1);
+    let (mut renderer, woken) = renderer(1);
     for (frames, told) in [(Frames::LastWithValues, true), (Frames::Last, false)] {
         let job = Job {
             camera: bright.camera,
@@ -105,7 +105,7 @@ fn radiance_is_returned_unclamped_on_request() {
             settings: settings(41, 31, 1),
             frames,
         };
-        let generation = restart(&renderer, job);
+        let generation = restart(&mut renderer, job);
         let frame = finish(&renderer, &woken, generation);
         assert_eq!(frame.pixels[CENTRE], [255; 3]);
         assert_eq!(frame.values.get(CENTRE), told.then_some(&[3.5; 3]));

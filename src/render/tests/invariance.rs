@@ -106,8 +106,8 @@ impl Still {
 }
 
 fn picture(scene: &Arc<Scene>) -> Arc<Frame> {
-    let (renderer, woken) = renderer(2);
-    let generation = restart(&renderer, job(scene, settings(80, 60, 2)));
+    let (mut renderer, woken) = renderer(2);
+    let generation = restart(&mut renderer, job(scene, settings(80, 60, 2)));
     finish(&renderer, &woken, generation)
 }
 

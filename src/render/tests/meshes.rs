@@ -288,8 +288,8 @@ fn an_instance_looks_like_a_transformed_mesh() {
             &[(as_shape(&instance), material)],
             &[white_light([3.0, 4.0, 9.0])],
         );
-        let (renderer, woken) = renderer(1);
-        let generation = restart(&renderer, job(&Arc::new(scene), settings(120, 90, 1)));
+        let (mut renderer, woken) = renderer(1);
+        let generation = restart(&mut renderer, job(&Arc::new(scene), settings(120, 90, 1)));
         finish(&renderer, &woken, generation)
     });
     let [a, b] = &pictures;

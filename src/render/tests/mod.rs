@@ -312,7 +312,7 @@ fn renderer(threads: usize) -> (Renderer, mpsc::Receiver<()>) {
 }
 
 /// Gives the renderer a job and returns its generation.
-fn restart(renderer: &Renderer, job: Job) -> u64 {
+fn restart(renderer: &mut Renderer, job: Job) -> u64 {
     renderer.restart(job).expect("the worker runs")
 }
 

@@ -19,12 +19,12 @@ fn wall() -> Arc<Scene> {
 }
 
 fn traced(settings: Settings, threads: usize) -> Arc<Frame> {
-    let (renderer, woken) = renderer(threads);
+    let (mut renderer, woken) = renderer(threads);
     let job = Job {
         frames: Frames::LastWithValues,
         ..job(&wall(), settings)
     };
-    let generation = restart(&renderer, job);
+    let generation = restart(&mut renderer, job);
     finish(&renderer, &woken, generation)
 }
 

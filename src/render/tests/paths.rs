@@ -552,12 +552,12 @@ fn paths_do_not_depend_on_the_number_of_threads() {
         ),
     ));
     let traced = |threads| {
-        let (renderer, woken) = renderer(threads);
+        let (mut renderer, woken) = renderer(threads);
         let settings = Settings {
             integrator: Integrator::Path,
             ..settings(33, 17, 8)
         };
-        let generation = restart(&renderer, job(&scene, settings));
+        let generation = restart(&mut renderer, job(&scene, settings));
         finish(&renderer, &woken, generation).pixels.clone()
     };
     let alone = traced(1);

@@ -55,8 +55,8 @@ fn still() -> Arc<Scene> {
 }
 
 fn trace(scene: &Arc<Scene>, settings: Settings, threads: usize) -> Arc<Frame> {
-    let (renderer, woken) = renderer(threads);
-    let generation = restart(&renderer, job(scene, settings));
+    let (mut renderer, woken) = renderer(threads);
+    let generation = restart(&mut renderer, job(scene, settings));
     finish(&renderer, &woken, generation)
 }
 
@@ -95,14 +95,14 @@ fn pictures_do_not_depend_on_the_number_of_threads() {
 fn cancelled_jobs_do_not_affect_later_ones() {
     let scene = still();
     let alone = trace(&scene, settings(40, 30, 4), 2);
-    let (renderer, woken) = renderer(2);
+    let (mut renderer, woken) = renderer(2);
     for spp in [512, 64, 300, 2, 1000] {
-        restart(&renderer, job(&scene, settings(40, 30, spp)));
+        restart(&mut renderer, job(&scene, settings(40, 30, spp)));
         // Each job has shown a frame before the next one starts.
         woken.recv().expect("a frame of every job");
         renderer.latest();
     }
-    let generation = restart(&renderer, job(&scene, settings(40, 30, 4)));
+    let generation = restart(&mut renderer, job(&scene, settings(40, 30, 4)));
     assert_eq!(finish(&renderer, &woken, generation).pixels, alone.pixels);
 }
 
@@ -228,22 +228,22 @@ fn tiles_waste_few_pixels() {
 /// A picture too large for any machine is refused without being tried.
 #[test]
 fn a_picture_that_does_not_fit_into_memory_is_refused() {
-    let (renderer, woken) = renderer(1);
+    let (mut renderer, woken) = renderer(1);
     let huge = settings(u32::MAX, u32::MAX, 1);
     let refused = renderer.restart(job(&still(), huge));
     assert!(matches!(
         refused,
         Err(Refusal::Memory { size, bytes }) if size == huge.size && 1 << 60 < bytes
     ));
-    let generation = restart(&renderer, job(&still(), settings(4, 3, 1)));
+    let generation = restart(&mut renderer, job(&still(), settings(4, 3, 1)));
     finish(&renderer, &woken, generation);
 }
 
 /// Dropping a renderer ends a picture that would take hours.
 #[test]
 fn dropping_a_renderer_cancels_its_work() {
-    let (renderer, woken) = renderer(1);
-    restart(&renderer, job(&still(), settings(4000, 4000, 60_000)));
+    let (mut renderer, woken) = renderer(1);
+    restart(&mut renderer, job(&still(), settings(4000, 4000, 60_000)));
     woken.recv().expect("a first frame");
     drop(renderer);
 }
@@ -261,9 +261,9 @@ fn an_edited_colour_appears_in_the_next_picture() {
         let objects: Vec<_> = (0..100).map(ball).collect();
         Arc::new(scene(&objects, &[]))
     };
-    let (renderer, woken) = renderer(1);
+    let (mut renderer, woken) = renderer(1);
     for level in [0.25, 0.75] {
-        let generation = restart(&renderer, job(&many(level), settings(40, 30, 1)));
+        let generation = restart(&mut renderer, job(&many(level), settings(40, 30, 1)));
         let frame = finish(&renderer, &woken, generation);
         let brightest = frame.pixels.iter().map(|pixel| pixel[0]).max();
         assert_eq!(brightest, Some((level * 255.0 + 0.5) as u8));
@@ -275,8 +275,8 @@ fn an_edited_colour_appears_in_the_next_picture() {
 fn a_panicked_worker_refuses_jobs() {
     let mut broken = Scene::clone(&still());
     broken.materials.clear();
-    let (renderer, woken) = renderer(1);
-    restart(&renderer, job(&Arc::new(broken), settings(4, 3, 1)));
+    let (mut renderer, woken) = renderer(1);
+    restart(&mut renderer, job(&Arc::new(broken), settings(4, 3, 1)));
     assert_eq!(woken.recv(), Err(mpsc::RecvError));
     let refused = renderer.restart(job(&still(), settings(4, 3, 1)));
     assert_eq!(refused, Err(Refusal::Ended));
@@ -287,13 +287,13 @@ fn a_panicked_worker_refuses_jobs() {
 #[test]
 fn unwatched_pixels_are_not_developed() {
     let scene = still();
-    let (renderer, woken) = renderer(1);
+    let (mut renderer, woken) = renderer(1);
     let last = Job {
         frames: Frames::Last,
         ..job(&scene, settings(400, 300, 8))
     };
     let size = last.settings.size;
-    restart(&renderer, last);
+    restart(&mut renderer, last);
     woken.recv().expect("a frame");
     let mut frame = renderer.latest().expect("a frame");
     while !frame.progress.complete {

@@ -378,9 +378,9 @@ fn the_background_is_looked_up_per_pixel() {
         "<background texture='checkerboard'><color1 value='0'/><color2 value='1'/></background>",
     );
     let scene = Arc::new(scene);
-    let (renderer, woken) = renderer(1);
+    let (mut renderer, woken) = renderer(1);
     for spp in [1, 4] {
-        let generation = restart(&renderer, job(&scene, settings(4, 2, spp)));
+        let generation = restart(&mut renderer, job(&scene, settings(4, 2, spp)));
         let frame = finish(&renderer, &woken, generation);
         let row = frame
             .pixels

@@ -102,8 +102,10 @@ impl App {
     /// The errors and warnings to show and the text that they refer to: the file on disk if that is
     /// what has errors.
     pub(crate) fn wrong(&self) -> Wrong<'_> {
-        let (text, findings) = match &self.disk.broken {
-            Some(broken) if self.is_disk_wrong() => (&**broken.text, &broken.diagnostics),
+        let (text, findings) = match &self.disk.state {
+            OnDisk::Faulty(faulty) if self.error_count() == 0 => {
+                (&**faulty.text, &faulty.diagnostics)
+            }
             _ => (self.document.text(), &self.diagnostics),
         };
         Wrong {
@@ -120,7 +122,7 @@ impl App {
 
     /// Whether the file on disk has errors while the text has none.
     pub fn is_disk_wrong(&self) -> bool {
-        self.disk.state == OnDisk::Broken && self.disk.broken.is_some() && self.error_count() == 0
+        matches!(self.disk.state, OnDisk::Faulty(_)) && self.error_count() == 0
     }
 
     /// Whether the file holds the text.

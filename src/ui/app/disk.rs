@@ -17,12 +17,8 @@ pub struct Disk {
     pub path: Option<PathBuf>,
     /// How the file relates to the text.
     pub state: OnDisk,
-    /// The file's content and errors while it is [`OnDisk::Broken`].
-    pub(super) broken: Option<Broken>,
-    /// Set until the scene is read; the text is empty meanwhile.
-    pub unread: Option<Unread>,
-    /// Why the scene could not be read: the program ends.
-    pub unreadable: Option<ReadError>,
+    /// How far the scene's first text has been read.
+    pub first: FirstReading,
     /// The state of waiting for a file that was read but could not be used.
     settle: Settle,
     /// Who requested the next reading of the file.
@@ -36,34 +32,40 @@ pub struct Disk {
 }
 
 /// How the file on disk relates to the text.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum OnDisk {
     /// It holds what was last read or written.
     #[default]
     Known,
     /// It holds something else; the user has to decide.
     Changed,
-    /// It cannot be read, or it has errors and is not taken until they are corrected, because there
-    /// are unsaved edits.
-    Broken,
+    /// It has errors, and is not taken until they are corrected because there are unsaved edits.
+    Faulty(Faulty),
+    /// It cannot be read.
+    Unreadable,
     /// It does not exist.
     Missing,
 }
 
 /// A file on disk with errors, kept apart from unsaved edits.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Broken {
+pub struct Faulty {
     /// The content of the file.
     pub(super) text: Arc<String>,
     /// Its errors and warnings.
     pub(super) diagnostics: Findings,
 }
 
-/// A scene that is being read for the first time.
-#[derive(Debug)]
-pub struct Unread {
-    /// Length of its file in bytes.
-    pub bytes: u64,
+/// How far the scene's first text has been read.
+#[derive(Debug, Default)]
+pub enum FirstReading {
+    /// It is here.
+    #[default]
+    Done,
+    /// It is being read from a file of this many bytes, and the text is empty.
+    Pending(u64),
+    /// It cannot be read: the program ends.
+    Failed(ReadError),
 }
 
 /// Who requested a reading of the file.
@@ -90,11 +92,11 @@ pub(super) enum Settle {
 
 impl Disk {
     /// Creates the initial state.
-    pub(super) fn new(path: Option<PathBuf>, state: OnDisk, unread: Option<Unread>) -> Self {
+    pub(super) fn new(path: Option<PathBuf>, state: OnDisk, first: FirstReading) -> Self {
         Self {
             path,
             state,
-            unread,
+            first,
             ..Self::default()
         }
     }
@@ -110,9 +112,20 @@ impl Disk {
         )
     }
 
-    /// Whether the scene is still being read: there is nothing to show or to edit.
+    /// Whether the scene has not been read: there is nothing to show or to edit.
     pub fn is_opening(&self) -> bool {
-        self.unread.is_some()
+        !matches!(self.first, FirstReading::Done)
+    }
+
+    /// Returns why the scene's first text could not be read, if that is so.
+    pub fn take_failure(&mut self) -> Option<ReadError> {
+        match std::mem::take(&mut self.first) {
+            FirstReading::Failed(error) => Some(error),
+            other => {
+                self.first = other;
+                None
+            }
+        }
     }
 
     /// Whether a path is the scene's, spelled with or without a leading `./`.
@@ -164,12 +177,6 @@ impl Disk {
     /// Ends the wait, and returns how far the file had settled.
     pub(super) fn take_settle(&mut self) -> Settle {
         std::mem::take(&mut self.settle)
-    }
-
-    /// Sets the file's state and forgets its errors.
-    pub(super) fn set_state(&mut self, state: OnDisk) {
-        self.state = state;
-        self.broken = None;
     }
 
     /// Records where the file was read and returns the previous place.

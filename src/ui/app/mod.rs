@@ -39,7 +39,7 @@ use std::time::Duration;
 
 pub use cursor::{Cursor, Typing};
 pub use derived::{FieldRow, Provenance};
-pub use disk::{Disk, OnDisk, Unread};
+pub use disk::{Disk, FirstReading, OnDisk};
 pub use jobs::{Export, Jobs, Stage};
 pub use model::App;
 pub use opening::{Opening, OpeningText};

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::assets::Assets;
-use super::{App, Cursor, Disk, Jobs, OnDisk, Overlays, Pictures, Quality, Unread};
+use super::{App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Pictures, Quality};
 use crate::document::Document;
 use crate::file::ReadError;
 use crate::language::{Language, Lowered, Node};
@@ -45,25 +45,19 @@ pub enum OpeningText {
 impl App {
     /// Creates the interface, and the effects to start with.
     pub fn open(opening: Opening) -> (Self, Vec<Effect>) {
-        let state = match opening.text {
-            OpeningText::Kept(_) => OnDisk::Missing,
-            OpeningText::Known(_) | OpeningText::Unread(_) => OnDisk::Known,
-        };
-        let (document, unread) = match opening.text {
-            OpeningText::Known(text) | OpeningText::Kept(text) => {
-                (Document::new(opening.language, text), None)
-            }
+        let (text, state, first) = match opening.text {
+            OpeningText::Known(text) => (text, OnDisk::Known, FirstReading::Done),
+            OpeningText::Kept(text) => (text, OnDisk::Missing, FirstReading::Done),
             OpeningText::Unread(bytes) => {
-                let unread = Unread { bytes };
-                (Document::new(opening.language, String::new()), Some(unread))
+                (String::new(), OnDisk::Known, FirstReading::Pending(bytes))
             }
         };
         let mut app = Self {
-            document,
+            document: Document::new(opening.language, text),
             diagnostics: Findings::default(),
             scene: None,
             assets: Assets::default(),
-            disk: Disk::new(opening.path, state, unread),
+            disk: Disk::new(opening.path, state, first),
             cursor: Cursor::default(),
             pictures: Pictures::new(opening.quality),
             overlays: Overlays::default(),
@@ -88,11 +82,11 @@ impl App {
         let reading = match read {
             Ok(reading) => reading,
             Err(error) => {
-                self.disk.unreadable = Some(error);
+                self.disk.first = FirstReading::Failed(error);
                 return vec![Effect::Quit];
             }
         };
-        self.disk.unread = None;
+        self.disk.first = FirstReading::Done;
         if let Some(place) = reading.place {
             self.disk.move_to(place);
         }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::cursor::Held;
-use super::disk::{Broken, Reader, Settle};
+use super::disk::{Faulty, Reader, Settle};
 use super::{App, Dialog, OnDisk, Outside, PromptKind};
 use crate::document::Adopted;
 use crate::file;
@@ -122,16 +122,13 @@ impl App {
                 _ => QUIET,
             }),
             Err(error) => {
-                self.disk.set_state(match error {
-                    ReadError::NotFound { .. } => OnDisk::Missing,
-                    _ => OnDisk::Broken,
-                });
+                let (state, hint) = match error {
+                    ReadError::NotFound { .. } => (OnDisk::Missing, "; press w to write it again"),
+                    _ => (OnDisk::Unreadable, ""),
+                };
+                self.disk.state = state;
                 self.overlays.errors = None;
                 self.jobs.quit = false;
-                let hint = match error {
-                    ReadError::NotFound { .. } => "; press w to write it again",
-                    _ => "",
-                };
                 self.overlays.fail(format!("{error}{hint}"));
                 Vec::new()
             }
@@ -177,7 +174,7 @@ impl App {
         let Some(news) = reading.news else {
             // While the file is being saved, the outcome of the save determines its state.
             if self.disk.state != OnDisk::Known && self.text_being_saved().is_none() {
-                self.disk.set_state(OnDisk::Known);
+                self.disk.state = OnDisk::Known;
                 self.overlays.say("the file matches the saved text again");
             } else if reader == Reader::User {
                 self.overlays
@@ -191,7 +188,7 @@ impl App {
             return effects;
         }
         let held = self.cursor.hold(self.document.shared_text());
-        self.disk.set_state(OnDisk::Known);
+        self.disk.state = OnDisk::Known;
         let (document, meaning, words) = match *news {
             News::Text(document, meaning) => (self.document.load(document), meaning, RELOADED),
             News::Merged(merged, meaning) => {
@@ -222,8 +219,7 @@ impl App {
         let first = diagnostics.first_error();
         let line = first.map_or(1, |d| Position::of(&text, d.span.start()).line);
         self.jobs.quit = false;
-        self.disk.state = OnDisk::Broken;
-        self.disk.broken = Some(Broken { text, diagnostics });
+        self.disk.state = OnDisk::Faulty(Faulty { text, diagnostics });
         self.overlays.fail(format!(
             "line {line} of the file on disk has an error: press E to edit it, or use :w! to overwrite it"
         ));
@@ -281,7 +277,7 @@ impl App {
             // In case a notification was missed.
             return self.read_effect();
         }
-        if let OnDisk::Changed | OnDisk::Broken = self.disk.state {
+        if let OnDisk::Changed | OnDisk::Faulty(_) | OnDisk::Unreadable = self.disk.state {
             // The question is asked again with what the file holds now; nothing is saved.
             self.jobs.quit = false;
             return self.read_effect();
@@ -369,8 +365,9 @@ impl App {
                 .fail("this scene has no file yet: use :w FILE to create one");
             return Vec::new();
         };
-        // A file with errors that is kept apart from the edits must be corrected first.
-        if self.document.is_dirty() && self.disk.state != OnDisk::Broken {
+        // A file that was not taken must be corrected first.
+        let is_refused = matches!(self.disk.state, OnDisk::Faulty(_) | OnDisk::Unreadable);
+        if self.document.is_dirty() && !is_refused {
             self.overlays
                 .warn("there are unsaved edits: press w to save them, then E");
             return Vec::new();
@@ -378,9 +375,7 @@ impl App {
         let wrong = self.wrong();
         let error = match wrong.at {
             Some(at) => wrong.findings.get(at),
-            None if self.disk.state == OnDisk::Broken => {
-                wrong.findings.iter().find(|d| d.is_error())
-            }
+            None if self.is_disk_wrong() => wrong.findings.iter().find(|d| d.is_error()),
             None => None,
         };
         let span = error.map_or_else(|| self.source().span(self.cursor.selected()), |d| d.span);

@@ -74,7 +74,7 @@ impl App {
     /// Makes a file that now holds `text` the scene's file.
     fn take_saved(&mut self, path: PathBuf, text: Arc<String>) -> Vec<Effect> {
         self.document.mark_saved(text);
-        self.disk.set_state(OnDisk::Known);
+        self.disk.state = OnDisk::Known;
         let mut effects = Vec::new();
         if !self.disk.is_own(&path) {
             self.disk.rename(path);

@@ -33,13 +33,8 @@ impl App {
                     .map_or(&literal[..], |(_, word)| word);
                 literals::next(words, word, steps)
             }
-            Kind::Reference(category) => {
-                let known = self.source().identities(self.cursor.selected(), category);
-                let known: Vec<_> = known.iter().map(i64::to_string).collect();
-                literals::next(&known, &literal, steps)
-            }
-            Kind::Name(category) => {
-                let known = self.source().names(category);
+            Kind::Reference(category) | Kind::Name(category) => {
+                let known = self.source().references(self.cursor.selected(), category);
                 literals::next(&known, &literal, steps)
             }
             _ => literals::nudged(&literal, f64::from(steps) * step, step),
@@ -51,11 +46,10 @@ impl App {
             return;
         };
         if nudged == literal {
-            self.overlays.warn(match field.kind {
-                Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => {
-                    "there are no other choices"
-                }
-                _ => "the step is too small to change this number",
+            self.overlays.warn(if field.kind.is_numeric() {
+                "the step is too small to change this number"
+            } else {
+                "there are no other choices"
             });
         } else if let Err(refused) = self.assign(&[(self.cursor.component, nudged)]) {
             self.overlays.fail(refused.message);
@@ -104,13 +98,10 @@ impl App {
         let outcome = if let Some(values) = self.literals_of(&typed) {
             self.assign_whole(&values)
         } else {
-            let words = self.current().and_then(|(field, _)| match field.kind {
-                Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) | Kind::Word => {
-                    Some(field.expected())
-                }
-                _ => None,
-            });
-            let expected = words.unwrap_or_else(|| "one number".to_owned());
+            let expected = match self.cursor.current() {
+                Some(row) if !row.field.kind.is_numeric() => row.field.expected(),
+                _ => "one number".to_owned(),
+            };
             let message = format!("expected {expected}");
             Err(Diagnostic::error(Span::at(0), message, expected))
         };
@@ -149,11 +140,7 @@ impl App {
         {
             return Some(vec![(self.cursor.component, word.to_owned())]);
         }
-        let is_number = !matches!(
-            kind,
-            Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) | Kind::Word
-        );
-        let typed = if is_number && !kind.is_size() {
+        let typed = if kind.is_numeric() && !kind.is_size() {
             literals::plain(typed)
         } else {
             typed

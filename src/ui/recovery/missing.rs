@@ -1,6 +1,6 @@
 //! Edits kept of a scene that cannot be opened any more.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::claim::Claim;
@@ -15,9 +15,14 @@ pub(crate) fn base_of(path: &Path, language: Language) -> Option<String> {
     base_in(&folder::state().ok()?, path, language)
 }
 
-/// The addition to the message that a scene cannot be opened, if edits of it are kept.
-pub(crate) fn note(path: &Path, is_missing: bool) -> Option<String> {
-    note_in(&folder::state().ok()?, path, is_missing)
+/// The addition to the message that a scene is missing, if edits of it may be kept.
+pub(crate) fn note_for_missing(path: &Path) -> Option<String> {
+    missing_in(&folder::state().ok()?, path)
+}
+
+/// The addition to the message that a scene cannot be read, if edits of it are kept.
+pub(crate) fn note_for_unreadable(path: &Path) -> Option<String> {
+    unreadable_in(&folder::state().ok()?, path)
 }
 
 pub(super) fn base_in(state: &Path, path: &Path, language: Language) -> Option<String> {
@@ -32,19 +37,27 @@ pub(super) fn base_in(state: &Path, path: &Path, language: Language) -> Option<S
     })
 }
 
-pub(super) fn note_in(state: &Path, path: &Path, is_missing: bool) -> Option<String> {
-    let scene = Identity::of(Some(path), Language::of_path(path).ok()?);
-    let claim = claims(state, &scene).pop()?;
-    let (path, place) = (path.display(), claim.place());
+pub(super) fn missing_in(state: &Path, path: &Path) -> Option<String> {
+    let place = newest_place(state, path)?;
     let place = place.display();
-    Some(if is_missing {
-        format!("{place} may hold unsaved edits of it, but cannot be used without the file")
-    } else {
-        format!(
-            "unsaved edits of it are kept in {place}; halflight {path} offers them once it can \
-             read {path}, or there is nothing of that name"
-        )
-    })
+    Some(format!(
+        "{place} may hold unsaved edits of it, but cannot be used without the file"
+    ))
+}
+
+pub(super) fn unreadable_in(state: &Path, path: &Path) -> Option<String> {
+    let place = newest_place(state, path)?;
+    let (path, place) = (path.display(), place.display());
+    Some(format!(
+        "unsaved edits of it are kept in {place}; halflight {path} offers them once it can read \
+         {path}, or there is nothing of that name"
+    ))
+}
+
+/// The path of a scene's newest journal.
+fn newest_place(state: &Path, path: &Path) -> Option<PathBuf> {
+    let scene = Identity::of(Some(path), Language::of_path(path).ok()?);
+    Some(claims(state, &scene).pop()?.place())
 }
 
 /// Claims the non-empty journals of a scene whose runs have ended, oldest first.

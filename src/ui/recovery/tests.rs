@@ -16,7 +16,7 @@ use super::folder::Folder;
 use super::identity::Identity;
 use super::journal::{Edits, Journal};
 use super::offer::look_in;
-use super::{Found, Offer, Sought, record};
+use super::{Found, Offer, Sought, missing, record};
 use crate::document::{Document, Snapshot};
 use crate::language::Language;
 
@@ -319,23 +319,23 @@ fn a_journal_changed_by_others_is_rewritten() {
 #[test]
 fn edits_of_a_missing_file_are_found() {
     let place = Place::new();
-    let base = || super::missing::base_in(&place.state, &place.scene(), Language::Ray);
-    let note = |is_missing| super::missing::note_in(&place.state, &place.scene(), is_missing);
-    assert_eq!((base(), note(false)), (None, None));
+    let base = || missing::base_in(&place.state, &place.scene(), Language::Ray);
+    let note = || missing::unreadable_in(&place.state, &place.scene());
+    assert_eq!((base(), note()), (None, None));
     let mut journal = place.run();
     place.keep(&mut journal, "1 2 4");
     fs::remove_file(place.scene()).expect("it is there");
-    assert_eq!((base(), note(false)), (None, None), "their run goes on");
+    assert_eq!((base(), note()), (None, None), "their run goes on");
     drop(journal);
     assert_eq!(base().as_deref(), Some(BASE));
     let named = |said: &Option<String>| {
         let journal = place.journal(0).display().to_string();
         said.as_ref().is_some_and(|said| said.contains(&journal))
     };
-    assert!(named(&note(false)));
+    assert!(named(&note()));
     fs::write(place.journal(0), "damaged").expect("it is ours");
     assert_eq!(base(), None);
-    assert!(named(&note(true)));
+    assert!(named(&missing::missing_in(&place.state, &place.scene())));
 }
 
 /// A journal in parts: the head with the base, and edits.

@@ -11,7 +11,7 @@ use unicode_width::UnicodeWidthStr;
 use super::characters::Characters;
 use super::inks::{Glyphs, Inks};
 use super::row::Row;
-use crate::ui::app::{App, Shown};
+use crate::ui::app::{App, FirstReading, Shown};
 use crate::ui::keymap::Mode;
 use crate::ui::layout::{self, raster};
 use crate::ui::theme;
@@ -46,11 +46,11 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
 
 /// Draws the reason why there is no picture.
 fn notice(app: &App, area: Rect, buffer: &mut Buffer) {
-    let text = match (&app.disk.unread, &app.scene, app.picture().wanted) {
-        (Some(unread), ..) => opening(&app.disk.name(), unread.bytes),
-        (None, Some(_), Some(_)) => "tracing…".to_owned(),
-        (None, Some(_), None) => "no picture".to_owned(),
-        (None, None, _) => "no picture: the scene has errors".to_owned(),
+    let text = match (&app.disk.first, &app.scene, app.picture().wanted) {
+        (FirstReading::Pending(bytes), ..) => opening(&app.disk.name(), *bytes),
+        (_, Some(_), Some(_)) => "tracing…".to_owned(),
+        (_, Some(_), None) => "no picture".to_owned(),
+        (_, None, _) => "no picture: the scene has errors".to_owned(),
     };
     let line = Rect::new(0, 0, text.width().min(usize::from(area.width)) as u16, 1);
     Row::new(buffer, layout::centred(area, line), 0).put(&text, theme::DIM);

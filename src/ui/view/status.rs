@@ -186,10 +186,11 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     if app.document.is_dirty() {
         say(DIRTY, "[+]".to_owned(), theme::BOLD);
     }
-    let disk = match app.disk.state {
+    let disk = match &app.disk.state {
         OnDisk::Known => None,
         OnDisk::Changed => Some("[disk changed]"),
-        OnDisk::Broken => Some("[errors on disk]"),
+        OnDisk::Faulty(_) => Some("[errors on disk]"),
+        OnDisk::Unreadable => Some("[cannot read file]"),
         OnDisk::Missing => Some("[file missing]"),
     };
     if let Some(disk) = disk {
@@ -312,8 +313,8 @@ mod tests {
         assert_eq!(line(&app, 40), " SELECT  [+]  took the file's changes");
         assert_eq!(line(&app, 25), " SELECT  test.ray [+]");
         assert_eq!(line(&app, 5), " SEL…");
-        app.disk.state = OnDisk::Broken;
-        assert_eq!(line(&app, 40), " SELECT  [+]  [errors on disk]");
+        app.disk.state = OnDisk::Unreadable;
+        assert_eq!(line(&app, 40), " SELECT  [+]  [cannot read file]");
     }
 
     #[test]

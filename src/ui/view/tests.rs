@@ -164,7 +164,7 @@ const STATES: &[(&str, Change)] = &[
     ("errors", |app| {
         retype(app, "sphere", "\u{1b}[2Jsphäre 界\t");
         retype(app, "0.5 0 0", "0.5 x -");
-        app.disk.state = OnDisk::Broken;
+        app.disk.state = OnDisk::Unreadable;
     }),
     ("list of errors", |app| {
         retype(app, " 0.25 ", " -1 ");

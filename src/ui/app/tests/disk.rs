@@ -295,7 +295,7 @@ fn a_text_with_errors_is_kept_apart_from_unsaved_edits() {
     outside(&mut app, "nonsense");
     app.update(Msg::Elapsed(Timer::Settled));
     outside(&mut app, "nonsense");
-    assert_eq!(app.disk.state, OnDisk::Broken);
+    assert!(app.is_disk_wrong());
     assert_eq!(changed_lines(&app), ["0.1 0 0"]);
     assert!(
         words(&app).starts_with("line 1 of the file"),
@@ -332,8 +332,8 @@ fn an_unreadable_file_replaces_its_earlier_errors() {
     app.update(unreadable());
     assert_eq!(words(&app), "scene.ray: is a folder, not a file");
     assert_eq!(
-        (app.disk.state, app.wrong().findings.len()),
-        (OnDisk::Broken, 0)
+        (&app.disk.state, app.wrong().findings.len()),
+        (&OnDisk::Unreadable, 0)
     );
     let effects = press(&mut app, "w");
     assert!(matches!(effects[..], [Effect::Read(..)]), "{effects:?}");

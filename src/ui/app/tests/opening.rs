@@ -97,7 +97,7 @@ fn an_unreadable_scene_ends_the_interface() {
     let effects = app.update(Msg::Read(path, Err(error)));
     assert!(matches!(effects[..], [Effect::Quit]));
     assert!(matches!(
-        app.disk.unreadable,
+        app.disk.take_failure(),
         Some(ReadError::NotFound { .. })
     ));
 }
@@ -110,8 +110,8 @@ fn a_scene_whose_file_is_missing_is_written_again() {
     let looks = |effect: &Effect| matches!(effect, Effect::LookForKept(_));
     assert!(wants(&effects, looks));
     assert_eq!(
-        (app.disk.state, app.document.text()),
-        (OnDisk::Missing, SCENE)
+        (&app.disk.state, app.document.text()),
+        (&OnDisk::Missing, SCENE)
     );
     let quits = |effect: &Effect| matches!(effect, Effect::Quit);
     assert!(!wants(&press(&mut app, "q"), quits));
