@@ -30,7 +30,7 @@ const COMPARED: u64 = 1 << 28;
 /// Watches paths until dropped.
 #[derive(Debug)]
 pub struct Watcher {
-    inbox: Sender<Notice>,
+    inbox: Sender<WatchMessage>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -60,7 +60,7 @@ impl Watcher {
         let builder = thread::Builder::new().name("watch".to_owned());
         let thread = match method {
             Method::Native => {
-                let mut places = Places::new(paths, inbox.clone())?;
+                let mut places = WatchedPaths::new(paths, inbox.clone())?;
                 builder.spawn(move || places.follow(&notices, changed))?
             }
             Method::Poll(interval) => {
@@ -78,7 +78,7 @@ impl Watcher {
 impl Drop for Watcher {
     fn drop(&mut self) {
         // An error of either call means that the thread has ended already.
-        let _ = self.inbox.send(Notice::Stop);
+        let _ = self.inbox.send(WatchMessage::Stop);
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }
@@ -86,7 +86,7 @@ impl Drop for Watcher {
 }
 
 /// A message to the watching thread.
-enum Notice {
+enum WatchMessage {
     System(notify::Result<Event>),
     Stop,
 }
@@ -102,7 +102,7 @@ enum Meaning {
 }
 
 /// The names on the paths to the files, and the system's watches on the directories they are in.
-struct Places {
+struct WatchedPaths {
     /// The paths as given. A relative one changes its meaning if the current directory is moved.
     paths: Vec<PathBuf>,
     /// The last absolute paths.
@@ -112,11 +112,11 @@ struct Places {
     watched: BTreeSet<PathBuf>,
 }
 
-impl Places {
-    fn new(paths: Vec<PathBuf>, inbox: Sender<Notice>) -> notify::Result<Self> {
+impl WatchedPaths {
+    fn new(paths: Vec<PathBuf>, inbox: Sender<WatchMessage>) -> notify::Result<Self> {
         let system = notify::recommended_watcher(move |event| {
             // The receiver is gone only while the watcher is being dropped.
-            let _ = inbox.send(Notice::System(event));
+            let _ = inbox.send(WatchMessage::System(event));
         })?;
         let absolute = paths.iter().map(std::path::absolute);
         let absolute: Vec<_> = absolute.collect::<io::Result<_>>()?;
@@ -131,8 +131,8 @@ impl Places {
         Ok(places)
     }
 
-    fn follow(&mut self, notices: &Receiver<Notice>, changed: impl Fn()) {
-        while let Ok(Notice::System(event)) = notices.recv() {
+    fn follow(&mut self, notices: &Receiver<WatchMessage>, changed: impl Fn()) {
+        while let Ok(WatchMessage::System(event)) = notices.recv() {
             let meaning = self.names.meaning(event);
             if meaning != Meaning::Nothing {
                 // Watches first, so that no change after the caller has looked is missed.
@@ -302,7 +302,7 @@ fn poll(
     paths: &[PathBuf],
     first: Vec<Option<u64>>,
     interval: Duration,
-    notices: &Receiver<Notice>,
+    notices: &Receiver<WatchMessage>,
     changed: impl Fn(),
 ) {
     let mut last = first;

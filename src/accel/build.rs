@@ -45,7 +45,7 @@ pub(super) fn build(
     let mut nodes = Vec::new();
     if !references.is_empty() {
         let extent = Extent::of(&references, &cancel)?;
-        let whole = Part::new(extent, 0, references.len());
+        let whole = Subset::new(extent, 0, references.len());
         let mut spare: Vec<_> = references.par_iter().copied().collect();
         grow(&mut references, &mut spare, &whole, 0, &cancel, &mut nodes)?;
     }
@@ -127,7 +127,7 @@ fn is_empty(aabb: &Aabb) -> bool {
 
 /// A run of references.
 #[derive(Clone, Copy)]
-struct Part {
+struct Subset {
     extent: Extent,
     /// Half the surface area of its box.
     half_area: f64,
@@ -135,7 +135,7 @@ struct Part {
     count: usize,
 }
 
-impl Part {
+impl Subset {
     fn new(extent: Extent, first: usize, count: usize) -> Self {
         Self {
             half_area: extent.bounds.half_area(),
@@ -150,7 +150,7 @@ impl Part {
 fn grow(
     references: &mut [Reference],
     spare: &mut [Reference],
-    part: &Part,
+    part: &Subset,
     level: usize,
     cancel: &CancelCheck<'_>,
     nodes: &mut Vec<Node>,
@@ -231,17 +231,17 @@ fn grow(
 fn divide(
     references: &mut [Reference],
     spare: &mut [Reference],
-    whole: &Part,
+    whole: &Subset,
     level: usize,
     cancel: &CancelCheck<'_>,
-) -> Result<ArrayVec<Part, WIDTH>, Cancelled> {
+) -> Result<ArrayVec<Subset, WIDTH>, Cancelled> {
     let mut parts = ArrayVec::new();
     parts.push(*whole);
     while parts.len() < WIDTH {
         let Some(at) = next_to_divide(&parts, level) else {
             break;
         };
-        let Part {
+        let Subset {
             extent,
             first,
             count,
@@ -255,8 +255,8 @@ fn divide(
             by_count(own, &extent)
         };
         let (left, right) = own.split_at(half);
-        parts[at] = Part::new(Extent::of(left, cancel)?, first, half);
-        let right = Part::new(Extent::of(right, cancel)?, first + half, count - half);
+        parts[at] = Subset::new(Extent::of(left, cancel)?, first, half);
+        let right = Subset::new(Extent::of(right, cancel)?, first + half, count - half);
         parts.insert(at + 1, right);
     }
     Ok(parts)
@@ -264,8 +264,8 @@ fn divide(
 
 /// The part that gains most by a division: of those with more than one box, the one with the
 /// largest area, then the most boxes; beyond [`AREA_LEVELS`], the one with the most boxes.
-fn next_to_divide(parts: &[Part], level: usize) -> Option<usize> {
-    let key = |part: &Part| {
+fn next_to_divide(parts: &[Subset], level: usize) -> Option<usize> {
+    let key = |part: &Subset| {
         let area = if level < AREA_LEVELS {
             part.half_area
         } else {

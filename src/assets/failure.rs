@@ -23,19 +23,19 @@ pub struct PictureError {
     /// What the user may do, or the paths tried.
     hint: Option<String>,
     /// What is shown instead.
-    shown: Shown,
+    shown: Substitute,
 }
 
 /// What is shown instead of a picture that cannot be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Shown {
+pub(super) enum Substitute {
     /// Magenta, because no version could be read so far.
     Magenta,
     /// The last version that could be read.
     Last,
 }
 
-impl fmt::Display for Shown {
+impl fmt::Display for Substitute {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Magenta => "shown in magenta",
@@ -100,7 +100,7 @@ pub(super) enum Failure {
 
 impl Failure {
     /// The error for a picture with this failure.
-    pub(super) fn picture_error(&self, shown: Shown) -> PictureError {
+    pub(super) fn picture_error(&self, shown: Substitute) -> PictureError {
         PictureError {
             reason: self.to_string(),
             hint: self.hint(),

@@ -31,7 +31,7 @@ pub(super) struct Gate {
 
 /// The content of a file.
 #[derive(Clone, Debug)]
-pub(super) struct Content {
+pub(super) struct FileContent {
     pub(super) bytes: Vec<u8>,
     /// A hash of the bytes.
     pub(super) digest: u64,
@@ -77,11 +77,11 @@ impl Gate {
     }
 
     /// Reads a file and subtracts its length from `room`.
-    pub(super) fn read(&self, name: &str, room: &mut u64) -> Result<Content, Failure> {
+    pub(super) fn read(&self, name: &str, room: &mut u64) -> Result<FileContent, Failure> {
         let (file, real, elsewhere) = self.open(name)?;
         let bytes = file::read_opened(&file, &real, *room)?;
         *room -= bytes.len() as u64;
-        Ok(Content {
+        Ok(FileContent {
             digest: digest(&bytes),
             bytes,
             elsewhere,

@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use super::Reading;
+use super::Load;
 use super::failure::Failure;
-use super::gate::Content;
+use super::gate::FileContent;
 use crate::obj::{self, Model};
 use crate::scene::{Meshes, NoMesh, beside};
 
@@ -22,7 +22,7 @@ pub(super) struct KnownMesh {
 /// The libraries read so far by name: their bytes and a hash of these, or an error.
 type Libraries = BTreeMap<String, Result<(Arc<[u8]>, u64), String>>;
 
-impl Reading<'_> {
+impl Load<'_> {
     /// Reads meshes. The result contains the meshes or the reasons why they cannot be read.
     pub(super) fn meshes(&mut self, names: &BTreeSet<String>) -> Meshes {
         let mut libraries = Libraries::new();
@@ -78,7 +78,7 @@ impl Reading<'_> {
     fn parsed(
         &mut self,
         name: &str,
-        content: &Content,
+        content: &FileContent,
         libraries: &mut Libraries,
     ) -> Result<KnownMesh, Vec<String>> {
         let mut asked = Vec::new();

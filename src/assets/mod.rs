@@ -17,7 +17,7 @@ use crate::obj;
 use crate::scene::{Image, Images, Meshes};
 
 use failure::Failure;
-use gate::{Content, Gate, Stream};
+use gate::{FileContent, Gate, Stream};
 use meshes::KnownMesh;
 
 pub use failure::{PictureError, PictureErrors, report};
@@ -43,7 +43,7 @@ pub struct Assets {
     known: Known,
 }
 
-/// The results of a reading.
+/// The results of a load.
 #[derive(Debug, Default)]
 struct Known {
     /// Hashes of the bytes of picture files.
@@ -74,7 +74,7 @@ pub struct Wanted {
     pub meshes: BTreeSet<String>,
 }
 
-/// The outcome of a reading.
+/// The outcome of a load.
 #[derive(Clone, Debug, Default)]
 pub struct Loaded {
     /// The pictures, by name.
@@ -127,17 +127,17 @@ impl Assets {
     /// content.
     pub fn read(&mut self, wanted: &Wanted) -> Loaded {
         let gate = self.gate(wanted);
-        let mut reading = Reading {
+        let mut load = Load {
             gate: &gate,
             elsewhere: BTreeMap::new(),
             before: std::mem::take(&mut self.known),
             now: Known::default(),
             room: self.limits,
         };
-        let meshes = reading.meshes(&wanted.meshes);
-        let (images, picture_errors) = reading.pictures(&wanted.pictures);
-        let elsewhere = reading.elsewhere;
-        self.known = reading.now;
+        let meshes = load.meshes(&wanted.meshes);
+        let (images, picture_errors) = load.pictures(&wanted.pictures);
+        let elsewhere = load.elsewhere;
+        self.known = load.now;
         Loaded {
             images,
             meshes,
@@ -157,7 +157,7 @@ impl Assets {
     }
 
     /// The paths to watch for a scene: all that may be read, existing or not. Includes the material
-    /// libraries found by the last reading.
+    /// libraries found by the last load.
     pub fn places(&self, wanted: &Wanted) -> Vec<PathBuf> {
         let gate = self.gate(wanted);
         let libraries = self.known.libraries.iter();
@@ -168,7 +168,7 @@ impl Assets {
 }
 
 /// A reading in progress.
-struct Reading<'a> {
+struct Load<'a> {
     gate: &'a Gate,
     /// The paths by name, for files that were not at the first path tried.
     elsewhere: BTreeMap<String, PathBuf>,
@@ -177,9 +177,9 @@ struct Reading<'a> {
     room: Room,
 }
 
-impl Reading<'_> {
+impl Load<'_> {
     /// Reads one file whole, and notes where it was found.
-    fn content(&mut self, name: &str) -> Result<Content, Failure> {
+    fn content(&mut self, name: &str) -> Result<FileContent, Failure> {
         let mut content = self.gate.read(name, &mut self.room.bytes)?;
         self.note(name, content.elsewhere.take());
         Ok(content)

@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use super::failure::{Failure, PictureErrors, Shown};
-use super::{Known, Reading};
+use super::failure::{Failure, PictureErrors, Substitute};
+use super::{Known, Load};
 use crate::image_file::{self, Unreadable};
 use crate::scene::{Image, Images};
 
-impl Reading<'_> {
+impl Load<'_> {
     /// Reads pictures. Returns also the errors of those that are missing or not up to date.
     pub(super) fn pictures(&mut self, names: &BTreeSet<String>) -> (Images, PictureErrors) {
         let mut images = Vec::new();
@@ -21,8 +21,8 @@ impl Reading<'_> {
                     let last = self.before.image_of(&place);
                     let last = last.filter(|(digest, image)| self.has_room(*digest, image));
                     let shown = match last {
-                        Some(_) => Shown::Last,
-                        None => Shown::Magenta,
+                        Some(_) => Substitute::Last,
+                        None => Substitute::Magenta,
                     };
                     picture_errors.insert(name.clone(), failure.picture_error(shown));
                     last

@@ -16,9 +16,9 @@ pub(super) fn call<T>(
 }
 
 /// A writer whose system calls can be made to fail.
-pub(super) struct Content<W>(pub(super) W);
+pub(super) struct CheckedWriter<W>(pub(super) W);
 
-impl<W: Write> Write for Content<W> {
+impl<W: Write> Write for CheckedWriter<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         call("write", || self.0.write(shortened(bytes)))
     }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::alike::take_after;
 use super::backup::Backup;
-use super::calls::{Content, call};
+use super::calls::{CheckedWriter, call};
 use super::lock::{Lock, lock};
 use super::stream;
 use super::target::{Target, directory_of, not_a_file, open};
@@ -215,7 +215,7 @@ fn put_in_place(mut file: &File, mut content: &[u8], is_changed: &mut bool) -> i
     let length = content.len() as u64;
     call("seek", || file.rewind())?;
     while !content.is_empty() {
-        match Content(file).write(content)? {
+        match CheckedWriter(file).write(content)? {
             0 => return Err(io::ErrorKind::WriteZero.into()),
             written => content = &content[written..],
         }

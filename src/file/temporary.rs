@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::alike::take_after;
-use super::calls::{Content, call};
+use super::calls::{CheckedWriter, call};
 use super::lock::{Lock, lock};
 use super::owner::{sweep, temporary_name};
 
@@ -68,8 +68,8 @@ impl Temporary {
     }
 
     /// A writer to the file.
-    pub(super) fn content(&self) -> Content<&File> {
-        Content(&self.file)
+    pub(super) fn content(&self) -> CheckedWriter<&File> {
+        CheckedWriter(&self.file)
     }
 
     /// Makes the content durable across a power cut.
@@ -158,7 +158,7 @@ pub(super) fn copy_all(mut from: &File, to: &File) -> io::Result<()> {
     let mut bytes = Vec::new();
     call("seek", || from.rewind())?;
     call("read", || from.read_to_end(&mut bytes))?;
-    Content(to).write_all(&bytes)
+    CheckedWriter(to).write_all(&bytes)
 }
 
 /// Makes a new name durable. Some file systems cannot; the file is complete either way.

@@ -36,13 +36,13 @@ pub struct Version {
     /// When the content was last written; writers can set this back.
     modified: Option<SystemTime>,
     #[cfg(unix)]
-    node: Node,
+    node: FileIdentity,
 }
 
 /// The attributes that only the file system sets.
 #[cfg(unix)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Node {
+struct FileIdentity {
     device: u64,
     inode: u64,
     /// The time of the last change to content, name or owner, in seconds and nanoseconds.
@@ -62,7 +62,7 @@ impl Version {
             length: metadata.len(),
             modified: metadata.modified().ok(),
             #[cfg(unix)]
-            node: Node {
+            node: FileIdentity {
                 device: metadata.dev(),
                 inode: metadata.ino(),
                 changed: (metadata.ctime(), metadata.ctime_nsec()),

@@ -9,7 +9,7 @@ use crate::text::{Diagnostic, Findings, Span};
 
 /// The places of a camera's parts in the text, or stand-ins for missing parts.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Places {
+pub(super) struct CameraSpans {
     pub(super) eye: Span,
     pub(super) target: Span,
     pub(super) up: Span,
@@ -31,7 +31,7 @@ pub(super) fn default_eye_and_target(bounds: Aabb, fov: f64, side: DVec3) -> (DV
 }
 
 /// Reports a camera whose eye is at its target, and one that looks along its `up`.
-pub(super) fn check(camera: &Camera, places: &Places, report: &mut Findings) {
+pub(super) fn check(camera: &Camera, places: &CameraSpans, report: &mut Findings) {
     if !camera.eye.is_finite() || !camera.target.is_finite() {
         report.error(|| {
             let message = "view: the scene is too large for a default view";

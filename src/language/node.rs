@@ -63,7 +63,7 @@ pub struct Nodes {
 }
 
 /// Makes the node with an index; kinds with at most one node ignore it.
-type Kind = fn(usize) -> Node;
+type IndexedNode = fn(usize) -> Node;
 
 impl Nodes {
     /// The number of nodes.
@@ -103,7 +103,7 @@ impl Nodes {
         (0..self.len()).filter_map(move |row| self.get(row))
     }
 
-    fn kinds(self) -> [(Kind, usize); 8] {
+    fn kinds(self) -> [(IndexedNode, usize); 8] {
         [
             (|_| Node::View, usize::from(self.view)),
             (|_| Node::Ambient, usize::from(self.ambient)),

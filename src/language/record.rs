@@ -22,7 +22,7 @@ pub(super) struct Record<'a> {
 }
 
 /// The numbers of one field of a record.
-struct Part<'a> {
+struct FieldSlice<'a> {
     field: &'static Field,
     values: &'a [f64],
     spans: &'a [Span],
@@ -30,12 +30,15 @@ struct Part<'a> {
 
 impl<'a> Record<'a> {
     /// The complete fields, with their numbers.
-    fn parts(self, fields: impl Iterator<Item = &'static Field>) -> impl Iterator<Item = Part<'a>> {
+    fn parts(
+        self,
+        fields: impl Iterator<Item = &'static Field>,
+    ) -> impl Iterator<Item = FieldSlice<'a>> {
         let mut at = 0;
         fields.map_while(move |field| {
             let range = at..at + field.kind.components();
             at = range.end;
-            Some(Part {
+            Some(FieldSlice {
                 field,
                 values: self.values.get(range.clone())?,
                 spans: self.spans.get(range)?,
@@ -66,7 +69,7 @@ impl<'a> Record<'a> {
         }
     }
 
-    fn check_numbers(self, part: &Part, report: &mut Findings) {
+    fn check_numbers(self, part: &FieldSlice, report: &mut Findings) {
         let field = part.field;
         if let Some([least, greatest]) = field.usual.ends()
             && part
@@ -92,7 +95,7 @@ impl<'a> Record<'a> {
         }
     }
 
-    fn check_direction(self, part: &Part, report: &mut Findings) {
+    fn check_direction(self, part: &FieldSlice, report: &mut Findings) {
         let vector = DVec3::from_slice(part.values);
         if vector.is_nan() {
             return;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::lines::{Findings, Statement, Word, statements};
-use super::plain::{self, Part, Plain, push_corners};
+use super::plain::{self, Chunk, Plain, push_corners};
 use super::{Finding, MAX_FINDINGS, MAX_LIBRARIES, Model, mtl};
 use crate::geometry::{ABSENT, Mesh, MeshError, MeshParts, SlotRun};
 use crate::text::{counted, visible};
@@ -17,7 +17,7 @@ const KINDS: [&str; 3] = ["v", "vt", "vn"];
 
 /// A mesh being read.
 #[derive(Default)]
-struct Reading {
+struct MeshBuilder {
     /// The maximum number of triangles.
     most: usize,
     parts: MeshParts,
@@ -51,44 +51,44 @@ pub(super) fn read<B: AsRef<[u8]>>(
 /// Reads a text that has been cut into parts.
 pub(super) fn read_parts<B: AsRef<[u8]>>(
     bytes: &[u8],
-    parts: Vec<Part>,
+    parts: Vec<Chunk>,
     most: usize,
     library: impl FnMut(&str) -> Result<B, String>,
 ) -> Result<Model, Vec<Finding>> {
-    let mut reading = Reading {
+    let mut builder = MeshBuilder {
         most,
-        ..Reading::default()
+        ..MeshBuilder::default()
     };
     let mut last = 1;
     let mut line = 1;
-    reading.reserve(&parts);
+    builder.reserve(&parts);
     for part in parts {
         match part.plain {
-            Some(plain) if reading.has_room(&plain) => {
-                reading.append(plain, line);
+            Some(plain) if builder.has_room(&plain) => {
+                builder.append(plain, line);
                 last = part.last.map_or(last, |last| line + last);
             }
             _ => {
                 for statement in statements(&bytes[part.range], line) {
                     last = statement.line;
-                    if let Err((column, message)) = reading.take(&statement) {
-                        reading.findings.error(statement.line, column, message);
+                    if let Err((column, message)) = builder.take(&statement) {
+                        builder.findings.error(statement.line, column, message);
                     }
-                    if reading.findings.is_full() {
-                        return Err(reading.findings.errors);
+                    if builder.findings.is_full() {
+                        return Err(builder.findings.errors);
                     }
                 }
             }
         }
         line += part.lines;
     }
-    reading.check_indices();
-    let (materials, library_warnings) = reading.materials(library);
-    let Reading {
+    builder.check_indices();
+    let (materials, library_warnings) = builder.materials(library);
+    let MeshBuilder {
         mut parts,
         mut findings,
         ..
-    } = reading;
+    } = builder;
     if !findings.errors.is_empty() {
         return Err(findings.errors);
     }
@@ -117,9 +117,9 @@ pub(super) fn read_parts<B: AsRef<[u8]>>(
     }
 }
 
-impl Reading {
+impl MeshBuilder {
     /// Reserves memory for the content of plain parts.
-    fn reserve(&mut self, parts: &[Part]) {
+    fn reserve(&mut self, parts: &[Chunk]) {
         let plain = || parts.iter().filter_map(|part| part.plain.as_ref());
         let sum = |of: fn(&Plain) -> usize| plain().map(of).sum();
         let own = &mut self.parts;

@@ -26,7 +26,7 @@ pub(super) struct Plain {
 }
 
 /// A part of a mesh's text.
-pub(super) struct Part {
+pub(super) struct Chunk {
     /// The range of its bytes.
     pub(super) range: Range<usize>,
     /// The number of its lines.
@@ -38,12 +38,12 @@ pub(super) struct Part {
 }
 
 /// Cuts a text into parts of about `size` bytes and reads those that are plain.
-pub(super) fn parts(bytes: &[u8], size: usize) -> Vec<Part> {
+pub(super) fn parts(bytes: &[u8], size: usize) -> Vec<Chunk> {
     let part = |range: Range<usize>| {
         let bytes = &bytes[range.clone()];
         let text = bytes.trim_ascii_end();
         let last = lines(text);
-        Part {
+        Chunk {
             range,
             lines: last + lines(&bytes[text.len()..]),
             last: (!text.is_empty()).then_some(last),

@@ -407,7 +407,7 @@ proptest! {
         let parts = plain::parts(text.as_bytes(), size);
         let in_order = |size| {
             let parts = plain::parts(text.as_bytes(), size).into_iter();
-            parts.map(|part| plain::Part { plain: None, ..part }).collect::<Vec<_>>()
+            parts.map(|part| plain::Chunk { plain: None, ..part }).collect::<Vec<_>>()
         };
         let read = |parts| {
             let read = mesh::read_parts(text.as_bytes(), parts, most, no_library);

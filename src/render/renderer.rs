@@ -11,7 +11,7 @@ use super::film::{Film, NoMemory};
 use super::frame::{Frame, Job};
 use super::refusal::{self, Refusal};
 use super::shared::Shared;
-use super::worker::{self, Order};
+use super::worker::{self, Submission};
 use crate::memory;
 use crate::scene::Scene;
 
@@ -38,7 +38,7 @@ pub struct Renderer {
 
 #[derive(Debug)]
 struct Worker {
-    orders: Sender<Order>,
+    submissions: Sender<Submission>,
     thread: JoinHandle<()>,
 }
 
@@ -67,12 +67,15 @@ impl Renderer {
         let film = Film::new(&job.settings, job.frames);
         let film = film.map_err(|NoMemory { bytes }| Refusal::Memory { size, bytes })?;
         let generation = self.shared.begin();
-        let order = Order {
+        let submission = Submission {
             generation,
             job,
             film,
         };
-        worker.orders.send(order).map_err(|_| Refusal::Ended)?;
+        worker
+            .submissions
+            .send(submission)
+            .map_err(|_| Refusal::Ended)?;
         self.accepted = scene;
         Ok(generation)
     }
@@ -86,8 +89,12 @@ impl Renderer {
 impl Drop for Renderer {
     fn drop(&mut self) {
         self.shared.quit();
-        if let Ok(Worker { orders, thread }) = mem::replace(&mut self.worker, Err(Refusal::Ended)) {
-            drop(orders);
+        if let Ok(Worker {
+            submissions,
+            thread,
+        }) = mem::replace(&mut self.worker, Err(Refusal::Ended))
+        {
+            drop(submissions);
             // The panic hook has already reported any panic.
             let _ = thread.join();
         }
@@ -101,12 +108,15 @@ impl Worker {
         wake: impl Fn() + Send + Sync + 'static,
     ) -> Result<Self, String> {
         let pool = pool(threads).map_err(|error| error.to_string())?;
-        let (orders, inbox) = mpsc::channel();
+        let (submissions, inbox) = mpsc::channel();
         let thread = std::thread::Builder::new()
             .name("renderer".to_owned())
             .spawn(move || worker::run(&inbox, &shared, &wake, &pool))
             .map_err(|error| error.to_string())?;
-        Ok(Self { orders, thread })
+        Ok(Self {
+            submissions,
+            thread,
+        })
     }
 }
 

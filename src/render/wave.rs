@@ -23,7 +23,7 @@ pub(super) struct RayState {
 
 /// The rays of a camera sample.
 #[derive(Debug, Default)]
-pub(super) struct Tree {
+pub(super) struct RayTree {
     /// Rays yet to be traced, last in first out.
     pub(super) pending: Vec<(Ray, RayState)>,
     traced: u32,
@@ -68,7 +68,7 @@ impl<'w> Found<'w> {
 /// Camera samples traced together; the current ray of each forms the front.
 #[derive(Debug, Default)]
 pub(crate) struct Wave<'w> {
-    pub(super) trees: Vec<Tree>,
+    pub(super) trees: Vec<RayTree>,
     /// Indices of the unfinished trees.
     growing: Vec<usize>,
     /// The rays of the front and their states.
@@ -94,7 +94,7 @@ pub(crate) struct Wave<'w> {
 impl Wave<'_> {
     /// Starts a tree for each sample.
     pub(super) fn start(&mut self, samples: &[Sample]) {
-        self.trees.resize_with(samples.len(), Tree::default);
+        self.trees.resize_with(samples.len(), RayTree::default);
         self.growing.clear();
         self.growing.extend(0..samples.len());
         for (number, (tree, sample)) in self.trees.iter_mut().zip(samples).enumerate() {

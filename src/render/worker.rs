@@ -52,7 +52,7 @@ impl Batches {
 }
 
 /// A job with its generation and film.
-pub(crate) struct Order {
+pub(crate) struct Submission {
     pub(crate) generation: u64,
     pub(crate) job: Job,
     pub(crate) film: Film,
@@ -67,15 +67,15 @@ struct Left {
 
 /// Traces jobs until the renderer is dropped or the thread panics.
 pub(crate) fn run<W: Fn() + Sync>(
-    orders: &Receiver<Order>,
+    submissions: &Receiver<Submission>,
     shared: &Shared,
     wake: &W,
     pool: &ThreadPool,
 ) {
     let mut left = None;
-    while let Ok(newest) = orders.recv() {
-        let order = orders.try_iter().last().unwrap_or(newest);
-        left = pool.install(|| trace(order, shared, wake, left.take()));
+    while let Ok(newest) = submissions.recv() {
+        let submission = submissions.try_iter().last().unwrap_or(newest);
+        left = pool.install(|| trace(submission, shared, wake, left.take()));
     }
     // In the background, because freeing the structures of a large scene takes up to 16 ms for a
     // million spheres.
@@ -91,16 +91,16 @@ pub(crate) fn run<W: Fn() + Sync>(
 
 /// Traces a job until it is complete or cancelled.
 fn trace<W: Fn() + Sync>(
-    order: Order,
+    submission: Submission,
     shared: &Shared,
     wake: &W,
     mut previous: Option<Left>,
 ) -> Option<Left> {
-    let Order {
+    let Submission {
         generation,
         job,
         mut film,
-    } = order;
+    } = submission;
     let begun = Instant::now();
     // A newer job does not cancel the build: it may need the same structures, and while a held key
     // moves objects of a large scene, none would ever be finished.
@@ -132,7 +132,7 @@ fn trace<W: Fn() + Sync>(
         built: Instant::now(),
         shared,
     };
-    let mut picture = Picture::new(ticket, begun, &job, film, wake);
+    let mut picture = Tracing::new(ticket, begun, &job, film, wake);
     for step in steps(job.settings.spp, job.frames) {
         if !picture.take(&step, &shot) {
             break;
@@ -172,7 +172,7 @@ impl Ticket<'_> {
 }
 
 /// The picture of a job in progress.
-struct Picture<'s, W> {
+struct Tracing<'s, W> {
     ticket: Ticket<'s>,
     wake: &'s W,
     begun: Instant,
@@ -193,7 +193,7 @@ struct Picture<'s, W> {
     developing: Duration,
 }
 
-impl<'s, W: Fn() + Sync> Picture<'s, W> {
+impl<'s, W: Fn() + Sync> Tracing<'s, W> {
     fn new(ticket: Ticket<'s>, begun: Instant, job: &Job, film: Film, wake: &'s W) -> Self {
         Self {
             ticket,

@@ -12,7 +12,7 @@ use crate::watch::{Method, Watcher};
 
 /// Handle of the thread. Nothing waits for its end, as it has no work that could be lost.
 pub(super) struct AssetReader {
-    orders: Sender<Wanted>,
+    requests: Sender<Wanted>,
 }
 
 impl AssetReader {
@@ -22,8 +22,8 @@ impl AssetReader {
         method: Method,
         send: impl Fn(Msg) + Send + Sync + 'static,
     ) -> io::Result<Self> {
-        let (orders, inbox) = mpsc::channel();
-        let work = Work {
+        let (requests, inbox) = mpsc::channel();
+        let work = AssetThread {
             assets: Assets::new(folders),
             method,
             watched: Vec::new(),
@@ -33,18 +33,18 @@ impl AssetReader {
         thread::Builder::new()
             .name("assets".to_owned())
             .spawn(move || work.follow(&inbox))?;
-        Ok(Self { orders })
+        Ok(Self { requests })
     }
 
-    /// Reads files; of several pending orders only the last is carried out.
-    pub(super) fn order(&self, wanted: Wanted) -> Result<(), String> {
-        let sent = self.orders.send(wanted);
+    /// Reads files; of several pending requests only the last is carried out.
+    pub(super) fn request(&self, wanted: Wanted) -> Result<(), String> {
+        let sent = self.requests.send(wanted);
         sent.map_err(|_| "the thread that reads the scene's files has ended".to_owned())
     }
 }
 
 /// State of the thread.
-struct Work<S> {
+struct AssetThread<S> {
     assets: Assets,
     method: Method,
     /// The files that `watcher` watches.
@@ -54,7 +54,7 @@ struct Work<S> {
     send: Arc<S>,
 }
 
-impl<S: Fn(Msg) + Send + Sync + 'static> Work<S> {
+impl<S: Fn(Msg) + Send + Sync + 'static> AssetThread<S> {
     fn follow(mut self, inbox: &Receiver<Wanted>) {
         while let Ok(first) = inbox.recv() {
             let wanted = inbox.try_iter().last().unwrap_or(first);
@@ -74,7 +74,7 @@ impl<S: Fn(Msg) + Send + Sync + 'static> Work<S> {
     }
 
     /// Watches the files of the scene from now on. Returns whether the set of files changed; always
-    /// `false` if they cannot be watched, so that the next order tries again.
+    /// `false` if they cannot be watched, so that the next request tries again.
     fn watch(&mut self, wanted: &Wanted) -> bool {
         let places = self.assets.places(wanted);
         if places == self.watched {

@@ -17,7 +17,7 @@ const DEFAULT: &str = "vi";
 
 /// Argument forms by prefix of the program's name: `vim` also matches `vim.basic`, `emacs` also
 /// `emacs-nox`.
-const FORMS: &[(&[&str], Form)] = &[
+const FORMS: &[(&[&str], Template)] = &[
     (
         &[
             "vi", "vim", "nvim", "nvi", "view", "vimdiff", "rvim", "rview", "gvim", "gview",
@@ -40,16 +40,16 @@ const FORMS: &[(&[&str], Form)] = &[
 ];
 
 /// The form that most editors support.
-const OTHERS: Form = &[Line, File];
+const OTHERS: Template = &[Line, File];
 
 /// The arguments that tell an editor the file and line, in order.
-type Form = &'static [Part];
+type Template = &'static [Argument];
 
-use Part::{File, FileLine, Line, LocalFile, Text};
+use Argument::{File, FileLine, Line, LocalFile, Text};
 
 /// One argument of an editor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Part {
+enum Argument {
     /// An option, passed unchanged.
     Text(&'static str),
     /// `+LINE`, which most editors understand.
@@ -147,7 +147,7 @@ fn arguments(program: &str, path: &Path, line: usize) -> Vec<OsString> {
     if form.contains(&FileLine) && !is_clear {
         return vec![file()];
     }
-    let argument = |part: &Part| match part {
+    let argument = |part: &Argument| match part {
         Text(text) => OsString::from(text),
         Line => OsString::from(format!("+{line}")),
         LocalFile if names_a_host(path) => {

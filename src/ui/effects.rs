@@ -17,7 +17,7 @@ use super::heap;
 use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
 use super::options::Options;
 use super::reader::Reader;
-use super::recovery::{self, Edits, End, Keeper, Order, Outcome};
+use super::recovery::{self, Edits, End, Keeper, Outcome, Request};
 use super::terminal::tmux;
 use super::terminal::{self, Input, Replies, Reply, Terminal};
 #[cfg(unix)]
@@ -34,7 +34,7 @@ const TRIM_TIME: Duration = Duration::from_secs(30);
 
 /// State that outlives a step: the terminal, the renderers, the timers, and the threads that read
 /// and watch scenes and assets, write scenes and pictures, and store unsaved edits.
-pub(crate) struct World {
+pub(crate) struct Runtime {
     // First, because fields are dropped in order: the terminal is restored before renderers and the
     // watcher end, which may take a moment.
     terminal: Terminal,
@@ -61,7 +61,7 @@ pub(crate) struct World {
     ended: bool,
 }
 
-impl World {
+impl Runtime {
     /// Takes over the terminal and starts everything that sends messages.
     pub(crate) fn new(
         options: &Options,
@@ -231,7 +231,7 @@ impl World {
             Effect::CheckPlace(path) => self.writers.check_place(path),
             Effect::FindBackups(scene) => self.writers.find_backups(scene),
             Effect::Read(path, baseline) => self.reader.read(path, baseline),
-            Effect::Free(unneeded) => self.freeing.order(unneeded),
+            Effect::Free(unneeded) => self.freeing.request(unneeded),
             Effect::Save {
                 id,
                 path,
@@ -242,7 +242,7 @@ impl World {
                 return Some(Msg::Saved(id, SaveOutcome::Failed(refused)));
             }
             Effect::Watch(path) => self.reader.watch(path),
-            Effect::ReadAssets(wanted) => self.assets.order(wanted),
+            Effect::ReadAssets(wanted) => self.assets.request(wanted),
             Effect::Later(time, timer) => {
                 self.timers.retain(|&(_, set)| set != timer);
                 self.timers.push((Instant::now() + time, timer));
@@ -254,14 +254,14 @@ impl World {
                 revision,
             } => self
                 .keeper
-                .order(Order::Keep(revision, Edits { scene, known })),
-            Effect::DropRecovery => self.keeper.order(Order::Forget),
+                .request(Request::Keep(revision, Edits { scene, known })),
+            Effect::DropRecovery => self.keeper.request(Request::Forget),
             Effect::LookForKept(sought) => {
                 let send = sending(&self.sender);
                 recovery::look_for(sought, move |found| send(Msg::Recovered(found)))
             }
-            Effect::AdoptKept(claim) => self.keeper.order(Order::Adopt(claim)),
-            Effect::DropKept(claim) => self.keeper.order(Order::Discard(claim)),
+            Effect::AdoptKept(claim) => self.keeper.request(Request::Adopt(claim)),
+            Effect::DropKept(claim) => self.keeper.request(Request::Discard(claim)),
             Effect::OpenEditor { path, line } => {
                 return Some(Msg::EditorClosed(self.open_editor(&path, line)));
             }

@@ -37,7 +37,7 @@ pub(crate) struct Panel {
     /// The first diagnostic shown.
     pub(crate) first: usize,
     /// The lines below the title, each with the index of its diagnostic.
-    pub(crate) lines: Vec<(usize, Line)>,
+    pub(crate) lines: Vec<(usize, StyledLine)>,
 }
 
 impl Panel {
@@ -54,7 +54,7 @@ pub(crate) fn panel(wrong: &Wrong, file: &str, area: Rect) -> Option<Panel> {
     let first_error = wrong.findings.iter().position(Diagnostic::is_error);
     let first = wrong.at.or(first_error)?;
     let width = usize::from(area.width.saturating_sub(2));
-    let mut lines: Vec<(usize, Line)> = Vec::new();
+    let mut lines: Vec<(usize, StyledLine)> = Vec::new();
     for (index, diagnostic) in wrong.findings.iter().enumerate().skip(first) {
         if usize::from(area.height) <= lines.len() {
             break;
@@ -64,7 +64,7 @@ pub(crate) fn panel(wrong: &Wrong, file: &str, area: Rect) -> Option<Panel> {
             let place = &mut own[0].0[0].1;
             *place = theme::chip(*place);
         }
-        own.push(Line::default());
+        own.push(StyledLine::default());
         lines.extend(own.into_iter().map(|line| (index, line)));
     }
     lines.pop();
@@ -78,10 +78,10 @@ pub(crate) fn panel(wrong: &Wrong, file: &str, area: Rect) -> Option<Panel> {
 
 /// A line of styled text.
 #[derive(Debug, Default)]
-pub(crate) struct Line(pub(crate) Vec<(String, Style)>);
+pub(crate) struct StyledLine(pub(crate) Vec<(String, Style)>);
 
 /// Returns the lines of one diagnostic, starting with its position.
-fn describe(text: &str, file: &str, diagnostic: &Diagnostic, width: usize) -> Vec<Line> {
+fn describe(text: &str, file: &str, diagnostic: &Diagnostic, width: usize) -> Vec<StyledLine> {
     let mut lines = Vec::new();
     let style = theme::severity(Some(diagnostic.severity));
     let Position { line, column } = Position::of(text, diagnostic.span.start());
@@ -89,18 +89,18 @@ fn describe(text: &str, file: &str, diagnostic: &Diagnostic, width: usize) -> Ve
     let message = visible(&diagnostic.message);
     if place.width() + 1 + message.width() <= width {
         let parts = vec![(place, theme::BOLD), (format!(" {message}"), style)];
-        lines.push(Line(parts));
+        lines.push(StyledLine(parts));
     } else {
-        lines.push(Line(vec![(place, theme::BOLD)]));
+        lines.push(StyledLine(vec![(place, theme::BOLD)]));
         let wrapped = wrap(&message, width).into_iter();
-        lines.extend(wrapped.map(|line| Line(vec![(line, style)])));
+        lines.extend(wrapped.map(|line| StyledLine(vec![(line, style)])));
     }
     let number = line.to_string();
     let margin = " ".repeat(number.len());
     let room = width.saturating_sub(number.len() + 3);
     let shown = excerpt(text, diagnostic.span, room);
     let numbered = (format!("{number} │ "), theme::DIM);
-    lines.push(Line(vec![numbered, (shown.text, Style::new())]));
+    lines.push(StyledLine(vec![numbered, (shown.text, Style::new())]));
 
     let carets = " ".repeat(shown.caret.start) + &"^".repeat(shown.caret.len());
     let mut under = vec![(format!("{margin} │ "), theme::DIM), (carets, style)];
@@ -109,12 +109,12 @@ fn describe(text: &str, file: &str, diagnostic: &Diagnostic, width: usize) -> Ve
     if beside {
         under.push((format!(" {expected}"), style));
     }
-    lines.push(Line(under));
+    lines.push(StyledLine(under));
     let expected = (!beside).then(|| format!("expected {expected}"));
     let hint = diagnostic.hint.as_ref().map(|hint| format!("hint: {hint}"));
     let notes = [expected, hint].into_iter().flatten();
     lines.extend(notes.flat_map(|note| wrap(&note, room)).map(|note| {
-        Line(vec![
+        StyledLine(vec![
             (format!("{margin} = "), theme::DIM),
             (note, Style::new()),
         ])

@@ -22,7 +22,7 @@ impl Freeing {
     }
 
     /// Frees a value on the thread.
-    pub(super) fn order(&self, unneeded: Arc<dyn Any + Send + Sync>) -> Result<(), String> {
+    pub(super) fn request(&self, unneeded: Arc<dyn Any + Send + Sync>) -> Result<(), String> {
         let sent = self.unneeded.send(unneeded);
         sent.map_err(|_| "the thread that frees memory has ended".to_owned())
     }

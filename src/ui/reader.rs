@@ -9,7 +9,7 @@ use std::thread;
 
 use super::heap;
 use super::msg::Msg;
-use super::reading::{Baseline, Place, Reading};
+use super::reading::{Baseline, Reading, SceneFolder};
 use crate::file;
 use crate::file::ReadError;
 use crate::memory;
@@ -18,8 +18,8 @@ use crate::watch::{Method, Watcher};
 /// Length in bytes from which a text is lowered on several threads.
 const LARGE: usize = 1 << 20;
 
-/// An order to the thread.
-enum Order {
+/// A request to the thread.
+enum Request {
     /// Watch this file instead of the previous one.
     Watch(PathBuf),
     /// Read this file and compare it with the baseline.
@@ -29,7 +29,7 @@ enum Order {
 /// Handle of the thread that watches, reads and lowers the scene file. Nothing else waits for it,
 /// neither a save nor the end of the program.
 pub(super) struct Reader {
-    orders: Sender<Order>,
+    requests: Sender<Request>,
 }
 
 impl Reader {
@@ -38,7 +38,7 @@ impl Reader {
         method: Method,
         send: impl Fn(Msg) + Clone + Send + 'static,
     ) -> io::Result<Self> {
-        let (orders, inbox) = mpsc::channel();
+        let (requests, inbox) = mpsc::channel();
         let work = move || {
             let mut watcher = None;
             let watch = |path| watch(path, method, &mut watcher, &send);
@@ -47,30 +47,30 @@ impl Reader {
         thread::Builder::new()
             .name("reading".to_owned())
             .spawn(work)?;
-        Ok(Self { orders })
+        Ok(Self { requests })
     }
 
     /// Watches a file from now on, reported by [`Msg::FileChanged`].
     pub(super) fn watch(&self, path: PathBuf) -> Result<(), String> {
-        self.order(Order::Watch(path))
+        self.request(Request::Watch(path))
     }
 
-    /// Reads a file, reported by [`Msg::Read`]. Of several pending orders only the last is carried
-    /// out.
+    /// Reads a file, reported by [`Msg::Read`]. Of several pending requests only the last is
+    /// carried out.
     pub(super) fn read(&self, path: PathBuf, baseline: Baseline) -> Result<(), String> {
-        self.order(Order::Read(path, baseline))
+        self.request(Request::Read(path, baseline))
     }
 
-    fn order(&self, order: Order) -> Result<(), String> {
-        let sent = self.orders.send(order);
+    fn request(&self, request: Request) -> Result<(), String> {
+        let sent = self.requests.send(request);
         sent.map_err(|_| "the thread that reads scenes has ended".to_owned())
     }
 }
 
-/// Carries out orders until the sender is gone. A file that changes while being read is not lowered
-/// but read again.
+/// Carries out requests until the sender is gone. A file that changes while being read is not
+/// lowered but read again.
 fn follow(
-    inbox: &Receiver<Order>,
+    inbox: &Receiver<Request>,
     mut watch: impl FnMut(PathBuf),
     read: impl Fn(&Path) -> Result<String, ReadError>,
     send: impl Fn(Msg),
@@ -82,12 +82,15 @@ fn follow(
         pool.build()
     });
     while let Ok(first) = inbox.recv() {
-        let mut orders = vec![first];
-        orders.extend(inbox.try_iter());
-        while let Some((path, baseline)) = last(orders, &mut watch) {
+        let mut requests = vec![first];
+        requests.extend(inbox.try_iter());
+        while let Some((path, baseline)) = last(requests, &mut watch) {
             let read = read(&path);
-            orders = inbox.try_iter().collect();
-            if orders.iter().any(|order| matches!(order, Order::Read(..))) {
+            requests = inbox.try_iter().collect();
+            if requests
+                .iter()
+                .any(|request| matches!(request, Request::Read(..)))
+            {
                 continue;
             }
             let understand = |text: String| {
@@ -101,7 +104,7 @@ fn follow(
                 }
             };
             let reading = read.and_then(|text| {
-                let place = Place::of(&path);
+                let place = SceneFolder::of(&path);
                 let understood = understand(text).map_err(|reason| ReadError::NoMemory {
                     path: path.clone(),
                     reason,
@@ -113,14 +116,14 @@ fn follow(
     }
 }
 
-/// Carries out the orders to watch and returns the last file to read.
-fn last(orders: Vec<Order>, mut watch: impl FnMut(PathBuf)) -> Option<(PathBuf, Baseline)> {
+/// Carries out the requests to watch and returns the last file to read.
+fn last(requests: Vec<Request>, mut watch: impl FnMut(PathBuf)) -> Option<(PathBuf, Baseline)> {
     let mut last = None;
-    for order in orders {
-        match order {
+    for request in requests {
+        match request {
             // Before the file is read, so that no later change is missed.
-            Order::Watch(path) => watch(path),
-            Order::Read(path, baseline) => last = Some((path, baseline)),
+            Request::Watch(path) => watch(path),
+            Request::Read(path, baseline) => last = Some((path, baseline)),
         }
     }
     last
@@ -153,27 +156,27 @@ mod tests {
     use crate::scene::Meshes;
     use std::cell::{Cell, RefCell};
 
-    fn order(name: &str) -> Order {
+    fn request(name: &str) -> Request {
         let baseline = Baseline {
             scene: Document::new(Language::Ray, String::new()).snapshot(),
             saving: None,
             meshes: Meshes::default(),
         };
-        Order::Read(name.into(), baseline)
+        Request::Read(name.into(), baseline)
     }
 
     /// The files read and the files reported, if `during` is ordered while the first one is being
     /// read.
     fn followed(before: &[&str], during: Option<&str>) -> (Vec<PathBuf>, Vec<PathBuf>) {
-        let (orders, inbox) = mpsc::channel();
+        let (requests, inbox) = mpsc::channel();
         for name in before {
-            orders.send(order(name)).expect("it is there");
+            requests.send(request(name)).expect("it is there");
         }
-        let orders = Cell::new(Some(orders));
+        let requests = Cell::new(Some(requests));
         let (read, sent) = (RefCell::new(Vec::new()), RefCell::new(Vec::new()));
         let reads = |path: &Path| {
-            if let (Some(orders), Some(name)) = (orders.take(), during) {
-                orders.send(order(name)).expect("it is there");
+            if let (Some(requests), Some(name)) = (requests.take(), during) {
+                requests.send(request(name)).expect("it is there");
             }
             read.borrow_mut().push(path.to_owned());
             Ok(String::new())

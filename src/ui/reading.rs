@@ -30,19 +30,19 @@ pub struct Reading {
     /// The change found; `None` if the file holds the text last saved or the one being saved.
     pub news: Option<Box<News>>,
     /// The folder that the file was read from, if known.
-    pub place: Option<Place>,
+    pub place: Option<SceneFolder>,
 }
 
 /// The folder of a scene file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct SceneFolder {
     /// Absolute path of the folder.
     pub folder: PathBuf,
     /// Identity of the folder.
     pub id: FileId,
 }
 
-impl Place {
+impl SceneFolder {
     /// Returns the current folder of the file at this path.
     pub fn of(path: &Path) -> Option<Self> {
         let folder = file::directory_of(path);

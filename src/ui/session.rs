@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use super::app::App;
 use super::beginning::Beginning;
-use super::effects::World;
+use super::effects::Runtime;
 use super::ending::{Ending, Error};
 use super::event::{Event, sending};
 use super::msg::{Effect, Msg, Target};
@@ -35,7 +35,7 @@ pub(crate) fn run(options: &Options, app: App, effects: Vec<Effect>) -> Result<E
     );
     let mut session = Session {
         app: beginning.app,
-        world: World::new(options, beginning.reader, sender)?,
+        runtime: Runtime::new(options, beginning.reader, sender)?,
         link: Link::new(budget),
         waiting: None,
         inks: Inks::for_depth(options.colours()),
@@ -52,7 +52,7 @@ pub(crate) fn run(options: &Options, app: App, effects: Vec<Effect>) -> Result<E
 
 struct Session {
     app: App,
-    world: World,
+    runtime: Runtime,
     link: Link,
     /// When the frame that the terminal has not fully taken yet was sent, and its size in bytes.
     waiting: Option<(Instant, usize)>,
@@ -86,7 +86,7 @@ impl Session {
             && depth < ColourDepth::TrueColour
             && variable("NO_COLOR").is_none_or(|value| value.is_empty());
         if is_open && query::may_ask(variable) {
-            self.world.ask_for_colours()?;
+            self.runtime.ask_for_colours()?;
             self.asked = Some((depth, Instant::now() + query::PATIENCE));
         }
         Ok(())
@@ -102,7 +102,7 @@ impl Session {
             return Urgency::Never;
         }
         self.inks = Inks::for_depth(ColourDepth::TrueColour);
-        self.world.terminal().recolour(ColourDepth::TrueColour);
+        self.runtime.terminal().recolour(ColourDepth::TrueColour);
         Urgency::Now
     }
 
@@ -111,7 +111,7 @@ impl Session {
         let now = Instant::now();
         match self.asked.take_if(|&mut (_, until)| until <= now) {
             Some((depth, _)) => {
-                self.world.give_up_colours();
+                self.runtime.give_up_colours();
                 self.step(Msg::FewColours(depth));
                 Urgency::Now
             }
@@ -121,7 +121,7 @@ impl Session {
 
     fn run(&mut self) {
         let mut urgency = Urgency::Now;
-        while !self.world.is_over() {
+        while !self.runtime.is_over() {
             let now = Instant::now();
             let draw_at = match urgency {
                 Urgency::Now => Some(now),
@@ -132,7 +132,7 @@ impl Session {
                 Urgency::Never => self.rest_at(now),
             };
             // One frame is in flight at a time; the next one waits.
-            let is_clear = self.world.terminal().is_clear();
+            let is_clear = self.runtime.terminal().is_clear();
             let draw_at = draw_at.filter(|_| is_clear);
             if is_clear && let Some((sent, bytes)) = self.waiting.take() {
                 self.link.waited(bytes, now - sent, now);
@@ -162,7 +162,7 @@ impl Session {
         // The end of the process frees a large scene immediately.
         mem::forget(self.app);
         let (terminal, files) = patience(self.ending);
-        let words = match self.world.close(terminal, files) {
+        let words = match self.runtime.close(terminal, files) {
             End::Nothing => None,
             End::Kept => Some(format!(
                 "unsaved edits are kept; run halflight{path} to restore them"
@@ -186,11 +186,11 @@ impl Session {
     /// Waits for input until `deadline` and handles everything that has arrived.
     fn wait(&mut self, deadline: Option<Instant>, is_clear: bool) -> Urgency {
         let others = [
-            self.world.next_timer(),
+            self.runtime.next_timer(),
             self.link.gives_up_at(),
             self.link
                 .asks_at()
-                .filter(|_| is_clear && self.world.has_terminal()),
+                .filter(|_| is_clear && self.runtime.has_terminal()),
             self.asked.map(|(_, until)| until),
         ];
         let deadline = others.into_iter().chain([deadline]).flatten().min();
@@ -209,21 +209,21 @@ impl Session {
         for event in events {
             if let Event::Replied(reply, at) = event {
                 urgency = urgency.max(self.replied(reply, at));
-            } else if let Some(msg) = self.world.message(event) {
+            } else if let Some(msg) = self.runtime.message(event) {
                 urgency = urgency.max(self.urgency_of(&msg));
                 self.step(msg);
             }
         }
         let now = Instant::now();
         if self.link.give_up(now) {
-            self.world.give_up_replies();
+            self.runtime.give_up_replies();
         }
-        for msg in self.world.due(now) {
+        for msg in self.runtime.due(now) {
             urgency = Urgency::Now;
             self.step(msg);
         }
         urgency = urgency.max(self.give_up_on_colours());
-        for panic in self.world.terminal().take_panics() {
+        for panic in self.runtime.terminal().take_panics() {
             urgency = Urgency::Now;
             self.step(Msg::Failed(panic));
         }
@@ -241,13 +241,13 @@ impl Session {
     }
 
     fn step(&mut self, msg: Msg) {
-        if !self.world.is_over() {
+        if !self.runtime.is_over() {
             self.ending = ending(&msg);
         }
         let effects = self.app.update(msg);
         self.perform(effects);
         let are_kept = self.app.has_kept_edits();
-        self.world.terminal().note_kept_edits(are_kept);
+        self.runtime.terminal().note_kept_edits(are_kept);
     }
 
     fn perform(&mut self, effects: Vec<Effect>) {
@@ -260,7 +260,7 @@ impl Session {
                 // The time another program had the terminal is no measure of the link.
                 self.waiting = None;
             }
-            if let Some(msg) = self.world.perform(effect) {
+            if let Some(msg) = self.runtime.perform(effect) {
                 left.extend(self.app.update(msg));
             }
         }
@@ -268,8 +268,8 @@ impl Session {
 
     /// Requests a reply of the terminal if the link should be measured.
     fn ask(&mut self, now: Instant) -> io::Result<()> {
-        if self.world.has_terminal() && self.link.has_question(now) {
-            self.world.ask_status()?;
+        if self.runtime.has_terminal() && self.link.has_question(now) {
+            self.runtime.ask_status()?;
             self.link.asked(now);
         }
         Ok(())
@@ -292,12 +292,12 @@ impl Session {
         }
         let (app, inks) = (&self.app, &mut self.inks);
         let mut area = app.terminal;
-        let bytes = self.world.terminal().draw(|frame| {
+        let bytes = self.runtime.terminal().draw(|frame| {
             area = (frame.area().width, frame.area().height);
             view::draw(app, inks, frame);
         })?;
         self.link.spent(bytes, now);
-        if !self.world.terminal().is_clear() {
+        if !self.runtime.terminal().is_clear() {
             self.waiting = Some((now, bytes));
         }
         if area != self.app.terminal {

@@ -158,28 +158,28 @@ fn save(path: PathBuf, text: Arc<String>, guard: &Guard) -> SaveOutcome {
     );
     match saved {
         Ok(()) => SaveOutcome::Saved { path, text },
-        Err(Refusal::Changed) => SaveOutcome::ChangedOnDisk,
-        Err(Refusal::Other(reason)) => SaveOutcome::Failed(reason),
-        Err(Refusal::Io(error)) => SaveOutcome::Failed(format!("{}: {error}", path.display())),
+        Err(WriteError::Changed) => SaveOutcome::ChangedOnDisk,
+        Err(WriteError::Other(reason)) => SaveOutcome::Failed(reason),
+        Err(WriteError::Io(error)) => SaveOutcome::Failed(format!("{}: {error}", path.display())),
     }
 }
 
 /// Reason why a scene was not written.
-enum Refusal {
+enum WriteError {
     /// The file's text differs from the expected one.
     Changed,
     Other(String),
     Io(io::Error),
 }
 
-impl From<io::Error> for Refusal {
+impl From<io::Error> for WriteError {
     fn from(error: io::Error) -> Self {
         Self::Io(error)
     }
 }
 
 /// Whether the contents of the file may be overwritten.
-fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), Refusal> {
+fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), WriteError> {
     let held = match guard {
         Guard::Anything => return Ok(()),
         Guard::Holding(held) => Some(held),
@@ -188,12 +188,12 @@ fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), Refusal> {
     match (held, file::read_text(path)) {
         (_, Err(ReadError::NotFound { .. })) => Ok(()),
         (Some(held), Ok(found)) if found == **held || found == text => Ok(()),
-        (Some(_), Ok(_)) => Err(Refusal::Changed),
-        (Some(_), Err(error)) => Err(Refusal::Other(error.to_string())),
+        (Some(_), Ok(_)) => Err(WriteError::Changed),
+        (Some(_), Err(error)) => Err(WriteError::Other(error.to_string())),
         (None, _) => {
             let path = path.display();
             let reason = format!("{path} exists: use :w! {path} to overwrite it");
-            Err(Refusal::Other(reason))
+            Err(WriteError::Other(reason))
         }
     }
 }
@@ -201,15 +201,15 @@ fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), Refusal> {
 /// Writes a picture unless that would replace a file that others wrote.
 fn export(frame: &Frame, to: Destination) -> Result<Exported, String> {
     check_target(&to)?;
-    let may = || check_target(&to).map_err(Refusal::Other);
+    let may = || check_target(&to).map_err(WriteError::Other);
     match image_file::save(frame, &to.path, may) {
         Ok(version) => Ok(Exported {
             path: to.path,
             version,
         }),
-        Err(Refusal::Io(error)) => Err(format!("{}: {error}", to.path.display())),
-        Err(Refusal::Other(reason)) => Err(reason),
-        Err(Refusal::Changed) => Err(format!("{}: has changed", to.path.display())),
+        Err(WriteError::Io(error)) => Err(format!("{}: {error}", to.path.display())),
+        Err(WriteError::Other(reason)) => Err(reason),
+        Err(WriteError::Changed) => Err(format!("{}: has changed", to.path.display())),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use smallvec::SmallVec;
 
-use super::{Csg, Kind, Leaf, Operation};
+use super::{Csg, Leaf, Operation, PreparedKind};
 use crate::geometry::lanes::{Lanes, Vector};
 use crate::geometry::{Aabb, Rays};
 
@@ -63,8 +63,8 @@ impl Csg {
                         tasks.push(Task::Remember(shared, lists.len()));
                     }
                     match step.kind {
-                        Kind::Leaf(leaf) => lists.push(&self.leaves[leaf as usize], lines),
-                        Kind::Operation(_, [first, _]) => {
+                        PreparedKind::Leaf(leaf) => lists.push(&self.leaves[leaf as usize], lines),
+                        PreparedKind::Operation(_, [first, _]) => {
                             tasks.push(Task::Second(index, lines, lists.len()));
                             tasks.push(Task::Step(first, lines));
                         }
@@ -72,7 +72,8 @@ impl Csg {
                 }
                 Task::Second(index, lines, start) => {
                     let middle = lists.len();
-                    if let Kind::Operation(operation, [_, second]) = self.steps[index as usize].kind
+                    if let PreparedKind::Operation(operation, [_, second]) =
+                        self.steps[index as usize].kind
                         && (operation == Operation::Union || start < middle)
                     {
                         tasks.push(Task::Merge(operation, start, middle));

@@ -52,7 +52,7 @@ pub enum Node {
 /// inside out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Csg {
-    steps: Vec<Step>,
+    steps: Vec<Prepared>,
     leaves: Vec<Leaf>,
     /// The number of steps that are operands more than once.
     shared: u32,
@@ -65,16 +65,16 @@ pub struct Csg {
 
 /// A node prepared for intersection.
 #[derive(Clone, Debug, PartialEq)]
-struct Step {
+struct Prepared {
     /// The box, widened by more than a leaf's rounding; `None` if other boxes make it redundant.
     bounds: Option<Aabb>,
-    kind: Kind,
+    kind: PreparedKind,
     /// The index among the shared steps, if it is an operand more than once.
     shared: Option<u32>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind {
+enum PreparedKind {
     /// The index of a leaf.
     Leaf(u32),
     /// An operation on two steps.
@@ -126,7 +126,7 @@ impl Csg {
                     csg.magnitude = csg.magnitude.max(leaf.magnitude);
                     csg.is_simple &= leaf.solid.is_simple();
                     csg.leaves.push(leaf);
-                    (Kind::Leaf(csg.leaves.len() as u32 - 1), bounds)
+                    (PreparedKind::Leaf(csg.leaves.len() as u32 - 1), bounds)
                 }
                 Node::Operation {
                     operation,
@@ -139,14 +139,14 @@ impl Csg {
                         Operation::Intersection => a.intersection(b),
                         Operation::Difference => a,
                     };
-                    (Kind::Operation(operation, [first, second]), bounds)
+                    (PreparedKind::Operation(operation, [first, second]), bounds)
                 }
             };
             let shared = (1 < uses).then_some(csg.shared);
             csg.shared += u32::from(shared.is_some());
             boxes.push(bounds);
             csg.bounds = bounds;
-            csg.steps.push(Step {
+            csg.steps.push(Prepared {
                 bounds: Some(widened(bounds)),
                 kind,
                 shared,
@@ -161,7 +161,7 @@ impl Csg {
     /// first operand, and the overlap of two boxes lies in both.
     fn drop_redundant_boxes(&mut self, boxes: &[Aabb]) {
         for index in (0..self.steps.len()).rev() {
-            let Kind::Operation(operation, operands) = self.steps[index].kind else {
+            let PreparedKind::Operation(operation, operands) = self.steps[index].kind else {
                 continue;
             };
             let redundant: &[u32] = match operation {

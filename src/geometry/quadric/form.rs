@@ -38,7 +38,7 @@ pub(super) struct Form {
 /// A line in the world, relative to the centre, and in the coordinates of p. Distances along both
 /// equal those along the ray.
 #[derive(Clone, Copy)]
-pub(super) struct Line {
+pub(super) struct QuadricLine {
     /// The world position at `start`, minus the centre.
     pub(super) position: DVec3,
     /// The ray's direction.
@@ -78,9 +78,9 @@ impl Form {
 
     /// The ray's line from its start or, if that is far, from about its closest point.
     #[inline]
-    pub(super) fn line(&self, ray: &Ray) -> Line {
+    pub(super) fn line(&self, ray: &Ray) -> QuadricLine {
         let position = ray.origin - self.centre;
-        let line = Line {
+        let line = QuadricLine {
             position,
             direction: ray.direction,
             start: 0.0,
@@ -95,8 +95,8 @@ impl Form {
     }
 
     /// Moves the line's start to about its closest point. The offset is far below the rounding.
-    fn approach(&self, ray: &Ray, line: &Line) -> Line {
-        let Line {
+    fn approach(&self, ray: &Ray, line: &QuadricLine) -> QuadricLine {
+        let QuadricLine {
             position,
             direction,
             p,
@@ -113,7 +113,7 @@ impl Form {
             start.mul_add(direction.y, position.y),
             start.mul_add(direction.z, position.z),
         ) + rest;
-        Line {
+        QuadricLine {
             position,
             start,
             p: self.map_vector(position) + self.offset,

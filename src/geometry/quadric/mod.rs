@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::line::{Ends, half_line, roots};
 use super::transform::{normalise, power_of_two};
 use super::{Aabb, Chart, Crossings, Hit, Ray, Surface};
-use form::{Form, Line};
+use form::{Form, QuadricLine};
 
 /// The part of the curved side; plane i is part 1 + i.
 const CURVED: u32 = 0;
@@ -124,7 +124,7 @@ impl Quadric {
 
     /// The interval inside all half-spaces.
     #[inline]
-    fn clip(&self, line: &Line) -> Option<Crossings> {
+    fn clip(&self, line: &QuadricLine) -> Option<Crossings> {
         let mut clip = Crossings::EVERYWHERE;
         for (half_space, part) in self.half_spaces.iter().zip(1..) {
             let outside = half_space.normal.dot(line.position) - half_space.distance;
@@ -181,7 +181,7 @@ impl HalfSpace {
 /// the line is close to the centre, and of terms that are 0 for most solids: no difference of large
 /// numbers. If a = 0 the line is parallel to a generatrix or an asymptote.
 #[inline]
-fn inside(form: &Form, line: &Line) -> [Option<Crossings>; 2] {
+fn inside(form: &Form, line: &QuadricLine) -> [Option<Crossings>; 2] {
     let (p, q) = (line.p, line.q);
     let (s, h) = (form.squares, form.linear);
     let (sp, sq) = (s * p, s * q);

@@ -2,8 +2,8 @@
 //! not affect others.
 
 mod camera;
-mod line;
 mod objects;
+mod record;
 mod shapes;
 mod surfaces;
 
@@ -21,43 +21,43 @@ use crate::language::table::Category;
 use crate::language::words::Words;
 use crate::scene::{Light, Material, Rgb, Scene, Setting, Texture};
 use crate::text::{Diagnostic, Findings, Position, Span, nearest_word};
-use line::Line;
+use record::RecordContent;
 
 /// Maximum number of IDs listed in a message.
 const NAMED: usize = 8;
 
 /// Returns the errors of every text that begins with these records.
 pub(super) fn errors_of_beginning(text: &str, tree: &Tree) -> Findings {
-    let mut reader = Reader::new(text, tree);
+    let mut lowering = Lowering::new(text, tree);
     // The last record may be incomplete.
     for record in 0..tree.records.len().saturating_sub(1) {
-        reader.record(record);
+        lowering.record(record);
     }
-    reader.report
+    lowering.report
 }
 
 /// Lowers a text.
 pub(super) fn lower(text: &str, tree: &Tree) -> (Origins, Lowered) {
-    let mut reader = Reader::new(text, tree);
+    let mut lowering = Lowering::new(text, tree);
     for record in 0..tree.records.len() {
-        reader.record(record);
+        lowering.record(record);
     }
-    let objects = reader.drawn();
-    let camera = reader.camera(&objects);
-    let scene = (reader.report.errors() == 0).then(|| Scene {
+    let objects = lowering.drawn();
+    let camera = lowering.camera(&objects);
+    let scene = (lowering.report.errors() == 0).then(|| Scene {
         camera,
         ambient: Rgb::ZERO,
-        lights: reader.lights,
-        materials: reader.materials,
-        textures: reader.textures,
+        lights: lowering.lights,
+        materials: lowering.materials,
+        textures: lowering.textures,
         objects: objects.into_iter().collect(),
         setting: Setting::default(),
     });
     let lowered = Lowered {
         scene,
-        diagnostics: reader.report.sorted(),
+        diagnostics: lowering.report.sorted(),
     };
-    (reader.origins, lowered)
+    (lowering.origins, lowered)
 }
 
 /// An object of the text.
@@ -70,8 +70,8 @@ enum Definition {
     Faulty,
 }
 
-/// A reader with its results so far.
-struct Reader<'a> {
+/// A lowering in progress.
+struct Lowering<'a> {
     text: &'a str,
     tree: &'a Tree,
     report: Findings,
@@ -104,7 +104,7 @@ enum Drawn {
     Listed(Vec<(i64, Span)>),
 }
 
-impl<'a> Reader<'a> {
+impl<'a> Lowering<'a> {
     fn new(text: &'a str, tree: &'a Tree) -> Self {
         Self {
             text,
@@ -125,7 +125,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-impl Reader<'_> {
+impl Lowering<'_> {
     fn record(&mut self, record: usize) {
         let tokens = &self.tree.tokens_of(self.text, record);
         let Some(kind) = self.kind(tokens) else {
@@ -209,7 +209,12 @@ impl Reader<'_> {
 
     /// Registers the ID of a record, read in `line`. `None` if it is malformed, or, with a warning,
     /// if it is taken; then the record is dropped.
-    fn define(&mut self, category: Category, line: &Line<'_>, index: usize) -> Option<i64> {
+    fn define(
+        &mut self,
+        category: Category,
+        line: &RecordContent<'_>,
+        index: usize,
+    ) -> Option<i64> {
         let (id, span) = line.id?;
         match self.ids.entry((category, id)) {
             Entry::Vacant(entry) => {

@@ -325,25 +325,25 @@ fn coefficients(numbers: &[f64]) -> Coefficients {
 
 /// The shape described by these numbers; `None` if its directions are linearly dependent.
 fn shape(numbers: &[f64], kind: ShapeKind) -> Option<Shape> {
-    const ELLIPSOID: Frame = Frame::of(
+    const ELLIPSOID: FrameFields = FrameFields::of(
         ShapeKind::Ellipsoid,
         "centre",
         ["v1", "v2", "v3"],
         ["l1", "l2", "l3"],
     );
-    const BOX: Frame = Frame::of(
+    const BOX: FrameFields = FrameFields::of(
         ShapeKind::Box,
         "corner",
         ["vl", "vw", "vh"],
         ["length", "width", "height"],
     );
-    const CYLINDER: Frame = Frame::of(
+    const CYLINDER: FrameFields = FrameFields::of(
         ShapeKind::Cylinder,
         "base",
         ["a1", "a2", "axis"],
         ["l1", "l2", "height"],
     );
-    const CONE: Frame = Frame::of(
+    const CONE: FrameFields = FrameFields::of(
         ShapeKind::Cone,
         "base",
         ["a1", "a2", "axis"],
@@ -362,13 +362,13 @@ fn shape(numbers: &[f64], kind: ShapeKind) -> Option<Shape> {
 }
 
 /// The positions of the fields of a shape with a frame.
-struct Frame {
+struct FrameFields {
     origin: At<3>,
     directions: [At<3>; 3],
     lengths: [At<1>; 3],
 }
 
-impl Frame {
+impl FrameFields {
     const fn of(kind: ShapeKind, origin: &str, directions: [&str; 3], lengths: [&str; 3]) -> Self {
         let ([a, b, c], [along_a, along_b, along_c]) = (directions, lengths);
         Self {

@@ -9,7 +9,7 @@ use super::tree::{Tokens, comment_of_line, view_comment};
 use super::view::View;
 use crate::geometry::{Aabb, normalise};
 use crate::language::at::index_of;
-use crate::language::camera::{Places, check, default_eye_and_target};
+use crate::language::camera::{CameraSpans, check, default_eye_and_target};
 use crate::language::record::what;
 use crate::language::report::Name;
 use crate::language::report::{no_number, number, quoted};
@@ -30,17 +30,17 @@ const DEFAULT_SIDE: DVec3 = DVec3::new(0.4, 0.3, 1.0);
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ViewComment {
     comment: Span,
-    parts: [Option<Part>; VIEW.len()],
+    parts: [Option<FieldNumbers>; VIEW.len()],
 }
 
 /// The numbers of one field; the arrays are filled up to its number of components.
 #[derive(Clone, Copy, Debug, Default)]
-struct Part {
+struct FieldNumbers {
     spans: [Span; 3],
     values: [f64; 3],
 }
 
-impl Part {
+impl FieldNumbers {
     fn vector(&self) -> DVec3 {
         DVec3::from_array(self.values)
     }
@@ -145,8 +145,8 @@ fn read_part(
     words: &mut impl Iterator<Item = Span>,
     end: usize,
     report: &mut Findings,
-) -> Result<Part, Diagnostic> {
-    let mut part = Part::default();
+) -> Result<FieldNumbers, Diagnostic> {
+    let mut part = FieldNumbers::default();
     for (at, component) in field.kind.component_names().iter().enumerate() {
         let what = what(Name::View, field, component);
         let missing =
@@ -217,7 +217,7 @@ pub(super) fn camera(
         (false, true) => [part(TARGET); 2],
         (_, false) => [part(EYE); 2],
     };
-    let places = Places {
+    let places = CameraSpans {
         eye,
         target,
         up: part(UP),

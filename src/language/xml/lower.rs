@@ -22,7 +22,7 @@ use crate::text::{Diagnostic, Findings, Span};
 
 /// Lowers a text.
 pub(super) fn lower(text: &str, tree: &Tree, meshes: &Meshes) -> (Origins, Lowered) {
-    let mut reader = Reader {
+    let mut lowering = Lowering {
         text,
         tree,
         meshes,
@@ -39,18 +39,18 @@ pub(super) fn lower(text: &str, tree: &Tree, meshes: &Meshes) -> (Origins, Lower
         setting: Setting::default(),
     };
     if let Some(fault) = &tree.fault {
-        reader.report.error(|| fault.clone());
+        lowering.report.error(|| fault.clone());
     }
-    let scene = reader.read();
+    let scene = lowering.read();
     let lowered = Lowered {
-        scene: scene.filter(|_| reader.report.errors() == 0),
-        diagnostics: reader.report.sorted(),
+        scene: scene.filter(|_| lowering.report.errors() == 0),
+        diagnostics: lowering.report.sorted(),
     };
-    (reader.origins, lowered)
+    (lowering.origins, lowered)
 }
 
-/// A reader with its results so far.
-struct Reader<'a> {
+/// A lowering in progress.
+struct Lowering<'a> {
     text: &'a str,
     tree: &'a Tree,
     meshes: &'a Meshes,
@@ -71,7 +71,7 @@ struct Reader<'a> {
     setting: Setting,
 }
 
-impl Reader<'_> {
+impl Lowering<'_> {
     /// Reads everything; `None` if there is nothing to read.
     fn read(&mut self) -> Option<Scene> {
         self.find_roles();

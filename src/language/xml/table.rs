@@ -15,7 +15,7 @@ pub(super) struct Parameter {
     /// Its name.
     pub element: &'static str,
     /// How its attributes are read.
-    pub reading: Reading,
+    pub reading: Attributes,
     /// The default of numbers missing in the element.
     pub inside: &'static str,
     /// The defaults if the element itself is missing.
@@ -32,7 +32,7 @@ pub(super) struct Parameter {
 
 /// How an element's attributes are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Reading {
+pub(super) enum Attributes {
     /// x, y, z, times `value`.
     Vector,
     /// r, g, b, times `value`.
@@ -85,7 +85,7 @@ pub(super) enum Texturing {
     Yes,
 }
 
-impl Reading {
+impl Attributes {
     /// The attributes, in order; the last one of a vector or a colour multiplies the others.
     pub(super) const fn attributes(self) -> &'static [&'static str] {
         match self {
@@ -106,7 +106,7 @@ impl Parameter {
         let field = Field::point(element, doc);
         Self {
             element,
-            reading: Reading::Vector,
+            reading: Attributes::Vector,
             inside: "0",
             missing,
             field,
@@ -127,7 +127,7 @@ impl Parameter {
         let field = Field::colour(element, doc);
         Self {
             element,
-            reading: Reading::Colour,
+            reading: Attributes::Colour,
             inside: "1",
             missing,
             field,
@@ -143,7 +143,7 @@ impl Parameter {
     const fn number(field: Field, missing: &'static [&'static str; 1]) -> Self {
         Self {
             element: field.key,
-            reading: Reading::Number,
+            reading: Attributes::Number,
             inside: missing[0],
             missing,
             field,
@@ -171,7 +171,7 @@ impl Parameter {
     /// The default of an attribute missing in the element.
     pub(super) fn inside(&self, attribute: &str) -> &'static str {
         match (self.reading, attribute) {
-            (Reading::Vector | Reading::Colour, "value") => "1",
+            (Attributes::Vector | Attributes::Colour, "value") => "1",
             _ => self.inside,
         }
     }
@@ -213,7 +213,7 @@ pub(super) static SCALE: Parameter = Parameter {
 };
 
 pub(super) static ROTATE: Parameter = Parameter {
-    reading: Reading::Rotation,
+    reading: Attributes::Rotation,
     field: Field {
         kind: Kind::Rotation,
         ..Field::point("rotate", "The axis it is turned about, and how far.")

@@ -24,7 +24,7 @@ enum Command {
     /// Read the file again.
     Reread,
     /// Export what is shown to a picture file.
-    Export(Picture, Force),
+    Export(ExportArguments, Force),
     /// Cancel the running export.
     ExportCancel,
     /// Trace at full size.
@@ -48,14 +48,14 @@ pub(super) enum Force {
 
 /// The picture to export; fields that are `None` are taken from the scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Picture {
+struct ExportArguments {
     path: Option<PathBuf>,
     size: Option<Size>,
     spp: Option<u32>,
 }
 
 /// A row of the table: the spelling of a command and its meaning.
-struct Form {
+struct CommandRow {
     /// One or two words, and alternative spellings.
     names: &'static [&'static str],
     arguments: Arguments,
@@ -67,12 +67,16 @@ struct Form {
 enum Arguments {
     Nothing(Command),
     File(fn(Option<PathBuf>) -> Command),
-    Picture(fn(Picture) -> Command),
+    Picture(fn(ExportArguments) -> Command),
     Size(fn(Size) -> Command),
 }
 
-const fn form(names: &'static [&'static str], arguments: Arguments, words: &'static str) -> Form {
-    Form {
+const fn row(
+    names: &'static [&'static str],
+    arguments: Arguments,
+    words: &'static str,
+) -> CommandRow {
+    CommandRow {
         names,
         arguments,
         words,
@@ -84,24 +88,24 @@ use Command as C;
 
 /// All commands, in the order of the help page.
 #[rustfmt::skip]
-const TABLE: &[Form] = &[
-    form(&["w", "write"], A::File(|file| C::Write(file, Force::No)), "save the scene, or save it as FILE"),
-    form(&["w!", "write!"], A::File(|file| C::Write(file, Force::Yes)), "save, overwriting changes on disk"),
-    form(&["q", "quit"], A::Nothing(C::Quit(Force::No)), "quit"),
-    form(&["q!", "quit!"], A::Nothing(C::Quit(Force::Yes)), "quit without asking"),
-    form(&["wq", "x"], A::Nothing(C::WriteQuit), "save and quit"),
-    form(&["e", "reread"], A::Nothing(C::Reread), "reload the file"),
-    form(&["export"], A::Picture(|picture| C::Export(picture, Force::No)), "export a picture of what is shown"),
-    form(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "export, overwriting an existing file"),
-    form(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
-    form(&["render"], A::Nothing(C::Render), "trace at full size"),
-    form(&["view save"], A::Nothing(C::ViewSave), "write the view into the scene"),
-    form(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
-    form(&["size"], A::Size(C::Size), "set the picture size in the scene"),
-    form(&["help"], A::Nothing(C::Help), "show this page"),
+const TABLE: &[CommandRow] = &[
+    row(&["w", "write"], A::File(|file| C::Write(file, Force::No)), "save the scene, or save it as FILE"),
+    row(&["w!", "write!"], A::File(|file| C::Write(file, Force::Yes)), "save, overwriting changes on disk"),
+    row(&["q", "quit"], A::Nothing(C::Quit(Force::No)), "quit"),
+    row(&["q!", "quit!"], A::Nothing(C::Quit(Force::Yes)), "quit without asking"),
+    row(&["wq", "x"], A::Nothing(C::WriteQuit), "save and quit"),
+    row(&["e", "reread"], A::Nothing(C::Reread), "reload the file"),
+    row(&["export"], A::Picture(|picture| C::Export(picture, Force::No)), "export a picture of what is shown"),
+    row(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "export, overwriting an existing file"),
+    row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
+    row(&["render"], A::Nothing(C::Render), "trace at full size"),
+    row(&["view save"], A::Nothing(C::ViewSave), "write the view into the scene"),
+    row(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
+    row(&["size"], A::Size(C::Size), "set the picture size in the scene"),
+    row(&["help"], A::Nothing(C::Help), "show this page"),
 ];
 
-impl Form {
+impl CommandRow {
     /// The spelling with arguments: `:size WxH`.
     fn usage(&self) -> String {
         let name = self.names[0];
@@ -156,7 +160,7 @@ fn parse(line: &str) -> Result<Command, String> {
 }
 
 /// Parses `[FILE] [WxH] [SPP]`; the file name may contain blanks.
-fn picture(rest: &str) -> Result<Picture, String> {
+fn picture(rest: &str) -> Result<ExportArguments, String> {
     let mut words: Vec<_> = rest.split_whitespace().collect();
     let mut spp = None;
     if let Some(count) = words.last().and_then(|word| word.parse().ok()) {
@@ -174,7 +178,7 @@ fn picture(rest: &str) -> Result<Picture, String> {
         return Err(wrong);
     }
     let path = (!words.is_empty()).then(|| PathBuf::from(words.join(" ")));
-    Ok(Picture { path, size, spp })
+    Ok(ExportArguments { path, size, spp })
 }
 
 /// Finds fault with a word left after the picture's name.
@@ -251,7 +255,7 @@ impl App {
             Command::Quit(Force::Yes) => return self.quit_anyway(),
             Command::WriteQuit => return self.save_and_quit(),
             Command::Reread => return self.reread(),
-            Command::Export(Picture { path, size, spp }, force) => {
+            Command::Export(ExportArguments { path, size, spp }, force) => {
                 let path = path.unwrap_or_else(|| self.export_path());
                 return self.start_export(&path, size, spp, force);
             }

@@ -48,7 +48,7 @@ pub struct Typing {
 
 /// The cursor before the text was replaced from outside.
 #[derive(Debug)]
-pub(super) struct Held {
+pub(super) struct SavedCursor {
     /// The text that it was in.
     pub(super) text: Arc<String>,
     /// The key of its field, and the span of its component if the text has it.
@@ -215,17 +215,22 @@ impl Cursor {
     }
 
     /// Records the cursor's position in a text.
-    pub(super) fn hold(&self, text: Arc<String>) -> Held {
+    pub(super) fn hold(&self, text: Arc<String>) -> SavedCursor {
         let field = self.current().map(|placed| {
             let span = placed.spans.get(self.component).copied();
             (placed.field.key, span)
         });
-        Held { text, field }
+        SavedCursor { text, field }
     }
 
     /// Returns the cursor to the number that it was on before an edit, keeping a value typed there;
     /// returns whether that had to be dropped because the field is gone.
-    pub(super) fn follow(&mut self, held: &Held, edit: Option<&Edit>, source: &Source) -> bool {
+    pub(super) fn follow(
+        &mut self,
+        held: &SavedCursor,
+        edit: Option<&Edit>,
+        source: &Source,
+    ) -> bool {
         let Some((key, span)) = held.field else {
             return self.typing.take().is_some();
         };

@@ -8,7 +8,7 @@ use super::journal::Journal;
 use crate::file::ReadError;
 use crate::text::Findings;
 use crate::ui::msg::{Effect, Timer};
-use crate::ui::reading::{Baseline, Place};
+use crate::ui::reading::{Baseline, SceneFolder};
 
 /// The scene's file, and the state of reading it.
 #[derive(Debug, Default)]
@@ -22,9 +22,9 @@ pub struct Disk {
     /// The state of waiting for a file that was read but could not be used.
     settle: Settle,
     /// Who requested the next reading of the file.
-    reader: Reader,
+    requester: Requester,
     /// Where the file was read last.
-    place: Option<Place>,
+    place: Option<SceneFolder>,
     /// The last text without errors, while the current one has some.
     pub(super) sound: Option<Arc<String>>,
     /// The journal of unsaved edits.
@@ -70,7 +70,7 @@ pub enum FirstReading {
 
 /// Who requested a reading of the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Reader {
+pub(super) enum Requester {
     /// The interface, because the file may have changed.
     #[default]
     Interface,
@@ -155,12 +155,12 @@ impl Disk {
 
     /// Makes the next reading answer the user.
     pub(super) fn answer_user(&mut self) {
-        self.reader = Reader::User;
+        self.requester = Requester::User;
     }
 
     /// Returns who requested this reading.
-    pub(super) fn take_reader(&mut self) -> Reader {
-        std::mem::take(&mut self.reader)
+    pub(super) fn take_requester(&mut self) -> Requester {
+        std::mem::take(&mut self.requester)
     }
 
     /// Waits for the file to settle.
@@ -180,7 +180,7 @@ impl Disk {
     }
 
     /// Records where the file was read and returns the previous place.
-    pub(super) fn move_to(&mut self, place: Place) -> Option<Place> {
+    pub(super) fn move_to(&mut self, place: SceneFolder) -> Option<SceneFolder> {
         self.place.replace(place)
     }
 

@@ -47,7 +47,7 @@ enum Await {
 
 /// The outcome of an attempt to keep edits.
 pub(super) enum Outcome {
-    /// Obsolete: forgotten since, or another order is on its way.
+    /// Obsolete: forgotten since, or another request is on its way.
     OutOfDate,
     /// They are kept; this message no longer applies.
     Kept(Option<String>),

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::cursor::Held;
-use super::disk::{Faulty, Reader, Settle};
+use super::cursor::SavedCursor;
+use super::disk::{Faulty, Requester, Settle};
 use super::{App, Dialog, OnDisk, Outside, PromptKind};
 use crate::document::Adopted;
 use crate::file;
@@ -23,29 +23,29 @@ const QUIET: Duration = Duration::from_millis(100);
 const GONE: Duration = Duration::from_millis(500);
 
 /// The parts of a message about a text read from the file.
-struct Words {
+struct Wording {
     came: &'static str,
     /// Used instead of the changed place if only comments and spacing have changed.
     same: &'static str,
     end: &'static str,
 }
 
-const RELOADED: Words = Words {
+const RELOADED: Wording = Wording {
     came: "reloaded",
     same: "the scene is unchanged",
     end: "",
 };
-const MERGED: Words = Words {
+const MERGED: Wording = Wording {
     came: "merged the file's changes with your edits",
     same: "the picture is unchanged",
     end: "; press u to undo the merge",
 };
-const ADOPTED: Words = Words {
+const ADOPTED: Wording = Wording {
     came: "merged",
     same: "the picture is unchanged",
     end: "; press u to undo the merge",
 };
-const SAME_NOW: Words = Words {
+const SAME_NOW: Wording = Wording {
     came: "the file now has the same changes",
     same: "nothing is unsaved",
     end: "",
@@ -162,7 +162,7 @@ impl App {
     }
 
     fn take_text(&mut self, reading: Reading, settle: Settle) -> Vec<Effect> {
-        let reader = self.disk.take_reader();
+        let requester = self.disk.take_requester();
         // An undecided merge is obsolete, regardless of what the file holds now.
         if let Some(Dialog::Conflict {
             from: Outside::File,
@@ -176,7 +176,7 @@ impl App {
             if self.disk.state != OnDisk::Known && self.text_being_saved().is_none() {
                 self.disk.state = OnDisk::Known;
                 self.overlays.say("the file matches the saved text again");
-            } else if reader == Reader::User {
+            } else if requester == Requester::User {
                 self.overlays
                     .say(format!("{} has not changed", self.disk.name()));
             }
@@ -227,7 +227,13 @@ impl App {
 
     /// Installs the new meaning of the text, keeps the cursor in place and reports the change;
     /// `edit` leads from the previous text to this one.
-    fn show_reload(&mut self, held: &Held, edit: Option<&Edit>, lowered: Lowered, words: &Words) {
+    fn show_reload(
+        &mut self,
+        held: &SavedCursor,
+        edit: Option<&Edit>,
+        lowered: Lowered,
+        words: &Wording,
+    ) {
         let (scene, sound) = (self.scene.clone(), self.error_count() == 0);
         self.install(lowered);
         let lost = self.cursor.follow(held, edit, self.document.source());
@@ -251,7 +257,7 @@ impl App {
                 (Some(before), Some(after)) => Arc::ptr_eq(before, after),
                 _ => false,
             };
-            let Words { came, same, end } = words;
+            let Wording { came, same, end } = words;
             self.overlays.say(match place {
                 _ if is_same && !self.assets.lack_meshes() => format!("{came}: {same}{end}"),
                 Some(place) => format!("{came}: {place}{end}"),

@@ -18,7 +18,7 @@ fn files_that_could_not_be_watched_are_retried() {
         return;
     }
     let (send, messages) = mpsc::channel();
-    let mut work = Work {
+    let mut work = AssetThread {
         assets: Assets::new(&[]),
         method: Method::Native,
         watched: Vec::new(),

@@ -25,7 +25,7 @@ const NOT_REGULAR: &str = "is not a regular file";
 #[derive(Debug)]
 pub(super) struct Folder {
     path: PathBuf,
-    held: system::Held,
+    held: system::FolderHandle,
 }
 
 /// The path of the journal folder. Fails if no journals can be kept there.
@@ -80,7 +80,7 @@ impl Folder {
     }
 
     fn open_in(state: &Path, missing: system::Missing) -> io::Result<Self> {
-        let held = system::Held::of(state, missing)?;
+        let held = system::FolderHandle::of(state, missing)?;
         let path = path_in(state);
         Ok(Self { path, held })
     }
@@ -188,9 +188,9 @@ mod unix {
     const WRITABLE: Mode = Mode::WGRP.union(Mode::WOTH);
 
     #[derive(Debug)]
-    pub(super) struct Held(OwnedFd);
+    pub(super) struct FolderHandle(OwnedFd);
 
-    impl Held {
+    impl FolderHandle {
         /// Opens the folder one component at a time, so that nothing can be slipped in meanwhile.
         pub(super) fn of(state: &Path, missing: Missing) -> io::Result<Self> {
             let flags = OFlags::RDONLY | OFlags::DIRECTORY | OFlags::CLOEXEC;
@@ -332,9 +332,9 @@ mod plain {
     }
 
     #[derive(Debug)]
-    pub(super) struct Held;
+    pub(super) struct FolderHandle;
 
-    impl Held {
+    impl FolderHandle {
         pub(super) fn of(state: &Path, missing: Missing) -> io::Result<Self> {
             let path = super::path_in(state);
             if missing == Missing::Made {

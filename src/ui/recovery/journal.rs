@@ -27,11 +27,11 @@ pub(crate) struct Edits {
 #[derive(Debug)]
 pub(super) struct Journal {
     state: PathBuf,
-    held: Option<Held>,
+    held: Option<OpenJournal>,
 }
 
 #[derive(Debug)]
-struct Held {
+struct OpenJournal {
     folder: Arc<Folder>,
     claim: Claim,
     scene: Option<PathBuf>,
@@ -54,13 +54,13 @@ impl Journal {
 
     /// Keeps a text instead of the last one. If that fails, the last one remains.
     pub(super) fn write(&mut self, edits: &Edits) -> io::Result<()> {
-        let fits = |held: &&mut Held| {
+        let fits = |held: &&mut OpenJournal| {
             held.scene == edits.scene && held.language == edits.known.language && held.is_found()
         };
         if let Some(held) = self.held.as_mut().filter(fits) {
             return held.write(edits);
         }
-        let held = Held::new(&self.state, edits)?;
+        let held = OpenJournal::new(&self.state, edits)?;
         match self.held.replace(held) {
             Some(before) => before.claim.remove(),
             None => Ok(()),
@@ -74,11 +74,11 @@ impl Journal {
 
     /// Whether anything is kept where the next run will look for it.
     pub(super) fn is_kept(&self) -> bool {
-        self.held.as_ref().is_some_and(Held::is_kept)
+        self.held.as_ref().is_some_and(OpenJournal::is_kept)
     }
 }
 
-impl Held {
+impl OpenJournal {
     fn new(state: &Path, edits: &Edits) -> io::Result<Self> {
         let folder = Arc::new(Folder::make(state)?);
         let identity = Identity::of(edits.scene.as_deref(), edits.known.language);

@@ -11,9 +11,9 @@ use super::claim::Claim;
 use super::folder;
 use super::journal::{Edits, Journal};
 
-/// An order for the thread.
+/// A request for the thread.
 #[derive(Debug)]
-pub(crate) enum Order {
+pub(crate) enum Request {
     /// Keep the text of this revision; answered by [`Outcome::Kept`].
     Keep(u64, Edits),
     /// Forget what this run has kept.
@@ -24,7 +24,7 @@ pub(crate) enum Order {
     Discard(Arc<Claim>),
 }
 
-/// The outcome of an order.
+/// The outcome of a request.
 #[derive(Debug)]
 pub(crate) enum Outcome {
     /// The text of this revision is kept, or the reason why not.
@@ -46,7 +46,7 @@ pub(crate) enum End {
 
 /// A handle to the thread.
 pub(crate) struct Keeper {
-    orders: Sender<Order>,
+    requests: Sender<Request>,
     end: Receiver<End>,
     /// Whether there is something to keep.
     keeps: bool,
@@ -55,7 +55,7 @@ pub(crate) struct Keeper {
 impl Keeper {
     /// Starts the thread, which calls `report`.
     pub(crate) fn start(report: impl Fn(Outcome) + Send + 'static) -> io::Result<Self> {
-        let (orders, inbox) = mpsc::channel();
+        let (requests, inbox) = mpsc::channel();
         let (tell, end) = mpsc::channel();
         let work = move || {
             // Fails only if the program has stopped waiting.
@@ -65,26 +65,26 @@ impl Keeper {
             .name("journal".to_owned())
             .spawn(work)?;
         Ok(Self {
-            orders,
+            requests,
             end,
             keeps: false,
         })
     }
 
-    /// Queues an order. Of several waiting texts only the last is kept.
-    pub(crate) fn order(&mut self, order: Order) -> Result<(), String> {
-        match order {
-            Order::Keep(..) => self.keeps = true,
-            Order::Forget => self.keeps = false,
-            Order::Adopt(_) | Order::Discard(_) => {}
+    /// Queues a request. Of several waiting texts only the last is kept.
+    pub(crate) fn request(&mut self, request: Request) -> Result<(), String> {
+        match request {
+            Request::Keep(..) => self.keeps = true,
+            Request::Forget => self.keeps = false,
+            Request::Adopt(_) | Request::Discard(_) => {}
         }
-        let sent = self.orders.send(order);
+        let sent = self.requests.send(request);
         sent.map_err(|_| "the thread that keeps edits has ended".to_owned())
     }
 
-    /// Waits until all orders are done, at most until `deadline`.
+    /// Waits until all requests are done, at most until `deadline`.
     pub(crate) fn finish(self, deadline: Instant) -> End {
-        drop(self.orders);
+        drop(self.requests);
         let lost = |reason: &str| End::Lost(reason.to_owned());
         match self
             .end
@@ -98,15 +98,15 @@ impl Keeper {
     }
 }
 
-/// Executes orders until the channel is closed.
-fn follow(inbox: &Receiver<Order>, report: impl Fn(Outcome)) -> End {
+/// Executes requests until the channel is closed.
+fn follow(inbox: &Receiver<Request>, report: impl Fn(Outcome)) -> End {
     let mut journal = folder::state().map(Journal::new);
     let mut waiting = VecDeque::new();
     let mut adopted = Vec::new();
     let mut trouble = None;
-    while let Some(order) = next(inbox, &mut waiting) {
-        let removed = match order {
-            Order::Keep(revision, edits) => {
+    while let Some(request) = next(inbox, &mut waiting) {
+        let removed = match request {
+            Request::Keep(revision, edits) => {
                 let done = match &mut journal {
                     Ok(journal) => journal.write(&edits).map_err(|error| error.to_string()),
                     Err(error) => Err(error.to_string()),
@@ -120,16 +120,16 @@ fn follow(inbox: &Receiver<Order>, report: impl Fn(Outcome)) -> End {
                 }
                 remove_all(&mut adopted)
             }
-            Order::Forget => {
+            Request::Forget => {
                 trouble = None;
                 let forgotten = journal.as_mut().map_or(Ok(()), Journal::forget);
                 forgotten.and_then(|()| remove_all(&mut adopted))
             }
-            Order::Adopt(claim) => {
+            Request::Adopt(claim) => {
                 adopted.push(claim);
                 continue;
             }
-            Order::Discard(claim) => claim.remove(),
+            Request::Discard(claim) => claim.remove(),
         };
         if let Err(error) = removed {
             report(Outcome::Failed(format!(
@@ -148,17 +148,17 @@ fn remove_all(claims: &mut Vec<Arc<Claim>>) -> io::Result<()> {
     claims.drain(..).try_for_each(|claim| claim.remove())
 }
 
-/// The next order worth executing; `None` at the end.
-fn next(inbox: &Receiver<Order>, waiting: &mut VecDeque<Order>) -> Option<Order> {
+/// The next request worth executing; `None` at the end.
+fn next(inbox: &Receiver<Request>, waiting: &mut VecDeque<Request>) -> Option<Request> {
     if waiting.is_empty() {
         waiting.push_back(inbox.recv().ok()?);
     }
     waiting.extend(inbox.try_iter());
-    let settles = |order: &Order| matches!(order, Order::Keep(..) | Order::Forget);
+    let settles = |request: &Request| matches!(request, Request::Keep(..) | Request::Forget);
     loop {
-        let order = waiting.pop_front()?;
-        if !settles(&order) || !waiting.iter().any(settles) {
-            return Some(order);
+        let request = waiting.pop_front()?;
+        if !settles(&request) || !waiting.iter().any(settles) {
+            return Some(request);
         }
     }
 }
@@ -174,21 +174,21 @@ mod tests {
         let keep = |revision| {
             let known = Document::new(Language::Ray, String::new()).snapshot();
             let edits = Edits { scene: None, known };
-            Order::Keep(revision, edits)
+            Request::Keep(revision, edits)
         };
-        let left = |orders: Vec<Order>| {
+        let left = |requests: Vec<Request>| {
             let (send, inbox) = mpsc::channel();
-            for order in orders {
-                send.send(order).expect("it is there");
+            for request in requests {
+                send.send(request).expect("it is there");
             }
             drop(send);
             let mut waiting = VecDeque::new();
-            let orders = std::iter::from_fn(|| next(&inbox, &mut waiting));
-            orders.collect::<Vec<_>>()
+            let requests = std::iter::from_fn(|| next(&inbox, &mut waiting));
+            requests.collect::<Vec<_>>()
         };
-        let found = left(vec![keep(1), Order::Forget, keep(2), keep(3)]);
-        assert!(matches!(found[..], [Order::Keep(3, _)]), "{found:?}");
-        let found = left(vec![keep(1), keep(2), Order::Forget]);
-        assert!(matches!(found[..], [Order::Forget]), "{found:?}");
+        let found = left(vec![keep(1), Request::Forget, keep(2), keep(3)]);
+        assert!(matches!(found[..], [Request::Keep(3, _)]), "{found:?}");
+        let found = left(vec![keep(1), keep(2), Request::Forget]);
+        assert!(matches!(found[..], [Request::Forget]), "{found:?}");
     }
 }

@@ -29,7 +29,7 @@ pub(crate) mod tests;
 pub use claim::Claim;
 pub(crate) use folder::place;
 pub(crate) use journal::Edits;
-pub(crate) use keeper::{End, Keeper, Order, Outcome};
+pub(crate) use keeper::{End, Keeper, Outcome, Request};
 pub(crate) use missing::{base_of, note_for_missing, note_for_unreadable};
 pub(crate) use offer::look_for;
 pub use offer::{Found, Offer, Since, Sought, Way};

@@ -100,7 +100,7 @@ pub(super) fn read(bytes: &[u8], scene: &Identity, text: &str) -> Content {
     let lines = head_lines(scene);
     let (head, rest) = bytes.split_at(lines.len().min(bytes.len()));
     // The checksum covers the expected lines above, and so reveals whether they are damaged.
-    let Some((line, below)) = Line::take(rest, "base", lines.as_bytes()) else {
+    let Some((line, below)) = BlockHeader::take(rest, "base", lines.as_bytes()) else {
         return without_edits(bytes);
     };
     let [length] = line.numbers;
@@ -140,7 +140,7 @@ fn without_edits(bytes: &[u8]) -> Content {
     let lines = bytes.split_inclusive(|&byte| byte == b'\n');
     let length = lines.take(3).map(<[u8]>::len).sum();
     let (head, rest) = bytes.split_at(length);
-    match Line::<1>::take(rest, "base", head) {
+    match BlockHeader::<1>::take(rest, "base", head) {
         Some(_) => Content::OfAnotherScene,
         None => Content::Damaged,
     }
@@ -171,7 +171,7 @@ impl<'b> Edits<'b> {
     fn read(mut rest: &'b [u8], seal: u64) -> Self {
         let mut edits = Self::default();
         loop {
-            if let Some((line, below)) = Line::take(rest, EDIT, &seal.to_be_bytes()) {
+            if let Some((line, below)) = BlockHeader::take(rest, EDIT, &seal.to_be_bytes()) {
                 let [start, removed, length] = line.numbers;
                 if below.len() <= length {
                     // The append was cut off, for instance because the process was killed.
@@ -210,7 +210,7 @@ impl Last<'_> {
 }
 
 /// The line of a block.
-struct Line<'b, const N: usize> {
+struct BlockHeader<'b, const N: usize> {
     /// The last number is the length of the data below.
     numbers: [usize; N],
     /// The checksum of the data below, in hexadecimal.
@@ -219,7 +219,7 @@ struct Line<'b, const N: usize> {
     sum: u64,
 }
 
-impl<'b, const N: usize> Line<'b, N> {
+impl<'b, const N: usize> BlockHeader<'b, N> {
     /// Takes an intact line off the start of the bytes; returns it with the rest.
     fn take(bytes: &'b [u8], name: &str, seal: &[u8]) -> Option<(Self, &'b [u8])> {
         let start = &bytes[..LONGEST.min(bytes.len())];

@@ -19,7 +19,7 @@ use signal_hook::consts::{SIGABRT, SIGFPE, SIGILL, SIGSYS, SIGTRAP};
 use signal_hook::low_level;
 use signal_hook_registry::register_signal_unchecked;
 
-use super::panics::{Ownership, Shared};
+use super::panics::{GuardState, Ownership};
 use super::tty;
 
 /// The signals with the message printed on the restored screen: Rust's own message before an abort
@@ -46,7 +46,7 @@ const PATIENCE: Timespec = Timespec {
 /// The current modes of the terminal are those to restore; `leave` restores the screen. The
 /// handlers stay registered: an illegal instruction whose signal is not handled would be retried
 /// for ever.
-pub(super) fn install(shared: &Arc<Shared>, leave: &'static str) -> io::Result<()> {
+pub(super) fn install(shared: &Arc<GuardState>, leave: &'static str) -> io::Result<()> {
     let modes = tcgetattr(tty::keyboard()?)?;
     for (signal, words) in FATAL {
         let (terminal, modes, shared) = (tty::keyboard()?, modes.clone(), Arc::clone(shared));

@@ -33,7 +33,7 @@ pub struct AnsiBackend {
     /// The frame so far, including the sequence that begins it.
     out: Vec<u8>,
     pen: Pen,
-    place: Place,
+    place: CursorPosition,
     cursor: Cursor,
     /// Positions of wide characters on the screen: row, column.
     wide: BTreeSet<(u16, u16)>,
@@ -41,7 +41,7 @@ pub struct AnsiBackend {
 
 /// Position of the terminal's cursor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Place {
+enum CursorPosition {
     Unknown,
     /// In this row at an unknown column: terminals differ after the last column and wide
     /// characters.
@@ -64,7 +64,7 @@ impl AnsiBackend {
             size,
             out: BEGIN.to_vec(),
             pen: Pen::UNKNOWN,
-            place: Place::Unknown,
+            place: CursorPosition::Unknown,
             cursor: Cursor::Unknown,
             wide: BTreeSet::new(),
         }
@@ -83,7 +83,7 @@ impl AnsiBackend {
     /// Forgets the state of the terminal, for example after another program has used it.
     pub fn forget(&mut self) {
         self.pen = Pen::UNKNOWN;
-        self.place = Place::Unknown;
+        self.place = CursorPosition::Unknown;
         self.cursor = Cursor::Unknown;
         self.wide.clear();
     }
@@ -103,22 +103,22 @@ impl AnsiBackend {
 
     fn move_to(&mut self, to: Position) {
         match self.place {
-            Place::At(at) if at == to => return,
-            Place::At(at) if at.y == to.y && at.x < to.x => self.forward(to.x - at.x),
-            Place::At(Position { y, .. }) | Place::Row(y) if y == to.y => {
+            CursorPosition::At(at) if at == to => return,
+            CursorPosition::At(at) if at.y == to.y && at.x < to.x => self.forward(to.x - at.x),
+            CursorPosition::At(Position { y, .. }) | CursorPosition::Row(y) if y == to.y => {
                 if to.x == 0 {
                     self.out.push(b'\r');
                 } else {
                     self.command(&[to.x + 1], b'G');
                 }
             }
-            Place::At(Position { y, .. }) | Place::Row(y) if y + 1 == to.y => {
+            CursorPosition::At(Position { y, .. }) | CursorPosition::Row(y) if y + 1 == to.y => {
                 self.out.extend_from_slice(b"\r\n");
                 self.forward(to.x);
             }
             _ => self.command(&[to.y + 1, to.x + 1], b'H'),
         }
-        self.place = Place::At(to);
+        self.place = CursorPosition::At(to);
     }
 
     fn forward(&mut self, columns: u16) {
@@ -148,7 +148,7 @@ impl AnsiBackend {
             self.move_to(at);
             self.pen.reset(&mut self.out);
             self.out.extend_from_slice(b"  ");
-            self.place = Place::Row(at.y);
+            self.place = CursorPosition::Row(at.y);
         }
     }
 
@@ -178,11 +178,13 @@ impl AnsiBackend {
             push_character(&mut self.out, cell)
         };
         self.place = match advance {
-            Advance::Sure(columns) if at.x + columns < self.size.width => Place::At(Position {
-                x: at.x + columns,
-                ..at
-            }),
-            _ => Place::Row(at.y),
+            Advance::Sure(columns) if at.x + columns < self.size.width => {
+                CursorPosition::At(Position {
+                    x: at.x + columns,
+                    ..at
+                })
+            }
+            _ => CursorPosition::Row(at.y),
         };
     }
 }
@@ -218,9 +220,9 @@ impl Backend for AnsiBackend {
 
     fn get_cursor_position(&mut self) -> Result<Position, Infallible> {
         Ok(match self.place {
-            Place::At(at) => at,
-            Place::Row(y) => Position { x: 0, y },
-            Place::Unknown => Position::ORIGIN,
+            CursorPosition::At(at) => at,
+            CursorPosition::Row(y) => Position { x: 0, y },
+            CursorPosition::Unknown => Position::ORIGIN,
         })
     }
 

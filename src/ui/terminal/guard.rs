@@ -15,10 +15,10 @@ use super::abort;
 use super::backend::AnsiBackend;
 use super::colour::ColourDepth;
 use super::output::Output;
-use super::panics::{Ownership, Shared};
+use super::panics::{GuardState, Ownership};
 use super::query;
 use super::reply::ASK_STATUS;
-use super::tty::{self, Line};
+use super::tty::{self, TtyWriter};
 
 /// Alternate screen, hidden cursor, bracketed pastes, no wrapping at the last column.
 const ENTER: &str = "\x1b[?1049h\x1b[?25l\x1b[?2004h\x1b[?7l";
@@ -51,7 +51,7 @@ pub enum Mouse {
 #[derive(Debug)]
 pub struct Terminal {
     screen: ratatui::Terminal<AnsiBackend>,
-    shared: Arc<Shared>,
+    shared: Arc<GuardState>,
     mouse: Mouse,
 }
 
@@ -63,10 +63,10 @@ impl Terminal {
         mouse: Mouse,
         cleared: impl Fn() + Send + 'static,
     ) -> io::Result<Self> {
-        let output = Output::start(Line::open()?, cleared)?;
+        let output = Output::start(TtyWriter::open()?, cleared)?;
         let backend = AnsiBackend::new(colours, tty::size());
         let Ok(screen) = ratatui::Terminal::new(backend);
-        let shared = Shared::install(output, restore);
+        let shared = GuardState::install(output, restore);
         #[cfg(unix)]
         abort::install(&shared, LEAVE)?;
         let mut terminal = Self {
@@ -201,13 +201,13 @@ impl Drop for Terminal {
 
 /// Gives the terminal back for good. A terminal that cannot be written to is gone and needs no
 /// restoring.
-fn restore(shared: &Shared) {
+fn restore(shared: &GuardState) {
     let _ = give_back(shared, Ownership::GivenBack, Instant::now() + PATIENCE);
 }
 
 /// Restores the screen and the modes. Output still pending is dropped: the sequence that restores
 /// the screen ends any incomplete one.
-fn give_back(shared: &Shared, to: Ownership, deadline: Instant) -> io::Result<()> {
+fn give_back(shared: &GuardState, to: Ownership, deadline: Instant) -> io::Result<()> {
     let mut ownership = shared.ownership();
     let before = std::mem::replace(&mut *ownership, to);
     if before != Ownership::Ours {

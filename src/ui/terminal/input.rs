@@ -17,13 +17,13 @@ use windows::{Keyboard, Waker};
 /// Reads the keyboard on its own thread until dropped.
 #[derive(Debug)]
 pub struct Input {
-    orders: Sender<Order>,
+    requests: Sender<Request>,
     waker: Waker,
     thread: Option<JoinHandle<()>>,
 }
 
 #[derive(Debug)]
-enum Order {
+enum Request {
     /// Releases the keyboard and acknowledges.
     Park(Sender<()>),
     Resume,
@@ -33,7 +33,7 @@ enum Order {
 /// Reason why the keyboard stopped waiting.
 #[derive(Debug, PartialEq, Eq)]
 enum Wake {
-    /// Something was read, a deadline has passed, or orders must be checked.
+    /// Something was read, a deadline has passed, or requests must be checked.
     Again,
     /// No more keys will come.
     Gone,
@@ -44,12 +44,12 @@ impl Input {
     /// terminal is gone.
     pub fn start(send: impl Fn(Event) + Send + 'static) -> io::Result<Self> {
         let (keyboard, waker) = Keyboard::open()?;
-        let (orders, inbox) = mpsc::channel();
+        let (requests, inbox) = mpsc::channel();
         let thread = thread::Builder::new()
             .name("keyboard".to_owned())
             .spawn(move || read(keyboard, &inbox, &send))?;
         Ok(Self {
-            orders,
+            requests,
             waker,
             thread: Some(thread),
         })
@@ -58,43 +58,43 @@ impl Input {
     /// Stops reading and returns once other programs may read the keyboard.
     pub fn park(&self) {
         let (done, parked) = mpsc::channel();
-        self.order(Order::Park(done));
+        self.request(Request::Park(done));
         // An error means that the thread has ended, which also frees the keyboard.
         let _ = parked.recv();
     }
 
     /// Resumes reading after [`Input::park`].
     pub fn resume(&self) {
-        self.order(Order::Resume);
+        self.request(Request::Resume);
     }
 
-    fn order(&self, order: Order) {
-        // A thread that has ended needs no orders.
-        let _ = self.orders.send(order);
+    fn request(&self, request: Request) {
+        // A thread that has ended needs no requests.
+        let _ = self.requests.send(request);
         self.waker.wake();
     }
 }
 
 impl Drop for Input {
     fn drop(&mut self) {
-        self.order(Order::Stop);
+        self.request(Request::Stop);
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }
     }
 }
 
-fn read(mut keyboard: Keyboard, inbox: &Receiver<Order>, send: &impl Fn(Event)) {
+fn read(mut keyboard: Keyboard, inbox: &Receiver<Request>, send: &impl Fn(Event)) {
     loop {
         match inbox.try_recv() {
-            Ok(Order::Park(done)) => {
+            Ok(Request::Park(done)) => {
                 let _ = done.send(());
                 if !wait_for_resume(inbox) {
                     return;
                 }
             }
-            Ok(Order::Resume) => {}
-            Ok(Order::Stop) | Err(mpsc::TryRecvError::Disconnected) => return,
+            Ok(Request::Resume) => {}
+            Ok(Request::Stop) | Err(mpsc::TryRecvError::Disconnected) => return,
             Err(mpsc::TryRecvError::Empty) => {
                 if keyboard.wait(send) == Wake::Gone {
                     return;
@@ -104,15 +104,15 @@ fn read(mut keyboard: Keyboard, inbox: &Receiver<Order>, send: &impl Fn(Event)) 
     }
 }
 
-/// Waits for the order to resume; returns whether to continue reading.
-fn wait_for_resume(inbox: &Receiver<Order>) -> bool {
+/// Waits for the request to resume; returns whether to continue reading.
+fn wait_for_resume(inbox: &Receiver<Request>) -> bool {
     loop {
         match inbox.recv() {
-            Ok(Order::Park(done)) => {
+            Ok(Request::Park(done)) => {
                 let _ = done.send(());
             }
-            Ok(Order::Resume) => return true,
-            Ok(Order::Stop) | Err(_) => return false,
+            Ok(Request::Resume) => return true,
+            Ok(Request::Stop) | Err(_) => return false,
         }
     }
 }

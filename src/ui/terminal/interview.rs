@@ -73,7 +73,7 @@ pub(crate) fn ask() -> io::Result<Answers> {
 
     let keyboard = tty::keyboard()?;
     let _raw = Raw::enter()?;
-    let line = tty::Line::open()?;
+    let line = tty::TtyWriter::open()?;
     // A terminal that accepts nothing answers nothing.
     let _ = line.write_at_once(&[query::COLOURS, query::MODES, query::ATTRIBUTES].concat())?;
     let mut interview = Interview {

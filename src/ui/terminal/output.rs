@@ -11,7 +11,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::tty::{Line, Taken};
+use super::tty::{Taken, TtyWriter};
 
 /// Maximum number of bytes per write call.
 const PIECE: usize = 1 << 16;
@@ -22,12 +22,12 @@ const LAST_PATIENCE: Duration = Duration::from_millis(100);
 /// The terminal's output, shared by the interface and the panic hook.
 #[derive(Debug)]
 pub(super) struct Output {
-    shared: Arc<Shared>,
+    shared: Arc<OutputState>,
 }
 
 #[derive(Debug)]
-struct Shared {
-    line: Line,
+struct OutputState {
+    line: TtyWriter,
     queue: Mutex<Queue>,
     changed: Condvar,
     /// Whether the thread must stop writing.
@@ -51,8 +51,8 @@ struct Queue {
 impl Output {
     /// Starts the thread; `cleared` is called on it whenever it has written everything or a write
     /// has failed.
-    pub(super) fn start(line: Line, cleared: impl Fn() + Send + 'static) -> io::Result<Self> {
-        let shared = Arc::new(Shared {
+    pub(super) fn start(line: TtyWriter, cleared: impl Fn() + Send + 'static) -> io::Result<Self> {
+        let shared = Arc::new(OutputState {
             line,
             queue: Mutex::default(),
             changed: Condvar::new(),
@@ -147,7 +147,7 @@ impl Drop for Output {
     }
 }
 
-impl Shared {
+impl OutputState {
     fn lock(&self) -> MutexGuard<'_, Queue> {
         self.queue.lock().unwrap_or_else(PoisonError::into_inner)
     }

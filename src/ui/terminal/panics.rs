@@ -28,7 +28,7 @@ pub(super) enum Ownership {
 
 /// State shared by the terminal guard, the panic hook and the handler of aborts.
 #[derive(Debug)]
-pub(super) struct Shared {
+pub(super) struct GuardState {
     interface: ThreadId,
     output: Output,
     ownership: Mutex<Ownership>,
@@ -36,7 +36,7 @@ pub(super) struct Shared {
     panics: Mutex<Vec<String>>,
 }
 
-impl Shared {
+impl GuardState {
     /// Marks the calling thread as the interface's and catches panics until the result is dropped.
     pub(super) fn install(output: Output, restore: fn(&Self)) -> Arc<Self> {
         let shared = Arc::new(Self {

@@ -49,18 +49,18 @@ pub struct Signals {
     registered: Vec<SigId>,
     /// Sends [`LENT`] and [`OURS`]. Dropping it causes a hang-up at its other end, which ends the
     /// thread.
-    orders: Option<UnixStream>,
+    requests: Option<UnixStream>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Signals {
     /// Starts watching; `send` is called on the watching thread.
     pub fn start(send: impl Fn(Event) + Send + 'static) -> io::Result<Self> {
-        let (orders, inbox) = UnixStream::pair()?;
+        let (requests, inbox) = UnixStream::pair()?;
         inbox.set_nonblocking(true)?;
         let mut signals = Self {
             registered: Vec::new(),
-            orders: Some(orders),
+            requests: Some(requests),
             thread: None,
         };
         let mut arrivals = Vec::new();
@@ -85,18 +85,18 @@ impl Signals {
     /// receives them as well. Only a stop also applies to us, so that the shell sees its job
     /// stopped.
     pub fn lend(&self) {
-        self.order(LENT);
+        self.request(LENT);
     }
 
     /// Reports all signals again, except those that arrived before.
     pub fn take_back(&self) {
-        self.order(OURS);
+        self.request(OURS);
     }
 
-    fn order(&self, order: u8) {
-        if let Some(mut orders) = self.orders.as_ref() {
-            // A thread that has ended needs no orders.
-            let _ = orders.write(&[order]);
+    fn request(&self, request: u8) {
+        if let Some(mut requests) = self.requests.as_ref() {
+            // A thread that has ended needs no requests.
+            let _ = requests.write(&[request]);
         }
     }
 }
@@ -106,7 +106,7 @@ impl Drop for Signals {
         for &registered in &self.registered {
             low_level::unregister(registered);
         }
-        self.orders = None;
+        self.requests = None;
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }
@@ -153,7 +153,7 @@ struct Watch {
 
 impl Watch {
     fn run(mut self, send: &impl Fn(Event)) {
-        let mut line = Line::Up;
+        let mut line = Carrier::Up;
         loop {
             let mut sources = vec![PollFd::new(&self.inbox, PollFlags::IN)];
             sources.extend(
@@ -175,9 +175,9 @@ impl Watch {
             let reported: Vec<_> = sources.iter().map(PollFd::revents).collect();
             let mut ownership = self.ownership;
             if !reported[0].is_empty() {
-                let mut orders = [0; 64];
-                match (&self.inbox).read(&mut orders) {
-                    Ok(count @ 1..) if orders[count - 1] == LENT => ownership = Ownership::Lent,
+                let mut requests = [0; 64];
+                match (&self.inbox).read(&mut requests) {
+                    Ok(count @ 1..) if requests[count - 1] == LENT => ownership = Ownership::Lent,
                     Ok(1..) => ownership = Ownership::Ours,
                     Ok(0) => return,
                     Err(_) => {}
@@ -214,17 +214,17 @@ impl Watch {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Line {
+enum Carrier {
     Up,
     Down,
 }
 
-fn report(signal: i32, whose: Ownership, line: &mut Line, send: &impl Fn(Event)) {
+fn report(signal: i32, whose: Ownership, line: &mut Carrier, send: &impl Fn(Event)) {
     match signal {
         // Without a terminal, only requests to end are still reported.
-        SIGHUP | SIGWINCH | SIGTSTP | SIGCONT if *line == Line::Down => {}
+        SIGHUP | SIGWINCH | SIGTSTP | SIGCONT if *line == Carrier::Down => {}
         SIGHUP => {
-            *line = Line::Down;
+            *line = Carrier::Down;
             // Before sending the event: the interface may be blocked in a write to the terminal.
             end_after_grace();
             send(Event::HangUp);

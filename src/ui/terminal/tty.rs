@@ -50,14 +50,14 @@ pub(super) enum Taken {
 /// The output side of the terminal.
 #[cfg(unix)]
 #[derive(Debug)]
-pub(super) struct Line {
+pub(super) struct TtyWriter {
     file: OwnedFd,
-    mode: LineMode,
+    mode: WriteMode,
 }
 
 #[cfg(unix)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum LineMode {
+enum WriteMode {
     /// Writes return at once.
     NonBlocking,
     /// Writes may block: the open file is shared with other programs, and its mode must not change.
@@ -65,7 +65,7 @@ enum LineMode {
 }
 
 #[cfg(unix)]
-impl Line {
+impl TtyWriter {
     /// Maximum size of a write to a shared file, which blocks until the terminal has accepted all
     /// of it.
     const SHARED_PIECE: usize = 1 << 12;
@@ -78,7 +78,7 @@ impl Line {
             Ok(file) => Ok(Self::own(file)),
             Err(_) => Ok(Self {
                 file: output.as_fd().try_clone_to_owned()?,
-                mode: LineMode::Shared,
+                mode: WriteMode::Shared,
             }),
         }
     }
@@ -87,7 +87,7 @@ impl Line {
     pub(super) fn own(file: OwnedFd) -> Self {
         Self {
             file,
-            mode: LineMode::NonBlocking,
+            mode: WriteMode::NonBlocking,
         }
     }
 
@@ -95,7 +95,7 @@ impl Line {
     pub(super) fn write_at_once(&self, bytes: &[u8]) -> io::Result<Taken> {
         use rustix::io::Errno;
 
-        if self.mode == LineMode::Shared {
+        if self.mode == WriteMode::Shared {
             return Ok(Taken::Nothing);
         }
         loop {
@@ -116,8 +116,8 @@ impl Line {
         use rustix::io::Errno;
 
         let bytes = match self.mode {
-            LineMode::NonBlocking => bytes,
-            LineMode::Shared => &bytes[..bytes.len().min(Self::SHARED_PIECE)],
+            WriteMode::NonBlocking => bytes,
+            WriteMode::Shared => &bytes[..bytes.len().min(Self::SHARED_PIECE)],
         };
         loop {
             match poll(&mut [PollFd::new(&self.file, PollFlags::OUT)], None) {
@@ -157,10 +157,10 @@ fn open_anew(terminal: &io::Stdout) -> rustix::io::Result<OwnedFd> {
 /// The console, written by a thread that may wait for it.
 #[cfg(not(unix))]
 #[derive(Debug)]
-pub(super) struct Line;
+pub(super) struct TtyWriter;
 
 #[cfg(not(unix))]
-impl Line {
+impl TtyWriter {
     pub(super) fn open() -> io::Result<Self> {
         Ok(Self)
     }

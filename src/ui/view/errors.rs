@@ -7,7 +7,7 @@ use ratatui::widgets::{Clear, Widget};
 use super::row::{Row, title};
 use crate::text::counted;
 use crate::ui::app::App;
-use crate::ui::errors::Line;
+use crate::ui::errors::StyledLine;
 use crate::ui::theme;
 
 /// Draws the diagnostics over the lower part of the picture, if there are any to show.
@@ -25,7 +25,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         buffer,
     );
     let rows = usize::from(panel.area.height.saturating_sub(1));
-    for (index, (_, Line(parts))) in panel.lines.iter().enumerate().take(rows) {
+    for (index, (_, StyledLine(parts))) in panel.lines.iter().enumerate().take(rows) {
         let mut row = Row::new(buffer, panel.area, index as u16 + 1);
         row.skip(1);
         for (text, style) in parts {

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::Reader;
+use super::Lowering;
 use crate::geometry::Aabb;
-use crate::language::camera::{Places, check, default_eye_and_target};
+use crate::language::camera::{CameraSpans, check, default_eye_and_target};
 use crate::language::dat::table::RecordKind;
 use crate::language::dat::view::{self, View};
 use crate::language::report::Name;
@@ -24,12 +24,12 @@ const REMEDY: &str = "add a camera: camera perspective eye look up focal near fa
 /// The valid records of the camera.
 #[derive(Default)]
 pub(super) struct Records {
-    camera: Option<(View, Places)>,
+    camera: Option<(View, CameraSpans)>,
     resolution: Option<[f64; 2]>,
     viewport: Option<Size>,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> Lowering<'a> {
     pub(super) fn view_record(&mut self, kind: RecordKind, tokens: &Words<'a>) {
         let name = Name::Record(match kind {
             RecordKind::Resolution => "resolution",
@@ -61,7 +61,7 @@ impl<'a> Reader<'a> {
                         Diagnostic::error(view::FAR.span(&line.spans), message, expected)
                     });
                 }
-                let places = Places {
+                let places = CameraSpans {
                     eye: view::EYE.span(&line.spans),
                     target: view::LOOK.span(&line.spans),
                     up: view::UP.span(&line.spans),
@@ -123,9 +123,9 @@ impl<'a> Reader<'a> {
                 lens: Lens::Perspective(DEFAULT_ANGLE),
                 ..view.camera()
             };
-            let places = Places {
+            let places = CameraSpans {
                 remedy: REMEDY,
-                ..Places::default()
+                ..CameraSpans::default()
             };
             self.check_lens(&camera);
             check(&camera, &places, &mut self.report);

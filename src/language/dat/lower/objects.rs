@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Definition, Drawn, Reader, shapes};
+use super::{Definition, Drawn, Lowering, shapes};
 use crate::geometry::Node as CsgNode;
 use crate::geometry::{Csg, Quadric, Shape, Solid};
 use crate::language::dat::origins::ObjectPlace;
@@ -18,7 +18,7 @@ use crate::language::words::Words;
 use crate::scene::Object;
 use crate::text::{Diagnostic, Span, counted};
 
-use super::line::Line;
+use super::record::RecordContent;
 
 /// Maximum number of parts of all drawn combinations together, so that a chain of them, each drawn
 /// as well, cannot exhaust memory.
@@ -39,7 +39,7 @@ fn following(count: usize, what: &str) -> String {
     format!("{} {verb}", counted(count, what))
 }
 
-impl<'a> Reader<'a> {
+impl<'a> Lowering<'a> {
     pub(super) fn object(&mut self, record: usize, kind: ObjectKind, tokens: &Words<'a>) {
         let errors = self.report.errors();
         let call = |id| Name::Known("object", id, kind.keyword());
@@ -83,7 +83,7 @@ impl<'a> Reader<'a> {
         numbers: &[f64],
         material: Option<usize>,
         cuts: &[(DVec3, f64)],
-        line: &Line<'_>,
+        line: &RecordContent<'_>,
     ) -> Option<Definition> {
         let shape = match kind {
             ObjectKind::Csg => {
@@ -111,7 +111,12 @@ impl<'a> Reader<'a> {
         Some(Definition::Solid(shape?, material? as u32))
     }
 
-    fn quadric(&mut self, numbers: &[f64], cuts: &[(DVec3, f64)], line: &Line<'_>) -> Solid {
+    fn quadric(
+        &mut self,
+        numbers: &[f64],
+        cuts: &[(DVec3, f64)],
+        line: &RecordContent<'_>,
+    ) -> Solid {
         const QUADRIC: ObjectKind = ObjectKind::Quadric;
         let coefficients = const {
             [
@@ -151,7 +156,7 @@ impl<'a> Reader<'a> {
 
     /// Reads the half-spaces after a quadric's coefficients: their count, then each. If the count
     /// is wrong, the line is incomplete.
-    fn cuts(&mut self, line: &mut Line<'a>) -> Vec<(DVec3, f64)> {
+    fn cuts(&mut self, line: &mut RecordContent<'a>) -> Vec<(DVec3, f64)> {
         line.is_complete = false;
         let Some(token) = line.rest.next() else {
             let end = line.spans.last().map_or(0, |span| span.end());

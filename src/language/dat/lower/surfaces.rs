@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use glam::DVec2;
 
-use super::Reader;
+use super::Lowering;
 use crate::geometry::normalise;
 use crate::language::at::At;
 use crate::language::coefficients::Coefficients;
@@ -24,7 +24,7 @@ const DIRECTION: At<3> = LIGHT.at("direction");
 const COLOUR: RecordKind = RecordKind::Use(UseKind::Colour);
 const BUMP: RecordKind = RecordKind::Use(UseKind::Bump);
 
-impl<'a> Reader<'a> {
+impl<'a> Lowering<'a> {
     pub(super) fn light(&mut self, record: usize, tokens: &Words<'a>) {
         let kind = RecordKind::Light;
         let line = self.line(kind, tokens, |id| Name::Known("light", id, ""));

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::tokens::{Piece, Tokens};
+use super::tokens::{TokenBlock, Tokens};
 use super::{Tree, begins_comment, view_comment};
 use crate::language::words::white_space;
 use crate::text::{Span, first_byte, is_line_end};
@@ -36,14 +36,14 @@ pub(super) fn follow(tree: &mut Tree, text: &str, old: Span, changed: Span, piec
 }
 
 /// Reads whole lines of a text in pieces of about `piece` bytes.
-fn read(text: &str, lines: Range<usize>, piece: usize) -> Vec<Piece> {
+fn read(text: &str, lines: Range<usize>, piece: usize) -> Vec<TokenBlock> {
     let pieces = cut(text, lines, piece);
     match &pieces[..] {
-        [all] => vec![Reader::read(text, all.clone())],
+        [all] => vec![Scanner::read(text, all.clone())],
         // Smaller texts are done before other threads wake up.
         _ => pieces
             .into_par_iter()
-            .map(|piece| Reader::read(text, piece))
+            .map(|piece| Scanner::read(text, piece))
             .collect(),
     }
 }
@@ -71,39 +71,39 @@ fn line_len(bytes: &[u8]) -> usize {
     first_byte(bytes, is_line_end).map_or(bytes.len(), |end| end + 1)
 }
 
-/// A reader of one piece of a text.
-struct Reader<'t> {
+/// A scanner of one piece of a text.
+struct Scanner<'t> {
     text: &'t str,
     /// Start of the piece.
     start: usize,
-    piece: Piece,
+    piece: TokenBlock,
     /// End of the last token, relative to the piece.
     end: usize,
 }
 
-impl<'t> Reader<'t> {
+impl<'t> Scanner<'t> {
     fn new(text: &'t str, range: &Range<usize>) -> Self {
         Self {
             text,
             start: range.start,
-            piece: Piece::new(range),
+            piece: TokenBlock::new(range),
             end: 0,
         }
     }
 
-    fn read(text: &'t str, range: Range<usize>) -> Piece {
-        let mut reader = Self::new(text, &range);
+    fn read(text: &'t str, range: Range<usize>) -> TokenBlock {
+        let mut scanner = Self::new(text, &range);
         let mut at = range.start;
         while at < range.end {
-            at = reader.plain(at..range.end);
+            at = scanner.plain(at..range.end);
             // At least a block, or lines of a few bytes would also be read as blocks.
             let end = range.end.min(at + BLOCK);
             let end = end + line_len(&text.as_bytes()[end..range.end]);
-            reader.any(at..end);
+            scanner.any(at..end);
             at = end;
         }
-        reader.piece.shrink();
-        reader.piece
+        scanner.piece.shrink();
+        scanner.piece
     }
 
     /// Reads plain blocks; returns where it stopped, before a token.
@@ -217,9 +217,9 @@ mod tests {
 
     /// The tokens and the starts of view comments of a text, read byte by byte.
     fn read_plainly(text: &str) -> (Vec<Span>, Vec<usize>) {
-        let mut reader = Reader::new(text, &(0..text.len()));
-        reader.any(0..text.len());
-        all(&Tokens::of(vec![reader.piece]))
+        let mut scanner = Scanner::new(text, &(0..text.len()));
+        scanner.any(0..text.len());
+        all(&Tokens::of(vec![scanner.piece]))
     }
 
     fn all(tokens: &Tokens) -> (Vec<Span>, Vec<usize>) {

@@ -22,17 +22,17 @@ const LONG: usize = u8::MAX as usize;
 /// The tokens of a text, in order.
 #[derive(Clone, Debug, Default)]
 pub struct Tokens {
-    pieces: Vec<Piece>,
+    pieces: Vec<TokenBlock>,
 }
 
 /// The tokens of some lines of a text. Its offsets count from its start.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Piece {
+pub(super) struct TokenBlock {
     /// Offset of its text.
     start: usize,
     /// Number of tokens before it.
     first: usize,
-    steps: Vec<Step>,
+    steps: Vec<Advance>,
     /// Start of the gap before every [`STRIDE`]th token.
     marks: Vec<u32>,
     /// Index and start of each token that begins with a letter.
@@ -45,12 +45,12 @@ pub(super) struct Piece {
 
 /// The distance from the end of one token to the end of the next.
 #[derive(Clone, Copy, Debug)]
-struct Step {
+struct Advance {
     gap: u8,
     len: u8,
 }
 
-impl Piece {
+impl TokenBlock {
     /// An empty piece for this range of the text.
     pub(super) fn new(place: &Range<usize>) -> Self {
         Self {
@@ -84,7 +84,7 @@ impl Piece {
         if first.is_ascii_alphabetic() {
             self.words.push((number, token.start() as u32));
         }
-        self.steps.push(Step {
+        self.steps.push(Advance {
             gap: gap.min(LONG) as u8,
             len: len.min(LONG) as u8,
         });
@@ -93,7 +93,7 @@ impl Piece {
     /// The span of a token, given the end of the previous one.
     #[inline]
     fn span(&self, number: usize, end: usize) -> Span {
-        let Step { gap, len } = self.steps[number];
+        let Advance { gap, len } = self.steps[number];
         if usize::from(gap.max(len)) == LONG {
             return self.long_span(number);
         }
@@ -149,7 +149,7 @@ impl Tokens {
         let pieces = &self.pieces;
         let after = pieces.partition_point(|piece| piece.start <= old.start());
         let first = after.saturating_sub(1);
-        let behind = |piece: &Piece| old.end() <= piece.start && is_line(piece.start);
+        let behind = |piece: &TokenBlock| old.end() <= piece.start && is_line(piece.start);
         let end = (first..pieces.len())
             .find(|&at| behind(&pieces[at]))
             .unwrap_or(pieces.len());
@@ -159,7 +159,7 @@ impl Tokens {
     }
 
     /// Replaces pieces and shifts those behind by `grown` bytes.
-    pub(super) fn replace(&mut self, pieces: Range<usize>, by: Vec<Piece>, grown: isize) {
+    pub(super) fn replace(&mut self, pieces: Range<usize>, by: Vec<TokenBlock>, grown: isize) {
         for piece in &mut self.pieces[pieces.end..] {
             piece.start = piece.start.wrapping_add_signed(grown);
         }
@@ -168,7 +168,7 @@ impl Tokens {
     }
 
     /// Joins the pieces of a text.
-    pub(super) fn of(mut pieces: Vec<Piece>) -> Self {
+    pub(super) fn of(mut pieces: Vec<TokenBlock>) -> Self {
         let mut first = 0;
         for piece in &mut pieces {
             piece.first = first;

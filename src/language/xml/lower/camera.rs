@@ -1,7 +1,7 @@
 //! The camera, background and environment.
 
-use super::Reader;
-use crate::language::camera::{Places, check};
+use super::Lowering;
+use crate::language::camera::{CameraSpans, check};
 use crate::language::report::quoted;
 use crate::language::xml::table::{
     BACKGROUND, ENVIRONMENT, Parameter,
@@ -11,7 +11,7 @@ use crate::language::xml::view::View;
 use crate::scene::{Camera, Focus, Integrator, Size, Transfer};
 use crate::text::{Diagnostic, Span, parse_number, without_suffix};
 
-impl Reader<'_> {
+impl Lowering<'_> {
     /// The camera of its element, with defaults for missing parts.
     pub(super) fn camera(&mut self) -> Camera {
         let camera = self.origins.camera;
@@ -62,7 +62,7 @@ impl Reader<'_> {
             let element = self.element_of(camera, parameter);
             element.map_or(whole, |element| self.attributes_span(element))
         };
-        let places = Places {
+        let places = CameraSpans {
             eye: place(&POSITION),
             target: place(&TARGET),
             up: place(&UP),

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DAffine3;
 
-use super::Reader;
+use super::Lowering;
 use super::surfaces::lit;
 use crate::geometry::{Instance, Shape};
 use crate::language::node::Node;
@@ -30,7 +30,7 @@ struct Named<'a> {
     name: &'a str,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> Lowering<'a> {
     /// The shape of an object whose mesh has been read, and the material of the parts without one.
     pub(super) fn mesh(
         &mut self,

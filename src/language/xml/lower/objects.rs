@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::Reader;
+use super::Lowering;
 use crate::geometry::{Affine, Ellipsoid, Plane, Shape, Solid, Sphere, normalise};
 use crate::language::report::quoted;
 use crate::language::xml::origins::Role;
@@ -13,7 +13,7 @@ use crate::text::Diagnostic;
 /// An object's frame; `None` if its error was already reported.
 type Frame = Option<DAffine3>;
 
-impl Reader<'_> {
+impl Lowering<'_> {
     /// Lowers all objects, each before those in it.
     pub(super) fn place_objects(&mut self) {
         let mut frames: Vec<Frame> = Vec::with_capacity(self.origins.objects.len());

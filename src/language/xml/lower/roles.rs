@@ -2,16 +2,16 @@
 
 use std::collections::HashMap;
 
-use super::Reader;
+use super::Lowering;
 use crate::language::report::quoted;
 use crate::language::xml::origins::{NO_WORD, Place, Role, WORDS};
 use crate::language::xml::table::{
-    BACKGROUND, CHECKER, ENVIRONMENT, LightKind, MaterialKind, ObjectKind, Parameter, Reading,
+    Attributes, BACKGROUND, CHECKER, ENVIRONMENT, LightKind, MaterialKind, ObjectKind, Parameter,
     TRANSFORMS, Texturing, camera,
 };
 use crate::text::{Diagnostic, Span, nearest_word, visible};
 
-impl<'a> Reader<'a> {
+impl<'a> Lowering<'a> {
     /// Gives every element its role and every attribute its word. Unknown elements are skipped with
     /// a warning, and their content without.
     pub(super) fn find_roles(&mut self) {
@@ -325,7 +325,7 @@ impl<'a> Reader<'a> {
             let hint = match role {
                 Role::Skipped => continue,
                 Role::Parameter(Parameter {
-                    reading: Reading::Number,
+                    reading: Attributes::Number,
                     element,
                     ..
                 }) => format!("values are attributes: <{element} value=\"1\"/>"),
@@ -370,7 +370,7 @@ fn known_attributes(role: Role) -> Vec<&'static str> {
         Role::Object(_) => vec!["type", "name", "material"],
         Role::Transform(parameter) | Role::Parameter(parameter) => {
             let mut known = parameter.reading.attributes().to_vec();
-            if parameter.reading == Reading::Rotation {
+            if parameter.reading == Attributes::Rotation {
                 known.push("value");
             }
             known.extend(parameter.extras.iter().map(|extra| extra.attribute));

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::Reader;
+use super::Lowering;
 use crate::geometry::normalise;
 use crate::language::xml::table::materials::{
     ABSORPTION, COLOUR, DIFFUSE, EMISSION, GLOSSINESS, INDEX, METALLIC, REFLECTION, REFRACTION,
@@ -16,7 +16,7 @@ use crate::scene::{
     Mirror, Reflectance, Rgb, Shadows,
 };
 
-impl Reader<'_> {
+impl Lowering<'_> {
     pub(super) fn material(&mut self, index: usize) {
         let (kind, element) = {
             let place = &self.origins.materials[index];

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::Reader;
+use super::Lowering;
 use crate::language::xml::origins::{NamedPlace, What};
 use crate::language::xml::table::{CHECKER, Parameter, Texturing};
 use crate::scene::{Pattern, Side, Texture, Tinted};
@@ -19,7 +19,7 @@ struct Square {
     element: usize,
 }
 
-impl Reader<'_> {
+impl Lowering<'_> {
     /// The colour of an element's parameter, with its texture, or the default.
     pub(super) fn tinted(&mut self, holder: usize, parameter: &'static Parameter) -> Tinted {
         match self.element_of(Some(holder), parameter) {

@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-use super::Reader;
+use super::Lowering;
 use crate::language::report::{number_of, out_of_range};
 use crate::language::table::{Field, Kind};
-use crate::language::xml::table::{Extra, Parameter, Reading};
+use crate::language::xml::table::{Attributes, Extra, Parameter};
 use crate::text::{Diagnostic, Findings, Span, is_integer};
 
-impl<'a> Reader<'a> {
+impl<'a> Lowering<'a> {
     /// The name of an element in messages: its node's, and its own if it differs.
     pub(super) fn display_name(&self, element: usize) -> String {
         let name = self.name(element);
@@ -107,7 +107,7 @@ impl<'a> Reader<'a> {
         let [x, y, z] =
             [0, 1, 2].map(|at| self.number_or(element, names[at], field, parameter.inside));
         let vector = DVec3::new(x, y, z);
-        if parameter.reading == Reading::Rotation {
+        if parameter.reading == Attributes::Rotation {
             return vector;
         }
         let product = self.number_or(element, "value", field, "1") * vector;

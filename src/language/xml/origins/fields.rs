@@ -6,7 +6,7 @@ use crate::language::node::Node;
 use crate::language::placed::{Implicit, ImplicitAttribute, Insertion, Placed};
 use crate::language::table::Field;
 use crate::language::xml::table::{
-    BACKGROUND, CHECKER, ENVIRONMENT, LIGHT_WORDS, MATERIAL_WORDS, OBJECT, Parameter, Reading,
+    Attributes, BACKGROUND, CHECKER, ENVIRONMENT, LIGHT_WORDS, MATERIAL_WORDS, OBJECT, Parameter,
     TEXTURE, Texturing, Word, camera,
 };
 use crate::language::xml::tree::Tree;
@@ -191,12 +191,12 @@ impl Rows<'_> {
         let mut field = &parameter.field;
         match parameter.reading {
             // It stands in for a missing `angle`.
-            Reading::Rotation if attributes[3].1.is_none() => attributes[3].1 = find("value"),
-            Reading::Vector | Reading::Colour if attributes[3].1.is_none() => {
+            Attributes::Rotation if attributes[3].1.is_none() => attributes[3].1 = find("value"),
+            Attributes::Vector | Attributes::Colour if attributes[3].1.is_none() => {
                 attributes.truncate(3);
             }
-            Reading::Vector | Reading::Colour => field = &parameter.scaled,
-            Reading::Number | Reading::Rotation => {}
+            Attributes::Vector | Attributes::Colour => field = &parameter.scaled,
+            Attributes::Number | Attributes::Rotation => {}
         }
         self.attributes(field, &attributes, &insert::attribute(self.tree, element));
     }

@@ -8,7 +8,7 @@ use super::*;
 use crate::document::Side;
 use crate::file::ReadError;
 use crate::ui::msg::{Guard, SaveId, SaveOutcome, Timer};
-use crate::ui::reading::Place;
+use crate::ui::reading::SceneFolder;
 
 #[test]
 fn a_save_may_only_replace_what_was_last_seen() {
@@ -216,11 +216,11 @@ fn a_moved_or_replaced_folder_is_reported() {
     fs::create_dir(at("one")).expect("the folder is new");
     fs::create_dir(at("two")).expect("the folder is new");
     let file = |folder: &str| at(folder).join("scene.ray");
-    let place = |folder: &str| Place::of(&file(folder));
+    let place = |folder: &str| SceneFolder::of(&file(folder));
     // A place with the path of one folder and the identity of another.
     let of_other = |path: &str, folder: &str| {
         let [path, other] = [place(path), place(folder)].map(|place| place.expect("there"));
-        Some(Place {
+        Some(SceneFolder {
             id: other.id,
             ..path
         })

@@ -95,7 +95,7 @@ enum Stage {
 #[derive(Clone, Copy, Debug)]
 struct Question {
     at: Instant,
-    kind: Kind,
+    kind: ProbeKind,
     /// Number of bytes in the queue when it was sent.
     queue: f64,
     /// Total number of bytes sent before it.
@@ -103,7 +103,7 @@ struct Question {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum ProbeKind {
     /// Sent on an empty line.
     Bare,
     /// Sent after a burst.
@@ -175,12 +175,12 @@ impl Estimate {
     pub(super) fn asked(&mut self, now: Instant) {
         let kind = if self.stage == Stage::Empty {
             self.stage = Stage::Open;
-            Kind::Bare
+            ProbeKind::Bare
         } else if self.is_telling(now) {
             self.burst_asked = Some(now);
-            Kind::Burst
+            ProbeKind::Burst
         } else {
-            Kind::Check
+            ProbeKind::Check
         };
         self.questions.push_back(Question {
             at: now,
@@ -199,21 +199,21 @@ impl Estimate {
         match (question.kind, self.round_trip) {
             // Of two round trips that differ only by jitter, the shorter one is right: the longer
             // one would make the next burst seem fast.
-            (Kind::Bare, Some(known)) if time.abs_diff(known) < SLACK => {
+            (ProbeKind::Bare, Some(known)) if time.abs_diff(known) < SLACK => {
                 self.round_trip = Some(known.min(time));
             }
-            (Kind::Bare, _) | (_, None) => self.round_trip = Some(time),
+            (ProbeKind::Bare, _) | (_, None) => self.round_trip = Some(time),
             (kind, Some(round_trip)) => {
                 self.round_trip = Some(round_trip.min(time));
                 let on_line = time.saturating_sub(round_trip);
                 let is_late = self.time_for(question.queue) + SLACK < on_line;
-                let is_first = self.stage == Stage::Open && kind == Kind::Burst;
+                let is_first = self.stage == Stage::Open && kind == ProbeKind::Burst;
                 if is_late && !is_first {
                     self.slow_down(question, at);
                 } else if time.mul_f64(1.25) + RESOLUTION < round_trip {
                     // The line was not empty when the round trip was measured.
                     self.stage = Stage::Raised;
-                } else if kind == Kind::Burst {
+                } else if kind == ProbeKind::Burst {
                     self.judge(question, on_line);
                 } else if self.stage == Stage::Raised {
                     // There is no queue at the present load.
@@ -232,7 +232,7 @@ impl Estimate {
         };
         let expected = round_trip + self.time_for(question.queue) + 2 * SLACK;
         let is_late = expected < now.saturating_duration_since(question.at);
-        (is_late || question.kind == Kind::Bare).then_some(question.at + PATIENCE)
+        (is_late || question.kind == ProbeKind::Bare).then_some(question.at + PATIENCE)
     }
 
     pub(super) fn gives_up_at(&self) -> Option<Instant> {
@@ -303,7 +303,10 @@ impl Estimate {
         match self.stage {
             Stage::Empty => false,
             // The first burst may directly follow the first question.
-            Stage::Open => self.questions.iter().all(|asked| asked.kind == Kind::Bare),
+            Stage::Open => self
+                .questions
+                .iter()
+                .all(|asked| asked.kind == ProbeKind::Bare),
             Stage::Raised => self.questions.is_empty(),
             Stage::Settled => {
                 let is_due =

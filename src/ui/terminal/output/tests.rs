@@ -17,7 +17,7 @@ fn output() -> (Output, UnixStream, Receiver<()>) {
     let (ours, theirs) = UnixStream::pair().expect("sockets");
     ours.set_nonblocking(true).expect("it can be");
     let (cleared, notices) = mpsc::channel();
-    let output = Output::start(Line::own(ours.into()), move || {
+    let output = Output::start(TtyWriter::own(ours.into()), move || {
         let _ = cleared.send(());
     });
     (output.expect("a thread"), theirs, notices)

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::Reader;
+use super::Lowering;
 use crate::language::at::At;
 use crate::language::dat::table::{Part, RecordKind};
 use crate::language::record::{Record, what};
@@ -13,7 +13,7 @@ use crate::language::words::Words;
 use crate::text::{Diagnostic, Span, counted, nearest_word};
 
 /// The content of a record.
-pub(super) struct Line<'a> {
+pub(super) struct RecordContent<'a> {
     /// The record's name in messages.
     pub(super) name: Name,
     /// Its ID, and the place of that.
@@ -35,7 +35,7 @@ pub(super) struct Line<'a> {
     pub(super) is_valid: bool,
 }
 
-impl Line<'_> {
+impl RecordContent<'_> {
     /// Its numbers, if it is valid.
     pub(super) fn numbers(&self) -> Option<&[f64]> {
         self.is_valid.then_some(&*self.values)
@@ -72,19 +72,19 @@ impl Line<'_> {
     }
 }
 
-impl<'a> Reader<'a> {
+impl<'a> Lowering<'a> {
     /// Reads a record from all its tokens and checks it. `call` makes its name from its ID.
     pub(super) fn line(
         &mut self,
         kind: RecordKind,
         tokens: &Words<'a>,
         call: impl Fn(i64) -> Name,
-    ) -> Line<'a> {
+    ) -> RecordContent<'a> {
         let errors = self.report.errors();
         let mut rest = tokens.clone();
         let word = rest.next().map_or("", |token| token.of(self.text));
         rest.by_ref().take(kind.heads() - 1).for_each(drop);
-        let mut line = Line {
+        let mut line = RecordContent {
             name: Name::Record(known_word(word)),
             id: None,
             references: Vec::new(),
@@ -110,7 +110,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Warns of tokens after the end of a record.
-    pub(super) fn surplus(&mut self, line: &Line<'_>) {
+    pub(super) fn surplus(&mut self, line: &RecordContent<'_>) {
         if line.is_complete {
             self.left_over(line.name, &line.rest);
         }
@@ -135,7 +135,7 @@ impl<'a> Reader<'a> {
     fn part(
         &mut self,
         part: &'static Part,
-        line: &mut Line<'a>,
+        line: &mut RecordContent<'a>,
         call: &impl Fn(i64) -> Name,
     ) -> bool {
         let mut after = line.rest.clone();
@@ -166,7 +166,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn field(&mut self, field: &'static Field, line: &mut Line<'a>) -> bool {
+    fn field(&mut self, field: &'static Field, line: &mut RecordContent<'a>) -> bool {
         for component in field.kind.component_names() {
             let Some(token) = line.rest.next() else {
                 return false;
@@ -226,7 +226,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Reports a record that breaks off before its end.
-    fn short(&mut self, kind: RecordKind, tokens: &Words<'_>, line: &Line<'_>) {
+    fn short(&mut self, kind: RecordKind, tokens: &Words<'_>, line: &RecordContent<'_>) {
         self.report.error(|| {
             let due: usize = kind.heads() + kind.parts().iter().map(Part::tokens).sum::<usize>();
             let found = tokens.clone().count();
