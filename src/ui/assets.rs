@@ -3,17 +3,15 @@
 use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::mpsc::{self, Receiver, Sender};
-use std::thread;
+use std::sync::mpsc::Receiver;
 
 use super::msg::Msg;
+use super::service::{Ended, Service};
 use crate::assets::{Assets, Wanted};
 use crate::watch::{Method, Watcher};
 
 /// Handle of the thread. Nothing waits for its end, as it has no work that could be lost.
-pub(super) struct AssetReader {
-    requests: Sender<Wanted>,
-}
+pub(super) struct AssetReader(Service<Wanted>);
 
 impl AssetReader {
     /// Starts the thread. `send` is called on it and on the watcher's thread.
@@ -22,7 +20,6 @@ impl AssetReader {
         method: Method,
         send: impl Fn(Msg) + Send + Sync + 'static,
     ) -> io::Result<Self> {
-        let (requests, inbox) = mpsc::channel();
         let work = AssetThread {
             assets: Assets::new(folders),
             method,
@@ -30,16 +27,15 @@ impl AssetReader {
             watcher: None,
             send: Arc::new(send),
         };
-        thread::Builder::new()
-            .name("assets".to_owned())
-            .spawn(move || work.follow(&inbox))?;
-        Ok(Self { requests })
+        let service = Service::start("assets", "reads the scene's files", |inbox| {
+            work.follow(inbox);
+        });
+        service.map(Self)
     }
 
     /// Reads files; of several pending requests only the last is carried out.
-    pub(super) fn request(&self, wanted: Wanted) -> Result<(), String> {
-        let sent = self.requests.send(wanted);
-        sent.map_err(|_| "the thread that reads the scene's files has ended".to_owned())
+    pub(super) fn request(&self, wanted: Wanted) -> Result<(), Ended> {
+        self.0.request(wanted)
     }
 }
 

@@ -59,7 +59,7 @@ impl Beginning {
 
     fn perform(&mut self, effects: Vec<Effect>) {
         for effect in effects {
-            let ordered = match effect {
+            let requested = match effect {
                 Effect::Watch(path) => self.reader.watch(path),
                 Effect::Read(path, known) => self.reader.read(path, known),
                 other => {
@@ -67,8 +67,8 @@ impl Beginning {
                     Ok(())
                 }
             };
-            if let Err(reason) = ordered {
-                self.step(Msg::Failed(reason));
+            if let Err(ended) = requested {
+                self.step(Msg::Failed(ended.to_string()));
             }
         }
     }

@@ -1,6 +1,7 @@
 //! Performs effects: owns the terminal, the renderers, the timers, and the handles of the threads
 //! that read, write, watch and store files. Nothing here waits for a file.
 
+use std::any::Any;
 use std::io;
 use std::num::NonZero;
 use std::path::Path;
@@ -12,12 +13,12 @@ use std::time::{Duration, Instant};
 use super::assets::AssetReader;
 use super::editor;
 use super::event::{Event, sending};
-use super::freeing::Freeing;
 use super::heap;
 use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
 use super::options::Options;
 use super::reader::Reader;
 use super::recovery::{self, Edits, End, Keeper, Outcome, Request};
+use super::service::{Ended, Service};
 use super::terminal::tmux;
 use super::terminal::{self, Input, Replies, Reply, Terminal};
 #[cfg(unix)]
@@ -45,7 +46,8 @@ pub(crate) struct Runtime {
     signals: Signals,
     sender: Sender<Event>,
     reader: Reader,
-    freeing: Freeing,
+    /// Frees unneeded values: for a large scene this takes longer than a key may wait.
+    freeing: Service<Arc<dyn Any + Send + Sync>>,
     writers: Writers,
     keeper: Keeper,
     assets: AssetReader,
@@ -96,7 +98,9 @@ impl Runtime {
             #[cfg(unix)]
             signals,
             reader,
-            freeing: Freeing::start()?,
+            freeing: Service::start("freeing", "frees memory", |inbox| {
+                inbox.iter().for_each(drop);
+            })?,
             writers: Writers::new(sender.clone()),
             keeper: Keeper::start(keeping(&sender))?,
             assets: AssetReader::start(&options.assets, options.watching(), sending(&sender))?,
@@ -217,36 +221,39 @@ impl Runtime {
 
     /// Performs an effect and returns its immediate result, if any.
     pub(crate) fn perform(&mut self, effect: Effect) -> Option<Msg> {
-        let outcome = match effect {
-            Effect::Trace(target, job) => return Some(self.trace(target, job)),
-            Effect::Stop(target) => {
-                self.stop(target);
-                Ok(())
-            }
+        let performed = self.try_perform(effect);
+        performed.unwrap_or_else(|failure| Some(Msg::Failed(failure.to_string())))
+    }
+
+    fn try_perform(&mut self, effect: Effect) -> Result<Option<Msg>, Failure> {
+        match effect {
+            Effect::Trace(target, job) => return Ok(Some(self.trace(target, job))),
+            Effect::Stop(target) => self.stop(target),
             Effect::WriteImage(id, frame, to) => {
-                let refused = self.writers.export(id, frame, to).err()?;
-                return Some(Msg::Exported(id, Err(refused)));
+                let started = self.writers.export(id, frame, to);
+                let refused = started.err().map(|error| Err(error.to_string()));
+                return Ok(refused.map(|refused| Msg::Exported(id, refused)));
             }
-            Effect::CheckTarget(id, to) => self.writers.check(id, to),
-            Effect::CheckPlace(path) => self.writers.check_place(path),
-            Effect::FindBackups(scene) => self.writers.find_backups(scene),
-            Effect::Read(path, baseline) => self.reader.read(path, baseline),
-            Effect::Free(unneeded) => self.freeing.request(unneeded),
+            Effect::CheckTarget(id, to) => self.writers.check(id, to)?,
+            Effect::CheckPlace(path) => self.writers.check_place(path)?,
+            Effect::FindBackups(scene) => self.writers.find_backups(scene)?,
+            Effect::Read(path, baseline) => self.reader.read(path, baseline)?,
+            Effect::Free(unneeded) => self.freeing.request(unneeded)?,
             Effect::Save {
                 id,
                 path,
                 text,
                 guard,
             } => {
-                let refused = self.writers.save(id, path, text, guard).err()?;
-                return Some(Msg::Saved(id, SaveOutcome::Failed(refused)));
+                let started = self.writers.save(id, path, text, guard);
+                let refused = started.err().map(|error| error.to_string());
+                return Ok(refused.map(|reason| Msg::Saved(id, SaveOutcome::Failed(reason))));
             }
-            Effect::Watch(path) => self.reader.watch(path),
-            Effect::ReadAssets(wanted) => self.assets.request(wanted),
+            Effect::Watch(path) => self.reader.watch(path)?,
+            Effect::ReadAssets(wanted) => self.assets.request(wanted)?,
             Effect::Later(time, timer) => {
                 self.timers.retain(|&(_, set)| set != timer);
                 self.timers.push((Instant::now() + time, timer));
-                Ok(())
             }
             Effect::WriteRecovery {
                 scene,
@@ -254,30 +261,30 @@ impl Runtime {
                 revision,
             } => self
                 .keeper
-                .request(Request::Keep(revision, Edits { scene, known })),
-            Effect::DropRecovery => self.keeper.request(Request::Forget),
+                .request(Request::Keep(revision, Edits { scene, known }))?,
+            Effect::DropRecovery => self.keeper.request(Request::Forget)?,
             Effect::LookForKept(sought) => {
                 let send = sending(&self.sender);
-                recovery::look_for(sought, move |found| send(Msg::Recovered(found)))
+                let looking = recovery::look_for(sought, move |found| send(Msg::Recovered(found)));
+                looking.map_err(Failure::Recovery)?;
             }
-            Effect::AdoptKept(claim) => self.keeper.request(Request::Adopt(claim)),
-            Effect::DropKept(claim) => self.keeper.request(Request::Discard(claim)),
+            Effect::AdoptKept(claim) => self.keeper.request(Request::Adopt(claim))?,
+            Effect::DropKept(claim) => self.keeper.request(Request::Discard(claim))?,
             Effect::OpenEditor { path, line } => {
-                return Some(Msg::EditorClosed(self.open_editor(&path, line)));
+                let outcome = self.open_editor(&path, line);
+                let outcome = outcome.map_err(|failure| failure.to_string());
+                return Ok(Some(Msg::EditorClosed(outcome)));
             }
-            Effect::SetMouse(mouse) => terminal_outcome(self.terminal.set_mouse(mouse)),
-            Effect::Repaint => {
-                self.terminal.repaint();
-                Ok(())
+            Effect::SetMouse(mouse) => {
+                let set = self.terminal.set_mouse(mouse);
+                set.map_err(Failure::Terminal)?;
             }
-            Effect::TakeTerminal => self.take_terminal(),
-            Effect::Suspend => self.suspend(),
-            Effect::Quit => {
-                self.ended = true;
-                Ok(())
-            }
-        };
-        outcome.err().map(Msg::Failed)
+            Effect::Repaint => self.terminal.repaint(),
+            Effect::TakeTerminal => self.take_terminal()?,
+            Effect::Suspend => self.suspend()?,
+            Effect::Quit => self.ended = true,
+        }
+        Ok(None)
     }
 
     fn numbered(&self, target: Target) -> Option<&Numbered> {
@@ -340,27 +347,27 @@ impl Runtime {
         }
     }
 
-    fn open_editor(&mut self, path: &Path, line: usize) -> Result<(), String> {
+    fn open_editor(&mut self, path: &Path, line: usize) -> Result<(), Failure> {
         self.await_replies(Instant::now() + REPLY_PATIENCE);
         self.input.park();
         #[cfg(unix)]
         self.signals.lend();
-        let left = terminal_outcome(self.terminal.leave());
-        let ran = left.and_then(|()| editor::run(path, line));
+        let left = self.terminal.leave().map_err(Failure::Terminal);
+        let ran = left.and_then(|()| editor::run(path, line).map_err(Failure::Editor));
         #[cfg(unix)]
         self.signals.take_back();
         self.take_terminal()?;
         ran
     }
 
-    fn take_terminal(&mut self) -> Result<(), String> {
+    fn take_terminal(&mut self) -> Result<(), Failure> {
         let taken = self.terminal.reenter();
         self.input.resume();
-        terminal_outcome(taken)
+        taken.map_err(Failure::Terminal)
     }
 
     #[cfg(unix)]
-    fn suspend(&mut self) -> Result<(), String> {
+    fn suspend(&mut self) -> Result<(), Failure> {
         self.await_replies(Instant::now() + REPLY_PATIENCE);
         self.input.park();
         let stopped = self.terminal.leave().and_then(|()| suspend_process());
@@ -370,15 +377,31 @@ impl Runtime {
             Ok(false) => self.take_terminal(),
             Err(error) => {
                 self.take_terminal()?;
-                terminal_outcome(Err(error))
+                Err(Failure::Terminal(error))
             }
         }
     }
 
     #[cfg(not(unix))]
-    fn suspend(&mut self) -> Result<(), String> {
-        Err("this system cannot suspend programs".to_owned())
+    fn suspend(&mut self) -> Result<(), Failure> {
+        Err(Failure::Terminal(io::ErrorKind::Unsupported.into()))
     }
+}
+
+/// Reason why an effect cannot be performed.
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error(transparent)]
+    Ended(#[from] Ended),
+    /// A thread cannot be started.
+    #[error(transparent)]
+    Thread(#[from] io::Error),
+    #[error("cannot look for unsaved edits of earlier runs: {0}")]
+    Recovery(io::Error),
+    #[error("terminal: {0}")]
+    Terminal(io::Error),
+    #[error("{0}")]
+    Editor(String),
 }
 
 /// A renderer and its serial number.
@@ -415,10 +438,6 @@ fn keeping(sender: &Sender<Event>) -> impl Fn(Outcome) + Send + 'static {
             Outcome::Failed(reason) => Msg::Failed(reason),
         });
     }
-}
-
-fn terminal_outcome(outcome: io::Result<()>) -> Result<(), String> {
-    outcome.map_err(|error| format!("terminal: {error}"))
 }
 
 #[cfg(test)]

@@ -4,12 +4,13 @@
 use std::cell::LazyCell;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{self, Receiver, Sender};
+use std::sync::mpsc::Receiver;
 use std::thread;
 
 use super::heap;
 use super::msg::Msg;
 use super::reading::{Baseline, Reading, SceneFolder};
+use super::service::{Ended, Service};
 use crate::file;
 use crate::file::ReadError;
 use crate::memory;
@@ -28,9 +29,7 @@ enum Request {
 
 /// Handle of the thread that watches, reads and lowers the scene file. Nothing else waits for it,
 /// neither a save nor the end of the program.
-pub(super) struct Reader {
-    requests: Sender<Request>,
-}
+pub(super) struct Reader(Service<Request>);
 
 impl Reader {
     /// Starts the thread. `send` is called on it and on the watcher's thread.
@@ -38,32 +37,23 @@ impl Reader {
         method: Method,
         send: impl Fn(Msg) + Clone + Send + 'static,
     ) -> io::Result<Self> {
-        let (requests, inbox) = mpsc::channel();
-        let work = move || {
+        let service = Service::start("reading", "reads scenes", move |inbox| {
             let mut watcher = None;
             let watch = |path| watch(path, method, &mut watcher, &send);
-            follow(&inbox, watch, file::read_text, &send);
-        };
-        thread::Builder::new()
-            .name("reading".to_owned())
-            .spawn(work)?;
-        Ok(Self { requests })
+            follow(inbox, watch, file::read_text, &send);
+        });
+        service.map(Self)
     }
 
     /// Watches a file from now on, reported by [`Msg::FileChanged`].
-    pub(super) fn watch(&self, path: PathBuf) -> Result<(), String> {
-        self.request(Request::Watch(path))
+    pub(super) fn watch(&self, path: PathBuf) -> Result<(), Ended> {
+        self.0.request(Request::Watch(path))
     }
 
     /// Reads a file, reported by [`Msg::Read`]. Of several pending requests only the last is
     /// carried out.
-    pub(super) fn read(&self, path: PathBuf, baseline: Baseline) -> Result<(), String> {
-        self.request(Request::Read(path, baseline))
-    }
-
-    fn request(&self, request: Request) -> Result<(), String> {
-        let sent = self.requests.send(request);
-        sent.map_err(|_| "the thread that reads scenes has ended".to_owned())
+    pub(super) fn read(&self, path: PathBuf, baseline: Baseline) -> Result<(), Ended> {
+        self.0.request(Request::Read(path, baseline))
     }
 }
 
@@ -155,6 +145,7 @@ mod tests {
     use crate::language::Language;
     use crate::scene::Meshes;
     use std::cell::{Cell, RefCell};
+    use std::sync::mpsc;
 
     fn request(name: &str) -> Request {
         let baseline = Baseline {
@@ -165,7 +156,7 @@ mod tests {
         Request::Read(name.into(), baseline)
     }
 
-    /// The files read and the files reported, if `during` is ordered while the first one is being
+    /// The files read and the files reported, if `during` is requested while the first one is being
     /// read.
     fn followed(before: &[&str], during: Option<&str>) -> (Vec<PathBuf>, Vec<PathBuf>) {
         let (requests, inbox) = mpsc::channel();

@@ -42,7 +42,7 @@ impl Writers {
         path: PathBuf,
         text: Arc<String>,
         guard: Guard,
-    ) -> Result<(), String> {
+    ) -> io::Result<()> {
         let shown = path.display();
         let panicked = SaveOutcome::Failed(format!("{shown}: cannot write the scene"));
         self.start(
@@ -59,7 +59,7 @@ impl Writers {
         id: ExportId,
         frame: Arc<Frame>,
         to: Destination,
-    ) -> Result<(), String> {
+    ) -> io::Result<()> {
         let shown = to.path.display();
         let panicked = Err(format!("{shown}: cannot write the picture"));
         self.start(
@@ -71,7 +71,7 @@ impl Writers {
     }
 
     /// Checks whether a picture can be written there; a failure is reported by [`Msg::Exported`].
-    pub(super) fn check(&self, id: ExportId, to: Destination) -> Result<(), String> {
+    pub(super) fn check(&self, id: ExportId, to: Destination) -> io::Result<()> {
         let shown = to.path.display();
         let panicked = Err(format!("{shown}: cannot write the picture"));
         self.start("check", None, Msg::Exported(id, panicked), move || {
@@ -82,7 +82,7 @@ impl Writers {
     }
 
     /// Checks whether a scene can be written there; a failure is reported by [`Msg::Failed`].
-    pub(super) fn check_place(&self, path: PathBuf) -> Result<(), String> {
+    pub(super) fn check_place(&self, path: PathBuf) -> io::Result<()> {
         let panicked = Msg::Failed(format!("{}: cannot check the path", path.display()));
         self.start("check", None, panicked, move || {
             let refused = file::check_replaceable(&path).err()?;
@@ -91,7 +91,7 @@ impl Writers {
     }
 
     /// Looks for backups left by an interrupted save of a scene, reported by [`Msg::BackupsFound`].
-    pub(super) fn find_backups(&self, scene: PathBuf) -> Result<(), String> {
+    pub(super) fn find_backups(&self, scene: PathBuf) -> io::Result<()> {
         let found = Msg::BackupsFound(Vec::new());
         self.start("backups", None, found, move || {
             Some(Msg::BackupsFound(file::backups(&scene)))
@@ -105,7 +105,7 @@ impl Writers {
         at_work: Option<&Sender<Infallible>>,
         panicked: Msg,
         work: impl FnOnce() -> Option<Msg> + Send + 'static,
-    ) -> Result<(), String> {
+    ) -> io::Result<()> {
         let mut report = Report {
             sender: self.sender.clone(),
             msg: Some(panicked),
@@ -117,7 +117,7 @@ impl Writers {
             drop(report);
             drop(at_work);
         });
-        spawned.map(drop).map_err(|error| error.to_string())
+        spawned.map(drop)
     }
 
     /// Waits until everything is written, or until `deadline`.

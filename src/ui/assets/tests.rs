@@ -1,6 +1,7 @@
 use std::collections::BTreeSet;
 use std::fs::{self, Permissions};
 use std::os::unix::fs::PermissionsExt;
+use std::sync::mpsc;
 
 use super::*;
 

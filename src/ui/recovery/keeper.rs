@@ -3,13 +3,13 @@
 use std::collections::VecDeque;
 use std::io;
 use std::sync::Arc;
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
-use std::thread;
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::Instant;
 
 use super::claim::Claim;
 use super::folder;
 use super::journal::{Edits, Journal};
+use crate::ui::service::{Ended, Service};
 
 /// A request for the thread.
 #[derive(Debug)]
@@ -46,7 +46,7 @@ pub(crate) enum End {
 
 /// A handle to the thread.
 pub(crate) struct Keeper {
-    requests: Sender<Request>,
+    service: Service<Request>,
     end: Receiver<End>,
     /// Whether there is something to keep.
     keeps: bool,
@@ -55,36 +55,31 @@ pub(crate) struct Keeper {
 impl Keeper {
     /// Starts the thread, which calls `report`.
     pub(crate) fn start(report: impl Fn(Outcome) + Send + 'static) -> io::Result<Self> {
-        let (requests, inbox) = mpsc::channel();
         let (tell, end) = mpsc::channel();
-        let work = move || {
+        let service = Service::start("journal", "keeps edits", move |inbox| {
             // Fails only if the program has stopped waiting.
-            let _ = tell.send(follow(&inbox, report));
-        };
-        thread::Builder::new()
-            .name("journal".to_owned())
-            .spawn(work)?;
+            let _ = tell.send(follow(inbox, report));
+        })?;
         Ok(Self {
-            requests,
+            service,
             end,
             keeps: false,
         })
     }
 
     /// Queues a request. Of several waiting texts only the last is kept.
-    pub(crate) fn request(&mut self, request: Request) -> Result<(), String> {
+    pub(crate) fn request(&mut self, request: Request) -> Result<(), Ended> {
         match request {
             Request::Keep(..) => self.keeps = true,
             Request::Forget => self.keeps = false,
             Request::Adopt(_) | Request::Discard(_) => {}
         }
-        let sent = self.requests.send(request);
-        sent.map_err(|_| "the thread that keeps edits has ended".to_owned())
+        self.service.request(request)
     }
 
     /// Waits until all requests are done, at most until `deadline`.
     pub(crate) fn finish(self, deadline: Instant) -> End {
-        drop(self.requests);
+        drop(self.service);
         let lost = |reason: &str| End::Lost(reason.to_owned());
         match self
             .end

@@ -79,10 +79,7 @@ pub enum Since {
 }
 
 /// Looks for kept edits on a new thread, which reports any that it finds.
-pub(crate) fn look_for(
-    sought: Sought,
-    report: impl Fn(Found) + Send + 'static,
-) -> Result<(), String> {
+pub(crate) fn look_for(sought: Sought, report: impl Fn(Found) + Send + 'static) -> io::Result<()> {
     let look = move || {
         let found = match folder::state() {
             Ok(state) => look_in(&state, &sought),
@@ -96,8 +93,7 @@ pub(crate) fn look_for(
     let spawned = thread::Builder::new()
         .name("recovery".to_owned())
         .spawn(look);
-    let words = |error: io::Error| format!("kept edits cannot be looked for: {error}");
-    spawned.map(drop).map_err(words)
+    spawned.map(drop)
 }
 
 /// Finds the newest edits kept below a state folder.
