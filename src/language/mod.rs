@@ -139,6 +139,29 @@ languages! {
     Xml in xml,
 }
 
+impl Source {
+    /// The literals of the view's fields for a camera, one per component.
+    pub fn view_literals(&self, camera: &Camera) -> Vec<Vec<String>> {
+        view::literals(&self.view_fields(), &self.view_numbers(camera))
+    }
+
+    /// The camera after a component of a view field is changed.
+    ///
+    /// # Errors
+    ///
+    /// Fails with a description of the permitted values if `literal` is not one.
+    pub fn view_with(
+        &self,
+        camera: &Camera,
+        at: (usize, usize),
+        literal: &str,
+    ) -> Result<Camera, String> {
+        let numbers =
+            view::with_component(&self.view_fields(), self.view_numbers(camera), at, literal)?;
+        Ok(self.view_camera(&numbers, camera))
+    }
+}
+
 /// The error for a file name without the extension of a known language.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{path}: not a scene: scenes end in {}", extensions(), path = .0.display())]
@@ -311,9 +334,7 @@ pub trait Answers: Editable {
     }
 
     /// Maps an object of the text to its object of the scene; `None` if it is not drawn.
-    fn drawn(&self, object: usize) -> Option<u32> {
-        u32::try_from(object).ok()
-    }
+    fn drawn(&self, object: usize) -> Option<u32>;
 
     /// Whether an object of the text only groups the objects in it.
     fn is_group(&self, object: usize) -> bool {
@@ -322,9 +343,7 @@ pub trait Answers: Editable {
     }
 
     /// Maps an object of the scene to its object of the text.
-    fn object(&self, drawn: u32) -> usize {
-        drawn as usize
-    }
+    fn object(&self, drawn: u32) -> usize;
 
     /// The listed material of an object.
     fn material(&self, object: usize) -> Option<usize> {
@@ -359,27 +378,6 @@ pub trait Answers: Editable {
     /// The camera described by these numbers; `base` is a camera of the same text.
     fn view_camera(&self, numbers: &Numbers, base: &Camera) -> Camera;
 
-    /// The literals of the view's fields for a camera, one per component.
-    fn view_literals(&self, camera: &Camera) -> Vec<Vec<String>> {
-        view::literals(&self.view_fields(), &self.view_numbers(camera))
-    }
-
-    /// The camera after a component of a view field is changed.
-    ///
-    /// # Errors
-    ///
-    /// Fails with a description of the permitted values if `literal` is not one.
-    fn view_with(
-        &self,
-        camera: &Camera,
-        at: (usize, usize),
-        literal: &str,
-    ) -> Result<Camera, String> {
-        let numbers =
-            view::with_component(&self.view_fields(), self.view_numbers(camera), at, literal)?;
-        Ok(self.view_camera(&numbers, camera))
-    }
-
     /// Returns the edits that make the text describe this camera, replacing numbers and adding
     /// missing parts. `before` is the camera as lowered; only parts that differ from it are
     /// written, and those whose defaults would move with them.
@@ -394,8 +392,5 @@ pub trait Answers: Editable {
         &self,
         object: usize,
         wanted: Visibility,
-    ) -> Result<Vec<Edit>, &'static str> {
-        let _ = (object, wanted);
-        Err("this language cannot hide objects")
-    }
+    ) -> Result<Vec<Edit>, &'static str>;
 }

@@ -7,7 +7,7 @@ use super::{Source, again, lower, room, view};
 use crate::language::report::Name;
 use crate::language::table::{self, Field};
 use crate::language::view::Numbers;
-use crate::language::{Answers, Before, Lowered, Node, Nodes, Placed};
+use crate::language::{Answers, Before, Lowered, Node, Nodes, Placed, Visibility};
 use crate::memory::OutOfMemory;
 use crate::scene::{Camera, Meshes};
 use crate::text::{Edit, Span};
@@ -154,6 +154,14 @@ impl Answers for Source {
         view::fields().collect()
     }
 
+    fn drawn(&self, object: usize) -> Option<u32> {
+        u32::try_from(object).ok()
+    }
+
+    fn object(&self, drawn: u32) -> usize {
+        drawn as usize
+    }
+
     fn view_numbers(&self, camera: &Camera) -> Numbers {
         view::numbers(camera)
     }
@@ -164,5 +172,9 @@ impl Answers for Source {
 
     fn view_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit> {
         view::edits(&self.text, &self.origins, before, camera)
+    }
+
+    fn visibility_edits(&self, _: usize, _: Visibility) -> Result<Vec<Edit>, &'static str> {
+        Err("a .ray scene draws all of its objects")
     }
 }

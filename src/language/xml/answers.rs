@@ -12,7 +12,7 @@ use crate::language::node::{FileKind, object_at, place_of};
 use crate::language::placed::{Wanted, edits};
 use crate::language::table::{Category, Field};
 use crate::language::view::Numbers;
-use crate::language::{Answers, Lowered, NamedFile, Node, Nodes, Placed};
+use crate::language::{Answers, Lowered, NamedFile, Node, Nodes, Placed, Visibility};
 use crate::memory::OutOfMemory;
 use crate::scene::{Camera, Meshes};
 use crate::text::{Edit, Span, is_one_line_end, visible};
@@ -217,5 +217,9 @@ impl Answers for Source {
 
     fn view_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit> {
         view::edits(self, &self.fields(Node::View), before, camera)
+    }
+
+    fn visibility_edits(&self, _: usize, _: Visibility) -> Result<Vec<Edit>, &'static str> {
+        Err("an .xml scene draws all of its objects")
     }
 }
