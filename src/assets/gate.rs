@@ -56,7 +56,7 @@ impl Gate {
         let near: Vec<_> = Folder::open(&folder).into_iter().collect();
         let above = near.first().and_then(|own| own.real().parent());
         let above = above.and_then(|above| Folder::open(above).ok());
-        let above = above.filter(|above| holds_scenes(above.real(), above.is_public(), home));
+        let above = above.filter(|above| holds_scenes(above.real(), home) && !above.is_public());
         let named = folders
             .iter()
             .filter_map(|folder| Some((folder.clone(), Folder::open(folder).ok()?)));
@@ -246,8 +246,8 @@ pub(super) fn home() -> Option<PathBuf> {
 }
 
 /// Whether the parent of a scene's folder is likely to contain only scenes and their files.
-fn holds_scenes(folder: &Path, is_public: bool, home: Option<&Path>) -> bool {
-    folder.parent().is_some() && Some(folder) != home && !is_public
+fn holds_scenes(folder: &Path, home: Option<&Path>) -> bool {
+    folder.parent().is_some() && Some(folder) != home
 }
 
 /// A name with slashes instead of backslashes.

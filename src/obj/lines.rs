@@ -92,14 +92,33 @@ impl Word<'_> {
         String::from_utf8_lossy(self.text).into_owned()
     }
 
-    /// Parses a number. Fails with a message.
-    pub(super) fn number(&self) -> Result<f64, String> {
+    /// Parses a number.
+    pub(super) fn number(&self) -> Result<f64, Fault> {
         let number = str::from_utf8(self.text).map_err(|_| NumberError::NotANumber);
         match number.and_then(parse_number) {
             Ok(number) => Ok(number),
-            Err(NumberError::NotANumber) => Err(format!("`{}` is not a number", self.shown())),
-            Err(NumberError::Overflow) => Err(format!("`{}` is too large", self.shown())),
+            Err(NumberError::NotANumber) => Err(self.fault("is not a number")),
+            Err(NumberError::Overflow) => Err(self.fault("is too large")),
         }
+    }
+
+    /// An error in this word, which the message begins with.
+    fn fault(&self, message: &str) -> Fault {
+        Fault::new(self.column, format!("`{}` {message}", self.shown()))
+    }
+}
+
+/// An error in a statement.
+pub(super) struct Fault {
+    /// The column, in bytes from 1.
+    pub(super) column: usize,
+    pub(super) message: String,
+}
+
+impl Fault {
+    pub(super) fn new(column: usize, message: impl Into<String>) -> Self {
+        let message = message.into();
+        Self { column, message }
     }
 }
 

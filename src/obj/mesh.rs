@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::lines::{Findings, Statement, Word, statements};
+use super::lines::{Fault, Findings, Statement, Word, statements};
 use super::plain::{self, Chunk, Plain, push_corners};
 use super::{Finding, MAX_FINDINGS, MAX_LIBRARIES, Model, mtl};
 use crate::geometry::{ABSENT, Mesh, MeshError, MeshParts, SlotRun};
@@ -34,9 +34,6 @@ struct MeshBuilder {
     /// The corners of the current face: position, texture coordinates, normal.
     corners: Vec<[u32; 3]>,
 }
-
-/// A column and an error message.
-type Fault = (usize, String);
 
 /// See [`super::read`]. `most` is the maximum number of triangles.
 pub(super) fn read<B: AsRef<[u8]>>(
@@ -71,7 +68,7 @@ pub(super) fn read_parts<B: AsRef<[u8]>>(
             _ => {
                 for statement in statements(&bytes[part.range], line) {
                     last = statement.line;
-                    if let Err((column, message)) = builder.take(&statement) {
+                    if let Err(Fault { column, message }) = builder.take(&statement) {
                         builder.findings.error(statement.line, column, message);
                     }
                     if builder.findings.is_full() {
@@ -190,11 +187,11 @@ impl MeshBuilder {
             b"mtllib" => {
                 let names = statement.rest();
                 if names.text.is_empty() {
-                    return Err((statement.end(), "mtllib: the name is missing".into()));
+                    return Err(Fault::new(statement.end(), "mtllib: the name is missing"));
                 }
                 if self.libraries.len() == MAX_LIBRARIES {
                     let message = format!("more than {MAX_LIBRARIES} mtllib statements");
-                    return Err((keyword.column, message));
+                    return Err(Fault::new(keyword.column, message));
                 }
                 let library = (names.name(), statement.line, names.column);
                 self.libraries.push(library);
@@ -219,12 +216,13 @@ impl MeshBuilder {
         if corners.len() < 3 {
             let count = corners.len();
             let message = format!("f: expected at least three corners, found {count}");
-            return Err((statement.end(), message));
+            return Err(Fault::new(statement.end(), message));
         }
         let parts = &mut self.parts;
         let first = parts.triangles.len();
         if self.most < first + corners.len() - 2 {
-            return Err((1, format!("f: more than {} triangles", self.most)));
+            let message = format!("f: more than {} triangles", self.most);
+            return Err(Fault::new(1, message));
         }
         for pair in corners[1..].windows(2) {
             let fan = [corners[0], pair[0], pair[1]];
@@ -249,7 +247,8 @@ impl MeshBuilder {
             self.parts.normals.values.len(),
         ];
         let mut corner = [ABSENT; 3];
-        let fault = |message: String| (word.column, format!("f: `{}` {message}", word.shown()));
+        let fault =
+            |message: String| Fault::new(word.column, format!("f: `{}` {message}", word.shown()));
         for (place, text) in word.text.split(|&byte| byte == b'/').enumerate() {
             let Some(kind) = KINDS.get(place) else {
                 return Err(fault("has more than three indices".into()));
@@ -287,7 +286,7 @@ impl MeshBuilder {
     fn use_material(&mut self, statement: &Statement<'_>) -> Result<(), Fault> {
         let name = statement.rest();
         if name.text.is_empty() {
-            return Err((statement.end(), "usemtl: the name is missing".into()));
+            return Err(Fault::new(statement.end(), "usemtl: the name is missing"));
         }
         let next = self.slots.len() as u32 + 1;
         let slot = *self.slots.entry(name.name()).or_insert(next);
@@ -391,13 +390,17 @@ fn numbers<const N: usize>(
 ) -> ([f64; N], Result<(), Fault>) {
     let mut numbers = [0.0; N];
     let mut count = 0;
-    let fault =
-        |column: usize, message: &str| Err((column, format!("{}: {message}", keyword(statement))));
+    let fault = |column: usize, message: &str| {
+        Err(Fault::new(
+            column,
+            format!("{}: {message}", keyword(statement)),
+        ))
+    };
     for word in statement.words().skip(1) {
         if let Some(number) = numbers.get_mut(count) {
             match word.number() {
                 Ok(value) => *number = value,
-                Err(message) => return (numbers, fault(word.column, &message)),
+                Err(wrong) => return (numbers, fault(wrong.column, &wrong.message)),
             }
         }
         count += 1;

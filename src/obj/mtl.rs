@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::Finding;
-use super::lines::{Findings, Statement, Word, statements};
+use super::lines::{Fault, Findings, Statement, Word, statements};
 
 /// A material as a library defines it.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,7 +83,7 @@ pub(super) fn read(bytes: &[u8], library: &str) -> Result<HashMap<String, Materi
             }
             continue;
         };
-        if let Err((column, message)) = set(material, keyword, &statement) {
+        if let Err(Fault { column, message }) = set(material, keyword, &statement) {
             let message = format!("{}: {message}", keyword.shown());
             findings.error(statement.line, column, message);
         }
@@ -104,9 +104,6 @@ fn is_known(keyword: Word<'_>) -> bool {
     )
 }
 
-/// A column and an error message.
-type Fault = (usize, String);
-
 fn set(material: &mut Material, keyword: Word<'_>, statement: &Statement<'_>) -> Result<(), Fault> {
     match keyword.text {
         b"Kd" => colour(&mut material.diffuse, statement)?,
@@ -118,7 +115,7 @@ fn set(material: &mut Material, keyword: Word<'_>, statement: &Statement<'_>) ->
             let model = number(statement)?;
             if !(0.0..=10.0).contains(&model) || model.fract() != 0.0 {
                 let column = statement.rest().column;
-                return Err((column, "expected a whole number from 0 to 10".into()));
+                return Err(Fault::new(column, "expected a whole number from 0 to 10"));
             }
             material.illumination = model as u32;
         }
@@ -136,24 +133,24 @@ fn colour(colour: &mut [f64; 3], statement: &Statement<'_>) -> Result<(), Fault>
         if matches!(word.text, b"spectral" | b"xyz") {
             return Ok(());
         }
-        values.push(word.number().map_err(|message| (word.column, message))?);
+        values.push(word.number()?);
         if 3 < values.len() {
-            return Err((word.column, "expected one or three numbers".into()));
+            return Err(Fault::new(word.column, "expected one or three numbers"));
         }
     }
     *colour = match values[..] {
         [grey] => [grey; 3],
         [red, green, blue] => [red, green, blue],
-        _ => return Err((statement.end(), "expected one or three numbers".into())),
+        _ => return Err(Fault::new(statement.end(), "expected one or three numbers")),
     };
     Ok(())
 }
 
 fn number(statement: &Statement<'_>) -> Result<f64, Fault> {
     let Some(word) = statement.words().nth(1) else {
-        return Err((statement.end(), "the number is missing".into()));
+        return Err(Fault::new(statement.end(), "the number is missing"));
     };
-    word.number().map_err(|message| (word.column, message))
+    word.number()
 }
 
 /// Reads the path of a map after its options, which are ignored.
@@ -185,6 +182,6 @@ fn path(statement: &Statement<'_>) -> Result<String, Fault> {
             };
             Ok(path.name())
         }
-        None => Err((statement.end(), "the path is missing".into())),
+        None => Err(Fault::new(statement.end(), "the path is missing")),
     }
 }

@@ -152,16 +152,15 @@ fn only_permitted_files_are_read() {
 }
 
 #[test]
-fn the_root_homes_and_public_folders_hold_more_than_scenes() {
-    for (folder, is_public, home, expected) in [
-        ("/", false, None, false),
-        ("/home/u", false, Some("/home/u"), false),
-        ("/home/u", false, Some("/home/v"), true),
-        ("/home/u/scenes", false, Some("/home/u"), true),
-        ("/tmp", true, None, false),
-        ("/x", false, None, true),
+fn the_root_and_homes_hold_more_than_scenes() {
+    for (folder, home, expected) in [
+        ("/", None, false),
+        ("/home/u", Some("/home/u"), false),
+        ("/home/u", Some("/home/v"), true),
+        ("/home/u/scenes", Some("/home/u"), true),
+        ("/x", None, true),
     ] {
-        let holds = holds_scenes(Path::new(folder), is_public, home.map(Path::new));
+        let holds = holds_scenes(Path::new(folder), home.map(Path::new));
         assert_eq!(holds, expected, "{folder}");
     }
 }

@@ -7,6 +7,7 @@ mod insert;
 use super::table::{LightKind, MaterialKind, ObjectKind, Parameter};
 use super::tree::{Attribute, Tree};
 use crate::language::node::Node;
+use crate::scene::Transfer;
 
 /// The places of everything lowered, as indices of elements and attributes: valid only with the
 /// tree they were made from.
@@ -30,8 +31,8 @@ pub struct Origins {
     pub(super) drawn: Vec<usize>,
     /// The attributes that name files.
     pub(super) files: Vec<NamedPlace>,
-    /// Whether the scene is made for path tracing.
-    pub(super) is_srgb: bool,
+    /// The transfer function, on which the defaults of some fields depend.
+    pub(super) transfer: Transfer,
     /// The factors of the camera's vectors.
     pub(super) factors: [Option<f64>; 3],
 }

@@ -7,6 +7,7 @@ pub(super) mod lights;
 pub(super) mod materials;
 
 use crate::language::table::{Category, Field, Kind, Range};
+use crate::scene::Transfer;
 pub(super) use kinds::{LightKind, MaterialKind, ObjectKind};
 
 /// An element that sets a property of its parent.
@@ -58,11 +59,10 @@ pub(super) struct Extra {
 
 impl Extra {
     /// Its default for this kind of scene.
-    pub(super) fn missing(&self, is_srgb: bool) -> &'static str {
-        if is_srgb {
-            self.missing_srgb
-        } else {
-            self.missing
+    pub(super) fn missing(&self, transfer: Transfer) -> &'static str {
+        match transfer {
+            Transfer::Linear => self.missing,
+            Transfer::Srgb => self.missing_srgb,
         }
     }
 }

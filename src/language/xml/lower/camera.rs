@@ -83,7 +83,7 @@ impl Lowering<'_> {
         };
         let word = attribute.unescaped(self.text);
         if word.eq_ignore_ascii_case("sRGB") {
-            self.origins.is_srgb = true;
+            self.origins.transfer = Transfer::Srgb;
             self.setting.integrator = Integrator::Path;
             self.setting.transfer = Transfer::Srgb;
         } else if !word.eq_ignore_ascii_case("linear") {

@@ -144,7 +144,7 @@ impl<'a> Lowering<'a> {
     ) -> f64 {
         match self.element_of(Some(holder), parameter) {
             Some(element) => {
-                let missing = extra.missing(self.origins.is_srgb);
+                let missing = extra.missing(self.origins.transfer);
                 self.number_or(element, extra.attribute, &extra.field, missing)
             }
             None => plain(extra.missing),

@@ -142,7 +142,7 @@ impl Rows<'_> {
             for extra in parameter.extras {
                 let insertion = insert::attribute(self.tree, element);
                 let place = self.origins.attribute(self.tree, element, extra.attribute);
-                let missing = extra.missing(self.origins.is_srgb);
+                let missing = extra.missing(self.origins.transfer);
                 let attribute = (extra.attribute, place, missing);
                 self.attributes(&extra.field, &[attribute], &insertion);
             }
