@@ -16,6 +16,7 @@ mod ray;
 mod record;
 mod report;
 mod room;
+mod structure;
 pub mod table;
 #[cfg(test)]
 mod tests;
@@ -40,6 +41,7 @@ use view::Numbers;
 pub use node::{FileKind, NamedFile, Node, Nodes};
 pub use placed::{Placed, Wanted};
 pub use room::fits;
+pub use structure::{Neighbour, Placement, Restructure, StructureError};
 
 /// Declares the languages, one per line, by folder name, which is also the file extension. A folder
 /// provides `Source`, `errors_of_beginning`, `tree_bytes` and `LEAVES_KEEP_TO_LINES`.
@@ -241,7 +243,7 @@ pub trait Editable: Debug {
 
 /// What every language answers about a scene's text. Places are as of the last lowering, and
 /// complete up to where the text could be understood.
-pub trait Answers: Editable {
+pub trait Answers: Editable + Restructure {
     /// Lowers the text, with the meshes read so far, and finds the places of its nodes. Reports all
     /// independent errors at once. Never panics, never loops, never allocates by a number that the
     /// text merely declares, and takes time linear in the text.

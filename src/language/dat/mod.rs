@@ -1,9 +1,11 @@
 //! Boston University's `.dat`: one record per line, with numeric IDs.
 
 mod answers;
+mod copies;
 mod lower;
 mod origins;
 mod room;
+mod structure;
 mod table;
 #[cfg(test)]
 mod tests;

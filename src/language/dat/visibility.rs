@@ -6,6 +6,8 @@ use crate::language::Visibility;
 use crate::language::view::line_ending;
 use crate::text::{Edit, Span};
 
+const LAST: &str = "the last visible object cannot be hidden";
+
 /// Returns the edits that show or hide an object, by index, and leave all others as they are.
 ///
 /// # Errors
@@ -25,7 +27,7 @@ pub(super) fn edits(
         _ => return Ok(Vec::new()),
     }
     if drawn.is_empty() {
-        return Err("the last visible object cannot be hidden");
+        return Err(LAST);
     }
     let edit = |span, text| Edit { span, text };
     let id = |object: usize| origins.objects.get(object).map(|at| at.id);
@@ -38,9 +40,13 @@ pub(super) fn edits(
             .collect();
         words.join(" ")
     };
-    let record = origins.render.map(|record| tree.tokens_of(text, record));
-    let tokens: Option<Vec<_>> = record.map(Iterator::collect);
-    let Some([_, count, entries @ ..]) = tokens.as_deref() else {
+    let Some(listing) = Listing::of(text, tree, origins) else {
+        if let Some(count) = origins
+            .render
+            .and_then(|at| tree.tokens_of(text, at).nth(1))
+        {
+            return Ok(vec![edit(count, listed())]);
+        }
         let ending = line_ending(text);
         let record = format!("render {}", listed());
         let line = if text.is_empty() || text.ends_with(['\n', '\r']) {
@@ -50,28 +56,67 @@ pub(super) fn edits(
         };
         return Ok(vec![edit(Span::at(text.len()), line)]);
     };
-    let entries: Vec<_> = entries.chunks_exact(2).collect();
-    let number = count.of(text).parse().unwrap_or(0).min(entries.len());
-    let entries = &entries[..number];
-    let Some(last) = entries.last() else {
-        return Ok(vec![edit(*count, listed())]);
-    };
-    if wanted == Visibility::Shown {
-        let entry = format!(" ID {}", id(object).unwrap_or_default());
-        return Ok(vec![
-            edit(*count, (number + 1).to_string()),
-            edit(Span::at(last[1].end()), entry),
-        ]);
+    let id = id(object).unwrap_or_default();
+    match wanted {
+        Visibility::Shown => Ok(listing.with(&[id.to_string()])),
+        Visibility::Hidden => listing.without(text, |listed| listed == id).ok_or(LAST),
     }
-    // Each is removed with the white space before it.
-    let before = std::iter::once(*count).chain(entries.iter().map(|entry| entry[1]));
-    let hidden: Vec<_> = before
-        .zip(entries)
-        .filter(|(_, entry)| entry[1].of(text).parse().ok() == id(object))
-        .map(|(before, entry)| edit(Span::new(before.end(), entry[1].end()), String::new()))
-        .collect();
-    let left = (number - hidden.len()).to_string();
-    Ok(std::iter::once(edit(*count, left)).chain(hidden).collect())
+}
+
+/// A `render` record that lists objects.
+pub(super) struct Listing {
+    count: Span,
+    /// The words `ID` and the IDs, as many as `render` states.
+    entries: Vec<[Span; 2]>,
+}
+
+impl Listing {
+    /// The `render` record of a text; `None` if it lists no objects.
+    pub(super) fn of(text: &str, tree: &Tree, origins: &Origins) -> Option<Self> {
+        let tokens: Vec<_> = tree.tokens_of(text, origins.render?).collect();
+        let [_, count, entries @ ..] = tokens.as_slice() else {
+            return None;
+        };
+        let stated = count.of(text).parse().unwrap_or(0);
+        let entries = entries.chunks_exact(2).take(stated);
+        let entries: Vec<_> = entries.map(|entry| [entry[0], entry[1]]).collect();
+        (!entries.is_empty()).then_some(Self {
+            count: *count,
+            entries,
+        })
+    }
+
+    /// The edits that add objects.
+    pub(super) fn with(&self, ids: &[String]) -> Vec<Edit> {
+        if ids.is_empty() {
+            return Vec::new();
+        }
+        let end = self.entries.last().map_or(self.count, |entry| entry[1]);
+        let edit = |span, text| Edit { span, text };
+        let listed = ids.iter().map(|id| format!(" ID {id}")).collect();
+        vec![
+            edit(self.count, (self.entries.len() + ids.len()).to_string()),
+            edit(Span::at(end.end()), listed),
+        ]
+    }
+
+    /// The edits that remove objects, each with the white space before it; `None` if no other is
+    /// listed.
+    pub(super) fn without(&self, text: &str, goes: impl Fn(i64) -> bool) -> Option<Vec<Edit>> {
+        let edit = |span, text| Edit { span, text };
+        let before = std::iter::once(self.count).chain(self.entries.iter().map(|entry| entry[1]));
+        let removed: Vec<_> = before
+            .zip(&self.entries)
+            .filter(|(_, entry)| entry[1].of(text).parse().is_ok_and(&goes))
+            .map(|(before, entry)| edit(Span::new(before.end(), entry[1].end()), String::new()))
+            .collect();
+        let left = self.entries.len() - removed.len();
+        if removed.is_empty() {
+            return Some(removed);
+        }
+        let count = edit(self.count, left.to_string());
+        (0 < left).then(|| std::iter::once(count).chain(removed).collect())
+    }
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ mod objects;
 mod origins;
 mod reader;
 mod room;
+mod structure;
 mod table;
 #[cfg(test)]
 mod tests;

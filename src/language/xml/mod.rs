@@ -1,10 +1,12 @@
 //! The University of Utah's `.xml`: elements with attributes, and nested objects.
 
 mod answers;
+mod copies;
 mod insertions;
 mod lower;
 mod origins;
 mod room;
+mod structure;
 mod table;
 #[cfg(test)]
 mod tests;

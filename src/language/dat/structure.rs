@@ -1,0 +1,293 @@
+//! What deleting, copying and moving mean in a `.dat` text: `render` and `use` follow, and copies
+//! get IDs of their own.
+
+use std::collections::HashSet;
+
+use super::Source;
+use super::copies::{Copies, Identity};
+use super::origins::Place;
+use super::tree::is_comment;
+use super::visibility::Listing;
+use crate::language::structure::{
+    Block, adapted, deletions, line_before, lines, lines_after, pair,
+};
+use crate::language::table::Category;
+use crate::language::view::line_ending;
+use crate::language::{
+    Answers, Neighbour, Node, Placement, Restructure, StructureError, structure,
+};
+use crate::text::{Edit, Span, counted, parse_number};
+
+impl Restructure for Source {
+    fn consequence(&self, nodes: &[Node]) -> Option<String> {
+        match self.dependents(nodes).as_slice() {
+            [] => None,
+            [one] => Some(format!("{}, which uses it, goes too", self.name(*one))),
+            many => Some(format!(
+                "{}, which use it, go too",
+                counted(many.len(), "object")
+            )),
+        }
+    }
+
+    fn removal(&self, nodes: &[Node]) -> Result<Vec<Edit>, StructureError> {
+        let origins = &self.origins;
+        let mut nodes = nodes.to_vec();
+        nodes.extend(self.dependents(&nodes));
+        nodes.sort_unstable();
+        nodes.dedup();
+        let gone = |node| nodes.binary_search(&node).is_ok();
+        let records: Result<Vec<_>, _> = nodes.iter().map(|&node| self.record(node)).collect();
+        let uses = origins.uses.iter();
+        let uses =
+            uses.filter(|at| gone(Node::Material(at.material)) || gone(Node::Texture(at.texture)));
+        let records = records?.into_iter().chain(uses.map(|at| at.record));
+        let mut edits = deletions(&self.text, records.map(|record| self.block(record)));
+        if let Some(listing) = Listing::of(&self.text, &self.tree, origins) {
+            let objects = nodes.iter().filter_map(|&node| match node {
+                Node::Object(index) => Some(origins.objects.get(index)?.id),
+                _ => None,
+            });
+            let ids: HashSet<_> = objects.collect();
+            let without = listing.without(&self.text, |id| ids.contains(&id));
+            edits.extend(without.ok_or(StructureError::Last {
+                noun: "drawn object",
+                reason: "`render` would list none, which draws all",
+            })?);
+        }
+        edits.sort_by_key(|edit| edit.span);
+        Ok(edits)
+    }
+
+    fn copied(&self, nodes: &[Node]) -> Result<String, StructureError> {
+        let mut records = Vec::new();
+        for &node in nodes {
+            records.push(self.record(node)?);
+            if let Node::Object(object) = node {
+                for (_, part) in self.parts(object, usize::MAX) {
+                    records.push(self.record(part)?);
+                }
+            }
+            let uses = self.origins.uses.iter();
+            let uses = uses.filter(|at| node == Node::Material(at.material));
+            records.extend(uses.map(|at| at.record));
+        }
+        records.sort_unstable();
+        records.dedup();
+        let copies = records
+            .iter()
+            .map(|&record| self.block(record).span().of(&self.text));
+        let copies: Vec<_> = copies.collect();
+        Ok(copies.join(line_ending(&self.text)))
+    }
+
+    fn insertion(&self, text: &str, after: Node) -> Result<Placement, StructureError> {
+        let adapted = adapted(text, &self.text);
+        let mut copies = Copies::of(&adapted)?;
+        for category in [
+            Category::Light,
+            Category::Material,
+            Category::Texture,
+            Category::Object,
+        ] {
+            copies.renumber(category, &self.ids(category));
+        }
+        let anchor = self.anchor(&copies, after);
+        let own = match anchor {
+            Some(record) => lines_after(&self.text, self.block(record).span(), &copies.text()),
+            None => Edit {
+                span: Span::at(0),
+                text: format!("{}{}", copies.text(), line_ending(&self.text)),
+            },
+        };
+        let start = own.span.start();
+        let mut edits = vec![own];
+        if let Some(listing) = Listing::of(&self.text, &self.tree, &self.origins) {
+            edits.extend(listing.with(&copies.results()));
+        }
+        edits.sort_by_key(|edit| edit.span);
+        let at = edits.iter().position(|edit| edit.span == Span::at(start));
+        Ok(Placement {
+            at: at.unwrap_or_default(),
+            edits,
+        })
+    }
+
+    fn exchange(&self, node: Node, neighbour: Neighbour) -> Result<Placement, StructureError> {
+        type OfIndex = fn(usize) -> Node;
+        let origins = &self.origins;
+        let (of_index, index, count): (OfIndex, _, _) = match node {
+            Node::Light(index) => (Node::Light, index, origins.lights.len()),
+            Node::Material(index) => (Node::Material, index, origins.materials.len()),
+            Node::Texture(index) => (Node::Texture, index, origins.textures.len()),
+            Node::Object(index) => (Node::Object, index, origins.objects.len()),
+            _ => return Err(StructureError::Fixed(self.name(node))),
+        };
+        let pair = pair(index, count, neighbour)
+            .ok_or_else(|| StructureError::at_end(self.name(node), neighbour, ""))?;
+        let nodes = pair.map(of_index);
+        if let Node::Object(user) = nodes[1]
+            && let Some(operands) = origins.objects.get(user).and_then(|object| object.operands)
+            && operands.contains(&pair[0])
+        {
+            return Err(StructureError::Order {
+                user: self.name(nodes[1]),
+                used: self.name(nodes[0]),
+            });
+        }
+        let records = [self.record(nodes[0])?, self.record(nodes[1])?];
+        Ok(structure::exchange(
+            &self.text,
+            records.map(|record| self.block(record)),
+            records.map(|record| self.tree.span_of(record)),
+            neighbour,
+        ))
+    }
+
+    fn called(&self, node: Node) -> Option<&str> {
+        let record = self.record(node).ok()?;
+        let identities = Identity::all(&self.text, self.tree.tokens_of(&self.text, record));
+        let own = identities.iter().find(|identity| identity.is_definition)?;
+        Some(own.span.of(&self.text))
+    }
+
+    fn renaming(&self, node: Node, name: &str) -> Result<Vec<Edit>, StructureError> {
+        let refused = |reason: String| Err(StructureError::Name(reason));
+        let (Some(category), Some(old)) = (category(node), self.called(node)) else {
+            return refused(format!("{} has no ID", self.name(node)));
+        };
+        let id = parse_number(name).ok().filter(|id| id.fract() == 0.0);
+        let Some(id) = id.filter(|id| id.abs() < 1e15).map(|id| id as i64) else {
+            return refused("an ID is a whole number".to_owned());
+        };
+        let Ok(old) = old.parse::<i64>() else {
+            return refused(format!("{} has no ID", self.name(node)));
+        };
+        if id != old && self.ids(category).contains(&id) {
+            return refused(format!("{} {id} exists already", category.word()));
+        }
+        let records = 0..self.tree.records.len();
+        let all = records
+            .flat_map(|record| Identity::all(&self.text, self.tree.tokens_of(&self.text, record)));
+        let same = all.filter(|identity| identity.category == category && identity.id == old);
+        let edit = |identity: Identity| Edit {
+            span: identity.span,
+            text: id.to_string(),
+        };
+        Ok(same.map(edit).collect())
+    }
+}
+
+impl Source {
+    /// The objects that cannot stay without these nodes: those that have a material among them, or
+    /// combine objects that go.
+    fn dependents(&self, nodes: &[Node]) -> Vec<Node> {
+        let nodes: HashSet<_> = nodes.iter().copied().collect();
+        let objects = self.origins.objects.iter().enumerate();
+        let mut goes: Vec<bool> = Vec::new();
+        // Operands and materials are defined before their use.
+        for (index, object) in objects {
+            let material = object.material.map(Node::Material);
+            let mut operands = object.operands.iter().flatten();
+            let is_gone = nodes.contains(&Node::Object(index))
+                || material.is_some_and(|material| nodes.contains(&material))
+                || operands.any(|&operand| goes[operand]);
+            goes.push(is_gone);
+        }
+        let objects = goes.iter().enumerate().filter(|(_, goes)| **goes);
+        let objects = objects.map(|(index, _)| Node::Object(index));
+        objects.filter(|node| !nodes.contains(node)).collect()
+    }
+
+    /// The record after which copies stand: that of `after` if nothing they use follows it and they
+    /// are of its kind, otherwise the last that they may follow. `None` in an empty text.
+    fn anchor(&self, copies: &Copies, after: Node) -> Option<usize> {
+        let used = copies
+            .used()
+            .filter_map(|(category, id)| self.definition(category, id));
+        let used = used.max();
+        let own = self.record(after).ok();
+        let is_kind = category(after).is_some() && category(after) == copies.category();
+        let own = own.filter(|_| is_kind);
+        let last = || {
+            let origins = &self.origins;
+            let of = |places: &[Place]| places.last().map(|place| place.record);
+            let objects = origins.objects.last().map(|object| object.record);
+            let same = match copies.category() {
+                Some(Category::Light) => of(&origins.lights),
+                Some(Category::Material) => of(&origins.materials),
+                Some(Category::Texture) => of(&origins.textures),
+                Some(Category::Object) | None => objects,
+            };
+            let any = || self.tree.records.len().checked_sub(1);
+            same.or_else(any)
+        };
+        let uses = || {
+            // A `use` record belongs to the material before it.
+            let record = own.or_else(last)?;
+            let origins = &self.origins;
+            let uses = origins.uses.iter().filter(|at| {
+                let material = origins.materials.get(at.material);
+                material.is_some_and(|material| material.record == record)
+            });
+            uses.map(|at| at.record).chain([record]).max()
+        };
+        uses().max(used)
+    }
+
+    /// The IDs in use.
+    fn ids(&self, category: Category) -> HashSet<i64> {
+        let of = |places: &[Place]| places.iter().map(|place| place.id).collect();
+        match category {
+            Category::Light => of(&self.origins.lights),
+            Category::Material => of(&self.origins.materials),
+            Category::Texture => of(&self.origins.textures),
+            Category::Object => self.origins.objects.iter().map(|at| at.id).collect(),
+        }
+    }
+
+    /// The record that defines an ID.
+    fn definition(&self, category: Category, id: i64) -> Option<usize> {
+        let of = |places: &[Place]| Some(places.iter().find(|place| place.id == id)?.record);
+        match category {
+            Category::Light => of(&self.origins.lights),
+            Category::Material => of(&self.origins.materials),
+            Category::Texture => of(&self.origins.textures),
+            Category::Object => {
+                let mut objects = self.origins.objects.iter();
+                Some(objects.find(|object| object.id == id)?.record)
+            }
+        }
+    }
+
+    /// The record that defines a node.
+    fn record(&self, node: Node) -> Result<usize, StructureError> {
+        let own = match node {
+            Node::View => None,
+            _ => self.origins.records(node).next(),
+        };
+        own.map(|(record, _)| record)
+            .ok_or_else(|| StructureError::Fixed(self.name(node)))
+    }
+
+    /// The lines that move with a record.
+    fn block(&self, record: usize) -> Block {
+        let text = &*self.text;
+        let comment_above = |start| {
+            let line = line_before(text, start)?;
+            is_comment(line.of(text).trim()).then_some(line.start())
+        };
+        Block::Lines(lines(text, self.tree.span_of(record), comment_above))
+    }
+}
+
+/// The category of a node with an ID.
+fn category(node: Node) -> Option<Category> {
+    match node {
+        Node::Light(_) => Some(Category::Light),
+        Node::Material(_) => Some(Category::Material),
+        Node::Texture(_) => Some(Category::Texture),
+        Node::Object(_) => Some(Category::Object),
+        Node::View | Node::Ambient | Node::Background | Node::Environment => None,
+    }
+}

@@ -1,0 +1,252 @@
+//! What deleting, copying and moving mean in a `.ray` text: its counts follow.
+
+use super::Source;
+use super::table::{LIGHT, ShapeKind};
+use super::tree::{self, comment_of_line};
+use crate::language::structure::{
+    Block, adapted, deletions, line_before, lines, lines_after, pair,
+};
+use crate::language::table;
+use crate::language::view::line_ending;
+use crate::language::{
+    Answers, Neighbour, Node, Placement, Restructure, StructureError, structure,
+};
+use crate::text::{Edit, Span, counted, line_end, line_start};
+
+/// The kinds of nodes of which a text states the number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Counted {
+    Lights,
+    Objects,
+}
+
+impl Restructure for Source {
+    fn consequence(&self, _: &[Node]) -> Option<String> {
+        None
+    }
+
+    fn removal(&self, nodes: &[Node]) -> Result<Vec<Edit>, StructureError> {
+        let nodes = ordered(nodes);
+        let mut counts = Vec::new();
+        for kind in [Counted::Lights, Counted::Objects] {
+            let mut removed = 0;
+            for &node in &nodes {
+                removed += usize::from(Counted::of(self, node)?.0 == kind);
+            }
+            match kind.number(self).checked_sub(removed) {
+                _ if removed == 0 => {}
+                None | Some(0) => return Err(kind.last()),
+                Some(left) => counts.push(kind.edit(self, left)),
+            }
+        }
+        let blocks = nodes.iter().map(|&node| block(self, node));
+        let mut edits = deletions(&self.text, blocks);
+        if let Some(view) = self.origins.view {
+            let holds = |edit: &&mut Edit| edit.span.range().contains(&view.comment.start());
+            if let Some(edit) = edits.iter_mut().find(holds) {
+                // What follows on the line must not become part of the comment.
+                let end = edit.span.end();
+                let behind = &self.text[end..line_end(&self.text, end)];
+                let is_last = behind.trim().is_empty() && !edit.span.of(&self.text).ends_with('\n');
+                let ending = if is_last { "" } else { line_ending(&self.text) };
+                edit.text = format!("{}{ending}", view.comment.of(&self.text));
+            }
+        }
+        edits.extend(counts);
+        edits.sort_by_key(|edit| edit.span);
+        Ok(edits)
+    }
+
+    fn copied(&self, nodes: &[Node]) -> Result<String, StructureError> {
+        let mut copies = Vec::new();
+        for node in ordered(nodes) {
+            Counted::of(self, node)?;
+            let block = block(self, node).span();
+            copies.push(self.without_view(block));
+        }
+        Ok(copies.join(line_ending(&self.text)))
+    }
+
+    fn insertion(&self, text: &str, after: Node) -> Result<Placement, StructureError> {
+        let [lights, objects] = split(text)?;
+        let mut edits = Vec::new();
+        let mut at = 0;
+        for (kind, (copies, number)) in [(Counted::Lights, lights), (Counted::Objects, objects)] {
+            if number == 0 {
+                continue;
+            }
+            edits.push(kind.edit(self, kind.number(self) + number));
+            at = edits.len();
+            edits.push(kind.insertion(self, &copies, after));
+        }
+        Ok(Placement { edits, at })
+    }
+
+    fn exchange(&self, node: Node, neighbour: Neighbour) -> Result<Placement, StructureError> {
+        let (kind, index) = Counted::of(self, node)?;
+        let pair = pair(index, kind.number(self), neighbour)
+            .ok_or_else(|| StructureError::at_end(self.name(node), neighbour, ""))?;
+        let nodes = pair.map(|index| kind.node(index));
+        Ok(structure::exchange(
+            &self.text,
+            nodes.map(|node| block(self, node)),
+            nodes.map(|node| self.span(node)),
+            neighbour,
+        ))
+    }
+
+    fn called(&self, _: Node) -> Option<&str> {
+        None
+    }
+
+    fn renaming(&self, _: Node, _: &str) -> Result<Vec<Edit>, StructureError> {
+        let reason = "a .ray scene has no names; a comment can say what this is";
+        Err(StructureError::Name(reason.to_owned()))
+    }
+}
+
+impl Counted {
+    fn of(source: &Source, node: Node) -> Result<(Self, usize), StructureError> {
+        match node {
+            Node::Light(index) => Ok((Self::Lights, index)),
+            Node::Object(index) => Ok((Self::Objects, index)),
+            _ => Err(StructureError::Fixed(source.name(node))),
+        }
+    }
+
+    fn node(self, index: usize) -> Node {
+        match self {
+            Self::Lights => Node::Light(index),
+            Self::Objects => Node::Object(index),
+        }
+    }
+
+    /// The number of such nodes in a text without errors.
+    fn number(self, source: &Source) -> usize {
+        match self {
+            Self::Lights => source.origins.light_count(),
+            Self::Objects => source.origins.objects.len(),
+        }
+    }
+
+    /// The edit that states their number.
+    fn edit(self, source: &Source, number: usize) -> Edit {
+        let (first, count) = source.origins.lights;
+        let token = match self {
+            Self::Lights => first.saturating_sub(1),
+            Self::Objects => first + count,
+        };
+        Edit {
+            span: source.tree.tokens.get(token).unwrap_or_default(),
+            text: number.to_string(),
+        }
+    }
+
+    /// The edit that writes copies after a node, or after the last of the kind.
+    fn insertion(self, source: &Source, copies: &str, after: Node) -> Edit {
+        let is_kind = |node| Self::of(source, node).is_ok_and(|(kind, _)| kind == self);
+        let last = self.node(self.number(source).saturating_sub(1));
+        let text = &*source.text;
+        match block(source, if is_kind(after) { after } else { last }) {
+            Block::Lines(block) => lines_after(text, block, &adapted(copies, text)),
+            // On a shared line, a comment would hide what follows.
+            Block::Part(own) => {
+                let tokens = tree::parse(copies).tokens;
+                let words = tokens.range(0..tokens.len());
+                let words: Vec<_> = words.iter().map(|word| word.of(copies)).collect();
+                Edit {
+                    span: Span::at(own.end()),
+                    text: format!(" {}", words.join(" ")),
+                }
+            }
+        }
+    }
+
+    /// Why the last of them cannot be deleted.
+    fn last(self) -> StructureError {
+        let noun = match self {
+            Self::Lights => "light",
+            Self::Objects => "object",
+        };
+        let reason = "a .ray scene has at least one";
+        StructureError::Last { noun, reason }
+    }
+}
+
+impl Source {
+    /// The text of a block, without the view comment.
+    fn without_view(&self, block: Span) -> String {
+        let mut copy = block.of(&self.text).to_owned();
+        if let Some(view) = self.origins.view
+            && block.range().contains(&view.comment.start())
+        {
+            let start = view.comment.start() - block.start();
+            copy.replace_range(start..start + view.comment.len(), "");
+        }
+        copy
+    }
+}
+
+/// These nodes, each once, in text order.
+fn ordered(nodes: &[Node]) -> Vec<Node> {
+    let mut nodes = nodes.to_vec();
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes
+}
+
+/// Splits a copied text into lights and objects, each with their number.
+fn split(text: &str) -> Result<[(String, usize); 2], StructureError> {
+    let tokens = tree::parse(text).tokens;
+    let all = tokens.range(0..tokens.len());
+    let is_keyword = |token: &&Span| ShapeKind::of_word(token.of(text)).is_some();
+    let objects = all.iter().filter(is_keyword).count();
+    let first = all.iter().find(is_keyword);
+    let numbers = all.iter().take_while(|token| !is_keyword(token));
+    let lights = numbers.clone().count();
+    let each = table::numbers(LIGHT);
+    if all.is_empty() || lights % each != 0 {
+        let reason = match lights {
+            0 => "it is empty".to_owned(),
+            _ => format!(
+                "expected objects, or lights of {}, but it begins with {}",
+                counted(each, "number"),
+                counted(lights, "word")
+            ),
+        };
+        return Err(StructureError::Foreign { reason });
+    }
+    // Comments behind a light's last number belong to it.
+    let border = match (numbers.last(), first) {
+        (Some(last), Some(first)) => line_end(text, last.end()).min(first.start()),
+        (Some(_), None) => text.len(),
+        (None, _) => 0,
+    };
+    let [before, behind] = [&text[..border], &text[border..]].map(str::to_owned);
+    Ok([(before, lights / each), (behind, objects)])
+}
+
+/// The text that moves with a node. The view comment moves with none.
+fn block(source: &Source, node: Node) -> Block {
+    let text = &*source.text;
+    let own = source.span(node);
+    let view = source.origins.view.map(|view| view.comment);
+    let comment_above = |start| {
+        let line = line_before(text, start)?;
+        let comment = comment_of_line(text, line.start())?;
+        let is_alone = text[line.start()..comment.start()].trim().is_empty();
+        (is_alone && Some(comment) != view).then_some(line.start())
+    };
+    let before = Span::new(line_start(text, own.start()), own.start());
+    let behind = Span::new(own.end(), line_end(text, own.end()));
+    let comment = comment_of_line(text, own.end()).map_or(behind.end(), Span::start);
+    let is_blank = |span: Span| span.of(text).trim().is_empty();
+    let is_alone = is_blank(before) && is_blank(Span::new(own.end(), comment));
+    let lines = lines(text, own, comment_above);
+    let holds = |view: Span| lines.range().contains(&view.start());
+    if is_alone && !view.is_some_and(holds) {
+        Block::Lines(lines)
+    } else {
+        Block::Part(own)
+    }
+}

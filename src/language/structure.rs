@@ -1,0 +1,272 @@
+//! Changes of a scene's structure as edits of its text: what every language can delete, copy, move
+//! and name; and the text that goes with a node.
+
+use super::Node;
+use super::view::line_ending;
+use crate::text::{Edit, Span, line_end, line_start, next_line};
+
+/// How a language changes the structure of a text, which must be free of errors. Counts, lists, IDs
+/// and names in the text follow.
+pub trait Restructure {
+    /// What deleting these nodes does to others, as a sentence; `None` if it does nothing.
+    fn consequence(&self, nodes: &[Node]) -> Option<String>;
+
+    /// Returns the edits that delete nodes, with the comments on them, and whatever cannot stay
+    /// without them.
+    ///
+    /// # Errors
+    ///
+    /// Fails if a scene cannot do without one of them.
+    fn removal(&self, nodes: &[Node]) -> Result<Vec<Edit>, StructureError>;
+
+    /// The text of nodes, with the comments on them, in text order: what
+    /// [`Restructure::insertion`] takes.
+    ///
+    /// # Errors
+    ///
+    /// Fails if a scene has exactly one of such a node.
+    fn copied(&self, nodes: &[Node]) -> Result<String, StructureError>;
+
+    /// Returns the edits that insert copied text after a node, or where the language permits it.
+    /// IDs and names that are in use are replaced by unused ones.
+    ///
+    /// # Errors
+    ///
+    /// Fails if the text is not one of nodes of this language. Their values are not checked.
+    fn insertion(&self, text: &str, after: Node) -> Result<Placement, StructureError>;
+
+    /// Returns the edits that exchange a node and its neighbour of the same kind in the same group.
+    ///
+    /// # Errors
+    ///
+    /// Fails if there is no such neighbour.
+    fn exchange(&self, node: Node, neighbour: Neighbour) -> Result<Placement, StructureError>;
+
+    /// The name or ID by which the text calls a node; `None` if it has none.
+    fn called(&self, node: Node) -> Option<&str>;
+
+    /// Returns the edits that give a node another name or ID; references to it follow.
+    ///
+    /// # Errors
+    ///
+    /// Fails if the language does not name such nodes, or the name is in use.
+    fn renaming(&self, node: Node, name: &str) -> Result<Vec<Edit>, StructureError>;
+}
+
+/// The neighbour with which a node exchanges places.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Neighbour {
+    /// The one before it.
+    Previous,
+    /// The one after it.
+    Next,
+}
+
+/// Why a text cannot be restructured as requested.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum StructureError {
+    /// The node stands for a part that every scene has once.
+    #[error("{0} cannot be copied, moved or deleted")]
+    Fixed(String),
+    /// The language requires at least one such node.
+    #[error("the last {noun} cannot be deleted: {reason}")]
+    Last {
+        /// The noun for the kind of node.
+        noun: &'static str,
+        /// What requires it.
+        reason: &'static str,
+    },
+    /// A node must stay after another, to which its text refers.
+    #[error("{user} must stay after {used}, which it uses")]
+    Order {
+        /// The name of the node that refers to the other.
+        user: String,
+        /// The name of the other.
+        used: String,
+    },
+    /// A text is not one of nodes of the language.
+    #[error("this cannot be inserted: {reason}")]
+    Foreign {
+        /// What was expected, or what is wrong.
+        reason: String,
+    },
+    /// A node cannot be renamed.
+    #[error("{0}")]
+    Name(String),
+    /// There is no neighbour to exchange places with.
+    #[error("{name} is already the {end}{place}")]
+    AtEnd {
+        /// The node's name.
+        name: String,
+        /// `first` or `last`.
+        end: &'static str,
+        /// Of what, if not of all nodes of its kind.
+        place: &'static str,
+    },
+}
+
+impl StructureError {
+    /// The error for a node without a neighbour on this side; `place` says among what.
+    pub(super) fn at_end(name: String, neighbour: Neighbour, place: &'static str) -> Self {
+        let end = match neighbour {
+            Neighbour::Previous => "first",
+            Neighbour::Next => "last",
+        };
+        Self::AtEnd { name, end, place }
+    }
+}
+
+/// Edits that copy or move a node.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Placement {
+    /// The edits, sorted and disjoint.
+    pub edits: Vec<Edit>,
+    /// The index of the edit that writes the node.
+    pub at: usize,
+}
+
+/// The text of a node with what belongs to it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Block {
+    /// Whole lines, comments on the node included, without the end of the last line.
+    Lines(Span),
+    /// The node alone: it shares a line with others.
+    Part(Span),
+}
+
+impl Block {
+    pub(super) fn span(self) -> Span {
+        match self {
+            Self::Lines(span) | Self::Part(span) => span,
+        }
+    }
+}
+
+/// The whole lines of a text and of the comment lines directly before it. `above` maps the start of
+/// a line to the start of the comment that ends on the line before, if only a comment does.
+pub(super) fn lines(text: &str, own: Span, above: impl Fn(usize) -> Option<usize>) -> Span {
+    let mut start = line_start(text, own.start());
+    while let Some(comment) = above(start) {
+        start = comment;
+    }
+    Span::new(start, line_end(text, own.end()))
+}
+
+/// The line before the one that starts at `start`.
+pub(super) fn line_before(text: &str, start: usize) -> Option<Span> {
+    let start = line_start(text, start.checked_sub(1)?);
+    Some(Span::new(start, line_end(text, start)))
+}
+
+/// Returns the edits that delete blocks: with whole lines go the blank lines before them, unless
+/// other lines follow directly.
+pub(super) fn deletions(text: &str, blocks: impl Iterator<Item = Block>) -> Vec<Edit> {
+    let mut spans: Vec<_> = blocks.map(|block| deletion(text, block)).collect();
+    spans.sort_unstable();
+    let mut merged: Vec<Span> = Vec::with_capacity(spans.len());
+    for span in spans {
+        match merged.last_mut() {
+            Some(last) if span.start() <= last.end() => {
+                *last = last.to(Span::new(last.start(), last.end().max(span.end())))
+            }
+            _ => merged.push(span),
+        }
+    }
+    let delete = |span| Edit {
+        span,
+        text: String::new(),
+    };
+    merged.into_iter().map(delete).collect()
+}
+
+/// The text that goes with a deleted block.
+fn deletion(text: &str, block: Block) -> Span {
+    let is_blank = |line: Span| line.of(text).trim().is_empty();
+    match block {
+        Block::Lines(span) => {
+            let end = next_line(text, span.end());
+            let mut start = span.start();
+            if end == text.len() || is_blank(Span::new(end, line_end(text, end))) {
+                while let Some(before) = line_before(text, start).filter(|line| is_blank(*line)) {
+                    start = before.start();
+                }
+            }
+            let is_last = end == span.end();
+            if let Some(before) = line_before(text, start).filter(|_| is_last) {
+                start = before.end();
+            }
+            Span::new(start, end)
+        }
+        Block::Part(span) => {
+            let blank = [' ', '\t'];
+            let behind = &text[span.end()..];
+            let end = text.len() - behind.trim_start_matches(blank).len();
+            if end < line_end(text, end) {
+                return Span::new(span.start(), end);
+            }
+            let before = text[..span.start()].trim_end_matches(blank);
+            Span::new(before.len(), end)
+        }
+    }
+}
+
+/// Returns the edit that writes whole lines after a block of whole lines, separated by a blank line
+/// if one precedes the block.
+pub(super) fn lines_after(text: &str, block: Span, lines: &str) -> Edit {
+    let ending = line_ending(text);
+    let before = line_before(text, block.start());
+    let gap = before.filter(|line| line.of(text).trim().is_empty());
+    Edit {
+        span: Span::at(block.end()),
+        text: format!("{ending}{}{lines}", gap.map_or("", |_| ending)),
+    }
+}
+
+/// A copied text without surrounding blank lines, with the line endings of another text.
+pub(super) fn adapted(copied: &str, text: &str) -> String {
+    let lines = copied.lines().map(|line| line.trim_end_matches('\r'));
+    let lines: Vec<_> = lines.collect();
+    let is_blank = |line: &&str| line.trim().is_empty();
+    let start = lines.iter().take_while(|line| is_blank(line)).count();
+    let end = lines.len()
+        - lines[start..]
+            .iter()
+            .rev()
+            .take_while(|line| is_blank(line))
+            .count();
+    lines[start..end].join(line_ending(text))
+}
+
+/// Returns the edits that exchange two nodes, the first of which precedes the second; `node` is the
+/// one that moves. `parts` are their texts alone, for blocks that share lines.
+pub(super) fn exchange(
+    text: &str,
+    blocks: [Block; 2],
+    parts: [Span; 2],
+    neighbour: Neighbour,
+) -> Placement {
+    let [first, second] = match blocks {
+        [Block::Lines(first), Block::Lines(second)] => [first, second],
+        _ => parts,
+    };
+    let replace = |span, by: Span| Edit {
+        span,
+        text: by.of(text).to_owned(),
+    };
+    Placement {
+        edits: vec![replace(first, second), replace(second, first)],
+        at: match neighbour {
+            Neighbour::Previous => 0,
+            Neighbour::Next => 1,
+        },
+    }
+}
+
+/// The pair of indices to exchange, in order, of `count` nodes; `None` at the end.
+pub(super) fn pair(index: usize, count: usize, neighbour: Neighbour) -> Option<[usize; 2]> {
+    let first = match neighbour {
+        Neighbour::Previous => index.checked_sub(1)?,
+        Neighbour::Next => index,
+    };
+    (first + 1 < count).then_some([first, first + 1])
+}

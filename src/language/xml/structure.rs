@@ -1,0 +1,326 @@
+//! What deleting, copying and moving mean in an `.xml` text: an element goes with all that is in
+//! it, and copies get names of their own.
+
+use std::collections::HashSet;
+
+use super::Source;
+use super::copies::Copies;
+use super::table::ObjectKind;
+use super::tree::{escaped, quote};
+use crate::language::structure::{Block, deletions, line_before, lines};
+use crate::language::view::line_ending;
+use crate::language::{
+    Answers, Neighbour, Node, Placement, Restructure, StructureError, structure,
+};
+use crate::text::{Edit, Span, counted, line_end, line_start};
+
+impl Restructure for Source {
+    fn consequence(&self, nodes: &[Node]) -> Option<String> {
+        match self.users_outside(nodes).len() {
+            0 => None,
+            1 => Some("1 object that uses it turns white".to_owned()),
+            users => Some(format!(
+                "{} that use it turn white",
+                counted(users, "object")
+            )),
+        }
+    }
+
+    fn removal(&self, nodes: &[Node]) -> Result<Vec<Edit>, StructureError> {
+        let blocks: Result<Vec<_>, _> = nodes.iter().map(|&node| self.block(node)).collect();
+        let mut edits = deletions(&self.text, blocks?.into_iter());
+        let users = self.users_outside(nodes);
+        edits.extend(
+            users
+                .into_iter()
+                .filter_map(|user| self.without_material(user)),
+        );
+        edits.sort_by_key(|edit| edit.span);
+        Ok(edits)
+    }
+
+    fn copied(&self, nodes: &[Node]) -> Result<String, StructureError> {
+        let mut copied: Vec<Span> = Vec::new();
+        let mut spans = Vec::new();
+        for &node in nodes {
+            spans.push(self.block(node)?.span());
+        }
+        spans.sort_unstable();
+        for span in spans {
+            // An element in another goes with that.
+            if copied.last().is_none_or(|last| last.end() < span.end()) {
+                copied.push(span);
+            }
+        }
+        let copies: Vec<_> = copied.iter().map(|span| span.of(&self.text)).collect();
+        Ok(copies.join(line_ending(&self.text)))
+    }
+
+    fn insertion(&self, text: &str, after: Node) -> Result<Placement, StructureError> {
+        let mut copies = Copies::of(text)?;
+        copies.rename(&self.names());
+        let (tree, origins) = (&self.tree, &self.origins);
+        let own = match after {
+            Node::Light(_) | Node::Material(_) | Node::Object(_) => origins.element(tree, after),
+            _ => None,
+        };
+        let same = |child: usize| {
+            let node = origins.node_of(child)?;
+            let is_kind = |kind: &str| copies.is_all(kind);
+            let same = match node {
+                Node::Light(_) => is_kind("light"),
+                Node::Material(_) => is_kind("material"),
+                Node::Object(_) => is_kind("object"),
+                _ => false,
+            };
+            (same && origins.element(tree, node) == Some(child)).then_some(child)
+        };
+        let scene = origins.scene.ok_or_else(|| StructureError::Foreign {
+            reason: "there is no <scene> to hold it".to_owned(),
+        })?;
+        let children = || tree.children(scene).collect::<Vec<_>>();
+        let anchor = own.and_then(same).or_else(|| {
+            let children = children();
+            let last = children.iter().rev().find_map(|&child| same(child));
+            last.or_else(|| children.last().copied())
+        });
+        let ending = line_ending(&self.text);
+        let edit = match anchor {
+            Some(anchor) => {
+                let element = &tree.elements[anchor];
+                let indent = &self.text
+                    [line_start(&self.text, element.whole.start())..element.whole.start()];
+                let indent = if indent.trim().is_empty() { indent } else { "" };
+                let end = self.with_comment_behind(element.whole);
+                let gap = line_before(&self.text, line_start(&self.text, element.whole.start()))
+                    .filter(|line| line.of(&self.text).trim().is_empty());
+                let gap = gap.map_or("", |_| ending);
+                Edit {
+                    span: Span::at(end),
+                    text: format!("{ending}{gap}{}", copies.indented(indent, ending)),
+                }
+            }
+            None => {
+                let scene = &tree.elements[scene];
+                let own = scene.lead.of(&self.text).trim_start_matches(['\r', '\n']);
+                let inner = format!("{own}  ");
+                let copies = copies.indented(&inner, ending);
+                let content = format!("{ending}{copies}{ending}{own}");
+                if scene.is_empty_tag() {
+                    let name = scene.name.of(&self.text);
+                    Edit {
+                        span: Span::new(scene.attributes_end as usize, scene.tag.end()),
+                        text: format!(">{content}</{name}>"),
+                    }
+                } else {
+                    Edit {
+                        span: Span::new(scene.tag.end(), scene.tag.end()),
+                        text: content,
+                    }
+                }
+            }
+        };
+        Ok(Placement {
+            edits: vec![edit],
+            at: 0,
+        })
+    }
+
+    fn exchange(&self, node: Node, neighbour: Neighbour) -> Result<Placement, StructureError> {
+        let own = self.block(node)?;
+        let sibling = self.sibling(node, neighbour).ok_or_else(|| {
+            let place = match node {
+                Node::Object(_) if self.depth(node) != 0 => " in its group",
+                _ => "",
+            };
+            StructureError::at_end(self.name(node), neighbour, place)
+        })?;
+        let other = self.block(sibling)?;
+        let spans = [self.span(node), self.span(sibling)];
+        let (blocks, parts) = match neighbour {
+            Neighbour::Next => ([own, other], spans),
+            Neighbour::Previous => ([other, own], [spans[1], spans[0]]),
+        };
+        Ok(structure::exchange(&self.text, blocks, parts, neighbour))
+    }
+
+    fn called(&self, node: Node) -> Option<&str> {
+        if !matches!(node, Node::Light(_) | Node::Material(_) | Node::Object(_))
+            || self.names_file(node)
+        {
+            return None;
+        }
+        let element = self.origins.element(&self.tree, node)?;
+        let name = self.origins.value(&self.tree, element, "name");
+        Some(name.map_or("", |name| name.unescaped(&self.text)))
+    }
+
+    fn renaming(&self, node: Node, name: &str) -> Result<Vec<Edit>, StructureError> {
+        let refused = |reason: String| Err(StructureError::Name(reason));
+        let Some(old) = self.called(node) else {
+            return refused(if self.names_file(node) {
+                "the name of an obj is that of its file: edit its field".to_owned()
+            } else {
+                format!("{} has no name", self.name(node))
+            });
+        };
+        if name.trim().is_empty() {
+            return refused("a name must not be empty".to_owned());
+        }
+        let is_material = matches!(node, Node::Material(_));
+        let materials = self.origins.materials.iter();
+        let mut named = materials.filter_map(|place| place.name.as_deref());
+        if is_material && name != old && named.any(|known| known == name) {
+            return refused(format!("a material is named {name} already"));
+        }
+        let (tree, origins) = (&self.tree, &self.origins);
+        let element = origins.element(tree, node).unwrap_or_default();
+        let mut edits = vec![match origins.value(tree, element, "name") {
+            Some(value) => self.replaced(value.value, name),
+            None => Edit {
+                span: Span::at(tree.elements[element].attributes_end as usize),
+                text: format!(" name=\"{}\"", escaped(name, '"')),
+            },
+        }];
+        if let Node::Material(material) = node {
+            let users = origins.object_materials.iter().enumerate();
+            let users = users.filter(|(_, of)| **of == Some(material));
+            let values = users.filter_map(|(user, _)| {
+                let element = origins.element(tree, Node::Object(user))?;
+                origins.value(tree, element, "material")
+            });
+            edits.extend(values.map(|value| self.replaced(value.value, name)));
+        }
+        edits.sort_by_key(|edit| edit.span);
+        Ok(edits)
+    }
+}
+
+impl Source {
+    fn replaced(&self, value: Span, name: &str) -> Edit {
+        Edit {
+            span: value,
+            text: escaped(name, quote(&self.text, value)).into_owned(),
+        }
+    }
+
+    /// The objects outside these nodes that name one of these materials.
+    fn users_outside(&self, nodes: &[Node]) -> Vec<usize> {
+        let nodes: HashSet<_> = nodes.iter().copied().collect();
+        let named = self.origins.object_materials.iter().enumerate();
+        let users = named.filter_map(|(object, material)| {
+            let is_user = nodes.contains(&Node::Material((*material)?));
+            is_user.then_some(object)
+        });
+        let elements: Vec<_> = nodes.iter().map(|&node| self.span(node)).collect();
+        let is_in = |inner: Span| {
+            let holds = |outer: &Span| outer.start() <= inner.start() && inner.end() <= outer.end();
+            elements.iter().any(holds)
+        };
+        users
+            .filter(|&user| !is_in(self.span(Node::Object(user))))
+            .collect()
+    }
+
+    /// The edit that removes an object's reference to its material.
+    fn without_material(&self, object: usize) -> Option<Edit> {
+        let element = self.origins.element(&self.tree, Node::Object(object))?;
+        let attribute = self.origins.value(&self.tree, element, "material")?;
+        let before = self.text[..attribute.name.start()].trim_end().len();
+        Some(Edit {
+            span: Span::new(before, attribute.value.end() + 1),
+            text: String::new(),
+        })
+    }
+
+    /// The names of lights, materials and objects in use.
+    fn names(&self) -> [HashSet<&str>; 3] {
+        let origins = &self.origins;
+        let lights = origins.lights.iter();
+        let materials = origins.materials.iter();
+        let objects = origins.objects.iter();
+        [
+            lights.filter_map(|at| at.name.as_deref()).collect(),
+            materials.filter_map(|at| at.name.as_deref()).collect(),
+            objects.filter_map(|at| at.name.as_deref()).collect(),
+        ]
+    }
+
+    /// The neighbour of the same kind in the same element.
+    fn sibling(&self, node: Node, neighbour: Neighbour) -> Option<Node> {
+        let (tree, origins) = (&self.tree, &self.origins);
+        let element = origins.element(tree, node)?;
+        let parent = tree.elements.get(element)?.parent? as usize;
+        let is_alike =
+            |&other: &Node| std::mem::discriminant(&other) == std::mem::discriminant(&node);
+        let mut before = None;
+        let mut is_found = false;
+        for child in tree.children(parent) {
+            // Parameters of the node's own kind belong to other nodes.
+            let Some(other) = origins.node_of(child).filter(is_alike) else {
+                continue;
+            };
+            if origins.element(tree, other) != Some(child) {
+                continue;
+            }
+            match neighbour {
+                Neighbour::Previous if child == element => return before,
+                Neighbour::Next if is_found => return Some(other),
+                _ => {}
+            }
+            is_found |= child == element;
+            before = Some(other);
+        }
+        None
+    }
+
+    /// Whether a node's name is that of a file.
+    fn names_file(&self, node: Node) -> bool {
+        let Node::Object(index) = node else {
+            return false;
+        };
+        let object = self.origins.objects.get(index);
+        object.is_some_and(|object| object.kind == ObjectKind::Obj)
+    }
+
+    /// The end of an element, with the comment behind it on its last line.
+    fn with_comment_behind(&self, own: Span) -> usize {
+        let (text, comments) = (&*self.text, &self.tree.comments);
+        let next = comments.partition_point(|comment| comment.start() < own.end());
+        let behind = comments.get(next).filter(|comment| {
+            comment.start() <= line_end(text, own.end())
+                && text[own.end()..comment.start()].trim().is_empty()
+        });
+        behind.map_or(own.end(), |comment| comment.end())
+    }
+
+    /// The text that moves with a node.
+    fn block(&self, node: Node) -> Result<Block, StructureError> {
+        let (text, tree) = (&*self.text, &self.tree);
+        let fixed = || StructureError::Fixed(self.name(node));
+        if !matches!(node, Node::Light(_) | Node::Material(_) | Node::Object(_)) {
+            return Err(fixed());
+        }
+        let element = self.origins.element(tree, node).ok_or_else(fixed)?;
+        let own = tree.elements.get(element).ok_or_else(fixed)?.whole;
+        let is_blank = |from: usize, to: usize| text[from..to].trim().is_empty();
+        let end = self.with_comment_behind(own);
+        let is_alone = is_blank(line_start(text, own.start()), own.start())
+            && is_blank(end, line_end(text, end));
+        if !is_alone {
+            return Ok(Block::Part(own));
+        }
+        let comment_above = |start| {
+            let line = line_before(text, start)?;
+            let next = tree
+                .comments
+                .partition_point(|comment| comment.end() <= line.end());
+            let comment = tree.comments[..next].last()?;
+            let first = line_start(text, comment.start());
+            let ends_there = line.start() <= comment.end() && is_blank(comment.end(), line.end());
+            (ends_there && is_blank(first, comment.start())).then_some(first)
+        };
+        let own = Span::new(own.start(), end);
+        Ok(Block::Lines(lines(text, own, comment_above)))
+    }
+}
