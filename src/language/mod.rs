@@ -385,14 +385,14 @@ pub trait Answers: Editable + Restructure {
     /// written, and those whose defaults would move with them.
     fn view_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit>;
 
-    /// Returns the edits that show or hide an object, by index, and leave all others as they are.
+    /// Returns the edits that show or hide objects, by index, and leave all others as they are.
     ///
     /// # Errors
     ///
     /// Fails with the reason if no text can express that.
     fn visibility_edits(
         &self,
-        object: usize,
+        objects: &[usize],
         wanted: Visibility,
     ) -> Result<Vec<Edit>, &'static str>;
 }

@@ -275,6 +275,10 @@ impl Runtime {
                 let outcome = outcome.map_err(|failure| failure.to_string());
                 return Ok(Some(Msg::EditorClosed(outcome)));
             }
+            Effect::CopyText(text) => {
+                let copied = self.terminal.copy(&text);
+                copied.map_err(Failure::Terminal)?;
+            }
             Effect::SetMouse(mouse) => {
                 let set = self.terminal.set_mouse(mouse);
                 set.map_err(Failure::Terminal)?;

@@ -190,6 +190,8 @@ pub enum Effect {
         /// Line number, from 1.
         line: usize,
     },
+    /// Offers text to the terminal's clipboard (OSC 52), which may ignore it.
+    CopyText(String),
     /// Takes the mouse or leaves it to the terminal.
     SetMouse(Mouse),
     /// Redraws the whole screen.

@@ -206,10 +206,10 @@ impl Answers for Source {
 
     fn visibility_edits(
         &self,
-        object: usize,
+        objects: &[usize],
         wanted: Visibility,
     ) -> Result<Vec<Edit>, &'static str> {
-        visibility::edits(&self.text, &self.tree, &self.origins, object, wanted)
+        visibility::edits(&self.text, &self.tree, &self.origins, objects, wanted)
     }
 
     fn view_fields(&self) -> Vec<&'static Field> {

@@ -1,5 +1,7 @@
 //! Edits that show or hide objects, in the `render` record of `.dat`.
 
+use std::collections::HashSet;
+
 use super::origins::Origins;
 use super::tree::Tree;
 use crate::language::Visibility;
@@ -8,7 +10,7 @@ use crate::text::{Edit, Span};
 
 const LAST: &str = "the last visible object cannot be hidden";
 
-/// Returns the edits that show or hide an object, by index, and leave all others as they are.
+/// Returns the edits that show or hide objects, by index, and leave all others as they are.
 ///
 /// # Errors
 ///
@@ -17,14 +19,20 @@ pub(super) fn edits(
     text: &str,
     tree: &Tree,
     origins: &Origins,
-    object: usize,
+    objects: &[usize],
     wanted: Visibility,
 ) -> Result<Vec<Edit>, &'static str> {
-    let mut drawn = origins.drawn.clone();
-    match (drawn.binary_search(&object), wanted) {
-        (Err(place), Visibility::Shown) => drawn.insert(place, object),
-        (Ok(place), Visibility::Hidden) => drop(drawn.remove(place)),
-        _ => return Ok(Vec::new()),
+    let is_drawn = |object: &usize| origins.drawn.binary_search(object).is_ok();
+    let objects: HashSet<_> = objects.iter().copied().collect();
+    let drawn: Vec<_> = (0..origins.objects.len())
+        .filter(|object| match (objects.contains(object), wanted) {
+            (true, Visibility::Shown) => true,
+            (true, Visibility::Hidden) => false,
+            (false, _) => is_drawn(object),
+        })
+        .collect();
+    if drawn == origins.drawn {
+        return Ok(Vec::new());
     }
     if drawn.is_empty() {
         return Err(LAST);
@@ -56,10 +64,21 @@ pub(super) fn edits(
         };
         return Ok(vec![edit(Span::at(text.len()), line)]);
     };
-    let id = id(object).unwrap_or_default();
     match wanted {
-        Visibility::Shown => Ok(listing.with(&[id.to_string()])),
-        Visibility::Hidden => listing.without(text, |listed| listed == id).ok_or(LAST),
+        Visibility::Shown => {
+            let new = drawn.iter().filter(|object| !is_drawn(object));
+            let ids: Vec<_> = new
+                .filter_map(|&object| Some(id(object)?.to_string()))
+                .collect();
+            Ok(listing.with(&ids))
+        }
+        Visibility::Hidden => {
+            let gone = objects.iter().filter_map(|&object| id(object));
+            let gone: HashSet<_> = gone.collect();
+            listing
+                .without(text, |listed| gone.contains(&listed))
+                .ok_or(LAST)
+        }
     }
 }
 
@@ -142,7 +161,7 @@ mod tests {
         let (source, _) = read_as(Language::Dat, text, &Meshes::default());
         let object = [4, 5, 6, 9].iter().position(|&known| known == id);
         let object = object.expect("one of the objects");
-        let edits = source.visibility_edits(object, wanted)?;
+        let edits = source.visibility_edits(&[object], wanted)?;
         let mut changed = text.to_owned();
         apply(&mut changed, &edits);
         Ok(changed)

@@ -174,7 +174,7 @@ impl Answers for Source {
         view::edits(&self.text, &self.origins, before, camera)
     }
 
-    fn visibility_edits(&self, _: usize, _: Visibility) -> Result<Vec<Edit>, &'static str> {
+    fn visibility_edits(&self, _: &[usize], _: Visibility) -> Result<Vec<Edit>, &'static str> {
         Err("a .ray scene draws all of its objects")
     }
 }

@@ -219,7 +219,7 @@ impl Answers for Source {
         view::edits(self, &self.fields(Node::View), before, camera)
     }
 
-    fn visibility_edits(&self, _: usize, _: Visibility) -> Result<Vec<Edit>, &'static str> {
+    fn visibility_edits(&self, _: &[usize], _: Visibility) -> Result<Vec<Edit>, &'static str> {
         Err("an .xml scene draws all of its objects")
     }
 }

@@ -1,10 +1,11 @@
 //! The cursor: the selected node, its fields, the current component, and the value typed into it.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use tui_input::Input;
 
-use crate::language::{Node, Placed, Source};
+use crate::language::{Node, Nodes, Placed, Source};
 use crate::text::{Diagnostic, Edit, Span};
 use crate::ui::keymap::Stride;
 use crate::ui::layout::{self, Areas};
@@ -31,6 +32,12 @@ pub struct Cursor {
     pub stride: Stride,
     /// A value being typed.
     pub typing: Option<Typing>,
+    /// The marked nodes, which commands apply to instead of the selected one.
+    pub marks: BTreeSet<Node>,
+    /// The text copied last.
+    pub(super) copied: Option<String>,
+    /// The nodes of the text that the marks belong to.
+    nodes: Nodes,
     /// The last search in the list.
     pub(super) searched: String,
     /// The component clicked a moment ago.
@@ -67,6 +74,9 @@ impl Default for Cursor {
             component: 0,
             stride: Stride::default(),
             typing: None,
+            marks: BTreeSet::new(),
+            copied: None,
+            nodes: Nodes::default(),
             searched: String::new(),
             clicked: None,
         }
@@ -109,6 +119,11 @@ impl Cursor {
     /// Updates the cursor after the text has changed; the selection stays on an existing node.
     pub fn renew(&mut self, source: &Source) {
         let nodes = source.nodes();
+        if nodes != self.nodes {
+            // Their indices belong to others now.
+            self.marks.clear();
+            self.nodes = nodes;
+        }
         let row = row_of(source, self.selected);
         self.stand_on(nodes.get(row).unwrap_or(self.selected), source);
         self.keep();

@@ -26,6 +26,7 @@ impl App {
     pub fn context(&self) -> Context {
         match &self.overlays.dialog {
             Some(Dialog::Quit) => Context::Quit,
+            Some(Dialog::Delete(_)) => Context::Delete,
             Some(Dialog::Conflict { .. }) => Context::Conflict,
             Some(Dialog::Recover(_)) => Context::Recover,
             None if self.overlays.help.is_some() => Context::Help,

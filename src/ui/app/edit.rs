@@ -4,7 +4,7 @@ use super::App;
 use super::assets::Notice;
 use crate::assets::{Loaded, Wanted};
 use crate::language::table::Field;
-use crate::language::{Before, Lowered, Node, Visibility};
+use crate::language::{Before, Lowered, Node, Placed};
 use crate::scene::Camera;
 use crate::text::{Diagnostic, Edit, Span};
 use crate::ui::keymap::Mode;
@@ -134,8 +134,27 @@ impl App {
         if self.cursor.selected() == Node::View && (works || placed.spans.is_empty()) {
             return self.assign_view(placed.field, values);
         }
-        let edits = placed.edits(&**self.source(), values);
+        let edits = if self.cursor.marks.contains(&self.cursor.selected()) {
+            self.edits_of_marked(placed.field, values)
+        } else {
+            placed.edits(&**self.source(), values)
+        };
         self.try_edits(&edits)
+    }
+
+    /// Returns the edits that set components of a field in all marked nodes that have it.
+    fn edits_of_marked(&self, field: &Field, values: &[(usize, String)]) -> Vec<Edit> {
+        let source = self.source();
+        let has =
+            |placed: &Placed| placed.field.key == field.key && placed.field.kind == field.kind;
+        let marks = self.cursor.marks.iter();
+        let fields = marks.filter_map(|&node| source.fields(node).into_iter().find(has));
+        let fields: Vec<_> = fields.collect();
+        let wanted: Vec<_> = fields
+            .iter()
+            .map(|placed| (placed, values.to_vec()))
+            .collect();
+        source.edits(&wanted)
     }
 
     /// Sets components of the working view, or of a part of the view that the text omits.
@@ -179,32 +198,6 @@ impl App {
         self.try_edits(&edits)
     }
 
-    /// Hides the selected object, or shows it again.
-    pub(super) fn toggle_visibility(&mut self) {
-        let Node::Object(object) = self.cursor.selected() else {
-            self.overlays.fail("only objects can be shown or hidden");
-            return;
-        };
-        let (wanted, done) = match self.source().drawn(object) {
-            Some(_) => (Visibility::Hidden, "hidden"),
-            None => (Visibility::Shown, "shown"),
-        };
-        let edits = self.source().visibility_edits(object, wanted);
-        self.document.end_step();
-        let outcome = edits.map_err(str::to_owned).and_then(|edits| {
-            let refused = self.try_edits(&edits);
-            refused.map_err(|refused| refused.message)
-        });
-        self.document.end_step();
-        match outcome {
-            Ok(()) => self.overlays.say(format!(
-                "{} is {done}",
-                self.source().name(self.cursor.selected())
-            )),
-            Err(reason) => self.overlays.fail(reason),
-        }
-    }
-
     pub(super) fn undo(&mut self) {
         let length = self.document.text().len();
         let changed = self.document.undo();
@@ -245,7 +238,7 @@ impl App {
 }
 
 /// The spans of edits in the text after they are made.
-fn spans_after(edits: &[Edit]) -> Vec<Span> {
+pub(super) fn spans_after(edits: &[Edit]) -> Vec<Span> {
     let (mut removed, mut inserted) = (0, 0);
     edits
         .iter()

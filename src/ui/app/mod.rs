@@ -28,6 +28,7 @@ mod quit;
 mod recover;
 mod reload;
 mod saving;
+mod structure;
 #[cfg(test)]
 pub(super) mod tests;
 mod tracing;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use tui_input::Input;
 
 use crate::document::{Merge, Side};
+use crate::language::Node;
 use crate::text::{Severity, without_codes};
 use crate::ui::recovery::{Claim, Offer, Since};
 
@@ -42,6 +43,8 @@ pub enum PromptKind {
     Command,
     /// Part of a name to jump to, after `/`.
     Search,
+    /// The new name of the selected node.
+    Name,
 }
 
 /// A question that must be answered first.
@@ -58,6 +61,8 @@ pub enum Dialog {
         /// The origin of the other text.
         from: Outside,
     },
+    /// Whether to delete these nodes although others use them.
+    Delete(Vec<Node>),
     /// Whether to restore unsaved edits of an earlier run.
     Recover(Box<Offer>),
 }

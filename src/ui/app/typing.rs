@@ -168,9 +168,13 @@ impl App {
             self.warn_of_opening();
             return;
         }
+        if self.mode == Mode::Select {
+            self.insert(text);
+            return;
+        }
         if self.mode != Mode::Edit {
             self.overlays
-                .say("values paste into fields: press e to edit them");
+                .say("press Esc to paste things, or e to paste values into fields");
             return;
         }
         let values = self.literals_of(pasted);

@@ -137,6 +137,7 @@ impl App {
                 self.overlays.prompt = None;
                 match kind {
                     PromptKind::Command => return self.command(&typed),
+                    PromptKind::Name => self.rename(&typed),
                     PromptKind::Search => {
                         self.cursor.searched = typed;
                         self.search(1);
@@ -165,6 +166,13 @@ impl App {
             Action::Command => self.overlays.open_prompt(PromptKind::Command, ""),
             Action::Outline => self.pictures.toggle_outline(),
             Action::Visibility => self.toggle_visibility(),
+            Action::Mark => self.toggle_mark(),
+            Action::Delete => self.delete(),
+            Action::Duplicate => self.duplicate(),
+            Action::Reorder(neighbour) => self.reorder(neighbour),
+            Action::Copy => return self.copy(),
+            Action::Insert => self.insert_copied(),
+            Action::Rename => self.start_renaming(),
             Action::Type => self.type_current(),
             Action::Nudge(steps, stride) => self.nudge(steps, stride),
             Action::Stride(step) => {
@@ -233,11 +241,13 @@ impl App {
         match context {
             Context::Help => self.overlays.help = None,
             Context::Errors => self.overlays.errors = None,
+            Context::Delete => self.overlays.dialog = None,
             Context::Conflict | Context::Quit | Context::Recover => return self.put_off(),
             Context::Opening => {}
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
             }
+            Context::In(Mode::Select) => self.cursor.marks.clear(),
             Context::In(_) => {
                 self.document.end_step();
                 self.mode = Mode::Select;
@@ -251,6 +261,7 @@ impl App {
             Context::Errors => self.go_to_error(),
             Context::Conflict => return self.adopt(),
             Context::Quit => return self.quit_anyway(),
+            Context::Delete => self.delete_anyway(),
             Context::Recover => return self.restore(),
             Context::In(Mode::Pick) => self.pick_cross(),
             Context::In(_) | Context::Help | Context::Opening => {}

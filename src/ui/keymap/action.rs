@@ -1,5 +1,6 @@
 //! Actions of keys, and the contexts in which keys have a meaning.
 
+use crate::language::Neighbour;
 use crate::render::Aov;
 
 /// Meaning of the keys, always shown in the status line.
@@ -32,6 +33,8 @@ pub enum Context {
     Conflict,
     /// The question whether to quit.
     Quit,
+    /// The question whether to delete what others use.
+    Delete,
     /// The question whether to recover the edits of an earlier run.
     Recover,
 }
@@ -67,6 +70,20 @@ pub enum Action {
     Outline,
     /// Shows or hides the selected object itself.
     Visibility,
+    /// Marks the selected node for the commands that follow.
+    Mark,
+    /// Deletes the selected or marked nodes.
+    Delete,
+    /// Inserts copies of them after them.
+    Duplicate,
+    /// Exchanges the selected node and its neighbour.
+    Reorder(Neighbour),
+    /// Copies their text.
+    Copy,
+    /// Inserts the text copied last.
+    Insert,
+    /// Types a new name of the selected node.
+    Rename,
     /// Starts typing a value.
     Type,
     /// Adds the step of the field times the stride; positive is up.

@@ -4,6 +4,7 @@ use crossterm::event::{KeyCode, KeyEvent};
 
 use super::action::{Action, Context, Mode, Stride};
 use super::chord::{ALT, Chord, SHIFT, alt, c, ctrl, key};
+use crate::language::Neighbour;
 use crate::render::Aov;
 
 use Action as A;
@@ -63,7 +64,6 @@ const fn bind(
 const SELECT: Scope = Scope::These(&[Context::In(Select)]);
 const VIEW: Scope = Scope::These(&[Context::In(View)]);
 const EDIT: Scope = Scope::These(&[Context::In(Edit)]);
-const LIST_AND_FIELDS: Scope = Scope::These(&[Context::In(Select), Context::In(Edit)]);
 const TRACE: Scope = Scope::These(&[Context::In(Trace)]);
 /// Contexts in which digits are not part of a number.
 const PICTURES: Scope = Scope::These(&[Context::In(Select), Context::In(View), Context::In(Trace)]);
@@ -72,6 +72,7 @@ const HELP: Scope = Scope::These(&[Context::Help]);
 const ERRORS: Scope = Scope::These(&[Context::Errors]);
 const CONFLICT: Scope = Scope::These(&[Context::Conflict]);
 const QUIT: Scope = Scope::These(&[Context::Quit]);
+const DELETE: Scope = Scope::These(&[Context::Delete]);
 const RECOVER: Scope = Scope::These(&[Context::Recover]);
 const LISTS: Scope = Scope::These(&[
     Context::In(Select),
@@ -94,9 +95,17 @@ pub(super) const TABLE: &[Binding] = &[
     bind(ERRORS, &[key(Enter)], A::Accept, "go to the item"),
     bind(SELECT, &[key(Enter), c('e')], A::Go(Edit), "edit its fields"),
     bind(SELECT, &[c('v')], A::Go(View), "move the camera"),
-    bind(SELECT, &[c('p')], A::Go(Pick), "pick in the picture"),
+    bind(SELECT, &[c('d')], A::Delete, "delete"),
+    bind(SELECT, &[c('D')], A::Duplicate, "duplicate"),
+    bind(SELECT, &[c('y')], A::Copy, "copy the text"),
+    bind(SELECT, &[c('p')], A::Insert, "insert the copied text"),
+    bind(SELECT, &[c(' ')], A::Mark, "mark for the next command"),
+    bind(SELECT, &[c('R')], A::Rename, "rename"),
+    bind(SELECT, &[c('K')], A::Reorder(Neighbour::Previous), "move up in the list"),
+    bind(SELECT, &[c('J')], A::Reorder(Neighbour::Next), "move down in the list"),
+    bind(SELECT, &[c('i')], A::Go(Pick), "pick in the picture"),
     bind(SELECT, &[key(Tab)], A::Cycle(1), "next light or object"),
-    bind(LIST_AND_FIELDS, &[c(' ')], A::Visibility, "show or hide the object"),
+    bind(SELECT, &[c('h')], A::Visibility, "show or hide the object"),
     bind(SELECT, &[c('/')], A::Search, "search for a name"),
     bind(LONG_LISTS, &[c('g')], A::G, "first"),
     bind(LONG_LISTS, &[c('G'), key(End)], A::Last, "last"),
@@ -152,6 +161,8 @@ pub(super) const TABLE: &[Binding] = &[
     bind(QUIT, &[c('y')], A::Accept, "quit anyway"),
     bind(QUIT, &[c('w')], A::Save, "save and quit"),
     bind(QUIT, &[c('n'), key(Esc)], A::Back, "stay"),
+    bind(DELETE, &[c('y'), c('d')], A::Accept, "delete"),
+    bind(DELETE, &[c('n'), key(Esc)], A::Back, "keep"),
     bind(RECOVER, &[c('r')], A::Accept, "restore them"),
     bind(RECOVER, &[c('d')], A::No, "discard them"),
     bind(RECOVER, &[key(Esc)], A::Back, "decide next time"),
@@ -206,7 +217,15 @@ mod tests {
     #[test]
     fn no_key_has_two_meanings_in_one_context() {
         let modes = [Select, View, Edit, Trace, Pick].map(Context::In);
-        let others = [Opening, Help, Errors, Conflict, Quit, Recover];
+        let others = [
+            Opening,
+            Help,
+            Errors,
+            Conflict,
+            Quit,
+            Context::Delete,
+            Recover,
+        ];
         for context in modes.into_iter().chain(others) {
             let rows = TABLE.iter().filter(|row| row.scope.holds(context));
             let mut bound: Vec<_> = rows.flat_map(|row| row.chords).collect();

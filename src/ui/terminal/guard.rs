@@ -7,6 +7,8 @@ use std::io;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use crossterm::Command;
+use crossterm::clipboard::CopyToClipboard;
 use ratatui::Frame;
 use ratatui::layout::{Position, Rect};
 
@@ -176,6 +178,19 @@ impl Terminal {
             return Ok(());
         }
         self.shared.output().send(mouse_sequence(mouse).as_bytes())
+    }
+
+    /// Offers text to the terminal's clipboard.
+    pub fn copy(&mut self, text: &str) -> io::Result<()> {
+        if !self.is_ours() {
+            return Ok(());
+        }
+        let mut sequence = String::new();
+        let command = CopyToClipboard::to_clipboard_from(text);
+        command
+            .write_ansi(&mut sequence)
+            .map_err(io::Error::other)?;
+        self.shared.output().send(sequence.as_bytes())
     }
 
     /// Records whether the current unsaved edits are stored for recovery, to be reported if the

@@ -27,6 +27,9 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
             let text = format!("{}. Quit?", app.losses().unwrap_or_default());
             ask(app, " Quit ", &text, area, buffer);
         }
+        Some(Dialog::Delete(nodes)) => {
+            ask(app, " Delete ", &app.consequence(nodes), area, buffer);
+        }
         Some(Dialog::Recover(offer)) => {
             ask(app, " Recover ", &offered(app, offer), area, buffer);
         }

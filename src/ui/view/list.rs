@@ -53,7 +53,13 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
             (false, _) => theme::DIM,
         };
         let mut row = Row::new(buffer, lines, line as u16);
-        row.put(if is_selected { "▸ " } else { "  " }, style);
+        let sign = match (is_selected, app.cursor.marks.contains(&node)) {
+            (true, true) => "▸✓",
+            (true, false) => "▸ ",
+            (false, true) => " ✓",
+            (false, false) => "  ",
+        };
+        row.put(sign, style);
         match swatch(app, node) {
             // Not reversed with the selected line, so that the dot shows its own colour.
             Some(colour) if is_drawn => row.put("● ", theme::swatch(colour)),

@@ -46,6 +46,7 @@ pub(crate) fn render_prompt(prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
     let sign = match prompt.kind {
         PromptKind::Command => ":",
         PromptKind::Search => "/",
+        PromptKind::Name => "name: ",
     };
     let blank = " ".repeat(usize::from(area.width));
     Row::new(buffer, area, 0).put(&blank, Style::reset());

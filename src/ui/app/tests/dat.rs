@@ -126,24 +126,24 @@ fn nudging_a_reference_cycles_through_existing_ids() {
 
 #[test]
 fn objects_are_hidden_and_shown_by_the_render_record() {
-    assert_eq!(changed(Node::Object(3), " "), ["render 1 ID 3"]);
-    assert_eq!(changed(Node::Object(0), " "), ["render 3 ID 1 ID 3 ID 4"]);
+    assert_eq!(changed(Node::Object(3), "h"), ["render 1 ID 3"]);
+    assert_eq!(changed(Node::Object(0), "h"), ["render 3 ID 1 ID 3 ID 4"]);
     let mut app = at(Node::Object(3));
     assert_eq!(app.source().drawn(3), Some(1));
-    press(&mut app, " ");
+    press(&mut app, "h");
     assert_eq!(
         (app.source().drawn(3), words(&app)),
-        (None, "object 4 (sphere) is hidden")
+        (None, "hidden: object 4 (sphere)")
     );
     assert_eq!(app.scene.as_ref().map(|scene| scene.objects.len()), Some(1));
-    press(&mut app, " ");
+    press(&mut app, "h");
     assert_eq!(app.source().drawn(3), Some(1));
-    press(&mut app, " ");
+    press(&mut app, "h");
     app.select(Node::Object(2));
-    press(&mut app, " ");
+    press(&mut app, "h");
     assert_eq!(words(&app), "the last visible object cannot be hidden");
     app.select(Node::Light(0));
-    press(&mut app, " ");
+    press(&mut app, "h");
     assert_eq!(words(&app), "only objects can be shown or hidden");
 }
 
@@ -220,7 +220,7 @@ fn a_hidden_object_is_not_framed_in_silence() {
     press(&mut app, "vf");
     let framed = app.camera();
     assert_eq!(words(&app), "");
-    press(&mut app, "<Esc> vf");
+    press(&mut app, "<Esc>hvf");
     assert!(
         words(&app).ends_with("is not drawn: this is the whole scene"),
         "{}",

@@ -564,7 +564,7 @@ fn commands_and_pastes_without_effect_say_why() {
     assert!(app.overlays.prompt.is_some() && words(&app).contains("no file yet"));
     press(&mut app, "<Esc>");
     app.update(Msg::Paste("1 2 3".to_owned()));
-    assert!(words(&app).contains("values paste into fields"));
+    assert!(words(&app).contains("values are pasted into fields"));
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod opening;
 pub(in crate::ui) mod pictures;
 mod recovering;
 mod saving;
+mod structure;
 mod xml;
 
 use std::path::{Path, PathBuf};

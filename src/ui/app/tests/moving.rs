@@ -85,12 +85,12 @@ fn show_half(app: &mut App) {
 fn picking_selects_the_object_under_the_cross() {
     let mut app = open(SCENE);
     show_half(&mut app);
-    press(&mut app, "pHH<Enter>");
+    press(&mut app, "iHH<Enter>");
     assert_eq!(
         (app.mode, app.cursor.selected()),
         (Mode::Select, Node::Object(1))
     );
-    press(&mut app, "ggp");
+    press(&mut app, "ggi");
     press(&mut app, &"L".repeat(9));
     press(&mut app, "<Enter>");
     assert_eq!((app.mode, app.cursor.selected()), (Mode::Pick, Node::View));
@@ -101,10 +101,10 @@ fn picking_starts_where_the_last_pick_was() {
     let mut app = open(SCENE);
     show_half(&mut app);
     for cross in [(0, 0), (1, 0)] {
-        press(&mut app, "p");
+        press(&mut app, "i");
         press(&mut app, &"HK".repeat(99));
         press(&mut app, &"l".repeat(cross.0.into()));
-        press(&mut app, "<Esc>p");
+        press(&mut app, "<Esc>i");
         assert_eq!(app.pictures.cross, Some(cross));
         press(&mut app, "<Esc>");
     }
@@ -221,7 +221,7 @@ fn picking_works_only_for_the_scene_on_screen() {
     click(&mut app, cells.x, cells.y);
     assert_eq!(app.cursor.selected(), selected);
     assert!(words(&app).contains("does not show the changed scene yet"));
-    press(&mut app, "p<Enter>");
+    press(&mut app, "i<Enter>");
     assert_eq!((app.mode, app.cursor.selected()), (Mode::Pick, selected));
 }
 

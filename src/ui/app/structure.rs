@@ -1,0 +1,251 @@
+//! Changing the structure of the scene: deleting, duplicating, reordering, copying, pasting, naming
+//! and marking things. Each change is one edit of the text and one undo step.
+
+use super::{App, Dialog, PromptKind};
+use crate::language::{Neighbour, Node, StructureError, Visibility};
+use crate::text::{Edit, Span, counted};
+use crate::ui::msg::Effect;
+
+impl App {
+    /// The marked nodes, otherwise the selected one.
+    pub(super) fn targets(&self) -> Vec<Node> {
+        if self.cursor.marks.is_empty() {
+            return vec![self.cursor.selected()];
+        }
+        self.cursor.marks.iter().copied().collect()
+    }
+
+    /// The name of the targets: `object 2 (box)`, or `3 things`.
+    fn targets_name(&self, nodes: &[Node]) -> String {
+        match nodes {
+            [node] => self.source().name(*node),
+            _ => counted(nodes.len(), "thing"),
+        }
+    }
+
+    /// Marks the selected node, or takes its mark away, and goes on to the next row.
+    pub(super) fn toggle_mark(&mut self) {
+        let node = self.cursor.selected();
+        if !self.cursor.marks.remove(&node) {
+            self.cursor.marks.insert(node);
+        }
+        if let Some(next) = self.cursor.row_after(1, self.source()) {
+            self.select(next);
+        }
+        let marks = self.cursor.marks.len();
+        let words = counted(marks, "thing");
+        self.overlays
+            .say(format!("{words} marked; Esc takes the marks away"));
+    }
+
+    /// Deletes the targets; asks first if that changes others.
+    pub(super) fn delete(&mut self) {
+        if self.refuses_structure() {
+            return;
+        }
+        let nodes = self.targets();
+        match self.source().consequence(&nodes) {
+            Some(_) => self.overlays.dialog = Some(Dialog::Delete(nodes)),
+            None => self.delete_all(&nodes),
+        }
+    }
+
+    /// The question whether to delete nodes that others use.
+    pub(crate) fn consequence(&self, nodes: &[Node]) -> String {
+        let consequence = self.source().consequence(nodes).unwrap_or_default();
+        format!("Delete {}? {consequence}.", self.targets_name(nodes))
+    }
+
+    /// Deletes what the open question is about.
+    pub(super) fn delete_anyway(&mut self) {
+        if let Some(Dialog::Delete(nodes)) = self.overlays.dialog.take() {
+            self.delete_all(&nodes);
+        }
+    }
+
+    fn delete_all(&mut self, nodes: &[Node]) {
+        let name = self.targets_name(nodes);
+        let edits = self.source().removal(nodes);
+        self.restructure(edits, None, &format!("deleted: {name}"));
+    }
+
+    /// Inserts copies of the targets after the last of them.
+    pub(super) fn duplicate(&mut self) {
+        if self.refuses_structure() {
+            return;
+        }
+        let nodes = self.targets();
+        let name = self.targets_name(&nodes);
+        let after = nodes.last().copied().unwrap_or(self.cursor.selected());
+        let copied = self.source().copied(&nodes);
+        let placed = copied.and_then(|copied| self.source().insertion(&copied, after));
+        let at = placed.as_ref().ok().map(|placed| placed.at);
+        let edits = placed.map(|placed| placed.edits);
+        self.restructure(edits, at, &format!("duplicated: {name}"));
+    }
+
+    /// Exchanges the selected node and its neighbour.
+    pub(super) fn reorder(&mut self, neighbour: Neighbour) {
+        if self.refuses_structure() {
+            return;
+        }
+        let node = self.cursor.selected();
+        let words = match neighbour {
+            Neighbour::Previous => "moved up",
+            Neighbour::Next => "moved down",
+        };
+        let placed = self.source().exchange(node, neighbour);
+        let at = placed.as_ref().ok().map(|placed| placed.at);
+        let edits = placed.map(|placed| placed.edits);
+        self.restructure(edits, at, words);
+    }
+
+    /// Copies the text of the targets, also to the terminal's clipboard.
+    pub(super) fn copy(&mut self) -> Vec<Effect> {
+        if self.refuses_structure() {
+            return Vec::new();
+        }
+        let nodes = self.targets();
+        match self.source().copied(&nodes) {
+            Ok(copied) => {
+                let name = self.targets_name(&nodes);
+                self.overlays.say(format!("copied: {name}; p inserts it"));
+                self.cursor.copied = Some(copied.clone());
+                vec![Effect::CopyText(copied)]
+            }
+            Err(refused) => {
+                self.overlays.fail(refused.to_string());
+                Vec::new()
+            }
+        }
+    }
+
+    /// Inserts the text copied last after the selected node.
+    pub(super) fn insert_copied(&mut self) {
+        match self.cursor.copied.clone() {
+            Some(copied) => self.insert(&copied),
+            None => self
+                .overlays
+                .fail("nothing to insert: y copies the selected thing"),
+        }
+    }
+
+    /// Reads a text as things of the scene and inserts them after the selected node.
+    pub(super) fn insert(&mut self, text: &str) {
+        if self.refuses_structure() {
+            return;
+        }
+        let placed = self.source().insertion(text, self.cursor.selected());
+        if let Err(StructureError::Foreign { reason }) = &placed {
+            let message = format!("{reason}; values are pasted into fields: press e");
+            self.overlays.fail(message);
+            return;
+        }
+        let at = placed.as_ref().ok().map(|placed| placed.at);
+        let edits = placed.map(|placed| placed.edits);
+        self.restructure(edits, at, "inserted");
+    }
+
+    /// Opens a line to type the new name of the selected node.
+    pub(super) fn start_renaming(&mut self) {
+        if self.refuses_structure() {
+            return;
+        }
+        let node = self.cursor.selected();
+        match self.source().called(node).map(str::to_owned) {
+            Some(name) => self.overlays.open_prompt(PromptKind::Name, &name),
+            None => {
+                if let Err(reason) = self.source().renaming(node, "name") {
+                    self.overlays.fail(reason.to_string());
+                }
+            }
+        }
+    }
+
+    /// Gives the selected node another name; references to it follow.
+    pub(super) fn rename(&mut self, name: &str) {
+        if self.refuses_structure() {
+            return;
+        }
+        let edits = self.source().renaming(self.cursor.selected(), name.trim());
+        self.restructure(edits, None, &format!("renamed: {}", name.trim()));
+    }
+
+    /// Hides the targets, or shows them again if the first is hidden.
+    pub(super) fn toggle_visibility(&mut self) {
+        let objects = self.targets().into_iter().filter_map(|node| match node {
+            Node::Object(object) => Some(object),
+            _ => None,
+        });
+        let objects: Vec<_> = objects.collect();
+        let Some(&first) = objects.first() else {
+            self.overlays.fail("only objects can be shown or hidden");
+            return;
+        };
+        let (wanted, done) = match self.source().drawn(first) {
+            Some(_) => (Visibility::Hidden, "hidden"),
+            None => (Visibility::Shown, "shown"),
+        };
+        self.document.end_step();
+        let edits = self.source().visibility_edits(&objects, wanted);
+        let outcome = edits.map_err(str::to_owned).and_then(|edits| {
+            let refused = self.try_edits(&edits);
+            refused.map_err(|refused| refused.message)
+        });
+        self.document.end_step();
+        let nodes: Vec<_> = objects.into_iter().map(Node::Object).collect();
+        match outcome {
+            Ok(()) => {
+                let name = self.targets_name(&nodes);
+                self.overlays.say(format!("{done}: {name}"));
+            }
+            Err(reason) => self.overlays.fail(reason),
+        }
+    }
+
+    /// Makes structural edits as one undo step and selects the node written by the edit `at`.
+    pub(super) fn restructure(
+        &mut self,
+        edits: Result<Vec<Edit>, StructureError>,
+        at: Option<usize>,
+        done: &str,
+    ) {
+        let edits = match edits {
+            Ok(edits) => edits,
+            Err(refused) => {
+                self.overlays.fail(refused.to_string());
+                return;
+            }
+        };
+        self.document.end_step();
+        let placed = at.and_then(|at| super::edit::spans_after(&edits).get(at).copied());
+        let outcome = self.try_edits(&edits);
+        self.document.end_step();
+        match outcome {
+            Ok(()) => {
+                self.cursor.marks.clear();
+                if let Some(node) = placed.and_then(|span| self.first_node_in(span)) {
+                    self.select(node);
+                }
+                self.overlays.say(done);
+            }
+            Err(refused) => self.overlays.fail(refused.message),
+        }
+    }
+
+    /// The first node, other than the view, whose text is in a span.
+    fn first_node_in(&self, span: Span) -> Option<Node> {
+        let mut nodes = self.source().nodes_in(span).into_iter();
+        nodes.find(|node| *node != Node::View)
+    }
+
+    /// Whether the structure cannot change because the text has errors; says so.
+    pub(super) fn refuses_structure(&mut self) -> bool {
+        let has_errors = 0 < self.error_count();
+        if has_errors {
+            self.overlays
+                .fail("things can be added, moved or deleted once the text has no errors");
+        }
+        has_errors
+    }
+}
