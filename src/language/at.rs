@@ -60,7 +60,7 @@ impl At<1> {
     }
 
     /// The index of the number in its record.
-    pub(super) fn index(self) -> usize {
+    pub(super) const fn index(self) -> usize {
         self.first
     }
 

@@ -9,6 +9,7 @@ mod at;
 mod camera;
 pub(crate) mod coefficients;
 mod dat;
+mod form;
 mod node;
 mod partition;
 mod placed;
@@ -38,10 +39,11 @@ use room::Counts;
 use table::{Category, Field};
 use view::Numbers;
 
+pub use form::{Along, Motion};
 pub use node::{FileKind, NamedFile, Node, Nodes};
 pub use placed::{Placed, Wanted};
 pub use room::fits;
-pub use structure::{Neighbour, Placement, Restructure, StructureError};
+pub use structure::{Addition, Neighbour, Placement, Pose, Restructure, StructureError, Wish};
 
 /// Declares the languages, one per line, by folder name, which is also the file extension. A folder
 /// provides `Source`, `errors_of_beginning`, `tree_bytes` and `LEAVES_KEEP_TO_LINES`.

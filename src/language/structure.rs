@@ -1,9 +1,14 @@
 //! Changes of a scene's structure as edits of its text: what every language can delete, copy, move
 //! and name; and the text that goes with a node.
 
+use glam::DVec3;
+
 use super::Node;
+use super::form::{Form, Motion};
 use super::view::line_ending;
-use crate::text::{Edit, Span, line_end, line_start, next_line};
+use crate::text::{
+    Edit, Span, line_end, line_start, next_line, parse_number, spell_like, without_suffix,
+};
 
 /// How a language changes the structure of a text, which must be free of errors. Counts, lists, IDs
 /// and names in the text follow.
@@ -51,6 +56,78 @@ pub trait Restructure {
     ///
     /// Fails if the language does not name such nodes, or the name is in use.
     fn renaming(&self, node: Node, name: &str) -> Result<Vec<Edit>, StructureError>;
+
+    /// The kinds of things that can be added.
+    fn additions(&self) -> Vec<Addition>;
+
+    /// Returns the edits that add a thing of a kind, by its name in [`Restructure::additions`],
+    /// spelled like its neighbours.
+    ///
+    /// # Errors
+    ///
+    /// Fails if the text lacks what the thing would refer to.
+    fn addition(&self, name: &str, wish: &Wish<'_>) -> Result<Placement, StructureError>;
+
+    /// The words for the kinds that a node can be changed to, with its own; empty if there is no
+    /// choice.
+    fn kinds(&self, node: Node) -> Vec<&'static str>;
+
+    /// Returns the edits that change a node to another of its [kinds](Restructure::kinds) and keep
+    /// what both share: place, directions, sizes and material.
+    ///
+    /// # Errors
+    ///
+    /// Fails if the node has no size that the other kind could take.
+    fn retyping(&self, node: Node, kind: &str) -> Result<Vec<Edit>, StructureError>;
+
+    /// The place and the axes of a node in world space; `None` if it has no place.
+    fn pose(&self, node: Node) -> Option<Pose>;
+
+    /// Returns the edits that move, turn or scale nodes. Points and sizes are rounded to this number
+    /// of decimals where they change.
+    ///
+    /// # Errors
+    ///
+    /// Fails if the text cannot express the result.
+    fn motion(
+        &self,
+        nodes: &[Node],
+        motion: &Motion,
+        decimals: usize,
+    ) -> Result<Vec<Edit>, StructureError>;
+}
+
+/// A kind of thing that can be added to a text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Addition {
+    /// Its name, unique in its language: `point light`.
+    pub name: &'static str,
+    /// What it is, in a phrase.
+    pub words: &'static str,
+}
+
+/// Where to add a thing, and how large.
+#[derive(Clone, Copy, Debug)]
+pub struct Wish<'a> {
+    /// Its centre.
+    pub centre: DVec3,
+    /// Half its extent, above 0.
+    pub half: f64,
+    /// The number of decimals that a cell of the picture can show.
+    pub decimals: usize,
+    /// The selected node: the new one stands after it, and takes its material.
+    pub after: Node,
+    /// The marked nodes, which a combination combines.
+    pub marked: &'a [Node],
+}
+
+/// The place and the axes of a node in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Its centre, or the origin of its own space.
+    pub centre: DVec3,
+    /// The unit vectors of its own axes.
+    pub axes: [DVec3; 3],
 }
 
 /// The neighbour with which a node exchanges places.
@@ -93,6 +170,9 @@ pub enum StructureError {
     /// A node cannot be renamed.
     #[error("{0}")]
     Name(String),
+    /// A text cannot express a change.
+    #[error("{0}")]
+    Inexpressible(String),
     /// There is no neighbour to exchange places with.
     #[error("{name} is already the {end}{place}")]
     AtEnd {
@@ -269,4 +349,42 @@ pub(super) fn pair(index: usize, count: usize, neighbour: Neighbour) -> Option<[
         Neighbour::Next => index,
     };
     (first + 1 < count).then_some([first, first + 1])
+}
+
+impl Pose {
+    pub(super) fn of(form: &Form) -> Self {
+        Self {
+            centre: form.centre,
+            axes: form.axes,
+        }
+    }
+}
+
+impl Wish<'_> {
+    /// A number as the wish's text shows it: rounded to its decimals.
+    pub(super) fn literal(&self, number: f64) -> String {
+        let decimals = self.decimals;
+        let rounded = format!("{number:.decimals$}").parse();
+        (rounded.map_or(number, |rounded: f64| rounded + 0.0)).to_string()
+    }
+}
+
+/// The number at a span of a text without errors.
+pub(super) fn number(text: &str, span: Span) -> f64 {
+    let literal = span.of(text).trim();
+    let literal = without_suffix(literal).unwrap_or(literal);
+    parse_number(literal).unwrap_or_default()
+}
+
+/// Returns the edits that replace numbers at these spans, spelled like the old ones.
+pub(super) fn replacements(text: &str, spans: &[Span], new: &[f64]) -> Vec<Edit> {
+    let changed = spans
+        .iter()
+        .zip(new)
+        .filter(|(span, new)| number(text, **span) != **new);
+    let edit = |(span, new): (&Span, &f64)| Edit {
+        span: *span,
+        text: spell_like(span.of(text).trim(), *new),
+    };
+    changed.map(edit).collect()
 }

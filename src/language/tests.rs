@@ -2,6 +2,7 @@
 
 mod beginning;
 mod line_ends;
+mod motion;
 mod structure;
 
 use std::sync::Arc;

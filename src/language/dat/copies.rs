@@ -1,6 +1,6 @@
 //! Copied records of `.dat`, whose IDs must not be those of others.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use super::table::{Heads, Part, RECORDS, RecordKind, TextureKind};
 use super::tree::{self, Tree};
@@ -61,13 +61,22 @@ impl Identity {
         }
         all
     }
+
+    /// The edit that replaces it.
+    fn renamed(&self, id: i64) -> Edit {
+        Edit {
+            span: self.span,
+            text: id.to_string(),
+        }
+    }
 }
 
 /// Records to insert.
 #[derive(Debug)]
 pub(super) struct Copies {
     text: String,
-    identities: Vec<Identity>,
+    /// Those of each record.
+    identities: Vec<Vec<Identity>>,
     edits: Vec<Edit>,
 }
 
@@ -95,7 +104,7 @@ impl Copies {
                     "expected records of lights, materials, textures or objects, not `{word}`"
                 ));
             }
-            identities.extend(Identity::all(text, tokens));
+            identities.push(Identity::all(text, tokens));
         }
         Ok(Self {
             text: text.to_owned(),
@@ -107,27 +116,25 @@ impl Copies {
     /// Replaces the IDs of a category that are in use, and references to them.
     pub(super) fn renumber(&mut self, category: Category, taken: &HashSet<i64>) {
         let greatest = taken.iter().copied().max().unwrap_or(0).max(0);
-        let own = |identity: &&Identity| identity.category == category;
-        let own: Vec<_> = self.identities.iter().filter(own).copied().collect();
-        let greatest = own.iter().map(|own| own.id).fold(greatest, i64::max);
+        let of_category = |identity: &&Identity| identity.category == category;
+        let own = self.identities.iter().flatten().filter(of_category);
+        let greatest = own.map(|own| own.id).fold(greatest, i64::max);
         let mut next = greatest.saturating_add(1);
-        let mut renamed: Vec<(i64, i64)> = Vec::new();
-        let mut defined: HashSet<i64> = taken.clone();
-        for identity in own {
-            let new = if identity.is_definition && !defined.insert(identity.id) {
-                renamed.retain(|(old, _)| *old != identity.id);
-                renamed.push((identity.id, next));
-                next = next.saturating_add(1);
-                next - 1
-            } else {
-                let new = renamed.iter().find(|(old, _)| *old == identity.id);
-                new.map_or(identity.id, |(_, new)| *new)
-            };
-            if new != identity.id {
-                self.edits.push(Edit {
-                    span: identity.span,
-                    text: new.to_string(),
-                });
+        let mut renamed: HashMap<i64, i64> = HashMap::new();
+        let mut defined = taken.clone();
+        for record in &self.identities {
+            let own = || record.iter().filter(of_category);
+            // A record refers to those before it.
+            for used in own().filter(|identity| !identity.is_definition) {
+                self.edits
+                    .extend(renamed.get(&used.id).map(|new| used.renamed(*new)));
+            }
+            for own in own().filter(|identity| identity.is_definition) {
+                if !defined.insert(own.id) {
+                    renamed.insert(own.id, next);
+                    self.edits.push(own.renamed(next));
+                    next = next.saturating_add(1);
+                }
             }
         }
     }
@@ -143,7 +150,8 @@ impl Copies {
 
     /// What they all define; `None` if that differs.
     pub(super) fn category(&self) -> Option<Category> {
-        let mut defined = self.identities.iter().filter(|id| id.is_definition);
+        let all = self.identities.iter().flatten();
+        let mut defined = all.filter(|id| id.is_definition);
         let first = defined.next()?.category;
         defined
             .all(|other| other.category == first)
@@ -153,12 +161,13 @@ impl Copies {
     /// The IDs that they refer to, and do not define.
     pub(super) fn used(&self) -> impl Iterator<Item = (Category, i64)> + '_ {
         let is_defined = |used: &Identity| {
-            let mut all = self.identities.iter();
+            let mut all = self.identities.iter().flatten();
             all.any(|own| own.is_definition && (own.category, own.id) == (used.category, used.id))
         };
         let used = self
             .identities
             .iter()
+            .flatten()
             .filter(move |id| !id.is_definition && !is_defined(id));
         used.map(|used| (used.category, used.id))
     }
@@ -172,6 +181,7 @@ impl Copies {
         let objects = self
             .identities
             .iter()
+            .flatten()
             .filter(|id| id.category == Category::Object);
         let (defined, used): (Vec<_>, Vec<_>) = objects.partition(|id| id.is_definition);
         let used: HashSet<_> = used.into_iter().map(new).collect();

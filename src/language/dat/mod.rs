@@ -1,7 +1,9 @@
 //! Boston University's `.dat`: one record per line, with numeric IDs.
 
+mod add;
 mod answers;
 mod copies;
+mod form;
 mod lower;
 mod origins;
 mod room;

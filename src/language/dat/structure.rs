@@ -3,18 +3,20 @@
 
 use std::collections::HashSet;
 
-use super::Source;
 use super::copies::{Copies, Identity};
 use super::origins::Place;
+use super::table::ObjectKind;
 use super::tree::is_comment;
 use super::visibility::Listing;
+use super::{Source, add};
 use crate::language::structure::{
     Block, adapted, deletions, line_before, lines, lines_after, pair,
 };
 use crate::language::table::Category;
 use crate::language::view::line_ending;
 use crate::language::{
-    Answers, Neighbour, Node, Placement, Restructure, StructureError, structure,
+    Addition, Answers, Motion, Neighbour, Node, Placement, Pose, Restructure, StructureError, Wish,
+    structure,
 };
 use crate::text::{Edit, Span, counted, parse_number};
 
@@ -175,6 +177,59 @@ impl Restructure for Source {
             text: id.to_string(),
         };
         Ok(same.map(edit).collect())
+    }
+
+    fn additions(&self) -> Vec<Addition> {
+        add::additions()
+    }
+
+    fn addition(&self, name: &str, wish: &Wish<'_>) -> Result<Placement, StructureError> {
+        add::addition(self, name, wish)
+    }
+
+    fn kinds(&self, node: Node) -> Vec<&'static str> {
+        match node {
+            Node::Object(object) if self.operation(object).is_none() => {
+                add::SOLIDS.map(ObjectKind::keyword).into()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    fn retyping(&self, node: Node, kind: &str) -> Result<Vec<Edit>, StructureError> {
+        add::retyping(self, node, kind)
+    }
+
+    fn pose(&self, node: Node) -> Option<Pose> {
+        self.pose_of(node)
+    }
+
+    fn motion(
+        &self,
+        nodes: &[Node],
+        motion: &Motion,
+        decimals: usize,
+    ) -> Result<Vec<Edit>, StructureError> {
+        // A combination moves with what it combines.
+        let mut solids = Vec::new();
+        for &node in nodes {
+            match node {
+                Node::Object(object) if self.operation(object).is_some() => {
+                    let parts = self.parts(object, usize::MAX).into_iter();
+                    let is_solid = |&(_, part): &(usize, Node)| matches!(part, Node::Object(part) if self.operation(part).is_none());
+                    solids.extend(parts.filter(is_solid).map(|(_, part)| part));
+                }
+                _ => solids.push(node),
+            }
+        }
+        solids.sort_unstable();
+        solids.dedup();
+        let moved = solids
+            .into_iter()
+            .map(|node| self.moved(node, motion, decimals));
+        let mut edits = moved.collect::<Result<Vec<_>, _>>()?.concat();
+        edits.sort_by_key(|edit| edit.span);
+        Ok(edits)
     }
 }
 

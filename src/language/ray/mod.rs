@@ -1,9 +1,11 @@
 //! Rice University's `.ray`: a stream of tokens for ambient light, lights and objects, and a comment
 //! for the view.
 
+mod add;
 mod again;
 mod answers;
 mod blocks;
+mod form;
 mod lower;
 mod objects;
 mod origins;

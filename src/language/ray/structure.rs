@@ -1,15 +1,16 @@
 //! What deleting, copying and moving mean in a `.ray` text: its counts follow.
 
-use super::Source;
 use super::table::{LIGHT, ShapeKind};
 use super::tree::{self, comment_of_line};
+use super::{Source, add};
 use crate::language::structure::{
     Block, adapted, deletions, line_before, lines, lines_after, pair,
 };
 use crate::language::table;
 use crate::language::view::line_ending;
 use crate::language::{
-    Answers, Neighbour, Node, Placement, Restructure, StructureError, structure,
+    Addition, Answers, Motion, Neighbour, Node, Placement, Pose, Restructure, StructureError, Wish,
+    structure,
 };
 use crate::text::{Edit, Span, counted, line_end, line_start};
 
@@ -102,6 +103,43 @@ impl Restructure for Source {
     fn renaming(&self, _: Node, _: &str) -> Result<Vec<Edit>, StructureError> {
         let reason = "a .ray scene has no names; a comment can say what this is";
         Err(StructureError::Name(reason.to_owned()))
+    }
+
+    fn additions(&self) -> Vec<Addition> {
+        add::additions()
+    }
+
+    fn addition(&self, name: &str, wish: &Wish<'_>) -> Result<Placement, StructureError> {
+        add::addition(self, name, wish)
+    }
+
+    fn kinds(&self, node: Node) -> Vec<&'static str> {
+        match node {
+            Node::Object(_) => ShapeKind::ALL.map(ShapeKind::keyword).into(),
+            _ => Vec::new(),
+        }
+    }
+
+    fn retyping(&self, node: Node, kind: &str) -> Result<Vec<Edit>, StructureError> {
+        add::retyping(self, node, kind)
+    }
+
+    fn pose(&self, node: Node) -> Option<Pose> {
+        self.pose_of(node)
+    }
+
+    fn motion(
+        &self,
+        nodes: &[Node],
+        motion: &Motion,
+        decimals: usize,
+    ) -> Result<Vec<Edit>, StructureError> {
+        let moved = ordered(nodes)
+            .into_iter()
+            .map(|node| self.moved(node, motion, decimals));
+        let mut edits = moved.collect::<Result<Vec<_>, _>>()?.concat();
+        edits.sort_by_key(|edit| edit.span);
+        Ok(edits)
     }
 }
 

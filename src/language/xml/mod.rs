@@ -1,9 +1,11 @@
 //! The University of Utah's `.xml`: elements with attributes, and nested objects.
 
+mod add;
 mod answers;
 mod copies;
 mod insertions;
 mod lower;
+mod motion;
 mod origins;
 mod room;
 mod structure;

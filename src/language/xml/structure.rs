@@ -3,14 +3,15 @@
 
 use std::collections::HashSet;
 
-use super::Source;
 use super::copies::Copies;
 use super::table::ObjectKind;
 use super::tree::{escaped, quote};
+use super::{Source, add};
 use crate::language::structure::{Block, deletions, line_before, lines};
 use crate::language::view::line_ending;
 use crate::language::{
-    Answers, Neighbour, Node, Placement, Restructure, StructureError, structure,
+    Addition, Answers, Motion, Neighbour, Node, Placement, Pose, Restructure, StructureError, Wish,
+    structure,
 };
 use crate::text::{Edit, Span, counted, line_end, line_start};
 
@@ -191,6 +192,45 @@ impl Restructure for Source {
             });
             edits.extend(values.map(|value| self.replaced(value.value, name)));
         }
+        edits.sort_by_key(|edit| edit.span);
+        Ok(edits)
+    }
+
+    fn additions(&self) -> Vec<Addition> {
+        add::additions()
+    }
+
+    fn addition(&self, name: &str, wish: &Wish<'_>) -> Result<Placement, StructureError> {
+        add::addition(self, name, wish)
+    }
+
+    fn kinds(&self, node: Node) -> Vec<&'static str> {
+        add::kinds(node)
+    }
+
+    fn retyping(&self, node: Node, kind: &str) -> Result<Vec<Edit>, StructureError> {
+        add::retyping(self, node, kind)
+    }
+
+    fn pose(&self, node: Node) -> Option<Pose> {
+        self.pose_of(node)
+    }
+
+    fn motion(
+        &self,
+        nodes: &[Node],
+        motion: &Motion,
+        decimals: usize,
+    ) -> Result<Vec<Edit>, StructureError> {
+        let elements: Vec<_> = nodes.iter().map(|&node| self.span(node)).collect();
+        // What is in a group moves with it.
+        let is_inner = |own: Span| {
+            let holds = |outer: &Span| outer.start() < own.start() && own.end() <= outer.end();
+            elements.iter().any(holds)
+        };
+        let outer = nodes.iter().filter(|&&node| !is_inner(self.span(node)));
+        let moved = outer.map(|&node| self.moved(node, motion, decimals));
+        let mut edits = moved.collect::<Result<Vec<_>, _>>()?.concat();
         edits.sort_by_key(|edit| edit.span);
         Ok(edits)
     }

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::geometry::{Affine, Cuboid, Cylinder, Ellipsoid, Solid, Sphere, normalise};
 use crate::language::dat::table::ObjectKind;
+use crate::language::form::rotated;
 
 /// A sphere.
 pub(super) fn sphere(numbers: &[f64]) -> Solid {
@@ -57,25 +58,6 @@ pub(super) fn cuboid(numbers: &[f64]) -> Option<Solid> {
 fn frame(origin: DVec3, directions: [DVec3; 3], lengths: DVec3) -> Option<Affine> {
     let holds = origin.is_finite() && lengths.is_finite() && 0.0 < lengths.min_element();
     Affine::new(origin, directions, lengths).filter(|_| holds)
-}
-
-/// The images of x, y and z under the shortest rotation from +z to a unit vector: Rodrigues'
-/// formula with the axis z × n and the cosine n.z.
-fn rotated(n: DVec3) -> [DVec3; 3] {
-    let across = n.x * n.x + n.y * n.y;
-    // 1 / (1 + n.z), without cancellation for negative n.z.
-    let share = if 0.0 <= n.z {
-        1.0 / (1.0 + n.z)
-    } else if across == 0.0 {
-        return [DVec3::X, DVec3::NEG_Y, DVec3::NEG_Z];
-    } else {
-        (1.0 - n.z) / across
-    };
-    [
-        DVec3::new(1.0 - share * n.x * n.x, -share * n.x * n.y, -n.x),
-        DVec3::new(-share * n.x * n.y, 1.0 - share * n.y * n.y, -n.y),
-        n,
-    ]
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
 //! Objects: their positions, after all transforms around them, and their materials.
 
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DVec3};
 
 use super::Lowering;
 use crate::geometry::{Affine, Ellipsoid, Plane, Shape, Solid, Sphere, normalise};
+use crate::language::form::rotation;
 use crate::language::report::quoted;
 use crate::language::xml::origins::Role;
 use crate::language::xml::table::ObjectKind;
@@ -94,14 +95,7 @@ impl Lowering<'_> {
             }
             return DAffine3::IDENTITY;
         };
-        let (sin, cos) = sine_and_cosine(angle);
-        // Rodrigues' formula, one column for each world axis.
-        let turned = |v: DVec3| cos * v + sin * axis.cross(v) + (1.0 - cos) * axis.dot(v) * axis;
-        DAffine3::from_mat3(DMat3::from_cols(
-            turned(DVec3::X),
-            turned(DVec3::Y),
-            turned(DVec3::Z),
-        ))
+        DAffine3::from_mat3(rotation(axis, angle))
     }
 
     /// The index of the default material.
@@ -177,16 +171,4 @@ fn scaling([x, y, z]: [DVec3; 3]) -> Option<f64> {
     let size = x.x;
     let is_all = x == size * DVec3::X && y == size * DVec3::Y && z == size * DVec3::Z;
     (is_all && 0.0 < size && size.is_finite()).then_some(size)
-}
-
-/// Sine and cosine of an angle in degrees, exact for quarter turns.
-fn sine_and_cosine(angle: f64) -> (f64, f64) {
-    let turned = angle % 360.0;
-    match turned {
-        0.0 => (0.0, 1.0),
-        90.0 | -270.0 => (1.0, 0.0),
-        180.0 | -180.0 => (0.0, -1.0),
-        270.0 | -90.0 => (-1.0, 0.0),
-        _ => libm::sincos(turned.to_radians()),
-    }
 }

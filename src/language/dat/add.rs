@@ -1,0 +1,237 @@
+//! New records of `.dat`, and objects of another kind.
+
+use glam::DVec3;
+
+use super::Source;
+use super::form::{form, put};
+use super::table::{ObjectKind, RecordKind, UseKind};
+use crate::language::form::Form;
+use crate::language::structure::Wish;
+use crate::language::{Addition, Answers, Node, Placement, Restructure, StructureError};
+use crate::text::{Edit, Span};
+
+/// What can be added, each with a description.
+const ADDITIONS: [(&str, &str); 15] = [
+    ("sphere", "round, by centre and radius"),
+    ("ellipsoid", "a sphere stretched along the axes"),
+    ("cylinder", "round and closed, about any axis"),
+    ("box", "six faces, in any directions"),
+    ("quadric", "any surface of second degree, cut by planes"),
+    ("union", "two marked objects together"),
+    ("intersection", "what two marked objects share"),
+    ("difference", "the first marked object without the second"),
+    ("point light", "shines in all directions"),
+    ("spot light", "shines in a cone, downwards"),
+    ("distant light", "shines from infinitely far away"),
+    ("ambient light", "reaches every surface from everywhere"),
+    ("material", "colour, gloss, reflection and transparency"),
+    (
+        "checker texture",
+        "two colours, used by the selected material",
+    ),
+    (
+        "image texture",
+        "a picture file, used by the selected material",
+    ),
+];
+
+/// The kinds of solids that a record can change to.
+pub(super) const SOLIDS: [ObjectKind; 5] = [
+    ObjectKind::Sphere,
+    ObjectKind::Ellipsoid,
+    ObjectKind::Cylinder,
+    ObjectKind::Box,
+    ObjectKind::Quadric,
+];
+
+/// The kinds of things that can be added.
+pub(super) fn additions() -> Vec<Addition> {
+    let all = ADDITIONS.iter();
+    all.map(|&(name, words)| Addition { name, words }).collect()
+}
+
+/// Returns the edits that add a thing.
+pub(super) fn addition(
+    source: &Source,
+    name: &str,
+    wish: &Wish<'_>,
+) -> Result<Placement, StructureError> {
+    let place = |point: DVec3| {
+        let numbers = point.to_array().map(|number| wish.literal(number));
+        numbers.join(" ")
+    };
+    let above = place(wish.centre + DVec3::new(0.0, 0.0, 4.0 * wish.half));
+    let solid = SOLIDS.into_iter().find(|kind| kind.keyword() == name);
+    let text = match (name, solid) {
+        (_, Some(kind)) => source.solid(kind, wish)?,
+        ("union" | "intersection" | "difference", _) => source.combination(name, wish)?,
+        ("point light", _) => {
+            format!("light ID 1 pnt  {above}  0 0 0  1 1 1  1 0 0  0 shadow_on")
+        }
+        ("spot light", _) => {
+            format!("light ID 1 pnt  {above}  0 0 -1  1 1 1  1 0 0  10 shadow_on")
+        }
+        ("distant light", _) => {
+            "light ID 1 inf  0 0 0  0.5 1 -1  0.5 0.5 0.5  1 0 0  0 shadow_on".to_owned()
+        }
+        ("ambient light", _) => {
+            "light ID 1 amb  0 0 0  0 0 0  0.5 0.5 0.5  1 0 0  0 shadow_off".to_owned()
+        }
+        ("checker texture", _) => {
+            let checker = "texture ID 1 checker 8 8  0.8 0.8 0.8  0.2 0.2 0.2";
+            source.used(checker, wish)
+        }
+        ("image texture", _) => source.used("texture ID 1 image 1 1 picture.png", wish),
+        _ => MATERIAL.to_owned(),
+    };
+    source.insertion(&text, wish.after)
+}
+
+/// A plain grey.
+const MATERIAL: &str = "mat ID 1  0.8 0.8 0.8  0.2 0.7 0.3 20  0 0 1";
+
+/// Returns the edits that change an object to another kind.
+pub(super) fn retyping(
+    source: &Source,
+    node: Node,
+    kind: &str,
+) -> Result<Vec<Edit>, StructureError> {
+    let refused = |reason: &str| StructureError::Inexpressible(reason.to_owned());
+    let Node::Object(index) = node else {
+        return Err(refused("only solids change their kind"));
+    };
+    let new = SOLIDS.into_iter().find(|solid| solid.keyword() == kind);
+    let new = new.ok_or_else(|| refused("only solids change their kind"))?;
+    let shapeless = || refused("it has no size that another kind could take");
+    let (old, spans, numbers) = source.object_numbers(index).ok_or_else(shapeless)?;
+    let form = form(old, &numbers).ok_or_else(shapeless)?;
+    let literals = literals(new, &nearest(new, &form), &|number| number.to_string())?;
+    let record = source.span(node);
+    let mut tokens = source
+        .tree
+        .tokens_of(&source.text, source.origins.objects[index].record);
+    let keyword = tokens.nth(1).unwrap_or_else(|| Span::at(record.start()));
+    let shape = spans[1].to(Span::at(record.end()));
+    Ok(vec![
+        Edit {
+            span: keyword,
+            text: new.keyword().to_owned(),
+        },
+        Edit {
+            span: shape,
+            text: literals,
+        },
+    ])
+}
+
+/// The form that a kind takes instead of one that it cannot take.
+fn nearest(kind: ObjectKind, form: &Form) -> Form {
+    let [a, b, c] = form.half;
+    match kind {
+        ObjectKind::Sphere => Form {
+            half: [libm::cbrt(a * b * c); 3],
+            ..*form
+        },
+        ObjectKind::Ellipsoid => Form {
+            axes: DVec3::AXES,
+            half: form.aligned(),
+            ..*form
+        },
+        ObjectKind::Cylinder => Form {
+            half: [0.5 * (a + b), 0.5 * (a + b), c],
+            ..*form
+        },
+        ObjectKind::Box | ObjectKind::Quadric | ObjectKind::Csg => *form,
+    }
+}
+
+/// The numbers of a solid after its material, as text.
+fn literals(
+    kind: ObjectKind,
+    form: &Form,
+    literal: &dyn Fn(f64) -> String,
+) -> Result<String, StructureError> {
+    let mut numbers = vec![0.0; RecordKind::Object(kind).numbers()];
+    let refused = |reason: &str| StructureError::Inexpressible(reason.to_owned());
+    put(kind, form, &mut numbers).map_err(refused)?;
+    let mut rest = &numbers[1..];
+    let fields = RecordKind::Object(kind).fields().skip(1);
+    let groups = fields.map(|field| {
+        let (own, behind) = rest.split_at(field.kind.components());
+        rest = behind;
+        let own: Vec<_> = own.iter().map(|&number| literal(number)).collect();
+        own.join(" ")
+    });
+    let groups: Vec<_> = groups.collect();
+    let cuts = if kind == ObjectKind::Quadric {
+        "  0"
+    } else {
+        ""
+    };
+    let between = if kind == ObjectKind::Quadric {
+        " "
+    } else {
+        "  "
+    };
+    Ok(format!("{}{cuts}", groups.join(between)))
+}
+
+impl Source {
+    /// The records of a new solid, with a material if there is none.
+    fn solid(&self, kind: ObjectKind, wish: &Wish<'_>) -> Result<String, StructureError> {
+        let form = Form::upright(wish.centre, wish.half, DVec3::Z);
+        let exact = |number: f64| number.to_string();
+        let literals = match kind {
+            ObjectKind::Quadric => literals(kind, &form, &exact)?,
+            _ => literals(kind, &form, &|number| wish.literal(number))?,
+        };
+        let selected = match wish.after {
+            Node::Material(index) => Some(index),
+            Node::Object(index) => self.material(index),
+            _ => None,
+        };
+        let material = self.origins.materials.get(selected.unwrap_or(0));
+        let (before, id) = match material {
+            Some(place) => (String::new(), place.id),
+            None => (format!("{MATERIAL}\n"), 1),
+        };
+        let keyword = kind.keyword();
+        Ok(format!(
+            "{before}obj {keyword} ID 1 mat ID {id}  {literals}"
+        ))
+    }
+
+    /// The record that combines the two marked objects.
+    fn combination(&self, operation: &str, wish: &Wish<'_>) -> Result<String, StructureError> {
+        let objects = wish.marked.iter().filter_map(|&node| match node {
+            Node::Object(index) => Some(self.origins.objects.get(index)?.id),
+            _ => None,
+        });
+        match objects.collect::<Vec<_>>().as_slice() {
+            [first, second] => Ok(format!("obj CSG ID 1 {operation} ID {first} ID {second}")),
+            _ => {
+                let reason =
+                    format!("a {operation} combines two objects: mark them with Space first");
+                Err(StructureError::Inexpressible(reason))
+            }
+        }
+    }
+
+    /// The record of a texture, and its use by the selected material if that has none.
+    fn used(&self, texture: &str, wish: &Wish<'_>) -> String {
+        let Node::Material(index) = wish.after else {
+            return texture.to_owned();
+        };
+        let colour = RecordKind::Use(UseKind::Colour);
+        let mut uses = self.origins.uses.iter();
+        if uses.any(|at| at.material == index && at.kind == colour) {
+            return texture.to_owned();
+        }
+        let material = self
+            .origins
+            .materials
+            .get(index)
+            .map_or(1, |place| place.id);
+        format!("{texture}\nuse colour ID 1 mat ID {material}")
+    }
+}

@@ -1,0 +1,172 @@
+//! New lights and objects of `.ray`, laid out like their neighbours, and objects of another kind.
+
+use glam::DVec3;
+
+use super::Source;
+use super::form::{new_object, retyped};
+use super::table::{LIGHT, ShapeKind};
+use super::tree::comment_of_line;
+use crate::language::form::Form;
+use crate::language::structure::Wish;
+use crate::language::table::Field;
+use crate::language::view::line_ending;
+use crate::language::{Addition, Answers, Node, Placement, Restructure, StructureError};
+use crate::text::{Edit, Span, line_start, next_line};
+
+/// The name of an added light.
+const POINT_LIGHT: &str = "light";
+
+/// The kinds of things that can be added.
+pub(super) fn additions() -> Vec<Addition> {
+    let words = |kind| match kind {
+        ShapeKind::Sphere => "round, by centre and radius",
+        ShapeKind::Ellipsoid => "a sphere stretched along three directions",
+        ShapeKind::Box => "six faces, by a corner and three edges",
+        ShapeKind::Cylinder => "closed, on an elliptic base",
+        ShapeKind::Cone => "closed by an elliptic base",
+    };
+    let solids = ShapeKind::ALL.map(|kind| Addition {
+        name: kind.keyword(),
+        words: words(kind),
+    });
+    let light = Addition {
+        name: POINT_LIGHT,
+        words: "shines in all directions, as bright at any distance",
+    };
+    solids.into_iter().chain([light]).collect()
+}
+
+/// Returns the edits that add a thing.
+pub(super) fn addition(
+    source: &Source,
+    name: &str,
+    wish: &Wish<'_>,
+) -> Result<Placement, StructureError> {
+    let text = match ShapeKind::of_word(name) {
+        Some(kind) => {
+            let form = Form::upright(wish.centre, wish.half, DVec3::Y);
+            let literals = literals(kind, &new_object(kind, &form), wish);
+            let like = source.like(kind, wish.after);
+            source.laid_out(kind.keyword(), kind.fields(), &literals, like)
+        }
+        None => {
+            let above = wish.centre + DVec3::new(0.0, 4.0 * wish.half, 0.0);
+            let numbers = above.to_array().into_iter().chain([1.0; 3]);
+            let literals: Vec<_> = numbers.map(|number| wish.literal(number)).collect();
+            let lights = source.origins.light_count();
+            let like = lights.checked_sub(1).map(Node::Light);
+            source.laid_out("", LIGHT.iter(), &literals, like)
+        }
+    };
+    source.insertion(&text, wish.after)
+}
+
+/// Returns the edits that change an object to another kind.
+pub(super) fn retyping(
+    source: &Source,
+    node: Node,
+    kind: &str,
+) -> Result<Vec<Edit>, StructureError> {
+    let fixed =
+        || StructureError::Inexpressible(format!("{} has only one kind", source.name(node)));
+    let Node::Object(index) = node else {
+        return Err(fixed());
+    };
+    let new = ShapeKind::of_word(kind).ok_or_else(fixed)?;
+    let (old, spans, values) = source.object_numbers(index).ok_or_else(fixed)?;
+    let numbers = retyped(old, new, &values);
+    let geometry = |kind: ShapeKind| {
+        kind.geometry()
+            .iter()
+            .map(|field| field.kind.components())
+            .sum::<usize>()
+    };
+    let literals: Vec<_> = numbers[..geometry(new)]
+        .iter()
+        .map(f64::to_string)
+        .collect();
+    // The material stays as it is written.
+    let own = source.span(node);
+    let last = spans[geometry(old) - 1];
+    let like = Some(node);
+    let text = source.laid_out(new.keyword(), new.geometry().iter(), &literals, like);
+    let span = Span::new(own.start(), last.end());
+    Ok(vec![Edit {
+        span,
+        text: source.with_comments(span, text.trim_start()),
+    }])
+}
+
+/// The literals of a new object.
+fn literals(kind: ShapeKind, numbers: &[f64], wish: &Wish<'_>) -> Vec<String> {
+    let geometry: usize = kind
+        .geometry()
+        .iter()
+        .map(|field| field.kind.components())
+        .sum();
+    let shape = numbers[..geometry]
+        .iter()
+        .map(|&number| wish.literal(number));
+    let material = numbers[geometry..].iter().map(f64::to_string);
+    shape.chain(material).collect()
+}
+
+impl Source {
+    /// A new text for a span, with the comments of the old one before it, each on its own line.
+    fn with_comments(&self, span: Span, new: &str) -> String {
+        let text = &*self.text;
+        let mut kept = Vec::new();
+        let mut line = span.start();
+        while line < span.end() {
+            let comment = comment_of_line(text, line).filter(|comment| comment.end() <= span.end());
+            kept.extend(comment.map(|comment| comment.of(text)));
+            line = next_line(text, line);
+        }
+        kept.push(new);
+        kept.join(line_ending(text))
+    }
+
+    /// The object to lay a new one out like: one of the kind, otherwise any.
+    fn like(&self, kind: ShapeKind, after: Node) -> Option<Node> {
+        let objects = &self.origins.objects;
+        let is_kind = |index: usize| objects.get(index).is_some_and(|object| object.kind == kind);
+        match after {
+            Node::Object(index) if is_kind(index) => Some(after),
+            _ => {
+                let same = (0..objects.len()).rfind(|&index| is_kind(index));
+                same.or(objects.len().checked_sub(1)).map(Node::Object)
+            }
+        }
+    }
+
+    /// A thing's text with one field a line if its model takes several lines, with the model's
+    /// indentation.
+    fn laid_out<'f>(
+        &self,
+        keyword: &str,
+        fields: impl Iterator<Item = &'f Field>,
+        literals: &[String],
+        like: Option<Node>,
+    ) -> String {
+        let text = &*self.text;
+        let own = like.map(|node| self.span(node)).unwrap_or_default();
+        let is_long = own.of(text).contains(['\n', '\r']) || like.is_none();
+        let start = line_start(text, own.start());
+        let indent = &text[start..own.start()];
+        let indent = if indent.trim().is_empty() { indent } else { "" };
+        let mut rest = literals;
+        let groups = fields.map(|field| {
+            let (own, behind) = rest.split_at(field.kind.components());
+            rest = behind;
+            own.join(" ")
+        });
+        let keyword = (!keyword.is_empty()).then(|| keyword.to_owned());
+        let parts: Vec<_> = keyword.into_iter().chain(groups).collect();
+        let between = if is_long {
+            format!("{}{indent}", line_ending(text))
+        } else {
+            "  ".to_owned()
+        };
+        format!("{indent}{}", parts.join(&between))
+    }
+}

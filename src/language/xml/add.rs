@@ -1,0 +1,166 @@
+//! New elements of `.xml`.
+
+use glam::DVec3;
+
+use super::Source;
+use super::table::{LightKind, MaterialKind, ObjectKind};
+use super::tree::escaped;
+use crate::language::structure::Wish;
+use crate::language::view::line_ending;
+use crate::language::{Addition, Answers, Node, Placement, Restructure, StructureError};
+use crate::text::Edit;
+
+/// What can be added, each with a description.
+const ADDITIONS: [(&str, &str); 10] = [
+    ("sphere", "round; scaled, an ellipsoid"),
+    ("plane", "a square that ends at its edges"),
+    ("mesh", "triangles from an .obj file"),
+    ("group", "moves and turns the objects in it"),
+    ("point light", "shines in all directions"),
+    ("direct light", "shines from infinitely far away"),
+    ("ambient light", "reaches every surface from everywhere"),
+    ("blinn material", "a highlight around the normal"),
+    (
+        "phong material",
+        "a highlight around the reflected direction",
+    ),
+    ("microfacet material", "metal or plastic, by roughness"),
+];
+
+/// The kinds of things that can be added.
+pub(super) fn additions() -> Vec<Addition> {
+    let all = ADDITIONS.iter();
+    all.map(|&(name, words)| Addition { name, words }).collect()
+}
+
+/// Returns the edits that add a thing.
+pub(super) fn addition(
+    source: &Source,
+    name: &str,
+    wish: &Wish<'_>,
+) -> Result<Placement, StructureError> {
+    let vector = |name: &str, vector: DVec3| {
+        let parts = ["x", "y", "z"].iter().zip(vector.to_array());
+        let parts = parts.map(|(part, number)| format!(" {part}=\"{}\"", wish.literal(number)));
+        format!("  <{name}{}/>", parts.collect::<String>())
+    };
+    let above = wish.centre + DVec3::new(0.0, 0.0, 4.0 * wish.half);
+    let light = |kind: &str, parts: &[String]| {
+        let mut lines = vec![format!("<light type=\"{kind}\" name=\"{kind}\">")];
+        lines.extend_from_slice(parts);
+        lines.push("</light>".to_owned());
+        lines
+    };
+    let intensity = |value: &str| format!("  <intensity value=\"{value}\"/>");
+    let lines = match name {
+        "point light" => light("point", &[intensity("1"), vector("position", above)]),
+        "direct light" => {
+            let down = vector("direction", DVec3::new(1.0, 1.0, -2.0));
+            light("direct", &[intensity("0.6"), down])
+        }
+        "ambient light" => light("ambient", &[intensity("0.2")]),
+        "blinn material" => material("blinn"),
+        "phong material" => material("phong"),
+        "microfacet material" => vec![
+            "<material type=\"microfacet\" name=\"microfacet\">".to_owned(),
+            "  <color r=\"0.8\" g=\"0.8\" b=\"0.8\"/>".to_owned(),
+            "  <roughness value=\"0.4\"/>".to_owned(),
+            "</material>".to_owned(),
+        ],
+        _ => source.object(name, wish, &vector),
+    };
+    let text = lines.join(line_ending(&source.text));
+    let needs_material = matches!(name, "sphere" | "plane") && source.origins.materials.is_empty();
+    let placement = source.insertion(&text, wish.after)?;
+    if !needs_material {
+        return Ok(placement);
+    }
+    let material = material("blinn").join(line_ending(&source.text));
+    let mut both = source.insertion(&material, Node::View)?;
+    let own = placement.edits;
+    if both.edits[0].span == own[0].span {
+        both.edits[0].text = format!("{}{}", own[0].text, both.edits[0].text);
+        return Ok(both);
+    }
+    both.edits.extend(own);
+    both.edits.sort_by_key(|edit| edit.span);
+    Ok(both)
+}
+
+/// A plain grey material.
+fn material(kind: &str) -> Vec<String> {
+    vec![
+        format!("<material type=\"{kind}\" name=\"{kind}\">"),
+        "  <diffuse r=\"0.7\" g=\"0.7\" b=\"0.7\"/>".to_owned(),
+        "  <specular value=\"0.3\"/>".to_owned(),
+        "</material>".to_owned(),
+    ]
+}
+
+/// The words for the kinds that a node can be changed to.
+pub(super) fn kinds(node: Node) -> Vec<&'static str> {
+    match node {
+        Node::Object(_) => ObjectKind::TYPES.into(),
+        Node::Light(_) => LightKind::TYPES.into(),
+        Node::Material(_) => MaterialKind::TYPES.into(),
+        _ => Vec::new(),
+    }
+}
+
+/// Returns the edits that change a node's type; its elements stay.
+pub(super) fn retyping(
+    source: &Source,
+    node: Node,
+    kind: &str,
+) -> Result<Vec<Edit>, StructureError> {
+    let fields = source.fields(node);
+    let field = fields.iter().find(|placed| placed.field.key == "type");
+    let fixed = || StructureError::Inexpressible(format!("{} has no type", source.name(node)));
+    let field = field.ok_or_else(fixed)?;
+    Ok(field.edits(source, &[(0, kind.to_owned())]))
+}
+
+impl Source {
+    /// The lines of a new object, in the space of the group that it comes to stand in.
+    fn object(
+        &self,
+        name: &str,
+        wish: &Wish<'_>,
+        vector: &dyn Fn(&str, DVec3) -> String,
+    ) -> Vec<String> {
+        let beside = match wish.after {
+            Node::Object(_) => self.origins.element(&self.tree, wish.after),
+            _ => None,
+        };
+        let inside = beside.map(|element| self.outside(element).inverse());
+        let (centre, size) = match inside {
+            Some(inside) => {
+                let size = libm::cbrt(inside.matrix3.determinant().abs());
+                (inside.transform_point3(wish.centre), size * wish.half)
+            }
+            None => (wish.centre, wish.half),
+        };
+        let selected = match wish.after {
+            Node::Material(index) => Some(index),
+            Node::Object(index) => self.material(index),
+            _ => None,
+        };
+        let material = self.origins.materials.get(selected.unwrap_or(0));
+        let material = material.map_or(Some("blinn"), |place| place.name.as_deref());
+        let material = material.filter(|_| matches!(name, "sphere" | "plane"));
+        let material = material.map(|name| format!(" material=\"{}\"", escaped(name, '"')));
+        let material = material.unwrap_or_default();
+        let head = match name {
+            "group" => "<object name=\"group\">".to_owned(),
+            "mesh" => "<object type=\"obj\" name=\"mesh.obj\">".to_owned(),
+            kind => format!("<object type=\"{kind}\" name=\"{kind}\"{material}>"),
+        };
+        let scale =
+            (name != "group").then(|| format!("  <scale value=\"{}\"/>", wish.literal(size)));
+        let mut lines = vec![head];
+        lines.extend(scale);
+        lines.push(vector("translate", centre));
+        lines.push("</object>".to_owned());
+        lines
+    }
+}
