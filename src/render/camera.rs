@@ -82,6 +82,38 @@ impl Projection {
         (ray, self.reach(slant))
     }
 
+    /// Where a point is in the raster, in pixels from its top left corner; `None` behind the eye.
+    pub(crate) fn pixel(&self, point: DVec3) -> Option<[f64; 2]> {
+        let offset = point - self.eye;
+        let depth = self.scale_at(point);
+        let across = offset.dot(self.right) / (self.half_width * depth);
+        let up = offset.dot(self.up) / (self.half_height * depth);
+        let shown = [
+            0.5 * (1.0 + across) * f64::from(self.raster.width),
+            0.5 * (1.0 - up) * f64::from(self.raster.height),
+        ];
+        let is_seen = 0.0 < depth && 0.0 < offset.dot(self.forward);
+        (is_seen && shown.iter().all(|at| at.is_finite())).then_some(shown)
+    }
+
+    /// The width of a pixel at the distance of a point, in world units.
+    pub(crate) fn pixel_width(&self, point: DVec3) -> f64 {
+        2.0 * self.half_width * self.scale_at(point).abs() / f64::from(self.raster.width)
+    }
+
+    /// The directions to the right, up and into the picture.
+    pub(crate) fn axes(&self) -> [DVec3; 3] {
+        [self.right, self.up, self.forward]
+    }
+
+    /// The size of the picture's plane at a point, relative to one unit in front of the eye.
+    fn scale_at(&self, point: DVec3) -> f64 {
+        match self.bundle {
+            Bundle::FromTheEye => (point - self.eye).dot(self.forward),
+            Bundle::SideBySide => 1.0,
+        }
+    }
+
     /// Returns the rays of a camera without a lens, in each lane.
     #[inline(always)]
     pub(crate) fn rays<N: Lanes>(&self, x: N, y: N) -> (Rays<N>, N) {

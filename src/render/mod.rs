@@ -42,6 +42,7 @@ mod noise;
 mod optics;
 mod packets;
 mod path;
+mod place;
 mod probe;
 mod refusal;
 mod renderer;
@@ -69,6 +70,7 @@ pub use frame::{
     Aov, DEFAULT_DEPTH, DEFAULT_SPP, Frame, Frames, Job, MAX_SPP, NO_OBJECT, Progress, Settings,
     default_depth,
 };
+pub use place::{SurfacePoint, axes, pixel_of, pixel_width, surface_under};
 pub use refusal::Refusal;
 pub use renderer::{Renderer, Threads};
 

@@ -3,6 +3,7 @@
 //! They use the terminal's own sixteen colours where possible, so that they match the user's theme.
 //! Each meaning also has a sign or a modifier: nothing depends on colour alone.
 
+use glam::DVec3;
 use ratatui::style::{Color, Modifier, Style};
 
 use crate::scene::Rgb;
@@ -31,6 +32,18 @@ pub(crate) const CURSOR: Style = Style::new().add_modifier(Modifier::REVERSED);
 
 /// The outline of the selected object in the picture; unlike the colours of most scenes.
 pub(crate) const OUTLINE: [u8; 3] = [255, 140, 0];
+
+/// The colour of an axis: red, green and blue for x, y and z, as in other programs.
+pub(crate) fn axis(axis: DVec3) -> Color {
+    let [x, y, z] = axis.abs().to_array();
+    if y <= x && z <= x {
+        Color::Rgb(255, 80, 80)
+    } else if z <= y {
+        Color::Rgb(90, 220, 90)
+    } else {
+        Color::Rgb(90, 140, 255)
+    }
+}
 
 /// The style of a chip: the colour of a style as background, or plain reverse video without
 /// colours. Replaces the colours of the cells below it.

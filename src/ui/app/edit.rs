@@ -88,6 +88,25 @@ impl App {
     /// Makes edits. If they add errors, or an error touches one of them, returns that error and
     /// leaves the text as before.
     pub(super) fn try_edits(&mut self, edits: &[Edit]) -> Result<(), Diagnostic> {
+        match (edits, &spans_after(edits)[..]) {
+            ([edit], &[changed]) => {
+                let old = edit.span;
+                self.attempt(edits, |app| app.lowered_again(old, changed))
+            }
+            _ => self.try_edits_anew(edits),
+        }
+    }
+
+    /// As [`App::try_edits`] if the scene is not that of the text before the edits.
+    pub(super) fn try_edits_anew(&mut self, edits: &[Edit]) -> Result<(), Diagnostic> {
+        self.attempt(edits, Self::lowered)
+    }
+
+    fn attempt(
+        &mut self,
+        edits: &[Edit],
+        lower: impl FnOnce(&mut Self) -> Lowered,
+    ) -> Result<(), Diagnostic> {
         let written = self.written_view_parts();
         let errors = self.error_count();
         match edits {
@@ -95,10 +114,7 @@ impl App {
             _ => self.document.edit(edits),
         }
         let touched = spans_after(edits);
-        let lowered = match (edits, &touched[..]) {
-            ([edit], &[changed]) => self.lowered_again(edit.span, changed),
-            _ => self.lowered(),
-        };
+        let lowered = lower(self);
         let touches = |d: &&Diagnostic| touched.iter().any(|span| d.span.touches(*span));
         let found = &lowered.diagnostics;
         let mut refused = found.iter().filter(|d| d.is_error()).find(touches);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use tui_input::Input;
 
+use super::menu::Menu;
 use crate::document::{Merge, Side};
 use crate::language::Node;
 use crate::text::{Severity, without_codes};
@@ -15,6 +16,8 @@ use crate::ui::recovery::{Claim, Offer, Since};
 pub struct Overlays {
     /// A line being typed at the bottom.
     pub prompt: Option<Prompt>,
+    /// A menu over the list.
+    pub menu: Option<Menu>,
     /// A question that must be answered first.
     pub dialog: Option<Dialog>,
     /// The help page, if open.
@@ -136,7 +139,9 @@ impl Overlays {
     /// Whether keys are typed into a line here.
     pub(super) fn has_line(&self) -> bool {
         let help = self.help.as_ref();
-        self.prompt.is_some() || help.is_some_and(|help| help.focus == HelpFocus::Search)
+        self.prompt.is_some()
+            || self.menu.is_some()
+            || help.is_some_and(|help| help.focus == HelpFocus::Search)
     }
 
     /// The open merge dialog, if any.

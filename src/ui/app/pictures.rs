@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::hands::Hand;
 use super::picture::Picture;
 use crate::render::{Aov, Filter, Frame};
 use crate::scene::{Camera, Integrator, Scene};
@@ -30,7 +31,9 @@ pub struct Pictures {
     pub net: Option<usize>,
     /// Whether the pictures must be traced again.
     pub(super) due: bool,
-    /// The pointer's cell when the camera was last dragged.
+    /// What is being moved in [`Mode::Move`].
+    pub hand: Option<Hand>,
+    /// The pointer's cell when the camera or a thing was last dragged.
     pub(super) drag: Option<(u16, u16)>,
     /// The mode to return to from the full-size trace.
     before_trace: Option<Mode>,
@@ -72,6 +75,7 @@ impl Pictures {
             cross: None,
             net: None,
             due: false,
+            hand: None,
             drag: None,
             before_trace: None,
         }

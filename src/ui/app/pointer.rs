@@ -84,7 +84,7 @@ impl App {
         if let Some(clicked) = field_at(areas.fields, self.cursor.field_top, components, at) {
             return self.press_field(clicked);
         }
-        if self.mode == Mode::View && areas.picture.contains(at.into()) {
+        if matches!(self.mode, Mode::View | Mode::Move) && areas.picture.contains(at.into()) {
             self.pictures.drag = Some(at);
         } else if let Some(raster) = self.raster() {
             let size = self.picture().shown.size;
@@ -107,10 +107,20 @@ impl App {
     }
 
     fn drag(&mut self, at: (u16, u16)) {
-        let Some(from) = self.pictures.drag.filter(|_| self.mode == Mode::View) else {
+        let Some(from) = self.pictures.drag else {
             return;
         };
         let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);
+        if self.mode == Mode::Move {
+            // A cell shows two pixels, one above the other.
+            let (right, down) = (moved(from.0, at.0), 2.0 * moved(from.1, at.1));
+            self.drag_hand(right, -down);
+            self.pictures.drag = Some(at);
+            return;
+        }
+        if self.mode != Mode::View {
+            return;
+        }
         // The scene follows the pointer, so the camera moves the opposite way.
         let (left, up) = (DRAG.0 * moved(from.0, at.0), DRAG.1 * moved(from.1, at.1));
         self.move_camera(|now| orbited(now, left, up));

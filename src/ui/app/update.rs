@@ -76,6 +76,9 @@ impl App {
         if is_line && self.overlays.dialog.is_none() && !(reserved && controls) {
             return self.type_key(key);
         }
+        if context == Context::In(Mode::Move) && self.type_into_hand(key) {
+            return Vec::new();
+        }
         let second_g = self.prefix.take() == Some(Action::G);
         match action {
             Some(Action::G) if second_g => self.act(Action::First, context),
@@ -111,6 +114,10 @@ impl App {
     fn type_key(&mut self, key: KeyEvent) -> Vec<Effect> {
         if self.overlays.prompt.is_some() {
             return self.prompt_key(key);
+        }
+        if self.overlays.menu.is_some() {
+            self.menu_key(key);
+            return Vec::new();
         }
         if self.cursor.typing.is_some() {
             self.typing_key(key);
@@ -173,6 +180,14 @@ impl App {
             Action::Copy => return self.copy(),
             Action::Insert => self.insert_copied(),
             Action::Rename => self.start_renaming(),
+            Action::Add => self.open_additions(),
+            Action::Retype => self.open_kinds(),
+            Action::Hand(tool) => self.take_in_hand(tool),
+            Action::Step(right, up, stride) => {
+                self.step_hand(right.into(), up.into(), stride);
+            }
+            Action::Lock(axis) => self.lock_hand(axis),
+            Action::Snap => self.snap_hand(),
             Action::Type => self.type_current(),
             Action::Nudge(steps, stride) => self.nudge(steps, stride),
             Action::Stride(step) => {
@@ -226,7 +241,7 @@ impl App {
                 self.overlays.fail("nothing to edit here");
             }
             Mode::Pick => self.start_pick(),
-            Mode::Select | Mode::View | Mode::Edit => self.mode = mode,
+            Mode::Select | Mode::View | Mode::Edit | Mode::Move => self.mode = mode,
         }
         Vec::new()
     }
@@ -248,6 +263,7 @@ impl App {
                 self.mode = self.pictures.mode_before();
             }
             Context::In(Mode::Select) => self.cursor.marks.clear(),
+            Context::In(Mode::Move) => self.put_back(),
             Context::In(_) => {
                 self.document.end_step();
                 self.mode = Mode::Select;
@@ -264,6 +280,7 @@ impl App {
             Context::Delete => self.delete_anyway(),
             Context::Recover => return self.restore(),
             Context::In(Mode::Pick) => self.pick_cross(),
+            Context::In(Mode::Move) => self.keep_hand(),
             Context::In(_) | Context::Help | Context::Opening => {}
         }
         Vec::new()

@@ -2,6 +2,7 @@
 
 use crate::language::Neighbour;
 use crate::render::Aov;
+use crate::ui::app::Tool;
 
 /// Meaning of the keys, always shown in the status line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -16,6 +17,8 @@ pub enum Mode {
     Trace,
     /// Moves a cross over the picture to pick the object under it.
     Pick,
+    /// Moves, turns or scales things in the picture.
+    Move,
 }
 
 /// A context with its own key bindings.
@@ -84,6 +87,18 @@ pub enum Action {
     Insert,
     /// Types a new name of the selected node.
     Rename,
+    /// Opens the menu of what can be added.
+    Add,
+    /// Opens the menu of kinds to change to.
+    Retype,
+    /// Starts to move, turn or scale.
+    Hand(Tool),
+    /// Moves, turns or scales by steps to the right and up.
+    Step(i8, i8, Stride),
+    /// Locks an axis of the world, then of the thing itself: 0 is x.
+    Lock(usize),
+    /// Rounds to a grid, or no longer.
+    Snap,
     /// Starts typing a value.
     Type,
     /// Adds the step of the field times the stride; positive is up.

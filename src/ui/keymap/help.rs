@@ -4,9 +4,10 @@ use super::action::{Action, Context, Mode, Stride};
 use super::chord::Chord;
 use super::table::{Binding, Scope, TABLE};
 use crate::render::Aov;
+use crate::ui::app::Tool;
 
 use Action as A;
-use Mode::{Edit, Pick, Select, Trace, View};
+use Mode::{Edit, Move, Pick, Select, Trace, View};
 use Stride::Plain;
 
 /// One line of help.
@@ -24,10 +25,11 @@ pub enum HelpLine {
 }
 
 /// Sections of help that follow the keys valid anywhere, by name.
-const MODES: [(&str, Context); 5] = [
+const MODES: [(&str, Context); 6] = [
     ("SELECT", Context::In(Select)),
     ("EDIT", Context::In(Edit)),
     ("VIEW", Context::In(View)),
+    ("MOVE", Context::In(Move)),
     ("PICK", Context::In(Pick)),
     ("TRACE", Context::In(Trace)),
 ];
@@ -101,6 +103,7 @@ pub fn hints(context: Context) -> Vec<(String, &'static str)> {
         Context::In(Edit) => EDIT_HINTS,
         Context::In(View) => VIEW_HINTS,
         Context::In(Pick) => PICK_HINTS,
+        Context::In(Move) => MOVE_HINTS,
         Context::In(Trace) => TRACE_HINTS,
         Context::Errors => ERROR_HINTS,
         Context::Opening => &[],
@@ -133,6 +136,8 @@ type Hint = (&'static [Action], &'static str);
 const SELECT_HINTS: &[Hint] = &[
     (&[A::Move(1), A::Move(-1)], "move"),
     (&[A::Go(Edit)], "edit"),
+    (&[A::Add], "add"),
+    (&[A::Hand(Tool::Move)], "move it"),
     (&[A::Go(View)], "camera"),
     (&[A::Go(Pick)], "pick"),
     (&[A::Search], "search"),
@@ -160,6 +165,21 @@ const VIEW_HINTS: &[Hint] = &[
     (&[A::ResetView], "reset"),
     (&[A::SaveView], "save view"),
     (&[A::Back], "back"),
+];
+const MOVE_HINTS: &[Hint] = &[
+    (
+        &[
+            A::Step(-1, 0, Plain),
+            A::Step(0, -1, Plain),
+            A::Step(0, 1, Plain),
+            A::Step(1, 0, Plain),
+        ],
+        "step",
+    ),
+    (&[A::Lock(0), A::Lock(1), A::Lock(2)], "axis"),
+    (&[A::Snap], "grid"),
+    (&[A::Accept], "keep"),
+    (&[A::Back], "put back"),
 ];
 const PICK_HINTS: &[Hint] = &[
     (
@@ -272,7 +292,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
         let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 15);
+        assert_eq!(headings(&lines).len(), 16);
         assert!(lines.contains(&entry("gg", "first")));
         for row in TABLE {
             assert!(lines.contains(&entry(&keys(row), row.words)), "{row:?}");
@@ -284,7 +304,7 @@ mod tests {
         let undo = lines("UNDO", Select);
         assert_eq!(undo, [HelpLine::Heading("anywhere"), entry("u", "undo")]);
         assert!(lines("ctrl-r", Select).contains(&entry("Ctrl-R", "redo")));
-        assert_eq!(headings(&lines("mouse", Edit)), ["anywhere", "mouse"]);
+        assert_eq!(headings(&lines("mouse", Edit)), ["mouse"]);
         assert_eq!(headings(&lines("[wxh]", Edit)), ["commands"]);
         assert!(lines("no such words", Select).is_empty());
     }

@@ -6,10 +6,11 @@ use super::action::{Action, Context, Mode, Stride};
 use super::chord::{ALT, Chord, SHIFT, alt, c, ctrl, key};
 use crate::language::Neighbour;
 use crate::render::Aov;
+use crate::ui::app::Tool;
 
 use Action as A;
 use KeyCode::{BackTab, Down, End, Enter, Esc, F, Home, Left, PageDown, PageUp, Right, Tab, Up};
-use Mode::{Edit, Pick, Select, Trace, View};
+use Mode::{Edit, Move, Pick, Select, Trace, View};
 use Stride::{Coarse, Fine, Plain};
 
 /// A row of the table: within its scope, each of these keys has the same action.
@@ -40,7 +41,10 @@ impl Scope {
     pub(super) fn holds(self, context: Context) -> bool {
         match self {
             Self::These(contexts) => contexts.contains(&context),
-            Self::Everywhere => matches!(context, Context::In(_) | Context::Errors),
+            // While something is in hand, nothing else may change the text.
+            Self::Everywhere => {
+                matches!(context, Context::In(mode) if mode != Move) || context == Context::Errors
+            }
             Self::Sceneless => Self::Everywhere.holds(context) || context == Context::Opening,
             Self::Always => true,
         }
@@ -63,6 +67,8 @@ const fn bind(
 
 const SELECT: Scope = Scope::These(&[Context::In(Select)]);
 const VIEW: Scope = Scope::These(&[Context::In(View)]);
+const MOVE: Scope = Scope::These(&[Context::In(Move)]);
+const SELECT_AND_FIELDS: Scope = Scope::These(&[Context::In(Select), Context::In(Edit)]);
 const EDIT: Scope = Scope::These(&[Context::In(Edit)]);
 const TRACE: Scope = Scope::These(&[Context::In(Trace)]);
 /// Contexts in which digits are not part of a number.
@@ -103,6 +109,25 @@ pub(super) const TABLE: &[Binding] = &[
     bind(SELECT, &[c('R')], A::Rename, "rename"),
     bind(SELECT, &[c('K')], A::Reorder(Neighbour::Previous), "move up in the list"),
     bind(SELECT, &[c('J')], A::Reorder(Neighbour::Next), "move down in the list"),
+    bind(SELECT, &[c('a')], A::Add, "add something"),
+    bind(SELECT, &[c('c')], A::Retype, "change the kind"),
+    bind(SELECT_AND_FIELDS, &[c('m')], A::Hand(Tool::Move), "move by hand"),
+    bind(SELECT_AND_FIELDS, &[c('t')], A::Hand(Tool::Turn), "turn by hand"),
+    bind(SELECT_AND_FIELDS, &[c('s')], A::Hand(Tool::Scale), "scale by hand"),
+    bind(MOVE, &[c('h'), key(Left)], A::Step(-1, 0, Plain), "left, or less"),
+    bind(MOVE, &[c('j'), key(Down)], A::Step(0, -1, Plain), "down, or less"),
+    bind(MOVE, &[c('k'), key(Up)], A::Step(0, 1, Plain), "up, or more"),
+    bind(MOVE, &[c('l'), key(Right)], A::Step(1, 0, Plain), "right, or more"),
+    bind(MOVE, &[c('H'), Chord(Left, SHIFT)], A::Step(-1, 0, Coarse), "left ten steps"),
+    bind(MOVE, &[c('J'), Chord(Down, SHIFT)], A::Step(0, -1, Coarse), "down ten steps"),
+    bind(MOVE, &[c('K'), Chord(Up, SHIFT)], A::Step(0, 1, Coarse), "up ten steps"),
+    bind(MOVE, &[c('L'), Chord(Right, SHIFT)], A::Step(1, 0, Coarse), "right ten steps"),
+    bind(MOVE, &[c('x')], A::Lock(0), "along x; again: its own x"),
+    bind(MOVE, &[c('y')], A::Lock(1), "along y; again: its own y"),
+    bind(MOVE, &[c('z')], A::Lock(2), "along z; again: its own z"),
+    bind(MOVE, &[c('g')], A::Snap, "snap to a grid"),
+    bind(MOVE, &[key(Enter)], A::Accept, "keep"),
+    bind(MOVE, &[key(Esc)], A::Back, "put back"),
     bind(SELECT, &[c('i')], A::Go(Pick), "pick in the picture"),
     bind(SELECT, &[key(Tab)], A::Cycle(1), "next light or object"),
     bind(SELECT, &[c('h')], A::Visibility, "show or hide the object"),
@@ -190,7 +215,6 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Everywhere, &[c('E')], A::Editor, "open the editor at the selected item"),
     bind(Scope::Everywhere, &[c('z')], A::Zoom, "show or hide the panels"),
     bind(Scope::Everywhere, &[c('P')], A::Integrator, "toggle path tracing"),
-    bind(Scope::Sceneless, &[c('m')], A::Mouse, "toggle mouse capture"),
     bind(Scope::Always, &[ctrl('l')], A::Repaint, "redraw the screen"),
     bind(Scope::Always, &[ctrl('z')], A::Suspend, "suspend"),
     bind(Scope::Sceneless, &[c('q')], A::Quit, "quit"),
@@ -216,7 +240,7 @@ mod tests {
 
     #[test]
     fn no_key_has_two_meanings_in_one_context() {
-        let modes = [Select, View, Edit, Trace, Pick].map(Context::In);
+        let modes = [Select, View, Edit, Trace, Pick, Move].map(Context::In);
         let others = [
             Opening,
             Help,

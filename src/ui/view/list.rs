@@ -21,7 +21,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let selected = app.selected_row();
     let nodes = app.nodes();
     let count = nodes.len();
-    let focused = matches!(app.mode, Mode::Select | Mode::Pick);
+    let focused = matches!(app.mode, Mode::Select | Mode::Pick | Mode::Move);
     let place = format!("{}/{count}", (selected + 1).min(count));
     title(
         "scene",

@@ -12,6 +12,7 @@ mod fields;
 mod help;
 mod inks;
 mod list;
+mod menu;
 mod message;
 mod oklab;
 mod palette;
@@ -65,6 +66,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     if let Some(message) = status::long_message(app, inks.glyphs, areas.status.width) {
         message::render(message, body, buffer);
     }
+    menu::render(app, areas.list, body, buffer);
     dialog::render(app, body, buffer);
 }
 

@@ -11,6 +11,8 @@ use unicode_width::UnicodeWidthStr;
 use super::characters::Characters;
 use super::inks::{Glyphs, Inks};
 use super::row::Row;
+use crate::render::{pixel_of, pixel_width};
+use crate::scene::Size;
 use crate::ui::app::{App, FirstReading, Shown};
 use crate::ui::keymap::Mode;
 use crate::ui::layout::{self, raster};
@@ -34,6 +36,9 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     paint(&shown, inks, cells, buffer);
     if app.mode == Mode::Pick {
         cross(app, cells, buffer);
+    }
+    if app.mode == Mode::Move {
+        axis(app, cells, size, buffer);
     }
     if 0 < app.error_count() {
         let chip = " STALE ";
@@ -83,6 +88,35 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
         Err(reason) => reason.to_owned(),
     };
     Row::new(buffer, cells, 0).put(&format!(" {name} "), theme::chip(theme::ACCENT));
+}
+
+/// Draws the axis that a motion is locked to, through the thing in hand.
+fn axis(app: &App, cells: Rect, size: Size, buffer: &mut Buffer) {
+    let (Some(hand), Some(camera)) = (&app.pictures.hand, app.camera()) else {
+        return;
+    };
+    let Some(axis) = hand.axis() else { return };
+    let unit = pixel_width(hand.pivot(), &camera, size);
+    let reach = i64::from(2 * size.width.max(size.height));
+    let colour = theme::axis(axis);
+    for at in -reach..=reach {
+        let point = hand.pivot() + unit * at as f64 * axis;
+        let Some([x, y]) = pixel_of(point, &camera, size) else {
+            continue;
+        };
+        if x < 0.0 || y < 0.0 || f64::from(cells.width) <= x || f64::from(size.height) <= y {
+            continue;
+        }
+        let (x, y) = (x as u16, y as u16);
+        let Some(cell) = buffer.cell_mut((cells.x + x, cells.y + y / 2)) else {
+            continue;
+        };
+        match (cell.symbol(), y % 2) {
+            ("▀", 0) => cell.set_fg(colour),
+            ("▀", _) => cell.set_bg(colour),
+            _ => cell.set_symbol("·"),
+        };
+    }
 }
 
 /// Draws the pixels of a picture over its cells.

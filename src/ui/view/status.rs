@@ -268,6 +268,7 @@ fn mode_chip(mode: Mode) -> (&'static str, Style) {
         Mode::Edit => ("EDIT", theme::WARNING),
         Mode::Trace => ("TRACE", Style::new()),
         Mode::Pick => ("PICK", theme::ACCENT),
+        Mode::Move => ("MOVE", theme::WARNING),
     }
 }
 

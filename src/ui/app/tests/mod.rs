@@ -4,6 +4,7 @@ mod assets;
 mod dat;
 mod disk;
 mod editing;
+mod hands;
 mod making;
 mod moving;
 mod opening;

@@ -1,0 +1,257 @@
+//! Adding things, changing their kind, and moving, turning and scaling them by hand.
+
+use super::*;
+use crate::language::Node;
+use Node::{Light, Object};
+
+const RAY: &str = "\
+// view: eye 0 0 10 target 0 0 0 up 0 1 0 fov 90 size 400 300
+0.1 0.1 0.1
+1
+5 5 5  1 1 1
+1
+box 0 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .5 .5 0 0 0 1 0 0 1
+";
+
+const DAT: &str = "\
+camera perspective 0 0 10  0 0 0  0 1 0  1 0 100
+mat ID 1  1 1 1  .3 .5 .2 9  0 0 1
+obj sphere ID 1 mat ID 1  0 0 0  1
+";
+
+const XML: &str = "\
+<xml>
+  <scene>
+    <object type=\"sphere\" name=\"a\">
+      <translate x=\"1\"/>
+    </object>
+    <light type=\"point\" name=\"l\">
+      <position y=\"5\"/>
+    </light>
+  </scene>
+  <camera>
+    <position z=\"10\"/>
+    <target value=\"0\"/>
+  </camera>
+</xml>
+";
+
+/// Selects a node of a text, types keys, and checks the text; then that `u` undoes it in one step.
+#[track_caller]
+fn check(name: &str, text: &str, node: Node, said: &str, changes: &[(&str, &str)]) {
+    let (mut app, _) = opened_as(name, text);
+    assert_eq!(app.error_count(), 0, "{name}");
+    app.select(node);
+    press(&mut app, said);
+    let expected = changes.iter().fold(text.to_owned(), |text, (old, new)| {
+        assert!(text.contains(old), "{old}");
+        text.replacen(old, new, 1)
+    });
+    assert_eq!(app.document.text(), expected, "{said}: {}", words(&app));
+    assert_eq!((app.error_count(), app.mode), (0, Mode::Select), "{said}");
+    if !changes.is_empty() {
+        press(&mut app, "u");
+    }
+    assert_eq!(app.document.text(), text, "{said}: undone");
+}
+
+#[test]
+fn things_are_moved_turned_and_scaled_by_typed_amounts_along_axes() {
+    let ray = |node, said, old, new| check("a.ray", RAY, node, said, &[(old, new)]);
+    ray(Object(0), "mx2<Enter>", "box 0 0 0", "box 2 0 0");
+    ray(
+        Object(0),
+        "mx2<Back>-1.5<Enter>",
+        "box 0 0 0",
+        "box -1.5 0 0",
+    );
+    ray(Object(0), "mxx1<Enter>", "box 0 0 0", "box 1 0 0");
+    ray(Light(0), "mz-5<Enter>", "5 5 5  1 1 1", "5 5 0  1 1 1");
+    ray(
+        Object(0),
+        "s2<Enter>",
+        "box 0 0 0  1 0 0  0 1 0  0 0 1  1 2 3",
+        "box -0.5 -1 -1.5  1 0 0  0 1 0  0 0 1  2 4 6",
+    );
+    ray(
+        Object(0),
+        "syy2<Enter>",
+        "box 0 0 0  1 0 0  0 1 0  0 0 1  1 2 3",
+        "box 0 -1 0  1 0 0  0 1 0  0 0 1  1 4 3",
+    );
+    ray(
+        Object(0),
+        "tz90<Enter>",
+        "box 0 0 0  1 0 0  0 1 0  0 0 1",
+        "box 1.5 0.5 0  0 1 0  -1 0 0  0 0 1",
+    );
+    check(
+        "a.dat",
+        DAT,
+        Object(0),
+        "my3<Enter>",
+        &[("0 0 0  1\n", "0 3 0  1\n")],
+    );
+    check(
+        "a.xml",
+        XML,
+        Object(0),
+        "mx2<Enter>",
+        &[("<translate x=\"1\"/>", "<translate x=\"3\"/>")],
+    );
+    check(
+        "a.xml",
+        XML,
+        Object(0),
+        "my2<Enter>",
+        &[("<translate x=\"1\"/>", "<translate x=\"1\" y=\"2\"/>")],
+    );
+    check(
+        "a.xml",
+        XML,
+        Light(0),
+        "my-1<Enter>",
+        &[("<position y=\"5\"/>", "<position y=\"4\"/>")],
+    );
+    check(
+        "a.xml",
+        XML,
+        Object(0),
+        "tz90<Enter>",
+        &[(
+            "<translate",
+            "<rotate z=\"1\" angle=\"90\"/>\n      <translate",
+        )],
+    );
+    check(
+        "a.xml",
+        XML,
+        Object(0),
+        "s2<Enter>",
+        &[("<translate", "<scale value=\"2\"/>\n      <translate")],
+    );
+}
+
+#[test]
+fn steps_are_as_long_as_a_cell_can_show_and_snap_to_a_grid() {
+    // The picture is about 20 units wide at the box, in some eighty cells.
+    check(
+        "a.ray",
+        RAY,
+        Object(0),
+        "ml<Enter>",
+        &[("box 0 0 0", "box 0.5 0 0")],
+    );
+    check(
+        "a.ray",
+        RAY,
+        Object(0),
+        "mLk<Enter>",
+        &[("box 0 0 0", "box 5 0.5 0")],
+    );
+    check(
+        "a.ray",
+        RAY,
+        Object(0),
+        "mllllllg<Enter>",
+        &[("box 0 0 0", "box 5 0 0")],
+    );
+    check("a.ray", RAY, Object(0), "mllhh<Enter>", &[]);
+}
+
+#[test]
+fn escape_puts_back_every_byte_and_leaves_no_step() {
+    for said in ["mx2<Esc>", "ml<Esc>", "tz45<Esc>", "s3<Esc>", "mll<Esc>"] {
+        check("a.ray", RAY, Object(0), said, &[]);
+        check("a.dat", DAT, Object(0), &said.replace("tz45", "s2"), &[]);
+        check("a.xml", XML, Object(0), said, &[]);
+    }
+    let (mut app, _) = opened_as("a.ray", RAY);
+    app.select(Object(0));
+    press(&mut app, "mx2<Esc>u");
+    assert_eq!(words(&app), "nothing to undo");
+}
+
+#[test]
+fn what_cannot_be_moved_is_said() {
+    for (name, text, node, said, reason) in [
+        ("a.ray", RAY, Node::View, "m", "v moves the camera"),
+        ("a.ray", RAY, Node::Ambient, "m", "ambient has no place"),
+        (
+            "a.dat",
+            DAT,
+            Object(0),
+            "syy2",
+            "a sphere has one radius: c changes it to an ellipsoid",
+        ),
+    ] {
+        let (mut app, _) = opened_as(name, text);
+        app.select(node);
+        press(&mut app, said);
+        assert_eq!((words(&app), app.document.text()), (reason, text));
+    }
+}
+
+#[test]
+fn all_marked_things_move_together() {
+    let two = DAT.replace(
+        "0 0 0  1\n",
+        "0 0 0  1\nobj sphere ID 2 mat ID 1  1 0 0  1\n",
+    );
+    let (mut app, _) = opened_as("a.dat", &two);
+    app.select(Object(0));
+    press(&mut app, "  mx2<Enter>");
+    let moved = two
+        .replace("ID 1  0 0 0", "ID 1  2 0 0")
+        .replace("ID 1  1 0 0  1\n", "ID 1  3 0 0  1\n");
+    assert_eq!(app.document.text(), moved);
+}
+
+#[test]
+fn a_change_on_disk_ends_a_motion_and_loses_nothing() {
+    let (mut app, _) = opened_as("scene.ray", RAY);
+    app.select(Object(0));
+    press(&mut app, "mx2");
+    outside(&mut app, &RAY.replace("5 5 5", "6 6 6"));
+    press(&mut app, "l");
+    assert!(
+        words(&app).contains("what was moved is kept"),
+        "{}",
+        words(&app)
+    );
+    assert_eq!(
+        app.document.text(),
+        RAY.replace("5 5 5", "6 6 6")
+            .replace("box 0 0 0", "box 2 0 0")
+    );
+    assert_eq!(app.mode, Mode::Select);
+}
+
+#[test]
+fn menus_add_things_and_change_their_kind() {
+    for (name, text) in [("a.ray", RAY), ("a.dat", DAT), ("a.xml", XML)] {
+        let (mut app, _) = opened_as(name, text);
+        let before = app.nodes().len();
+        press(&mut app, "asphere<Enter>");
+        assert!(before < app.nodes().len(), "{name}: {}", words(&app));
+        assert!(
+            app.source().name(app.cursor.selected()).contains("sphere"),
+            "{name}"
+        );
+        press(&mut app, "u");
+        assert_eq!(app.document.text(), text, "{name}");
+        press(&mut app, "a<Esc>");
+        assert!(app.overlays.menu.is_none());
+        press(&mut app, "azzz<Enter>");
+        assert!(app.overlays.menu.is_some(), "nothing is chosen");
+    }
+    let (mut app, _) = opened_as("a.ray", RAY);
+    app.select(Object(0));
+    press(&mut app, "ccyl<Enter>");
+    assert_eq!(app.source().name(Object(0)), "object 1 (cylinder)");
+    press(&mut app, "u");
+    assert_eq!(app.document.text(), RAY);
+    app.select(Light(0));
+    press(&mut app, "c");
+    assert_eq!(words(&app), "light 1 has only one kind");
+}
