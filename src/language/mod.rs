@@ -25,6 +25,7 @@ mod written;
 mod xml;
 
 use std::borrow::Cow;
+use std::ffi::OsStr;
 use std::fmt::Debug;
 use std::ops::{Deref, DerefMut};
 use std::path::{Path, PathBuf};
@@ -42,7 +43,7 @@ pub use placed::{Placed, Wanted};
 pub use room::fits;
 
 /// Declares the languages, one per line, by folder name, which is also the file extension. A folder
-/// provides `Source`, `errors_of_beginning`, `tree_bytes` and `LEAVES_KEEP_TO_LINES`.
+/// provides `Source`, `errors_of_beginning`, `tree_bytes`, `LEAVES_KEEP_TO_LINES` and `TEMPLATE`.
 macro_rules! languages {
     ($($(#[$doc:meta])* $name:ident in $folder:ident,)+) => {
         /// The supported scene languages.
@@ -59,6 +60,13 @@ macro_rules! languages {
             pub const fn extension(self) -> &'static str {
                 match self {
                     $(Self::$name => stringify!($folder),)+
+                }
+            }
+
+            /// A small valid scene to begin with: a ground, a solid, lights and a view.
+            pub const fn template(self) -> &'static str {
+                match self {
+                    $(Self::$name => $folder::TEMPLATE,)+
                 }
             }
 
@@ -168,11 +176,18 @@ impl Source {
 pub struct UnknownLanguage(pub PathBuf);
 
 impl Language {
+    /// The language with this extension, given without the dot, ignoring case.
+    pub fn of_extension(extension: impl AsRef<OsStr>) -> Option<Self> {
+        let is = |known: &Self| {
+            let extension = extension.as_ref();
+            extension.eq_ignore_ascii_case(known.extension())
+        };
+        Self::ALL.into_iter().find(is)
+    }
+
     /// Returns the language for a file name's extension, ignoring case.
     pub fn of_path(path: &Path) -> Result<Self, UnknownLanguage> {
-        let extension = path.extension().unwrap_or_default();
-        let is = |known: &Self| extension.eq_ignore_ascii_case(known.extension());
-        let known = Self::ALL.into_iter().find(is);
+        let known = Self::of_extension(path.extension().unwrap_or_default());
         known.ok_or_else(|| UnknownLanguage(path.to_owned()))
     }
 }

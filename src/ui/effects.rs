@@ -238,6 +238,7 @@ impl Runtime {
             Effect::CheckPlace(path) => self.writers.check_place(path)?,
             Effect::FindBackups(scene) => self.writers.find_backups(scene)?,
             Effect::Read(path, baseline) => self.reader.read(path, baseline)?,
+            Effect::Open(path, language) => self.reader.open(path, language)?,
             Effect::Free(unneeded) => self.freeing.request(unneeded)?,
             Effect::Save {
                 id,

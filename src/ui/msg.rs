@@ -8,12 +8,13 @@ use std::time::Duration;
 
 use crossterm::event::{KeyEvent, MouseEvent};
 
-use super::reading::{Baseline, Reading};
+use super::reading::{Baseline, Opened, Reading};
 use super::recovery::{Claim, Found, Sought};
 use super::terminal::{ColourDepth, Mouse};
 use crate::assets::{Loaded, Wanted};
 use crate::document::Snapshot;
 use crate::file::{ReadError, Version};
+use crate::language::Language;
 use crate::render::{Frame, Job};
 
 /// The picture that a frame belongs to.
@@ -59,6 +60,8 @@ pub enum Msg {
     FileChanged,
     /// The result of [`Effect::Read`] for this path.
     Read(PathBuf, Result<Reading, ReadError>),
+    /// The result of [`Effect::Open`] for this path.
+    Opened(PathBuf, Result<Opened, ReadError>),
     /// The result of [`Effect::ReadAssets`].
     AssetsRead(Wanted, Loaded),
     /// A file that the scene names may have changed.
@@ -141,6 +144,8 @@ pub enum Effect {
     CheckTarget(ExportId, Destination),
     /// Reads the scene file, reported by [`Msg::Read`].
     Read(PathBuf, Baseline),
+    /// Reads another scene, which is to replace this one; reported by [`Msg::Opened`].
+    Open(PathBuf, Language),
     /// Frees a value on another thread: for a large scene this takes longer than a key may wait.
     Free(Arc<dyn Any + Send + Sync>),
     /// Writes the scene file, reported by [`Msg::Saved`].

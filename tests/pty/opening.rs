@@ -48,7 +48,7 @@ fn an_unreadable_scene_ends_the_program_with_its_exit_code() {
             65,
             "latin.ray:1:7: the byte 0xE9 is not UTF-8 text",
         ),
-        ("none.ray", 66, "no such file"),
+        ("none/a.ray", 66, "no such file"),
         (".", 66, "it is a folder"),
     ] {
         let mut session = place.start(&[name], WIDE);

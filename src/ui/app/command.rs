@@ -3,9 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{App, Help, PromptKind};
+use super::{App, Help, Next, PromptKind};
 use crate::image_file::ImageFormat;
-use crate::language::Language;
+use crate::language::{Language, extensions};
 use crate::render::MAX_SPP;
 use crate::scene::{Camera, Size};
 use crate::text::nearest_word;
@@ -21,8 +21,10 @@ enum Command {
     Quit(Force),
     /// Save, then quit if that succeeds.
     WriteQuit,
-    /// Read the file again.
-    Reread,
+    /// Open another scene, or read the file again.
+    Edit(Option<PathBuf>),
+    /// Start a new scene, in another language if one is given.
+    New(Option<Language>),
     /// Export what is shown to a picture file.
     Export(ExportArguments, Force),
     /// Cancel the running export.
@@ -67,6 +69,7 @@ struct CommandRow {
 enum Arguments {
     Nothing(Command),
     File(fn(Option<PathBuf>) -> Command),
+    Language(fn(Option<Language>) -> Command),
     Picture(fn(ExportArguments) -> Command),
     Size(fn(Size) -> Command),
 }
@@ -94,7 +97,8 @@ const TABLE: &[CommandRow] = &[
     row(&["q", "quit"], A::Nothing(C::Quit(Force::No)), "quit"),
     row(&["q!", "quit!"], A::Nothing(C::Quit(Force::Yes)), "quit without asking"),
     row(&["wq", "x"], A::Nothing(C::WriteQuit), "save and quit"),
-    row(&["e", "reread"], A::Nothing(C::Reread), "reload the file"),
+    row(&["e", "edit", "reread"], A::File(C::Edit), "open FILE, or reload the scene's own"),
+    row(&["new"], A::Language(C::New), "start a new scene: ray, dat or xml"),
     row(&["export"], A::Picture(|picture| C::Export(picture, Force::No)), "export a picture of what is shown"),
     row(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "export, overwriting an existing file"),
     row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
@@ -112,6 +116,7 @@ impl CommandRow {
         let arguments = match self.arguments {
             A::Nothing(_) => "",
             A::File(_) => " [FILE]",
+            A::Language(_) => " [LANGUAGE]",
             A::Picture(_) => " [FILE] [WxH] [SPP]",
             A::Size(_) => " WxH",
         };
@@ -125,6 +130,13 @@ impl CommandRow {
             A::Nothing(command) if rest.is_empty() => Ok(command.clone()),
             A::Nothing(_) => Err(format!("{name} takes no arguments")),
             A::File(command) => Ok(command((!rest.is_empty()).then(|| PathBuf::from(rest)))),
+            A::Language(command) => {
+                match (rest, Language::of_extension(rest.trim_start_matches('.'))) {
+                    ("", _) => Ok(command(None)),
+                    (_, None) => Err(format!("{name} takes {}", extensions())),
+                    (_, known) => Ok(command(known)),
+                }
+            }
             A::Picture(command) => picture(rest).map(command),
             A::Size(command) => {
                 let size = Size::parse(rest);
@@ -254,7 +266,12 @@ impl App {
             Command::Quit(Force::No) => return self.quit(),
             Command::Quit(Force::Yes) => return self.quit_anyway(),
             Command::WriteQuit => return self.save_and_quit(),
-            Command::Reread => return self.reread(),
+            Command::Edit(None) => return self.reread(),
+            Command::Edit(Some(path)) => return self.open_scene(path),
+            Command::New(language) => {
+                let language = language.unwrap_or_else(|| self.document.language());
+                return self.leave_for(Next::New(language));
+            }
             Command::Export(ExportArguments { path, size, spp }, force) => {
                 let path = path.unwrap_or_else(|| self.export_path());
                 return self.start_export(&path, size, spp, force);

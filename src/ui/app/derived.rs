@@ -1,16 +1,19 @@
 //! Values derived from the state, for drawing and for steps alike.
 
+use std::sync::Arc;
+
 use ratatui::layout::Rect;
 
 use super::App;
 use super::cursor::row_of;
 use super::disk::OnDisk;
+use super::next::Next;
 use super::overlays::Dialog;
 use super::picture::Picture;
 use super::pictures::Outline;
 use crate::language::table::Field;
 use crate::language::{Node, Nodes, Source};
-use crate::scene::{Camera, Integrator, Size};
+use crate::scene::{Camera, Integrator, Scene, Size};
 use crate::ui::errors::{self, Panel, Wrong};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{Areas, Zoom, arrange, raster};
@@ -21,11 +24,15 @@ const NO_SCENE: Size = Size {
     height: 3,
 };
 
+/// The loss of the working view, and how to prevent it.
+const LOST_VIEW: &str = "the moved view is not in the text (S writes it)";
+
 impl App {
     /// The context whose keys are active; keys typed into a line take precedence.
     pub fn context(&self) -> Context {
         match &self.overlays.dialog {
-            Some(Dialog::Quit) => Context::Quit,
+            Some(Dialog::Leave(Next::Quit)) => Context::Quit,
+            Some(Dialog::Leave(_)) => Context::Leave,
             Some(Dialog::Conflict { .. }) => Context::Conflict,
             Some(Dialog::Recover(_)) => Context::Recover,
             None if self.overlays.help.is_some() => Context::Help,
@@ -99,6 +106,13 @@ impl App {
         self.diagnostics.errors()
     }
 
+    /// Whether there is nothing to see: the text is blank, or its scene has no objects.
+    pub fn is_empty(&self) -> bool {
+        let is_bare = |scene: &Arc<Scene>| scene.objects.is_empty() && self.error_count() == 0;
+        !self.disk.is_opening()
+            && (self.document.text().trim().is_empty() || self.scene.as_ref().is_some_and(is_bare))
+    }
+
     /// The errors and warnings to show and the text that they refer to: the file on disk if that is
     /// what has errors.
     pub(crate) fn wrong(&self) -> Wrong<'_> {
@@ -132,24 +146,48 @@ impl App {
 
     /// Describes what would be lost by quitting now; `None` if nothing.
     pub fn losses(&self) -> Option<String> {
+        self.losses_before(&Next::Quit)
+    }
+
+    /// Describes what would be lost by leaving the scene now; `None` if nothing. Work under way ends
+    /// only with the program.
+    pub fn losses_before(&self, next: &Next) -> Option<String> {
+        let view = self.pictures.view.map(|_| LOST_VIEW.to_owned());
+        let mut lost: Vec<_> = self.lost_text().into_iter().chain(view).collect();
+        if *next == Next::Quit {
+            lost.extend(self.lost_work(lost.is_empty()));
+        }
+        let last = lost.pop()?;
+        Some(match lost.len() {
+            0 => last,
+            1 => format!("{}, and {last}", lost[0]),
+            _ => format!("{}, and {last}", lost.join(", ")),
+        })
+    }
+
+    /// Why the text would be lost, if it would.
+    fn lost_text(&self) -> Option<String> {
         let name = self.disk.name();
-        let text = if self.document.is_dirty() {
-            Some(format!("{name} has unsaved edits"))
-        } else {
-            let is_missing = self.disk.state == OnDisk::Missing;
-            is_missing.then(|| format!("{name} no longer exists"))
-        };
+        match &self.disk.state {
+            OnDisk::New if self.disk.path.is_none() => {
+                Some("the new scene is not saved".to_owned())
+            }
+            OnDisk::New => Some(format!("{name} is new and not saved")),
+            _ if self.document.is_dirty() => Some(format!("{name} has unsaved edits")),
+            OnDisk::Missing => Some(format!("{name} no longer exists")),
+            _ => None,
+        }
+    }
+
+    /// The work that would end too early: the export or, only if `is_all`, a save.
+    fn lost_work(&self, is_all: bool) -> Option<String> {
         let export = self.jobs.export.as_ref().map(|export| {
             let name = export.destination.path.display();
             format!("{name} is still being exported")
         });
         let save = self.jobs.file_being_saved();
         let save = save.map(|path| format!("{} is still being written", path.display()));
-        match (text, export) {
-            (None, export) => export.or(save),
-            (text, None) => text,
-            (Some(text), Some(export)) => Some(format!("{text}, and {export}")),
-        }
+        export.or(save.filter(|_| is_all))
     }
 
     /// The size of one nudge of a field.

@@ -39,7 +39,11 @@ impl App {
                     *at = moved(*at, rows, merge.conflicts.len());
                 }
             }
-            Context::In(_) | Context::Opening | Context::Quit | Context::Recover => {}
+            Context::In(_)
+            | Context::Opening
+            | Context::Quit
+            | Context::Leave
+            | Context::Recover => {}
         }
     }
 

@@ -5,6 +5,7 @@
 //! jobs. A part owns its state and knows no other; the steps, which handle messages, pass between
 //! them what they need. Nothing here touches files, threads or clocks.
 
+mod another;
 mod assets;
 mod camera;
 mod command;
@@ -14,17 +15,18 @@ mod disk;
 mod edit;
 mod jobs;
 mod journal;
+mod leaving;
 mod line;
 mod list;
 mod literals;
 mod model;
+mod next;
 mod opening;
 mod overlays;
 mod picture;
 mod pictures;
 mod places;
 mod pointer;
-mod quit;
 mod recover;
 mod reload;
 mod saving;
@@ -42,6 +44,7 @@ pub use derived::{FieldRow, Provenance};
 pub use disk::{Disk, FirstReading, OnDisk};
 pub use jobs::{Export, Jobs, Stage};
 pub use model::App;
+pub use next::Next;
 pub use opening::{Opening, OpeningText};
 pub use overlays::{Dialog, Help, HelpFocus, Message, Outside, Overlays, Prompt, PromptKind};
 pub use picture::{Picture, Shown};

@@ -40,6 +40,8 @@ pub enum OpeningText {
     Unread(u64),
     /// The file is missing; this is the base of unsaved edits that were kept of it.
     Kept(String),
+    /// The file does not exist yet: the text is the language's template.
+    New,
 }
 
 impl App {
@@ -48,6 +50,10 @@ impl App {
         let (text, state, first) = match opening.text {
             OpeningText::Known(text) => (text, OnDisk::Known, FirstReading::Done),
             OpeningText::Kept(text) => (text, OnDisk::Missing, FirstReading::Done),
+            OpeningText::New => {
+                let text = opening.language.template().to_owned();
+                (text, OnDisk::New, FirstReading::Done)
+            }
             OpeningText::Unread(bytes) => {
                 (String::new(), OnDisk::Known, FirstReading::Pending(bytes))
             }
@@ -103,12 +109,15 @@ impl App {
     }
 
     /// Installs the meaning of the first text, and looks for edits of it that earlier runs kept.
-    fn begin(&mut self, lowered: Lowered) -> Effect {
+    pub(super) fn begin(&mut self, lowered: Lowered) -> Effect {
         // The message that the scene is still being opened; errors stay, to be read.
         self.overlays
             .message
             .take_if(|message| message.severity != Some(Severity::Error));
         self.install(lowered);
+        if self.disk.state == OnDisk::New {
+            self.announce_new();
+        }
         // The first change is more likely to be to an object than to the camera.
         self.select(Node::Object(0));
         self.cursor.renew(self.document.source());

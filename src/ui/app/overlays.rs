@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use tui_input::Input;
 
+use super::next::Next;
 use crate::document::{Merge, Side};
 use crate::text::{Severity, without_codes};
 use crate::ui::recovery::{Claim, Offer, Since};
@@ -47,8 +48,8 @@ pub enum PromptKind {
 /// A question that must be answered first.
 #[derive(Debug)]
 pub enum Dialog {
-    /// Whether to quit although edits are unsaved or an export is running.
-    Quit,
+    /// Whether to leave the scene although something would be lost, and what follows then.
+    Leave(Next),
     /// How to resolve a merge in which both texts changed the same places.
     Conflict {
         /// The merge to decide.

@@ -77,6 +77,16 @@ impl Pictures {
         }
     }
 
+    /// Forgets the scene's pictures and its view; what pictures show and their quality stay.
+    pub(super) fn renew(&mut self) {
+        *self = Self {
+            aov: self.aov,
+            outline: self.outline,
+            net: self.net,
+            ..Self::new(self.quality)
+        };
+    }
+
     /// The picture on screen.
     pub fn seen(&self, mode: Mode) -> &Picture {
         match (mode, &self.trace) {

@@ -150,7 +150,7 @@ impl App {
             if self.jobs.export.take_if(traced).is_none() {
                 return;
             }
-            self.jobs.quit = false;
+            self.jobs.next = None;
         }
         self.pictures.want(target, None);
         self.overlays.fail(reason);
@@ -193,10 +193,10 @@ impl App {
                 self.overlays
                     .say(format!("wrote {path}{}", export.summary()));
                 self.jobs.note_export(exported);
-                self.quit_when_done()
+                self.leave_when_done()
             }
             Err(reason) => {
-                self.jobs.quit = false;
+                self.jobs.next = None;
                 self.overlays.fail(reason);
                 export.stop()
             }
@@ -337,7 +337,7 @@ impl App {
             self.overlays.say("nothing is running");
             return Vec::new();
         };
-        self.jobs.quit = false;
+        self.jobs.next = None;
         match export.stage {
             Stage::Tracing => self.overlays.say("export cancelled"),
             Stage::Writing => {

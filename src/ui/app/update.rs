@@ -35,6 +35,7 @@ impl App {
             Msg::FileChanged => return self.read_again(),
             // The scene may have been given another name since the request.
             Msg::Read(path, read) if !self.disk.is_own(&path) => drop(read),
+            Msg::Opened(path, opened) => return self.scene_read(path, opened),
             Msg::Read(_, read) if self.disk.is_opening() => return self.opened(read),
             Msg::Read(_, read) => return self.was_read(read),
             Msg::AssetsRead(wanted, loaded) => self.assets_read(&wanted, loaded),
@@ -223,17 +224,19 @@ impl App {
         Vec::new()
     }
 
-    /// Closes a line without accepting it, and cancels a quit that waited for a file name.
+    /// Closes a line without accepting it, and gives up leaving, which waited for a file name.
     fn close_prompt(&mut self) {
         self.overlays.prompt = None;
-        self.jobs.quit = false;
+        self.jobs.next = None;
     }
 
     fn back(&mut self, context: Context) -> Vec<Effect> {
         match context {
             Context::Help => self.overlays.help = None,
             Context::Errors => self.overlays.errors = None,
-            Context::Conflict | Context::Quit | Context::Recover => return self.put_off(),
+            Context::Conflict | Context::Quit | Context::Leave | Context::Recover => {
+                return self.put_off();
+            }
             Context::Opening => {}
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
@@ -250,7 +253,7 @@ impl App {
         match context {
             Context::Errors => self.go_to_error(),
             Context::Conflict => return self.adopt(),
-            Context::Quit => return self.quit_anyway(),
+            Context::Quit | Context::Leave => return self.leave_anyway(),
             Context::Recover => return self.restore(),
             Context::In(Mode::Pick) => self.pick_cross(),
             Context::In(_) | Context::Help | Context::Opening => {}

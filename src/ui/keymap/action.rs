@@ -32,6 +32,8 @@ pub enum Context {
     Conflict,
     /// The question whether to quit.
     Quit,
+    /// The question whether to leave the scene for another one.
+    Leave,
     /// The question whether to recover the edits of an earlier run.
     Recover,
 }
@@ -95,7 +97,7 @@ pub enum Action {
     Stop,
     /// Exports what is shown, under the scene's name.
     Export,
-    /// Saves the scene to its file; in the quit dialog, then quits.
+    /// Saves the scene to its file; in the question whether to leave it, then leaves.
     Save,
     /// Undoes the last step and selects what it changed.
     Undo,

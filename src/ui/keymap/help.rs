@@ -31,11 +31,12 @@ const MODES: [(&str, Context); 5] = [
     ("PICK", Context::In(Pick)),
     ("TRACE", Context::In(Trace)),
 ];
-const DIALOGS: [(&str, Context); 5] = [
+const DIALOGS: [(&str, Context); 6] = [
     ("the list of errors", Context::Errors),
     ("this page", Context::Help),
     ("merge conflicts", Context::Conflict),
     ("when asked to confirm quitting", Context::Quit),
+    ("when asked to confirm leaving the scene", Context::Leave),
     ("when unsaved edits were found", Context::Recover),
 ];
 
@@ -103,7 +104,7 @@ pub fn hints(context: Context) -> Vec<(String, &'static str)> {
         Context::In(Trace) => TRACE_HINTS,
         Context::Errors => ERROR_HINTS,
         Context::Opening => &[],
-        Context::Help | Context::Conflict | Context::Quit | Context::Recover => {
+        Context::Help | Context::Conflict | Context::Quit | Context::Leave | Context::Recover => {
             return TABLE
                 .iter()
                 .filter(|row| row.scope.holds(context) && !is_common(row))
@@ -271,7 +272,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
         let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 14);
+        assert_eq!(headings(&lines).len(), 15);
         assert!(lines.contains(&entry("gg", "first")));
         for row in TABLE {
             assert!(lines.contains(&entry(&keys(row), row.words)), "{row:?}");

@@ -72,6 +72,9 @@ const HELP: Scope = Scope::These(&[Context::Help]);
 const ERRORS: Scope = Scope::These(&[Context::Errors]);
 const CONFLICT: Scope = Scope::These(&[Context::Conflict]);
 const QUIT: Scope = Scope::These(&[Context::Quit]);
+const LEAVE: Scope = Scope::These(&[Context::Leave]);
+/// Where a loss of the working view is announced.
+const LEAVING: Scope = Scope::These(&[Context::Quit, Context::Leave]);
 const RECOVER: Scope = Scope::These(&[Context::Recover]);
 const LISTS: Scope = Scope::These(&[
     Context::In(Select),
@@ -152,6 +155,10 @@ pub(super) const TABLE: &[Binding] = &[
     bind(QUIT, &[c('y')], A::Accept, "quit anyway"),
     bind(QUIT, &[c('w')], A::Save, "save and quit"),
     bind(QUIT, &[c('n'), key(Esc)], A::Back, "stay"),
+    bind(LEAVE, &[c('y')], A::Accept, "discard what is unsaved"),
+    bind(LEAVE, &[c('w')], A::Save, "save first"),
+    bind(LEAVE, &[c('n'), key(Esc)], A::Back, "stay"),
+    bind(LEAVING, &[c('S')], A::SaveView, "write the moved view into the scene"),
     bind(RECOVER, &[c('r')], A::Accept, "restore them"),
     bind(RECOVER, &[c('d')], A::No, "discard them"),
     bind(RECOVER, &[key(Esc)], A::Back, "decide next time"),
@@ -200,13 +207,13 @@ pub fn action(context: Context, event: KeyEvent) -> Option<Action> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use Context::{Conflict, Errors, Help, Opening, Quit, Recover};
+    use Context::{Conflict, Errors, Help, Leave, Opening, Quit, Recover};
     use KeyCode::Char;
 
     #[test]
     fn no_key_has_two_meanings_in_one_context() {
         let modes = [Select, View, Edit, Trace, Pick].map(Context::In);
-        let others = [Opening, Help, Errors, Conflict, Quit, Recover];
+        let others = [Opening, Help, Errors, Conflict, Quit, Leave, Recover];
         for context in modes.into_iter().chain(others) {
             let rows = TABLE.iter().filter(|row| row.scope.holds(context));
             let mut bound: Vec<_> = rows.flat_map(|row| row.chords).collect();

@@ -192,6 +192,7 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
         OnDisk::Faulty(_) => Some("[errors on disk]"),
         OnDisk::Unreadable => Some("[cannot read file]"),
         OnDisk::Missing => Some("[file missing]"),
+        OnDisk::New => Some("[new]"),
     };
     if let Some(disk) = disk {
         say(3, disk.to_owned(), theme::WARNING);

@@ -17,8 +17,8 @@ use crate::render::{Filter, Frame, NO_OBJECT, Progress};
 use crate::scene::Size;
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
-    App, Dialog, Export, Help, HelpFocus, Message, OnDisk, Opening, OpeningText, Outside, Prompt,
-    PromptKind, Quality, Stage, Typing,
+    App, Dialog, Export, Help, HelpFocus, Message, Next, OnDisk, Opening, OpeningText, Outside,
+    Prompt, PromptKind, Quality, Stage, Typing,
 };
 use crate::ui::keymap::Mode;
 use crate::ui::layout::Zoom;
@@ -188,7 +188,9 @@ const STATES: &[(&str, Change)] = &[
             focus: HelpFocus::Search,
         });
     }),
-    ("quit", |app| app.overlays.dialog = Some(Dialog::Quit)),
+    ("quit", |app| {
+        app.overlays.dialog = Some(Dialog::Leave(Next::Quit))
+    }),
     ("recover", |app| {
         let text = app.document.shared_text();
         let kept = SCENE.replace(" 0.25 ", " 0.75 ");

@@ -10,6 +10,8 @@ mod opening;
 pub(in crate::ui) mod pictures;
 mod recovering;
 mod saving;
+mod starting;
+mod views;
 mod xml;
 
 use std::path::{Path, PathBuf};
