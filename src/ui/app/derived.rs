@@ -187,7 +187,7 @@ impl App {
         });
         let save = self.jobs.file_being_saved();
         let save = save.map(|path| format!("{} is still being written", path.display()));
-        export.or(save.filter(|_| is_all))
+        export.or_else(|| save.filter(|_| is_all))
     }
 
     /// The size of one nudge of a field.

@@ -3,7 +3,7 @@
 use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
 
 use super::App;
-use super::camera::{dollied, orbited};
+use super::camera::{advanced, dollied, orbited, turned};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{field_at, list_row_at, pixel_at};
 use crate::ui::msg::{Effect, Timer};
@@ -38,7 +38,7 @@ impl App {
             self.move_cursor(Context::Help, WHEEL * down);
             return;
         }
-        let areas = self.areas();
+        let (areas, mode) = (self.areas(), self.mode);
         let over = |area: ratatui::layout::Rect| area.contains(at.into());
         if self
             .errors_panel(areas.errors)
@@ -51,8 +51,12 @@ impl App {
             self.move_cursor(Context::In(Mode::Select), WHEEL * down);
         } else if over(areas.fields) && self.cursor.typing.is_none() {
             self.move_cursor(Context::In(Mode::Edit), down);
-        } else if over(areas.picture) && self.mode == Mode::View {
-            self.move_camera(|now| dollied(now, if down < 0 { 1 } else { -1 }));
+        } else if over(areas.picture) && self.mode.moves_camera() {
+            let steps = if down < 0 { 1 } else { -1 };
+            self.move_camera(|now| match mode {
+                Mode::Fly => advanced(now, steps),
+                _ => dollied(now, steps),
+            });
         }
     }
 
@@ -84,7 +88,7 @@ impl App {
         if let Some(clicked) = field_at(areas.fields, self.cursor.field_top, components, at) {
             return self.press_field(clicked);
         }
-        if self.mode == Mode::View && areas.picture.contains(at.into()) {
+        if self.mode.moves_camera() && areas.picture.contains(at.into()) {
             self.pictures.drag = Some(at);
         } else if let Some(raster) = self.raster() {
             let size = self.picture().shown.size;
@@ -107,13 +111,17 @@ impl App {
     }
 
     fn drag(&mut self, at: (u16, u16)) {
-        let Some(from) = self.pictures.drag.filter(|_| self.mode == Mode::View) else {
+        let Some(from) = self.pictures.drag.filter(|_| self.mode.moves_camera()) else {
             return;
         };
         let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);
         // The scene follows the pointer, so the camera moves the opposite way.
         let (left, up) = (DRAG.0 * moved(from.0, at.0), DRAG.1 * moved(from.1, at.1));
-        self.move_camera(|now| orbited(now, left, up));
+        // In place, the same motion of the scene is a turn the other way.
+        match self.mode {
+            Mode::Fly => self.move_camera(|now| turned(now, left / 4.0, up / 4.0)),
+            _ => self.move_camera(|now| orbited(now, left, up)),
+        }
         self.pictures.drag = Some(at);
     }
 }

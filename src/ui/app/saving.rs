@@ -29,7 +29,7 @@ impl App {
     pub(super) fn unwritten_view(&self) -> &'static str {
         match (self.pictures.view, self.mode) {
             (None, _) => "",
-            (Some(_), Mode::View) => "; the moved view is not in the text: S writes it",
+            (Some(_), Mode::View | Mode::Fly) => "; the moved view is not in the text: S writes it",
             (Some(_), _) => "; the moved view is not in the text: S in VIEW writes it",
         }
     }

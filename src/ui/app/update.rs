@@ -3,7 +3,7 @@
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
-use super::camera::{dollied, panned, stepped, widened};
+use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
 use super::{App, Help, HelpFocus, PromptKind, line};
 use crate::ui::keymap::{self, Action, Context, Mode};
 use crate::ui::layout::Zoom;
@@ -176,6 +176,9 @@ impl App {
             Action::Orbit(left, up) => self.move_camera(|now| stepped(now, left, up)),
             Action::Pan(left, up) => self.move_camera(|now| panned(now, left, up)),
             Action::Dolly(steps) => self.move_camera(|now| dollied(now, steps)),
+            Action::Turn(left, up) => self.move_camera(|now| faced(now, left, up)),
+            Action::Advance(steps) => self.move_camera(|now| advanced(now, steps)),
+            Action::Roll(left) => self.move_camera(|now| rolled(now, left)),
             Action::Widen(steps) => self.move_camera(|now| widened(now, steps)),
             Action::ResetView => self.pictures.reset_view(),
             Action::FrameSelected => self.frame_selected(),
@@ -212,14 +215,14 @@ impl App {
         self.document.end_step();
         match mode {
             Mode::Trace => return self.start_trace(),
-            Mode::View | Mode::Pick if self.scene.is_none() => {
+            Mode::View | Mode::Fly | Mode::Pick if self.scene.is_none() => {
                 self.overlays.fail(self.no_picture());
             }
             Mode::Edit if self.cursor.fields().is_empty() => {
                 self.overlays.fail("nothing to edit here");
             }
             Mode::Pick => self.start_pick(),
-            Mode::Select | Mode::View | Mode::Edit => self.mode = mode,
+            Mode::Select | Mode::View | Mode::Fly | Mode::Edit => self.mode = mode,
         }
         Vec::new()
     }

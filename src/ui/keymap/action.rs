@@ -7,14 +7,23 @@ use crate::render::Aov;
 pub enum Mode {
     /// Selects a node in the list or in the picture.
     Select,
-    /// Moves the camera; the text changes only when the view is saved.
+    /// Moves the camera around its target; the text changes only when the view is saved.
     View,
+    /// Flies the camera: turns it in place and moves it with its target.
+    Fly,
     /// Edits the fields of the selected node.
     Edit,
     /// Shows the full-size trace.
     Trace,
     /// Moves a cross over the picture to pick the object under it.
     Pick,
+}
+
+impl Mode {
+    /// Whether keys, the wheel and dragging move the camera.
+    pub const fn moves_camera(self) -> bool {
+        matches!(self, Self::View | Self::Fly)
+    }
 }
 
 /// A context with its own key bindings.
@@ -83,6 +92,12 @@ pub enum Action {
     Pan(i8, i8),
     /// Moves the camera towards its target, in steps.
     Dolly(i8),
+    /// Turns the camera in place, in steps to the left and up.
+    Turn(i8, i8),
+    /// Moves the camera with its target, in steps forward.
+    Advance(i8),
+    /// Rolls the camera, in steps to the left.
+    Roll(i8),
     /// Widens the field of view, in steps.
     Widen(i8),
     /// Resets the view to that of the text.

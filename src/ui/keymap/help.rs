@@ -6,7 +6,7 @@ use super::table::{Binding, Scope, TABLE};
 use crate::render::Aov;
 
 use Action as A;
-use Mode::{Edit, Pick, Select, Trace, View};
+use Mode::{Edit, Fly, Pick, Select, Trace, View};
 use Stride::Plain;
 
 /// One line of help.
@@ -24,10 +24,11 @@ pub enum HelpLine {
 }
 
 /// Sections of help that follow the keys valid anywhere, by name.
-const MODES: [(&str, Context); 5] = [
+const MODES: [(&str, Context); 6] = [
     ("SELECT", Context::In(Select)),
     ("EDIT", Context::In(Edit)),
     ("VIEW", Context::In(View)),
+    ("VIEW FLY", Context::In(Fly)),
     ("PICK", Context::In(Pick)),
     ("TRACE", Context::In(Trace)),
 ];
@@ -100,6 +101,7 @@ pub fn hints(context: Context) -> Vec<(String, &'static str)> {
         Context::In(Select) => SELECT_HINTS,
         Context::In(Edit) => EDIT_HINTS,
         Context::In(View) => VIEW_HINTS,
+        Context::In(Fly) => FLY_HINTS,
         Context::In(Pick) => PICK_HINTS,
         Context::In(Trace) => TRACE_HINTS,
         Context::Errors => ERROR_HINTS,
@@ -159,6 +161,22 @@ const VIEW_HINTS: &[Hint] = &[
     (&[A::FrameSelected], "frame"),
     (&[A::ResetView], "reset"),
     (&[A::SaveView], "save view"),
+    (&[A::Go(Fly)], "fly"),
+    (&[A::Back], "back"),
+];
+const FLY_HINTS: &[Hint] = &[
+    (
+        &[A::Turn(1, 0), A::Turn(0, -1), A::Turn(0, 1), A::Turn(-1, 0)],
+        "turn",
+    ),
+    (
+        &[A::Pan(1, 0), A::Advance(-1), A::Advance(1), A::Pan(-1, 0)],
+        "move",
+    ),
+    (&[A::Roll(1), A::Roll(-1)], "roll"),
+    (&[A::ResetView], "reset"),
+    (&[A::SaveView], "save view"),
+    (&[A::Go(View)], "orbit"),
     (&[A::Back], "back"),
 ];
 const PICK_HINTS: &[Hint] = &[
@@ -272,7 +290,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
         let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 15);
+        assert_eq!(headings(&lines).len(), 16);
         assert!(lines.contains(&entry("gg", "first")));
         for row in TABLE {
             assert!(lines.contains(&entry(&keys(row), row.words)), "{row:?}");

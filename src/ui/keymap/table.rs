@@ -8,7 +8,7 @@ use crate::render::Aov;
 
 use Action as A;
 use KeyCode::{BackTab, Down, End, Enter, Esc, F, Home, Left, PageDown, PageUp, Right, Tab, Up};
-use Mode::{Edit, Pick, Select, Trace, View};
+use Mode::{Edit, Fly, Pick, Select, Trace, View};
 use Stride::{Coarse, Fine, Plain};
 
 /// A row of the table: within its scope, each of these keys has the same action.
@@ -62,11 +62,18 @@ const fn bind(
 
 const SELECT: Scope = Scope::These(&[Context::In(Select)]);
 const VIEW: Scope = Scope::These(&[Context::In(View)]);
+const FLY: Scope = Scope::These(&[Context::In(Fly)]);
+const VIEWS: Scope = Scope::These(&[Context::In(View), Context::In(Fly)]);
 const EDIT: Scope = Scope::These(&[Context::In(Edit)]);
 const LIST_AND_FIELDS: Scope = Scope::These(&[Context::In(Select), Context::In(Edit)]);
 const TRACE: Scope = Scope::These(&[Context::In(Trace)]);
 /// Contexts in which digits are not part of a number.
-const PICTURES: Scope = Scope::These(&[Context::In(Select), Context::In(View), Context::In(Trace)]);
+const PICTURES: Scope = Scope::These(&[
+    Context::In(Select),
+    Context::In(View),
+    Context::In(Fly),
+    Context::In(Trace),
+]);
 const PICK: Scope = Scope::These(&[Context::In(Pick)]);
 const HELP: Scope = Scope::These(&[Context::Help]);
 const ERRORS: Scope = Scope::These(&[Context::Errors]);
@@ -129,15 +136,27 @@ pub(super) const TABLE: &[Binding] = &[
     bind(VIEW, &[c('l'), key(Right)], A::Orbit(-1, 0), "orbit right"),
     bind(VIEW, &[c('+'), c('=')], A::Dolly(1), "nearer"),
     bind(VIEW, &[c('-')], A::Dolly(-1), "farther"),
-    bind(VIEW, &[c('f')], A::FrameSelected, "frame the selected object"),
-    bind(VIEW, &[c('0')], A::ResetView, "reset to the scene's view"),
-    bind(VIEW, &[c('S')], A::SaveView, "write the view into the scene"),
     bind(VIEW, &[c('H'), Chord(Left, SHIFT)], A::Pan(1, 0), "pan left"),
     bind(VIEW, &[c('J'), Chord(Down, SHIFT)], A::Pan(0, -1), "pan down"),
     bind(VIEW, &[c('K'), Chord(Up, SHIFT)], A::Pan(0, 1), "pan up"),
     bind(VIEW, &[c('L'), Chord(Right, SHIFT)], A::Pan(-1, 0), "pan right"),
-    bind(VIEW, &[c('[')], A::Widen(-1), "narrow the field of view"),
-    bind(VIEW, &[c(']')], A::Widen(1), "widen the field of view"),
+    bind(VIEW, &[c('F')], A::Go(Fly), "fly: turn in place and move"),
+    bind(FLY, &[c('h'), key(Left)], A::Turn(1, 0), "turn left"),
+    bind(FLY, &[c('j'), key(Down)], A::Turn(0, -1), "turn down"),
+    bind(FLY, &[c('k'), key(Up)], A::Turn(0, 1), "turn up"),
+    bind(FLY, &[c('l'), key(Right)], A::Turn(-1, 0), "turn right"),
+    bind(FLY, &[c('K'), Chord(Up, SHIFT), c('+'), c('=')], A::Advance(1), "forward"),
+    bind(FLY, &[c('J'), Chord(Down, SHIFT), c('-')], A::Advance(-1), "back"),
+    bind(FLY, &[c('H'), Chord(Left, SHIFT)], A::Pan(1, 0), "left"),
+    bind(FLY, &[c('L'), Chord(Right, SHIFT)], A::Pan(-1, 0), "right"),
+    bind(FLY, &[c('F')], A::Go(View), "move around the target again"),
+    bind(VIEWS, &[c('f')], A::FrameSelected, "frame the selected object"),
+    bind(VIEWS, &[c('0')], A::ResetView, "reset to the scene's view"),
+    bind(VIEWS, &[c('S')], A::SaveView, "write the view into the scene"),
+    bind(VIEWS, &[c('[')], A::Widen(-1), "narrow the field of view"),
+    bind(VIEWS, &[c(']')], A::Widen(1), "widen the field of view"),
+    bind(VIEWS, &[c(',')], A::Roll(1), "roll left"),
+    bind(VIEWS, &[c('.')], A::Roll(-1), "roll right"),
 
     bind(PICK, &[c('h'), key(Left)], A::Cross(-1, 0), "left"),
     bind(PICK, &[c('j'), key(Down)], A::Cross(0, 1), "down"),
@@ -191,9 +210,9 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Always, &[ctrl('z')], A::Suspend, "suspend"),
     bind(Scope::Sceneless, &[c('q')], A::Quit, "quit"),
     bind(Scope::Always, &[ctrl('c')], A::Interrupt, "quit; press twice to quit at once"),
-    bind(VIEW, &[c('e')], A::Go(Edit), "edit fields"),
+    bind(VIEWS, &[c('e')], A::Go(Edit), "edit fields"),
     bind(EDIT, &[c('v')], A::Go(View), "move the camera"),
-    bind(VIEW, &[key(Enter)], A::Go(Select), "back to the list"),
+    bind(VIEWS, &[key(Enter)], A::Go(Select), "back to the list"),
 ];
 
 /// The action of a key in a context.
@@ -212,7 +231,7 @@ mod tests {
 
     #[test]
     fn no_key_has_two_meanings_in_one_context() {
-        let modes = [Select, View, Edit, Trace, Pick].map(Context::In);
+        let modes = [Select, View, Fly, Edit, Trace, Pick].map(Context::In);
         let others = [Opening, Help, Errors, Conflict, Quit, Leave, Recover];
         for context in modes.into_iter().chain(others) {
             let rows = TABLE.iter().filter(|row| row.scope.holds(context));

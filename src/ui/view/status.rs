@@ -265,6 +265,7 @@ fn mode_chip(mode: Mode) -> (&'static str, Style) {
     match mode {
         Mode::Select => ("SELECT", theme::ACCENT),
         Mode::View => ("VIEW", theme::GOOD),
+        Mode::Fly => ("VIEW FLY", theme::GOOD),
         Mode::Edit => ("EDIT", theme::WARNING),
         Mode::Trace => ("TRACE", Style::new()),
         Mode::Pick => ("PICK", theme::ACCENT),

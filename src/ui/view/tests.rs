@@ -189,7 +189,7 @@ const STATES: &[(&str, Change)] = &[
         });
     }),
     ("quit", |app| {
-        app.overlays.dialog = Some(Dialog::Leave(Next::Quit))
+        app.overlays.dialog = Some(Dialog::Leave(Next::Quit));
     }),
     ("recover", |app| {
         let text = app.document.shared_text();

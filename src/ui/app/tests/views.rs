@@ -1,5 +1,7 @@
 //! Moving the camera, and where its views go.
 
+use glam::DVec3;
+
 use super::*;
 
 fn quits(effects: &[Effect]) -> bool {
@@ -59,4 +61,96 @@ fn saving_mentions_a_moved_view() {
         words(&app),
         "wrote scene.ray; the moved view is not in the text: S in VIEW writes it"
     );
+}
+
+/// A scene whose camera looks along −z from 4 away.
+fn ahead() -> App {
+    open(&format!("// view: eye 0 0 4 target 0 0 0\n{SCENE}"))
+}
+
+#[test]
+fn flying_turns_in_place_moves_along_and_rolls() {
+    let close = |found: DVec3, x: f64, y: f64, z: f64| {
+        let expected = DVec3::new(x, y, z);
+        assert!((found - expected).length() < 1e-4, "{found} {expected}");
+    };
+    let (sin, cos) = 5.0_f64.to_radians().sin_cos();
+    let cases: [(&str, [f64; 3], [f64; 3], [f64; 3]); 9] = [
+        (
+            "h",
+            [0., 0., 4.],
+            [-4. * sin, 0., 4. - 4. * cos],
+            [0., 1., 0.],
+        ),
+        (
+            "l",
+            [0., 0., 4.],
+            [4. * sin, 0., 4. - 4. * cos],
+            [0., 1., 0.],
+        ),
+        (
+            "k",
+            [0., 0., 4.],
+            [0., 4. * sin, 4. - 4. * cos],
+            [0., 1., 0.],
+        ),
+        ("K", [0., 0., 3.6], [0., 0., -0.4], [0., 1., 0.]),
+        ("+", [0., 0., 3.6], [0., 0., -0.4], [0., 1., 0.]),
+        ("J-", [0., 0., 4.8], [0., 0., 0.8], [0., 1., 0.]),
+        ("H", [-0.2, 0., 4.], [-0.2, 0., 0.], [0., 1., 0.]),
+        (",", [0., 0., 4.], [0.; 3], [-sin, cos, 0.]),
+        (".", [0., 0., 4.], [0.; 3], [sin, cos, 0.]),
+    ];
+    for (said, eye, target, up) in cases {
+        let mut app = ahead();
+        press(&mut app, &format!("vF{said}"));
+        let camera = app.camera().expect("a camera");
+        for (found, [x, y, z]) in [(camera.eye, eye), (camera.target, target), (camera.up, up)] {
+            close(found, x, y, z);
+        }
+    }
+}
+
+#[test]
+fn flying_and_orbiting_alternate_and_turning_back_restores_the_view() {
+    let mut app = ahead();
+    press(&mut app, "v");
+    assert_eq!(app.mode, Mode::View);
+    press(&mut app, "F");
+    assert_eq!(app.mode, Mode::Fly);
+    let before = app.camera().expect("a camera");
+    press(&mut app, "hhkljl,,..F");
+    assert_eq!(app.mode, Mode::View);
+    let after = app.camera().expect("a camera");
+    assert_eq!(before.eye, after.eye);
+    assert!((before.target - after.target).length() < 1e-4);
+    assert!((before.up - after.up).length() < 1e-4);
+    // Never over the pole.
+    press(&mut app, &format!("F{}", "k".repeat(60)));
+    let top = app.camera().expect("a camera");
+    assert!(0.99 < (top.target - top.eye).normalize().y && top.target.z < 4.0);
+}
+
+#[test]
+fn a_rolled_view_is_written_as_it_is_on_screen() {
+    for (name, text) in making::SCENES {
+        let mut app = opened_as(name, text).0;
+        press(&mut app, "v,,hF.kK");
+        let view = app.pictures.view.expect("the camera was moved");
+        press(&mut app, "S");
+        assert_eq!(app.pictures.view, None, "{name}: {}", words(&app));
+        let own = app.scene.as_ref().expect("a scene").camera;
+        for (on_screen, written) in [
+            (view.eye, own.eye),
+            (view.target, own.target),
+            (view.up, own.up),
+        ] {
+            assert!(
+                (on_screen - written).length() < 1e-9,
+                "{name}: {on_screen} {written}"
+            );
+        }
+        press(&mut app, "u");
+        assert_eq!(app.document.text(), text);
+    }
 }
