@@ -16,6 +16,7 @@ mod ray;
 mod record;
 mod report;
 mod room;
+mod saved;
 pub mod table;
 #[cfg(test)]
 mod tests;
@@ -41,6 +42,7 @@ use view::Numbers;
 pub use node::{FileKind, NamedFile, Node, Nodes};
 pub use placed::{Placed, Wanted};
 pub use room::fits;
+pub use saved::{SavedView, view_name};
 
 /// Declares the languages, one per line, by folder name, which is also the file extension. A folder
 /// provides `Source`, `errors_of_beginning`, `tree_bytes`, `LEAVES_KEEP_TO_LINES` and `TEMPLATE`.
@@ -397,6 +399,20 @@ pub trait Answers: Editable {
     /// missing parts. `before` is the camera as lowered; only parts that differ from it are
     /// written, and those whose defaults would move with them.
     fn view_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit>;
+
+    /// What opens and closes a comment on a line of its own.
+    fn comment_marks(&self) -> [&'static str; 2];
+
+    /// The views saved under a name, in the order of the text.
+    fn saved_views(&self) -> Vec<SavedView> {
+        saved::views(self)
+    }
+
+    /// Returns the edits that save a camera under a name accepted by [`view_name`], replacing any
+    /// view of that name; without a camera, those that delete it.
+    fn saved_view_edits(&self, name: &str, camera: Option<&Camera>) -> Vec<Edit> {
+        saved::edits(self, name, camera)
+    }
 
     /// Returns the edits that show or hide an object, by index, and leave all others as they are.
     ///

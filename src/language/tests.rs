@@ -2,6 +2,7 @@
 
 mod beginning;
 mod line_ends;
+mod saved;
 mod template;
 
 use std::sync::Arc;
