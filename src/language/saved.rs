@@ -176,10 +176,11 @@ fn read(text: &str, comment: Span, [open, close]: [&str; 2]) -> Option<SavedView
             return None;
         }
     }
-    Some(SavedView {
+    let (eye, target) = (eye?, target?);
+    (eye != target).then_some(SavedView {
         name,
-        eye: eye?,
-        target: target?,
+        eye,
+        target,
         up,
         lens,
         span: comment,

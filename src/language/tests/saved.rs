@@ -100,6 +100,7 @@ fn only_well_formed_comments_with_a_name_are_saved_views() {
             format!("view a {whole}"),
             "view a: eye 0 0 9".to_owned(),
             "view a: eye 0 0 target 0 0 0".to_owned(),
+            "view a: eye 1 2 3 target 1 2 3".to_owned(),
             format!("view a: {whole} size 8 6"),
             format!("view a: {whole} eye 1 1 1"),
             format!("view a: {whole} fov 180"),

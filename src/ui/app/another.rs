@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::assets::Assets;
 use super::next::name_of;
-use super::{App, Cursor, Next, OnDisk, Overlays};
+use super::{App, Cursor, List, Next, OnDisk, Overlays};
 use crate::document::Document;
 use crate::file::ReadError;
 use crate::language::{Language, Lowered};
@@ -78,6 +78,21 @@ impl App {
         };
         let document = Document::new(language, text);
         self.replace_scene(Some(path), document, state, None)
+    }
+
+    /// Uses the row under the cursor of the open page, and closes it.
+    pub(super) fn choose(&mut self) -> Vec<Effect> {
+        let Some(page) = self.overlays.page.take() else {
+            return Vec::new();
+        };
+        let Some(at) = page.chosen() else {
+            return Vec::new();
+        };
+        match page.list {
+            List::Views(views, _) => self.go_to_view(&views[at]),
+            List::Recent(paths) => return self.open_scene(paths[at].clone()),
+        }
+        Vec::new()
     }
 
     /// Starts a new scene without a file.

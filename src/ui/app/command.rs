@@ -31,8 +31,8 @@ enum Command {
     ExportCancel,
     /// Trace at full size.
     Render,
-    /// Write the working view into the text.
-    ViewSave,
+    /// Write the working view into the text, under a name if one is given.
+    ViewSave(Option<String>),
     /// Return to the text's view.
     ViewReset,
     /// Set the size of the output picture.
@@ -69,6 +69,7 @@ struct CommandRow {
 enum Arguments {
     Nothing(Command),
     File(fn(Option<PathBuf>) -> Command),
+    Name(fn(Option<String>) -> Command),
     Language(fn(Option<Language>) -> Command),
     Picture(fn(ExportArguments) -> Command),
     Size(fn(Size) -> Command),
@@ -103,7 +104,7 @@ const TABLE: &[CommandRow] = &[
     row(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "export, overwriting an existing file"),
     row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
     row(&["render"], A::Nothing(C::Render), "trace at full size"),
-    row(&["view save"], A::Nothing(C::ViewSave), "write the view into the scene"),
+    row(&["view save"], A::Name(C::ViewSave), "write the view into the scene, or save it as NAME"),
     row(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
     row(&["size"], A::Size(C::Size), "set the picture size in the scene"),
     row(&["help"], A::Nothing(C::Help), "show this page"),
@@ -116,6 +117,7 @@ impl CommandRow {
         let arguments = match self.arguments {
             A::Nothing(_) => "",
             A::File(_) => " [FILE]",
+            A::Name(_) => " [NAME]",
             A::Language(_) => " [LANGUAGE]",
             A::Picture(_) => " [FILE] [WxH] [SPP]",
             A::Size(_) => " WxH",
@@ -130,6 +132,7 @@ impl CommandRow {
             A::Nothing(command) if rest.is_empty() => Ok(command.clone()),
             A::Nothing(_) => Err(format!("{name} takes no arguments")),
             A::File(command) => Ok(command((!rest.is_empty()).then(|| PathBuf::from(rest)))),
+            A::Name(command) => Ok(command((!rest.is_empty()).then(|| rest.to_owned()))),
             A::Language(command) => {
                 match (rest, Language::of_extension(rest.trim_start_matches('.'))) {
                     ("", _) => Ok(command(None)),
@@ -157,8 +160,9 @@ fn parse(line: &str) -> Result<Command, String> {
     let (name, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
     let rest = rest.trim();
     let called = |name: &str| TABLE.iter().find(|form| form.names.contains(&name));
-    if let Some(form) = called(&format!("{name} {rest}")) {
-        return form.parse("");
+    let (second, others) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
+    if let Some(form) = called(&format!("{name} {second}")) {
+        return form.parse(others.trim());
     }
     if let Some(form) = called(name) {
         return form.parse(rest);
@@ -278,7 +282,8 @@ impl App {
             }
             Command::ExportCancel => return self.cancel_export(),
             Command::Render => return self.start_trace(),
-            Command::ViewSave => self.save_view(),
+            Command::ViewSave(None) => self.save_view(),
+            Command::ViewSave(Some(name)) => self.save_view_as(&name),
             Command::ViewReset => self.pictures.reset_view(),
             Command::Size(size) => self.set_size(size),
             Command::Help => self.overlays.help = Some(Help::default()),

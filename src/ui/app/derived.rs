@@ -9,6 +9,7 @@ use super::cursor::row_of;
 use super::disk::OnDisk;
 use super::next::Next;
 use super::overlays::Dialog;
+use super::page::List;
 use super::picture::Picture;
 use super::pictures::Outline;
 use crate::language::table::Field;
@@ -36,6 +37,10 @@ impl App {
             Some(Dialog::Conflict { .. }) => Context::Conflict,
             Some(Dialog::Recover(_)) => Context::Recover,
             None if self.overlays.help.is_some() => Context::Help,
+            None if let Some(page) = &self.overlays.page => match page.list {
+                List::Views(..) => Context::Views,
+                List::Recent(_) => Context::Recent,
+            },
             None if self.overlays.errors.is_some() => Context::Errors,
             None if self.disk.is_opening() => Context::Opening,
             None => Context::In(self.mode),

@@ -23,6 +23,7 @@ mod model;
 mod next;
 mod opening;
 mod overlays;
+mod page;
 mod picture;
 mod pictures;
 mod places;
@@ -46,7 +47,8 @@ pub use jobs::{Export, Jobs, Stage};
 pub use model::App;
 pub use next::Next;
 pub use opening::{Opening, OpeningText};
-pub use overlays::{Dialog, Help, HelpFocus, Message, Outside, Overlays, Prompt, PromptKind};
+pub use overlays::{Dialog, Help, Message, Outside, Overlays, Prompt, PromptKind};
+pub use page::{List, Page, PageFocus};
 pub use picture::{Picture, Shown};
 pub use pictures::{Pictures, Quality};
 

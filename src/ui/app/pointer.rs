@@ -19,6 +19,7 @@ impl App {
         let at = (event.column, event.row);
         let waits = self.overlays.dialog.is_some()
             || self.overlays.prompt.is_some()
+            || self.overlays.page.is_some()
             || self.disk.is_opening() && self.overlays.help.is_none();
         match event.kind {
             _ if waits => {}

@@ -3,7 +3,7 @@
 use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
-use super::{App, HelpFocus, line, literals};
+use super::{App, PageFocus, line, literals};
 use crate::language::table::{Field, Kind};
 use crate::text::{Diagnostic, Span};
 use crate::ui::keymap::{Mode, Stride};
@@ -158,7 +158,7 @@ impl App {
             return;
         }
         if let Some(help) = &mut self.overlays.help {
-            if help.focus == HelpFocus::Search {
+            if help.focus == PageFocus::Search {
                 line::insert(&mut help.search, text);
                 help.top = 0;
             }

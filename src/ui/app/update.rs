@@ -4,7 +4,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
 use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
-use super::{App, Help, HelpFocus, PromptKind, line};
+use super::{App, Help, PageFocus, PromptKind, line};
 use crate::ui::keymap::{self, Action, Context, Mode};
 use crate::ui::layout::Zoom;
 use crate::ui::msg::{Effect, Msg, Timer};
@@ -16,6 +16,7 @@ impl App {
         let mut effects = self.take(msg);
         let areas = self.areas();
         self.scroll(&areas);
+        self.follow_views();
         effects.extend(self.follow());
         effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
@@ -117,10 +118,16 @@ impl App {
             self.typing_key(key);
         } else if let Some(help) = &mut self.overlays.help {
             match key.code {
-                KeyCode::Enter | KeyCode::Esc => help.focus = HelpFocus::Lines,
+                KeyCode::Enter | KeyCode::Esc => help.focus = PageFocus::Lines,
                 _ => line::edit(&mut help.search, key),
             }
             help.top = 0;
+        } else if let Some(page) = &mut self.overlays.page {
+            match key.code {
+                KeyCode::Enter | KeyCode::Esc => page.focus = PageFocus::Lines,
+                _ => line::edit(&mut page.search, key),
+            }
+            page.at = 0;
         }
         Vec::new()
     }
@@ -183,6 +190,8 @@ impl App {
             Action::ResetView => self.pictures.reset_view(),
             Action::FrameSelected => self.frame_selected(),
             Action::SaveView => self.save_view(),
+            Action::SavedViews => self.list_views(),
+            Action::DeleteView => self.delete_view(),
             Action::Cross(right, down) => self.move_cross(right, down),
             Action::Mine | Action::Theirs | Action::AllMine | Action::AllTheirs => {
                 self.decide(action);
@@ -236,6 +245,7 @@ impl App {
     fn back(&mut self, context: Context) -> Vec<Effect> {
         match context {
             Context::Help => self.overlays.help = None,
+            Context::Views | Context::Recent => self.overlays.page = None,
             Context::Errors => self.overlays.errors = None,
             Context::Conflict | Context::Quit | Context::Leave | Context::Recover => {
                 return self.put_off();
@@ -255,6 +265,7 @@ impl App {
     fn accept(&mut self, context: Context) -> Vec<Effect> {
         match context {
             Context::Errors => self.go_to_error(),
+            Context::Views | Context::Recent => return self.choose(),
             Context::Conflict => return self.adopt(),
             Context::Quit | Context::Leave => return self.leave_anyway(),
             Context::Recover => return self.restore(),

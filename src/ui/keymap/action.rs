@@ -37,6 +37,10 @@ pub enum Context {
     Help,
     /// The list of errors.
     Errors,
+    /// The page of saved views.
+    Views,
+    /// The page of recently used scenes.
+    Recent,
     /// The question how to resolve a merge.
     Conflict,
     /// The question whether to quit.
@@ -106,6 +110,10 @@ pub enum Action {
     FrameSelected,
     /// Writes the working view into the text.
     SaveView,
+    /// Lists the saved views.
+    SavedViews,
+    /// Deletes the saved view under the cursor.
+    DeleteView,
     /// Moves the cross, in cells to the right and down.
     Cross(i32, i32),
     /// Stops the work in progress.

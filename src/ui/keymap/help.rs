@@ -32,8 +32,10 @@ const MODES: [(&str, Context); 6] = [
     ("PICK", Context::In(Pick)),
     ("TRACE", Context::In(Trace)),
 ];
-const DIALOGS: [(&str, Context); 6] = [
+const DIALOGS: [(&str, Context); 8] = [
     ("the list of errors", Context::Errors),
+    ("the list of saved views", Context::Views),
+    ("the list of recent scenes", Context::Recent),
     ("this page", Context::Help),
     ("merge conflicts", Context::Conflict),
     ("when asked to confirm quitting", Context::Quit),
@@ -106,7 +108,13 @@ pub fn hints(context: Context) -> Vec<(String, &'static str)> {
         Context::In(Trace) => TRACE_HINTS,
         Context::Errors => ERROR_HINTS,
         Context::Opening => &[],
-        Context::Help | Context::Conflict | Context::Quit | Context::Leave | Context::Recover => {
+        Context::Help
+        | Context::Views
+        | Context::Recent
+        | Context::Conflict
+        | Context::Quit
+        | Context::Leave
+        | Context::Recover => {
             return TABLE
                 .iter()
                 .filter(|row| row.scope.holds(context) && !is_common(row))
@@ -290,7 +298,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
         let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 16);
+        assert_eq!(headings(&lines).len(), 18);
         assert!(lines.contains(&entry("gg", "first")));
         for row in TABLE {
             assert!(lines.contains(&entry(&keys(row), row.words)), "{row:?}");

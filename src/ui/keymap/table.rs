@@ -77,6 +77,8 @@ const PICTURES: Scope = Scope::These(&[
 const PICK: Scope = Scope::These(&[Context::In(Pick)]);
 const HELP: Scope = Scope::These(&[Context::Help]);
 const ERRORS: Scope = Scope::These(&[Context::Errors]);
+const VIEWS_PAGE: Scope = Scope::These(&[Context::Views]);
+const RECENT: Scope = Scope::These(&[Context::Recent]);
 const CONFLICT: Scope = Scope::These(&[Context::Conflict]);
 const QUIT: Scope = Scope::These(&[Context::Quit]);
 const LEAVE: Scope = Scope::These(&[Context::Leave]);
@@ -88,9 +90,17 @@ const LISTS: Scope = Scope::These(&[
     Context::In(Edit),
     Context::Help,
     Context::Errors,
+    Context::Views,
+    Context::Recent,
     Context::Conflict,
 ]);
-const LONG_LISTS: Scope = Scope::These(&[Context::In(Select), Context::Help, Context::Errors]);
+const LONG_LISTS: Scope = Scope::These(&[
+    Context::In(Select),
+    Context::Help,
+    Context::Errors,
+    Context::Views,
+    Context::Recent,
+]);
 
 /// All key bindings, the most useful first. Ctrl-H, Ctrl-I, Ctrl-M and Ctrl-[ send the same bytes
 /// as Backspace, Tab, Enter and Esc, and are therefore never bound.
@@ -153,6 +163,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(VIEWS, &[c('f')], A::FrameSelected, "frame the selected object"),
     bind(VIEWS, &[c('0')], A::ResetView, "reset to the scene's view"),
     bind(VIEWS, &[c('S')], A::SaveView, "write the view into the scene"),
+    bind(VIEWS, &[c('V')], A::SavedViews, "saved views"),
     bind(VIEWS, &[c('[')], A::Widen(-1), "narrow the field of view"),
     bind(VIEWS, &[c(']')], A::Widen(1), "widen the field of view"),
     bind(VIEWS, &[c(',')], A::Roll(1), "roll left"),
@@ -181,6 +192,13 @@ pub(super) const TABLE: &[Binding] = &[
     bind(RECOVER, &[c('r')], A::Accept, "restore them"),
     bind(RECOVER, &[c('d')], A::No, "discard them"),
     bind(RECOVER, &[key(Esc)], A::Back, "decide next time"),
+    bind(VIEWS_PAGE, &[key(Enter)], A::Accept, "go there"),
+    bind(VIEWS_PAGE, &[c('d')], A::DeleteView, "delete it"),
+    bind(VIEWS_PAGE, &[c('/')], A::Search, "filter"),
+    bind(VIEWS_PAGE, &[key(Esc), c('q'), c('V')], A::Back, "close"),
+    bind(RECENT, &[key(Enter)], A::Accept, "open it"),
+    bind(RECENT, &[c('/')], A::Search, "filter"),
+    bind(RECENT, &[key(Esc), c('q')], A::Back, "close"),
     bind(HELP, &[c('/')], A::Search, "search"),
     bind(HELP, &[key(Esc), c('q'), c('?')], A::Back, "close"),
 
@@ -226,13 +244,15 @@ pub fn action(context: Context, event: KeyEvent) -> Option<Action> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use Context::{Conflict, Errors, Help, Leave, Opening, Quit, Recover};
+    use Context::{Conflict, Errors, Help, Leave, Opening, Quit, Recent, Recover, Views};
     use KeyCode::Char;
 
     #[test]
     fn no_key_has_two_meanings_in_one_context() {
         let modes = [Select, View, Fly, Edit, Trace, Pick].map(Context::In);
-        let others = [Opening, Help, Errors, Conflict, Quit, Leave, Recover];
+        let others = [
+            Opening, Help, Errors, Views, Recent, Conflict, Quit, Leave, Recover,
+        ];
         for context in modes.into_iter().chain(others) {
             let rows = TABLE.iter().filter(|row| row.scope.holds(context));
             let mut bound: Vec<_> = rows.flat_map(|row| row.chords).collect();

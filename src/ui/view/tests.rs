@@ -17,7 +17,7 @@ use crate::render::{Filter, Frame, NO_OBJECT, Progress};
 use crate::scene::Size;
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
-    App, Dialog, Export, Help, HelpFocus, Message, Next, OnDisk, Opening, OpeningText, Outside,
+    App, Dialog, Export, Help, Message, Next, OnDisk, Opening, OpeningText, Outside, PageFocus,
     Prompt, PromptKind, Quality, Stage, Typing,
 };
 use crate::ui::keymap::Mode;
@@ -185,7 +185,7 @@ const STATES: &[(&str, Change)] = &[
         app.overlays.help = Some(Help {
             top: usize::MAX,
             search: Input::new("界 nowhere".to_owned()),
-            focus: HelpFocus::Search,
+            focus: PageFocus::Search,
         });
     }),
     ("quit", |app| {

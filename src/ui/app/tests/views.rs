@@ -154,3 +154,71 @@ fn a_rolled_view_is_written_as_it_is_on_screen() {
         assert_eq!(app.document.text(), text);
     }
 }
+
+/// The names of the saved views of the text.
+fn saved_views(app: &App) -> Vec<String> {
+    let views = app.source().saved_views();
+    views.into_iter().map(|view| view.name).collect()
+}
+
+#[test]
+fn views_are_saved_listed_visited_and_deleted() {
+    for (name, text) in making::SCENES {
+        let mut app = opened_as(name, text).0;
+        let own = app.camera().expect("a camera");
+        press(&mut app, "vV");
+        assert_eq!(
+            words(&app),
+            "no saved views: :view save NAME saves this one"
+        );
+        press(&mut app, "h:view save front  door<Enter>");
+        assert_eq!(words(&app), "view front door is now in the scene's text");
+        let front = app.pictures.view.expect("the camera was moved");
+        press(&mut app, "kk,:view save above<Enter>0");
+        assert_eq!(app.camera(), Some(own), "{name}");
+        assert_eq!(saved_views(&app), ["front door", "above"]);
+        assert_eq!(app.error_count(), 0, "{name}");
+
+        press(&mut app, "V<Enter>");
+        assert_eq!(
+            (app.pictures.view, words(&app)),
+            (Some(front), "view front door")
+        );
+        assert!(app.overlays.page.is_none());
+        press(&mut app, "0V/abo<Enter><Enter>");
+        assert_eq!(words(&app), "view above");
+        press(&mut app, "Vjk");
+        press(&mut app, "d");
+        assert_eq!(saved_views(&app), ["above"]);
+        assert!(app.overlays.page.is_some());
+        press(&mut app, "d");
+        assert!(app.overlays.page.is_none(), "the last one closes it");
+        assert_eq!(app.document.text(), text);
+        press(&mut app, "uu");
+        assert_eq!(saved_views(&app), ["front door", "above"]);
+        press(&mut app, "uu");
+        assert_eq!(app.document.text(), text, "{name}");
+    }
+}
+
+#[test]
+fn a_view_saved_again_is_replaced_and_a_bad_name_refused() {
+    let mut app = open(SCENE);
+    press(&mut app, "v:view save a<Enter>l:view save a<Enter>V");
+    assert_eq!(saved_views(&app), ["a"]);
+    let view = app.pictures.view;
+    press(&mut app, "<Esc>v0V<Enter>");
+    assert_eq!(app.pictures.view, view);
+    assert!(app.document.text().starts_with(SCENE));
+    press(&mut app, ":view save a:b<Enter>");
+    assert_eq!(words(&app), "a view's name must not contain a colon");
+}
+
+#[test]
+fn a_listed_view_that_vanishes_from_the_file_vanishes_from_the_list() {
+    let text = format!("{SCENE}// view a: eye 0 0 9 target 0 0 0\n");
+    let mut app = open(&text);
+    press(&mut app, "vV");
+    outside(&mut app, SCENE);
+    assert!(app.overlays.page.is_none());
+}
