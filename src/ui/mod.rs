@@ -27,6 +27,7 @@ pub mod msg;
 mod options;
 mod reader;
 pub mod reading;
+mod recent;
 pub mod recovery;
 mod service;
 mod session;
@@ -68,6 +69,10 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
     if env::var_os("TERM").is_some_and(|term| term == "dumb") {
         return Err(Error::DumbTerminal);
     }
+    let recent = match (&options.scene, &path) {
+        (None, None) => recent::list(),
+        _ => Vec::new(),
+    };
     let size = terminal::size();
     let opening = Opening {
         path,
@@ -80,6 +85,7 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
             filter: options.filter,
         },
         mouse: options.mouse,
+        recent,
         terminal: (size.width, size.height),
     };
     let (app, effects) = App::open(opening);

@@ -76,6 +76,8 @@ pub enum Msg {
     Exported(ExportId, Result<Exported, String>),
     /// The external editor has ended.
     EditorClosed(Result<(), String>),
+    /// The result of [`Effect::ListRecent`].
+    RecentListed(Vec<PathBuf>),
     /// Unsaved edits of an earlier run were found.
     Recovered(Found),
     /// The text of this revision was stored for recovery, or the reason why not.
@@ -163,6 +165,10 @@ pub enum Effect {
     CheckPlace(PathBuf),
     /// Looks for backups left by an interrupted save, reported by [`Msg::BackupsFound`].
     FindBackups(PathBuf),
+    /// Remembers a scene as the one used last.
+    NoteRecent(PathBuf),
+    /// Lists recently used scenes that still exist, reported by [`Msg::RecentListed`].
+    ListRecent,
     /// Watches this file from now on, reported by [`Msg::FileChanged`].
     Watch(PathBuf),
     /// Reads the files that the scene names and watches them from now on, reported by

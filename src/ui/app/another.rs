@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::assets::Assets;
 use super::next::name_of;
-use super::{App, Cursor, List, Next, OnDisk, Overlays};
+use super::{App, Cursor, List, Next, OnDisk, Overlays, Page};
 use crate::document::Document;
 use crate::file::ReadError;
 use crate::language::{Language, Lowered};
@@ -80,6 +80,21 @@ impl App {
         self.replace_scene(Some(path), document, state, None)
     }
 
+    /// Shows recently used scenes.
+    pub(super) fn show_recent(&mut self, scenes: Vec<PathBuf>) {
+        self.overlays.page = Page::recent(scenes);
+        if self.overlays.page.is_none() {
+            self.overlays.say("no recently used scenes");
+        }
+    }
+
+    /// Remembers the scene as the one used last, if its file exists.
+    pub(super) fn note_recent(&self) -> Option<Effect> {
+        let path = self.disk.path.clone();
+        let path = path.filter(|_| self.disk.state == OnDisk::Known);
+        path.map(Effect::NoteRecent)
+    }
+
     /// Uses the row under the cursor of the open page, and closes it.
     pub(super) fn choose(&mut self) -> Vec<Effect> {
         let Some(page) = self.overlays.page.take() else {
@@ -127,7 +142,7 @@ impl App {
         self.prefix = None;
         effects.extend(self.watch());
         let lowered = lowered.unwrap_or_else(|| self.lowered());
-        effects.push(self.begin(lowered));
+        effects.extend(self.begin(lowered));
         effects
     }
 

@@ -25,6 +25,8 @@ enum Command {
     Edit(Option<PathBuf>),
     /// Start a new scene, in another language if one is given.
     New(Option<Language>),
+    /// List recently used scenes.
+    Recent,
     /// Export what is shown to a picture file.
     Export(ExportArguments, Force),
     /// Cancel the running export.
@@ -100,6 +102,7 @@ const TABLE: &[CommandRow] = &[
     row(&["wq", "x"], A::Nothing(C::WriteQuit), "save and quit"),
     row(&["e", "edit", "reread"], A::File(C::Edit), "open FILE, or reload the scene's own"),
     row(&["new"], A::Language(C::New), "start a new scene: ray, dat or xml"),
+    row(&["recent"], A::Nothing(C::Recent), "list recently used scenes"),
     row(&["export"], A::Picture(|picture| C::Export(picture, Force::No)), "export a picture of what is shown"),
     row(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "export, overwriting an existing file"),
     row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
@@ -276,6 +279,7 @@ impl App {
                 let language = language.unwrap_or_else(|| self.document.language());
                 return self.leave_for(Next::New(language));
             }
+            Command::Recent => return vec![Effect::ListRecent],
             Command::Export(ExportArguments { path, size, spp }, force) => {
                 let path = path.unwrap_or_else(|| self.export_path());
                 return self.start_export(&path, size, spp, force);

@@ -50,6 +50,11 @@ impl Page {
         }
     }
 
+    /// The page of recently used scenes; `None` without any.
+    pub(super) fn recent(scenes: Vec<PathBuf>) -> Option<Self> {
+        (!scenes.is_empty()).then(|| Self::new(List::Recent(scenes)))
+    }
+
     /// The rows shown, each with its index in the list.
     pub fn rows(&self) -> Vec<(usize, String)> {
         let all: Vec<_> = match &self.list {

@@ -90,6 +90,7 @@ impl App {
     /// Makes a file that now holds `text` the scene's file.
     fn take_saved(&mut self, path: PathBuf, text: Arc<String>) -> Vec<Effect> {
         self.document.mark_saved(text);
+        let is_new = self.disk.state == OnDisk::New || !self.disk.is_own(&path);
         self.disk.state = OnDisk::Known;
         let mut effects = Vec::new();
         if !self.disk.is_own(&path) {
@@ -98,6 +99,7 @@ impl App {
             // The scene's files are now looked for in another folder.
             self.relower();
         }
+        effects.extend(self.note_recent().filter(|_| is_new));
         effects.extend(self.keep_the_rest());
         effects
     }

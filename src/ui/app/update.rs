@@ -50,6 +50,7 @@ impl App {
             Msg::BackupsFound(copies) => self.backups_found(&copies),
             Msg::Exported(id, outcome) => return self.exported(id, outcome),
             Msg::EditorClosed(outcome) => return self.editor_closed(outcome),
+            Msg::RecentListed(scenes) => self.show_recent(scenes),
             Msg::Recovered(found) => self.found_kept(found),
             Msg::Kept(revision, outcome) => {
                 return self.kept(revision, outcome).into_iter().collect();

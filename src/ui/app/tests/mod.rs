@@ -76,6 +76,7 @@ fn opening_as(name: &str, text: String) -> Opening {
             filter: Filter::Box,
         },
         mouse: Mouse::On,
+        recent: Vec::new(),
         terminal: (120, 40),
     }
 }

@@ -285,3 +285,74 @@ fn an_editor_is_not_opened_on_a_file_that_does_not_exist() {
     assert!(press(&mut app, "E").is_empty());
     assert_eq!(words(&app), "new.ray is new: press w to write it, then E");
 }
+
+#[test]
+fn scenes_are_remembered_when_they_are_opened_and_saved_elsewhere() {
+    let noted = |effects: &[Effect]| -> Vec<String> {
+        let noted = effects.iter().filter_map(|effect| match effect {
+            Effect::NoteRecent(path) => Some(path.display().to_string()),
+            _ => None,
+        });
+        noted.collect()
+    };
+    let (mut app, effects) = opened(SCENE);
+    assert_eq!(noted(&effects), ["scene.ray"]);
+    press(&mut app, ":w copy.ray<Enter>");
+    let text = app.document.shared_text();
+    assert_eq!(noted(&saved(&mut app, 1, "copy.ray", &text)), ["copy.ray"]);
+    press(&mut app, "jjjelw");
+    let text = app.document.shared_text();
+    assert_eq!(noted(&saved(&mut app, 2, "copy.ray", &text)), [""; 0]);
+    let effects = go_to(&mut app, ":e b.ray<Enter>", "b.ray", found("b.ray", SCENE));
+    assert_eq!(noted(&effects), ["b.ray"]);
+    let (mut app, effects) = opened_new("new.ray");
+    assert_eq!(noted(&effects), [""; 0]);
+    press(&mut app, "w");
+    let text = app.document.shared_text();
+    assert_eq!(noted(&saved(&mut app, 1, "new.ray", &text)), ["new.ray"]);
+    assert_eq!(noted(&press(&mut app, ":new<Enter>")), [""; 0]);
+}
+
+#[test]
+fn recent_scenes_are_listed_filtered_and_opened() {
+    let paths = || ["/a/one.ray", "/a/two.dat", "/b/three.xml"].map(PathBuf::from);
+    for (said, opened) in [
+        ("<Enter>", Some("/a/one.ray")),
+        ("j<Enter>", Some("/a/two.dat")),
+        ("jjjk<Enter>", Some("/a/two.dat")),
+        ("G<Enter>", Some("/b/three.xml")),
+        ("/A/<Enter>j<Enter>", Some("/a/two.dat")),
+        ("/none<Enter><Enter>", None),
+        ("j<Esc>", None),
+    ] {
+        let mut app = open(SCENE);
+        let effects = press(&mut app, ":recent<Enter>");
+        assert!(matches!(effects[..], [Effect::ListRecent]));
+        app.update(Msg::RecentListed(paths().into()));
+        let effects = press(&mut app, said);
+        match opened {
+            Some(path) => assert!(opens(&effects, path), "{said}: {effects:?}"),
+            None => assert!(effects.is_empty(), "{said}: {effects:?}"),
+        }
+        assert!(app.overlays.page.is_none(), "{said}");
+    }
+    let mut app = open(SCENE);
+    press(&mut app, "jjjel");
+    app.update(Msg::RecentListed(paths().into()));
+    press(&mut app, "<Enter>");
+    assert!(asks(&app));
+    app.update(Msg::RecentListed(Vec::new()));
+    assert_eq!(words(&app), "no recently used scenes");
+}
+
+#[test]
+fn recent_scenes_are_offered_over_the_embedded_one() {
+    let mut opening = opening_as("scene.ray", SCENE.to_owned());
+    opening.path = None;
+    opening.recent = vec![PathBuf::from("/a/one.ray")];
+    let (mut app, effects) = App::open(opening);
+    let traces = |e: &Effect| matches!(e, Effect::Trace(Target::Preview, _));
+    assert!(wants(&effects, traces) && app.overlays.page.is_some());
+    press(&mut app, "<Esc>");
+    assert!(app.overlays.page.is_none() && app.document.text() == SCENE);
+}
