@@ -160,7 +160,8 @@ mod tests {
         let scene = folder.path().join("a.ray");
         fs::write(&scene, "").expect("the folder is new");
         fs::create_dir(folder.path().join("halflight")).expect("the folder is new");
-        for content in [&b"\xff\xfe"[..], b"relative.ray\n\n", &[b'a'; 2 << 20]] {
+        let long = "a".repeat(2 << 20);
+        for content in [b"\xff\xfe", b"relative.ray\n\n" as &[u8], long.as_bytes()] {
             fs::write(place(folder.path()), content).expect("written");
             assert_eq!(list_in(folder.path()), [] as [PathBuf; 0]);
         }

@@ -35,6 +35,8 @@ enum Command {
     Render,
     /// Write the working view into the text, under a name if one is given.
     ViewSave(Option<String>),
+    /// Look from the selected light.
+    ViewLight,
     /// Return to the text's view.
     ViewReset,
     /// Set the size of the output picture.
@@ -108,6 +110,7 @@ const TABLE: &[CommandRow] = &[
     row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
     row(&["render"], A::Nothing(C::Render), "trace at full size"),
     row(&["view save"], A::Name(C::ViewSave), "write the view into the scene, or save it as NAME"),
+    row(&["view light"], A::Nothing(C::ViewLight), "look from the selected light"),
     row(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
     row(&["size"], A::Size(C::Size), "set the picture size in the scene"),
     row(&["help"], A::Nothing(C::Help), "show this page"),
@@ -288,6 +291,7 @@ impl App {
             Command::Render => return self.start_trace(),
             Command::ViewSave(None) => self.save_view(),
             Command::ViewSave(Some(name)) => self.save_view_as(&name),
+            Command::ViewLight => self.look_from_light(),
             Command::ViewReset => self.pictures.reset_view(),
             Command::Size(size) => self.set_size(size),
             Command::Help => self.overlays.help = Some(Help::default()),

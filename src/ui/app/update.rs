@@ -191,6 +191,7 @@ impl App {
             Action::ResetView => self.pictures.reset_view(),
             Action::FrameSelected => self.frame_selected(),
             Action::SaveView => self.save_view(),
+            Action::LightView => self.look_from_light(),
             Action::SavedViews => self.list_views(),
             Action::DeleteView => self.delete_view(),
             Action::Cross(right, down) => self.move_cross(right, down),

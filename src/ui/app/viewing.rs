@@ -3,7 +3,7 @@
 use super::camera::{framed, settled};
 use super::{App, List, Page};
 use crate::language::{Node, SavedView, view_name};
-use crate::scene::Camera;
+use crate::scene::{Camera, Emitter};
 
 impl App {
     /// Applies a move, unless the resulting camera would see nothing.
@@ -46,6 +46,51 @@ impl App {
         }
         let (centre, radius) = (bounds.centre(), bounds.half_diagonal());
         self.move_camera(|camera| framed(camera, centre, radius));
+    }
+
+    /// Looks from the selected light to the camera's target; from a distant light, at the whole
+    /// scene.
+    pub(super) fn look_from_light(&mut self) {
+        let Node::Light(index) = self.cursor.selected() else {
+            self.overlays.fail("select a light to look from");
+            return;
+        };
+        let scene = self.scene.clone().filter(|_| self.error_count() == 0);
+        let Some((scene, light)) = scene.and_then(|scene| {
+            let light = *scene.lights.get(index)?;
+            Some((scene, light))
+        }) else {
+            self.overlays
+                .fail("cannot look from a light while the scene has errors");
+            return;
+        };
+        let bounds = scene.bounds();
+        let centre = bounds.centre();
+        match light.emitter {
+            Emitter::Point { position, .. } => self.move_camera(|camera| Camera {
+                eye: position,
+                ..camera
+            }),
+            Emitter::Distant(_) if bounds.is_empty() => {
+                self.overlays.say("nothing to look at");
+                return;
+            }
+            Emitter::Distant(toward) => self.move_camera(|camera| {
+                let camera = Camera {
+                    eye: centre + toward,
+                    target: centre,
+                    ..camera
+                };
+                framed(camera, centre, bounds.half_diagonal())
+            }),
+            Emitter::Ambient => {
+                self.overlays
+                    .fail("ambient light comes from all sides: there is no view from it");
+                return;
+            }
+        }
+        let name = self.source().name(Node::Light(index));
+        self.overlays.suggest(format!("the view from {name}"));
     }
 
     /// Lists the saved views.

@@ -110,6 +110,8 @@ pub enum Action {
     FrameSelected,
     /// Writes the working view into the text.
     SaveView,
+    /// Looks from the selected light.
+    LightView,
     /// Lists the saved views.
     SavedViews,
     /// Deletes the saved view under the cursor.

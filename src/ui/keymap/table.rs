@@ -163,6 +163,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(VIEWS, &[c('f')], A::FrameSelected, "frame the selected object"),
     bind(VIEWS, &[c('0')], A::ResetView, "reset to the scene's view"),
     bind(VIEWS, &[c('S')], A::SaveView, "write the view into the scene"),
+    bind(VIEWS, &[c('o')], A::LightView, "look from the selected light"),
     bind(VIEWS, &[c('V')], A::SavedViews, "saved views"),
     bind(VIEWS, &[c('[')], A::Widen(-1), "narrow the field of view"),
     bind(VIEWS, &[c(']')], A::Widen(1), "widen the field of view"),

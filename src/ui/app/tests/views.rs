@@ -70,43 +70,29 @@ fn ahead() -> App {
 
 #[test]
 fn flying_turns_in_place_moves_along_and_rolls() {
-    let close = |found: DVec3, x: f64, y: f64, z: f64| {
-        let expected = DVec3::new(x, y, z);
-        assert!((found - expected).length() < 1e-4, "{found} {expected}");
-    };
     let (sin, cos) = 5.0_f64.to_radians().sin_cos();
-    let cases: [(&str, [f64; 3], [f64; 3], [f64; 3]); 9] = [
-        (
-            "h",
-            [0., 0., 4.],
-            [-4. * sin, 0., 4. - 4. * cos],
-            [0., 1., 0.],
-        ),
-        (
-            "l",
-            [0., 0., 4.],
-            [4. * sin, 0., 4. - 4. * cos],
-            [0., 1., 0.],
-        ),
-        (
-            "k",
-            [0., 0., 4.],
-            [0., 4. * sin, 4. - 4. * cos],
-            [0., 1., 0.],
-        ),
-        ("K", [0., 0., 3.6], [0., 0., -0.4], [0., 1., 0.]),
-        ("+", [0., 0., 3.6], [0., 0., -0.4], [0., 1., 0.]),
-        ("J-", [0., 0., 4.8], [0., 0., 0.8], [0., 1., 0.]),
-        ("H", [-0.2, 0., 4.], [-0.2, 0., 0.], [0., 1., 0.]),
-        (",", [0., 0., 4.], [0.; 3], [-sin, cos, 0.]),
-        (".", [0., 0., 4.], [0.; 3], [sin, cos, 0.]),
+    let (eye, up) = ([0., 0., 4.], [0., 1., 0.]);
+    let cases: [(&str, [[f64; 3]; 3]); 9] = [
+        ("h", [eye, [-4. * sin, 0., 4. - 4. * cos], up]),
+        ("l", [eye, [4. * sin, 0., 4. - 4. * cos], up]),
+        ("k", [eye, [0., 4. * sin, 4. - 4. * cos], up]),
+        ("K", [[0., 0., 3.6], [0., 0., -0.4], up]),
+        ("+", [[0., 0., 3.6], [0., 0., -0.4], up]),
+        ("J-", [[0., 0., 4.8], [0., 0., 0.8], up]),
+        ("H", [[-0.2, 0., 4.], [-0.2, 0., 0.], up]),
+        (",", [eye, [0.; 3], [-sin, cos, 0.]]),
+        (".", [eye, [0.; 3], [sin, cos, 0.]]),
     ];
-    for (said, eye, target, up) in cases {
+    for (said, expected) in cases {
         let mut app = ahead();
         press(&mut app, &format!("vF{said}"));
         let camera = app.camera().expect("a camera");
-        for (found, [x, y, z]) in [(camera.eye, eye), (camera.target, target), (camera.up, up)] {
-            close(found, x, y, z);
+        let found = [camera.eye, camera.target, camera.up];
+        for (found, expected) in found.into_iter().zip(expected.map(DVec3::from)) {
+            assert!(
+                (found - expected).length() < 1e-4,
+                "{said}: {found} {expected}"
+            );
         }
     }
 }
@@ -221,4 +207,42 @@ fn a_listed_view_that_vanishes_from_the_file_vanishes_from_the_list() {
     press(&mut app, "vV");
     outside(&mut app, SCENE);
     assert!(app.overlays.page.is_none());
+}
+
+#[test]
+fn a_light_is_looked_from_if_it_has_a_place_or_a_direction() {
+    for said in ["jjvo", "jj:view light<Enter>"] {
+        let mut app = open(SCENE);
+        let before = app.camera().expect("a camera");
+        press(&mut app, said);
+        let after = app.camera().expect("a camera");
+        assert_eq!(
+            (after.eye, after.target),
+            (DVec3::splat(5.0), before.target)
+        );
+        assert_eq!(words(&app), "the view from light 1");
+    }
+    let mut app = open(SCENE);
+    press(&mut app, "vo");
+    assert_eq!(words(&app), "select a light to look from");
+
+    let text = Language::Dat
+        .template()
+        .replace("1 pnt  6 -5 8    0 0 0", "1 inf  0 0 0 0 0 -1");
+    let mut app = opened_as("scene.dat", &text).0;
+    app.cursor
+        .select(crate::language::Node::Light(0), app.document.source());
+    press(&mut app, "vo");
+    let camera = app.camera().expect("a camera");
+    let bounds = app.scene.as_ref().expect("a scene").bounds();
+    assert!((camera.target - bounds.centre()).length() < 1e-3);
+    let offset = camera.eye - camera.target;
+    assert!(
+        bounds.half_diagonal() < offset.z && offset.x.abs() < 1e-3,
+        "{offset}"
+    );
+    app.cursor
+        .select(crate::language::Node::Light(2), app.document.source());
+    press(&mut app, "o");
+    assert!(words(&app).starts_with("ambient light"), "{}", words(&app));
 }
