@@ -178,6 +178,7 @@ impl Runtime {
         self.terminal.close(begun + terminal);
         let end = self.keeper.finish(begun + files);
         self.writers.finish(begun + files);
+        self.recent.finish(begun + files);
         end
     }
 

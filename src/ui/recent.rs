@@ -1,9 +1,12 @@
 //! Recently used scenes: absolute paths, one a line and the newest first, in `halflight/recent` in
 //! the state folder. Sessions that end up there at the same moment may lose one of their entries.
 
+use std::convert::Infallible;
 use std::fs::{self, DirBuilder, File};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::mpsc::{self, Receiver};
+use std::time::Instant;
 
 use super::recovery;
 use super::service::{Ended, Service};
@@ -24,7 +27,11 @@ enum Request {
 }
 
 /// Handle of the thread that remembers scenes.
-pub(super) struct Recent(Service<Request>);
+pub(super) struct Recent {
+    service: Service<Request>,
+    /// Disconnected when the thread ends.
+    end: Receiver<Infallible>,
+}
 
 impl Recent {
     /// Starts the thread, which calls `report` with lists and `complain` with failures to remember a
@@ -33,7 +40,9 @@ impl Recent {
         report: impl Fn(Vec<PathBuf>) + Send + 'static,
         complain: impl Fn(String) + Send + 'static,
     ) -> io::Result<Self> {
+        let (at_work, end) = mpsc::channel();
         let service = Service::start("recent", "remembers scenes", move |inbox| {
+            let _at_work = at_work;
             let mut last = None;
             for request in inbox {
                 match request {
@@ -50,17 +59,28 @@ impl Recent {
                 }
             }
         });
-        service.map(Self)
+        Ok(Self {
+            service: service?,
+            end,
+        })
     }
 
     /// Puts a scene first.
     pub(super) fn note(&self, scene: PathBuf) -> Result<(), Ended> {
-        self.0.request(Request::Note(scene))
+        self.service.request(Request::Note(scene))
     }
 
     /// Requests the scenes, the newest first.
     pub(super) fn list(&self) -> Result<(), Ended> {
-        self.0.request(Request::List)
+        self.service.request(Request::List)
+    }
+
+    /// Waits until all scenes are remembered, at most until `deadline`.
+    pub(super) fn finish(self, deadline: Instant) {
+        drop(self.service);
+        let patience = deadline.saturating_duration_since(Instant::now());
+        // Nothing is ever sent: the end of the thread ends the wait.
+        let _ = self.end.recv_timeout(patience);
     }
 }
 

@@ -8,17 +8,18 @@ impl App {
     /// `w`, which in the question whether to leave saves and then leaves.
     pub(super) fn save_key(&mut self) -> Vec<Effect> {
         match self.take_question() {
+            Some(next) if self.is_saved() && self.pictures.view.is_some() => {
+                self.overlays.dialog = Some(Dialog::Leave(next));
+                self.overlays
+                    .warn("saving does not keep the moved view: S writes it, y leaves without it");
+                Vec::new()
+            }
             Some(next) => self.save_and(next),
             None => self.save(),
         }
     }
 
-    /// `:wq`. Saving does not keep a moved view: that is asked first.
     pub(super) fn save_and_quit(&mut self) -> Vec<Effect> {
-        if self.pictures.view.is_some() {
-            self.overlays.dialog = Some(Dialog::Leave(Next::Quit));
-            return Vec::new();
-        }
         self.save_and(Next::Quit)
     }
 
@@ -72,6 +73,8 @@ impl App {
             return Vec::new();
         }
         match self.jobs.next.take() {
+            // A save does not keep the view.
+            Some(next) if self.pictures.view.is_some() => self.leave_for(next),
             Some(next) if !self.document.is_dirty() => self.leave(next),
             _ => Vec::new(),
         }

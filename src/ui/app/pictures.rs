@@ -120,7 +120,10 @@ impl Pictures {
     }
 
     pub(super) fn take(&mut self, target: Target, frame: Arc<Frame>) {
-        if let Some(picture) = self.of(target) {
+        if let Some(picture) = self.of(target)
+            // Otherwise it is of a scene that was left.
+            && (picture.latest.is_some() || picture.wanted.is_none_or(|wanted| wanted <= frame.generation))
+        {
             picture.take(frame);
         }
     }

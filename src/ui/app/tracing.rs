@@ -139,7 +139,10 @@ impl App {
         if target == Target::Export {
             return self.export_frame(frame);
         }
-        self.pictures.take(target, frame);
+        // Without a scene, it is of one that was left.
+        if self.scene.is_some() {
+            self.pictures.take(target, frame);
+        }
         Vec::new()
     }
 

@@ -6,6 +6,7 @@ use std::borrow::Cow;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
+use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::characters::Characters;
@@ -78,6 +79,11 @@ fn invitation(area: Rect, buffer: &mut Buffer) {
     let words = INVITATION.iter().map(|(_, words)| words.width());
     let width = title.width().max(indent + words.max().unwrap_or(0));
     let lines = Rect::new(0, 0, width as u16, 2 + INVITATION.len() as u16);
+    let frame = Rect::new(0, 0, lines.width + 4, lines.height + 2);
+    Clear.render(
+        layout::centred(area, frame).intersection(buffer.area),
+        buffer,
+    );
     let area = layout::centred(area, lines).intersection(buffer.area);
     Row::new(buffer, area, 0).put(title, theme::BOLD);
     for (line, (key, words)) in (2..).zip(INVITATION) {

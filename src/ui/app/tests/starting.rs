@@ -195,6 +195,11 @@ fn another_scene_may_be_new_kept_broken_or_empty() {
         assert_eq!((app.document.text(), &app.disk.state), (text, &state));
         // The picture of the former scene does not stay.
         assert_eq!(app.scene.is_some(), app.error_count() == 0);
+        app.update(Msg::Started(Target::Preview, 3));
+        let size = app.raster().expect("there is room").1;
+        let former = pictures::frame(size, vec![0; size.pixels()]);
+        app.update(Msg::Frame(Target::Preview, Arc::new(former)));
+        assert!(app.picture().latest.is_none(), "{text}");
     }
 }
 

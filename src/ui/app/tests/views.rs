@@ -24,7 +24,7 @@ fn a_moved_view_is_not_lost_in_silence() {
         assert_eq!(app.losses().as_deref(), Some(losses), "{said}");
         assert_eq!(app.document.text(), SCENE);
     }
-    for said in ["vhqy", "vhqw", "vh:q!<Enter>", "vh0q", "vhSuq", "vhqn0q"] {
+    for said in ["vhqy", "vh:q!<Enter>", "vh0q", "vhSuq", "vhqn0q"] {
         assert!(quits(&press(&mut open(SCENE), said)), "{said}");
     }
 }
@@ -46,6 +46,19 @@ fn the_view_can_be_written_when_asked_and_saved_then() {
     )));
     let text = app.document.shared_text();
     assert!(quits(&saving::saved(&mut app, 1, "scene.ray", &text)));
+}
+
+#[test]
+fn saving_before_leaving_does_not_lose_the_view() {
+    let mut app = open(SCENE);
+    press(&mut app, "vh<Esc>jjjel<Esc>qw");
+    let text = app.document.shared_text();
+    assert!(!quits(&saving::saved(&mut app, 1, "scene.ray", &text)));
+    let losses = "the moved view is not in the text (S writes it)";
+    assert_eq!(app.losses().as_deref(), Some(losses));
+    assert!(press(&mut app, "w").is_empty());
+    assert!(words(&app).starts_with("saving does not keep the moved view"));
+    assert!(quits(&press(&mut app, "y")));
 }
 
 #[test]
