@@ -118,8 +118,8 @@ impl App {
         let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);
         // The scene follows the pointer, so the camera moves the opposite way.
         let (left, up) = (DRAG.0 * moved(from.0, at.0), DRAG.1 * moved(from.1, at.1));
-        // In place, the same motion of the scene is a turn the other way.
         match self.mode {
+            // About the angle of a cell, so that the picture follows the pointer.
             Mode::Fly => self.move_camera(|now| turned(now, left / 4.0, up / 4.0)),
             _ => self.move_camera(|now| orbited(now, left, up)),
         }

@@ -1,5 +1,6 @@
 //! Moving the camera, and where its views go.
 
+use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use glam::DVec3;
 
 use super::*;
@@ -128,6 +129,29 @@ fn flying_and_orbiting_alternate_and_turning_back_restores_the_view() {
     press(&mut app, &format!("F{}", "k".repeat(60)));
     let top = app.camera().expect("a camera");
     assert!(0.99 < (top.target - top.eye).normalize().y && top.target.z < 4.0);
+}
+
+#[test]
+fn the_mouse_turns_and_advances_in_flight() {
+    let mouse = |kind, column| {
+        Msg::Mouse(MouseEvent {
+            kind,
+            column,
+            row: 10,
+            modifiers: KeyModifiers::NONE,
+        })
+    };
+    let mut app = ahead();
+    press(&mut app, "vF");
+    app.update(mouse(MouseEventKind::Down(MouseButton::Left), 20));
+    app.update(mouse(MouseEventKind::Drag(MouseButton::Left), 24));
+    let camera = app.camera().expect("a camera");
+    // The picture follows the pointer to the right.
+    assert_eq!(camera.eye, DVec3::new(0.0, 0.0, 4.0));
+    assert!(camera.target.x < -0.1 && camera.target.y.abs() < 1e-9);
+    app.update(mouse(MouseEventKind::Up(MouseButton::Left), 24));
+    app.update(mouse(MouseEventKind::ScrollUp, 20));
+    assert!(app.camera().expect("a camera").eye.z < 3.7);
 }
 
 #[test]
