@@ -12,6 +12,9 @@ use super::words::Words;
 use crate::scene::{Camera, Lens};
 use crate::text::{Edit, Span, is_line_end, line_end, line_start, next_line, parse_number};
 
+/// What begins a saved view. Without the blank it is `view:`, the view itself.
+const KEYWORD: &str = "view ";
+
 /// A view saved under a name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SavedView {
@@ -63,6 +66,10 @@ pub fn view_name(typed: &str) -> Result<String, &'static str> {
 pub(super) fn views<Source: Answers + ?Sized>(source: &Source) -> Vec<SavedView> {
     let text = source.text();
     let mut found: Vec<SavedView> = Vec::new();
+    // Most texts have none, and this is faster than looking for their comments.
+    if !text.contains(KEYWORD) {
+        return found;
+    }
     for leaf in source.leaves() {
         if let Some(view) = read(text, leaf, source.comment_marks())
             && found.iter().all(|before| before.name != view.name)
@@ -149,9 +156,7 @@ fn body(camera: &Camera) -> String {
 fn read(text: &str, comment: Span, [open, close]: [&str; 2]) -> Option<SavedView> {
     let content = comment.of(text).trim_end();
     let content = content.strip_prefix(open)?.strip_suffix(close)?;
-    let content = content.trim_start().strip_prefix("view")?;
-    // `view:` is the view itself, or none of ours.
-    let content = content.strip_prefix([' ', '\t'])?;
+    let content = content.trim_start().strip_prefix(KEYWORD)?;
     let (name, body) = content.split_once(':')?;
     let name = view_name(name).ok()?;
     let mut words = Words::new(body, Span::new(0, body.len())).map(|word| word.of(body));

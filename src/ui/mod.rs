@@ -120,8 +120,12 @@ fn find_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Language, Openin
         (Some(Opened::Kept(text)), _) => OpeningText::Kept(text),
         (Some(Opened::New), Some(_)) => OpeningText::New,
         (_, None) if is_missing => {
-            let text = EMBEDDED_SCENE.to_owned();
-            return Ok((None, language, OpeningText::Known(text)));
+            // Edits of a new scene are restored into one.
+            let text = match recovery::base_of(None, language) {
+                Some(base) if base == language.template() => OpeningText::New,
+                _ => OpeningText::Known(EMBEDDED_SCENE.to_owned()),
+            };
+            return Ok((None, language, text));
         }
         _ => return Err(error.into()),
     };

@@ -181,7 +181,7 @@ fn opened(
 /// `None` if its folder is missing too.
 pub(super) fn missing(path: &Path, language: Language) -> Option<Opened> {
     let fits = |text: &String| language::fits(language, text, text.len()).is_ok();
-    match recovery::base_of(path, language).filter(fits) {
+    match recovery::base_of(Some(path), language).filter(fits) {
         // Edits of a template that was never written.
         Some(text) if text != language.template() => Some(Opened::Kept(text)),
         _ => file::directory_of(path).is_dir().then_some(Opened::New),

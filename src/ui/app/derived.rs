@@ -157,7 +157,7 @@ impl App {
     /// Describes what would be lost by leaving the scene now; `None` if nothing. Work under way ends
     /// only with the program.
     pub fn losses_before(&self, next: &Next) -> Option<String> {
-        let view = self.pictures.view.map(|_| LOST_VIEW.to_owned());
+        let view = self.is_view_unwritten().then(|| LOST_VIEW.to_owned());
         let mut lost: Vec<_> = self.lost_text().into_iter().chain(view).collect();
         if *next == Next::Quit {
             lost.extend(self.lost_work(lost.is_empty()));
@@ -168,6 +168,15 @@ impl App {
             1 => format!("{}, and {last}", lost[0]),
             _ => format!("{}, and {last}", lost.join(", ")),
         })
+    }
+
+    /// Whether the text lacks the working view, even under a name.
+    pub(super) fn is_view_unwritten(&self) -> bool {
+        let Some((view, own)) = self.pictures.view.zip(self.own_camera()) else {
+            return false;
+        };
+        let saved = self.source().saved_views();
+        !saved.iter().any(|saved| saved.camera(&own) == view)
     }
 
     /// Why the text would be lost, if it would.

@@ -8,7 +8,7 @@ impl App {
     /// `w`, which in the question whether to leave saves and then leaves.
     pub(super) fn save_key(&mut self) -> Vec<Effect> {
         match self.take_question() {
-            Some(next) if self.is_saved() && self.pictures.view.is_some() => {
+            Some(next) if self.is_saved() && self.is_view_unwritten() => {
                 self.overlays.dialog = Some(Dialog::Leave(next));
                 self.overlays
                     .warn("saving does not keep the moved view: S writes it, y leaves without it");
@@ -74,7 +74,7 @@ impl App {
         }
         match self.jobs.next.take() {
             // A save does not keep the view.
-            Some(next) if self.pictures.view.is_some() => self.leave_for(next),
+            Some(next) if self.is_view_unwritten() => self.leave_for(next),
             Some(next) if !self.document.is_dirty() => self.leave(next),
             _ => Vec::new(),
         }

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::{App, OnDisk};
-use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, Guard, SaveId, SaveOutcome};
 
 impl App {
@@ -27,10 +26,10 @@ impl App {
 
     /// The addition to a message about a save that the text lacks the moved view, if it does.
     pub(super) fn unwritten_view(&self) -> &'static str {
-        match (self.pictures.view, self.mode) {
-            (None, _) => "",
-            (Some(_), Mode::View | Mode::Fly) => "; the moved view is not in the text: S writes it",
-            (Some(_), _) => "; the moved view is not in the text: S in VIEW writes it",
+        match self.is_view_unwritten() {
+            true if self.mode.moves_camera() => "; the moved view is not in the text: S writes it",
+            true => "; the moved view is not in the text: S in VIEW writes it",
+            false => "",
         }
     }
 

@@ -78,7 +78,7 @@ fn offered(app: &App, offer: &Offer) -> String {
 
 /// The name of the text that recovered edits are merged with.
 fn text_name(app: &App) -> &'static str {
-    if app.document.is_dirty() || app.disk.state == OnDisk::Missing {
+    if app.document.is_dirty() || matches!(app.disk.state, OnDisk::Missing | OnDisk::New) {
         "text"
     } else {
         "file"

@@ -31,6 +31,21 @@ fn a_moved_view_is_not_lost_in_silence() {
 }
 
 #[test]
+fn a_view_saved_under_a_name_is_not_lost() {
+    let mut app = open(SCENE);
+    press(&mut app, "vh:view save a<Enter>q");
+    assert_eq!(app.losses().as_deref(), Some("scene.ray has unsaved edits"));
+    let text = app.document.shared_text();
+    press(&mut app, "w");
+    assert!(quits(&saving::saved(&mut app, 1, "scene.ray", &text)));
+
+    let mut app = open(&text);
+    press(&mut app, "vV<Enter>");
+    assert!(app.pictures.view.is_some() && quits(&press(&mut app, "q")));
+    assert!(!quits(&press(&mut open(&text), "vV<Enter>lq")));
+}
+
+#[test]
 fn the_view_can_be_written_when_asked_and_saved_then() {
     let mut app = open(SCENE);
     press(&mut app, "vhqS");
