@@ -160,7 +160,10 @@ impl App {
         let view = self.is_view_unwritten().then(|| LOST_VIEW.to_owned());
         let mut lost: Vec<_> = self.lost_text().into_iter().chain(view).collect();
         if *next == Next::Quit {
-            lost.extend(self.lost_work(lost.is_empty()));
+            lost.extend(self.lost_export());
+            if lost.is_empty() {
+                lost.extend(self.lost_save());
+            }
         }
         let last = lost.pop()?;
         Some(match lost.len() {
@@ -193,15 +196,17 @@ impl App {
         }
     }
 
-    /// The work that would end too early: the export or, only if `is_all`, a save.
-    fn lost_work(&self, is_all: bool) -> Option<String> {
-        let export = self.jobs.export.as_ref().map(|export| {
-            let name = export.destination.path.display();
-            format!("{name} is still being exported")
-        });
-        let save = self.jobs.file_being_saved();
-        let save = save.map(|path| format!("{} is still being written", path.display()));
-        export.or_else(|| save.filter(|_| is_all))
+    /// The export that would end too early.
+    fn lost_export(&self) -> Option<String> {
+        let export = self.jobs.export.as_ref()?;
+        let name = export.destination.path.display();
+        Some(format!("{name} is still being exported"))
+    }
+
+    /// The save that would not be waited for.
+    fn lost_save(&self) -> Option<String> {
+        let path = self.jobs.file_being_saved()?;
+        Some(format!("{} is still being written", path.display()))
     }
 
     /// The size of one nudge of a field.

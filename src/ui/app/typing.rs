@@ -164,6 +164,11 @@ impl App {
             }
             return;
         }
+        if let Some(page) = &mut self.overlays.page {
+            line::insert(&mut page.search, text);
+            page.at = 0;
+            return;
+        }
         if self.disk.is_opening() {
             self.warn_of_opening();
             return;

@@ -97,6 +97,10 @@ impl App {
                 self.warn_of_opening();
                 Vec::new()
             }
+            None if matches!(context, Context::Views | Context::Recent) => {
+                self.filter_with(key);
+                Vec::new()
+            }
             None => self.start_typing_with(context, key),
         }
     }
@@ -109,6 +113,15 @@ impl App {
             self.cursor.type_value(Input::from(first.to_string()));
         }
         Vec::new()
+    }
+
+    /// Starts filtering the open page with a character that is no key of it.
+    fn filter_with(&mut self, key: KeyEvent) {
+        if let (Some(page), KeyCode::Char(_)) = (&mut self.overlays.page, key.code) {
+            page.focus = PageFocus::Search;
+            line::edit(&mut page.search, key);
+            page.at = 0;
+        }
     }
 
     fn type_key(&mut self, key: KeyEvent) -> Vec<Effect> {
@@ -125,10 +138,15 @@ impl App {
             help.top = 0;
         } else if let Some(page) = &mut self.overlays.page {
             match key.code {
-                KeyCode::Enter | KeyCode::Esc => page.focus = PageFocus::Lines,
-                _ => line::edit(&mut page.search, key),
+                KeyCode::Enter => return self.choose(),
+                KeyCode::Esc => page.focus = PageFocus::Lines,
+                KeyCode::Down => page.go(1),
+                KeyCode::Up => page.go(-1),
+                _ => {
+                    line::edit(&mut page.search, key);
+                    page.at = 0;
+                }
             }
-            page.at = 0;
         }
         Vec::new()
     }

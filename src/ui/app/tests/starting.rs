@@ -326,8 +326,10 @@ fn recent_scenes_are_listed_filtered_and_opened() {
         ("j<Enter>", Some("/a/two.dat")),
         ("jjjk<Enter>", Some("/a/two.dat")),
         ("G<Enter>", Some("/b/three.xml")),
-        ("/A/<Enter>j<Enter>", Some("/a/two.dat")),
-        ("/none<Enter><Enter>", None),
+        ("/A/<Esc>j<Enter>", Some("/a/two.dat")),
+        ("/A/<Down><Enter>", Some("/a/two.dat")),
+        ("three<Enter>", Some("/b/three.xml")),
+        ("none<Enter>", None),
         ("j<Esc>", None),
     ] {
         let mut app = open(SCENE);
@@ -341,6 +343,10 @@ fn recent_scenes_are_listed_filtered_and_opened() {
         }
         assert!(app.overlays.page.is_none(), "{said}");
     }
+    let mut app = open(SCENE);
+    app.update(Msg::RecentListed(paths().into()));
+    app.update(Msg::Paste("two\n".to_owned()));
+    assert!(opens(&press(&mut app, "<Enter>"), "/a/two.dat"));
     let mut app = open(SCENE);
     press(&mut app, "jjjel");
     app.update(Msg::RecentListed(paths().into()));

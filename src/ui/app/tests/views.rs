@@ -223,7 +223,7 @@ fn views_are_saved_listed_visited_and_deleted() {
             (Some(front), "view front door")
         );
         assert!(app.overlays.page.is_none());
-        press(&mut app, "0V/abo<Enter><Enter>");
+        press(&mut app, "0Vabo<Enter>");
         assert_eq!(words(&app), "view above");
         press(&mut app, "Vjk");
         press(&mut app, "d");
