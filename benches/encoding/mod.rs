@@ -62,6 +62,7 @@ pub(crate) fn opened(scene: &str, terminal: (u16, u16)) -> (App, Job) {
             filter: Filter::Box,
         },
         mouse: Mouse::On,
+        recent: Vec::new(),
         terminal,
     });
     effects.extend(app.update(Msg::Key(KeyEvent::from(KeyCode::Char('z')))));

@@ -241,7 +241,7 @@ struct AssetArguments {
 
 #[derive(Args, Debug)]
 struct InterfaceArguments {
-    /// Scene file to open: .ray, .dat or .xml
+    /// Scene file to open: .ray, .dat or .xml; a new scene if it does not exist
     #[arg(value_name = "SCENE")]
     scene: Option<PathBuf>,
     // Parsed so that a second scene is not rejected as an unknown command.

@@ -17,6 +17,7 @@ mod ray;
 mod record;
 mod report;
 mod room;
+mod saved;
 mod structure;
 pub mod table;
 #[cfg(test)]
@@ -27,6 +28,7 @@ mod written;
 mod xml;
 
 use std::borrow::Cow;
+use std::ffi::OsStr;
 use std::fmt::Debug;
 use std::ops::{Deref, DerefMut};
 use std::path::{Path, PathBuf};
@@ -43,10 +45,11 @@ pub use form::{Along, Motion};
 pub use node::{FileKind, NamedFile, Node, Nodes};
 pub use placed::{Placed, Wanted};
 pub use room::fits;
+pub use saved::{SavedView, view_name};
 pub use structure::{Addition, Neighbour, Placement, Pose, Restructure, StructureError, Wish};
 
 /// Declares the languages, one per line, by folder name, which is also the file extension. A folder
-/// provides `Source`, `errors_of_beginning`, `tree_bytes` and `LEAVES_KEEP_TO_LINES`.
+/// provides `Source`, `errors_of_beginning`, `tree_bytes`, `LEAVES_KEEP_TO_LINES` and `TEMPLATE`.
 macro_rules! languages {
     ($($(#[$doc:meta])* $name:ident in $folder:ident,)+) => {
         /// The supported scene languages.
@@ -63,6 +66,13 @@ macro_rules! languages {
             pub const fn extension(self) -> &'static str {
                 match self {
                     $(Self::$name => stringify!($folder),)+
+                }
+            }
+
+            /// A small valid scene to begin with: a ground, a solid, lights and a view.
+            pub const fn template(self) -> &'static str {
+                match self {
+                    $(Self::$name => $folder::TEMPLATE,)+
                 }
             }
 
@@ -172,11 +182,18 @@ impl Source {
 pub struct UnknownLanguage(pub PathBuf);
 
 impl Language {
+    /// The language with this extension, given without the dot, ignoring case.
+    pub fn of_extension(extension: impl AsRef<OsStr>) -> Option<Self> {
+        let is = |known: &Self| {
+            let extension = extension.as_ref();
+            extension.eq_ignore_ascii_case(known.extension())
+        };
+        Self::ALL.into_iter().find(is)
+    }
+
     /// Returns the language for a file name's extension, ignoring case.
     pub fn of_path(path: &Path) -> Result<Self, UnknownLanguage> {
-        let extension = path.extension().unwrap_or_default();
-        let is = |known: &Self| extension.eq_ignore_ascii_case(known.extension());
-        let known = Self::ALL.into_iter().find(is);
+        let known = Self::of_extension(path.extension().unwrap_or_default());
         known.ok_or_else(|| UnknownLanguage(path.to_owned()))
     }
 }
@@ -386,6 +403,20 @@ pub trait Answers: Editable + Restructure {
     /// missing parts. `before` is the camera as lowered; only parts that differ from it are
     /// written, and those whose defaults would move with them.
     fn view_edits(&self, before: &Camera, camera: &Camera) -> Vec<Edit>;
+
+    /// What opens and closes a comment on a line of its own.
+    fn comment_marks(&self) -> [&'static str; 2];
+
+    /// The views saved under a name, in the order of the text.
+    fn saved_views(&self) -> Vec<SavedView> {
+        saved::views(self)
+    }
+
+    /// Returns the edits that save a camera under a name accepted by [`view_name`], replacing any
+    /// view of that name; without a camera, those that delete it.
+    fn saved_view_edits(&self, name: &str, camera: Option<&Camera>) -> Vec<Edit> {
+        saved::edits(self, name, camera)
+    }
 
     /// Returns the edits that show or hide objects, by index, and leave all others as they are.
     ///

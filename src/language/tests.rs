@@ -3,7 +3,9 @@
 mod beginning;
 mod line_ends;
 mod motion;
+mod saved;
 mod structure;
+mod template;
 
 use std::sync::Arc;
 

@@ -57,10 +57,17 @@ pub(super) fn take<'n>(numbers: &mut &'n [f64], field: &Field) -> &'n [f64] {
 pub(super) fn literal(field: &Field, number: f64) -> String {
     match field.kind {
         Kind::Choice(words) => words[number as usize % words.len()].to_owned(),
-        _ if 1e16 <= number.abs() => format!("{number:e}"),
-        // Adding 0 keeps the number but turns −0 into 0.
-        _ => (number + 0.0).to_string(),
+        _ => spelled(number),
     }
+}
+
+/// Formats a number in default style.
+pub(super) fn spelled(number: f64) -> String {
+    if 1e16 <= number.abs() {
+        return format!("{number:e}");
+    }
+    // Adding 0 keeps the number but turns −0 into 0.
+    (number + 0.0).to_string()
 }
 
 /// The line ending of the text's first line, assumed for all others.

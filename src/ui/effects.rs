@@ -17,6 +17,7 @@ use super::heap;
 use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
 use super::options::Options;
 use super::reader::Reader;
+use super::recent::Recent;
 use super::recovery::{self, Edits, End, Keeper, Outcome, Request};
 use super::service::{Ended, Service};
 use super::terminal::tmux;
@@ -50,6 +51,7 @@ pub(crate) struct Runtime {
     freeing: Service<Arc<dyn Any + Send + Sync>>,
     writers: Writers,
     keeper: Keeper,
+    recent: Recent,
     assets: AssetReader,
     threads: Option<usize>,
     preview: Option<Numbered>,
@@ -103,6 +105,7 @@ impl Runtime {
             })?,
             writers: Writers::new(sender.clone()),
             keeper: Keeper::start(keeping(&sender))?,
+            recent: remembering(&sender)?,
             assets: AssetReader::start(&options.assets, options.watching(), sending(&sender))?,
             threads: options.threads,
             preview: None,
@@ -175,6 +178,7 @@ impl Runtime {
         self.terminal.close(begun + terminal);
         let end = self.keeper.finish(begun + files);
         self.writers.finish(begun + files);
+        self.recent.finish(begun + files);
         end
     }
 
@@ -238,6 +242,7 @@ impl Runtime {
             Effect::CheckPlace(path) => self.writers.check_place(path)?,
             Effect::FindBackups(scene) => self.writers.find_backups(scene)?,
             Effect::Read(path, baseline) => self.reader.read(path, baseline)?,
+            Effect::Open(path, language) => self.reader.open(path, language)?,
             Effect::Free(unneeded) => self.freeing.request(unneeded)?,
             Effect::Save {
                 id,
@@ -249,6 +254,8 @@ impl Runtime {
                 let refused = started.err().map(|error| error.to_string());
                 return Ok(refused.map(|reason| Msg::Saved(id, SaveOutcome::Failed(reason))));
             }
+            Effect::NoteRecent(scene) => self.recent.note(scene)?,
+            Effect::ListRecent => self.recent.list()?,
             Effect::Watch(path) => self.reader.watch(path)?,
             Effect::ReadAssets(wanted) => self.assets.request(wanted)?,
             Effect::Later(time, timer) => {
@@ -442,6 +449,15 @@ fn keeping(sender: &Sender<Event>) -> impl Fn(Outcome) + Send + 'static {
             Outcome::Failed(reason) => Msg::Failed(reason),
         });
     }
+}
+
+/// Remembers scenes, and announces lists of them.
+fn remembering(sender: &Sender<Event>) -> io::Result<Recent> {
+    let (report, complain) = (sending(sender), sending(sender));
+    Recent::start(
+        move |scenes| report(Msg::RecentListed(scenes)),
+        move |reason| complain(Msg::Failed(reason)),
+    )
 }
 
 #[cfg(test)]

@@ -27,6 +27,7 @@ pub mod msg;
 mod options;
 mod reader;
 pub mod reading;
+mod recent;
 pub mod recovery;
 mod service;
 mod session;
@@ -41,12 +42,13 @@ use std::path::{Path, PathBuf};
 
 use crate::assets::check_folders;
 use crate::file::{self, ReadError};
-use crate::language::{self, Language};
+use crate::language::Language;
 use crate::memory;
 use crate::render::DEFAULT_SPP;
 use app::{App, Opening, OpeningText, Quality};
 pub use ending::{Ending, Error};
 pub use options::Options;
+use reading::Opened;
 
 /// Name of the scene in the current folder that is opened by default.
 const DEFAULT_SCENE: &str = "default.ray";
@@ -67,6 +69,10 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
     if env::var_os("TERM").is_some_and(|term| term == "dumb") {
         return Err(Error::DumbTerminal);
     }
+    let recent = match (&options.scene, &path) {
+        (None, None) => recent::list(),
+        _ => Vec::new(),
+    };
     let size = terminal::size();
     let opening = Opening {
         path,
@@ -79,6 +85,7 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
             filter: options.filter,
         },
         mouse: options.mouse,
+        recent,
         terminal: (size.width, size.height),
     };
     let (app, effects) = App::open(opening);
@@ -106,19 +113,23 @@ fn find_scene(named: Option<&Path>) -> Result<(Option<PathBuf>, Language, Openin
         Err(error) => error,
     };
     let is_missing = matches!(error, ReadError::NotFound { .. });
-    let kept = || recovery::base_of(path, language).filter(|text| fits(language, text));
-    if let Some(text) = is_missing.then(kept).flatten() {
-        return Ok((Some(path.to_owned()), language, OpeningText::Kept(text)));
-    }
-    if is_missing && named.is_none() {
-        let text = EMBEDDED_SCENE.to_owned();
-        return Ok((None, language, OpeningText::Known(text)));
-    }
-    Err(error.into())
-}
-
-fn fits(language: Language, text: &str) -> bool {
-    language::fits(language, text, text.len()).is_ok()
+    let missing = is_missing
+        .then(|| reader::missing(path, language))
+        .flatten();
+    let text = match (missing, named) {
+        (Some(Opened::Kept(text)), _) => OpeningText::Kept(text),
+        (Some(Opened::New), Some(_)) => OpeningText::New,
+        (_, None) if is_missing => {
+            // Edits of a new scene are restored into one.
+            let text = match recovery::base_of(None, language) {
+                Some(base) if base == language.template() => OpeningText::New,
+                _ => OpeningText::Known(EMBEDDED_SCENE.to_owned()),
+            };
+            return Ok((None, language, text));
+        }
+        _ => return Err(error.into()),
+    };
+    Ok((Some(path.to_owned()), language, text))
 }
 
 /// A note to print with an error: unsaved edits exist for the scene that cannot be opened.

@@ -8,12 +8,13 @@ use std::time::Duration;
 
 use crossterm::event::{KeyEvent, MouseEvent};
 
-use super::reading::{Baseline, Reading};
+use super::reading::{Baseline, Opened, Reading};
 use super::recovery::{Claim, Found, Sought};
 use super::terminal::{ColourDepth, Mouse};
 use crate::assets::{Loaded, Wanted};
 use crate::document::Snapshot;
 use crate::file::{ReadError, Version};
+use crate::language::Language;
 use crate::render::{Frame, Job};
 
 /// The picture that a frame belongs to.
@@ -59,6 +60,8 @@ pub enum Msg {
     FileChanged,
     /// The result of [`Effect::Read`] for this path.
     Read(PathBuf, Result<Reading, ReadError>),
+    /// The result of [`Effect::Open`] for this path.
+    Opened(PathBuf, Result<Opened, ReadError>),
     /// The result of [`Effect::ReadAssets`].
     AssetsRead(Wanted, Loaded),
     /// A file that the scene names may have changed.
@@ -73,6 +76,8 @@ pub enum Msg {
     Exported(ExportId, Result<Exported, String>),
     /// The external editor has ended.
     EditorClosed(Result<(), String>),
+    /// The result of [`Effect::ListRecent`].
+    RecentListed(Vec<PathBuf>),
     /// Unsaved edits of an earlier run were found.
     Recovered(Found),
     /// The text of this revision was stored for recovery, or the reason why not.
@@ -141,6 +146,8 @@ pub enum Effect {
     CheckTarget(ExportId, Destination),
     /// Reads the scene file, reported by [`Msg::Read`].
     Read(PathBuf, Baseline),
+    /// Reads another scene, which is to replace this one; reported by [`Msg::Opened`].
+    Open(PathBuf, Language),
     /// Frees a value on another thread: for a large scene this takes longer than a key may wait.
     Free(Arc<dyn Any + Send + Sync>),
     /// Writes the scene file, reported by [`Msg::Saved`].
@@ -158,6 +165,10 @@ pub enum Effect {
     CheckPlace(PathBuf),
     /// Looks for backups left by an interrupted save, reported by [`Msg::BackupsFound`].
     FindBackups(PathBuf),
+    /// Remembers a scene as the one used last.
+    NoteRecent(PathBuf),
+    /// Lists recently used scenes that still exist, reported by [`Msg::RecentListed`].
+    ListRecent,
     /// Watches this file from now on, reported by [`Msg::FileChanged`].
     Watch(PathBuf),
     /// Reads the files that the scene names and watches them from now on, reported by

@@ -9,11 +9,15 @@ use std::thread;
 
 use super::heap;
 use super::msg::Msg;
-use super::reading::{Baseline, Reading, SceneFolder};
+use super::reading::{Baseline, Opened, Reading, SceneFolder};
+use super::recovery;
 use super::service::{Ended, Service};
+use crate::document::Document;
 use crate::file;
 use crate::file::ReadError;
+use crate::language::{self, Language};
 use crate::memory;
+use crate::scene::Meshes;
 use crate::watch::{Method, Watcher};
 
 /// Length in bytes from which a text is lowered on several threads.
@@ -25,6 +29,8 @@ enum Request {
     Watch(PathBuf),
     /// Read this file and compare it with the baseline.
     Read(PathBuf, Baseline),
+    /// Read the scene of this file, in place of another.
+    Open(PathBuf, Language),
 }
 
 /// Handle of the thread that watches, reads and lowers the scene file. Nothing else waits for it,
@@ -55,6 +61,11 @@ impl Reader {
     pub(super) fn read(&self, path: PathBuf, baseline: Baseline) -> Result<(), Ended> {
         self.0.request(Request::Read(path, baseline))
     }
+
+    /// Reads another scene, reported by [`Msg::Opened`]; takes the place of a pending request.
+    pub(super) fn open(&self, path: PathBuf, language: Language) -> Result<(), Ended> {
+        self.0.request(Request::Open(path, language))
+    }
 }
 
 /// Carries out requests until the sender is gone. A file that changes while being read is not
@@ -74,15 +85,18 @@ fn follow(
     while let Ok(first) = inbox.recv() {
         let mut requests = vec![first];
         requests.extend(inbox.try_iter());
-        while let Some((path, baseline)) = last(requests, &mut watch) {
+        while let Some(request) = last(requests, &mut watch) {
+            let path = request.path().to_owned();
             let read = read(&path);
             requests = inbox.try_iter().collect();
-            if requests
-                .iter()
-                .any(|request| matches!(request, Request::Read(..)))
-            {
+            if !requests.iter().all(Request::is_watch) {
                 continue;
             }
+            let (baseline, language) = match request {
+                Request::Watch(_) => continue,
+                Request::Read(_, baseline) => (baseline, None),
+                Request::Open(_, language) => (nothing(language), Some(language)),
+            };
             let understand = |text: String| {
                 if text.len() < LARGE {
                     return Reading::new(text, baseline);
@@ -101,22 +115,77 @@ fn follow(
                 });
                 understood.map(|reading| Reading { place, ..reading })
             });
-            send(Msg::Read(path, reading));
+            send(match language {
+                None => Msg::Read(path, reading),
+                Some(language) => {
+                    let opened = opened(reading, &path, language);
+                    Msg::Opened(path, opened)
+                }
+            });
         }
     }
 }
 
-/// Carries out the requests to watch and returns the last file to read.
-fn last(requests: Vec<Request>, mut watch: impl FnMut(PathBuf)) -> Option<(PathBuf, Baseline)> {
+impl Request {
+    fn path(&self) -> &Path {
+        let (Self::Watch(path) | Self::Read(path, _) | Self::Open(path, _)) = self;
+        path
+    }
+
+    fn is_watch(&self) -> bool {
+        matches!(self, Self::Watch(_))
+    }
+}
+
+/// Carries out the requests to watch and returns the last one to read a file.
+fn last(requests: Vec<Request>, mut watch: impl FnMut(PathBuf)) -> Option<Request> {
     let mut last = None;
     for request in requests {
         match request {
             // Before the file is read, so that no later change is missed.
             Request::Watch(path) => watch(path),
-            Request::Read(path, baseline) => last = Some((path, baseline)),
+            request => last = Some(request),
         }
     }
     last
+}
+
+/// The baseline of a scene that is read for the first time.
+fn nothing(language: Language) -> Baseline {
+    Baseline {
+        scene: Document::new(language, String::new()).snapshot(),
+        saving: None,
+        meshes: Meshes::default(),
+    }
+}
+
+/// Tells a scene that does not exist yet from one that cannot be read.
+fn opened(
+    reading: Result<Reading, ReadError>,
+    path: &Path,
+    language: Language,
+) -> Result<Opened, ReadError> {
+    match reading {
+        Ok(reading) => Ok(Opened::Read(reading)),
+        Err(ReadError::NotFound { .. }) => {
+            let missing = missing(path, language);
+            missing.ok_or_else(|| ReadError::NotFound {
+                path: path.to_owned(),
+            })
+        }
+        Err(error) => Err(error),
+    }
+}
+
+/// How to open a scene whose file is missing: from edits that were kept of it, or as a new one.
+/// `None` if its folder is missing too.
+pub(super) fn missing(path: &Path, language: Language) -> Option<Opened> {
+    let fits = |text: &String| language::fits(language, text, text.len()).is_ok();
+    match recovery::base_of(Some(path), language).filter(fits) {
+        // Edits of a template that was never written.
+        Some(text) if text != language.template() => Some(Opened::Kept(text)),
+        _ => file::directory_of(path).is_dir().then_some(Opened::New),
+    }
 }
 
 fn watch(
@@ -141,19 +210,11 @@ fn watch(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::Document;
-    use crate::language::Language;
-    use crate::scene::Meshes;
     use std::cell::{Cell, RefCell};
     use std::sync::mpsc;
 
     fn request(name: &str) -> Request {
-        let baseline = Baseline {
-            scene: Document::new(Language::Ray, String::new()).snapshot(),
-            saving: None,
-            meshes: Meshes::default(),
-        };
-        Request::Read(name.into(), baseline)
+        Request::Read(name.into(), nothing(Language::Ray))
     }
 
     /// The files read and the files reported, if `during` is requested while the first one is being

@@ -33,6 +33,17 @@ pub struct Reading {
     pub place: Option<SceneFolder>,
 }
 
+/// A scene that was opened while another one was shown.
+#[derive(Debug)]
+pub enum Opened {
+    /// Its file was read, and compared with an empty text.
+    Read(Reading),
+    /// Its file is missing; this is the base of unsaved edits that were kept of it.
+    Kept(String),
+    /// Its file does not exist yet.
+    New,
+}
+
 /// The folder of a scene file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneFolder {

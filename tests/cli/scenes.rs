@@ -35,7 +35,8 @@ fn the_interface_reports_an_unreadable_scene_before_a_missing_terminal() {
     let place = Place::new();
     place.write("a.ray", "");
     for (name, code, message) in [
-        ("none.ray", 66, "none.ray: no such file"),
+        ("none/a.ray", 66, "none/a.ray: no such file"),
+        ("new.ray", 2, "the interface needs a terminal"),
         ("a.ray", 2, "the interface needs a terminal"),
     ] {
         let stderr = place.stderr(name, code);

@@ -281,3 +281,27 @@ fn edits_are_stored_once_there_is_space_again() {
         assert_eq!(place.kept_texts(), [BALLS.replacen(".80", "3", 1)]);
     }
 }
+
+#[test]
+fn edits_of_a_new_scene_without_a_file_are_offered_in_a_new_scene() {
+    let place = Place::new();
+    let mut session = place.start(&[], WIDE);
+    session.wait_for("(no file)");
+    session.send(":new\r");
+    session.wait_for("a new scene: :w FILE writes it");
+    session.send("\rj0.75\r");
+    session.wait_for("[+]");
+    while place.recovery_files().is_empty() {
+        session.drain(Duration::from_millis(1));
+    }
+    kill(session.process_id(), Signal::KILL);
+    session.end();
+    let mut session = place.start(&[], WIDE);
+    session.wait_for("a new scene: :w FILE writes it");
+    session.wait_for(QUESTION);
+    session.wait_for("differs from the text. Restore them?");
+    session.send("r");
+    session.wait_for("restored");
+    session.send(":q!\r");
+    assert_end(session, 0);
+}

@@ -103,7 +103,7 @@ fn a_selection_that_changes_no_pixel_sends_no_picture() {
 #[test]
 fn a_failure_to_open_leaves_the_terminal_unchanged() {
     let place = Place::new();
-    for (name, code) in [("none.ray", 66), ("none.txt", 2), (".", 66)] {
+    for (name, code) in [("none/a.ray", 66), ("none.txt", 2), (".", 66)] {
         let mut session = place.start(&[name], (80, 24));
         let status = session.end();
         assert_eq!(status.exit_code(), code, "{name}");

@@ -48,7 +48,7 @@ fn an_unreadable_scene_ends_the_program_with_its_exit_code() {
             65,
             "latin.ray:1:7: the byte 0xE9 is not UTF-8 text",
         ),
-        ("none.ray", 66, "no such file"),
+        ("none/a.ray", 66, "no such file"),
         (".", 66, "it is a folder"),
     ] {
         let mut session = place.start(&[name], WIDE);
@@ -64,4 +64,34 @@ fn an_unreadable_scene_ends_the_program_with_its_exit_code() {
         assert!(!is_entered || name == "latin.ray", "{name}");
         session.assert_restored();
     }
+}
+
+#[test]
+fn a_new_scene_is_written_left_for_another_and_remembered() {
+    let place = Place::new();
+    let mut session = place.start(&["new.dat"], WIDE);
+    session.wait_for("new.dat is new: w writes it");
+    assert!(!place.at("new.dat").exists());
+    session.send("w");
+    session.wait_for("wrote new.dat");
+    let template = place.read("new.dat");
+    assert!(template.starts_with("# A new scene."), "{template}");
+    session.send(":e balls.ray\r");
+    session.wait_for("sphere");
+    session.wait_for("balls.ray");
+    session.send(":e none/a.ray\r");
+    session.wait_for("none/a.ray: no such file");
+    place.replace(
+        "balls.ray",
+        &BALLS.replace("8.0", "7.0").replace("0.8 ", "0.9 "),
+    );
+    session.wait_for("reloaded: object 2 (sphere) radius");
+    quit(session);
+
+    let mut session = place.start(&[], WIDE);
+    session.wait_for("Recent scenes");
+    session.wait_for("new.dat");
+    session.send("\r");
+    session.wait_for("the red one");
+    quit(session);
 }

@@ -204,6 +204,10 @@ impl Answers for Source {
         self.origins.objects.get(object)?.material
     }
 
+    fn comment_marks(&self) -> [&'static str; 2] {
+        ["#", ""]
+    }
+
     fn visibility_edits(
         &self,
         objects: &[usize],

@@ -28,6 +28,9 @@ pub(super) type Source = Written<Tree, Origins>;
 /// Whether no leaf crosses a line end.
 pub(super) const LEAVES_KEEP_TO_LINES: bool = true;
 
+/// A small valid scene to begin with.
+pub(super) const TEMPLATE: &str = include_str!("template.dat");
+
 /// Returns the errors of every text with this beginning.
 pub(super) fn errors_of_beginning(beginning: &str) -> Findings {
     lower::errors_of_beginning(beginning, &tree::parse(beginning))

@@ -174,6 +174,10 @@ impl Answers for Source {
         view::edits(&self.text, &self.origins, before, camera)
     }
 
+    fn comment_marks(&self) -> [&'static str; 2] {
+        ["//", ""]
+    }
+
     fn visibility_edits(&self, _: &[usize], _: Visibility) -> Result<Vec<Edit>, &'static str> {
         Err("a .ray scene draws all of its objects")
     }

@@ -219,6 +219,10 @@ impl Answers for Source {
         view::edits(self, &self.fields(Node::View), before, camera)
     }
 
+    fn comment_marks(&self) -> [&'static str; 2] {
+        ["<!--", "-->"]
+    }
+
     fn visibility_edits(&self, _: &[usize], _: Visibility) -> Result<Vec<Edit>, &'static str> {
         Err("an .xml scene draws all of its objects")
     }

@@ -10,6 +10,10 @@ const ORBIT: f64 = 5.0;
 const PAN: f64 = 0.05;
 /// Factor of the distance for one dolly step forward.
 const DOLLY: f64 = 0.9;
+/// Length of one step forward, relative to the distance to the target.
+const ADVANCE: f64 = 0.1;
+/// Angle of one turn in place or one roll, in degrees.
+const TURN: f64 = 5.0;
 /// Change of the field of view per step, in degrees.
 const WIDEN: f64 = 2.0;
 /// The smallest angle between the view direction and `up`, in degrees.
@@ -44,6 +48,34 @@ pub(super) fn dollied(camera: Camera, steps: i8) -> Camera {
             Lens::Orthographic(height) => Lens::Orthographic(share * height),
             lens @ Lens::Perspective(_) => lens,
         },
+        ..camera
+    }
+}
+
+/// Turns the camera in place by steps to the left and up.
+pub(super) fn faced(camera: Camera, left: i8, up: i8) -> Camera {
+    turned(camera, f64::from(left) * TURN, f64::from(up) * TURN)
+}
+
+/// Moves the camera and its target by steps forward.
+pub(super) fn advanced(camera: Camera, steps: i8) -> Camera {
+    let shift = ADVANCE * f64::from(steps) * (camera.target - camera.eye);
+    Camera {
+        eye: camera.eye + shift,
+        target: camera.target + shift,
+        ..camera
+    }
+}
+
+/// Rolls the camera around the view direction by steps to the left.
+pub(super) fn rolled(camera: Camera, left: i8) -> Camera {
+    let back = (camera.eye - camera.target).normalize_or(DVec3::Z);
+    let along = camera.up.dot(back) * back;
+    let across = camera.up - along;
+    let (sin, cos) = libm::sincos((f64::from(left) * TURN).to_radians());
+    Camera {
+        // The part along the view direction stays: rolling back restores the axis of orbits.
+        up: along + cos * across + sin * back.cross(across),
         ..camera
     }
 }
@@ -114,6 +146,17 @@ pub(super) fn orbited(camera: Camera, left: f64, up: f64) -> Camera {
     }
 }
 
+/// Turns the camera in place, in degrees to the left and up.
+pub(super) fn turned(camera: Camera, left: f64, up: f64) -> Camera {
+    // The target orbits the eye.
+    let swapped = |camera: Camera| Camera {
+        eye: camera.target,
+        target: camera.eye,
+        ..camera
+    };
+    swapped(orbited(swapped(camera), -left, up))
+}
+
 /// Moves the camera so that a sphere fills the smaller of the two view angles.
 pub(super) fn framed(camera: Camera, centre: DVec3, radius: f64) -> Camera {
     let aspect = f64::from(camera.size.width) / f64::from(camera.size.height) * camera.pixel_aspect;
@@ -155,6 +198,12 @@ fn rounded(camera: Camera, before: &Camera) -> Camera {
     Camera {
         eye: round(camera.eye, before.eye),
         target: round(camera.target, before.target),
+        up: if camera.up == before.up {
+            before.up
+        } else {
+            let places = 5 - libm::floor(libm::log10(camera.up.length())) as i32;
+            DVec3::from_array(camera.up.to_array().map(|n| to_places(n, places)))
+        },
         lens: match camera.lens {
             // The text may give it in another form, which rounding would not reproduce.
             lens if lens == before.lens => lens,

@@ -3,9 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{App, Help, PromptKind};
+use super::{App, Help, Next, PromptKind};
 use crate::image_file::ImageFormat;
-use crate::language::Language;
+use crate::language::{Language, extensions};
 use crate::render::MAX_SPP;
 use crate::scene::{Camera, Size};
 use crate::text::nearest_word;
@@ -21,16 +21,22 @@ enum Command {
     Quit(Force),
     /// Save, then quit if that succeeds.
     WriteQuit,
-    /// Read the file again.
-    Reread,
+    /// Open another scene, or read the file again.
+    Edit(Option<PathBuf>),
+    /// Start a new scene, in another language if one is given.
+    New(Option<Language>),
+    /// List recently used scenes.
+    Recent,
     /// Export what is shown to a picture file.
     Export(ExportArguments, Force),
     /// Cancel the running export.
     ExportCancel,
     /// Trace at full size.
     Render,
-    /// Write the working view into the text.
-    ViewSave,
+    /// Write the working view into the text, under a name if one is given.
+    ViewSave(Option<String>),
+    /// Look from the selected light.
+    ViewLight,
     /// Return to the text's view.
     ViewReset,
     /// Set the size of the output picture.
@@ -67,6 +73,8 @@ struct CommandRow {
 enum Arguments {
     Nothing(Command),
     File(fn(Option<PathBuf>) -> Command),
+    Name(fn(Option<String>) -> Command),
+    Language(fn(Option<Language>) -> Command),
     Picture(fn(ExportArguments) -> Command),
     Size(fn(Size) -> Command),
 }
@@ -94,12 +102,15 @@ const TABLE: &[CommandRow] = &[
     row(&["q", "quit"], A::Nothing(C::Quit(Force::No)), "quit"),
     row(&["q!", "quit!"], A::Nothing(C::Quit(Force::Yes)), "quit without asking"),
     row(&["wq", "x"], A::Nothing(C::WriteQuit), "save and quit"),
-    row(&["e", "reread"], A::Nothing(C::Reread), "reload the file"),
+    row(&["e", "edit", "reread"], A::File(C::Edit), "open FILE, or reload the scene's own"),
+    row(&["new"], A::Language(C::New), "start a new scene: ray, dat or xml"),
+    row(&["recent"], A::Nothing(C::Recent), "list recently used scenes"),
     row(&["export"], A::Picture(|picture| C::Export(picture, Force::No)), "export a picture of what is shown"),
     row(&["export!"], A::Picture(|picture| C::Export(picture, Force::Yes)), "export, overwriting an existing file"),
     row(&["export cancel"], A::Nothing(C::ExportCancel), "cancel the export"),
     row(&["render"], A::Nothing(C::Render), "trace at full size"),
-    row(&["view save"], A::Nothing(C::ViewSave), "write the view into the scene"),
+    row(&["view save"], A::Name(C::ViewSave), "write the view into the scene, or save it as NAME"),
+    row(&["view light"], A::Nothing(C::ViewLight), "look from the selected light"),
     row(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
     row(&["size"], A::Size(C::Size), "set the picture size in the scene"),
     row(&["help"], A::Nothing(C::Help), "show this page"),
@@ -112,6 +123,8 @@ impl CommandRow {
         let arguments = match self.arguments {
             A::Nothing(_) => "",
             A::File(_) => " [FILE]",
+            A::Name(_) => " [NAME]",
+            A::Language(_) => " [LANGUAGE]",
             A::Picture(_) => " [FILE] [WxH] [SPP]",
             A::Size(_) => " WxH",
         };
@@ -125,6 +138,14 @@ impl CommandRow {
             A::Nothing(command) if rest.is_empty() => Ok(command.clone()),
             A::Nothing(_) => Err(format!("{name} takes no arguments")),
             A::File(command) => Ok(command((!rest.is_empty()).then(|| PathBuf::from(rest)))),
+            A::Name(command) => Ok(command((!rest.is_empty()).then(|| rest.to_owned()))),
+            A::Language(command) => {
+                match (rest, Language::of_extension(rest.trim_start_matches('.'))) {
+                    ("", _) => Ok(command(None)),
+                    (_, None) => Err(format!("{name} takes {}", extensions())),
+                    (_, known) => Ok(command(known)),
+                }
+            }
             A::Picture(command) => picture(rest).map(command),
             A::Size(command) => {
                 let size = Size::parse(rest);
@@ -145,8 +166,9 @@ fn parse(line: &str) -> Result<Command, String> {
     let (name, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
     let rest = rest.trim();
     let called = |name: &str| TABLE.iter().find(|form| form.names.contains(&name));
-    if let Some(form) = called(&format!("{name} {rest}")) {
-        return form.parse("");
+    let (second, others) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
+    if let Some(form) = called(&format!("{name} {second}")) {
+        return form.parse(others.trim());
     }
     if let Some(form) = called(name) {
         return form.parse(rest);
@@ -254,14 +276,22 @@ impl App {
             Command::Quit(Force::No) => return self.quit(),
             Command::Quit(Force::Yes) => return self.quit_anyway(),
             Command::WriteQuit => return self.save_and_quit(),
-            Command::Reread => return self.reread(),
+            Command::Edit(None) => return self.reread(),
+            Command::Edit(Some(path)) => return self.open_scene(path),
+            Command::New(language) => {
+                let language = language.unwrap_or_else(|| self.document.language());
+                return self.leave_for(Next::New(language));
+            }
+            Command::Recent => return vec![Effect::ListRecent],
             Command::Export(ExportArguments { path, size, spp }, force) => {
                 let path = path.unwrap_or_else(|| self.export_path());
                 return self.start_export(&path, size, spp, force);
             }
             Command::ExportCancel => return self.cancel_export(),
             Command::Render => return self.start_trace(),
-            Command::ViewSave => self.save_view(),
+            Command::ViewSave(None) => self.save_view(),
+            Command::ViewSave(Some(name)) => self.save_view_as(&name),
+            Command::ViewLight => self.look_from_light(),
             Command::ViewReset => self.pictures.reset_view(),
             Command::Size(size) => self.set_size(size),
             Command::Help => self.overlays.help = Some(Help::default()),

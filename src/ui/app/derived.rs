@@ -1,16 +1,20 @@
 //! Values derived from the state, for drawing and for steps alike.
 
+use std::sync::Arc;
+
 use ratatui::layout::Rect;
 
 use super::App;
 use super::cursor::row_of;
 use super::disk::OnDisk;
+use super::next::Next;
 use super::overlays::Dialog;
+use super::page::List;
 use super::picture::Picture;
 use super::pictures::Outline;
 use crate::language::table::Field;
 use crate::language::{Node, Nodes, Source};
-use crate::scene::{Camera, Integrator, Size};
+use crate::scene::{Camera, Integrator, Scene, Size};
 use crate::ui::errors::{self, Panel, Wrong};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{Areas, Zoom, arrange, raster};
@@ -21,15 +25,23 @@ const NO_SCENE: Size = Size {
     height: 3,
 };
 
+/// The loss of the working view, and how to prevent it.
+const LOST_VIEW: &str = "the moved view is not in the text (S writes it)";
+
 impl App {
     /// The context whose keys are active; keys typed into a line take precedence.
     pub fn context(&self) -> Context {
         match &self.overlays.dialog {
-            Some(Dialog::Quit) => Context::Quit,
+            Some(Dialog::Leave(Next::Quit)) => Context::Quit,
+            Some(Dialog::Leave(_)) => Context::Leave,
             Some(Dialog::Delete(_)) => Context::Delete,
             Some(Dialog::Conflict { .. }) => Context::Conflict,
             Some(Dialog::Recover(_)) => Context::Recover,
             None if self.overlays.help.is_some() => Context::Help,
+            None if let Some(page) = &self.overlays.page => match page.list {
+                List::Views(..) => Context::Views,
+                List::Recent(_) => Context::Recent,
+            },
             None if self.overlays.errors.is_some() => Context::Errors,
             None if self.disk.is_opening() => Context::Opening,
             None => Context::In(self.mode),
@@ -100,6 +112,13 @@ impl App {
         self.diagnostics.errors()
     }
 
+    /// Whether there is nothing to see: the text is blank, or its scene has no objects.
+    pub fn is_empty(&self) -> bool {
+        let is_bare = |scene: &Arc<Scene>| scene.objects.is_empty() && self.error_count() == 0;
+        !self.disk.is_opening()
+            && (self.document.text().trim().is_empty() || self.scene.as_ref().is_some_and(is_bare))
+    }
+
     /// The errors and warnings to show and the text that they refer to: the file on disk if that is
     /// what has errors.
     pub(crate) fn wrong(&self) -> Wrong<'_> {
@@ -133,24 +152,62 @@ impl App {
 
     /// Describes what would be lost by quitting now; `None` if nothing.
     pub fn losses(&self) -> Option<String> {
-        let name = self.disk.name();
-        let text = if self.document.is_dirty() {
-            Some(format!("{name} has unsaved edits"))
-        } else {
-            let is_missing = self.disk.state == OnDisk::Missing;
-            is_missing.then(|| format!("{name} no longer exists"))
-        };
-        let export = self.jobs.export.as_ref().map(|export| {
-            let name = export.destination.path.display();
-            format!("{name} is still being exported")
-        });
-        let save = self.jobs.file_being_saved();
-        let save = save.map(|path| format!("{} is still being written", path.display()));
-        match (text, export) {
-            (None, export) => export.or(save),
-            (text, None) => text,
-            (Some(text), Some(export)) => Some(format!("{text}, and {export}")),
+        self.losses_before(&Next::Quit)
+    }
+
+    /// Describes what would be lost by leaving the scene now; `None` if nothing. Work under way ends
+    /// only with the program.
+    pub fn losses_before(&self, next: &Next) -> Option<String> {
+        let view = self.is_view_unwritten().then(|| LOST_VIEW.to_owned());
+        let mut lost: Vec<_> = self.lost_text().into_iter().chain(view).collect();
+        if *next == Next::Quit {
+            lost.extend(self.lost_export());
+            if lost.is_empty() {
+                lost.extend(self.lost_save());
+            }
         }
+        let last = lost.pop()?;
+        Some(match lost.len() {
+            0 => last,
+            1 => format!("{}, and {last}", lost[0]),
+            _ => format!("{}, and {last}", lost.join(", ")),
+        })
+    }
+
+    /// Whether the text lacks the working view, even under a name.
+    pub(super) fn is_view_unwritten(&self) -> bool {
+        let Some((view, own)) = self.pictures.view.zip(self.own_camera()) else {
+            return false;
+        };
+        let saved = self.source().saved_views();
+        !saved.iter().any(|saved| saved.camera(&own) == view)
+    }
+
+    /// Why the text would be lost, if it would.
+    fn lost_text(&self) -> Option<String> {
+        let name = self.disk.name();
+        match &self.disk.state {
+            OnDisk::New if self.disk.path.is_none() => {
+                Some("the new scene is not saved".to_owned())
+            }
+            OnDisk::New => Some(format!("{name} is new and not saved")),
+            _ if self.document.is_dirty() => Some(format!("{name} has unsaved edits")),
+            OnDisk::Missing => Some(format!("{name} no longer exists")),
+            _ => None,
+        }
+    }
+
+    /// The export that would end too early.
+    fn lost_export(&self) -> Option<String> {
+        let export = self.jobs.export.as_ref()?;
+        let name = export.destination.path.display();
+        Some(format!("{name} is still being exported"))
+    }
+
+    /// The save that would not be waited for.
+    fn lost_save(&self) -> Option<String> {
+        let path = self.jobs.file_being_saved()?;
+        Some(format!("{} is still being written", path.display()))
     }
 
     /// The size of one nudge of a field.

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::journal::Journal;
+use super::next::name_of;
 use crate::file::ReadError;
+use crate::scene::Camera;
 use crate::text::Findings;
 use crate::ui::msg::{Effect, Timer};
 use crate::ui::reading::{Baseline, SceneFolder};
@@ -23,6 +25,9 @@ pub struct Disk {
     settle: Settle,
     /// Who requested the next reading of the file.
     requester: Requester,
+    /// Another scene that is to replace this one, and the revision and the working view that may be
+    /// given up for it.
+    requested: Option<(PathBuf, GivenUp)>,
     /// Where the file was read last.
     place: Option<SceneFolder>,
     /// The last text without errors, while the current one has some.
@@ -43,8 +48,10 @@ pub enum OnDisk {
     Faulty(Faulty),
     /// It cannot be read.
     Unreadable,
-    /// It does not exist.
+    /// It does not exist any more.
     Missing,
+    /// It has never existed: the text is a template, perhaps edited.
+    New,
 }
 
 /// A file on disk with errors, kept apart from unsaved edits.
@@ -67,6 +74,9 @@ pub enum FirstReading {
     /// It cannot be read: the program ends.
     Failed(ReadError),
 }
+
+/// The revision of the text and the working view when another scene was requested.
+type GivenUp = (u64, Option<Camera>);
 
 /// Who requested a reading of the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -103,13 +113,9 @@ impl Disk {
 
     /// The scene's name on screen.
     pub fn name(&self) -> String {
-        self.path.as_ref().map_or_else(
-            || "(no file)".to_owned(),
-            |path| {
-                let name = path.file_name().unwrap_or(path.as_os_str());
-                name.to_string_lossy().into_owned()
-            },
-        )
+        self.path
+            .as_ref()
+            .map_or_else(|| "(no file)".to_owned(), |path| name_of(path))
     }
 
     /// Whether the scene has not been read: there is nothing to show or to edit.
@@ -134,9 +140,10 @@ impl Disk {
         self.path.as_deref().map(plain) == Some(plain(path))
     }
 
-    /// Reads the file, to be compared with `baseline`; no effect for a scene without a file.
+    /// Reads the file, to be compared with `baseline`; no effect for a scene without a file, and
+    /// while another scene is read, which that would supersede.
     pub(super) fn read(&self, baseline: Baseline) -> Vec<Effect> {
-        let path = self.path.clone();
+        let path = self.path.clone().filter(|_| self.requested.is_none());
         let read = path.map(|path| Effect::Read(path, baseline));
         read.into_iter().collect()
     }
@@ -182,6 +189,26 @@ impl Disk {
     /// Records where the file was read and returns the previous place.
     pub(super) fn move_to(&mut self, place: SceneFolder) -> Option<SceneFolder> {
         self.place.replace(place)
+    }
+
+    /// Records that another scene is to replace this one.
+    pub(super) fn request(&mut self, path: PathBuf, now: GivenUp) {
+        self.requested = Some((path, now));
+    }
+
+    /// Ends a request for this path; returns what may be given up.
+    pub(super) fn take_request(&mut self, path: &Path) -> Option<GivenUp> {
+        let request = self.requested.take_if(|(requested, _)| requested == path);
+        request.map(|(_, now)| now)
+    }
+
+    /// Turns to the file of another scene.
+    pub(super) fn replace(&mut self, path: Option<PathBuf>, state: OnDisk) {
+        let journal = std::mem::take(&mut self.journal).renewed();
+        *self = Self {
+            journal,
+            ..Self::new(path, state, FirstReading::Done)
+        };
     }
 
     /// Records that the scene has another file.

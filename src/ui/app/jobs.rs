@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::next::Next;
 use crate::file::Version;
 use crate::render::{Aov, Progress};
 use crate::scene::Size;
@@ -37,8 +38,8 @@ pub struct Jobs {
     ended: SaveId,
     /// Whether [`Timer::Writing`] is set.
     ticking: bool,
-    /// Quit once everything is done.
-    pub(super) quit: bool,
+    /// What follows once everything is done.
+    pub(super) next: Option<Next>,
     /// Whether Ctrl-C was pressed a moment ago.
     pub(super) interrupt: bool,
 }
@@ -164,6 +165,13 @@ impl Jobs {
             is_newest: id == self.newest,
             save: at.map(|at| self.saves.remove(at)),
         }
+    }
+
+    /// Makes all saves so far late: their outcomes no longer concern the scene.
+    pub(super) fn abandon_saves(&mut self) {
+        self.newest.0 += 1;
+        self.ended = self.newest;
+        self.next = None;
     }
 
     /// Starts the save that waited for this one; `written` is what the file holds now.

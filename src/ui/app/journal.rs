@@ -169,6 +169,15 @@ impl Journal {
         })
     }
 
+    /// The state for another scene, with nothing kept of it.
+    pub(super) fn renewed(self) -> Self {
+        Self {
+            put_off: self.put_off,
+            complaints: self.complaints,
+            ..Self::default()
+        }
+    }
+
     /// Leaves the decision about a journal for later.
     pub(super) fn put_off(&mut self, claim: &Claim) {
         self.put_off.push(claim.name().to_owned());

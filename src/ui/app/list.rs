@@ -39,9 +39,15 @@ impl App {
                     *at = moved(*at, rows, merge.conflicts.len());
                 }
             }
+            Context::Views | Context::Recent => {
+                if let Some(page) = &mut self.overlays.page {
+                    page.go(rows);
+                }
+            }
             Context::In(_)
             | Context::Opening
             | Context::Quit
+            | Context::Leave
             | Context::Delete
             | Context::Recover => {}
         }
@@ -52,7 +58,7 @@ impl App {
         let areas = self.areas();
         let panel = match context {
             Context::Errors => areas.errors,
-            Context::Help => areas.picture,
+            Context::Help | Context::Views | Context::Recent => areas.picture,
             _ => areas.list,
         };
         (layout::contents(panel).height as isize - 1).max(1)

@@ -112,7 +112,7 @@ impl App {
                 let purpose = menu.purpose;
                 if let Some(name) = chosen {
                     self.overlays.menu = None;
-                    self.choose(purpose, name);
+                    self.choose_entry(purpose, name);
                 }
             }
             _ => {
@@ -122,7 +122,7 @@ impl App {
         }
     }
 
-    fn choose(&mut self, purpose: Purpose, name: &'static str) {
+    fn choose_entry(&mut self, purpose: Purpose, name: &'static str) {
         match purpose {
             Purpose::Add => self.add(name),
             Purpose::Retype => {

@@ -5,6 +5,7 @@
 //! jobs. A part owns its state and knows no other; the steps, which handle messages, pass between
 //! them what they need. Nothing here touches files, threads or clocks.
 
+mod another;
 mod assets;
 mod camera;
 mod command;
@@ -15,18 +16,20 @@ mod edit;
 mod hands;
 mod jobs;
 mod journal;
+mod leaving;
 mod line;
 mod list;
 mod literals;
 mod menu;
 mod model;
+mod next;
 mod opening;
 mod overlays;
+mod page;
 mod picture;
 mod pictures;
 mod places;
 mod pointer;
-mod quit;
 mod recover;
 mod reload;
 mod saving;
@@ -47,8 +50,10 @@ pub use hands::{Hand, Tool};
 pub use jobs::{Export, Jobs, Stage};
 pub use menu::{Menu, Purpose};
 pub use model::App;
+pub use next::Next;
 pub use opening::{Opening, OpeningText};
-pub use overlays::{Dialog, Help, HelpFocus, Message, Outside, Overlays, Prompt, PromptKind};
+pub use overlays::{Dialog, Help, Message, Outside, Overlays, Prompt, PromptKind};
+pub use page::{List, Page, PageFocus};
 pub use picture::{Picture, Shown};
 pub use pictures::{Pictures, Quality};
 

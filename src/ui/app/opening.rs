@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::assets::Assets;
-use super::{App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Pictures, Quality};
+use super::{App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Quality};
 use crate::document::Document;
 use crate::file::ReadError;
 use crate::language::{Language, Lowered, Node};
@@ -27,6 +27,8 @@ pub struct Opening {
     pub quality: Quality,
     /// Who receives mouse events.
     pub mouse: Mouse,
+    /// Recently used scenes, offered first if there are any.
+    pub recent: Vec<PathBuf>,
     /// Size of the terminal in cells.
     pub terminal: (u16, u16),
 }
@@ -40,6 +42,8 @@ pub enum OpeningText {
     Unread(u64),
     /// The file is missing; this is the base of unsaved edits that were kept of it.
     Kept(String),
+    /// The file does not exist yet: the text is the language's template.
+    New,
 }
 
 impl App {
@@ -48,6 +52,10 @@ impl App {
         let (text, state, first) = match opening.text {
             OpeningText::Known(text) => (text, OnDisk::Known, FirstReading::Done),
             OpeningText::Kept(text) => (text, OnDisk::Missing, FirstReading::Done),
+            OpeningText::New => {
+                let text = opening.language.template().to_owned();
+                (text, OnDisk::New, FirstReading::Done)
+            }
             OpeningText::Unread(bytes) => {
                 (String::new(), OnDisk::Known, FirstReading::Pending(bytes))
             }
@@ -68,10 +76,11 @@ impl App {
             mouse: opening.mouse,
             terminal: opening.terminal,
         };
+        app.overlays.page = Page::recent(opening.recent);
         let mut effects = app.watch();
         let lowered = app.lowered();
         if !app.disk.is_opening() {
-            effects.push(app.begin(lowered));
+            effects.extend(app.begin(lowered));
             effects.extend(app.follow());
         }
         (app, effects)
@@ -99,21 +108,25 @@ impl App {
             // Without edits there is nothing to merge, and only an empty file changes nothing.
             Some(News::Merged(..) | News::Conflict(_) | News::Broken(..)) | None => self.lowered(),
         };
-        vec![self.begin(lowered)]
+        self.begin(lowered)
     }
 
     /// Installs the meaning of the first text, and looks for edits of it that earlier runs kept.
-    fn begin(&mut self, lowered: Lowered) -> Effect {
+    pub(super) fn begin(&mut self, lowered: Lowered) -> Vec<Effect> {
         // The message that the scene is still being opened; errors stay, to be read.
         self.overlays
             .message
             .take_if(|message| message.severity != Some(Severity::Error));
         self.install(lowered);
+        if self.disk.state == OnDisk::New {
+            self.announce_new();
+        }
         // The first change is more likely to be to an object than to the camera.
         self.select(Node::Object(0));
         self.cursor.renew(self.document.source());
         self.scroll(&self.areas());
-        self.look_for_kept()
+        let recent = self.note_recent();
+        [self.look_for_kept()].into_iter().chain(recent).collect()
     }
 
     /// Warns that the requested action needs the scene.

@@ -6,6 +6,8 @@ use std::sync::Arc;
 use tui_input::Input;
 
 use super::menu::Menu;
+use super::next::Next;
+use super::page::{Page, PageFocus};
 use crate::document::{Merge, Side};
 use crate::language::Node;
 use crate::text::{Severity, without_codes};
@@ -22,6 +24,8 @@ pub struct Overlays {
     pub dialog: Option<Dialog>,
     /// The help page, if open.
     pub help: Option<Help>,
+    /// A page with a list to choose from, if open.
+    pub page: Option<Page>,
     /// The selected diagnostic while the list of errors has the keys. Errors are always shown.
     pub errors: Option<usize>,
     /// The message in the status line; the next key dismisses it.
@@ -53,8 +57,8 @@ pub enum PromptKind {
 /// A question that must be answered first.
 #[derive(Debug)]
 pub enum Dialog {
-    /// Whether to quit although edits are unsaved or an export is running.
-    Quit,
+    /// Whether to leave the scene although something would be lost, and what follows then.
+    Leave(Next),
     /// How to resolve a merge in which both texts changed the same places.
     Conflict {
         /// The merge to decide.
@@ -97,17 +101,7 @@ pub struct Help {
     /// Only lines containing this text are shown.
     pub search: Input,
     /// Whether keys are typed into the search.
-    pub focus: HelpFocus,
-}
-
-/// The effect of keys on the help page.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum HelpFocus {
-    /// Keys scroll the page or close it.
-    #[default]
-    Lines,
-    /// Keys are typed into the search.
-    Search,
+    pub focus: PageFocus,
 }
 
 /// A message to the user.
@@ -128,20 +122,22 @@ impl Overlays {
         });
     }
 
-    /// Starts a search: of the help page if it is open, otherwise of the list.
+    /// Starts a search: of the help page or the other page if it is open, otherwise of the list.
     pub(super) fn open_search(&mut self) {
-        match &mut self.help {
-            Some(help) => help.focus = HelpFocus::Search,
-            None => self.open_prompt(PromptKind::Search, ""),
+        if let Some(help) = &mut self.help {
+            help.focus = PageFocus::Search;
+        } else if let Some(page) = &mut self.page {
+            page.focus = PageFocus::Search;
+        } else {
+            self.open_prompt(PromptKind::Search, "");
         }
     }
 
     /// Whether keys are typed into a line here.
     pub(super) fn has_line(&self) -> bool {
-        let help = self.help.as_ref();
-        self.prompt.is_some()
-            || self.menu.is_some()
-            || help.is_some_and(|help| help.focus == HelpFocus::Search)
+        let help = self.help.as_ref().map(|help| help.focus);
+        let page = self.page.as_ref().map(|page| page.focus);
+        self.prompt.is_some() || self.menu.is_some() || help.or(page) == Some(PageFocus::Search)
     }
 
     /// The open merge dialog, if any.

@@ -81,6 +81,16 @@ impl Pictures {
         }
     }
 
+    /// Forgets the scene's pictures and its view; what pictures show and their quality stay.
+    pub(super) fn renew(&mut self) {
+        *self = Self {
+            aov: self.aov,
+            outline: self.outline,
+            net: self.net,
+            ..Self::new(self.quality)
+        };
+    }
+
     /// The picture on screen.
     pub fn seen(&self, mode: Mode) -> &Picture {
         match (mode, &self.trace) {
@@ -114,7 +124,10 @@ impl Pictures {
     }
 
     pub(super) fn take(&mut self, target: Target, frame: Arc<Frame>) {
-        if let Some(picture) = self.of(target) {
+        if let Some(picture) = self.of(target)
+            // Otherwise it is of a scene that was left.
+            && (picture.latest.is_some() || picture.wanted.is_none_or(|wanted| wanted <= frame.generation))
+        {
             picture.take(frame);
         }
     }

@@ -3,7 +3,7 @@
 use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
 
 use super::App;
-use super::camera::{dollied, orbited};
+use super::camera::{advanced, dollied, orbited, turned};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{field_at, list_row_at, pixel_at};
 use crate::ui::msg::{Effect, Timer};
@@ -19,6 +19,7 @@ impl App {
         let at = (event.column, event.row);
         let waits = self.overlays.dialog.is_some()
             || self.overlays.prompt.is_some()
+            || self.overlays.page.is_some()
             || self.disk.is_opening() && self.overlays.help.is_none();
         match event.kind {
             _ if waits => {}
@@ -38,7 +39,7 @@ impl App {
             self.move_cursor(Context::Help, WHEEL * down);
             return;
         }
-        let areas = self.areas();
+        let (areas, mode) = (self.areas(), self.mode);
         let over = |area: ratatui::layout::Rect| area.contains(at.into());
         if self
             .errors_panel(areas.errors)
@@ -51,8 +52,12 @@ impl App {
             self.move_cursor(Context::In(Mode::Select), WHEEL * down);
         } else if over(areas.fields) && self.cursor.typing.is_none() {
             self.move_cursor(Context::In(Mode::Edit), down);
-        } else if over(areas.picture) && self.mode == Mode::View {
-            self.move_camera(|now| dollied(now, if down < 0 { 1 } else { -1 }));
+        } else if over(areas.picture) && self.mode.moves_camera() {
+            let steps = if down < 0 { 1 } else { -1 };
+            self.move_camera(|now| match mode {
+                Mode::Fly => advanced(now, steps),
+                _ => dollied(now, steps),
+            });
         }
     }
 
@@ -84,7 +89,8 @@ impl App {
         if let Some(clicked) = field_at(areas.fields, self.cursor.field_top, components, at) {
             return self.press_field(clicked);
         }
-        if matches!(self.mode, Mode::View | Mode::Move) && areas.picture.contains(at.into()) {
+        let drags = self.mode.moves_camera() || self.mode == Mode::Move;
+        if drags && areas.picture.contains(at.into()) {
             self.pictures.drag = Some(at);
         } else if let Some(raster) = self.raster() {
             let size = self.picture().shown.size;
@@ -118,12 +124,16 @@ impl App {
             self.pictures.drag = Some(at);
             return;
         }
-        if self.mode != Mode::View {
+        if !self.mode.moves_camera() {
             return;
         }
         // The scene follows the pointer, so the camera moves the opposite way.
         let (left, up) = (DRAG.0 * moved(from.0, at.0), DRAG.1 * moved(from.1, at.1));
-        self.move_camera(|now| orbited(now, left, up));
+        match self.mode {
+            // About the angle of a cell, so that the picture follows the pointer.
+            Mode::Fly => self.move_camera(|now| turned(now, left / 4.0, up / 4.0)),
+            _ => self.move_camera(|now| orbited(now, left, up)),
+        }
         self.pictures.drag = Some(at);
     }
 }

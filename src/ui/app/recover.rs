@@ -69,7 +69,7 @@ impl App {
             Some(Dialog::Conflict { merge, from, .. }) => {
                 matches!(from, Outside::Kept(..)) && !merge.is_of(&self.document)
             }
-            Some(Dialog::Quit | Dialog::Delete(_)) => false,
+            Some(Dialog::Leave(_) | Dialog::Delete(_)) => false,
             None => {
                 let offer = self.disk.journal.offer.take()?;
                 self.overlays.dialog = Some(Dialog::Recover(offer));
@@ -150,7 +150,7 @@ impl App {
 
     /// Closes a question that may be asked again: about kept edits, in the next run.
     pub(super) fn put_off(&mut self) -> Vec<Effect> {
-        self.jobs.quit = false;
+        self.jobs.next = None;
         let claim = match self.overlays.dialog.take() {
             Some(Dialog::Recover(offer)) => offer.claim,
             Some(Dialog::Conflict {

@@ -115,6 +115,12 @@ impl App {
             return effects;
         }
         let settle = self.disk.take_settle();
+        if self.disk.state == OnDisk::New && matches!(read, Err(ReadError::NotFound { .. })) {
+            if self.disk.take_requester() == Requester::User {
+                self.announce_new();
+            }
+            return Vec::new();
+        }
         match read {
             Ok(reading) => self.take_reading(reading, settle),
             Err(error) if settle != Settle::Final => self.disk.wait(match error {
@@ -128,7 +134,7 @@ impl App {
                 };
                 self.disk.state = state;
                 self.overlays.errors = None;
-                self.jobs.quit = false;
+                self.jobs.next = None;
                 self.overlays.fail(format!("{error}{hint}"));
                 Vec::new()
             }
@@ -218,7 +224,7 @@ impl App {
     fn keep_apart(&mut self, text: Arc<String>, diagnostics: Findings) {
         let first = diagnostics.first_error();
         let line = first.map_or(1, |d| Position::of(&text, d.span.start()).line);
-        self.jobs.quit = false;
+        self.jobs.next = None;
         self.disk.state = OnDisk::Faulty(Faulty { text, diagnostics });
         self.overlays.fail(format!(
             "line {line} of the file on disk has an error: press E to edit it, or use :w! to overwrite it"
@@ -279,19 +285,23 @@ impl App {
             return Vec::new();
         };
         if !self.document.is_dirty() && self.disk.state == OnDisk::Known {
-            self.overlays.say("nothing to save");
+            let view = self.unwritten_view();
+            self.overlays.say(format!("nothing to save{view}"));
             // In case a notification was missed.
             return self.read_effect();
         }
         if let OnDisk::Changed | OnDisk::Faulty(_) | OnDisk::Unreadable = self.disk.state {
             // The question is asked again with what the file holds now; nothing is saved.
-            self.jobs.quit = false;
+            self.jobs.next = None;
             return self.read_effect();
         }
         if self.refuses_errors(&path) {
             return Vec::new();
         }
-        let guard = Guard::Holding(Arc::clone(self.document.saved()));
+        let guard = match self.disk.state {
+            OnDisk::New => Guard::Absent,
+            _ => Guard::Holding(Arc::clone(self.document.saved())),
+        };
         self.save_to(&path, guard)
     }
 
@@ -300,7 +310,7 @@ impl App {
         let Some(errors) = self.error_place() else {
             return false;
         };
-        self.jobs.quit = false;
+        self.jobs.next = None;
         let force = if self.disk.is_own(path) {
             ":w!".to_owned()
         } else {
@@ -371,6 +381,12 @@ impl App {
                 .fail("this scene has no file yet: use :w FILE to create one");
             return Vec::new();
         };
+        if self.disk.state == OnDisk::New {
+            let name = self.disk.name();
+            self.overlays
+                .warn(format!("{name} is new: press w to write it, then E"));
+            return Vec::new();
+        }
         // A file that was not taken must be corrected first.
         let is_refused = matches!(self.disk.state, OnDisk::Faulty(_) | OnDisk::Unreadable);
         if self.document.is_dirty() && !is_refused {

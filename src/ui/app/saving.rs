@@ -24,14 +24,27 @@ impl App {
         effects
     }
 
+    /// The addition to a message about a save that the text lacks the moved view, if it does.
+    pub(super) fn unwritten_view(&self) -> &'static str {
+        match self.is_view_unwritten() {
+            true if self.mode.moves_camera() => "; the moved view is not in the text: S writes it",
+            true => "; the moved view is not in the text: S in VIEW writes it",
+            false => "",
+        }
+    }
+
     /// Counts another second of running saves and exports.
     pub(super) fn tick(&mut self) -> Vec<Effect> {
         if !self.jobs.tick() {
             return Vec::new();
         }
-        if self.jobs.quit && self.jobs.still_writing().is_some() {
-            let words = "will quit once the save finishes; use Ctrl-C or :q! to quit now";
-            self.overlays.suggest(words);
+        if let Some(next) = &self.jobs.next
+            && self.jobs.still_writing().is_some()
+        {
+            let words = next.announcement();
+            self.overlays.suggest(format!(
+                "{words} once the save finishes; use Ctrl-C or :q! to quit now"
+            ));
         }
         self.jobs.count_seconds()
     }
@@ -39,13 +52,14 @@ impl App {
     /// Takes the outcome of a save, and starts the one that waited for it.
     pub(super) fn was_saved(&mut self, id: SaveId, outcome: SaveOutcome) -> Vec<Effect> {
         let ended = self.jobs.end_save(id);
-        // A quit waits for the newest save.
-        let quit = ended.is_newest && std::mem::take(&mut self.jobs.quit);
+        // Leaving waits for the newest save.
+        let next = self.jobs.next.take_if(|_| ended.is_newest);
         // What the file holds from now on.
         let mut written = None;
         let mut effects = match outcome {
             SaveOutcome::Saved { path, text } => {
-                self.overlays.say(format!("wrote {}", path.display()));
+                let view = self.unwritten_view();
+                self.overlays.say(format!("wrote {}{view}", path.display()));
                 written = Some(Arc::clone(&text));
                 if ended.is_late {
                     Vec::new()
@@ -63,17 +77,19 @@ impl App {
                 Vec::new()
             }
         };
-        if quit && written.is_some() {
-            self.jobs.quit = true;
-            effects.extend(self.quit_when_done());
-        }
+        let is_written = written.is_some();
         effects.extend(self.jobs.go_on(ended, written));
+        if next.is_some() && is_written {
+            self.jobs.next = next;
+            effects.extend(self.leave_when_done());
+        }
         effects
     }
 
     /// Makes a file that now holds `text` the scene's file.
     fn take_saved(&mut self, path: PathBuf, text: Arc<String>) -> Vec<Effect> {
         self.document.mark_saved(text);
+        let is_new = self.disk.state == OnDisk::New || !self.disk.is_own(&path);
         self.disk.state = OnDisk::Known;
         let mut effects = Vec::new();
         if !self.disk.is_own(&path) {
@@ -82,6 +98,7 @@ impl App {
             // The scene's files are now looked for in another folder.
             self.relower();
         }
+        effects.extend(self.note_recent().filter(|_| is_new));
         effects.extend(self.keep_the_rest());
         effects
     }

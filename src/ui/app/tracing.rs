@@ -139,7 +139,10 @@ impl App {
         if target == Target::Export {
             return self.export_frame(frame);
         }
-        self.pictures.take(target, frame);
+        // Without a scene, it is of one that was left.
+        if self.scene.is_some() {
+            self.pictures.take(target, frame);
+        }
         Vec::new()
     }
 
@@ -150,7 +153,7 @@ impl App {
             if self.jobs.export.take_if(traced).is_none() {
                 return;
             }
-            self.jobs.quit = false;
+            self.jobs.next = None;
         }
         self.pictures.want(target, None);
         self.overlays.fail(reason);
@@ -193,10 +196,10 @@ impl App {
                 self.overlays
                     .say(format!("wrote {path}{}", export.summary()));
                 self.jobs.note_export(exported);
-                self.quit_when_done()
+                self.leave_when_done()
             }
             Err(reason) => {
-                self.jobs.quit = false;
+                self.jobs.next = None;
                 self.overlays.fail(reason);
                 export.stop()
             }
@@ -337,7 +340,7 @@ impl App {
             self.overlays.say("nothing is running");
             return Vec::new();
         };
-        self.jobs.quit = false;
+        self.jobs.next = None;
         match export.stage {
             Stage::Tracing => self.overlays.say("export cancelled"),
             Stage::Writing => {

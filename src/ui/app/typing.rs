@@ -3,7 +3,7 @@
 use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
-use super::{App, HelpFocus, line, literals};
+use super::{App, PageFocus, line, literals};
 use crate::language::table::{Field, Kind};
 use crate::text::{Diagnostic, Span};
 use crate::ui::keymap::{Mode, Stride};
@@ -158,10 +158,15 @@ impl App {
             return;
         }
         if let Some(help) = &mut self.overlays.help {
-            if help.focus == HelpFocus::Search {
+            if help.focus == PageFocus::Search {
                 line::insert(&mut help.search, text);
                 help.top = 0;
             }
+            return;
+        }
+        if let Some(page) = &mut self.overlays.page {
+            line::insert(&mut page.search, text);
+            page.at = 0;
             return;
         }
         if self.disk.is_opening() {

@@ -3,8 +3,8 @@
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
-use super::camera::{dollied, panned, stepped, widened};
-use super::{App, Help, HelpFocus, PromptKind, line};
+use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
+use super::{App, Help, PageFocus, PromptKind, line};
 use crate::ui::keymap::{self, Action, Context, Mode};
 use crate::ui::layout::Zoom;
 use crate::ui::msg::{Effect, Msg, Timer};
@@ -16,6 +16,7 @@ impl App {
         let mut effects = self.take(msg);
         let areas = self.areas();
         self.scroll(&areas);
+        self.follow_views();
         effects.extend(self.follow());
         effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
@@ -35,6 +36,7 @@ impl App {
             Msg::FileChanged => return self.read_again(),
             // The scene may have been given another name since the request.
             Msg::Read(path, read) if !self.disk.is_own(&path) => drop(read),
+            Msg::Opened(path, opened) => return self.scene_read(path, opened),
             Msg::Read(_, read) if self.disk.is_opening() => return self.opened(read),
             Msg::Read(_, read) => return self.was_read(read),
             Msg::AssetsRead(wanted, loaded) => self.assets_read(&wanted, loaded),
@@ -48,6 +50,7 @@ impl App {
             Msg::BackupsFound(copies) => self.backups_found(&copies),
             Msg::Exported(id, outcome) => return self.exported(id, outcome),
             Msg::EditorClosed(outcome) => return self.editor_closed(outcome),
+            Msg::RecentListed(scenes) => self.show_recent(scenes),
             Msg::Recovered(found) => self.found_kept(found),
             Msg::Kept(revision, outcome) => {
                 return self.kept(revision, outcome).into_iter().collect();
@@ -97,6 +100,10 @@ impl App {
                 self.warn_of_opening();
                 Vec::new()
             }
+            None if matches!(context, Context::Views | Context::Recent) => {
+                self.filter_with(key);
+                Vec::new()
+            }
             None => self.start_typing_with(context, key),
         }
     }
@@ -111,6 +118,15 @@ impl App {
         Vec::new()
     }
 
+    /// Starts filtering the open page with a character that is no key of it.
+    fn filter_with(&mut self, key: KeyEvent) {
+        if let (Some(page), KeyCode::Char(_)) = (&mut self.overlays.page, key.code) {
+            page.focus = PageFocus::Search;
+            line::edit(&mut page.search, key);
+            page.at = 0;
+        }
+    }
+
     fn type_key(&mut self, key: KeyEvent) -> Vec<Effect> {
         if self.overlays.prompt.is_some() {
             return self.prompt_key(key);
@@ -123,10 +139,21 @@ impl App {
             self.typing_key(key);
         } else if let Some(help) = &mut self.overlays.help {
             match key.code {
-                KeyCode::Enter | KeyCode::Esc => help.focus = HelpFocus::Lines,
+                KeyCode::Enter | KeyCode::Esc => help.focus = PageFocus::Lines,
                 _ => line::edit(&mut help.search, key),
             }
             help.top = 0;
+        } else if let Some(page) = &mut self.overlays.page {
+            match key.code {
+                KeyCode::Enter => return self.choose(),
+                KeyCode::Esc => page.focus = PageFocus::Lines,
+                KeyCode::Down => page.go(1),
+                KeyCode::Up => page.go(-1),
+                _ => {
+                    line::edit(&mut page.search, key);
+                    page.at = 0;
+                }
+            }
         }
         Vec::new()
     }
@@ -198,10 +225,16 @@ impl App {
             Action::Orbit(left, up) => self.move_camera(|now| stepped(now, left, up)),
             Action::Pan(left, up) => self.move_camera(|now| panned(now, left, up)),
             Action::Dolly(steps) => self.move_camera(|now| dollied(now, steps)),
+            Action::Turn(left, up) => self.move_camera(|now| faced(now, left, up)),
+            Action::Advance(steps) => self.move_camera(|now| advanced(now, steps)),
+            Action::Roll(left) => self.move_camera(|now| rolled(now, left)),
             Action::Widen(steps) => self.move_camera(|now| widened(now, steps)),
             Action::ResetView => self.pictures.reset_view(),
             Action::FrameSelected => self.frame_selected(),
             Action::SaveView => self.save_view(),
+            Action::LightView => self.look_from_light(),
+            Action::SavedViews => self.list_views(),
+            Action::DeleteView => self.delete_view(),
             Action::Cross(right, down) => self.move_cross(right, down),
             Action::Mine | Action::Theirs | Action::AllMine | Action::AllTheirs => {
                 self.decide(action);
@@ -234,30 +267,33 @@ impl App {
         self.document.end_step();
         match mode {
             Mode::Trace => return self.start_trace(),
-            Mode::View | Mode::Pick if self.scene.is_none() => {
+            Mode::View | Mode::Fly | Mode::Pick if self.scene.is_none() => {
                 self.overlays.fail(self.no_picture());
             }
             Mode::Edit if self.cursor.fields().is_empty() => {
                 self.overlays.fail("nothing to edit here");
             }
             Mode::Pick => self.start_pick(),
-            Mode::Select | Mode::View | Mode::Edit | Mode::Move => self.mode = mode,
+            Mode::Select | Mode::View | Mode::Fly | Mode::Edit | Mode::Move => self.mode = mode,
         }
         Vec::new()
     }
 
-    /// Closes a line without accepting it, and cancels a quit that waited for a file name.
+    /// Closes a line without accepting it, and gives up leaving, which waited for a file name.
     fn close_prompt(&mut self) {
         self.overlays.prompt = None;
-        self.jobs.quit = false;
+        self.jobs.next = None;
     }
 
     fn back(&mut self, context: Context) -> Vec<Effect> {
         match context {
             Context::Help => self.overlays.help = None,
+            Context::Views | Context::Recent => self.overlays.page = None,
             Context::Errors => self.overlays.errors = None,
             Context::Delete => self.overlays.dialog = None,
-            Context::Conflict | Context::Quit | Context::Recover => return self.put_off(),
+            Context::Conflict | Context::Quit | Context::Leave | Context::Recover => {
+                return self.put_off();
+            }
             Context::Opening => {}
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
@@ -275,8 +311,9 @@ impl App {
     fn accept(&mut self, context: Context) -> Vec<Effect> {
         match context {
             Context::Errors => self.go_to_error(),
+            Context::Views | Context::Recent => return self.choose(),
             Context::Conflict => return self.adopt(),
-            Context::Quit => return self.quit_anyway(),
+            Context::Quit | Context::Leave => return self.leave_anyway(),
             Context::Delete => self.delete_anyway(),
             Context::Recover => return self.restore(),
             Context::In(Mode::Pick) => self.pick_cross(),

@@ -9,8 +9,10 @@ use crate::ui::app::Tool;
 pub enum Mode {
     /// Selects a node in the list or in the picture.
     Select,
-    /// Moves the camera; the text changes only when the view is saved.
+    /// Moves the camera around its target; the text changes only when the view is saved.
     View,
+    /// Flies the camera: turns it in place and moves it with its target.
+    Fly,
     /// Edits the fields of the selected node.
     Edit,
     /// Shows the full-size trace.
@@ -19,6 +21,13 @@ pub enum Mode {
     Pick,
     /// Moves, turns or scales things in the picture.
     Move,
+}
+
+impl Mode {
+    /// Whether keys, the wheel and dragging move the camera.
+    pub const fn moves_camera(self) -> bool {
+        matches!(self, Self::View | Self::Fly)
+    }
 }
 
 /// A context with its own key bindings.
@@ -32,12 +41,18 @@ pub enum Context {
     Help,
     /// The list of errors.
     Errors,
+    /// The page of saved views.
+    Views,
+    /// The page of recently used scenes.
+    Recent,
     /// The question how to resolve a merge.
     Conflict,
     /// The question whether to quit.
     Quit,
     /// The question whether to delete what others use.
     Delete,
+    /// The question whether to leave the scene for another one.
+    Leave,
     /// The question whether to recover the edits of an earlier run.
     Recover,
 }
@@ -113,6 +128,12 @@ pub enum Action {
     Pan(i8, i8),
     /// Moves the camera towards its target, in steps.
     Dolly(i8),
+    /// Turns the camera in place, in steps to the left and up.
+    Turn(i8, i8),
+    /// Moves the camera with its target, in steps forward.
+    Advance(i8),
+    /// Rolls the camera, in steps to the left.
+    Roll(i8),
     /// Widens the field of view, in steps.
     Widen(i8),
     /// Resets the view to that of the text.
@@ -121,13 +142,19 @@ pub enum Action {
     FrameSelected,
     /// Writes the working view into the text.
     SaveView,
+    /// Looks from the selected light.
+    LightView,
+    /// Lists the saved views.
+    SavedViews,
+    /// Deletes the saved view under the cursor.
+    DeleteView,
     /// Moves the cross, in cells to the right and down.
     Cross(i32, i32),
     /// Stops the work in progress.
     Stop,
     /// Exports what is shown, under the scene's name.
     Export,
-    /// Saves the scene to its file; in the quit dialog, then quits.
+    /// Saves the scene to its file; in the question whether to leave it, then leaves.
     Save,
     /// Undoes the last step and selects what it changed.
     Undo,

@@ -7,7 +7,7 @@ use crate::render::Aov;
 use crate::ui::app::Tool;
 
 use Action as A;
-use Mode::{Edit, Move, Pick, Select, Trace, View};
+use Mode::{Edit, Fly, Move, Pick, Select, Trace, View};
 use Stride::Plain;
 
 /// One line of help.
@@ -25,20 +25,24 @@ pub enum HelpLine {
 }
 
 /// Sections of help that follow the keys valid anywhere, by name.
-const MODES: [(&str, Context); 6] = [
+const MODES: [(&str, Context); 7] = [
     ("SELECT", Context::In(Select)),
     ("EDIT", Context::In(Edit)),
     ("VIEW", Context::In(View)),
+    ("VIEW FLY", Context::In(Fly)),
     ("MOVE", Context::In(Move)),
     ("PICK", Context::In(Pick)),
     ("TRACE", Context::In(Trace)),
 ];
-const DIALOGS: [(&str, Context); 6] = [
+const DIALOGS: [(&str, Context); 9] = [
     ("the list of errors", Context::Errors),
+    ("the list of saved views", Context::Views),
+    ("the list of recent scenes", Context::Recent),
     ("this page", Context::Help),
     ("merge conflicts", Context::Conflict),
     ("when asked to confirm quitting", Context::Quit),
     ("when asked to confirm deleting", Context::Delete),
+    ("when asked to confirm leaving the scene", Context::Leave),
     ("when unsaved edits were found", Context::Recover),
 ];
 
@@ -102,12 +106,20 @@ pub fn hints(context: Context) -> Vec<(String, &'static str)> {
         Context::In(Select) => SELECT_HINTS,
         Context::In(Edit) => EDIT_HINTS,
         Context::In(View) => VIEW_HINTS,
+        Context::In(Fly) => FLY_HINTS,
         Context::In(Pick) => PICK_HINTS,
         Context::In(Move) => MOVE_HINTS,
         Context::In(Trace) => TRACE_HINTS,
         Context::Errors => ERROR_HINTS,
         Context::Opening => &[],
-        Context::Help | Context::Conflict | Context::Quit | Context::Delete | Context::Recover => {
+        Context::Help
+        | Context::Views
+        | Context::Recent
+        | Context::Conflict
+        | Context::Quit
+        | Context::Leave
+        | Context::Delete
+        | Context::Recover => {
             return TABLE
                 .iter()
                 .filter(|row| row.scope.holds(context) && !is_common(row))
@@ -164,6 +176,22 @@ const VIEW_HINTS: &[Hint] = &[
     (&[A::FrameSelected], "frame"),
     (&[A::ResetView], "reset"),
     (&[A::SaveView], "save view"),
+    (&[A::Go(Fly)], "fly"),
+    (&[A::Back], "back"),
+];
+const FLY_HINTS: &[Hint] = &[
+    (
+        &[A::Turn(1, 0), A::Turn(0, -1), A::Turn(0, 1), A::Turn(-1, 0)],
+        "turn",
+    ),
+    (
+        &[A::Pan(1, 0), A::Advance(-1), A::Advance(1), A::Pan(-1, 0)],
+        "move",
+    ),
+    (&[A::Roll(1), A::Roll(-1)], "roll"),
+    (&[A::ResetView], "reset"),
+    (&[A::SaveView], "save view"),
+    (&[A::Go(View)], "orbit"),
     (&[A::Back], "back"),
 ];
 const MOVE_HINTS: &[Hint] = &[
@@ -292,7 +320,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
         let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 16);
+        assert_eq!(headings(&lines).len(), 20);
         assert!(lines.contains(&entry("gg", "first")));
         for row in TABLE {
             assert!(lines.contains(&entry(&keys(row), row.words)), "{row:?}");

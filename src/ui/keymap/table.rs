@@ -10,7 +10,7 @@ use crate::ui::app::Tool;
 
 use Action as A;
 use KeyCode::{BackTab, Down, End, Enter, Esc, F, Home, Left, PageDown, PageUp, Right, Tab, Up};
-use Mode::{Edit, Move, Pick, Select, Trace, View};
+use Mode::{Edit, Fly, Move, Pick, Select, Trace, View};
 use Stride::{Coarse, Fine, Plain};
 
 /// A row of the table: within its scope, each of these keys has the same action.
@@ -69,25 +69,45 @@ const SELECT: Scope = Scope::These(&[Context::In(Select)]);
 const VIEW: Scope = Scope::These(&[Context::In(View)]);
 const MOVE: Scope = Scope::These(&[Context::In(Move)]);
 const SELECT_AND_FIELDS: Scope = Scope::These(&[Context::In(Select), Context::In(Edit)]);
+const FLY: Scope = Scope::These(&[Context::In(Fly)]);
+const VIEWS: Scope = Scope::These(&[Context::In(View), Context::In(Fly)]);
 const EDIT: Scope = Scope::These(&[Context::In(Edit)]);
 const TRACE: Scope = Scope::These(&[Context::In(Trace)]);
 /// Contexts in which digits are not part of a number.
-const PICTURES: Scope = Scope::These(&[Context::In(Select), Context::In(View), Context::In(Trace)]);
+const PICTURES: Scope = Scope::These(&[
+    Context::In(Select),
+    Context::In(View),
+    Context::In(Fly),
+    Context::In(Trace),
+]);
 const PICK: Scope = Scope::These(&[Context::In(Pick)]);
 const HELP: Scope = Scope::These(&[Context::Help]);
 const ERRORS: Scope = Scope::These(&[Context::Errors]);
+const VIEWS_PAGE: Scope = Scope::These(&[Context::Views]);
+const RECENT: Scope = Scope::These(&[Context::Recent]);
 const CONFLICT: Scope = Scope::These(&[Context::Conflict]);
 const QUIT: Scope = Scope::These(&[Context::Quit]);
 const DELETE: Scope = Scope::These(&[Context::Delete]);
+const LEAVE: Scope = Scope::These(&[Context::Leave]);
+/// Where a loss of the working view is announced.
+const LEAVING: Scope = Scope::These(&[Context::Quit, Context::Leave]);
 const RECOVER: Scope = Scope::These(&[Context::Recover]);
 const LISTS: Scope = Scope::These(&[
     Context::In(Select),
     Context::In(Edit),
     Context::Help,
     Context::Errors,
+    Context::Views,
+    Context::Recent,
     Context::Conflict,
 ]);
-const LONG_LISTS: Scope = Scope::These(&[Context::In(Select), Context::Help, Context::Errors]);
+const LONG_LISTS: Scope = Scope::These(&[
+    Context::In(Select),
+    Context::Help,
+    Context::Errors,
+    Context::Views,
+    Context::Recent,
+]);
 
 /// All key bindings, the most useful first. Ctrl-H, Ctrl-I, Ctrl-M and Ctrl-[ send the same bytes
 /// as Backspace, Tab, Enter and Esc, and are therefore never bound.
@@ -160,15 +180,29 @@ pub(super) const TABLE: &[Binding] = &[
     bind(VIEW, &[c('l'), key(Right)], A::Orbit(-1, 0), "orbit right"),
     bind(VIEW, &[c('+'), c('=')], A::Dolly(1), "nearer"),
     bind(VIEW, &[c('-')], A::Dolly(-1), "farther"),
-    bind(VIEW, &[c('f')], A::FrameSelected, "frame the selected object"),
-    bind(VIEW, &[c('0')], A::ResetView, "reset to the scene's view"),
-    bind(VIEW, &[c('S')], A::SaveView, "write the view into the scene"),
     bind(VIEW, &[c('H'), Chord(Left, SHIFT)], A::Pan(1, 0), "pan left"),
     bind(VIEW, &[c('J'), Chord(Down, SHIFT)], A::Pan(0, -1), "pan down"),
     bind(VIEW, &[c('K'), Chord(Up, SHIFT)], A::Pan(0, 1), "pan up"),
     bind(VIEW, &[c('L'), Chord(Right, SHIFT)], A::Pan(-1, 0), "pan right"),
-    bind(VIEW, &[c('[')], A::Widen(-1), "narrow the field of view"),
-    bind(VIEW, &[c(']')], A::Widen(1), "widen the field of view"),
+    bind(VIEW, &[c('F')], A::Go(Fly), "fly: turn in place and move"),
+    bind(FLY, &[c('h'), key(Left)], A::Turn(1, 0), "turn left"),
+    bind(FLY, &[c('j'), key(Down)], A::Turn(0, -1), "turn down"),
+    bind(FLY, &[c('k'), key(Up)], A::Turn(0, 1), "turn up"),
+    bind(FLY, &[c('l'), key(Right)], A::Turn(-1, 0), "turn right"),
+    bind(FLY, &[c('K'), Chord(Up, SHIFT), c('+'), c('=')], A::Advance(1), "forward"),
+    bind(FLY, &[c('J'), Chord(Down, SHIFT), c('-')], A::Advance(-1), "back"),
+    bind(FLY, &[c('H'), Chord(Left, SHIFT)], A::Pan(1, 0), "left"),
+    bind(FLY, &[c('L'), Chord(Right, SHIFT)], A::Pan(-1, 0), "right"),
+    bind(FLY, &[c('F')], A::Go(View), "move around the target again"),
+    bind(VIEWS, &[c('f')], A::FrameSelected, "frame the selected object"),
+    bind(VIEWS, &[c('0')], A::ResetView, "reset to the scene's view"),
+    bind(VIEWS, &[c('S')], A::SaveView, "write the view into the scene"),
+    bind(VIEWS, &[c('o')], A::LightView, "look from the selected light"),
+    bind(VIEWS, &[c('V')], A::SavedViews, "saved views"),
+    bind(VIEWS, &[c('[')], A::Widen(-1), "narrow the field of view"),
+    bind(VIEWS, &[c(']')], A::Widen(1), "widen the field of view"),
+    bind(VIEWS, &[c(',')], A::Roll(1), "roll left"),
+    bind(VIEWS, &[c('.')], A::Roll(-1), "roll right"),
 
     bind(PICK, &[c('h'), key(Left)], A::Cross(-1, 0), "left"),
     bind(PICK, &[c('j'), key(Down)], A::Cross(0, 1), "down"),
@@ -188,9 +222,20 @@ pub(super) const TABLE: &[Binding] = &[
     bind(QUIT, &[c('n'), key(Esc)], A::Back, "stay"),
     bind(DELETE, &[c('y'), c('d')], A::Accept, "delete"),
     bind(DELETE, &[c('n'), key(Esc)], A::Back, "keep"),
+    bind(LEAVE, &[c('y')], A::Accept, "discard what is unsaved"),
+    bind(LEAVE, &[c('w')], A::Save, "save first"),
+    bind(LEAVE, &[c('n'), key(Esc)], A::Back, "stay"),
+    bind(LEAVING, &[c('S')], A::SaveView, "write the moved view into the scene"),
     bind(RECOVER, &[c('r')], A::Accept, "restore them"),
     bind(RECOVER, &[c('d')], A::No, "discard them"),
     bind(RECOVER, &[key(Esc)], A::Back, "decide next time"),
+    bind(VIEWS_PAGE, &[key(Enter)], A::Accept, "go there"),
+    bind(VIEWS_PAGE, &[c('d')], A::DeleteView, "delete it"),
+    bind(VIEWS_PAGE, &[c('/')], A::Search, "filter"),
+    bind(VIEWS_PAGE, &[key(Esc), c('q'), c('V')], A::Back, "close"),
+    bind(RECENT, &[key(Enter)], A::Accept, "open it"),
+    bind(RECENT, &[c('/')], A::Search, "filter"),
+    bind(RECENT, &[key(Esc), c('q')], A::Back, "close"),
     bind(HELP, &[c('/')], A::Search, "search"),
     bind(HELP, &[key(Esc), c('q'), c('?')], A::Back, "close"),
 
@@ -219,9 +264,9 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Always, &[ctrl('z')], A::Suspend, "suspend"),
     bind(Scope::Sceneless, &[c('q')], A::Quit, "quit"),
     bind(Scope::Always, &[ctrl('c')], A::Interrupt, "quit; press twice to quit at once"),
-    bind(VIEW, &[c('e')], A::Go(Edit), "edit fields"),
+    bind(VIEWS, &[c('e')], A::Go(Edit), "edit fields"),
     bind(EDIT, &[c('v')], A::Go(View), "move the camera"),
-    bind(VIEW, &[key(Enter)], A::Go(Select), "back to the list"),
+    bind(VIEWS, &[key(Enter)], A::Go(Select), "back to the list"),
 ];
 
 /// The action of a key in a context.
@@ -235,18 +280,21 @@ pub fn action(context: Context, event: KeyEvent) -> Option<Action> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use Context::{Conflict, Errors, Help, Opening, Quit, Recover};
+    use Context::{Conflict, Errors, Help, Leave, Opening, Quit, Recent, Recover, Views};
     use KeyCode::Char;
 
     #[test]
     fn no_key_has_two_meanings_in_one_context() {
-        let modes = [Select, View, Edit, Trace, Pick, Move].map(Context::In);
+        let modes = [Select, View, Fly, Edit, Trace, Pick, Move].map(Context::In);
         let others = [
             Opening,
             Help,
             Errors,
+            Views,
+            Recent,
             Conflict,
             Quit,
+            Leave,
             Context::Delete,
             Recover,
         ];

@@ -42,7 +42,7 @@ fn path_in(state: &Path) -> PathBuf {
 }
 
 /// The state folder that the environment defines.
-pub(super) fn state() -> io::Result<PathBuf> {
+pub(crate) fn state() -> io::Result<PathBuf> {
     state_by(|name| env::var_os(name))
 }
 

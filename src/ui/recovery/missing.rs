@@ -10,8 +10,9 @@ use super::offer::{left_behind, limit, read};
 use super::record::{self, Content};
 use crate::language::Language;
 
-/// The base of the newest edits kept of a scene: what is left of it if its file is missing.
-pub(crate) fn base_of(path: &Path, language: Language) -> Option<String> {
+/// The base of the newest edits kept of a scene, or of the one without a file: what is left of it if
+/// its file is missing.
+pub(crate) fn base_of(path: Option<&Path>, language: Language) -> Option<String> {
     base_in(&folder::state().ok()?, path, language)
 }
 
@@ -25,8 +26,8 @@ pub(crate) fn note_for_unreadable(path: &Path) -> Option<String> {
     unreadable_in(&folder::state().ok()?, path)
 }
 
-pub(super) fn base_in(state: &Path, path: &Path, language: Language) -> Option<String> {
-    let scene = Identity::of(Some(path), language);
+pub(super) fn base_in(state: &Path, path: Option<&Path>, language: Language) -> Option<String> {
+    let scene = Identity::of(path, language);
     let claims = claims(state, &scene);
     claims.into_iter().rev().find_map(|claim| {
         let bytes = read(&claim, limit(0)).ok()?;

@@ -27,7 +27,7 @@ mod record;
 pub(crate) mod tests;
 
 pub use claim::Claim;
-pub(crate) use folder::place;
+pub(crate) use folder::{place, state};
 pub(crate) use journal::Edits;
 pub(crate) use keeper::{End, Keeper, Outcome, Request};
 pub(crate) use missing::{base_of, note_for_missing, note_for_unreadable};

@@ -319,7 +319,7 @@ fn a_journal_changed_by_others_is_rewritten() {
 #[test]
 fn edits_of_a_missing_file_are_found() {
     let place = Place::new();
-    let base = || missing::base_in(&place.state, &place.scene(), Language::Ray);
+    let base = || missing::base_in(&place.state, Some(&place.scene()), Language::Ray);
     let note = || missing::unreadable_in(&place.state, &place.scene());
     assert_eq!((base(), note()), (None, None));
     let mut journal = place.run();

@@ -9,7 +9,7 @@ use unicode_width::UnicodeWidthStr;
 use super::row::Row;
 use crate::document::Merge;
 use crate::text::{Position, counted};
-use crate::ui::app::{App, Dialog, OnDisk, Outside};
+use crate::ui::app::{App, Dialog, Next, OnDisk, Outside};
 use crate::ui::fit::wrap;
 use crate::ui::keymap;
 use crate::ui::layout;
@@ -23,9 +23,10 @@ const SIDE: usize = 12;
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     match &app.overlays.dialog {
         None => {}
-        Some(Dialog::Quit) => {
-            let text = format!("{}. Quit?", app.losses().unwrap_or_default());
-            ask(app, " Quit ", &text, area, buffer);
+        Some(Dialog::Leave(next)) => {
+            let losses = app.losses_before(next).unwrap_or_default();
+            let text = format!("{losses}. {}", next.question());
+            ask(app, leaving(next), &text, area, buffer);
         }
         Some(Dialog::Delete(nodes)) => {
             ask(app, " Delete ", &app.consequence(nodes), area, buffer);
@@ -34,6 +35,15 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
             ask(app, " Recover ", &offered(app, offer), area, buffer);
         }
         Some(Dialog::Conflict { merge, at, from }) => conflict(app, merge, *at, from, area, buffer),
+    }
+}
+
+/// The title of the question whether to leave the scene.
+fn leaving(next: &Next) -> &'static str {
+    match next {
+        Next::Quit => " Quit ",
+        Next::Open(_) => " Open ",
+        Next::New(_) => " New ",
     }
 }
 
@@ -71,7 +81,7 @@ fn offered(app: &App, offer: &Offer) -> String {
 
 /// The name of the text that recovered edits are merged with.
 fn text_name(app: &App) -> &'static str {
-    if app.document.is_dirty() || app.disk.state == OnDisk::Missing {
+    if app.document.is_dirty() || matches!(app.disk.state, OnDisk::Missing | OnDisk::New) {
         "text"
     } else {
         "file"
@@ -208,14 +218,14 @@ fn one_line(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use crate::document::Side;
-    use crate::ui::app::{Dialog, Outside};
+    use crate::ui::app::{Dialog, Next, Outside};
     use crate::ui::view::tests::{SCENE, app, conflict, drawn, retype};
 
     #[test]
     fn quitting_shows_what_would_be_lost_and_how_to_answer() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " 0.5 //");
-        app.overlays.dialog = Some(Dialog::Quit);
+        app.overlays.dialog = Some(Dialog::Leave(Next::Quit));
         let text = drawn(&app, super::render, 80, 24).join("\n");
         for part in [
             "test.ray has unsaved edits",

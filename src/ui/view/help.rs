@@ -8,7 +8,7 @@ use ratatui::widgets::{Block, BorderType, Clear, Widget};
 
 use super::row::Row;
 use crate::text::counted;
-use crate::ui::app::{App, HelpFocus};
+use crate::ui::app::{App, PageFocus};
 use crate::ui::keymap::HelpLine;
 use crate::ui::layout;
 use crate::ui::theme;
@@ -54,7 +54,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     }
     let mut row = Row::new(buffer, search, 0);
     row.skip(1);
-    if help.focus == HelpFocus::Search {
+    if help.focus == PageFocus::Search {
         row.put("/", theme::ACCENT);
         let room = row.room();
         row.put_input(&help.search, room, Style::new(), theme::CURSOR);

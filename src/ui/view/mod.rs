@@ -15,6 +15,7 @@ mod list;
 mod menu;
 mod message;
 mod oklab;
+mod page;
 mod palette;
 mod picture;
 mod row;
@@ -62,6 +63,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     }
     let bars = areas.hint.height + areas.status.height;
     let (body, _) = layout::split_bottom(area, bars);
+    page::render(app, body, buffer);
     help::render(app, body, buffer);
     if let Some(message) = status::long_message(app, inks.glyphs, areas.status.width) {
         message::render(message, body, buffer);

@@ -6,6 +6,7 @@ use std::borrow::Cow;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Modifier, Style};
+use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::characters::Characters;
@@ -25,7 +26,11 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     };
     let shown = &app.picture().shown;
     if shown.size.pixels() == 0 || shown.pixels.len() != shown.size.pixels() {
-        notice(app, area, buffer);
+        if app.is_empty() {
+            invitation(area, buffer);
+        } else {
+            notice(app, area, buffer);
+        }
         return;
     }
     let shown = if shown.size == size {
@@ -39,6 +44,9 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     }
     if app.mode == Mode::Move {
         axis(app, cells, size, buffer);
+    }
+    if app.is_empty() {
+        invitation(area, buffer);
     }
     if 0 < app.error_count() {
         let chip = " STALE ";
@@ -59,6 +67,35 @@ fn notice(app: &App, area: Rect, buffer: &mut Buffer) {
     };
     let line = Rect::new(0, 0, text.width().min(usize::from(area.width)) as u16, 1);
     Row::new(buffer, layout::centred(area, line), 0).put(&text, theme::DIM);
+}
+
+/// What to press in an empty scene, each with its effect.
+const INVITATION: [(&str, &str); 3] = [
+    ("a", "adds an object"),
+    (":e FILE", "opens another scene"),
+    ("?", "lists all keys"),
+];
+
+/// Says what to press in an empty scene.
+fn invitation(area: Rect, buffer: &mut Buffer) {
+    let title = "The scene is empty.";
+    let keys = INVITATION.iter().map(|(key, _)| key.width());
+    let indent = 2 + keys.max().unwrap_or(0);
+    let words = INVITATION.iter().map(|(_, words)| words.width());
+    let width = title.width().max(indent + words.max().unwrap_or(0));
+    let lines = Rect::new(0, 0, width as u16, 2 + INVITATION.len() as u16);
+    let frame = Rect::new(0, 0, lines.width + 4, lines.height + 2);
+    Clear.render(
+        layout::centred(area, frame).intersection(buffer.area),
+        buffer,
+    );
+    let area = layout::centred(area, lines).intersection(buffer.area);
+    Row::new(buffer, area, 0).put(title, theme::BOLD);
+    for (line, (key, words)) in (2..).zip(INVITATION) {
+        let mut row = Row::new(buffer, area, line);
+        row.put(key, theme::ACCENT);
+        row.skip_to(area.x + indent as u16).put(words, theme::DIM);
+    }
 }
 
 /// The notice that a file is being read, with its size if that explains the wait.
@@ -186,8 +223,10 @@ fn marked(upper: Pixel, lower: Option<Pixel>) -> Style {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::language::Language;
     use crate::render::NO_OBJECT;
     use crate::scene::Size;
+    use crate::ui::view::tests::{app_of, drawn};
 
     fn shown(width: u32, height: u32, pixels: &[[u8; 3]]) -> Shown {
         Shown {
@@ -208,6 +247,32 @@ mod tests {
         let mut buffer = Buffer::empty(area);
         paint(shown, &mut Inks::new(glyphs), area, &mut buffer);
         buffer
+    }
+
+    #[test]
+    fn an_empty_scene_says_what_to_press() {
+        let panel = |app: &App, area: Rect, buffer: &mut Buffer| {
+            render(app, &mut Inks::new(Glyphs::HalfBlocks), area, buffer);
+        };
+        let text = |language, text: &str| {
+            let app = app_of(language, text);
+            drawn(&app, panel, 40, 12).join("\n")
+        };
+        for (language, empty) in [
+            (Language::Ray, ""),
+            (Language::Dat, "\n  \n"),
+            (Language::Xml, " "),
+            (Language::Dat, "viewport 8 6\n"),
+            (Language::Xml, "<xml><scene/><camera/></xml>"),
+        ] {
+            let text = text(language, empty);
+            for part in ["The scene is empty.", "a        adds", ":e FILE", "? "] {
+                assert!(text.contains(part), "{part} in\n{text}");
+            }
+        }
+        for full in ["broken", Language::Ray.template()] {
+            assert!(!text(Language::Ray, full).contains("empty"), "{full}");
+        }
     }
 
     #[test]

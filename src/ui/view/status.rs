@@ -193,6 +193,7 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
         OnDisk::Faulty(_) => Some("[errors on disk]"),
         OnDisk::Unreadable => Some("[cannot read file]"),
         OnDisk::Missing => Some("[file missing]"),
+        OnDisk::New => Some("[new]"),
     };
     if let Some(disk) = disk {
         say(3, disk.to_owned(), theme::WARNING);
@@ -265,6 +266,7 @@ fn mode_chip(mode: Mode) -> (&'static str, Style) {
     match mode {
         Mode::Select => ("SELECT", theme::ACCENT),
         Mode::View => ("VIEW", theme::GOOD),
+        Mode::Fly => ("VIEW FLY", theme::GOOD),
         Mode::Edit => ("EDIT", theme::WARNING),
         Mode::Trace => ("TRACE", Style::new()),
         Mode::Pick => ("PICK", theme::ACCENT),

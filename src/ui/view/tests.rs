@@ -17,8 +17,8 @@ use crate::render::{Filter, Frame, NO_OBJECT, Progress};
 use crate::scene::Size;
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
-    App, Dialog, Export, Help, HelpFocus, Message, OnDisk, Opening, OpeningText, Outside, Prompt,
-    PromptKind, Quality, Stage, Typing,
+    App, Dialog, Export, Help, List, Message, Next, OnDisk, Opening, OpeningText, Outside, Page,
+    PageFocus, Prompt, PromptKind, Quality, Stage, Typing,
 };
 use crate::ui::keymap::Mode;
 use crate::ui::layout::Zoom;
@@ -57,6 +57,7 @@ pub(super) fn app_of(language: Language, text: &str) -> App {
             filter: Filter::Box,
         },
         mouse: Mouse::Off,
+        recent: Vec::new(),
         terminal: (80, 24),
     });
     app.cursor.select(Node::View, app.document.source());
@@ -185,10 +186,18 @@ const STATES: &[(&str, Change)] = &[
         app.overlays.help = Some(Help {
             top: usize::MAX,
             search: Input::new("界 nowhere".to_owned()),
-            focus: HelpFocus::Search,
+            focus: PageFocus::Search,
         });
     }),
-    ("quit", |app| app.overlays.dialog = Some(Dialog::Quit)),
+    ("recent scenes", |app| {
+        let paths = (0..99).map(|at| PathBuf::from(format!("/界/{at}.ray")));
+        let mut page = Page::new(List::Recent(paths.collect()));
+        page.at = 98;
+        app.overlays.page = Some(page);
+    }),
+    ("quit", |app| {
+        app.overlays.dialog = Some(Dialog::Leave(Next::Quit));
+    }),
     ("recover", |app| {
         let text = app.document.shared_text();
         let kept = SCENE.replace(" 0.25 ", " 0.75 ");

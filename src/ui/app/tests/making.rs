@@ -8,7 +8,7 @@ use crate::scene::Integrator;
 use crate::ui::msg::Target;
 
 /// A scene in each language.
-const SCENES: [(&str, &str); 3] = [
+pub(super) const SCENES: [(&str, &str); 3] = [
     ("scene.ray", SCENE),
     ("scene.dat", dat::SCENE),
     ("scene.xml", include_str!("../../../../scenes/spheres.xml")),

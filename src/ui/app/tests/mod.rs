@@ -11,7 +11,9 @@ mod opening;
 pub(in crate::ui) mod pictures;
 mod recovering;
 mod saving;
+mod starting;
 mod structure;
+mod views;
 mod xml;
 
 use std::path::{Path, PathBuf};
@@ -76,6 +78,7 @@ fn opening_as(name: &str, text: String) -> Opening {
             filter: Filter::Box,
         },
         mouse: Mouse::On,
+        recent: Vec::new(),
         terminal: (120, 40),
     }
 }

@@ -227,7 +227,7 @@ fn an_export_ends_with_its_worker() {
     let mut app = open(SCENE);
     press(&mut app, "bqw");
     app.update(Msg::Ended(Target::Export));
-    assert!(app.jobs.export.is_none() && !app.jobs.quit);
+    assert!(app.jobs.export.is_none() && app.jobs.next.is_none());
     assert!(words(&app).contains("stopped early"), "{}", words(&app));
     press(&mut app, "b");
     assert!(app.jobs.export.is_some());
@@ -240,7 +240,7 @@ fn a_refused_picture_is_no_longer_awaited() {
     let mut app = open(SCENE);
     press(&mut app, "bqw");
     app.update(refusal(Target::Export));
-    assert!(app.jobs.export.is_none() && !app.jobs.quit);
+    assert!(app.jobs.export.is_none() && app.jobs.next.is_none());
     assert_eq!(words(&app), "too large");
     press(&mut app, "<Esc><F5>");
     app.update(refusal(Target::Trace));
@@ -260,7 +260,10 @@ fn quitting_asks_about_an_export_and_can_wait_for_it() {
         let mut app = open(SCENE);
         press(&mut app, "b");
         assert!(!quits(&press(&mut app, said)), "{said}");
-        assert!(matches!(app.overlays.dialog, Some(Dialog::Quit)), "{said}");
+        assert!(
+            matches!(app.overlays.dialog, Some(Dialog::Leave(Next::Quit))),
+            "{said}"
+        );
         assert!(quits(&press(&mut app, "y")));
     }
     let mut app = open(SCENE);
@@ -274,7 +277,7 @@ fn quitting_asks_about_an_export_and_can_wait_for_it() {
     assert!(!quits(
         &app.update(Msg::Exported(ExportId(1), Err("full".into())))
     ));
-    assert!(!app.jobs.quit && words(&app) == "full");
+    assert!(app.jobs.next.is_none() && words(&app) == "full");
 }
 
 #[test]

@@ -321,7 +321,10 @@ fn one_question_is_asked_at_a_time() {
     press(&mut app, "jjjelq");
     let offer = kept(&app, SCENE, &variant("1.7", "0"));
     app.update(recovered(offer));
-    assert!(matches!(app.overlays.dialog, Some(Dialog::Quit)));
+    assert!(matches!(
+        app.overlays.dialog,
+        Some(Dialog::Leave(Next::Quit))
+    ));
     press(&mut app, "n");
     assert!(matches!(app.overlays.dialog, Some(Dialog::Recover(_))));
     press(&mut app, "r");

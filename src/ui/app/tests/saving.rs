@@ -12,7 +12,7 @@ fn an_abandoned_save_does_not_quit_later() {
     // The answer to the question prompts for a name, which is not given.
     press(&mut app, "qw<Esc>");
     assert!(app.overlays.prompt.is_none());
-    assert!(!app.jobs.quit);
+    assert!(app.jobs.next.is_none());
 }
 
 pub(super) fn saved(app: &mut App, id: u32, path: &str, text: &Arc<String>) -> Vec<Effect> {
@@ -236,7 +236,10 @@ fn save_and_quit_asks_for_a_missing_name_and_then_quits() {
 fn quitting_during_a_save_of_unchanged_text_asks() {
     let mut app = open(SCENE);
     press(&mut app, ":w copy.ray<Enter>q");
-    assert!(matches!(app.overlays.dialog, Some(Dialog::Quit)));
+    assert!(matches!(
+        app.overlays.dialog,
+        Some(Dialog::Leave(Next::Quit))
+    ));
     assert_eq!(
         app.losses().as_deref(),
         Some("copy.ray is still being written")

@@ -1,0 +1,19 @@
+//! The scenes to begin with.
+
+use super::{Language, read_as, shown};
+use crate::scene::Meshes;
+
+#[test]
+fn templates_are_small_valid_scenes() {
+    for language in Language::ALL {
+        let text = language.template();
+        let (source, lowered) = read_as(language, text, &Meshes::default());
+        assert_eq!(shown(text, &lowered), [""; 0], "{language:?}");
+        let scene = lowered.scene.expect("it is valid");
+        assert_eq!(scene.objects.len(), 2, "{language:?}");
+        assert!(2 <= scene.lights.len(), "{language:?}");
+        assert!(!source.fields(crate::language::Node::View).is_empty());
+        assert!(text.ends_with('\n') && !text.contains('\t'), "{language:?}");
+        assert!(text.lines().all(|line| line.len() <= 100), "{language:?}");
+    }
+}

@@ -1,0 +1,191 @@
+//! Recently used scenes: absolute paths, one a line and the newest first, in `halflight/recent` in
+//! the state folder. Sessions that end up there at the same moment may lose one of their entries.
+
+use std::convert::Infallible;
+use std::fs::{self, DirBuilder, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{self, Receiver};
+use std::time::Instant;
+
+use super::recovery;
+use super::service::{Ended, Service};
+use crate::file;
+
+/// The maximum number of scenes remembered.
+const MOST: usize = 20;
+
+/// The maximum length of the file, in bytes.
+const LONGEST: u64 = 1 << 20;
+
+/// A request to the thread.
+enum Request {
+    /// Put this scene first.
+    Note(PathBuf),
+    /// Report the scenes.
+    List,
+}
+
+/// Handle of the thread that remembers scenes.
+pub(super) struct Recent {
+    service: Service<Request>,
+    /// Disconnected when the thread ends.
+    end: Receiver<Infallible>,
+}
+
+impl Recent {
+    /// Starts the thread, which calls `report` with lists and `complain` with failures to remember a
+    /// scene, each reason once.
+    pub(super) fn start(
+        report: impl Fn(Vec<PathBuf>) + Send + 'static,
+        complain: impl Fn(String) + Send + 'static,
+    ) -> io::Result<Self> {
+        let (at_work, end) = mpsc::channel();
+        let service = Service::start("recent", "remembers scenes", move |inbox| {
+            let _at_work = at_work;
+            let mut last = None;
+            for request in inbox {
+                match request {
+                    Request::List => report(list()),
+                    Request::Note(scene) => {
+                        let noted = recovery::state().and_then(|state| note_in(&state, &scene));
+                        let reason = noted.err().map(|error| error.to_string());
+                        if let Some(reason) = reason.filter(|reason| last.as_ref() != Some(reason))
+                        {
+                            complain(format!("recent scenes cannot be remembered: {reason}"));
+                            last = Some(reason);
+                        }
+                    }
+                }
+            }
+        });
+        Ok(Self {
+            service: service?,
+            end,
+        })
+    }
+
+    /// Puts a scene first.
+    pub(super) fn note(&self, scene: PathBuf) -> Result<(), Ended> {
+        self.service.request(Request::Note(scene))
+    }
+
+    /// Requests the scenes, the newest first.
+    pub(super) fn list(&self) -> Result<(), Ended> {
+        self.service.request(Request::List)
+    }
+
+    /// Waits until all scenes are remembered, at most until `deadline`.
+    pub(super) fn finish(self, deadline: Instant) {
+        drop(self.service);
+        let patience = deadline.saturating_duration_since(Instant::now());
+        // Nothing is ever sent: the end of the thread ends the wait.
+        let _ = self.end.recv_timeout(patience);
+    }
+}
+
+/// The recently used scenes that still exist, the newest first; empty if that is unknown.
+pub(super) fn list() -> Vec<PathBuf> {
+    recovery::state().map_or_else(|_| Vec::new(), |state| list_in(&state))
+}
+
+fn list_in(state: &Path) -> Vec<PathBuf> {
+    let mut scenes = read(state);
+    scenes.retain(|scene| scene.is_file());
+    scenes
+}
+
+fn note_in(state: &Path, scene: &Path) -> io::Result<()> {
+    let scene: PathBuf = std::path::absolute(scene)?.components().collect();
+    // Such a path cannot be a line of text.
+    if scene
+        .to_str()
+        .is_none_or(|path| path.contains(['\n', '\r']))
+    {
+        return Ok(());
+    }
+    let mut scenes = read(state);
+    if scenes.first() == Some(&scene) {
+        return Ok(());
+    }
+    scenes.retain(|other| *other != scene);
+    scenes.insert(0, scene);
+    scenes.truncate(MOST);
+    let place = place(state);
+    let mut builder = DirBuilder::new();
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.recursive(true).create(file::directory_of(&place))?;
+    let lines: Vec<_> = scenes.iter().filter_map(|scene| scene.to_str()).collect();
+    let text = format!("{}\n", lines.join("\n"));
+    file::replace(&place, |out| out.write_all(text.as_bytes()), || Ok(()))
+}
+
+/// The scenes in the file; none if it cannot be read.
+fn read(state: &Path) -> Vec<PathBuf> {
+    let place = place(state);
+    // A pipe would never end.
+    let is_file = fs::metadata(&place).is_ok_and(|found| found.is_file());
+    let file = is_file.then(|| File::open(&place));
+    let Some(Ok(file)) = file else {
+        return Vec::new();
+    };
+    let bytes = file::read_opened(&file, &place, LONGEST).unwrap_or_default();
+    let text = String::from_utf8(bytes).unwrap_or_default();
+    let scenes = text.lines().map(PathBuf::from);
+    let mut scenes: Vec<_> = scenes.filter(|scene| scene.is_absolute()).collect();
+    scenes.truncate(MOST);
+    scenes
+}
+
+fn place(state: &Path) -> PathBuf {
+    state.join("halflight").join("recent")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_newest_scenes_that_still_exist_are_listed_once() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (state, at) = (folder.path().join("state"), |name: &str| {
+            folder.path().join(name)
+        });
+        assert_eq!(list_in(&state), [] as [PathBuf; 0]);
+        for name in ["a.ray", "b.ray", "c.dat"] {
+            fs::write(at(name), "").expect("the folder is new");
+        }
+        for name in [
+            "a.ray",
+            "b.ray",
+            "gone.ray",
+            "c.dat",
+            "./a.ray",
+            "new\nline.ray",
+        ] {
+            note_in(&state, &at(name)).expect("it can be written");
+        }
+        assert_eq!(list_in(&state), ["a.ray", "c.dat", "b.ray"].map(at));
+        for number in 0..MOST {
+            note_in(&state, &at(&format!("{number}.ray"))).expect("it can be written");
+        }
+        assert_eq!(read(&state).len(), MOST);
+        assert_eq!(list_in(&state), [] as [PathBuf; 0]);
+    }
+
+    #[test]
+    fn a_file_of_another_kind_lists_nothing_and_is_replaced() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let scene = folder.path().join("a.ray");
+        fs::write(&scene, "").expect("the folder is new");
+        fs::create_dir(folder.path().join("halflight")).expect("the folder is new");
+        let long = "a".repeat(2 << 20);
+        for content in [b"\xff\xfe", b"relative.ray\n\n" as &[u8], long.as_bytes()] {
+            fs::write(place(folder.path()), content).expect("written");
+            assert_eq!(list_in(folder.path()), [] as [PathBuf; 0]);
+        }
+        note_in(folder.path(), &scene).expect("it can be written");
+        assert_eq!(list_in(folder.path()), [scene]);
+    }
+}

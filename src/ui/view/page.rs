@@ -1,0 +1,101 @@
+//! A page with a list to choose from.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use ratatui::widgets::{Block, BorderType, Clear, Widget};
+
+use super::row::Row;
+use crate::text::counted;
+use crate::ui::app::{App, List, PageFocus};
+use crate::ui::keymap;
+use crate::ui::layout;
+use crate::ui::theme;
+
+/// Draws the page if one is open.
+pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
+    let Some(page) = &app.overlays.page else {
+        return;
+    };
+    let rows = page.rows();
+    let (title, count) = match &page.list {
+        List::Views(views, _) => (" Saved views ", views.len()),
+        List::Recent(paths) => (" Recent scenes ", paths.len()),
+    };
+    let height = u16::try_from(count).unwrap_or(u16::MAX).saturating_add(4);
+    let place = layout::centred(area, Rect::new(0, 0, 76, height)).intersection(buffer.area);
+    let block = Block::bordered()
+        .border_type(BorderType::Rounded)
+        .border_style(theme::DIM)
+        .title(title);
+    let inner = block.inner(place);
+    Clear.render(place, buffer);
+    block.render(place, buffer);
+    let (body, foot) = layout::split_bottom(inner, 2);
+    let visible = usize::from(body.height);
+    let top = layout::first_shown(0, page.at, rows.len(), visible);
+    for (line, (_, words)) in rows.iter().skip(top).take(visible).enumerate() {
+        let is_here = top + line == page.at;
+        let mut row = Row::new(buffer, body, line as u16);
+        let style = if is_here { theme::BOLD } else { Style::new() };
+        row.put(if is_here { "▸ " } else { "  " }, style);
+        row.put(words, style);
+    }
+    let mut row = Row::new(buffer, foot, 1);
+    row.skip(1);
+    if page.focus == PageFocus::Search {
+        row.put("/", theme::ACCENT);
+        let room = row.room();
+        row.put_input(&page.search, room, Style::new(), theme::CURSOR);
+        return;
+    }
+    if !page.search.value().is_empty() {
+        let words = format!(
+            "{} with “{}”",
+            counted(rows.len(), "line"),
+            page.search.value()
+        );
+        row.put(&words, theme::DIM).skip(2);
+    }
+    for (key, words) in keymap::hints(app.context()) {
+        row.put(&key, theme::ACCENT).put(" ", Style::new());
+        row.put(words, theme::DIM).skip(2);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use tui_input::Input;
+
+    use crate::ui::app::{List, Page};
+    use crate::ui::view::tests::{app, drawn};
+
+    #[test]
+    fn the_rows_that_match_are_listed_with_the_keys() {
+        let mut app = app();
+        let paths = ["/a/one.ray", "/a/two.dat", "/b/three.xml"].map(PathBuf::from);
+        let mut page = Page::new(List::Recent(paths.into()));
+        page.at = 1;
+        app.overlays.page = Some(page);
+        let text = drawn(&app, super::render, 80, 24).join("\n");
+        for part in [
+            "Recent scenes",
+            "  /a/one.ray",
+            "▸ /a/two.dat",
+            "Enter open",
+            "Esc close",
+        ] {
+            assert!(text.contains(part), "{part} in\n{text}");
+        }
+        let page = app.overlays.page.as_mut().expect("it is open");
+        (page.at, page.search) = (0, Input::new("B/".to_owned()));
+        let text = drawn(&app, super::render, 80, 24).join("\n");
+        assert!(
+            text.contains("▸ /b/three.xml") && !text.contains("/a/"),
+            "{text}"
+        );
+        assert!(text.contains("1 line with “B/”"), "{text}");
+    }
+}
