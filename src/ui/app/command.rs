@@ -35,6 +35,8 @@ enum Command {
     ViewReset,
     /// Set the size of the output picture.
     Size(Size),
+    /// Take the mouse or leave it to the terminal.
+    Mouse,
     /// Open the help page.
     Help,
 }
@@ -102,6 +104,7 @@ const TABLE: &[CommandRow] = &[
     row(&["view save"], A::Nothing(C::ViewSave), "write the view into the scene"),
     row(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
     row(&["size"], A::Size(C::Size), "set the picture size in the scene"),
+    row(&["mouse"], A::Nothing(C::Mouse), "take the mouse or leave it to the terminal"),
     row(&["help"], A::Nothing(C::Help), "show this page"),
 ];
 
@@ -242,7 +245,7 @@ impl App {
 
     fn run(&mut self, command: Command) -> Vec<Effect> {
         match command {
-            Command::Quit(_) | Command::Help => {}
+            Command::Quit(_) | Command::Mouse | Command::Help => {}
             _ if self.disk.is_opening() => {
                 self.warn_of_opening();
                 return Vec::new();
@@ -264,6 +267,7 @@ impl App {
             Command::ViewSave => self.save_view(),
             Command::ViewReset => self.pictures.reset_view(),
             Command::Size(size) => self.set_size(size),
+            Command::Mouse => return self.toggle_mouse(),
             Command::Help => self.overlays.help = Some(Help::default()),
         }
         Vec::new()

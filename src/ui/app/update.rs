@@ -198,7 +198,6 @@ impl App {
             Action::Export => return self.export_default(),
             Action::Save => return self.save_key(),
             Action::Editor => return self.open_editor(),
-            Action::Mouse => return self.toggle_mouse(),
             Action::Repaint => return vec![Effect::Repaint],
             Action::Suspend => return vec![Effect::Suspend],
             Action::Quit => return self.quit(),
@@ -265,7 +264,7 @@ impl App {
         };
     }
 
-    fn toggle_mouse(&mut self) -> Vec<Effect> {
+    pub(super) fn toggle_mouse(&mut self) -> Vec<Effect> {
         let (mouse, words) = match self.mouse {
             Mouse::On => (Mouse::Off, "mouse off: the terminal selects text again"),
             Mouse::Off => (Mouse::On, "mouse on: hold Shift to select text"),

@@ -115,8 +115,6 @@ pub enum Action {
     Show(Option<Aov>),
     /// Switches between Whitted ray tracing and path tracing.
     Integrator,
-    /// Takes the mouse or leaves it to the terminal.
-    Mouse,
     /// Redraws every cell, in case another program has written over them.
     Repaint,
     /// Stops the program until it is continued.

@@ -283,7 +283,7 @@ mod tests {
         let undo = lines("UNDO", Select);
         assert_eq!(undo, [HelpLine::Heading("anywhere"), entry("u", "undo")]);
         assert!(lines("ctrl-r", Select).contains(&entry("Ctrl-R", "redo")));
-        assert_eq!(headings(&lines("mouse", Edit)), ["anywhere", "mouse"]);
+        assert_eq!(headings(&lines("mouse", Edit)), ["mouse"]);
         assert_eq!(headings(&lines("[wxh]", Edit)), ["commands"]);
         assert!(lines("no such words", Select).is_empty());
     }

@@ -179,7 +179,6 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Everywhere, &[c('E')], A::Editor, "open the editor at the selected item"),
     bind(Scope::Everywhere, &[c('z')], A::Zoom, "show or hide the panels"),
     bind(Scope::Everywhere, &[c('P')], A::Integrator, "toggle path tracing"),
-    bind(Scope::Sceneless, &[c('m')], A::Mouse, "toggle mouse capture"),
     bind(Scope::Always, &[ctrl('l')], A::Repaint, "redraw the screen"),
     bind(Scope::Always, &[ctrl('z')], A::Suspend, "suspend"),
     bind(Scope::Sceneless, &[c('q')], A::Quit, "quit"),
