@@ -11,6 +11,7 @@
 //! reads the app.
 
 pub mod app;
+pub mod arrange;
 mod assets;
 mod beginning;
 pub mod doctor;

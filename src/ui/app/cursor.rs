@@ -6,8 +6,9 @@ use tui_input::Input;
 
 use crate::language::{Node, Placed, Source};
 use crate::text::{Diagnostic, Edit, Span};
+use crate::ui::arrange::Areas;
 use crate::ui::keymap::Stride;
-use crate::ui::layout::{self, Areas};
+use crate::ui::layout;
 
 /// The maximum number of parts listed for a combined object.
 const MAX_PARTS: usize = 32;

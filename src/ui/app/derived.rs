@@ -11,9 +11,10 @@ use super::pictures::Outline;
 use crate::language::table::Field;
 use crate::language::{Node, Nodes, Source};
 use crate::scene::{Camera, Integrator, Size};
+use crate::ui::arrange::{Areas, Shape, Zoom, arrange};
 use crate::ui::errors::{self, Panel, Wrong};
 use crate::ui::keymap::{Context, Mode};
-use crate::ui::layout::{Areas, Zoom, arrange, raster};
+use crate::ui::layout::raster;
 
 /// The picture size without a scene.
 const NO_SCENE: Size = Size {
@@ -115,7 +116,7 @@ impl App {
         }
     }
 
-    /// The list of errors and warnings over the picture, if there are any to show.
+    /// The list of errors and warnings in an area, if there are any to show.
     pub(crate) fn errors_panel(&self, area: Rect) -> Option<Panel> {
         errors::panel(&self.wrong(), &self.disk.name(), area)
     }
@@ -189,11 +190,22 @@ impl App {
 
     /// The layout of an area of the screen.
     pub fn areas_in(&self, area: Rect, zoom: Zoom) -> Areas {
-        arrange(
-            area,
+        let areas = arrange(area, &self.shape(zoom));
+        // The picture is scaled to what the errors leave rather than hidden by them.
+        match self.errors_panel(areas.room_for_errors()) {
+            Some(panel) => areas.make_room(panel.area.height),
+            None => areas,
+        }
+    }
+
+    /// What the layout of the screen depends on besides its size.
+    pub(super) fn shape(&self, zoom: Zoom) -> Shape {
+        Shape {
             zoom,
-            self.cursor.fields().len() + self.cursor.parts().len(),
-        )
+            output: self.output(),
+            fields: self.cursor.fields().len() + self.cursor.parts().len(),
+            panels: self.panels,
+        }
     }
 
     fn areas_at(&self, zoom: Zoom) -> Areas {

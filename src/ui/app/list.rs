@@ -3,8 +3,9 @@
 use super::App;
 use super::cursor::moved;
 use crate::language::Node;
+use crate::ui::arrange::Areas;
 use crate::ui::keymap::{Context, Mode};
-use crate::ui::layout::{self, Areas};
+use crate::ui::layout;
 
 impl App {
     /// Selects a node; ends the current undo step.

@@ -11,8 +11,8 @@ use super::pictures::Pictures;
 use crate::document::Document;
 use crate::scene::Scene;
 use crate::text::Findings;
+use crate::ui::arrange::{PanelSizes, Zoom};
 use crate::ui::keymap::{Action, Mode};
-use crate::ui::layout::Zoom;
 use crate::ui::terminal::Mouse;
 
 /// The whole state of the interface: the text, its meaning, and one part for each concern, which
@@ -43,6 +43,10 @@ pub struct App {
     pub(super) prefix: Option<Action>,
     /// How much of the screen the picture takes, except in the full-size trace.
     pub zoom: Zoom,
+    /// The sizes of the panels that the user chose.
+    pub panels: PanelSizes,
+    /// Whether the border of the panels is being dragged.
+    pub(super) resizing: bool,
     /// Who receives mouse events.
     pub mouse: Mouse,
     /// Size of the terminal in cells.

@@ -8,8 +8,8 @@ use crate::document::Document;
 use crate::file::ReadError;
 use crate::language::{Language, Lowered, Node};
 use crate::text::{Findings, Severity};
+use crate::ui::arrange::{PanelSizes, Zoom};
 use crate::ui::keymap::Mode;
-use crate::ui::layout::Zoom;
 use crate::ui::msg::Effect;
 use crate::ui::reading::{News, Reading};
 use crate::ui::terminal::Mouse;
@@ -65,6 +65,8 @@ impl App {
             mode: Mode::Select,
             prefix: None,
             zoom: Zoom::default(),
+            panels: PanelSizes::default(),
+            resizing: false,
             mouse: opening.mouse,
             terminal: opening.terminal,
         };

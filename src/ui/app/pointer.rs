@@ -27,7 +27,10 @@ impl App {
             _ if self.overlays.help.is_some() => {}
             MouseEventKind::Down(MouseButton::Left) => return self.press(at),
             MouseEventKind::Drag(MouseButton::Left) => self.drag(at),
-            MouseEventKind::Up(_) => self.pictures.drag = None,
+            MouseEventKind::Up(_) => {
+                self.pictures.drag = None;
+                self.resizing = false;
+            }
             _ => {}
         }
         Vec::new()
@@ -60,6 +63,10 @@ impl App {
         self.overlays.clear_message();
         self.cursor.typing = None;
         let areas = self.areas();
+        if areas.border.contains(at.into()) {
+            self.resizing = true;
+            return Vec::new();
+        }
         if let Some(row) = list_row_at(areas.list, self.cursor.list_top, at.0, at.1) {
             if let Some(node) = self.nodes().get(row) {
                 self.select(node);
@@ -68,7 +75,6 @@ impl App {
             }
             return Vec::new();
         }
-        // The panel lies over the picture: a click on it does not mean what is below.
         if let Some(panel) = self.errors_panel(areas.errors)
             && panel.area.contains(at.into())
         {
@@ -107,6 +113,10 @@ impl App {
     }
 
     fn drag(&mut self, at: (u16, u16)) {
+        if self.resizing {
+            self.resize_panels(self.areas().dragged(at));
+            return;
+        }
         let Some(from) = self.pictures.drag.filter(|_| self.mode == Mode::View) else {
             return;
         };

@@ -5,8 +5,8 @@ use tui_input::Input;
 
 use super::camera::{dollied, panned, stepped, widened};
 use super::{App, Help, HelpFocus, PromptKind, line};
+use crate::ui::arrange::{Zoom, resized};
 use crate::ui::keymap::{self, Action, Context, Mode};
-use crate::ui::layout::Zoom;
 use crate::ui::msg::{Effect, Msg, Timer};
 use crate::ui::terminal::Mouse;
 
@@ -189,6 +189,7 @@ impl App {
             Action::Message => self.overlays.show_past_message(),
             Action::Help => self.overlays.help = Some(Help::default()),
             Action::Zoom => self.toggle_zoom(),
+            Action::Resize(step) => self.resize_panels(step),
             Action::Show(aov) => self.overlays.say(self.pictures.show(aov)),
             Action::Integrator => {
                 let words = self.pictures.toggle_integrator(self.scene.as_deref());
@@ -262,6 +263,15 @@ impl App {
             Zoom::Panels => Zoom::Picture,
             Zoom::Picture => Zoom::Panels,
         };
+    }
+
+    /// Moves the border between picture and panels by some cells, towards the picture if positive.
+    pub(super) fn resize_panels(&mut self, cells: i32) {
+        let zoom = self.zoom_now();
+        match resized(&self.areas(), &self.shape(zoom), cells) {
+            Some(panels) => self.panels = panels,
+            None => self.overlays.say("there are no panels to resize here"),
+        }
     }
 
     pub(super) fn toggle_mouse(&mut self) -> Vec<Effect> {

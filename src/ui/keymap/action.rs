@@ -111,6 +111,8 @@ pub enum Action {
     Help,
     /// Toggles the size of the picture on the screen.
     Zoom,
+    /// Moves the border of the panels by this many cells, towards the picture if positive.
+    Resize(i32),
     /// Shows one of the auxiliary images, or the lit picture.
     Show(Option<Aov>),
     /// Switches between Whitted ray tracing and path tracing.

@@ -45,12 +45,13 @@ const START: [(&str, &str); 2] = [
     ("halflight doctor", "what was detected, and why"),
 ];
 
-const MOUSE: [(&str, &str); 6] = [
+const MOUSE: [(&str, &str); 7] = [
     ("click the list", "select"),
     ("click a field", "move the cursor there"),
     ("click it again", "type a value"),
     ("click the picture", "select the object there"),
     ("drag it in VIEW", "orbit"),
+    ("drag the border", "resize the panels"),
     ("wheel", "scroll; in VIEW, dolly"),
 ];
 

@@ -178,6 +178,8 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Sceneless, &[c('M')], A::Message, "show the last message again"),
     bind(Scope::Everywhere, &[c('E')], A::Editor, "open the editor at the selected item"),
     bind(Scope::Everywhere, &[c('z')], A::Zoom, "show or hide the panels"),
+    bind(Scope::Everywhere, &[c('{')], A::Resize(2), "larger panels"),
+    bind(Scope::Everywhere, &[c('}')], A::Resize(-2), "smaller panels"),
     bind(Scope::Everywhere, &[c('P')], A::Integrator, "toggle path tracing"),
     bind(Scope::Always, &[ctrl('l')], A::Repaint, "redraw the screen"),
     bind(Scope::Always, &[ctrl('z')], A::Suspend, "suspend"),

@@ -28,7 +28,8 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 
 use super::app::App;
-use super::layout::{self, MIN_SIZE};
+use super::arrange::MIN_SIZE;
+use super::layout;
 use super::theme;
 pub use inks::Inks;
 
@@ -68,21 +69,16 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     dialog::render(app, body, buffer);
 }
 
-/// Draws the line between the picture and the panels, which makes a stale picture obvious.
+/// Draws the line between columns, which makes a stale picture obvious.
 fn rule(app: &App, area: Rect, buffer: &mut Buffer) {
     let style = if 0 < app.error_count() {
         theme::WARNING
     } else {
         theme::DIM
     };
-    let symbol = if area.width < area.height {
-        "│"
-    } else {
-        "─"
-    };
     for position in area.positions() {
         if let Some(cell) = buffer.cell_mut(position) {
-            cell.set_symbol(symbol).set_style(style);
+            cell.set_symbol("│").set_style(style);
         }
     }
 }

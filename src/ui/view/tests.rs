@@ -20,8 +20,8 @@ use crate::ui::app::{
     App, Dialog, Export, Help, HelpFocus, Message, OnDisk, Opening, OpeningText, Outside, Prompt,
     PromptKind, Quality, Stage, Typing,
 };
+use crate::ui::arrange::Zoom;
 use crate::ui::keymap::Mode;
-use crate::ui::layout::Zoom;
 use crate::ui::msg::{Destination, Existing, ExportId};
 use crate::ui::recovery::Offer;
 use crate::ui::recovery::tests::{damaged, offer};

@@ -7,6 +7,7 @@ mod editing;
 mod making;
 mod moving;
 mod opening;
+mod panels;
 pub(in crate::ui) mod pictures;
 mod recovering;
 mod saving;
