@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use super::App;
 use super::cursor::row_of;
 use super::disk::OnDisk;
-use super::overlays::Dialog;
+use super::overlays::{Dialog, HelpFocus, PromptKind};
 use super::picture::Picture;
 use super::pictures::Outline;
 use crate::language::table::Field;
@@ -13,7 +13,7 @@ use crate::language::{Node, Nodes, Source};
 use crate::scene::{Camera, Integrator, Size};
 use crate::ui::arrange::{Areas, Shape, Zoom, arrange};
 use crate::ui::errors::{self, Panel, Wrong};
-use crate::ui::keymap::{Context, Mode};
+use crate::ui::keymap::{Context, Line, Mode};
 use crate::ui::layout::raster;
 
 /// The picture size without a scene.
@@ -33,6 +33,25 @@ impl App {
             None if self.overlays.errors.is_some() => Context::Errors,
             None if self.disk.is_opening() => Context::Opening,
             None => Context::In(self.mode),
+        }
+    }
+
+    /// The line that keys are typed into, if any.
+    pub fn typed_line(&self) -> Option<Line> {
+        let overlays = &self.overlays;
+        if overlays.dialog.is_some() {
+            return None;
+        }
+        let help = overlays.help.as_ref();
+        match &overlays.prompt {
+            Some(prompt) => Some(match prompt.kind {
+                PromptKind::Command => Line::Command,
+                PromptKind::Search => Line::Search,
+            }),
+            None if self.cursor.typing.is_some() => Some(Line::Value),
+            None => help
+                .filter(|help| help.focus == HelpFocus::Search)
+                .map(|_| Line::Search),
         }
     }
 

@@ -98,14 +98,37 @@ impl App {
         }
     }
 
-    /// Starts typing a value on a digit or a sign, but not on `.`, which increases the step.
+    /// Starts typing a value on a digit or a sign, but not on `.`, which increases the step. Other
+    /// keys without a meaning are answered.
     fn start_typing_with(&mut self, context: Context, key: KeyEvent) -> Vec<Effect> {
         if let (Context::In(Mode::Edit), KeyCode::Char(first)) = (context, key.code)
             && (first.is_ascii_digit() || matches!(first, '-' | '+'))
         {
             self.cursor.type_value(Input::from(first.to_string()));
+        } else {
+            self.answer_unknown(context, key);
         }
         Vec::new()
+    }
+
+    /// Says where a key has a meaning that has none here.
+    fn answer_unknown(&mut self, context: Context, key: KeyEvent) {
+        let Some(name) = keymap::name(key) else {
+            return;
+        };
+        let words = match (keymap::elsewhere(context, key), context) {
+            (Some((mode, way, words)), _) => {
+                let way = way.map_or_else(String::new, |way| format!(" ({way})"));
+                format!("`{name}` in {}{way}: {words}", mode.name())
+            }
+            (None, Context::In(mode)) => format!("`{name}` is free in {}", mode.name()),
+            (None, _) => format!("`{name}` is free here"),
+        };
+        let help = match context {
+            Context::Help => "",
+            _ => "; ? lists keys",
+        };
+        self.overlays.say(format!("{words}{help}"));
     }
 
     fn type_key(&mut self, key: KeyEvent) -> Vec<Effect> {

@@ -17,6 +17,19 @@ pub enum Mode {
     Pick,
 }
 
+impl Mode {
+    /// The name of the mode, as in the status line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Select => "SELECT",
+            Self::View => "VIEW",
+            Self::Edit => "EDIT",
+            Self::Trace => "TRACE",
+            Self::Pick => "PICK",
+        }
+    }
+}
+
 /// A context with its own key bindings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Context {

@@ -23,14 +23,9 @@ pub enum HelpLine {
     },
 }
 
-/// Sections of help that follow the keys valid anywhere, by name.
-const MODES: [(&str, Context); 5] = [
-    ("SELECT", Context::In(Select)),
-    ("EDIT", Context::In(Edit)),
-    ("VIEW", Context::In(View)),
-    ("PICK", Context::In(Pick)),
-    ("TRACE", Context::In(Trace)),
-];
+/// The modes in the order of their sections of help.
+const MODES: [Mode; 5] = [Select, Edit, View, Pick, Trace];
+/// Other contexts with a section of help, by name.
 const DIALOGS: [(&str, Context); 5] = [
     ("the list of errors", Context::Errors),
     ("this page", Context::Help),
@@ -76,22 +71,58 @@ pub fn help(search: &str, mode: Mode, commands: Vec<Entry>) -> Vec<HelpLine> {
         }
     };
     let of = |context: Context| entries(|row| !is_common(row) && row.scope.holds(context));
-    let here = |&(_, context): &(&str, Context)| context == Context::In(mode);
-    for (heading, context) in MODES.into_iter().filter(here) {
-        add(heading, of(context));
-    }
+    add(mode.name(), of(Context::In(mode)));
     add("anywhere", entries(is_common));
-    for (heading, context) in MODES.into_iter().filter(|group| !here(group)) {
-        add(heading, of(context));
+    for other in MODES.into_iter().filter(|other| *other != mode) {
+        add(other.name(), of(Context::In(other)));
     }
     for (heading, context) in DIALOGS {
         add(heading, of(context));
     }
     let owned = |(keys, words): &(&str, &'static str)| ((*keys).to_owned(), *words);
+    for (heading, line) in [
+        ("while a value is typed", Line::Value),
+        ("after :", Line::Command),
+        ("after /", Line::Search),
+    ] {
+        add(heading, line_hints(line).iter().map(owned).collect());
+    }
     add("commands", commands);
     add("mouse", MOUSE.iter().map(owned).collect());
     add("command line", START.iter().map(owned).collect());
     lines
+}
+
+/// A line that keys are typed into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Line {
+    /// A value of a field.
+    Value,
+    /// A command after `:`.
+    Command,
+    /// A search after `/`.
+    Search,
+}
+
+/// The keys with a meaning of their own while a line is typed, the most useful first.
+pub fn line_hints(line: Line) -> &'static [(&'static str, &'static str)] {
+    match line {
+        Line::Value => &[
+            ("Enter", "keep"),
+            ("Esc", "cancel"),
+            ("Tab", "keep, next number"),
+            ("Shift-Tab", "keep, previous number"),
+            ("Ctrl-U", "clear"),
+        ],
+        Line::Command => &[("Enter", "run"), ("Esc", "cancel"), ("Ctrl-U", "clear")],
+        Line::Search => &[("Enter", "find"), ("Esc", "cancel"), ("Ctrl-U", "clear")],
+    }
+}
+
+/// Returns the hints that are never omitted in a context: how to get help, to give a command, and
+/// to quit.
+pub fn lasting_hints(context: Context) -> Vec<(String, &'static str)> {
+    described(context, LASTING_HINTS.iter())
 }
 
 /// Returns the hints for a context, the most useful first. A dialog shows only its own keys.
@@ -114,8 +145,18 @@ pub fn hints(context: Context) -> Vec<(String, &'static str)> {
         }
     };
     let is_here = |hint: &&Hint| matches!(context, Context::In(mode) if hint.0 == [A::Go(mode)]);
-    own.iter()
-        .chain(COMMON_HINTS.iter().filter(|hint| !is_here(hint)))
+    let hints = own
+        .iter()
+        .chain(COMMON_HINTS.iter().filter(|hint| !is_here(hint)));
+    described(context, hints)
+}
+
+/// The keys of hints in a context, without those that have none there.
+fn described(
+    context: Context,
+    hints: impl Iterator<Item = &'static Hint>,
+) -> Vec<(String, &'static str)> {
+    hints
         .map(|(actions, words)| {
             let keys: Vec<_> = actions
                 .iter()
@@ -200,6 +241,10 @@ const COMMON_HINTS: &[Hint] = &[
     (&[A::Undo], "undo"),
     (&[A::Export], "export"),
     (&[A::Go(Trace)], "trace"),
+];
+/// Hints that are shown even where there is no room for others.
+const LASTING_HINTS: &[Hint] = &[
+    (&[A::Help], "help"),
     (&[A::Command], "command"),
     (&[A::Quit], "quit"),
 ];
@@ -272,7 +317,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
         let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 14);
+        assert_eq!(headings(&lines).len(), 17);
         assert!(lines.contains(&entry("gg", "first")));
         for row in TABLE {
             assert!(lines.contains(&entry(&keys(row), row.words)), "{row:?}");
@@ -291,7 +336,8 @@ mod tests {
 
     #[test]
     fn every_hint_has_a_key() {
-        for (_, context) in MODES.into_iter().chain(DIALOGS) {
+        let modes = MODES.map(Context::In).into_iter();
+        for context in modes.chain(DIALOGS.map(|(_, context)| context)) {
             for (keys, words) in hints(context) {
                 let whole = keys.split('/').all(|key| !key.is_empty());
                 assert!(keys == "/" || whole, "{context:?} {words}");

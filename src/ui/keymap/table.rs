@@ -198,6 +198,51 @@ pub fn action(context: Context, event: KeyEvent) -> Option<Action> {
     row.map(|row| row.action)
 }
 
+/// The binding of a key in modes other than that of `context`: the first mode that has it, the key
+/// of `context` that leads there, and the description of the key.
+pub fn elsewhere(
+    context: Context,
+    event: KeyEvent,
+) -> Option<(Mode, Option<String>, &'static str)> {
+    let pressed = Chord::of(event);
+    let others = TABLE.iter().filter(|row| row.chords.contains(&pressed));
+    let (mode, words) = others
+        .filter_map(|row| Some((row.mode()?, row.words)))
+        .next()?;
+    let way = TABLE
+        .iter()
+        .find(|row| row.action == A::Go(mode) && row.scope.holds(context));
+    let way = way.and_then(|row| Some(row.chords.first()?.name()));
+    Some((mode, way, words))
+}
+
+/// The name of a key, as in the help; `None` for keys that cannot be bound.
+pub fn name(event: KeyEvent) -> Option<String> {
+    let is_key = !matches!(
+        event.code,
+        KeyCode::Null
+            | KeyCode::Modifier(_)
+            | KeyCode::Media(_)
+            | KeyCode::CapsLock
+            | KeyCode::NumLock
+            | KeyCode::ScrollLock
+    );
+    is_key.then(|| Chord::of(event).name())
+}
+
+impl Binding {
+    /// The first mode in which the binding is active, unless it is active in all of them.
+    fn mode(&self) -> Option<Mode> {
+        let Scope::These(contexts) = self.scope else {
+            return None;
+        };
+        contexts.iter().find_map(|context| match context {
+            Context::In(mode) => Some(*mode),
+            _ => None,
+        })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
