@@ -24,6 +24,7 @@ mod fit;
 mod heap;
 pub mod keymap;
 pub mod layout;
+pub mod listing;
 pub mod msg;
 mod options;
 mod reader;

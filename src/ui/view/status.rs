@@ -411,7 +411,7 @@ mod tests {
             hint(&app, 49),
             " j/k move  Enter edit  ? help  : command  q quit"
         );
-        assert_eq!(hint(&app, 40), " j/k move      ? help  : command  q quit");
+        assert_eq!(hint(&app, 40), " j/k move     ? help  : command  q quit");
         assert_eq!(hint(&app, 20), " ? : q");
         app.cursor.typing = Some(Typing::default());
         assert!(hint(&app, 80).starts_with(" Enter keep  Esc cancel  Tab keep, next number"));

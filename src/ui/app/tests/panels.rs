@@ -3,6 +3,7 @@
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
 use super::*;
+use crate::language::Node;
 
 fn mouse(app: &mut App, kind: MouseEventKind, (column, row): (u16, u16)) {
     app.update(Msg::Mouse(MouseEvent {
@@ -36,6 +37,25 @@ fn keys_and_mouse_resize_the_panels() {
     assert_eq!(words(&app), "there are no panels to resize here");
     press(&mut app, "z");
     assert_eq!(app.areas().border.x, 60);
+}
+
+#[test]
+fn a_click_selects_the_node_on_its_line_and_headings_take_none() {
+    let mut app = open(SCENE);
+    let list = app.areas().list;
+    // Below the title: view, ambient, a heading, light 1, a heading, object 1.
+    for (line, node) in [
+        (6, Node::Object(0)),
+        (5, Node::Object(0)),
+        (4, Node::Light(0)),
+        (3, Node::Light(0)),
+        (2, Node::Ambient),
+        (40, Node::Ambient),
+    ] {
+        let at = (list.x + 3, list.y + line);
+        mouse(&mut app, MouseEventKind::Down(MouseButton::Left), at);
+        assert_eq!(app.cursor.selected(), node, "{line}");
+    }
 }
 
 #[test]
