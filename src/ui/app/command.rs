@@ -8,7 +8,7 @@ use crate::image_file::ImageFormat;
 use crate::language::Language;
 use crate::render::MAX_SPP;
 use crate::scene::{Camera, Size};
-use crate::text::nearest_word;
+use crate::text::{Severity, nearest_word};
 use crate::ui::keymap::{self, HelpLine};
 use crate::ui::msg::{Effect, Guard};
 
@@ -302,8 +302,8 @@ impl App {
 
     fn set_size(&mut self, size: Size) {
         let Some(scene) = self.scene.clone().filter(|_| self.error_count() == 0) else {
-            self.overlays
-                .fail("cannot set the size while the scene has errors");
+            let words = "cannot set the size while the scene has errors";
+            self.overlays.blame_errors(Severity::Error, words);
             return;
         };
         let camera = Camera {

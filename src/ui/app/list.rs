@@ -3,6 +3,7 @@
 use super::App;
 use super::cursor::moved;
 use crate::language::Node;
+use crate::text::Severity;
 use crate::ui::arrange::Areas;
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout;
@@ -35,6 +36,13 @@ impl App {
                     help.top = moved(help.top, rows, lines);
                 }
             }
+            Context::Messages => {
+                let count = self.overlays.messages.past().len();
+                let top = self.overlays.history.as_mut();
+                if let Some(top) = top {
+                    *top = moved(*top, rows, count);
+                }
+            }
             Context::Conflict => {
                 if let Some((merge, at, _)) = self.overlays.conflict() {
                     *at = moved(*at, rows, merge.conflicts.len());
@@ -49,7 +57,7 @@ impl App {
         let areas = self.areas();
         let panel = match context {
             Context::Errors => areas.errors,
-            Context::Help => areas.picture,
+            Context::Help | Context::Messages => areas.picture,
             _ => areas.list,
         };
         (layout::contents(panel).height as isize - 1).max(1)
@@ -213,7 +221,7 @@ impl App {
                 }
             }
             Ok(None) => self.overlays.say("nothing there"),
-            Err(reason) => self.overlays.warn(reason),
+            Err(reason) => self.refuse_picture(Severity::Warning, reason),
         }
     }
 }

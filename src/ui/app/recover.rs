@@ -47,8 +47,9 @@ impl App {
         match self.disk.journal.kept(revision, outcome) {
             Outcome::OutOfDate => None,
             Outcome::Kept(trouble) => {
-                let message = &mut self.overlays.message;
-                message.take_if(|message| Some(&message.text) == trouble.as_ref());
+                if let Some(trouble) = trouble {
+                    self.overlays.withdraw(&trouble);
+                }
                 None
             }
             Outcome::Failed(trouble, again) => {

@@ -8,6 +8,7 @@ use super::{App, Export, Picture, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
 use crate::render::{Filter, Frame, Frames, Job, Settings, default_depth};
 use crate::scene::{Camera, Integrator, Size};
+use crate::text::Severity;
 use crate::ui::keymap::Mode;
 use crate::ui::msg::{Destination, Effect, Existing, ExportId, Exported, Target};
 
@@ -95,6 +96,16 @@ impl App {
         }
     }
 
+    /// Shows why something cannot be done with the picture. The message goes with the errors in the
+    /// text if there are any.
+    pub(super) fn refuse_picture(&mut self, severity: Severity, reason: &str) {
+        if 0 < self.error_count() {
+            self.overlays.blame_errors(severity, reason);
+        } else {
+            self.overlays.show(Some(severity), reason);
+        }
+    }
+
     fn trace_job(&self) -> Option<Job> {
         self.job(
             self.output(),
@@ -111,7 +122,7 @@ impl App {
         let job = match self.final_job(self.output(), self.pictures.quality.spp) {
             Ok(job) => job,
             Err(reason) => {
-                self.overlays.fail(reason);
+                self.refuse_picture(Severity::Error, reason);
                 return Vec::new();
             }
         };
@@ -125,8 +136,8 @@ impl App {
             self.mode = Mode::Trace;
         }
         if 0 < self.error_count() {
-            self.overlays
-                .warn("the text has errors: this is the last valid scene");
+            let words = "the text has errors: this is the last valid scene";
+            self.overlays.blame_errors(Severity::Warning, words);
         }
         if is_begun {
             return Vec::new();
@@ -182,7 +193,7 @@ impl App {
             // A cancelled export: nobody waits for it, but its file exists now.
             if let Ok(exported) = outcome {
                 self.overlays
-                    .say(format!("wrote {} anyway", exported.path.display()));
+                    .report(format!("wrote {} anyway", exported.path.display()));
                 self.jobs.note_export(exported);
             }
             return Vec::new();
@@ -191,7 +202,7 @@ impl App {
             Ok(exported) => {
                 let path = exported.path.display();
                 self.overlays
-                    .say(format!("wrote {path}{}", export.summary()));
+                    .report(format!("wrote {path}{}", export.summary()));
                 self.jobs.note_export(exported);
                 self.quit_when_done()
             }

@@ -5,6 +5,7 @@ use tui_input::Input;
 
 use super::camera::{dollied, panned, stepped, widened};
 use super::{App, Help, HelpFocus, PromptKind, line};
+use crate::text::Severity;
 use crate::ui::arrange::{Zoom, resized};
 use crate::ui::keymap::{self, Action, Context, Mode};
 use crate::ui::msg::{Effect, Msg, Timer};
@@ -13,7 +14,13 @@ use crate::ui::terminal::Mouse;
 impl App {
     /// Processes a message and returns the resulting effects.
     pub fn update(&mut self, msg: Msg) -> Vec<Effect> {
+        self.overlays.begin_step();
+        let had_errors = 0 < self.error_count();
         let mut effects = self.take(msg);
+        if had_errors && self.error_count() == 0 {
+            self.overlays.forgive_errors();
+        }
+        self.overlays.end_step();
         let areas = self.areas();
         self.scroll(&areas);
         effects.extend(self.follow());
@@ -209,7 +216,7 @@ impl App {
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),
             Action::Errors => self.toggle_errors(),
-            Action::Message => self.overlays.show_past_message(),
+            Action::Messages => self.overlays.history = Some(0),
             Action::Help => self.overlays.help = Some(Help::default()),
             Action::Zoom => self.toggle_zoom(),
             Action::Resize(step) => self.resize_panels(step),
@@ -235,7 +242,7 @@ impl App {
         match mode {
             Mode::Trace => return self.start_trace(),
             Mode::View | Mode::Pick if self.scene.is_none() => {
-                self.overlays.fail(self.no_picture());
+                self.refuse_picture(Severity::Error, self.no_picture());
             }
             Mode::Edit if self.cursor.fields().is_empty() => {
                 self.overlays.fail("nothing to edit here");
@@ -255,6 +262,7 @@ impl App {
     fn back(&mut self, context: Context) -> Vec<Effect> {
         match context {
             Context::Help => self.overlays.help = None,
+            Context::Messages => self.overlays.history = None,
             Context::Errors => self.overlays.errors = None,
             Context::Conflict | Context::Quit | Context::Recover => return self.put_off(),
             Context::Opening => {}
@@ -276,7 +284,7 @@ impl App {
             Context::Quit => return self.quit_anyway(),
             Context::Recover => return self.restore(),
             Context::In(Mode::Pick) => self.pick_cross(),
-            Context::In(_) | Context::Help | Context::Opening => {}
+            Context::In(_) | Context::Help | Context::Messages | Context::Opening => {}
         }
         Vec::new()
     }

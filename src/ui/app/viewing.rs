@@ -4,6 +4,7 @@ use super::App;
 use super::camera::{framed, settled};
 use crate::language::Node;
 use crate::scene::Camera;
+use crate::text::Severity;
 
 impl App {
     /// Applies a move, unless the resulting camera would see nothing.
@@ -55,8 +56,8 @@ impl App {
             return;
         };
         if 0 < self.error_count() {
-            self.overlays
-                .fail("cannot save the view while the scene has errors");
+            let words = "cannot save the view while the scene has errors";
+            self.overlays.blame_errors(Severity::Error, words);
             return;
         }
         self.document.end_step();

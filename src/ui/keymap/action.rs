@@ -39,6 +39,8 @@ pub enum Context {
     Opening,
     /// The help page is open.
     Help,
+    /// The history of messages is open.
+    Messages,
     /// The list of errors.
     Errors,
     /// The question how to resolve a merge.
@@ -118,8 +120,8 @@ pub enum Action {
     Editor,
     /// Opens or closes the list of errors.
     Errors,
-    /// Shows the last message again.
-    Message,
+    /// Opens the history of messages.
+    Messages,
     /// Opens or closes the help page.
     Help,
     /// Toggles the size of the picture on the screen.

@@ -26,8 +26,9 @@ pub enum HelpLine {
 /// The modes in the order of their sections of help.
 const MODES: [Mode; 5] = [Select, Edit, View, Pick, Trace];
 /// Other contexts with a section of help, by name.
-const DIALOGS: [(&str, Context); 5] = [
+const DIALOGS: [(&str, Context); 6] = [
     ("the list of errors", Context::Errors),
+    ("the messages so far", Context::Messages),
     ("this page", Context::Help),
     ("merge conflicts", Context::Conflict),
     ("when asked to confirm quitting", Context::Quit),
@@ -135,7 +136,11 @@ pub fn hints(context: Context) -> Vec<(String, &'static str)> {
         Context::In(Trace) => TRACE_HINTS,
         Context::Errors => ERROR_HINTS,
         Context::Opening => &[],
-        Context::Help | Context::Conflict | Context::Quit | Context::Recover => {
+        Context::Help
+        | Context::Messages
+        | Context::Conflict
+        | Context::Quit
+        | Context::Recover => {
             return TABLE
                 .iter()
                 .filter(|row| row.scope.holds(context) && !is_common(row))
@@ -317,7 +322,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
         let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 17);
+        assert_eq!(headings(&lines).len(), 18);
         assert!(lines.contains(&entry("gg", "first")));
         for row in TABLE {
             assert!(lines.contains(&entry(&keys(row), row.words)), "{row:?}");

@@ -69,6 +69,7 @@ const TRACE: Scope = Scope::These(&[Context::In(Trace)]);
 const PICTURES: Scope = Scope::These(&[Context::In(Select), Context::In(View), Context::In(Trace)]);
 const PICK: Scope = Scope::These(&[Context::In(Pick)]);
 const HELP: Scope = Scope::These(&[Context::Help]);
+const MESSAGES: Scope = Scope::These(&[Context::Messages]);
 const ERRORS: Scope = Scope::These(&[Context::Errors]);
 const CONFLICT: Scope = Scope::These(&[Context::Conflict]);
 const QUIT: Scope = Scope::These(&[Context::Quit]);
@@ -77,10 +78,16 @@ const LISTS: Scope = Scope::These(&[
     Context::In(Select),
     Context::In(Edit),
     Context::Help,
+    Context::Messages,
     Context::Errors,
     Context::Conflict,
 ]);
-const LONG_LISTS: Scope = Scope::These(&[Context::In(Select), Context::Help, Context::Errors]);
+const LONG_LISTS: Scope = Scope::These(&[
+    Context::In(Select),
+    Context::Help,
+    Context::Messages,
+    Context::Errors,
+]);
 
 /// All key bindings, the most useful first. Ctrl-H, Ctrl-I, Ctrl-M and Ctrl-[ send the same bytes
 /// as Backspace, Tab, Enter and Esc, and are therefore never bound.
@@ -156,6 +163,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(RECOVER, &[c('d')], A::No, "discard them"),
     bind(RECOVER, &[key(Esc)], A::Back, "decide next time"),
     bind(HELP, &[c('/')], A::Search, "search"),
+    bind(MESSAGES, &[key(Esc), c('q'), c('M')], A::Back, "close"),
     bind(HELP, &[key(Esc), c('q'), c('?')], A::Back, "close"),
 
     bind(PICTURES, &[c('1')], A::Show(None), "show light"),
@@ -175,7 +183,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Everywhere, &[c('u')], A::Undo, "undo"),
     bind(Scope::Everywhere, &[ctrl('r')], A::Redo, "redo"),
     bind(Scope::Everywhere, &[c('!')], A::Errors, "errors and warnings"),
-    bind(Scope::Sceneless, &[c('M')], A::Message, "show the last message again"),
+    bind(Scope::Sceneless, &[c('M')], A::Messages, "messages so far"),
     bind(Scope::Everywhere, &[c('E')], A::Editor, "open the editor at the selected item"),
     bind(Scope::Everywhere, &[c('z')], A::Zoom, "show or hide the panels"),
     bind(Scope::Everywhere, &[c('{')], A::Resize(2), "larger panels"),
@@ -246,13 +254,13 @@ impl Binding {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use Context::{Conflict, Errors, Help, Opening, Quit, Recover};
+    use Context::{Conflict, Errors, Help, Messages, Opening, Quit, Recover};
     use KeyCode::Char;
 
     #[test]
     fn no_key_has_two_meanings_in_one_context() {
         let modes = [Select, View, Edit, Trace, Pick].map(Context::In);
-        let others = [Opening, Help, Errors, Conflict, Quit, Recover];
+        let others = [Opening, Help, Messages, Errors, Conflict, Quit, Recover];
         for context in modes.into_iter().chain(others) {
             let rows = TABLE.iter().filter(|row| row.scope.holds(context));
             let mut bound: Vec<_> = rows.flat_map(|row| row.chords).collect();

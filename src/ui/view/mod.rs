@@ -10,6 +10,7 @@ mod dither;
 mod errors;
 mod fields;
 mod help;
+mod history;
 mod inks;
 mod list;
 mod message;
@@ -63,6 +64,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let bars = areas.hint.height + areas.status.height;
     let (body, _) = layout::split_bottom(area, bars);
     help::render(app, body, buffer);
+    history::render(app, body, buffer);
     if let Some(message) = status::long_message(app, inks.glyphs, areas.status.width) {
         message::render(message, body, buffer);
     }

@@ -196,7 +196,12 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
     }
     if let Some(message) = &app.overlays.message {
         let style = theme::severity(message.severity);
-        say(MESSAGE, visible(&message.text).into_owned(), style);
+        let more = match app.overlays.messages.waiting() {
+            0 => String::new(),
+            waiting => format!(" (+{waiting})"),
+        };
+        let text = visible(&message.text);
+        say(MESSAGE, format!("{text}{more}"), style);
     }
     all
 }

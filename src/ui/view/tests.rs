@@ -22,7 +22,7 @@ use crate::ui::app::{
 };
 use crate::ui::arrange::Zoom;
 use crate::ui::keymap::Mode;
-use crate::ui::msg::{Destination, Existing, ExportId};
+use crate::ui::msg::{Destination, Existing, ExportId, Msg};
 use crate::ui::recovery::Offer;
 use crate::ui::recovery::tests::{damaged, offer};
 use crate::ui::terminal::Mouse;
@@ -187,6 +187,10 @@ const STATES: &[(&str, Change)] = &[
             search: Input::new("界 nowhere".to_owned()),
             focus: HelpFocus::Search,
         });
+    }),
+    ("history", |app| {
+        app.overlays.history = Some(usize::MAX);
+        app.update(Msg::Failed("界\u{1b}]52;c;界\u{7}".repeat(20)));
     }),
     ("quit", |app| app.overlays.dialog = Some(Dialog::Quit)),
     ("recover", |app| {

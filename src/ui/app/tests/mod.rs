@@ -5,6 +5,7 @@ mod dat;
 mod disk;
 mod editing;
 mod making;
+mod messages;
 mod moving;
 mod opening;
 mod panels;
