@@ -71,6 +71,8 @@ pub enum Msg {
     BackupsFound(Vec<PathBuf>),
     /// The result of an export.
     Exported(ExportId, Result<Exported, String>),
+    /// The file of an export exists, and this session did not write it; the reason why it is kept.
+    Taken(ExportId, String),
     /// The external editor has ended.
     EditorClosed(Result<(), String>),
     /// Unsaved edits of an earlier run were found.
@@ -135,9 +137,11 @@ pub enum Effect {
     Trace(Target, Job),
     /// Stops tracing this picture.
     Stop(Target),
-    /// Writes a frame to a picture file, reported by [`Msg::Exported`].
+    /// Writes a frame to a picture file, reported by [`Msg::Exported`] or
+    /// [`Msg::Taken`].
     WriteImage(ExportId, Arc<Frame>, Destination),
-    /// Checks whether a picture can be written there; a failure is reported by [`Msg::Exported`].
+    /// Checks whether a picture can be written there; a failure is reported by [`Msg::Exported`]
+    /// or [`Msg::Taken`].
     CheckTarget(ExportId, Destination),
     /// Reads the scene file, reported by [`Msg::Read`].
     Read(PathBuf, Baseline),
@@ -244,4 +248,6 @@ pub enum Existing {
     Own(Version),
     /// It is replaced, whoever wrote it.
     Overwritten,
+    /// It is kept, and the first free number is added to the name: `scene-2.bmp`.
+    Numbered,
 }

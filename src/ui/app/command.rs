@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::jobs::Asking;
 use super::{App, Help, PromptKind};
 use crate::image_file::ImageFormat;
 use crate::language::Language;
@@ -260,7 +261,11 @@ impl App {
             Command::Reread => return self.reread(),
             Command::Export(ExportArguments { path, size, spp }, force) => {
                 let path = path.unwrap_or_else(|| self.export_path());
-                return self.start_export(&path, size, spp, force);
+                let asking = match force {
+                    Force::Yes => Asking::Forced,
+                    Force::No => Asking::No,
+                };
+                return self.start_export(&path, size, spp, asking);
             }
             Command::ExportCancel => return self.cancel_export(),
             Command::Render => return self.start_trace(),

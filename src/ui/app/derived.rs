@@ -26,7 +26,9 @@ impl App {
     /// The context whose keys are active; keys typed into a line take precedence.
     pub fn context(&self) -> Context {
         match &self.overlays.dialog {
+            Some(Dialog::Quit) if self.is_saved() => Context::Wait,
             Some(Dialog::Quit) => Context::Quit,
+            Some(Dialog::Overwrite(_)) => Context::Overwrite,
             Some(Dialog::Conflict { .. }) => Context::Conflict,
             Some(Dialog::Recover(_)) => Context::Recover,
             None if self.overlays.help.is_some() => Context::Help,
@@ -162,7 +164,10 @@ impl App {
         };
         let export = self.jobs.export.as_ref().map(|export| {
             let name = export.destination.path.display();
-            format!("{name} is still being exported")
+            match self.jobs.queued() {
+                0 => format!("{name} is still being exported"),
+                queued => format!("{name} is still being exported, and {queued} more queued"),
+            }
         });
         let save = self.jobs.file_being_saved();
         let save = save.map(|path| format!("{} is still being written", path.display()));

@@ -48,7 +48,12 @@ impl App {
                     *at = moved(*at, rows, merge.conflicts.len());
                 }
             }
-            Context::In(_) | Context::Opening | Context::Quit | Context::Recover => {}
+            Context::In(_)
+            | Context::Opening
+            | Context::Quit
+            | Context::Wait
+            | Context::Overwrite
+            | Context::Recover => {}
         }
     }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use tui_input::Input;
 
+use super::jobs::Pending;
 use super::messages::{Lasts, Messages};
 use crate::document::{Merge, Side};
 use crate::text::{Severity, without_codes};
@@ -61,6 +62,8 @@ pub enum Dialog {
         /// The origin of the other text.
         from: Outside,
     },
+    /// Whether an export may overwrite a file that another program has written.
+    Overwrite(Box<Pending>),
     /// Whether to restore unsaved edits of an earlier run.
     Recover(Box<Offer>),
 }

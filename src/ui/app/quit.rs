@@ -46,8 +46,14 @@ impl App {
             return Vec::new();
         }
         if self.jobs.export.is_some() {
-            self.overlays
-                .say("will quit once the export finishes; press x to cancel it");
+            let words = match self.jobs.queued() {
+                0 => "will quit once the export finishes; press x to cancel it".to_owned(),
+                queued => format!("will quit once {} exports finish", queued + 1),
+            };
+            self.overlays.say(words);
+            return Vec::new();
+        }
+        if let Some(Dialog::Overwrite(_)) = self.overlays.dialog {
             return Vec::new();
         }
         self.jobs.quit = false;

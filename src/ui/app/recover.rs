@@ -70,7 +70,7 @@ impl App {
             Some(Dialog::Conflict { merge, from, .. }) => {
                 matches!(from, Outside::Kept(..)) && !merge.is_of(&self.document)
             }
-            Some(Dialog::Quit) => false,
+            Some(Dialog::Quit | Dialog::Overwrite(_)) => false,
             None => {
                 let offer = self.disk.journal.offer.take()?;
                 self.overlays.dialog = Some(Dialog::Recover(offer));

@@ -8,7 +8,7 @@ use super::{App, Help, HelpFocus, PromptKind, line};
 use crate::text::Severity;
 use crate::ui::arrange::{Zoom, resized};
 use crate::ui::keymap::{self, Action, Context, Mode};
-use crate::ui::msg::{Effect, Msg, Timer};
+use crate::ui::msg::{Effect, Existing, Msg, Timer};
 use crate::ui::terminal::Mouse;
 
 impl App {
@@ -37,8 +37,8 @@ impl App {
             Msg::Resize(columns, rows) => self.terminal = (columns, rows),
             Msg::Started(target, generation) => self.pictures.want(target, Some(generation)),
             Msg::Frame(target, frame) => return self.frame(target, frame),
-            Msg::Refused(target, reason) => self.ended(target, reason),
-            Msg::Ended(target) => self.ended(target, "the renderer stopped early"),
+            Msg::Refused(target, reason) => return self.ended(target, reason),
+            Msg::Ended(target) => return self.ended(target, "the renderer stopped early"),
             Msg::FileChanged => return self.read_again(),
             // The scene may have been given another name since the request.
             Msg::Read(path, read) if !self.disk.is_own(&path) => drop(read),
@@ -54,6 +54,7 @@ impl App {
             Msg::Saved(id, outcome) => return self.was_saved(id, outcome),
             Msg::BackupsFound(copies) => self.backups_found(&copies),
             Msg::Exported(id, outcome) => return self.exported(id, outcome),
+            Msg::Taken(id, reason) => return self.is_taken(id, reason),
             Msg::EditorClosed(outcome) => return self.editor_closed(outcome),
             Msg::Recovered(found) => self.found_kept(found),
             Msg::Kept(revision, outcome) => {
@@ -189,6 +190,9 @@ impl App {
             Action::Go(mode) => return self.go(mode),
             Action::Back => return self.back(context),
             Action::Accept => return self.accept(context),
+            Action::No if context == Context::Overwrite => {
+                return self.answer_taken(Existing::Numbered);
+            }
             Action::No => return self.decline(),
             Action::Search => self.overlays.open_search(),
             Action::SearchAgain(step) => self.search(step),
@@ -264,7 +268,13 @@ impl App {
             Context::Help => self.overlays.help = None,
             Context::Messages => self.overlays.history = None,
             Context::Errors => self.overlays.errors = None,
-            Context::Conflict | Context::Quit | Context::Recover => return self.put_off(),
+            Context::Conflict
+            | Context::Quit
+            | Context::Wait
+            | Context::Overwrite
+            | Context::Recover => {
+                return self.put_off();
+            }
             Context::Opening => {}
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
@@ -281,7 +291,8 @@ impl App {
         match context {
             Context::Errors => self.go_to_error(),
             Context::Conflict => return self.adopt(),
-            Context::Quit => return self.quit_anyway(),
+            Context::Quit | Context::Wait => return self.quit_anyway(),
+            Context::Overwrite => return self.answer_taken(Existing::Overwritten),
             Context::Recover => return self.restore(),
             Context::In(Mode::Pick) => self.pick_cross(),
             Context::In(_) | Context::Help | Context::Messages | Context::Opening => {}

@@ -45,8 +45,12 @@ pub enum Context {
     Errors,
     /// The question how to resolve a merge.
     Conflict,
-    /// The question whether to quit.
+    /// The question whether to quit although edits are unsaved.
     Quit,
+    /// The question whether to quit although a file is being written.
+    Wait,
+    /// The question whether an export may overwrite a file.
+    Overwrite,
     /// The question whether to recover the edits of an earlier run.
     Recover,
 }
@@ -148,7 +152,7 @@ pub enum Action {
     AllMine,
     /// Resolves all conflicts with the text of the file.
     AllTheirs,
-    /// Declines an offer; discards the edits of an earlier run.
+    /// Declines an offer: discards the edits of an earlier run, or exports to another file.
     No,
 }
 

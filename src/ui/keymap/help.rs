@@ -26,12 +26,14 @@ pub enum HelpLine {
 /// The modes in the order of their sections of help.
 const MODES: [Mode; 5] = [Select, Edit, View, Pick, Trace];
 /// Other contexts with a section of help, by name.
-const DIALOGS: [(&str, Context); 6] = [
+const DIALOGS: [(&str, Context); 8] = [
     ("the list of errors", Context::Errors),
     ("the messages so far", Context::Messages),
     ("this page", Context::Help),
     ("merge conflicts", Context::Conflict),
     ("when asked to confirm quitting", Context::Quit),
+    ("when asked to quit during an export", Context::Wait),
+    ("when asked to overwrite a picture", Context::Overwrite),
     ("when unsaved edits were found", Context::Recover),
 ];
 
@@ -140,6 +142,8 @@ pub fn hints(context: Context) -> Vec<(String, &'static str)> {
         | Context::Messages
         | Context::Conflict
         | Context::Quit
+        | Context::Wait
+        | Context::Overwrite
         | Context::Recover => {
             return TABLE
                 .iter()
@@ -322,7 +326,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
         let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 18);
+        assert_eq!(headings(&lines).len(), 20);
         assert!(lines.contains(&entry("gg", "first")));
         for row in TABLE {
             assert!(lines.contains(&entry(&keys(row), row.words)), "{row:?}");

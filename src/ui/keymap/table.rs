@@ -73,6 +73,8 @@ const MESSAGES: Scope = Scope::These(&[Context::Messages]);
 const ERRORS: Scope = Scope::These(&[Context::Errors]);
 const CONFLICT: Scope = Scope::These(&[Context::Conflict]);
 const QUIT: Scope = Scope::These(&[Context::Quit]);
+const WAIT: Scope = Scope::These(&[Context::Wait]);
+const OVERWRITE: Scope = Scope::These(&[Context::Overwrite]);
 const RECOVER: Scope = Scope::These(&[Context::Recover]);
 const LISTS: Scope = Scope::These(&[
     Context::In(Select),
@@ -159,6 +161,12 @@ pub(super) const TABLE: &[Binding] = &[
     bind(QUIT, &[c('y')], A::Accept, "quit anyway"),
     bind(QUIT, &[c('w')], A::Save, "save and quit"),
     bind(QUIT, &[c('n'), key(Esc)], A::Back, "stay"),
+    bind(WAIT, &[c('w')], A::Save, "wait, then quit"),
+    bind(WAIT, &[c('y')], A::Accept, "quit now and cancel it"),
+    bind(WAIT, &[c('n'), key(Esc)], A::Back, "stay"),
+    bind(OVERWRITE, &[c('y')], A::Accept, "overwrite it"),
+    bind(OVERWRITE, &[c('n')], A::No, "number the new file"),
+    bind(OVERWRITE, &[key(Esc)], A::Back, "do not export"),
     bind(RECOVER, &[c('r')], A::Accept, "restore them"),
     bind(RECOVER, &[c('d')], A::No, "discard them"),
     bind(RECOVER, &[key(Esc)], A::Back, "decide next time"),
@@ -254,13 +262,15 @@ impl Binding {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use Context::{Conflict, Errors, Help, Messages, Opening, Quit, Recover};
+    use Context::{Conflict, Errors, Help, Messages, Opening, Overwrite, Quit, Recover, Wait};
     use KeyCode::Char;
 
     #[test]
     fn no_key_has_two_meanings_in_one_context() {
         let modes = [Select, View, Edit, Trace, Pick].map(Context::In);
-        let others = [Opening, Help, Messages, Errors, Conflict, Quit, Recover];
+        let others = [
+            Opening, Help, Messages, Errors, Conflict, Quit, Wait, Overwrite, Recover,
+        ];
         for context in modes.into_iter().chain(others) {
             let rows = TABLE.iter().filter(|row| row.scope.holds(context));
             let mut bound: Vec<_> = rows.flat_map(|row| row.chords).collect();

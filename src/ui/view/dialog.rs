@@ -27,6 +27,11 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
             let text = format!("{}. Quit?", app.losses().unwrap_or_default());
             ask(app, " Quit ", &text, area, buffer);
         }
+        Some(Dialog::Overwrite(pending)) => {
+            let path = pending.export.destination.path.display();
+            let text = format!("{path} exists, and this session did not write it. Overwrite it?");
+            ask(app, " Export ", &text, area, buffer);
+        }
         Some(Dialog::Recover(offer)) => {
             ask(app, " Recover ", &offered(app, offer), area, buffer);
         }

@@ -175,7 +175,12 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
     }
     if let Some(export) = &app.jobs.export {
         let done = export.progress.map_or(0.0, |progress| progress.done);
-        say(6, format!("export {}", percent(done)), theme::ACCENT);
+        let queued = match app.jobs.queued() {
+            0 => String::new(),
+            queued => format!(", {queued} more queued"),
+        };
+        let text = format!("export {}{queued}", percent(done));
+        say(6, text, theme::ACCENT);
     }
     if app.assets.are_awaited() {
         say(7, "reading files".to_owned(), theme::ACCENT);

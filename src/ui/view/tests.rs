@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use crossterm::event::KeyCode;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
@@ -193,6 +194,11 @@ const STATES: &[(&str, Change)] = &[
         app.update(Msg::Failed("界\u{1b}]52;c;界\u{7}".repeat(20)));
     }),
     ("quit", |app| app.overlays.dialog = Some(Dialog::Quit)),
+    ("overwrite", |app| {
+        app.update(Msg::Key(KeyCode::Char('b').into()));
+        app.update(Msg::Taken(ExportId(1), "it exists".to_owned()));
+        assert!(app.overlays.dialog.is_some());
+    }),
     ("recover", |app| {
         let text = app.document.shared_text();
         let kept = SCENE.replace(" 0.25 ", " 0.75 ");

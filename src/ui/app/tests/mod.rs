@@ -4,6 +4,7 @@ mod assets;
 mod dat;
 mod disk;
 mod editing;
+mod exports;
 mod making;
 mod messages;
 mod moving;
