@@ -73,6 +73,9 @@ pub enum Msg {
     Exported(ExportId, Result<Exported, String>),
     /// The file of an export exists, and this session did not write it; the reason why it is kept.
     Taken(ExportId, String),
+    /// The result of [`Effect::ListFolder`]: the names in the folder, sorted; those of folders end
+    /// in `/`.
+    Listed(PathBuf, Vec<String>),
     /// The external editor has ended.
     EditorClosed(Result<(), String>),
     /// Unsaved edits of an earlier run were found.
@@ -162,6 +165,8 @@ pub enum Effect {
     CheckPlace(PathBuf),
     /// Looks for backups left by an interrupted save, reported by [`Msg::BackupsFound`].
     FindBackups(PathBuf),
+    /// Lists a folder, reported by [`Msg::Listed`].
+    ListFolder(PathBuf),
     /// Watches this file from now on, reported by [`Msg::FileChanged`].
     Watch(PathBuf),
     /// Reads the files that the scene names and watches them from now on, reported by

@@ -102,6 +102,15 @@ impl Writers {
         })
     }
 
+    /// Lists a folder, reported by [`Msg::Listed`].
+    pub(super) fn list_folder(&self, folder: PathBuf) -> io::Result<()> {
+        let nothing = Msg::Listed(folder.clone(), Vec::new());
+        self.start("list", None, nothing, move || {
+            let names = names_in(&folder);
+            Some(Msg::Listed(folder, names))
+        })
+    }
+
     /// Runs work on its own thread; the end of the program waits for holders of `at_work`.
     fn start(
         &self,
@@ -146,6 +155,26 @@ impl Drop for Report {
             let _ = self.sender.send(Event::Msg(msg));
         }
     }
+}
+
+/// The maximum number of names to list.
+const NAMES: usize = 2000;
+
+/// The names in a folder, sorted, without hidden ones and those that are not UTF-8; the names of
+/// folders end in `/`. Empty if the folder cannot be read.
+fn names_in(folder: &Path) -> Vec<String> {
+    let Ok(entries) = folder.read_dir() else {
+        return Vec::new();
+    };
+    let name = |entry: io::Result<std::fs::DirEntry>| {
+        let entry = entry.ok()?;
+        let name = entry.file_name().into_string().ok()?;
+        let end = if entry.path().is_dir() { "/" } else { "" };
+        (!name.starts_with('.')).then(|| format!("{name}{end}"))
+    };
+    let mut names: Vec<_> = entries.filter_map(name).take(NAMES).collect();
+    names.sort_unstable();
+    names
 }
 
 /// Writes a scene unless that would overwrite another program's changes.

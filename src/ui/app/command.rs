@@ -10,7 +10,7 @@ use crate::language::Language;
 use crate::render::MAX_SPP;
 use crate::scene::{Camera, Size};
 use crate::text::{Severity, nearest_word};
-use crate::ui::keymap::{self, HelpLine};
+use crate::ui::keymap::{self, Action, HelpLine, Mode};
 use crate::ui::msg::{Effect, Guard};
 
 /// A parsed command line.
@@ -109,7 +109,74 @@ const TABLE: &[CommandRow] = &[
     row(&["help"], A::Nothing(C::Help), "show this page"),
 ];
 
+/// The keys that do what a command does.
+const KEYS: &[(&str, Action)] = &[
+    ("w", Action::Save),
+    ("q", Action::Quit),
+    ("export", Action::Export),
+    ("export cancel", Action::Stop),
+    ("render", Action::Go(Mode::Trace)),
+    ("view save", Action::SaveView),
+    ("view reset", Action::ResetView),
+    ("help", Action::Help),
+];
+
+/// A command as the palette describes it.
+pub(super) struct Described {
+    pub(super) name: &'static str,
+    pub(super) names: &'static [&'static str],
+    pub(super) usage: String,
+    pub(super) words: &'static str,
+    /// The action of a key that does the same.
+    pub(super) action: Option<Action>,
+    /// Whether its arguments begin with a file name.
+    pub(super) takes_file: bool,
+}
+
+/// All commands, in the order of the help page.
+pub(super) fn all_described() -> impl Iterator<Item = Described> {
+    TABLE.iter().map(CommandRow::described)
+}
+
+/// The command with exactly this name.
+pub(super) fn described_as(name: &str) -> Option<Described> {
+    let mut rows = TABLE.iter();
+    let row = rows.find(|row| row.names.contains(&name));
+    row.map(CommandRow::described)
+}
+
+/// The command whose name a line begins with, followed by a blank.
+pub(super) fn described_in(line: &str) -> Option<Described> {
+    let begins = |name: &&str| {
+        line.strip_prefix(*name)
+            .is_some_and(|rest| rest.starts_with(' '))
+    };
+    let rows = TABLE
+        .iter()
+        .filter(|row| row.names.iter().any(|name| begins(&name)));
+    let row = rows.max_by_key(|row| row.names[0].len());
+    row.map(CommandRow::described)
+}
+
+/// Whether a line can be run.
+pub(super) fn is_command(line: &str) -> bool {
+    parse(line).is_ok()
+}
+
 impl CommandRow {
+    fn described(&self) -> Described {
+        let name = self.names[0];
+        let key = KEYS.iter().find(|(of, _)| *of == name);
+        Described {
+            name,
+            names: self.names,
+            usage: self.usage(),
+            words: self.words,
+            action: key.map(|&(_, action)| action),
+            takes_file: matches!(self.arguments, A::File(_) | A::Picture(_)),
+        }
+    }
+
     /// The spelling with arguments: `:size WxH`.
     fn usage(&self) -> String {
         let name = self.names[0];

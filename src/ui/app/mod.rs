@@ -22,6 +22,7 @@ mod messages;
 mod model;
 mod opening;
 mod overlays;
+mod palette;
 mod picture;
 mod pictures;
 mod places;
@@ -47,6 +48,7 @@ pub use messages::Messages;
 pub use model::App;
 pub use opening::{Opening, OpeningText};
 pub use overlays::{Dialog, Help, HelpFocus, Message, Outside, Overlays, Prompt, PromptKind};
+pub use palette::{Completion, Palette};
 pub use picture::{Picture, Shown};
 pub use pictures::{Pictures, Quality};
 

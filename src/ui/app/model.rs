@@ -7,6 +7,7 @@ use super::cursor::Cursor;
 use super::disk::Disk;
 use super::jobs::Jobs;
 use super::overlays::Overlays;
+use super::palette::Palette;
 use super::pictures::Pictures;
 use crate::document::Document;
 use crate::scene::Scene;
@@ -35,6 +36,8 @@ pub struct App {
     pub pictures: Pictures,
     /// Dialogs, help, errors, the line being typed, and messages.
     pub overlays: Overlays,
+    /// Completions and history of the command line.
+    pub palette: Palette,
     /// Saves and exports under way.
     pub jobs: Jobs,
     /// The mode, which determines the meaning of keys.

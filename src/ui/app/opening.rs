@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::assets::Assets;
+use super::palette::Palette;
 use super::{App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Pictures, Quality};
 use crate::document::Document;
 use crate::file::ReadError;
@@ -64,6 +65,7 @@ impl App {
             jobs: Jobs::default(),
             mode: Mode::Select,
             prefix: None,
+            palette: Palette::default(),
             zoom: Zoom::default(),
             panels: PanelSizes::default(),
             resizing: false,

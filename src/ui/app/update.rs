@@ -32,7 +32,7 @@ impl App {
     fn take(&mut self, msg: Msg) -> Vec<Effect> {
         match msg {
             Msg::Key(key) => return self.key(key),
-            Msg::Paste(text) => self.paste(&text),
+            Msg::Paste(text) => return self.paste(&text),
             Msg::Mouse(event) => return self.pointer(event),
             Msg::Resize(columns, rows) => self.terminal = (columns, rows),
             Msg::Started(target, generation) => self.pictures.want(target, Some(generation)),
@@ -54,6 +54,7 @@ impl App {
             Msg::Saved(id, outcome) => return self.was_saved(id, outcome),
             Msg::BackupsFound(copies) => self.backups_found(&copies),
             Msg::Exported(id, outcome) => return self.exported(id, outcome),
+            Msg::Listed(folder, names) => self.folder_listed(folder, names),
             Msg::Taken(id, reason) => return self.is_taken(id, reason),
             Msg::EditorClosed(outcome) => return self.editor_closed(outcome),
             Msg::Recovered(found) => self.found_kept(found),
@@ -165,21 +166,22 @@ impl App {
             KeyCode::Backspace if prompt.input.value().is_empty() => self.close_prompt(),
             KeyCode::Enter => {
                 let (kind, typed) = (prompt.kind, prompt.input.value().to_owned());
-                self.overlays.prompt = None;
                 match kind {
-                    PromptKind::Command => return self.command(&typed),
+                    PromptKind::Command => return self.run_line(&typed),
                     PromptKind::Search => {
+                        self.overlays.prompt = None;
                         self.cursor.searched = typed;
                         self.search(1);
                     }
                 }
             }
+            _ if prompt.kind == PromptKind::Command => return self.palette_key(key),
             _ => line::edit(&mut prompt.input, key),
         }
         Vec::new()
     }
 
-    fn act(&mut self, action: Action, context: Context) -> Vec<Effect> {
+    pub(super) fn act(&mut self, action: Action, context: Context) -> Vec<Effect> {
         match action {
             Action::Move(rows) => self.move_cursor(context, rows),
             Action::Page(pages) => self.move_cursor(context, pages * self.page(context)),
@@ -196,7 +198,7 @@ impl App {
             Action::No => return self.decline(),
             Action::Search => self.overlays.open_search(),
             Action::SearchAgain(step) => self.search(step),
-            Action::Command => self.overlays.open_prompt(PromptKind::Command, ""),
+            Action::Command => self.open_palette(),
             Action::Outline => self.pictures.toggle_outline(),
             Action::Visibility => self.toggle_visibility(),
             Action::Type => self.type_current(),
@@ -241,7 +243,7 @@ impl App {
         Vec::new()
     }
 
-    fn go(&mut self, mode: Mode) -> Vec<Effect> {
+    pub(super) fn go(&mut self, mode: Mode) -> Vec<Effect> {
         self.document.end_step();
         match mode {
             Mode::Trace => return self.start_trace(),
@@ -260,6 +262,7 @@ impl App {
     /// Closes a line without accepting it, and cancels a quit that waited for a file name.
     fn close_prompt(&mut self) {
         self.overlays.prompt = None;
+        self.palette.reset();
         self.jobs.quit = false;
     }
 

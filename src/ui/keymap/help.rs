@@ -96,6 +96,41 @@ pub fn help(search: &str, mode: Mode, commands: Vec<Entry>) -> Vec<HelpLine> {
     lines
 }
 
+/// An action of a key, by its description.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedAction {
+    /// The action.
+    pub action: Action,
+    /// The mode that has the key.
+    pub context: Context,
+    /// Its keys: `j ↓`.
+    pub keys: String,
+    /// Its description.
+    pub words: &'static str,
+}
+
+/// Returns the actions of the keys of all modes, those of `mode` first.
+pub fn actions(mode: Mode) -> Vec<NamedAction> {
+    let others = MODES.into_iter().filter(|other| *other != mode);
+    let mut found: Vec<NamedAction> = Vec::new();
+    for context in [mode].into_iter().chain(others).map(Context::In) {
+        let rows = TABLE.iter().filter(|row| row.scope.holds(context));
+        for row in rows.filter(|row| !matches!(row.action, A::G | A::Command)) {
+            let is_known =
+                |named: &NamedAction| named.action == row.action && named.words == row.words;
+            if !found.iter().any(is_known) {
+                found.push(NamedAction {
+                    action: row.action,
+                    context,
+                    keys: keys(row),
+                    words: row.words,
+                });
+            }
+        }
+    }
+    found
+}
+
 /// A line that keys are typed into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Line {
@@ -117,7 +152,13 @@ pub fn line_hints(line: Line) -> &'static [(&'static str, &'static str)] {
             ("Shift-Tab", "keep, previous number"),
             ("Ctrl-U", "clear"),
         ],
-        Line::Command => &[("Enter", "run"), ("Esc", "cancel"), ("Ctrl-U", "clear")],
+        Line::Command => &[
+            ("Enter", "run"),
+            ("Esc", "cancel"),
+            ("Tab", "next completion"),
+            ("↑ ↓", "completions; earlier lines if empty"),
+            ("Ctrl-U", "clear"),
+        ],
         Line::Search => &[("Enter", "find"), ("Esc", "cancel"), ("Ctrl-U", "clear")],
     }
 }

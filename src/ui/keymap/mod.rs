@@ -6,5 +6,7 @@ mod help;
 mod table;
 
 pub use action::{Action, Context, Mode, Stride};
-pub use help::{Entry, HelpLine, Line, help, hints, lasting_hints, line_hints};
+pub use help::{
+    Entry, HelpLine, Line, NamedAction, actions, help, hints, lasting_hints, line_hints,
+};
 pub use table::{action, elsewhere, name};

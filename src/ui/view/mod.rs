@@ -5,6 +5,7 @@
 //! through [`row`], which shows control characters instead of sending them.
 
 mod characters;
+mod completions;
 mod dialog;
 mod dither;
 mod errors;
@@ -68,6 +69,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     if let Some(message) = status::long_message(app, inks.glyphs, areas.status.width) {
         message::render(message, body, buffer);
     }
+    completions::render(app, body, buffer);
     dialog::render(app, body, buffer);
 }
 

@@ -222,6 +222,12 @@ const STATES: &[(&str, Change)] = &[
             refused: None,
         });
     }),
+    ("palette", |app| {
+        for key in [':', 'e'] {
+            app.update(Msg::Key(KeyCode::Char(key).into()));
+        }
+        app.update(Msg::Key(KeyCode::Tab.into()));
+    }),
     ("prompt", |app| {
         app.overlays.prompt = Some(Prompt {
             kind: PromptKind::Search,
