@@ -86,6 +86,11 @@ const fn row(
     }
 }
 
+/// Minimum width of a column of the help page if there are several.
+const HELP_COLUMN: u16 = 56;
+/// Maximum number of columns of the help page.
+const MOST_COLUMNS: usize = 3;
+
 use Arguments as A;
 use Command as C;
 
@@ -295,6 +300,12 @@ impl App {
             .map_or("", |help| help.search.value());
         let commands = TABLE.iter().map(|form| (form.usage(), form.words));
         keymap::help(search, self.mode, commands.collect())
+    }
+
+    /// The columns of the help page on a screen of this width.
+    pub fn help_columns(&self, width: u16) -> Vec<Vec<HelpLine>> {
+        let count = usize::from(width.saturating_sub(2) / HELP_COLUMN).clamp(1, MOST_COLUMNS);
+        keymap::in_columns(self.help_lines(), count)
     }
 
     /// Runs a command line.

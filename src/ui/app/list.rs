@@ -31,7 +31,9 @@ impl App {
                 self.overlays.errors = Some(moved(at, rows, self.wrong().findings.len()));
             }
             Context::Help => {
-                let lines = self.help_lines().len();
+                let columns = self.help_columns(self.terminal.0);
+                let longest = columns.iter().map(Vec::len).max().unwrap_or(0);
+                let lines = (longest + 1).saturating_sub(self.help_rows());
                 if let Some(help) = &mut self.overlays.help {
                     help.top = moved(help.top, rows, lines);
                 }
@@ -57,12 +59,20 @@ impl App {
         }
     }
 
+    /// The lines of the help page, inside its frame and above its search.
+    fn help_rows(&self) -> usize {
+        let areas = self.areas();
+        let outside = areas.hint.height + areas.status.height + 3;
+        usize::from(self.terminal.1.saturating_sub(outside))
+    }
+
     /// The number of lines that Page Down moves.
     pub(super) fn page(&self, context: Context) -> isize {
         let areas = self.areas();
         let panel = match context {
+            Context::Help => return (self.help_rows() as isize - 1).max(1),
             Context::Errors => areas.errors,
-            Context::Help | Context::Messages => areas.picture,
+            Context::Messages => areas.picture,
             _ => areas.list,
         };
         (layout::contents(panel).height as isize - 1).max(1)

@@ -211,28 +211,38 @@ impl App {
             let names = row.names.iter().filter_map(|name| likeness(name, &wanted));
             let by_words = likeness(row.words, &wanted).map(|rank| rank + 1);
             let rank = names.chain(by_words).min();
-            (rank, self.as_completion(row))
+            (rank, row.action, self.as_completion(row))
         });
+        let commands: Vec<_> = commands.filter(|(rank, ..)| rank.is_some()).collect();
         let actions = if self.disk.is_opening() {
             Vec::new()
         } else {
             keymap::actions(self.mode)
         };
-        let actions = actions.into_iter().map(|named| {
-            let keys = match named.context {
-                Context::In(mode) if mode != self.mode => format!("{} {}", mode.name(), named.keys),
-                _ => named.keys,
-            };
-            let completion = Completion {
-                line: named.words.to_owned(),
-                shown: named.words.to_owned(),
-                words: "",
-                keys,
-                act: Some((named.action, named.context)),
-            };
-            (likeness(named.words, &wanted), completion)
-        });
+        // A command that is offered does the same.
+        let is_other = |action| commands.iter().all(|(_, other, _)| *other != Some(action));
+        let actions = actions.into_iter().filter(|named| is_other(named.action));
+        let actions: Vec<_> = actions
+            .map(|named| {
+                let keys = match named.context {
+                    Context::In(mode) if mode != self.mode => {
+                        format!("{} {}", mode.name(), named.keys)
+                    }
+                    _ => named.keys,
+                };
+                let completion = Completion {
+                    line: named.words.to_owned(),
+                    shown: named.words.to_owned(),
+                    words: "",
+                    keys,
+                    act: Some((named.action, named.context)),
+                };
+                (likeness(named.words, &wanted), completion)
+            })
+            .collect();
         let mut found: Vec<_> = commands
+            .into_iter()
+            .map(|(rank, _, completion)| (rank, completion))
             .chain(actions)
             .filter_map(|(rank, completion)| Some((rank?, completion)))
             .collect();

@@ -96,6 +96,25 @@ pub fn help(search: &str, mode: Mode, commands: Vec<Entry>) -> Vec<HelpLine> {
     lines
 }
 
+/// Distributes sections of help over columns of about the same height, each section in one column
+/// and the first at the top of the first column.
+pub fn in_columns(lines: Vec<HelpLine>, count: usize) -> Vec<Vec<HelpLine>> {
+    let mut columns = vec![Vec::new(); count.max(1)];
+    let mut sections: Vec<Vec<HelpLine>> = Vec::new();
+    for line in lines {
+        match (&line, sections.last_mut()) {
+            (HelpLine::Entry { .. }, Some(section)) => section.push(line),
+            _ => sections.push(vec![line]),
+        }
+    }
+    for section in sections {
+        if let Some(shortest) = columns.iter_mut().min_by_key(|column| column.len()) {
+            shortest.extend(section);
+        }
+    }
+    columns
+}
+
 /// An action of a key, by its description.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedAction {
@@ -372,6 +391,25 @@ mod tests {
         for row in TABLE {
             assert!(lines.contains(&entry(&keys(row), row.words)), "{row:?}");
         }
+    }
+
+    #[test]
+    fn columns_hold_whole_sections_and_all_of_them() {
+        let all = lines("", Edit);
+        for count in [0, 1, 2, 3, 40] {
+            let columns = in_columns(all.clone(), count);
+            assert_eq!(columns.len(), count.max(1));
+            assert_eq!(columns[0][0], HelpLine::Heading("EDIT"));
+            let shown: Vec<_> = columns.concat();
+            assert_eq!(shown.len(), all.len());
+            let starts = columns.iter().filter_map(|column| column.first());
+            assert!(
+                starts
+                    .into_iter()
+                    .all(|line| matches!(line, HelpLine::Heading(_)))
+            );
+        }
+        assert_eq!(in_columns(all.clone(), 1), [all]);
     }
 
     #[test]

@@ -7,6 +7,6 @@ mod table;
 
 pub use action::{Action, Context, Mode, Stride};
 pub use help::{
-    Entry, HelpLine, Line, NamedAction, actions, help, hints, lasting_hints, line_hints,
+    Entry, HelpLine, Line, NamedAction, actions, help, hints, in_columns, lasting_hints, line_hints,
 };
 pub use table::{action, elsewhere, name};
