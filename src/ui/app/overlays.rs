@@ -197,6 +197,12 @@ impl Overlays {
         self.put(Lasts::UntilNext, severity, text.into());
     }
 
+    /// Answers a key that does nothing. This is not remembered.
+    pub(super) fn answer(&mut self, text: String) {
+        let severity = None;
+        self.message = Some(Message { severity, text });
+    }
+
     /// Shows that something cannot be done as expected because the text has errors. The message
     /// goes when they do.
     pub(super) fn blame_errors(&mut self, severity: Severity, text: impl Into<String>) {

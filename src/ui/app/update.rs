@@ -137,7 +137,7 @@ impl App {
             Context::Help => "",
             _ => "; ? lists keys",
         };
-        self.overlays.say(format!("{words}{help}"));
+        self.overlays.answer(format!("{words}{help}"));
     }
 
     fn type_key(&mut self, key: KeyEvent) -> Vec<Effect> {
