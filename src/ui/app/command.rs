@@ -156,9 +156,7 @@ pub(super) fn described_in(line: &str) -> Option<Described> {
         line.strip_prefix(*name)
             .is_some_and(|rest| rest.starts_with(' '))
     };
-    let rows = TABLE
-        .iter()
-        .filter(|row| row.names.iter().any(|name| begins(&name)));
+    let rows = TABLE.iter().filter(|row| row.names.iter().any(begins));
     let row = rows.max_by_key(|row| row.names[0].len());
     row.map(CommandRow::described)
 }

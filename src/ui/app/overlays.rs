@@ -194,30 +194,32 @@ impl Overlays {
     /// Shows a message. If another came in the same step, which nobody has seen yet, this one waits
     /// for the next key.
     pub(super) fn show(&mut self, severity: Option<Severity>, text: impl Into<String>) {
-        self.put(Lasts::UntilNext, severity, text.into());
+        self.put(Lasts::UntilNext, severity, &text.into());
     }
 
     /// Answers a key that does nothing. This is not remembered.
     pub(super) fn answer(&mut self, text: String) {
-        let severity = None;
-        self.message = Some(Message { severity, text });
+        self.message = Some(Message {
+            severity: None,
+            text,
+        });
     }
 
     /// Shows that something cannot be done as expected because the text has errors. The message
     /// goes when they do.
     pub(super) fn blame_errors(&mut self, severity: Severity, text: impl Into<String>) {
-        self.put(Lasts::WhileErrors, Some(severity), text.into());
+        self.put(Lasts::WhileErrors, Some(severity), &text.into());
     }
 
     /// Reports the end of something that the user waits for. If another report is shown, this one
     /// waits for the next key.
     pub(super) fn report(&mut self, text: impl Into<String>) {
         self.messages.is_unseen |= self.messages.lasts == Lasts::Report;
-        self.put(Lasts::Report, None, text.into());
+        self.put(Lasts::Report, None, &text.into());
     }
 
-    fn put(&mut self, lasts: Lasts, severity: Option<Severity>, text: String) {
-        let text = without_codes(&text).into_owned();
+    fn put(&mut self, lasts: Lasts, severity: Option<Severity>, text: &str) {
+        let text = without_codes(text).into_owned();
         let message = Message { severity, text };
         self.messages.remember(&message);
         if self.message.is_some() && self.messages.is_unseen {

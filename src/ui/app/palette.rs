@@ -99,12 +99,10 @@ impl App {
     /// Handles a key in the command line other than those that end it.
     pub(super) fn palette_key(&mut self, key: KeyEvent) -> Vec<Effect> {
         match key.code {
-            KeyCode::Tab => self.choose(1),
-            KeyCode::BackTab => self.choose(-1),
             KeyCode::Up if self.recall(true) => {}
             KeyCode::Down if self.recall(false) => {}
-            KeyCode::Up => self.choose(-1),
-            KeyCode::Down => self.choose(1),
+            KeyCode::BackTab | KeyCode::Up => self.choose(-1),
+            KeyCode::Tab | KeyCode::Down => self.choose(1),
             _ => {
                 if let Some(prompt) = &mut self.overlays.prompt {
                     let before = prompt.input.value().to_owned();
@@ -179,7 +177,7 @@ impl App {
             Some(Wanted::File(line, described, typed)) => {
                 // The line may begin something else: `export cancel`.
                 let mut found = self.commands_like(line);
-                found.retain(|longer| longer.line.starts_with(line));
+                found.retain(|other| other.line.starts_with(line) || other.words.starts_with(line));
                 found.extend(self.files_like(described.name, typed));
                 found
             }

@@ -18,6 +18,15 @@ pub enum Mode {
 }
 
 impl Mode {
+    /// All modes, in the order of the help.
+    pub const ALL: [Self; 5] = [
+        Self::Select,
+        Self::Edit,
+        Self::View,
+        Self::Pick,
+        Self::Trace,
+    ];
+
     /// The name of the mode, as in the status line.
     pub fn name(self) -> &'static str {
         match self {

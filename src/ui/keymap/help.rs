@@ -2,6 +2,7 @@
 
 use super::action::{Action, Context, Mode, Stride};
 use super::chord::Chord;
+use super::line::{Line, line_hints};
 use super::table::{Binding, Scope, TABLE};
 use crate::render::Aov;
 
@@ -23,8 +24,6 @@ pub enum HelpLine {
     },
 }
 
-/// The modes in the order of their sections of help.
-const MODES: [Mode; 5] = [Select, Edit, View, Pick, Trace];
 /// Other contexts with a section of help, by name.
 const DIALOGS: [(&str, Context); 8] = [
     ("the list of errors", Context::Errors),
@@ -76,7 +75,7 @@ pub fn help(search: &str, mode: Mode, commands: Vec<Entry>) -> Vec<HelpLine> {
     let of = |context: Context| entries(|row| !is_common(row) && row.scope.holds(context));
     add(mode.name(), of(Context::In(mode)));
     add("anywhere", entries(is_common));
-    for other in MODES.into_iter().filter(|other| *other != mode) {
+    for other in Mode::ALL.into_iter().filter(|other| *other != mode) {
         add(other.name(), of(Context::In(other)));
     }
     for (heading, context) in DIALOGS {
@@ -113,73 +112,6 @@ pub fn in_columns(lines: Vec<HelpLine>, count: usize) -> Vec<Vec<HelpLine>> {
         }
     }
     columns
-}
-
-/// An action of a key, by its description.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NamedAction {
-    /// The action.
-    pub action: Action,
-    /// The mode that has the key.
-    pub context: Context,
-    /// Its keys: `j ↓`.
-    pub keys: String,
-    /// Its description.
-    pub words: &'static str,
-}
-
-/// Returns the actions of the keys of all modes, those of `mode` first.
-pub fn actions(mode: Mode) -> Vec<NamedAction> {
-    let others = MODES.into_iter().filter(|other| *other != mode);
-    let mut found: Vec<NamedAction> = Vec::new();
-    for context in [mode].into_iter().chain(others).map(Context::In) {
-        let rows = TABLE.iter().filter(|row| row.scope.holds(context));
-        for row in rows.filter(|row| !matches!(row.action, A::G | A::Command)) {
-            let is_known =
-                |named: &NamedAction| named.action == row.action && named.words == row.words;
-            if !found.iter().any(is_known) {
-                found.push(NamedAction {
-                    action: row.action,
-                    context,
-                    keys: keys(row),
-                    words: row.words,
-                });
-            }
-        }
-    }
-    found
-}
-
-/// A line that keys are typed into.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Line {
-    /// A value of a field.
-    Value,
-    /// A command after `:`.
-    Command,
-    /// A search after `/`.
-    Search,
-}
-
-/// The keys with a meaning of their own while a line is typed, the most useful first.
-pub fn line_hints(line: Line) -> &'static [(&'static str, &'static str)] {
-    match line {
-        Line::Value => &[
-            ("Enter", "keep"),
-            ("Esc", "cancel"),
-            ("Tab", "keep, next number"),
-            ("Shift-Tab", "keep, previous number"),
-            ("Ctrl-U", "clear"),
-        ],
-        Line::Command => &[
-            ("Enter", "run"),
-            ("Esc", "cancel"),
-            ("Tab", "next completion"),
-            ("↑ ↓", "completions; earlier lines if empty"),
-            ("Ctrl-U", "clear"),
-        ],
-        Line::Search => &[("Enter", "find"), ("Esc", "cancel"), ("Ctrl-U", "clear")],
-    }
 }
 
 /// Returns the hints that are never omitted in a context: how to get help, to give a command, and
@@ -340,19 +272,7 @@ fn binding(context: Context, action: Action) -> Option<&'static Binding> {
 
 fn entries(shown: impl Fn(&Binding) -> bool) -> Vec<Entry> {
     let rows = TABLE.iter().filter(|row| shown(row));
-    rows.map(|row| (keys(row), row.words)).collect()
-}
-
-fn keys(row: &Binding) -> String {
-    match row.action {
-        A::G => "gg".to_owned(),
-        _ => row
-            .chords
-            .iter()
-            .map(Chord::name)
-            .collect::<Vec<_>>()
-            .join(" "),
-    }
+    rows.map(|row| (row.keys(), row.words)).collect()
 }
 
 fn first_key(row: &Binding) -> String {
@@ -389,7 +309,7 @@ mod tests {
         assert_eq!(headings(&lines).len(), 20);
         assert!(lines.contains(&entry("gg", "first")));
         for row in TABLE {
-            assert!(lines.contains(&entry(&keys(row), row.words)), "{row:?}");
+            assert!(lines.contains(&entry(&row.keys(), row.words)), "{row:?}");
         }
     }
 
@@ -424,7 +344,7 @@ mod tests {
 
     #[test]
     fn every_hint_has_a_key() {
-        let modes = MODES.map(Context::In).into_iter();
+        let modes = Mode::ALL.map(Context::In).into_iter();
         for context in modes.chain(DIALOGS.map(|(_, context)| context)) {
             for (keys, words) in hints(context) {
                 let whole = keys.split('/').all(|key| !key.is_empty());

@@ -3,10 +3,12 @@
 mod action;
 mod chord;
 mod help;
+mod line;
+mod named;
 mod table;
 
 pub use action::{Action, Context, Mode, Stride};
-pub use help::{
-    Entry, HelpLine, Line, NamedAction, actions, help, hints, in_columns, lasting_hints, line_hints,
-};
+pub use help::{Entry, HelpLine, help, hints, in_columns, lasting_hints};
+pub use line::{Line, line_hints};
+pub use named::{NamedAction, actions};
 pub use table::{action, elsewhere, name};

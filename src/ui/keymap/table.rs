@@ -221,10 +221,8 @@ pub fn elsewhere(
     event: KeyEvent,
 ) -> Option<(Mode, Option<String>, &'static str)> {
     let pressed = Chord::of(event);
-    let others = TABLE.iter().filter(|row| row.chords.contains(&pressed));
-    let (mode, words) = others
-        .filter_map(|row| Some((row.mode()?, row.words)))
-        .next()?;
+    let mut others = TABLE.iter().filter(|row| row.chords.contains(&pressed));
+    let (mode, words) = others.find_map(|row| Some((row.mode()?, row.words)))?;
     let way = TABLE
         .iter()
         .find(|row| row.action == A::Go(mode) && row.scope.holds(context));
@@ -247,6 +245,15 @@ pub fn name(event: KeyEvent) -> Option<String> {
 }
 
 impl Binding {
+    /// The keys as the help shows them: `j ↓`.
+    pub(super) fn keys(&self) -> String {
+        if self.action == A::G {
+            return "gg".to_owned();
+        }
+        let names: Vec<_> = self.chords.iter().map(Chord::name).collect();
+        names.join(" ")
+    }
+
     /// The first mode in which the binding is active, unless it is active in all of them.
     fn mode(&self) -> Option<Mode> {
         let Scope::These(contexts) = self.scope else {
