@@ -2,13 +2,22 @@
 
 use std::collections::VecDeque;
 
-use super::overlays::Message;
+use crate::text::Severity;
 
 /// The number of messages remembered.
 const REMEMBERED: usize = 50;
 
 /// The number of messages that may wait; more are only remembered.
 const WAITING: usize = 9;
+
+/// A message to the user.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Message {
+    /// `None` for success and information.
+    pub severity: Option<Severity>,
+    /// Its text, without the system's error numbers.
+    pub text: String,
+}
 
 /// The messages that are not in the status line.
 #[derive(Debug, Default)]

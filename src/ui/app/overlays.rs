@@ -6,7 +6,7 @@ use std::sync::Arc;
 use tui_input::Input;
 
 use super::jobs::Pending;
-use super::messages::{Lasts, Messages};
+use super::messages::{Lasts, Message, Messages};
 use crate::document::{Merge, Side};
 use crate::text::{Severity, without_codes};
 use crate::ui::recovery::{Claim, Offer, Since};
@@ -106,15 +106,6 @@ pub enum HelpFocus {
     Lines,
     /// Keys are typed into the search.
     Search,
-}
-
-/// A message to the user.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Message {
-    /// `None` for success and information.
-    pub severity: Option<Severity>,
-    /// Its text, without the system's error numbers.
-    pub text: String,
 }
 
 impl Overlays {
