@@ -27,7 +27,7 @@ use std::time::{Duration, Instant};
 use halflight::language::{Language, Source};
 use halflight::render::{DEFAULT_DEPTH, Filter, Frames, Job, Renderer, Settings, Threads};
 use halflight::scene::{Images, Integrator, Meshes, Scene, Transfer};
-use halflight::ui::layout::Zoom;
+use halflight::ui::arrange::Zoom;
 
 use desk::{Desk, Drawn, TERMINAL, difference, picture_cells};
 use figures::{SECOND, each, first, row, times_row};

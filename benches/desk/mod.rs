@@ -6,7 +6,8 @@ use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
 use halflight::scene::Size;
-use halflight::ui::layout::{Areas, Zoom, arrange, raster};
+use halflight::ui::arrange::{Areas, Shape, Zoom, arrange};
+use halflight::ui::layout::raster;
 use ratatui::layout::Rect;
 use vt100::{Color, Screen};
 
@@ -259,7 +260,12 @@ pub(crate) fn picture_cells(zoom: Zoom) -> Rect {
 }
 
 fn areas(zoom: Zoom) -> Areas {
-    arrange(Rect::new(0, 0, TERMINAL.0, TERMINAL.1), zoom, 0)
+    let shape = Shape {
+        zoom,
+        output: OUTPUT,
+        ..Shape::default()
+    };
+    arrange(Rect::new(0, 0, TERMINAL.0, TERMINAL.1), &shape)
 }
 
 /// The pixels shown by half blocks: different characters may look the same.

@@ -240,6 +240,7 @@ impl Runtime {
             }
             Effect::CheckTarget(id, to) => self.writers.check(id, to)?,
             Effect::CheckPlace(path) => self.writers.check_place(path)?,
+            Effect::ListFolder(folder) => self.writers.list_folder(folder)?,
             Effect::FindBackups(scene) => self.writers.find_backups(scene)?,
             Effect::Read(path, baseline) => self.reader.read(path, baseline)?,
             Effect::Open(path, language) => self.reader.open(path, language)?,

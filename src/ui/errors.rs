@@ -48,7 +48,7 @@ impl Panel {
     }
 }
 
-/// Lays out the diagnostics over the lower part of the picture, starting with the selected one, or
+/// Lays out the diagnostics at the bottom of an area, starting with the selected one, or
 /// with the first error if the list has no focus. `None` if there is nothing to show.
 pub(crate) fn panel(wrong: &Wrong, file: &str, area: Rect) -> Option<Panel> {
     let first_error = wrong.findings.iter().position(Diagnostic::is_error);

@@ -1,115 +1,11 @@
-//! The layout of the screen, shared by drawing, the mouse and the size of the preview so that all
-//! three agree.
+//! The cells of the picture, and of lines in lists and fields, shared by drawing, the mouse and the
+//! size of the preview so that all three agree.
 //!
 //! Everything here is arithmetic on rectangles and is valid for any size from 0×0.
 
 use ratatui::layout::{Position, Rect};
 
 use crate::scene::Size;
-
-/// Share of the screen that the picture takes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Zoom {
-    /// The picture beside the list and the fields.
-    #[default]
-    Panels,
-    /// Only the picture, without list and fields.
-    Picture,
-}
-
-/// Number of lines that explain a field if there is room.
-const NOTES: u16 = 4;
-/// Minimum height of fields and notes together for the notes to be shown.
-const ROOMY: u16 = 12;
-
-/// The area of each panel; empty for a panel that does not fit.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Areas {
-    /// The picture with its margins.
-    pub picture: Rect,
-    /// The line between the picture and the panels.
-    pub rule: Rect,
-    /// The list, starting with its title line.
-    pub list: Rect,
-    /// The fields, starting with their title line.
-    pub fields: Rect,
-    /// The errors, over the lower part of the picture so that the picture keeps its size when they
-    /// appear and disappear.
-    pub errors: Rect,
-    /// The line of key hints.
-    pub hint: Rect,
-    /// The status line at the bottom.
-    pub status: Rect,
-}
-
-/// Minimum size, in cells, for panels beside the picture.
-const FULL: (u16, u16) = (80, 24);
-/// Minimum size for panels below the picture, and for a line of hints.
-const STACKED: (u16, u16) = (40, 16);
-/// Minimum size for anything other than a notice.
-pub const MIN_SIZE: (u16, u16) = (20, 6);
-
-/// Divides the screen. All areas lie inside `area` and are disjoint, except for the errors; below
-/// [`MIN_SIZE`] all are empty. `fields` is the number of fields of the selected node: beside the
-/// picture, the list gets the lines that they do not need.
-pub fn arrange(area: Rect, zoom: Zoom, fields: usize) -> Areas {
-    let fits = |(width, height)| width <= area.width && height <= area.height;
-    if !fits(MIN_SIZE) {
-        return Areas::default();
-    }
-    let (rest, status) = split_bottom(area, 1);
-    let (body, hint) = split_bottom(rest, u16::from(fits(STACKED)));
-    let bars = Areas {
-        picture: body,
-        hint,
-        status,
-        ..Areas::default()
-    };
-    let areas = match zoom {
-        Zoom::Panels if fits(FULL) => side_by_side(bars, fields),
-        Zoom::Panels if fits(STACKED) => stacked(bars),
-        Zoom::Panels | Zoom::Picture => bars,
-    };
-    let lines = (areas.picture.height / 2).clamp(5, 12);
-    Areas {
-        errors: split_bottom(areas.picture, lines).1,
-        ..areas
-    }
-}
-
-/// Places the picture on the left, and the list above the fields on the right.
-fn side_by_side(bars: Areas, fields: usize) -> Areas {
-    let body = bars.picture;
-    let (left, panels) = split_right(body, (body.width * 3 / 10).clamp(35, 44));
-    let (picture, rule) = split_right(left, 1);
-    // Small field counts share one height, so that the list seldom moves with the cursor.
-    let wanted = u16::try_from(fields).unwrap_or(u16::MAX);
-    let wanted = wanted.saturating_add(1 + NOTES).max(1 + ROOMY);
-    let (list, fields) = split_bottom(panels, wanted.min((body.height * 2 / 3).max(15)));
-    Areas {
-        picture,
-        rule,
-        list,
-        fields,
-        ..bars
-    }
-}
-
-/// Places the picture above the list and the fields.
-fn stacked(bars: Areas) -> Areas {
-    let body = bars.picture;
-    let (upper, panels) = split_bottom(body, (body.height / 2).clamp(7, 22));
-    let (picture, rule) = split_bottom(upper, u16::from(16 < body.height));
-    let (list, fields) = split_right(panels, (body.width * 6 / 10).max(24));
-    let (list, _) = split_right(list, 1);
-    Areas {
-        picture,
-        rule,
-        list,
-        fields,
-        ..bars
-    }
-}
 
 /// Returns the largest picture with the aspect ratio of `output` inside `area`, at two pixels per
 /// cell, one above the other: its cells, centred, and its size in pixels. `None` if there is no
@@ -267,6 +163,11 @@ pub fn split_bottom(area: Rect, lines: u16) -> (Rect, Rect) {
     )
 }
 
+/// Number of lines that explain a field if there is room.
+pub const NOTES: u16 = 4;
+/// Minimum height of fields and notes together for all the notes to be shown.
+pub const ROOMY: u16 = 12;
+
 fn split_fields(fields: Rect) -> (Rect, Rect) {
     let lines = contents(fields);
     let notes = match lines.height {
@@ -277,7 +178,8 @@ fn split_fields(fields: Rect) -> (Rect, Rect) {
     split_bottom(lines, notes)
 }
 
-fn split_right(area: Rect, columns: u16) -> (Rect, Rect) {
+/// Splits off the `columns` columns on the right, or fewer if the area has fewer.
+pub fn split_right(area: Rect, columns: u16) -> (Rect, Rect) {
     let right = columns.min(area.width);
     let left = area.width - right;
     (
@@ -302,83 +204,12 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn screen(width: u16, height: u16) -> Areas {
-        arrange(Rect::new(0, 0, width, height), Zoom::Panels, 9)
-    }
-
     fn size(width: u32, height: u32) -> Size {
         Size { width, height }
     }
 
-    #[test]
-    fn panels_appear_as_space_permits() {
-        let check = |width, height, panels: &str| {
-            let areas = screen(width, height);
-            let named = [
-                (areas.picture, 'p'),
-                (areas.list, 'l'),
-                (areas.fields, 'f'),
-                (areas.hint, 'h'),
-                (areas.status, 's'),
-            ];
-            let shown: String = named
-                .iter()
-                .filter(|(area, _)| !area.is_empty())
-                .map(|(_, name)| *name)
-                .collect();
-            assert_eq!(shown, panels, "{width}×{height}");
-        };
-        check(0, 0, "");
-        check(19, 50, "");
-        check(200, 5, "");
-        check(20, 6, "ps");
-        check(39, 50, "ps");
-        check(40, 16, "plfhs");
-        check(80, 24, "plfhs");
-    }
-
-    #[test]
-    fn panels_are_beside_the_picture_on_wide_screens_and_below_it_on_narrow_ones() {
-        let wide = screen(80, 24);
-        assert!(wide.picture.right() < wide.list.x && wide.list.bottom() == wide.fields.y);
-        let narrow = screen(79, 24);
-        assert!(narrow.picture.bottom() <= narrow.list.y && narrow.list.right() < narrow.fields.x);
-    }
-
-    #[test]
-    fn the_list_gets_the_lines_that_fields_do_not_need() {
-        let heights = |height, fields| {
-            let areas = arrange(Rect::new(0, 0, 120, height), Zoom::Panels, fields);
-            (areas.list.height, areas.fields.height)
-        };
-        // Two of sixty lines are bars; the fields take a title, their lines and four lines of
-        // notes.
-        assert_eq!(heights(60, 14), (39, 19));
-        assert_eq!(heights(60, 10), (43, 15));
-        assert_eq!(heights(60, 1), heights(60, 2));
-        assert_eq!(heights(24, 14), (7, 15));
-    }
-
     proptest! {
         #![proptest_config(crate::repeatable())]
-
-        #[test]
-        fn areas_are_inside_the_screen_and_disjoint(
-            x in 0u16..5, y in 0u16..5, width in 0u16..220, height in 0u16..70, alone: bool,
-            fields in 0usize..40
-        ) {
-            let area = Rect::new(x, y, width, height);
-            let zoom = if alone { Zoom::Picture } else { Zoom::Panels };
-            let all = arrange(area, zoom, fields);
-            let panels = [all.picture, all.rule, all.list, all.fields, all.hint, all.status];
-            for (at, panel) in panels.iter().enumerate() {
-                prop_assert_eq!(panel.intersection(area).area(), panel.area());
-                for other in &panels[at + 1..] {
-                    prop_assert!(panel.intersection(*other).is_empty());
-                }
-            }
-            prop_assert_eq!(all.errors.intersection(all.picture).area(), all.errors.area());
-        }
 
         #[test]
         fn a_raster_touches_two_sides_and_keeps_the_aspect_ratio(
@@ -440,8 +271,7 @@ mod tests {
 
     #[test]
     fn clicks_find_lines_and_components() {
-        let areas = screen(80, 24);
-        let (list, fields) = (areas.list, areas.fields);
+        let (list, fields) = (Rect::new(45, 0, 35, 7), Rect::new(45, 7, 35, 15));
         assert_eq!(list_row_at(list, 4, list.x, list.y), None, "the title");
         assert_eq!(list_row_at(list, 4, list.x, list.y + 2), Some(5));
         let components = |field| [3, 1].get(field).copied();

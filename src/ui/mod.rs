@@ -11,6 +11,7 @@
 //! reads the app.
 
 pub mod app;
+pub mod arrange;
 mod assets;
 mod beginning;
 pub mod doctor;
@@ -23,6 +24,7 @@ mod fit;
 mod heap;
 pub mod keymap;
 pub mod layout;
+pub mod listing;
 pub mod msg;
 mod options;
 mod reader;

@@ -74,6 +74,11 @@ pub enum Msg {
     BackupsFound(Vec<PathBuf>),
     /// The result of an export.
     Exported(ExportId, Result<Exported, String>),
+    /// The file of an export exists, and this session did not write it; the reason why it is kept.
+    Taken(ExportId, String),
+    /// The result of [`Effect::ListFolder`]: the names in the folder, sorted; those of folders end
+    /// in `/`.
+    Listed(PathBuf, Vec<String>),
     /// The external editor has ended.
     EditorClosed(Result<(), String>),
     /// The result of [`Effect::ListRecent`].
@@ -140,9 +145,11 @@ pub enum Effect {
     Trace(Target, Job),
     /// Stops tracing this picture.
     Stop(Target),
-    /// Writes a frame to a picture file, reported by [`Msg::Exported`].
+    /// Writes a frame to a picture file, reported by [`Msg::Exported`] or
+    /// [`Msg::Taken`].
     WriteImage(ExportId, Arc<Frame>, Destination),
-    /// Checks whether a picture can be written there; a failure is reported by [`Msg::Exported`].
+    /// Checks whether a picture can be written there; a failure is reported by [`Msg::Exported`]
+    /// or [`Msg::Taken`].
     CheckTarget(ExportId, Destination),
     /// Reads the scene file, reported by [`Msg::Read`].
     Read(PathBuf, Baseline),
@@ -169,6 +176,8 @@ pub enum Effect {
     NoteRecent(PathBuf),
     /// Lists recently used scenes that still exist, reported by [`Msg::RecentListed`].
     ListRecent,
+    /// Lists a folder, reported by [`Msg::Listed`].
+    ListFolder(PathBuf),
     /// Watches this file from now on, reported by [`Msg::FileChanged`].
     Watch(PathBuf),
     /// Reads the files that the scene names and watches them from now on, reported by
@@ -257,4 +266,6 @@ pub enum Existing {
     Own(Version),
     /// It is replaced, whoever wrote it.
     Overwritten,
+    /// It is kept, and the first free number is added to the name: `scene-2.bmp`.
+    Numbered,
 }

@@ -66,7 +66,12 @@ impl Writers {
             "export",
             Some(&self.at_work),
             Msg::Exported(id, panicked),
-            move || Some(Msg::Exported(id, export(&frame, to))),
+            move || {
+                Some(export(&frame, to).map_or_else(
+                    |refused| refused.report(id),
+                    |exported| Msg::Exported(id, Ok(exported)),
+                ))
+            },
         )
     }
 
@@ -75,9 +80,8 @@ impl Writers {
         let shown = to.path.display();
         let panicked = Err(format!("{shown}: cannot write the picture"));
         self.start("check", None, Msg::Exported(id, panicked), move || {
-            check_target(&to)
-                .err()
-                .map(|reason| Msg::Exported(id, Err(reason)))
+            let to = numbered(to);
+            check_target(&to).err().map(|refused| refused.report(id))
         })
     }
 
@@ -95,6 +99,15 @@ impl Writers {
         let found = Msg::BackupsFound(Vec::new());
         self.start("backups", None, found, move || {
             Some(Msg::BackupsFound(file::backups(&scene)))
+        })
+    }
+
+    /// Lists a folder, reported by [`Msg::Listed`].
+    pub(super) fn list_folder(&self, folder: PathBuf) -> io::Result<()> {
+        let nothing = Msg::Listed(folder.clone(), Vec::new());
+        self.start("list", None, nothing, move || {
+            let names = names_in(&folder);
+            Some(Msg::Listed(folder, names))
         })
     }
 
@@ -142,6 +155,26 @@ impl Drop for Report {
             let _ = self.sender.send(Event::Msg(msg));
         }
     }
+}
+
+/// The maximum number of names to list.
+const NAMES: usize = 2000;
+
+/// The names in a folder, sorted, without hidden ones and those that are not UTF-8; the names of
+/// folders end in `/`. Empty if the folder cannot be read.
+fn names_in(folder: &Path) -> Vec<String> {
+    let Ok(entries) = folder.read_dir() else {
+        return Vec::new();
+    };
+    let name = |entry: io::Result<std::fs::DirEntry>| {
+        let entry = entry.ok()?;
+        let name = entry.file_name().into_string().ok()?;
+        let end = if entry.path().is_dir() { "/" } else { "" };
+        (!name.starts_with('.')).then(|| format!("{name}{end}"))
+    };
+    let mut names: Vec<_> = entries.filter_map(name).take(NAMES).collect();
+    names.sort_unstable();
+    names
 }
 
 /// Writes a scene unless that would overwrite another program's changes.
@@ -199,47 +232,101 @@ fn may_replace(path: &Path, text: &str, guard: &Guard) -> Result<(), WriteError>
 }
 
 /// Writes a picture unless that would replace a file that others wrote.
-fn export(frame: &Frame, to: Destination) -> Result<Exported, String> {
+fn export(frame: &Frame, to: Destination) -> Result<Exported, Refused> {
+    let to = numbered(to);
     check_target(&to)?;
-    let may = || check_target(&to).map_err(WriteError::Other);
-    match image_file::save(frame, &to.path, may) {
-        Ok(version) => Ok(Exported {
-            path: to.path,
-            version,
-        }),
-        Err(WriteError::Io(error)) => Err(format!("{}: {error}", to.path.display())),
-        Err(WriteError::Other(reason)) => Err(reason),
-        Err(WriteError::Changed) => Err(format!("{}: has changed", to.path.display())),
+    let may = || check_target(&to).map_err(|refused| WriteError::Other(refused.reason));
+    let written = image_file::save(frame, &to.path, may);
+    let reason = match written {
+        Ok(version) => {
+            return Ok(Exported {
+                path: to.path,
+                version,
+            });
+        }
+        Err(WriteError::Io(error)) => format!("{}: {error}", to.path.display()),
+        Err(WriteError::Other(reason)) => reason,
+        Err(WriteError::Changed) => format!("{}: has changed", to.path.display()),
+    };
+    Err(reason.into())
+}
+
+/// Why a picture is not written.
+#[derive(Debug, PartialEq, Eq)]
+struct Refused {
+    reason: String,
+    /// Whether the only obstacle is a file that others wrote.
+    is_taken: bool,
+}
+
+impl Refused {
+    fn report(self, id: ExportId) -> Msg {
+        if self.is_taken {
+            Msg::Taken(id, self.reason)
+        } else {
+            Msg::Exported(id, Err(self.reason))
+        }
+    }
+}
+
+impl From<String> for Refused {
+    fn from(reason: String) -> Self {
+        Self {
+            reason,
+            is_taken: false,
+        }
+    }
+}
+
+/// Resolves [`Existing::Numbered`]: adds the first free number, from 2, to the name.
+fn numbered(to: Destination) -> Destination {
+    if to.existing != Existing::Numbered {
+        return to;
+    }
+    let name =
+        |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+    let (stem, extension) = (name(to.path.file_stem()), name(to.path.extension()));
+    let free = (2..10_000)
+        .map(|number| {
+            to.path
+                .with_file_name(format!("{stem}-{number}.{extension}"))
+        })
+        .find(|path| path.symlink_metadata().is_err());
+    Destination {
+        path: free.unwrap_or_else(|| to.path.clone()),
+        existing: Existing::Kept,
+        ..to
     }
 }
 
 /// Checks whether a picture may be written there; the error is the reason why not.
-fn check_target(to: &Destination) -> Result<(), String> {
+fn check_target(to: &Destination) -> Result<(), Refused> {
     let (path, shown) = (&to.path, to.path.display());
     let scene = to.scene.as_deref();
     if scene.is_some_and(|scene| file::is_same(path, scene)) {
-        return Err(format!(
-            "cannot overwrite {shown}: it is the scene itself; name another file"
-        ));
+        return Err(
+            format!("cannot overwrite {shown}: it is the scene itself; name another file").into(),
+        );
     }
     if to.named.iter().any(|named| file::is_same(path, named)) {
-        return Err(format!(
-            "cannot overwrite {shown}: the scene uses it; name another file"
-        ));
+        return Err(
+            format!("cannot overwrite {shown}: the scene uses it; name another file").into(),
+        );
     }
     let reason = match to.existing {
-        Existing::Kept => Some("exists"),
+        Existing::Kept | Existing::Numbered => Some("exists"),
         Existing::Own(version) if Version::of(path).ok() != Some(version) => {
             Some("has changed since it was exported")
         }
         Existing::Own(_) | Existing::Overwritten => None,
     };
     if let Some(reason) = reason.filter(|_| path.symlink_metadata().is_ok()) {
-        return Err(format!(
-            "{shown} {reason}: use :export! {shown} to overwrite it"
-        ));
+        return Err(Refused {
+            reason: format!("{shown} {reason}: use :export! {shown} to overwrite it"),
+            is_taken: true,
+        });
     }
-    file::check_target(path).map_err(|error| format!("{shown}: {error}"))
+    file::check_target(path).map_err(|error| format!("{shown}: {error}").into())
 }
 
 #[cfg(test)]
@@ -321,7 +408,7 @@ mod tests {
                 named: vec![place.path().join("x/../bricks.png"), texture.clone()],
             };
             let refused = check_target(&to).expect_err("one file");
-            assert!(refused.contains("the scene uses it"), "{refused}");
+            assert!(refused.reason.contains("the scene uses it"), "{refused:?}");
         }
     }
 
@@ -343,18 +430,37 @@ mod tests {
         assert_eq!(check_target(&to(Existing::Kept)), Ok(()));
         std::fs::write(&path, "").expect("the folder is new");
         let refused = check_target(&to(Existing::Kept)).expect_err("it exists");
-        assert!(refused.contains(":export! "), "{refused}");
+        assert!(refused.reason.contains(":export! "), "{refused:?}");
         assert_eq!(check_target(&to(Existing::Overwritten)), Ok(()));
         let exported = Version::of(&path).expect("a file");
         assert_eq!(check_target(&to(Existing::Own(exported))), Ok(()));
         std::fs::write(&path, "theirs").expect("it is ours");
         let refused = check_target(&to(Existing::Own(exported))).expect_err("it was changed");
         assert!(
-            refused.contains("has changed since it was exported: use :export! "),
-            "{refused}"
+            refused
+                .reason
+                .contains("has changed since it was exported: use :export! "),
+            "{refused:?}"
         );
         std::fs::remove_file(&path).expect("it is there");
         assert_eq!(check_target(&to(Existing::Own(exported))), Ok(()));
+    }
+
+    #[test]
+    fn a_numbered_picture_takes_the_first_free_number() {
+        let place = tempfile::tempdir().expect("a folder");
+        let path = place.path().join("a.depth.bmp");
+        std::fs::write(&path, "").expect("the folder is new");
+        std::fs::write(place.path().join("a.depth-2.bmp"), "").expect("the folder is new");
+        let to = destination(&path, Existing::Numbered);
+        let size = Size {
+            width: 1,
+            height: 1,
+        };
+        let exported = export(&frame(size, Vec::new()), to).expect("there is a name");
+        assert_eq!(exported.path, place.path().join("a.depth-3.bmp"));
+        let to = destination(&path, Existing::Kept);
+        assert!(check_target(&to).expect_err("it exists").is_taken);
     }
 
     #[test]
@@ -391,7 +497,10 @@ mod tests {
                 named: Vec::new(),
             };
             let refused = check_target(&to).expect_err("one file");
-            assert!(refused.contains("is the scene itself"), "{refused}");
+            assert!(
+                refused.reason.contains("is the scene itself"),
+                "{refused:?}"
+            );
         }
     }
 }

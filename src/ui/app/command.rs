@@ -3,13 +3,14 @@
 
 use std::path::{Path, PathBuf};
 
+use super::jobs::Asking;
 use super::{App, Help, Next, PromptKind};
 use crate::image_file::ImageFormat;
 use crate::language::{Language, extensions};
 use crate::render::MAX_SPP;
 use crate::scene::{Camera, Size};
-use crate::text::nearest_word;
-use crate::ui::keymap::{self, HelpLine};
+use crate::text::{Severity, nearest_word};
+use crate::ui::keymap::{self, Action, HelpLine, Mode};
 use crate::ui::msg::{Effect, Guard};
 
 /// A parsed command line.
@@ -41,6 +42,8 @@ enum Command {
     ViewReset,
     /// Set the size of the output picture.
     Size(Size),
+    /// Take the mouse or leave it to the terminal.
+    Mouse,
     /// Open the help page.
     Help,
 }
@@ -91,6 +94,11 @@ const fn row(
     }
 }
 
+/// Minimum width of a column of the help page if there are several.
+const HELP_COLUMN: u16 = 56;
+/// Maximum number of columns of the help page.
+const MOST_COLUMNS: usize = 3;
+
 use Arguments as A;
 use Command as C;
 
@@ -113,10 +121,76 @@ const TABLE: &[CommandRow] = &[
     row(&["view light"], A::Nothing(C::ViewLight), "look from the selected light"),
     row(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
     row(&["size"], A::Size(C::Size), "set the picture size in the scene"),
+    row(&["mouse"], A::Nothing(C::Mouse), "take the mouse or leave it to the terminal"),
     row(&["help"], A::Nothing(C::Help), "show this page"),
 ];
 
+/// The keys that do what a command does.
+const KEYS: &[(&str, Action)] = &[
+    ("w", Action::Save),
+    ("q", Action::Quit),
+    ("export", Action::Export),
+    ("export cancel", Action::Stop),
+    ("render", Action::Go(Mode::Trace)),
+    ("view save", Action::SaveView),
+    ("view reset", Action::ResetView),
+    ("help", Action::Help),
+];
+
+/// A command as the palette describes it.
+pub(super) struct Described {
+    pub(super) name: &'static str,
+    pub(super) names: &'static [&'static str],
+    pub(super) usage: String,
+    pub(super) words: &'static str,
+    /// The action of a key that does the same.
+    pub(super) action: Option<Action>,
+    /// Whether its arguments begin with a file name.
+    pub(super) takes_file: bool,
+}
+
+/// All commands, in the order of the help page.
+pub(super) fn all_described() -> impl Iterator<Item = Described> {
+    TABLE.iter().map(CommandRow::described)
+}
+
+/// The command with exactly this name.
+pub(super) fn described_as(name: &str) -> Option<Described> {
+    let mut rows = TABLE.iter();
+    let row = rows.find(|row| row.names.contains(&name));
+    row.map(CommandRow::described)
+}
+
+/// The command whose name a line begins with, followed by a blank.
+pub(super) fn described_in(line: &str) -> Option<Described> {
+    let begins = |name: &&str| {
+        line.strip_prefix(*name)
+            .is_some_and(|rest| rest.starts_with(' '))
+    };
+    let rows = TABLE.iter().filter(|row| row.names.iter().any(begins));
+    let row = rows.max_by_key(|row| row.names[0].len());
+    row.map(CommandRow::described)
+}
+
+/// Whether a line can be run.
+pub(super) fn is_command(line: &str) -> bool {
+    parse(line).is_ok()
+}
+
 impl CommandRow {
+    fn described(&self) -> Described {
+        let name = self.names[0];
+        let key = KEYS.iter().find(|(of, _)| *of == name);
+        Described {
+            name,
+            names: self.names,
+            usage: self.usage(),
+            words: self.words,
+            action: key.map(|&(_, action)| action),
+            takes_file: matches!(self.arguments, A::File(_) | A::Picture(_)),
+        }
+    }
+
     /// The spelling with arguments: `:size WxH`.
     fn usage(&self) -> String {
         let name = self.names[0];
@@ -248,6 +322,12 @@ impl App {
         keymap::help(search, self.mode, commands.collect())
     }
 
+    /// The columns of the help page on a screen of this width.
+    pub fn help_columns(&self, width: u16) -> Vec<Vec<HelpLine>> {
+        let count = usize::from(width.saturating_sub(2) / HELP_COLUMN).clamp(1, MOST_COLUMNS);
+        keymap::in_columns(self.help_lines(), count)
+    }
+
     /// Runs a command line.
     pub(super) fn command(&mut self, line: &str) -> Vec<Effect> {
         if line.trim().is_empty() {
@@ -264,7 +344,7 @@ impl App {
 
     fn run(&mut self, command: Command) -> Vec<Effect> {
         match command {
-            Command::Quit(_) | Command::Help => {}
+            Command::Quit(_) | Command::Mouse | Command::Help => {}
             _ if self.disk.is_opening() => {
                 self.warn_of_opening();
                 return Vec::new();
@@ -285,7 +365,11 @@ impl App {
             Command::Recent => return vec![Effect::ListRecent],
             Command::Export(ExportArguments { path, size, spp }, force) => {
                 let path = path.unwrap_or_else(|| self.export_path());
-                return self.start_export(&path, size, spp, force);
+                let asking = match force {
+                    Force::Yes => Asking::Forced,
+                    Force::No => Asking::No,
+                };
+                return self.start_export(&path, size, spp, asking);
             }
             Command::ExportCancel => return self.cancel_export(),
             Command::Render => return self.start_trace(),
@@ -294,6 +378,7 @@ impl App {
             Command::ViewLight => self.look_from_light(),
             Command::ViewReset => self.pictures.reset_view(),
             Command::Size(size) => self.set_size(size),
+            Command::Mouse => return self.toggle_mouse(),
             Command::Help => self.overlays.help = Some(Help::default()),
         }
         Vec::new()
@@ -328,8 +413,8 @@ impl App {
 
     fn set_size(&mut self, size: Size) {
         let Some(scene) = self.scene.clone().filter(|_| self.error_count() == 0) else {
-            self.overlays
-                .fail("cannot set the size while the scene has errors");
+            let words = "cannot set the size while the scene has errors";
+            self.overlays.blame_errors(Severity::Error, words);
             return;
         };
         let camera = Camera {

@@ -7,8 +7,10 @@ use tui_input::Input;
 
 use crate::language::{Node, Nodes, Placed, Source};
 use crate::text::{Diagnostic, Edit, Span};
+use crate::ui::arrange::Areas;
 use crate::ui::keymap::Stride;
-use crate::ui::layout::{self, Areas};
+use crate::ui::layout;
+use crate::ui::listing::Listing;
 
 /// The maximum number of parts listed for a combined object.
 const MAX_PARTS: usize = 32;
@@ -20,7 +22,7 @@ pub struct Cursor {
     /// The fields of the selected node in the current text.
     fields: Vec<Placed>,
     parts: Vec<(usize, Node)>,
-    /// The first row of the list that is shown.
+    /// The first line of the list that is shown.
     pub list_top: usize,
     /// The index of the selected field.
     pub field: usize,
@@ -225,8 +227,9 @@ impl Cursor {
         let count = self.fields.len();
         self.field_top = layout::first_shown(self.field_top, self.field, count, fields);
         let rows = usize::from(layout::contents(areas.list).height);
-        let row = row_of(source, self.selected);
-        self.list_top = layout::first_shown(self.list_top, row, source.nodes().len(), rows);
+        let listing = Listing::new(source.nodes());
+        let line = listing.line_of(row_of(source, self.selected));
+        self.list_top = layout::first_shown(self.list_top, line, listing.len(), rows);
     }
 
     /// Records the cursor's position in a text.

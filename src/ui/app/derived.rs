@@ -8,16 +8,17 @@ use super::App;
 use super::cursor::row_of;
 use super::disk::OnDisk;
 use super::next::Next;
-use super::overlays::Dialog;
-use super::page::List;
+use super::overlays::{Dialog, PromptKind};
+use super::page::{List, PageFocus};
 use super::picture::Picture;
 use super::pictures::Outline;
 use crate::language::table::Field;
 use crate::language::{Node, Nodes, Source};
 use crate::scene::{Camera, Integrator, Scene, Size};
+use crate::ui::arrange::{Areas, Shape, Zoom, arrange};
 use crate::ui::errors::{self, Panel, Wrong};
-use crate::ui::keymap::{Context, Mode};
-use crate::ui::layout::{Areas, Zoom, arrange, raster};
+use crate::ui::keymap::{Context, Line, Mode};
+use crate::ui::layout::raster;
 
 /// The picture size without a scene.
 const NO_SCENE: Size = Size {
@@ -32,9 +33,13 @@ impl App {
     /// The context whose keys are active; keys typed into a line take precedence.
     pub fn context(&self) -> Context {
         match &self.overlays.dialog {
+            Some(Dialog::Leave(Next::Quit)) if self.is_saved() && !self.is_view_unwritten() => {
+                Context::Wait
+            }
             Some(Dialog::Leave(Next::Quit)) => Context::Quit,
             Some(Dialog::Leave(_)) => Context::Leave,
             Some(Dialog::Delete(_)) => Context::Delete,
+            Some(Dialog::Overwrite(_)) => Context::Overwrite,
             Some(Dialog::Conflict { .. }) => Context::Conflict,
             Some(Dialog::Recover(_)) => Context::Recover,
             None if self.overlays.help.is_some() => Context::Help,
@@ -42,9 +47,31 @@ impl App {
                 List::Views(..) => Context::Views,
                 List::Recent(_) => Context::Recent,
             },
+            None if self.overlays.history.is_some() => Context::Messages,
             None if self.overlays.errors.is_some() => Context::Errors,
             None if self.disk.is_opening() => Context::Opening,
             None => Context::In(self.mode),
+        }
+    }
+
+    /// The line that keys are typed into, if any.
+    pub fn typed_line(&self) -> Option<Line> {
+        let overlays = &self.overlays;
+        if overlays.dialog.is_some() {
+            return None;
+        }
+        let help = overlays.help.as_ref();
+        match &overlays.prompt {
+            Some(prompt) => Some(match prompt.kind {
+                PromptKind::Command => Line::Command,
+                PromptKind::Search => Line::Search,
+                PromptKind::Name => Line::Name,
+            }),
+            None if overlays.menu.is_some() => Some(Line::Filter),
+            None if self.cursor.typing.is_some() => Some(Line::Value),
+            None => help
+                .filter(|help| help.focus == PageFocus::Search)
+                .map(|_| Line::Search),
         }
     }
 
@@ -135,7 +162,7 @@ impl App {
         }
     }
 
-    /// The list of errors and warnings over the picture, if there are any to show.
+    /// The list of errors and warnings in an area, if there are any to show.
     pub(crate) fn errors_panel(&self, area: Rect) -> Option<Panel> {
         errors::panel(&self.wrong(), &self.disk.name(), area)
     }
@@ -201,7 +228,10 @@ impl App {
     fn lost_export(&self) -> Option<String> {
         let export = self.jobs.export.as_ref()?;
         let name = export.destination.path.display();
-        Some(format!("{name} is still being exported"))
+        Some(match self.jobs.queued() {
+            0 => format!("{name} is still being exported"),
+            queued => format!("{name} is still being exported, and {queued} more queued"),
+        })
     }
 
     /// The save that would not be waited for.
@@ -247,11 +277,22 @@ impl App {
 
     /// The layout of an area of the screen.
     pub fn areas_in(&self, area: Rect, zoom: Zoom) -> Areas {
-        arrange(
-            area,
+        let areas = arrange(area, &self.shape(zoom));
+        // The picture is scaled to what the errors leave rather than hidden by them.
+        match self.errors_panel(areas.room_for_errors()) {
+            Some(panel) => areas.make_room(panel.area.height),
+            None => areas,
+        }
+    }
+
+    /// What the layout of the screen depends on besides its size.
+    pub(super) fn shape(&self, zoom: Zoom) -> Shape {
+        Shape {
             zoom,
-            self.cursor.fields().len() + self.cursor.parts().len(),
-        )
+            output: self.output(),
+            fields: self.cursor.fields().len() + self.cursor.parts().len(),
+            panels: self.panels,
+        }
     }
 
     fn areas_at(&self, zoom: Zoom) -> Areas {

@@ -1,14 +1,14 @@
 //! Work that quitting would interrupt: the export, and saves, which are tracked until their outcome
 //! arrives (possibly never). Saves of the same file run one after the other.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
 use super::next::Next;
 use crate::file::Version;
-use crate::render::{Aov, Progress};
+use crate::render::{Aov, Frame, Job, Progress};
 use crate::scene::Size;
 use crate::ui::msg::{
     Destination, Effect, Existing, ExportId, Exported, Guard, SaveId, Target, Timer,
@@ -25,6 +25,10 @@ const PATIENCE: u32 = 2;
 pub struct Jobs {
     /// The running export; there is at most one.
     pub export: Option<Export>,
+    /// How the running export is made, and whether it asks.
+    making: Option<(Making, Asking)>,
+    /// The exports that wait for it, the next one first.
+    pending: VecDeque<Pending>,
     /// The ID of the latest export.
     last_export: ExportId,
     /// The versions of the pictures written so far, by path. They may be overwritten as long as
@@ -63,6 +67,35 @@ pub struct Export {
     pub progress: Option<Progress>,
     /// Seconds since its file began to be written.
     pub written_for: u32,
+}
+
+/// An export that waits for others or for an answer.
+#[derive(Debug)]
+pub struct Pending {
+    /// The export as if it were running.
+    pub export: Export,
+    pub(super) making: Making,
+    pub(super) asking: Asking,
+}
+
+/// How a picture is made.
+#[derive(Clone, Debug)]
+pub(super) enum Making {
+    /// It is traced first.
+    Trace(Box<Job>),
+    /// It is already traced.
+    Write(Arc<Frame>),
+}
+
+/// What an export does about a file that another program has written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Asking {
+    /// It asks whether to overwrite the file.
+    Yes,
+    /// It keeps the file.
+    No,
+    /// It overwrites the file.
+    Forced,
 }
 
 /// A stage of an export.
@@ -213,6 +246,75 @@ impl Jobs {
     pub(super) fn next_export(&mut self) -> ExportId {
         self.last_export.0 += 1;
         self.last_export
+    }
+
+    /// The number of exports that wait.
+    pub fn queued(&self) -> usize {
+        self.pending.len()
+    }
+
+    /// Lets an export wait. It replaces a waiting one to the same file.
+    pub(super) fn queue(&mut self, pending: Pending) {
+        let path = &pending.export.destination.path;
+        self.pending
+            .retain(|other| other.export.destination.path != *path);
+        self.pending.push_back(pending);
+    }
+
+    /// Takes the next export that waits.
+    pub(super) fn next_pending(&mut self) -> Option<Pending> {
+        self.pending.pop_front()
+    }
+
+    /// Whether the running export asks before it overwrites a file.
+    pub(super) fn is_asking(&self) -> bool {
+        matches!(self.making, Some((_, Asking::Yes)))
+    }
+
+    /// Takes the running export back, to start it again later.
+    pub(super) fn take_back(&mut self) -> Option<Pending> {
+        let (making, asking) = self.making.take()?;
+        Some(Pending {
+            export: self.export.take()?,
+            making,
+            asking,
+        })
+    }
+
+    /// Starts an export.
+    pub(super) fn begin_export(&mut self, pending: Pending) -> Vec<Effect> {
+        let Pending {
+            mut export,
+            making,
+            asking,
+        } = pending;
+        let destination = &mut export.destination;
+        if destination.existing == Existing::Kept {
+            destination.existing = self.existing(&destination.path);
+        }
+        let destination = destination.clone();
+        let effects = match &making {
+            Making::Write(frame) => {
+                export.stage = Stage::Writing;
+                let mut effects = vec![Effect::WriteImage(
+                    export.id,
+                    Arc::clone(frame),
+                    destination,
+                )];
+                effects.extend(self.count_seconds());
+                effects
+            }
+            Making::Trace(job) => {
+                export.stage = Stage::Tracing;
+                vec![
+                    Effect::CheckTarget(export.id, destination),
+                    Effect::Trace(Target::Export, (**job).clone()),
+                ]
+            }
+        };
+        self.export = Some(export);
+        self.making = Some((making, asking));
+        effects
     }
 
     /// Records that a picture was written.

@@ -68,8 +68,14 @@ impl App {
     /// lost.
     pub(super) fn leave_when_done(&mut self) -> Vec<Effect> {
         if self.jobs.next == Some(Next::Quit) && self.jobs.export.is_some() {
-            self.overlays
-                .say("will quit once the export finishes; press x to cancel it");
+            let words = match self.jobs.queued() {
+                0 => "will quit once the export finishes; press x to cancel it".to_owned(),
+                queued => format!("will quit once {} exports finish", queued + 1),
+            };
+            self.overlays.say(words);
+            return Vec::new();
+        }
+        if let Some(Dialog::Overwrite(_)) = self.overlays.dialog {
             return Vec::new();
         }
         match self.jobs.next.take() {

@@ -3,8 +3,10 @@
 use super::App;
 use super::cursor::moved;
 use crate::language::Node;
+use crate::text::Severity;
+use crate::ui::arrange::Areas;
 use crate::ui::keymap::{Context, Mode};
-use crate::ui::layout::{self, Areas};
+use crate::ui::layout;
 
 impl App {
     /// Selects a node; ends the current undo step.
@@ -29,9 +31,18 @@ impl App {
                 self.overlays.errors = Some(moved(at, rows, self.wrong().findings.len()));
             }
             Context::Help => {
-                let lines = self.help_lines().len();
+                let columns = self.help_columns(self.terminal.0);
+                let longest = columns.iter().map(Vec::len).max().unwrap_or(0);
+                let lines = (longest + 1).saturating_sub(self.help_rows());
                 if let Some(help) = &mut self.overlays.help {
                     help.top = moved(help.top, rows, lines);
+                }
+            }
+            Context::Messages => {
+                let count = self.overlays.messages.past().len();
+                let top = self.overlays.history.as_mut();
+                if let Some(top) = top {
+                    *top = moved(*top, rows, count);
                 }
             }
             Context::Conflict => {
@@ -49,16 +60,26 @@ impl App {
             | Context::Quit
             | Context::Leave
             | Context::Delete
+            | Context::Wait
+            | Context::Overwrite
             | Context::Recover => {}
         }
+    }
+
+    /// The lines of the help page, inside its frame and above its search.
+    fn help_rows(&self) -> usize {
+        let areas = self.areas();
+        let outside = areas.hint.height + areas.status.height + 3;
+        usize::from(self.terminal.1.saturating_sub(outside))
     }
 
     /// The number of lines that Page Down moves.
     pub(super) fn page(&self, context: Context) -> isize {
         let areas = self.areas();
         let panel = match context {
+            Context::Help => return (self.help_rows() as isize - 1).max(1),
             Context::Errors => areas.errors,
-            Context::Help | Context::Views | Context::Recent => areas.picture,
+            Context::Messages | Context::Views | Context::Recent => areas.picture,
             _ => areas.list,
         };
         (layout::contents(panel).height as isize - 1).max(1)
@@ -222,7 +243,7 @@ impl App {
                 }
             }
             Ok(None) => self.overlays.say("nothing there"),
-            Err(reason) => self.overlays.warn(reason),
+            Err(reason) => self.refuse_picture(Severity::Warning, reason),
         }
     }
 }

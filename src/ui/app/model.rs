@@ -7,12 +7,13 @@ use super::cursor::Cursor;
 use super::disk::Disk;
 use super::jobs::Jobs;
 use super::overlays::Overlays;
+use super::palette::Palette;
 use super::pictures::Pictures;
 use crate::document::Document;
 use crate::scene::Scene;
 use crate::text::Findings;
+use crate::ui::arrange::{PanelSizes, Zoom};
 use crate::ui::keymap::{Action, Mode};
-use crate::ui::layout::Zoom;
 use crate::ui::terminal::Mouse;
 
 /// The whole state of the interface: the text, its meaning, and one part for each concern, which
@@ -35,6 +36,8 @@ pub struct App {
     pub pictures: Pictures,
     /// Dialogs, help, errors, the line being typed, and messages.
     pub overlays: Overlays,
+    /// Completions and history of the command line.
+    pub palette: Palette,
     /// Saves and exports under way.
     pub jobs: Jobs,
     /// The mode, which determines the meaning of keys.
@@ -43,6 +46,10 @@ pub struct App {
     pub(super) prefix: Option<Action>,
     /// How much of the screen the picture takes, except in the full-size trace.
     pub zoom: Zoom,
+    /// The sizes of the panels that the user chose.
+    pub panels: PanelSizes,
+    /// Whether the border of the panels is being dragged.
+    pub(super) resizing: bool,
     /// Who receives mouse events.
     pub mouse: Mouse,
     /// Size of the terminal in cells.

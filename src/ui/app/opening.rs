@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 
 use super::assets::Assets;
+use super::palette::Palette;
 use super::{App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Quality};
 use crate::document::Document;
 use crate::file::ReadError;
 use crate::language::{Language, Lowered, Node};
 use crate::text::{Findings, Severity};
+use crate::ui::arrange::{PanelSizes, Zoom};
 use crate::ui::keymap::Mode;
-use crate::ui::layout::Zoom;
 use crate::ui::msg::Effect;
 use crate::ui::reading::{News, Reading};
 use crate::ui::terminal::Mouse;
@@ -72,7 +73,10 @@ impl App {
             jobs: Jobs::default(),
             mode: Mode::Select,
             prefix: None,
+            palette: Palette::default(),
             zoom: Zoom::default(),
+            panels: PanelSizes::default(),
+            resizing: false,
             mouse: opening.mouse,
             terminal: opening.terminal,
         };

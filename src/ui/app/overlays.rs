@@ -1,11 +1,13 @@
-//! What overlays the panels: dialogs, the help page, the list of errors, a line being typed, and
-//! messages.
+//! What overlays the panels: dialogs, the help page, the list of errors, a line being typed,
+//! messages and their history.
 
 use std::sync::Arc;
 
 use tui_input::Input;
 
+use super::jobs::Pending;
 use super::menu::Menu;
+use super::messages::{Lasts, Message, Messages};
 use super::next::Next;
 use super::page::{Page, PageFocus};
 use crate::document::{Merge, Side};
@@ -30,8 +32,10 @@ pub struct Overlays {
     pub errors: Option<usize>,
     /// The message in the status line; the next key dismisses it.
     pub message: Option<Message>,
-    /// The message that a key dismissed.
-    past: Option<Message>,
+    /// The first message shown of the history, if it is open.
+    pub history: Option<usize>,
+    /// The messages that wait, and those so far.
+    pub messages: Messages,
 }
 
 /// A line being typed at the bottom.
@@ -70,6 +74,8 @@ pub enum Dialog {
     },
     /// Whether to delete these nodes although others use them.
     Delete(Vec<Node>),
+    /// Whether an export may overwrite a file that another program has written.
+    Overwrite(Box<Pending>),
     /// Whether to restore unsaved edits of an earlier run.
     Recover(Box<Offer>),
 }
@@ -102,15 +108,6 @@ pub struct Help {
     pub search: Input,
     /// Whether keys are typed into the search.
     pub focus: PageFocus,
-}
-
-/// A message to the user.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Message {
-    /// `None` for success and information.
-    pub severity: Option<Severity>,
-    /// Its text, without the system's error numbers.
-    pub text: String,
 }
 
 impl Overlays {
@@ -185,23 +182,88 @@ impl Overlays {
                 format!("{}; {text}", before.text)
             }
         });
-        self.fail(both.unwrap_or_else(|| text.to_owned()));
+        self.replace(
+            Some(Severity::Error),
+            both.unwrap_or_else(|| text.to_owned()),
+        );
     }
 
+    /// Shows a message. If another came in the same step, which nobody has seen yet, this one waits
+    /// for the next key.
     pub(super) fn show(&mut self, severity: Option<Severity>, text: impl Into<String>) {
-        let text = without_codes(&text.into()).into_owned();
-        self.message = Some(Message { severity, text });
+        self.put(Lasts::UntilNext, severity, &text.into());
     }
 
-    /// Dismisses the message, which can be shown again.
-    pub(super) fn clear_message(&mut self) {
-        if let Some(message) = self.message.take() {
-            self.past = Some(message);
+    /// Answers a key that does nothing. This is not remembered.
+    pub(super) fn answer(&mut self, text: String) {
+        self.message = Some(Message {
+            severity: None,
+            text,
+        });
+    }
+
+    /// Shows that something cannot be done as expected because the text has errors. The message
+    /// goes when they do.
+    pub(super) fn blame_errors(&mut self, severity: Severity, text: impl Into<String>) {
+        self.put(Lasts::WhileErrors, Some(severity), &text.into());
+    }
+
+    /// Reports the end of something that the user waits for. If another report is shown, this one
+    /// waits for the next key.
+    pub(super) fn report(&mut self, text: impl Into<String>) {
+        self.messages.is_unseen |= self.messages.lasts == Lasts::Report;
+        self.put(Lasts::Report, None, &text.into());
+    }
+
+    fn put(&mut self, lasts: Lasts, severity: Option<Severity>, text: &str) {
+        let text = without_codes(text).into_owned();
+        let message = Message { severity, text };
+        self.messages.remember(&message);
+        if self.message.is_some() && self.messages.is_unseen {
+            if self.message.as_ref() != Some(&message) {
+                self.messages.queue(message);
+            }
+            return;
+        }
+        self.message = Some(message);
+        self.messages.is_unseen = true;
+        self.messages.lasts = lasts;
+    }
+
+    /// Replaces the message, which caused this one or was caused by the same.
+    fn replace(&mut self, severity: Option<Severity>, text: String) {
+        self.message = None;
+        self.show(severity, text);
+    }
+
+    /// Begins a step: messages shown so far have been seen.
+    pub(super) fn begin_step(&mut self) {
+        self.messages.is_unseen = false;
+    }
+
+    /// Ends a step: shows the next message that waits if there is none.
+    pub(super) fn end_step(&mut self) {
+        if self.message.is_none() {
+            self.message = self.messages.next();
+            self.messages.lasts = Lasts::UntilNext;
         }
     }
 
-    pub(super) fn show_past_message(&mut self) {
-        self.message = self.past.take();
-        self.suggest("no messages yet");
+    /// Dismisses the message, which stays in the history.
+    pub(super) fn clear_message(&mut self) {
+        self.message = None;
+    }
+
+    /// Dismisses a message whose cause is gone, also while it waits.
+    pub(super) fn withdraw(&mut self, text: &str) {
+        self.message.take_if(|message| message.text == text);
+        self.messages.withdraw(text);
+    }
+
+    /// Dismisses a message about errors in the text, which has none any more.
+    pub(super) fn forgive_errors(&mut self) {
+        if self.messages.lasts == Lasts::WhileErrors && !self.messages.is_unseen {
+            self.message = None;
+        }
     }
 }

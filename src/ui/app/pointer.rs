@@ -6,6 +6,7 @@ use super::App;
 use super::camera::{advanced, dollied, orbited, turned};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{field_at, list_row_at, pixel_at};
+use crate::ui::listing::{ListLine, Listing};
 use crate::ui::msg::{Effect, Timer};
 
 /// Angles of orbit, in degrees, for dragging across a cell, which is twice as high as wide.
@@ -28,7 +29,10 @@ impl App {
             _ if self.overlays.help.is_some() => {}
             MouseEventKind::Down(MouseButton::Left) => return self.press(at),
             MouseEventKind::Drag(MouseButton::Left) => self.drag(at),
-            MouseEventKind::Up(_) => self.pictures.drag = None,
+            MouseEventKind::Up(_) => {
+                self.pictures.drag = None;
+                self.resizing = false;
+            }
             _ => {}
         }
         Vec::new()
@@ -65,15 +69,19 @@ impl App {
         self.overlays.clear_message();
         self.cursor.typing = None;
         let areas = self.areas();
-        if let Some(row) = list_row_at(areas.list, self.cursor.list_top, at.0, at.1) {
-            if let Some(node) = self.nodes().get(row) {
+        if areas.border.contains(at.into()) {
+            self.resizing = true;
+            return Vec::new();
+        }
+        if let Some(line) = list_row_at(areas.list, self.cursor.list_top, at.0, at.1) {
+            let line = Listing::new(self.nodes()).get(line);
+            if let Some(ListLine::Node(_, node)) = line {
                 self.select(node);
                 self.overlays.errors = None;
                 self.mode = Mode::Select;
             }
             return Vec::new();
         }
-        // The panel lies over the picture: a click on it does not mean what is below.
         if let Some(panel) = self.errors_panel(areas.errors)
             && panel.area.contains(at.into())
         {
@@ -113,6 +121,10 @@ impl App {
     }
 
     fn drag(&mut self, at: (u16, u16)) {
+        if self.resizing {
+            self.resize_panels(self.areas().dragged(at));
+            return;
+        }
         let Some(from) = self.pictures.drag else {
             return;
         };

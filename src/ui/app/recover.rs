@@ -47,8 +47,9 @@ impl App {
         match self.disk.journal.kept(revision, outcome) {
             Outcome::OutOfDate => None,
             Outcome::Kept(trouble) => {
-                let message = &mut self.overlays.message;
-                message.take_if(|message| Some(&message.text) == trouble.as_ref());
+                if let Some(trouble) = trouble {
+                    self.overlays.withdraw(&trouble);
+                }
                 None
             }
             Outcome::Failed(trouble, again) => {
@@ -69,7 +70,7 @@ impl App {
             Some(Dialog::Conflict { merge, from, .. }) => {
                 matches!(from, Outside::Kept(..)) && !merge.is_of(&self.document)
             }
-            Some(Dialog::Leave(_) | Dialog::Delete(_)) => false,
+            Some(Dialog::Leave(_) | Dialog::Delete(_) | Dialog::Overwrite(_)) => false,
             None => {
                 let offer = self.disk.journal.offer.take()?;
                 self.overlays.dialog = Some(Dialog::Recover(offer));

@@ -148,22 +148,20 @@ impl App {
         };
         let before = self.disk.move_to(place.clone());
         let before = before.unwrap_or_else(|| place.clone());
-        self.overlays.message.take_if(|_| before.id != place.id);
+        let is_moved = before.id != place.id || before.folder != place.folder;
+        self.overlays.message.take_if(|_| is_moved);
         let effects = self.take_text(reading, settle);
         let folder = place.folder.display();
-        if before.id != place.id {
-            let message = self
-                .overlays
-                .message
-                .take()
-                .map(|message| format!("; {}", message.text));
-            let message = message.unwrap_or_default();
-            self.overlays
-                .warn(format!("{folder} is now a different folder{message}"));
+        let news = if before.id != place.id {
+            format!("{folder} is now a different folder")
         } else if before.folder != place.folder {
-            self.overlays
-                .warn(format!("the scene's folder was moved to {folder}"));
-        }
+            format!("the scene's folder was moved to {folder}")
+        } else {
+            return effects;
+        };
+        let message = self.overlays.message.take();
+        let message = message.map_or_else(String::new, |message| format!("; {}", message.text));
+        self.overlays.warn(format!("{news}{message}"));
         effects
     }
 

@@ -7,6 +7,7 @@ use super::{App, PageFocus, line, literals};
 use crate::language::table::{Field, Kind};
 use crate::text::{Diagnostic, Span};
 use crate::ui::keymap::{Mode, Stride};
+use crate::ui::msg::Effect;
 
 impl App {
     /// The current component's field and its literal as shown.
@@ -148,13 +149,20 @@ impl App {
         literals::is_one(typed).then(|| vec![(self.cursor.component, typed.to_owned())])
     }
 
-    pub(super) fn paste(&mut self, text: &str) {
+    pub(super) fn paste(&mut self, text: &str) -> Vec<Effect> {
+        if let Some(prompt) = &mut self.overlays.prompt
+            && self.overlays.dialog.is_none()
+        {
+            line::insert(&mut prompt.input, text);
+            return self.palette_pasted();
+        }
+        self.paste_value(text);
+        Vec::new()
+    }
+
+    fn paste_value(&mut self, text: &str) {
         let pasted = text.trim();
         if self.overlays.dialog.is_some() {
-            return;
-        }
-        if let Some(prompt) = &mut self.overlays.prompt {
-            line::insert(&mut prompt.input, text);
             return;
         }
         if let Some(help) = &mut self.overlays.help {

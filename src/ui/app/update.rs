@@ -5,15 +5,22 @@ use tui_input::Input;
 
 use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
 use super::{App, Help, PageFocus, PromptKind, line};
+use crate::text::Severity;
+use crate::ui::arrange::{Zoom, resized};
 use crate::ui::keymap::{self, Action, Context, Mode};
-use crate::ui::layout::Zoom;
-use crate::ui::msg::{Effect, Msg, Timer};
+use crate::ui::msg::{Effect, Existing, Msg, Timer};
 use crate::ui::terminal::Mouse;
 
 impl App {
     /// Processes a message and returns the resulting effects.
     pub fn update(&mut self, msg: Msg) -> Vec<Effect> {
+        self.overlays.begin_step();
+        let had_errors = 0 < self.error_count();
         let mut effects = self.take(msg);
+        if had_errors && self.error_count() == 0 {
+            self.overlays.forgive_errors();
+        }
+        self.overlays.end_step();
         let areas = self.areas();
         self.scroll(&areas);
         self.follow_views();
@@ -26,13 +33,13 @@ impl App {
     fn take(&mut self, msg: Msg) -> Vec<Effect> {
         match msg {
             Msg::Key(key) => return self.key(key),
-            Msg::Paste(text) => self.paste(&text),
+            Msg::Paste(text) => return self.paste(&text),
             Msg::Mouse(event) => return self.pointer(event),
             Msg::Resize(columns, rows) => self.terminal = (columns, rows),
             Msg::Started(target, generation) => self.pictures.want(target, Some(generation)),
             Msg::Frame(target, frame) => return self.frame(target, frame),
-            Msg::Refused(target, reason) => self.ended(target, reason),
-            Msg::Ended(target) => self.ended(target, "the renderer stopped early"),
+            Msg::Refused(target, reason) => return self.ended(target, reason),
+            Msg::Ended(target) => return self.ended(target, "the renderer stopped early"),
             Msg::FileChanged => return self.read_again(),
             // The scene may have been given another name since the request.
             Msg::Read(path, read) if !self.disk.is_own(&path) => drop(read),
@@ -49,6 +56,8 @@ impl App {
             Msg::Saved(id, outcome) => return self.was_saved(id, outcome),
             Msg::BackupsFound(copies) => self.backups_found(&copies),
             Msg::Exported(id, outcome) => return self.exported(id, outcome),
+            Msg::Listed(folder, names) => self.folder_listed(folder, names),
+            Msg::Taken(id, reason) => return self.is_taken(id, reason),
             Msg::EditorClosed(outcome) => return self.editor_closed(outcome),
             Msg::RecentListed(scenes) => self.show_recent(scenes),
             Msg::Recovered(found) => self.found_kept(found),
@@ -108,12 +117,15 @@ impl App {
         }
     }
 
-    /// Starts typing a value on a digit or a sign, but not on `.`, which increases the step.
+    /// Starts typing a value on a digit or a sign, but not on `.`, which increases the step. Other
+    /// keys without a meaning are answered.
     fn start_typing_with(&mut self, context: Context, key: KeyEvent) -> Vec<Effect> {
         if let (Context::In(Mode::Edit), KeyCode::Char(first)) = (context, key.code)
             && (first.is_ascii_digit() || matches!(first, '-' | '+'))
         {
             self.cursor.type_value(Input::from(first.to_string()));
+        } else {
+            self.answer_unknown(context, key);
         }
         Vec::new()
     }
@@ -125,6 +137,26 @@ impl App {
             line::edit(&mut page.search, key);
             page.at = 0;
         }
+    }
+
+    /// Says where a key has a meaning that has none here.
+    fn answer_unknown(&mut self, context: Context, key: KeyEvent) {
+        let Some(name) = keymap::name(key) else {
+            return;
+        };
+        let words = match (keymap::elsewhere(context, key), context) {
+            (Some((mode, way, words)), _) => {
+                let way = way.map_or_else(String::new, |way| format!(" ({way})"));
+                format!("`{name}` in {}{way}: {words}", mode.name())
+            }
+            (None, Context::In(mode)) => format!("`{name}` is free in {}", mode.name()),
+            (None, _) => format!("`{name}` is free here"),
+        };
+        let help = match context {
+            Context::Help => "",
+            _ => "; ? lists keys",
+        };
+        self.overlays.answer(format!("{words}{help}"));
     }
 
     fn type_key(&mut self, key: KeyEvent) -> Vec<Effect> {
@@ -168,22 +200,23 @@ impl App {
             KeyCode::Backspace if prompt.input.value().is_empty() => self.close_prompt(),
             KeyCode::Enter => {
                 let (kind, typed) = (prompt.kind, prompt.input.value().to_owned());
-                self.overlays.prompt = None;
                 match kind {
-                    PromptKind::Command => return self.command(&typed),
+                    PromptKind::Command => return self.run_line(&typed),
                     PromptKind::Name => self.rename(&typed),
                     PromptKind::Search => {
+                        self.overlays.prompt = None;
                         self.cursor.searched = typed;
                         self.search(1);
                     }
                 }
             }
+            _ if prompt.kind == PromptKind::Command => return self.palette_key(key),
             _ => line::edit(&mut prompt.input, key),
         }
         Vec::new()
     }
 
-    fn act(&mut self, action: Action, context: Context) -> Vec<Effect> {
+    pub(super) fn act(&mut self, action: Action, context: Context) -> Vec<Effect> {
         match action {
             Action::Move(rows) => self.move_cursor(context, rows),
             Action::Page(pages) => self.move_cursor(context, pages * self.page(context)),
@@ -194,10 +227,13 @@ impl App {
             Action::Go(mode) => return self.go(mode),
             Action::Back => return self.back(context),
             Action::Accept => return self.accept(context),
+            Action::No if context == Context::Overwrite => {
+                return self.answer_taken(Existing::Numbered);
+            }
             Action::No => return self.decline(),
             Action::Search => self.overlays.open_search(),
             Action::SearchAgain(step) => self.search(step),
-            Action::Command => self.overlays.open_prompt(PromptKind::Command, ""),
+            Action::Command => self.open_palette(),
             Action::Outline => self.pictures.toggle_outline(),
             Action::Visibility => self.toggle_visibility(),
             Action::Mark => self.toggle_mark(),
@@ -242,9 +278,10 @@ impl App {
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),
             Action::Errors => self.toggle_errors(),
-            Action::Message => self.overlays.show_past_message(),
+            Action::Messages => self.overlays.history = Some(0),
             Action::Help => self.overlays.help = Some(Help::default()),
             Action::Zoom => self.toggle_zoom(),
+            Action::Resize(step) => self.resize_panels(step),
             Action::Show(aov) => self.overlays.say(self.pictures.show(aov)),
             Action::Integrator => {
                 let words = self.pictures.toggle_integrator(self.scene.as_deref());
@@ -254,7 +291,6 @@ impl App {
             Action::Export => return self.export_default(),
             Action::Save => return self.save_key(),
             Action::Editor => return self.open_editor(),
-            Action::Mouse => return self.toggle_mouse(),
             Action::Repaint => return vec![Effect::Repaint],
             Action::Suspend => return vec![Effect::Suspend],
             Action::Quit => return self.quit(),
@@ -263,12 +299,12 @@ impl App {
         Vec::new()
     }
 
-    fn go(&mut self, mode: Mode) -> Vec<Effect> {
+    pub(super) fn go(&mut self, mode: Mode) -> Vec<Effect> {
         self.document.end_step();
         match mode {
             Mode::Trace => return self.start_trace(),
             Mode::View | Mode::Fly | Mode::Pick if self.scene.is_none() => {
-                self.overlays.fail(self.no_picture());
+                self.refuse_picture(Severity::Error, self.no_picture());
             }
             Mode::Edit if self.cursor.fields().is_empty() => {
                 self.overlays.fail("nothing to edit here");
@@ -282,6 +318,7 @@ impl App {
     /// Closes a line without accepting it, and gives up leaving, which waited for a file name.
     fn close_prompt(&mut self) {
         self.overlays.prompt = None;
+        self.palette.reset();
         self.jobs.next = None;
     }
 
@@ -289,9 +326,15 @@ impl App {
         match context {
             Context::Help => self.overlays.help = None,
             Context::Views | Context::Recent => self.overlays.page = None,
+            Context::Messages => self.overlays.history = None,
             Context::Errors => self.overlays.errors = None,
             Context::Delete => self.overlays.dialog = None,
-            Context::Conflict | Context::Quit | Context::Leave | Context::Recover => {
+            Context::Conflict
+            | Context::Quit
+            | Context::Leave
+            | Context::Wait
+            | Context::Overwrite
+            | Context::Recover => {
                 return self.put_off();
             }
             Context::Opening => {}
@@ -313,12 +356,13 @@ impl App {
             Context::Errors => self.go_to_error(),
             Context::Views | Context::Recent => return self.choose(),
             Context::Conflict => return self.adopt(),
-            Context::Quit | Context::Leave => return self.leave_anyway(),
+            Context::Quit | Context::Wait | Context::Leave => return self.leave_anyway(),
             Context::Delete => self.delete_anyway(),
+            Context::Overwrite => return self.answer_taken(Existing::Overwritten),
             Context::Recover => return self.restore(),
             Context::In(Mode::Pick) => self.pick_cross(),
             Context::In(Mode::Move) => self.keep_hand(),
-            Context::In(_) | Context::Help | Context::Opening => {}
+            Context::In(_) | Context::Help | Context::Messages | Context::Opening => {}
         }
         Vec::new()
     }
@@ -330,7 +374,16 @@ impl App {
         };
     }
 
-    fn toggle_mouse(&mut self) -> Vec<Effect> {
+    /// Moves the border between picture and panels by some cells, towards the picture if positive.
+    pub(super) fn resize_panels(&mut self, cells: i32) {
+        let zoom = self.zoom_now();
+        match resized(&self.areas(), &self.shape(zoom), cells) {
+            Some(panels) => self.panels = panels,
+            None => self.overlays.say("there are no panels to resize here"),
+        }
+    }
+
+    pub(super) fn toggle_mouse(&mut self) -> Vec<Effect> {
         let (mouse, words) = match self.mouse {
             Mouse::On => (Mouse::Off, "mouse off: the terminal selects text again"),
             Mouse::Off => (Mouse::On, "mouse on: hold Shift to select text"),

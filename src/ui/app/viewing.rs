@@ -4,6 +4,7 @@ use super::camera::{framed, settled};
 use super::{App, List, Page};
 use crate::language::{Node, SavedView, view_name};
 use crate::scene::{Camera, Emitter};
+use crate::text::Severity;
 
 impl App {
     /// Applies a move, unless the resulting camera would see nothing.
@@ -181,8 +182,8 @@ impl App {
             return;
         };
         if 0 < self.error_count() {
-            self.overlays
-                .fail("cannot save the view while the scene has errors");
+            let words = "cannot save the view while the scene has errors";
+            self.overlays.blame_errors(Severity::Error, words);
             return;
         }
         self.document.end_step();

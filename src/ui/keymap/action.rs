@@ -30,6 +30,32 @@ impl Mode {
     }
 }
 
+impl Mode {
+    /// All modes, in the order of the help.
+    pub const ALL: [Self; 7] = [
+        Self::Select,
+        Self::Edit,
+        Self::Move,
+        Self::View,
+        Self::Fly,
+        Self::Pick,
+        Self::Trace,
+    ];
+
+    /// The name of the mode, as in the status line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Select => "SELECT",
+            Self::View => "VIEW",
+            Self::Fly => "VIEW FLY",
+            Self::Move => "MOVE",
+            Self::Edit => "EDIT",
+            Self::Trace => "TRACE",
+            Self::Pick => "PICK",
+        }
+    }
+}
+
 /// A context with its own key bindings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Context {
@@ -39,6 +65,8 @@ pub enum Context {
     Opening,
     /// The help page is open.
     Help,
+    /// The history of messages is open.
+    Messages,
     /// The list of errors.
     Errors,
     /// The page of saved views.
@@ -47,12 +75,16 @@ pub enum Context {
     Recent,
     /// The question how to resolve a merge.
     Conflict,
-    /// The question whether to quit.
+    /// The question whether to quit although edits are unsaved.
     Quit,
     /// The question whether to delete what others use.
     Delete,
     /// The question whether to leave the scene for another one.
     Leave,
+    /// The question whether to quit although a file is being written.
+    Wait,
+    /// The question whether an export may overwrite a file.
+    Overwrite,
     /// The question whether to recover the edits of an earlier run.
     Recover,
 }
@@ -164,18 +196,18 @@ pub enum Action {
     Editor,
     /// Opens or closes the list of errors.
     Errors,
-    /// Shows the last message again.
-    Message,
+    /// Opens the history of messages.
+    Messages,
     /// Opens or closes the help page.
     Help,
     /// Toggles the size of the picture on the screen.
     Zoom,
+    /// Moves the border of the panels by this many cells, towards the picture if positive.
+    Resize(i32),
     /// Shows one of the auxiliary images, or the lit picture.
     Show(Option<Aov>),
     /// Switches between Whitted ray tracing and path tracing.
     Integrator,
-    /// Takes the mouse or leaves it to the terminal.
-    Mouse,
     /// Redraws every cell, in case another program has written over them.
     Repaint,
     /// Stops the program until it is continued.
@@ -192,7 +224,7 @@ pub enum Action {
     AllMine,
     /// Resolves all conflicts with the text of the file.
     AllTheirs,
-    /// Declines an offer; discards the edits of an earlier run.
+    /// Declines an offer: discards the edits of an earlier run, or exports to another file.
     No,
 }
 

@@ -2,6 +2,7 @@
 
 use super::action::{Action, Context, Mode, Stride};
 use super::chord::Chord;
+use super::line::{Line, line_hints};
 use super::table::{Binding, Scope, TABLE};
 use crate::render::Aov;
 use crate::ui::app::Tool;
@@ -24,25 +25,19 @@ pub enum HelpLine {
     },
 }
 
-/// Sections of help that follow the keys valid anywhere, by name.
-const MODES: [(&str, Context); 7] = [
-    ("SELECT", Context::In(Select)),
-    ("EDIT", Context::In(Edit)),
-    ("VIEW", Context::In(View)),
-    ("VIEW FLY", Context::In(Fly)),
-    ("MOVE", Context::In(Move)),
-    ("PICK", Context::In(Pick)),
-    ("TRACE", Context::In(Trace)),
-];
-const DIALOGS: [(&str, Context); 9] = [
+/// Other contexts with a section of help, by name.
+const DIALOGS: [(&str, Context); 12] = [
     ("the list of errors", Context::Errors),
     ("the list of saved views", Context::Views),
     ("the list of recent scenes", Context::Recent),
+    ("the messages so far", Context::Messages),
     ("this page", Context::Help),
     ("merge conflicts", Context::Conflict),
     ("when asked to confirm quitting", Context::Quit),
     ("when asked to confirm deleting", Context::Delete),
     ("when asked to confirm leaving the scene", Context::Leave),
+    ("when asked to quit during an export", Context::Wait),
+    ("when asked to overwrite a picture", Context::Overwrite),
     ("when unsaved edits were found", Context::Recover),
 ];
 
@@ -52,12 +47,13 @@ const START: [(&str, &str); 2] = [
     ("halflight doctor", "what was detected, and why"),
 ];
 
-const MOUSE: [(&str, &str); 6] = [
+const MOUSE: [(&str, &str); 7] = [
     ("click the list", "select"),
     ("click a field", "move the cursor there"),
     ("click it again", "type a value"),
     ("click the picture", "select the object there"),
     ("drag it in VIEW", "orbit"),
+    ("drag the border", "resize the panels"),
     ("wheel", "scroll; in VIEW, dolly"),
 ];
 
@@ -82,22 +78,51 @@ pub fn help(search: &str, mode: Mode, commands: Vec<Entry>) -> Vec<HelpLine> {
         }
     };
     let of = |context: Context| entries(|row| !is_common(row) && row.scope.holds(context));
-    let here = |&(_, context): &(&str, Context)| context == Context::In(mode);
-    for (heading, context) in MODES.into_iter().filter(here) {
-        add(heading, of(context));
-    }
+    add(mode.name(), of(Context::In(mode)));
     add("anywhere", entries(is_common));
-    for (heading, context) in MODES.into_iter().filter(|group| !here(group)) {
-        add(heading, of(context));
+    for other in Mode::ALL.into_iter().filter(|other| *other != mode) {
+        add(other.name(), of(Context::In(other)));
     }
     for (heading, context) in DIALOGS {
         add(heading, of(context));
     }
     let owned = |(keys, words): &(&str, &'static str)| ((*keys).to_owned(), *words);
+    for (heading, line) in [
+        ("while a value is typed", Line::Value),
+        ("after :", Line::Command),
+        ("after /", Line::Search),
+    ] {
+        add(heading, line_hints(line).iter().map(owned).collect());
+    }
     add("commands", commands);
     add("mouse", MOUSE.iter().map(owned).collect());
     add("command line", START.iter().map(owned).collect());
     lines
+}
+
+/// Distributes sections of help over columns of about the same height, each section in one column
+/// and the first at the top of the first column.
+pub fn in_columns(lines: Vec<HelpLine>, count: usize) -> Vec<Vec<HelpLine>> {
+    let mut columns = vec![Vec::new(); count.max(1)];
+    let mut sections: Vec<Vec<HelpLine>> = Vec::new();
+    for line in lines {
+        match (&line, sections.last_mut()) {
+            (HelpLine::Entry { .. }, Some(section)) => section.push(line),
+            _ => sections.push(vec![line]),
+        }
+    }
+    for section in sections {
+        if let Some(shortest) = columns.iter_mut().min_by_key(|column| column.len()) {
+            shortest.extend(section);
+        }
+    }
+    columns
+}
+
+/// Returns the hints that are never omitted in a context: how to get help, to give a command, and
+/// to quit.
+pub fn lasting_hints(context: Context) -> Vec<(String, &'static str)> {
+    described(context, LASTING_HINTS.iter())
 }
 
 /// Returns the hints for a context, the most useful first. A dialog shows only its own keys.
@@ -113,12 +138,15 @@ pub fn hints(context: Context) -> Vec<(String, &'static str)> {
         Context::Errors => ERROR_HINTS,
         Context::Opening => &[],
         Context::Help
+        | Context::Messages
         | Context::Views
         | Context::Recent
         | Context::Conflict
         | Context::Quit
         | Context::Leave
         | Context::Delete
+        | Context::Wait
+        | Context::Overwrite
         | Context::Recover => {
             return TABLE
                 .iter()
@@ -129,8 +157,18 @@ pub fn hints(context: Context) -> Vec<(String, &'static str)> {
         }
     };
     let is_here = |hint: &&Hint| matches!(context, Context::In(mode) if hint.0 == [A::Go(mode)]);
-    own.iter()
-        .chain(COMMON_HINTS.iter().filter(|hint| !is_here(hint)))
+    let hints = own
+        .iter()
+        .chain(COMMON_HINTS.iter().filter(|hint| !is_here(hint)));
+    described(context, hints)
+}
+
+/// The keys of hints in a context, without those that have none there.
+fn described(
+    context: Context,
+    hints: impl Iterator<Item = &'static Hint>,
+) -> Vec<(String, &'static str)> {
+    hints
         .map(|(actions, words)| {
             let keys: Vec<_> = actions
                 .iter()
@@ -248,6 +286,10 @@ const COMMON_HINTS: &[Hint] = &[
     (&[A::Undo], "undo"),
     (&[A::Export], "export"),
     (&[A::Go(Trace)], "trace"),
+];
+/// Hints that are shown even where there is no room for others.
+const LASTING_HINTS: &[Hint] = &[
+    (&[A::Help], "help"),
     (&[A::Command], "command"),
     (&[A::Quit], "quit"),
 ];
@@ -274,19 +316,7 @@ fn binding(context: Context, action: Action) -> Option<&'static Binding> {
 
 fn entries(shown: impl Fn(&Binding) -> bool) -> Vec<Entry> {
     let rows = TABLE.iter().filter(|row| shown(row));
-    rows.map(|row| (keys(row), row.words)).collect()
-}
-
-fn keys(row: &Binding) -> String {
-    match row.action {
-        A::G => "gg".to_owned(),
-        _ => row
-            .chords
-            .iter()
-            .map(Chord::name)
-            .collect::<Vec<_>>()
-            .join(" "),
-    }
+    rows.map(|row| (row.keys(), row.words)).collect()
 }
 
 fn first_key(row: &Binding) -> String {
@@ -323,8 +353,27 @@ mod tests {
         assert_eq!(headings(&lines).len(), 20);
         assert!(lines.contains(&entry("gg", "first")));
         for row in TABLE {
-            assert!(lines.contains(&entry(&keys(row), row.words)), "{row:?}");
+            assert!(lines.contains(&entry(&row.keys(), row.words)), "{row:?}");
         }
+    }
+
+    #[test]
+    fn columns_hold_whole_sections_and_all_of_them() {
+        let all = lines("", Edit);
+        for count in [0, 1, 2, 3, 40] {
+            let columns = in_columns(all.clone(), count);
+            assert_eq!(columns.len(), count.max(1));
+            assert_eq!(columns[0][0], HelpLine::Heading("EDIT"));
+            let shown: Vec<_> = columns.concat();
+            assert_eq!(shown.len(), all.len());
+            let starts = columns.iter().filter_map(|column| column.first());
+            assert!(
+                starts
+                    .into_iter()
+                    .all(|line| matches!(line, HelpLine::Heading(_)))
+            );
+        }
+        assert_eq!(in_columns(all.clone(), 1), [all]);
     }
 
     #[test]
@@ -339,7 +388,8 @@ mod tests {
 
     #[test]
     fn every_hint_has_a_key() {
-        for (_, context) in MODES.into_iter().chain(DIALOGS) {
+        let modes = Mode::ALL.map(Context::In).into_iter();
+        for context in modes.chain(DIALOGS.map(|(_, context)| context)) {
             for (keys, words) in hints(context) {
                 let whole = keys.split('/').all(|key| !key.is_empty());
                 assert!(keys == "/" || whole, "{context:?} {words}");

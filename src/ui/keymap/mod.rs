@@ -3,8 +3,12 @@
 mod action;
 mod chord;
 mod help;
+mod line;
+mod named;
 mod table;
 
 pub use action::{Action, Context, Mode, Stride};
-pub use help::{Entry, HelpLine, help, hints};
-pub use table::action;
+pub use help::{Entry, HelpLine, help, hints, in_columns, lasting_hints};
+pub use line::{Line, line_hints};
+pub use named::{NamedAction, actions};
+pub use table::{action, elsewhere, name};

@@ -82,6 +82,7 @@ const PICTURES: Scope = Scope::These(&[
 ]);
 const PICK: Scope = Scope::These(&[Context::In(Pick)]);
 const HELP: Scope = Scope::These(&[Context::Help]);
+const MESSAGES: Scope = Scope::These(&[Context::Messages]);
 const ERRORS: Scope = Scope::These(&[Context::Errors]);
 const VIEWS_PAGE: Scope = Scope::These(&[Context::Views]);
 const RECENT: Scope = Scope::These(&[Context::Recent]);
@@ -91,11 +92,14 @@ const DELETE: Scope = Scope::These(&[Context::Delete]);
 const LEAVE: Scope = Scope::These(&[Context::Leave]);
 /// Where a loss of the working view is announced.
 const LEAVING: Scope = Scope::These(&[Context::Quit, Context::Leave]);
+const WAIT: Scope = Scope::These(&[Context::Wait]);
+const OVERWRITE: Scope = Scope::These(&[Context::Overwrite]);
 const RECOVER: Scope = Scope::These(&[Context::Recover]);
 const LISTS: Scope = Scope::These(&[
     Context::In(Select),
     Context::In(Edit),
     Context::Help,
+    Context::Messages,
     Context::Errors,
     Context::Views,
     Context::Recent,
@@ -104,6 +108,7 @@ const LISTS: Scope = Scope::These(&[
 const LONG_LISTS: Scope = Scope::These(&[
     Context::In(Select),
     Context::Help,
+    Context::Messages,
     Context::Errors,
     Context::Views,
     Context::Recent,
@@ -226,6 +231,12 @@ pub(super) const TABLE: &[Binding] = &[
     bind(LEAVE, &[c('w')], A::Save, "save first"),
     bind(LEAVE, &[c('n'), key(Esc)], A::Back, "stay"),
     bind(LEAVING, &[c('S')], A::SaveView, "write the moved view into the scene"),
+    bind(WAIT, &[c('w')], A::Save, "wait, then quit"),
+    bind(WAIT, &[c('y')], A::Accept, "quit now and cancel it"),
+    bind(WAIT, &[c('n'), key(Esc)], A::Back, "stay"),
+    bind(OVERWRITE, &[c('y')], A::Accept, "overwrite it"),
+    bind(OVERWRITE, &[c('n')], A::No, "number the new file"),
+    bind(OVERWRITE, &[key(Esc)], A::Back, "do not export"),
     bind(RECOVER, &[c('r')], A::Accept, "restore them"),
     bind(RECOVER, &[c('d')], A::No, "discard them"),
     bind(RECOVER, &[key(Esc)], A::Back, "decide next time"),
@@ -237,6 +248,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(RECENT, &[c('/')], A::Search, "filter"),
     bind(RECENT, &[key(Esc), c('q')], A::Back, "close"),
     bind(HELP, &[c('/')], A::Search, "search"),
+    bind(MESSAGES, &[key(Esc), c('q'), c('M')], A::Back, "close"),
     bind(HELP, &[key(Esc), c('q'), c('?')], A::Back, "close"),
 
     bind(PICTURES, &[c('1')], A::Show(None), "show light"),
@@ -256,9 +268,11 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Everywhere, &[c('u')], A::Undo, "undo"),
     bind(Scope::Everywhere, &[ctrl('r')], A::Redo, "redo"),
     bind(Scope::Everywhere, &[c('!')], A::Errors, "errors and warnings"),
-    bind(Scope::Sceneless, &[c('M')], A::Message, "show the last message again"),
+    bind(Scope::Sceneless, &[c('M')], A::Messages, "messages so far"),
     bind(Scope::Everywhere, &[c('E')], A::Editor, "open the editor at the selected item"),
     bind(Scope::Everywhere, &[c('z')], A::Zoom, "show or hide the panels"),
+    bind(Scope::Everywhere, &[c('{')], A::Resize(2), "larger panels"),
+    bind(Scope::Everywhere, &[c('}')], A::Resize(-2), "smaller panels"),
     bind(Scope::Everywhere, &[c('P')], A::Integrator, "toggle path tracing"),
     bind(Scope::Always, &[ctrl('l')], A::Repaint, "redraw the screen"),
     bind(Scope::Always, &[ctrl('z')], A::Suspend, "suspend"),
@@ -277,10 +291,65 @@ pub fn action(context: Context, event: KeyEvent) -> Option<Action> {
     row.map(|row| row.action)
 }
 
+/// The binding of a key in modes other than that of `context`: the first mode that has it, the key
+/// of `context` that leads there, and the description of the key.
+pub fn elsewhere(
+    context: Context,
+    event: KeyEvent,
+) -> Option<(Mode, Option<String>, &'static str)> {
+    let pressed = Chord::of(event);
+    let mut others = TABLE.iter().filter(|row| row.chords.contains(&pressed));
+    let (mode, words) = others.find_map(|row| Some((row.mode()?, row.words)))?;
+    let way = TABLE
+        .iter()
+        .find(|row| row.action == A::Go(mode) && row.scope.holds(context));
+    let way = way.and_then(|row| Some(row.chords.first()?.name()));
+    Some((mode, way, words))
+}
+
+/// The name of a key, as in the help; `None` for keys that cannot be bound.
+pub fn name(event: KeyEvent) -> Option<String> {
+    let is_key = !matches!(
+        event.code,
+        KeyCode::Null
+            | KeyCode::Modifier(_)
+            | KeyCode::Media(_)
+            | KeyCode::CapsLock
+            | KeyCode::NumLock
+            | KeyCode::ScrollLock
+    );
+    is_key.then(|| Chord::of(event).name())
+}
+
+impl Binding {
+    /// The keys as the help shows them: `j ↓`.
+    pub(super) fn keys(&self) -> String {
+        if self.action == A::G {
+            return "gg".to_owned();
+        }
+        let names: Vec<_> = self.chords.iter().map(Chord::name).collect();
+        names.join(" ")
+    }
+
+    /// The first mode in which the binding is active, unless it is active in all of them.
+    fn mode(&self) -> Option<Mode> {
+        let Scope::These(contexts) = self.scope else {
+            return None;
+        };
+        contexts.iter().find_map(|context| match context {
+            Context::In(mode) => Some(*mode),
+            _ => None,
+        })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use Context::{Conflict, Errors, Help, Leave, Opening, Quit, Recent, Recover, Views};
+    use Context::{
+        Conflict, Errors, Help, Leave, Messages, Opening, Overwrite, Quit, Recent, Recover, Views,
+        Wait,
+    };
     use KeyCode::Char;
 
     #[test]
@@ -289,6 +358,7 @@ mod tests {
         let others = [
             Opening,
             Help,
+            Messages,
             Errors,
             Views,
             Recent,
@@ -296,6 +366,8 @@ mod tests {
             Quit,
             Leave,
             Context::Delete,
+            Wait,
+            Overwrite,
             Recover,
         ];
         for context in modes.into_iter().chain(others) {

@@ -31,6 +31,11 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         Some(Dialog::Delete(nodes)) => {
             ask(app, " Delete ", &app.consequence(nodes), area, buffer);
         }
+        Some(Dialog::Overwrite(pending)) => {
+            let path = pending.export.destination.path.display();
+            let text = format!("{path} exists, and this session did not write it. Overwrite it?");
+            ask(app, " Export ", &text, area, buffer);
+        }
         Some(Dialog::Recover(offer)) => {
             ask(app, " Recover ", &offered(app, offer), area, buffer);
         }

@@ -1,4 +1,4 @@
-//! The error panel over the lower part of the picture.
+//! The error panel below the picture.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -10,7 +10,7 @@ use crate::ui::app::App;
 use crate::ui::errors::StyledLine;
 use crate::ui::theme;
 
-/// Draws the diagnostics over the lower part of the picture, if there are any to show.
+/// Draws the diagnostics below the picture, if there are any to show.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let Some(panel) = app.errors_panel(area) else {
         return;

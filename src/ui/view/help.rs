@@ -18,38 +18,36 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let Some(help) = &app.overlays.help else {
         return;
     };
-    let lines = app.help_lines();
-    let page = layout::centred(area, Rect::new(0, 0, 76, area.height));
+    let columns = app.help_columns(area.width);
+    let count = columns.len() as u16;
+    let width = if count == 1 { 76 } else { area.width };
+    let page = layout::centred(area, Rect::new(0, 0, width, area.height));
     let mut block = Block::bordered()
         .border_type(BorderType::Rounded)
         .border_style(theme::DIM);
     let inner = block.inner(page);
     let (body, search) = layout::split_bottom(inner, 1);
     let rows = usize::from(body.height);
-    let top = help.top.min(lines.len().saturating_sub(rows));
-    let last = (top + rows).min(lines.len());
+    let longest = columns.iter().map(Vec::len).max().unwrap_or(0);
+    let top = help.top.min(longest.saturating_sub(rows));
+    let last = (top + rows).min(longest);
     if top < last {
-        let place = format!(" {}–{last} of {} ", top + 1, lines.len());
+        let place = format!(" {}–{last} of {longest} ", top + 1);
         block = block.title_top(Line::from(place).right_aligned());
     }
     Clear.render(page.intersection(buffer.area), buffer);
     block
         .title(" Keys ")
         .render(page.intersection(buffer.area), buffer);
-    for (index, line) in lines[top..last].iter().enumerate() {
-        let mut row = Row::new(buffer, body, index as u16);
-        row.skip(1);
-        match line {
-            HelpLine::Heading(heading) => {
-                row.put(heading, theme::BOLD);
-            }
-            HelpLine::Entry { keys, words } => {
-                let width = row.room() * 2 / 5;
-                row.skip(2)
-                    .put_in(keys, width.saturating_sub(3), theme::ACCENT);
-                row.skip_to(body.x + 1 + width as u16);
-                row.put(words, Style::new());
-            }
+    let width = body.width / count;
+    for (at, lines) in (0..).zip(&columns) {
+        let column = Rect {
+            x: body.x + at * width,
+            width,
+            ..body
+        };
+        for (index, line) in lines.iter().skip(top).take(rows).enumerate() {
+            help_line(line, Row::new(buffer, column, index as u16));
         }
     }
     let mut row = Row::new(buffer, search, 0);
@@ -61,7 +59,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         return;
     }
     let is_entry = |line: &&HelpLine| matches!(line, HelpLine::Entry { .. });
-    let count = lines.iter().filter(is_entry).count();
+    let count = columns.iter().flatten().filter(is_entry).count();
     let found = match help.search.value() {
         "" => "/ search  Esc close".to_owned(),
         search => format!("{} with “{search}”", counted(count, "line")),
@@ -69,11 +67,42 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     row.put(&found, theme::DIM);
 }
 
+/// Draws a line of help: a heading, or keys and their description side by side.
+fn help_line(line: &HelpLine, mut row: Row) {
+    row.skip(1);
+    match line {
+        HelpLine::Heading(heading) => {
+            row.put(heading, theme::BOLD);
+        }
+        HelpLine::Entry { keys, words } => {
+            let width = row.room();
+            let keys_width = width * 2 / 5;
+            row.skip(2)
+                .put_in(keys, keys_width.saturating_sub(3), theme::ACCENT);
+            let used = width - row.room();
+            row.skip(keys_width.saturating_sub(used) as u16);
+            row.put_in(words, row.room().saturating_sub(1), Style::new());
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use crate::ui::app::Help;
     use crate::ui::view::tests::{app, drawn};
     use tui_input::Input;
+
+    #[test]
+    fn a_wide_page_has_columns_and_starts_with_the_present_mode() {
+        let mut app = app();
+        app.overlays.help = Some(Help::default());
+        let wide = drawn(&app, super::render, 120, 30);
+        assert!(wide[1].starts_with("│ SELECT"), "{}", wide[1]);
+        let headings = wide[1].matches("anywhere").count();
+        assert_eq!(headings, 1, "{}", wide[1]);
+        let narrow = drawn(&app, super::render, 80, 30);
+        assert!(!narrow[1].contains("anywhere"));
+    }
 
     #[test]
     fn only_matching_lines_are_shown() {

@@ -1,4 +1,4 @@
-//! The list: view, ambient light, lights, objects. Only visible lines are computed.
+//! The list: view, ambient light, lights, objects, under headings. Only visible lines are computed.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -11,6 +11,7 @@ use crate::ui::app::App;
 use crate::ui::fit::{shorten, visible};
 use crate::ui::keymap::Mode;
 use crate::ui::layout;
+use crate::ui::listing::{ListLine, Listing};
 use crate::ui::theme;
 
 /// Minimum width of a comment, in columns.
@@ -19,8 +20,7 @@ const COMMENT: usize = 6;
 /// Draws the list of lights and objects with names and comments.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let selected = app.selected_row();
-    let nodes = app.nodes();
-    let count = nodes.len();
+    let count = app.nodes().len();
     let focused = matches!(app.mode, Mode::Select | Mode::Pick | Mode::Move);
     let place = format!("{}/{count}", (selected + 1).min(count));
     title(
@@ -33,11 +33,19 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
 
     let lines = layout::contents(area);
     let rows = usize::from(lines.height);
-    let top = app.cursor.list_top.min(count.saturating_sub(rows));
+    let listing = Listing::new(app.nodes());
+    let top = app.cursor.list_top;
+    let top = top.min(listing.len().saturating_sub(rows));
     let marked = marked(app);
-    let shown = (top..count).take(rows);
-    let shown = shown.filter_map(|row| Some((row, nodes.get(row)?)));
-    for (line, (index, node)) in shown.enumerate() {
+    let shown = (top..listing.len()).take(rows);
+    for (line, shown) in shown.filter_map(|line| listing.get(line)).enumerate() {
+        let (index, node) = match shown {
+            ListLine::Node(index, node) => (index, node),
+            ListLine::Heading(words) => {
+                Row::new(buffer, lines, line as u16).put(&words, theme::DIM);
+                continue;
+            }
+        };
         let is_selected = index == selected;
         let is_drawn = match node {
             // A group is drawn if its parts are.
@@ -139,39 +147,42 @@ mod tests {
             "▸   view",
             "  ● background",
             "  ● environment",
+            "2 objects",
             "    all (group)",
             "  ●   ball (sphere)",
         ];
-        assert_eq!(lines[1..6], listed);
+        assert_eq!(lines[1..7], listed);
     }
 
     #[test]
     fn nodes_are_listed_and_the_selected_one_is_marked() {
-        let lines = drawn(&app(), super::render, 26, 6);
+        let lines = drawn(&app(), super::render, 26, 8);
         assert_eq!(lines[0], "scene ──────────────── 1/5");
         assert_eq!(lines[1], "▸   view");
         assert_eq!(lines[2], "  ● ambient");
-        assert_eq!(lines[3], "  ● light 1");
-        assert_eq!(lines[5], "  ● object 2 (box)");
+        assert_eq!(lines[3], "1 light");
+        assert_eq!(lines[4], "  ● light 1");
+        assert_eq!(lines[5], "2 objects");
+        assert_eq!(lines[7], "  ● object 2 (box)");
     }
 
     #[test]
     fn a_comment_follows_the_name_if_there_is_room() {
         let mut app = app();
-        let lines = drawn(&app, super::render, 40, 6);
-        assert_eq!(lines[4], "  ● object 1 (sphere)  the first");
+        let lines = drawn(&app, super::render, 40, 8);
+        assert_eq!(lines[6], "  ● object 1 (sphere)  the first");
         retype(&mut app, "0 5 5   1 1 .5\n", "0 5 5 // sun\n1 1 .5\n");
         retype(&mut app, "box", "box // the\u{1b} large one\n");
-        let lines = drawn(&app, super::render, 32, 6);
-        assert_eq!(lines[3], "  ● light 1  sun");
-        assert_eq!(lines[5], "  ● object 2 (box)  the␛ large …");
+        let lines = drawn(&app, super::render, 32, 8);
+        assert_eq!(lines[4], "  ● light 1  sun");
+        assert_eq!(lines[7], "  ● object 2 (box)  the␛ large …");
     }
 
     #[test]
     fn a_node_with_an_error_is_marked() {
         let mut app = app();
         retype(&mut app, " 0.25 //", " -0.25 //");
-        let lines = drawn(&app, super::render, 26, 6);
-        assert_eq!(lines[4], "  ● object 1 (sphere)   !");
+        let lines = drawn(&app, super::render, 26, 8);
+        assert_eq!(lines[6], "  ● object 1 (sphere)   !");
     }
 }

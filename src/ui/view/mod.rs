@@ -5,11 +5,13 @@
 //! through [`row`], which shows control characters instead of sending them.
 
 mod characters;
+mod completions;
 mod dialog;
 mod dither;
 mod errors;
 mod fields;
 mod help;
+mod history;
 mod inks;
 mod list;
 mod menu;
@@ -30,7 +32,8 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 
 use super::app::App;
-use super::layout::{self, MIN_SIZE};
+use super::arrange::MIN_SIZE;
+use super::layout;
 use super::theme;
 pub use inks::Inks;
 
@@ -65,28 +68,25 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
     let (body, _) = layout::split_bottom(area, bars);
     page::render(app, body, buffer);
     help::render(app, body, buffer);
+    history::render(app, body, buffer);
     if let Some(message) = status::long_message(app, inks.glyphs, areas.status.width) {
         message::render(message, body, buffer);
     }
     menu::render(app, areas.list, body, buffer);
+    completions::render(app, body, buffer);
     dialog::render(app, body, buffer);
 }
 
-/// Draws the line between the picture and the panels, which makes a stale picture obvious.
+/// Draws the line between columns, which makes a stale picture obvious.
 fn rule(app: &App, area: Rect, buffer: &mut Buffer) {
     let style = if 0 < app.error_count() {
         theme::WARNING
     } else {
         theme::DIM
     };
-    let symbol = if area.width < area.height {
-        "│"
-    } else {
-        "─"
-    };
     for position in area.positions() {
         if let Some(cell) = buffer.cell_mut(position) {
-            cell.set_symbol(symbol).set_style(style);
+            cell.set_symbol("│").set_style(style);
         }
     }
 }

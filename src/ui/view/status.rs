@@ -14,7 +14,7 @@ use crate::scene::Integrator;
 use crate::text::{counted, percentage};
 use crate::ui::app::{App, Message, OnDisk, Prompt, PromptKind};
 use crate::ui::fit::visible;
-use crate::ui::keymap::{self, Context, Mode};
+use crate::ui::keymap::{self, Mode};
 use crate::ui::theme;
 
 /// Draws the prompt, or as many of the current key hints as fit.
@@ -23,22 +23,55 @@ pub(crate) fn render_hint(app: &App, area: Rect, buffer: &mut Buffer) {
         render_prompt(prompt, area, buffer);
         return;
     }
-    let context = app.context();
-    let help = matches!(context, Context::In(_) | Context::Errors | Context::Opening);
-    let last = if help { "  ? help " } else { "" };
+    let (hints, lasting) = match app.typed_line() {
+        Some(line) => {
+            let hints = keymap::line_hints(line).iter();
+            (
+                hints.map(|&(key, words)| (key.to_owned(), words)).collect(),
+                Vec::new(),
+            )
+        }
+        None => (
+            keymap::hints(app.context()),
+            keymap::lasting_hints(app.context()),
+        ),
+    };
     let mut row = Row::new(buffer, area, 0);
     row.skip(1);
-    let hints = keymap::hints(context);
-    for (key, words) in &hints {
-        if row.room() < key.width() + words.width() + 3 + last.len() {
+    let last = room_for(&lasting);
+    for hint in &hints {
+        if row.room() + 1 < room_for(std::slice::from_ref(hint)) + last {
             break;
         }
-        row.put(key, theme::ACCENT).put(" ", Style::new());
-        row.put(words, theme::DIM).skip(2);
+        put_hint(&mut row, hint);
     }
-    if help {
-        row.put("?", theme::ACCENT).put(" help", theme::DIM);
+    // Their descriptions are the last to go.
+    if row.room() + 2 < last {
+        for (key, _) in &lasting {
+            row.put(key, theme::ACCENT).skip(1);
+        }
+        return;
     }
+    row.skip((row.room() + 2).saturating_sub(last + 1) as u16);
+    for hint in &lasting {
+        put_hint(&mut row, hint);
+    }
+}
+
+/// A key and its description in a word or two.
+type Hint = (String, &'static str);
+
+/// The cells that hints take, with a gap after each.
+fn room_for(hints: &[Hint]) -> usize {
+    let widths = hints
+        .iter()
+        .map(|(key, words)| key.width() + words.width() + 3);
+    widths.sum()
+}
+
+fn put_hint(row: &mut Row, (key, words): &Hint) {
+    row.put(key, theme::ACCENT).put(" ", Style::new());
+    row.put(words, theme::DIM).skip(2);
 }
 
 /// Draws a line being typed, with its cursor.
@@ -143,7 +176,12 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
     }
     if let Some(export) = &app.jobs.export {
         let done = export.progress.map_or(0.0, |progress| progress.done);
-        say(6, format!("export {}", percent(done)), theme::ACCENT);
+        let queued = match app.jobs.queued() {
+            0 => String::new(),
+            queued => format!(", {queued} more queued"),
+        };
+        let text = format!("export {}{queued}", percent(done));
+        say(6, text, theme::ACCENT);
     }
     if app.assets.are_awaited() {
         say(7, "reading files".to_owned(), theme::ACCENT);
@@ -164,7 +202,12 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
     }
     if let Some(message) = &app.overlays.message {
         let style = theme::severity(message.severity);
-        say(MESSAGE, visible(&message.text).into_owned(), style);
+        let more = match app.overlays.messages.waiting() {
+            0 => String::new(),
+            waiting => format!(" (+{waiting})"),
+        };
+        let text = visible(&message.text);
+        say(MESSAGE, format!("{text}{more}"), style);
     }
     all
 }
@@ -174,7 +217,7 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     let (mode, style) = if app.disk.is_opening() {
         ("OPENING", theme::ACCENT)
     } else {
-        mode_chip(app.mode)
+        (app.mode.name(), mode_style(app.mode))
     };
     say(0, format!(" {mode} "), theme::chip(style));
     let errors = app.error_count();
@@ -262,15 +305,12 @@ fn time_left(progress: &Progress) -> Option<Duration> {
     known.then(|| Duration::try_from_secs_f64(seconds).ok())?
 }
 
-fn mode_chip(mode: Mode) -> (&'static str, Style) {
+fn mode_style(mode: Mode) -> Style {
     match mode {
-        Mode::Select => ("SELECT", theme::ACCENT),
-        Mode::View => ("VIEW", theme::GOOD),
-        Mode::Fly => ("VIEW FLY", theme::GOOD),
-        Mode::Edit => ("EDIT", theme::WARNING),
-        Mode::Trace => ("TRACE", Style::new()),
-        Mode::Pick => ("PICK", theme::ACCENT),
-        Mode::Move => ("MOVE", theme::WARNING),
+        Mode::Select | Mode::Pick => theme::ACCENT,
+        Mode::View | Mode::Fly => theme::GOOD,
+        Mode::Edit | Mode::Move => theme::WARNING,
+        Mode::Trace => Style::new(),
     }
 }
 
@@ -294,7 +334,7 @@ mod tests {
     use super::*;
     use crate::language::Language;
     use crate::render::Aov;
-    use crate::ui::app::Message;
+    use crate::ui::app::{Message, Typing};
     use crate::ui::view::tests::{app, app_of, drawn, retype};
     use tui_input::Input;
 
@@ -376,11 +416,27 @@ mod tests {
     }
 
     #[test]
+    fn hints_for_help_commands_and_quitting_outlast_all_others() {
+        let mut app = app();
+        let hint = |app: &App, width| drawn(app, render_hint, width, 1)[0].clone();
+        assert_eq!(
+            hint(&app, 49),
+            " j/k move  Enter edit  ? help  : command  q quit"
+        );
+        assert_eq!(hint(&app, 40), " j/k move     ? help  : command  q quit");
+        assert_eq!(hint(&app, 20), " ? : q");
+        app.cursor.typing = Some(Typing::default());
+        assert!(hint(&app, 80).starts_with(" Enter keep  Esc cancel  Tab keep, next number"));
+        assert_eq!(hint(&app, 30), " Enter keep  Esc cancel");
+    }
+
+    #[test]
     fn a_prompt_replaces_the_keys() {
         let mut app = app();
         let hint = drawn(&app, render_hint, 80, 1)[0].clone();
         assert!(
-            hint.starts_with(" j/k move  Enter edit") && hint.ends_with("? help"),
+            hint.starts_with(" j/k move  Enter edit")
+                && hint.ends_with("? help  : command  q quit"),
             "{hint}"
         );
         app.overlays.prompt = Some(Prompt {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use crossterm::event::KeyCode;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
@@ -20,9 +21,9 @@ use crate::ui::app::{
     App, Dialog, Export, Help, List, Message, Next, OnDisk, Opening, OpeningText, Outside, Page,
     PageFocus, Prompt, PromptKind, Quality, Stage, Typing,
 };
+use crate::ui::arrange::Zoom;
 use crate::ui::keymap::Mode;
-use crate::ui::layout::Zoom;
-use crate::ui::msg::{Destination, Existing, ExportId};
+use crate::ui::msg::{Destination, Existing, ExportId, Msg};
 use crate::ui::recovery::Offer;
 use crate::ui::recovery::tests::{damaged, offer};
 use crate::ui::terminal::Mouse;
@@ -198,6 +199,15 @@ const STATES: &[(&str, Change)] = &[
     ("quit", |app| {
         app.overlays.dialog = Some(Dialog::Leave(Next::Quit));
     }),
+    ("history", |app| {
+        app.overlays.history = Some(usize::MAX);
+        app.update(Msg::Failed("界\u{1b}]52;c;界\u{7}".repeat(20)));
+    }),
+    ("overwrite", |app| {
+        app.update(Msg::Key(KeyCode::Char('b').into()));
+        app.update(Msg::Taken(ExportId(1), "it exists".to_owned()));
+        assert!(app.overlays.dialog.is_some());
+    }),
     ("recover", |app| {
         let text = app.document.shared_text();
         let kept = SCENE.replace(" 0.25 ", " 0.75 ");
@@ -220,6 +230,12 @@ const STATES: &[(&str, Change)] = &[
             input: Input::new("1234567890123456789012345678901234567890".to_owned()),
             refused: None,
         });
+    }),
+    ("palette", |app| {
+        for key in [':', 'e'] {
+            app.update(Msg::Key(KeyCode::Char(key).into()));
+        }
+        app.update(Msg::Key(KeyCode::Tab.into()));
     }),
     ("prompt", |app| {
         app.overlays.prompt = Some(Prompt {

@@ -234,7 +234,7 @@ fn a_moved_or_replaced_folder_is_reported() {
         (place("one"), SCENE, String::new()),
         (None, SCENE, String::new()),
         (of_other("two", "one"), SCENE, moved.clone()),
-        (of_other("two", "one"), &theirs, moved.clone()),
+        (of_other("two", "one"), &theirs, format!("{moved}{news}")),
         (of_other("one", "two"), SCENE, replaced.clone()),
         (of_other("one", "two"), &theirs, format!("{replaced}{news}")),
     ] {
@@ -492,6 +492,7 @@ fn a_value_being_typed_is_discarded_with_its_field() {
     app.update(Msg::Elapsed(Timer::Settled));
     outside(&mut app, &theirs);
     assert!(app.cursor.typing.is_none(), "{:?}", app.cursor.selected());
+    press(&mut app, "j");
     assert!(words(&app).contains("discarded"), "{}", words(&app));
 }
 

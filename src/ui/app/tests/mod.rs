@@ -4,10 +4,14 @@ mod assets;
 mod dat;
 mod disk;
 mod editing;
+mod exports;
 mod hands;
 mod making;
+mod messages;
 mod moving;
 mod opening;
+mod palette;
+mod panels;
 pub(in crate::ui) mod pictures;
 mod recovering;
 mod saving;
@@ -123,7 +127,14 @@ fn named(name: &str) -> KeyEvent {
     })
 }
 
+/// Presses keys; returns their effects except requests for names to complete.
 fn press(app: &mut App, said: &str) -> Vec<Effect> {
+    let mut effects = press_all(app, said);
+    effects.retain(|effect| !matches!(effect, Effect::ListFolder(_)));
+    effects
+}
+
+fn press_all(app: &mut App, said: &str) -> Vec<Effect> {
     let keys = keys(said);
     keys.into_iter()
         .flat_map(|key| app.update(Msg::Key(key)))

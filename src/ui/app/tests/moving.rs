@@ -12,6 +12,28 @@ use crate::scene::{Lens, Size};
 use crate::ui::msg::{Target, Timer};
 
 #[test]
+fn keys_without_a_meaning_say_where_they_have_one() {
+    for (said, answer) in [
+        (
+            "S",
+            "`S` in VIEW (v): write the view into the scene; ? lists keys",
+        ),
+        (
+            "jeo",
+            "`o` in SELECT: toggle the outline of the selection; ? lists keys",
+        ),
+        ("vR", "`R` is free in VIEW; ? lists keys"),
+        ("<Ctrl-y>", "`Ctrl-Y` is free in SELECT; ? lists keys"),
+        ("?R", "`R` is free here"),
+        ("je5", ""),
+    ] {
+        let mut app = open(SCENE);
+        press(&mut app, said);
+        assert_eq!(words(&app), answer, "{said}");
+    }
+}
+
+#[test]
 fn a_saved_view_is_the_view_on_screen() {
     let mut app = open(SCENE);
     press(&mut app, "vhhk+]");

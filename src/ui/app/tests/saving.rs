@@ -260,20 +260,6 @@ fn another_failure_does_not_hide_why_a_save_failed() {
 }
 
 #[test]
-fn a_dismissed_message_can_be_shown_again() {
-    let mut app = open(SCENE);
-    press(&mut app, "M");
-    assert_eq!(words(&app), "no messages yet");
-    app.update(Msg::Failed("a: Permission denied (os error 13)".to_owned()));
-    for keys in ["M", "jM", "jkM"] {
-        press(&mut app, keys);
-        assert_eq!(words(&app), "a: Permission denied", "{keys}");
-    }
-    press(&mut app, "j");
-    assert_eq!(words(&app), "");
-}
-
-#[test]
 fn the_backup_of_an_interrupted_save_is_named() {
     let (mut app, effects) = opened(SCENE);
     assert!(wants(&effects, |effect| matches!(

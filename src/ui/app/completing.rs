@@ -1,0 +1,307 @@
+//! The palette over the command line: completes commands, their file names, and the actions of
+//! keys by their descriptions; recalls command lines.
+
+use std::path::{Path, PathBuf};
+
+use crossterm::event::{KeyCode, KeyEvent};
+use tui_input::Input;
+
+use super::command::{self, Described};
+use super::{App, Completion, PromptKind, line};
+use crate::image_file::ImageFormat;
+use crate::ui::keymap::{self, Action, Context};
+use crate::ui::msg::Effect;
+
+/// What is completed.
+enum Wanted<'a> {
+    /// A command or an action that begins like this or contains this.
+    Command(&'a str),
+    /// A file name, of which this is typed, of a command; the whole line comes first.
+    File(&'a str, Described, &'a str),
+}
+
+impl App {
+    /// Opens the command line.
+    pub(super) fn open_palette(&mut self) {
+        // Files may have come and gone.
+        self.palette.folder = None;
+        self.overlays.open_prompt(PromptKind::Command, "");
+    }
+
+    /// Handles a key in the command line other than those that end it.
+    pub(super) fn palette_key(&mut self, key: KeyEvent) -> Vec<Effect> {
+        match key.code {
+            KeyCode::Up if self.recall(true) => {}
+            KeyCode::Down if self.recall(false) => {}
+            KeyCode::BackTab | KeyCode::Up => self.choose_completion(-1),
+            KeyCode::Tab | KeyCode::Down => self.choose_completion(1),
+            _ => {
+                if let Some(prompt) = &mut self.overlays.prompt {
+                    let before = prompt.input.value().to_owned();
+                    line::edit(&mut prompt.input, key);
+                    if prompt.input.value() != before {
+                        self.palette.reset();
+                    }
+                }
+            }
+        }
+        self.list_folder()
+    }
+
+    /// Records a text pasted into the command line.
+    pub(super) fn palette_pasted(&mut self) -> Vec<Effect> {
+        self.palette.reset();
+        self.list_folder()
+    }
+
+    /// Runs the command line: the action chosen or uniquely described, otherwise a command.
+    pub(super) fn run_line(&mut self, line: &str) -> Vec<Effect> {
+        let found = self.completions();
+        let chosen = self.palette.chosen;
+        self.palette.reset();
+        self.overlays.prompt = None;
+        self.palette.remember(line);
+        let described = match (chosen, found.as_slice()) {
+            (Some(at), found) => found.get(at),
+            (None, [only]) if !command::is_command(line) => Some(only),
+            (None, _) => None,
+        };
+        match described.and_then(|completion| completion.act) {
+            Some((action, context)) => self.act_in(action, context),
+            None => self.command(line),
+        }
+    }
+
+    /// Performs the action of a key, in the mode that has it.
+    fn act_in(&mut self, action: Action, context: Context) -> Vec<Effect> {
+        let mut effects = Vec::new();
+        if let Context::In(mode) = context
+            && mode != self.mode
+        {
+            effects = self.go(mode);
+            if self.mode != mode {
+                return effects;
+            }
+        }
+        effects.extend(self.act(action, context));
+        effects
+    }
+
+    /// Takes the names in a folder.
+    pub(super) fn folder_listed(&mut self, folder: PathBuf, names: Vec<String>) {
+        self.palette.folder = Some((folder, names));
+    }
+
+    /// The command whose arguments are being typed.
+    pub fn command_typed(&self) -> Option<Completion> {
+        let described = match self.wanted()? {
+            Wanted::File(_, described, _) => described,
+            Wanted::Command(typed) => command::described_in(typed)?,
+        };
+        Some(self.as_completion(described))
+    }
+
+    /// The ways to complete the command line, the best first.
+    pub fn completions(&self) -> Vec<Completion> {
+        match self.wanted() {
+            None => Vec::new(),
+            Some(Wanted::Command(typed)) => self.commands_like(typed.trim_start()),
+            Some(Wanted::File(line, described, typed)) => {
+                // The line may begin something else: `export cancel`.
+                let mut found = self.commands_like(line);
+                let begins = |other: &Completion| {
+                    other.line.starts_with(line) || other.words.starts_with(line)
+                };
+                found.retain(|other| other.line != described.name && begins(other));
+                found.extend(self.files_like(described.name, typed));
+                found
+            }
+        }
+    }
+
+    fn wanted(&self) -> Option<Wanted<'_>> {
+        let prompt = self.overlays.prompt.as_ref()?;
+        if prompt.kind != PromptKind::Command {
+            return None;
+        }
+        let typed = match self.palette.chosen {
+            Some(_) => &self.palette.typed,
+            None => prompt.input.value(),
+        };
+        let typed = typed.trim_start();
+        let file = typed.split_once(' ').and_then(|(name, rest)| {
+            let described = command::described_as(name).filter(|row| row.takes_file)?;
+            // `export cancel` is a command of its own.
+            let is_other = command::described_as(typed).is_some();
+            (!is_other).then_some(Wanted::File(typed, described, rest.trim_start()))
+        });
+        Some(file.unwrap_or(Wanted::Command(typed)))
+    }
+
+    fn commands_like(&self, typed: &str) -> Vec<Completion> {
+        let wanted = typed.trim_end().to_lowercase();
+        let commands = command::all_described().map(|row| {
+            let names = row.names.iter().filter_map(|name| likeness(name, &wanted));
+            let by_words = likeness(row.words, &wanted).map(|rank| rank + 1);
+            let rank = names.chain(by_words).min();
+            (rank, row.action, self.as_completion(row))
+        });
+        let commands: Vec<_> = commands.filter(|(rank, ..)| rank.is_some()).collect();
+        let actions = if self.disk.is_opening() {
+            Vec::new()
+        } else {
+            keymap::actions(self.mode)
+        };
+        // A command that is offered does the same.
+        let is_other = |action| commands.iter().all(|(_, other, _)| *other != Some(action));
+        let actions = actions.into_iter().filter(|named| is_other(named.action));
+        let actions: Vec<_> = actions
+            .map(|named| {
+                let keys = match named.context {
+                    Context::In(mode) if mode != self.mode => {
+                        format!("{} {}", mode.name(), named.keys)
+                    }
+                    _ => named.keys,
+                };
+                let completion = Completion {
+                    line: named.words.to_owned(),
+                    shown: named.words.to_owned(),
+                    words: "",
+                    keys,
+                    act: Some((named.action, named.context)),
+                };
+                (likeness(named.words, &wanted), completion)
+            })
+            .collect();
+        let mut found: Vec<_> = commands
+            .into_iter()
+            .map(|(rank, _, completion)| (rank, completion))
+            .chain(actions)
+            .filter_map(|(rank, completion)| Some((rank?, completion)))
+            .collect();
+        found.sort_by_key(|&(rank, _)| rank);
+        found
+            .into_iter()
+            .map(|(_, completion)| completion)
+            .collect()
+    }
+
+    /// The names in the listed folder that a command may take and that begin as typed.
+    fn files_like(&self, command: &str, typed: &str) -> Vec<Completion> {
+        let (folder, start) = parted(typed);
+        let names = match &self.palette.folder {
+            Some((listed, names)) if *listed == folder_of(folder) => &names[..],
+            _ => &[],
+        };
+        let own = self.document.language().extension();
+        let is_wanted = |name: &str| {
+            let path = Path::new(name);
+            name.ends_with('/')
+                || if command.starts_with('w') {
+                    path.extension().is_some_and(|extension| extension == own)
+                } else {
+                    ImageFormat::of_path(path).is_some()
+                }
+        };
+        let matching = names.iter().filter(|name| name.starts_with(start));
+        matching
+            .filter(|name| is_wanted(name))
+            .map(|name| Completion {
+                line: format!("{command} {folder}{name}"),
+                shown: format!("{folder}{name}"),
+                words: "",
+                keys: String::new(),
+                act: None,
+            })
+            .collect()
+    }
+
+    fn as_completion(&self, command: Described) -> Completion {
+        Completion {
+            line: command.name.to_owned(),
+            keys: self.keys_of(command.action),
+            shown: command.usage,
+            words: command.words,
+            act: None,
+        }
+    }
+
+    /// The keys of an action in the present mode, otherwise in any.
+    fn keys_of(&self, action: Option<Action>) -> String {
+        let mut named = keymap::actions(self.mode).into_iter();
+        let named = named.find(|named| Some(named.action) == action);
+        named.map_or_else(String::new, |named| named.keys)
+    }
+
+    /// Puts another completion into the line, wrapping around through the line as typed.
+    fn choose_completion(&mut self, step: isize) {
+        let found = self.completions();
+        if self.palette.chosen.is_none()
+            && let Some(prompt) = &self.overlays.prompt
+        {
+            prompt.input.value().clone_into(&mut self.palette.typed);
+        }
+        let count = found.len() as isize + 1;
+        let at = self.palette.chosen.map_or(0, |at| at as isize + 1);
+        let at = (at + step).rem_euclid(count);
+        self.palette.chosen = usize::try_from(at - 1).ok();
+        let line = match self.palette.chosen.and_then(|at| found.get(at)) {
+            Some(completion) => &completion.line,
+            None => &self.palette.typed,
+        };
+        if let Some(prompt) = &mut self.overlays.prompt {
+            prompt.input = Input::from(line.as_str());
+        }
+    }
+
+    /// Puts another line of the history into the line; returns whether there was one.
+    fn recall(&mut self, older: bool) -> bool {
+        let Some(prompt) = &mut self.overlays.prompt else {
+            return false;
+        };
+        let Some(line) = self.palette.recall(prompt.input.value(), older) else {
+            return false;
+        };
+        prompt.input = Input::from(line);
+        true
+    }
+
+    /// Requests the names in the folder whose files are completed, unless they are known.
+    fn list_folder(&mut self) -> Vec<Effect> {
+        let Some(Wanted::File(.., typed)) = self.wanted() else {
+            return Vec::new();
+        };
+        let folder = folder_of(parted(typed).0);
+        if self.palette.folder.as_ref().map(|(listed, _)| listed) == Some(&folder) {
+            return Vec::new();
+        }
+        // Nothing is offered until the names arrive, and nothing is requested twice.
+        self.palette.folder = Some((folder.clone(), Vec::new()));
+        vec![Effect::ListFolder(folder)]
+    }
+}
+
+/// The folder and the start of the name in a typed path.
+fn parted(typed: &str) -> (&str, &str) {
+    typed.split_at(typed.rfind('/').map_or(0, |slash| slash + 1))
+}
+
+fn folder_of(typed: &str) -> PathBuf {
+    PathBuf::from(if typed.is_empty() { "." } else { typed })
+}
+
+/// How well a text answers what was typed, in lower case; 0 is best. `None` if it does not contain
+/// all of the words.
+fn likeness(text: &str, wanted: &str) -> Option<u8> {
+    let text = text.to_lowercase();
+    let begins_word = |at: usize| text[..at].ends_with([' ', '-']);
+    if text.starts_with(wanted) {
+        Some(0)
+    } else if text.match_indices(wanted).any(|(at, _)| begins_word(at)) {
+        Some(1)
+    } else if wanted.split_whitespace().all(|word| text.contains(word)) {
+        Some(2)
+    } else {
+        None
+    }
+}

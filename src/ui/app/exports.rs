@@ -1,0 +1,256 @@
+//! Exports: pictures written in the background, one after the other.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::jobs::{Asking, Making, Pending};
+use super::{App, Dialog, Export, Stage};
+use crate::image_file::{ImageFormat, known_extensions};
+use crate::render::{Frame, Frames, Job};
+use crate::scene::{Camera, Size};
+use crate::text::Severity;
+use crate::ui::msg::{Destination, Effect, Existing, ExportId, Exported, Target};
+
+impl App {
+    /// Exports to the scene's folder under the scene's name. If another program has written that
+    /// file, the user is asked.
+    pub(super) fn export_default(&mut self) -> Vec<Effect> {
+        self.start_export(&self.export_path(), None, None, Asking::Yes)
+    }
+
+    /// The scene's path with a picture's extension, distinct for each AOV so that they don't
+    /// overwrite each other.
+    pub(super) fn export_path(&self) -> PathBuf {
+        let extension = self
+            .pictures
+            .aov
+            .map_or_else(|| "bmp".to_owned(), |aov| format!("{}.bmp", aov.name()));
+        let scene = self
+            .disk
+            .path
+            .as_deref()
+            .unwrap_or_else(|| Path::new("halflight"));
+        scene.with_extension(extension)
+    }
+
+    /// Exports the scene as currently seen, after the exports that were started before. Unless
+    /// forced, files written by others are kept.
+    pub(super) fn start_export(
+        &mut self,
+        path: &Path,
+        size: Option<Size>,
+        spp: Option<u32>,
+        asking: Asking,
+    ) -> Vec<Effect> {
+        let size = size.unwrap_or_else(|| self.output());
+        let spp = self
+            .pictures
+            .samples(spp.unwrap_or(self.pictures.quality.spp));
+        let job = match self.export_job(path, size, spp) {
+            Ok(job) => job,
+            Err(reason) => {
+                self.refuse_picture(Severity::Error, &reason);
+                return Vec::new();
+            }
+        };
+        let traced = self
+            .traced(size, spp)
+            .filter(|_| job.frames == Frames::Last);
+        let export = Export {
+            id: self.jobs.next_export(),
+            stage: Stage::Tracing,
+            destination: Destination {
+                path: path.to_owned(),
+                existing: match asking {
+                    Asking::Forced => Existing::Overwritten,
+                    Asking::Yes | Asking::No => Existing::Kept,
+                },
+                scene: self.disk.path.clone(),
+                named: self.assets.files().to_vec(),
+            },
+            size,
+            spp,
+            aov: self.pictures.aov,
+            progress: traced.as_ref().map(|frame| frame.progress),
+            written_for: 0,
+        };
+        // Frames the view for the size that is written.
+        let camera = Camera { size, ..job.camera };
+        let making = match traced {
+            Some(frame) => Making::Write(frame),
+            None => Making::Trace(Box::new(Job { camera, ..job })),
+        };
+        self.announce_export(path);
+        self.begin_or_queue(Pending {
+            export,
+            making,
+            asking,
+        })
+    }
+
+    /// Says what is exported, and whether that has to wait.
+    fn announce_export(&mut self, path: &Path) {
+        let what = self
+            .pictures
+            .aov
+            .map_or_else(String::new, |aov| format!("{} ", aov.name()));
+        let path = path.display();
+        let words = match self.jobs.export {
+            Some(_) => format!("queued: {what}to {path}"),
+            None => format!("exporting {what}to {path}"),
+        };
+        if self.error_count() == 0 {
+            self.overlays.say(words);
+        } else {
+            let why = "the text has errors: this is the last valid scene";
+            self.overlays.warn(format!("{words}; {why}"));
+        }
+    }
+
+    fn begin_or_queue(&mut self, pending: Pending) -> Vec<Effect> {
+        if self.jobs.export.is_some() {
+            self.jobs.queue(pending);
+            return Vec::new();
+        }
+        self.jobs.begin_export(pending)
+    }
+
+    /// Starts the next export that waits, or performs a pending quit if there is none.
+    fn next_export(&mut self) -> Vec<Effect> {
+        match self.jobs.next_pending() {
+            Some(pending) => self.jobs.begin_export(pending),
+            None => self.leave_when_done(),
+        }
+    }
+
+    pub(super) fn export_frame(&mut self, frame: Arc<Frame>) -> Vec<Effect> {
+        let Some(export) = &mut self.jobs.export else {
+            return Vec::new();
+        };
+        export.progress = Some(frame.progress);
+        if !frame.progress.complete {
+            return Vec::new();
+        }
+        export.stage = Stage::Writing;
+        let mut effects = vec![
+            Effect::WriteImage(export.id, frame, export.destination.clone()),
+            Effect::Stop(Target::Export),
+        ];
+        effects.extend(self.jobs.count_seconds());
+        effects
+    }
+
+    /// Records that the picture of an export will not be finished.
+    pub(super) fn export_ended(&mut self, reason: String) -> Vec<Effect> {
+        let traced = |export: &mut Export| export.stage == Stage::Tracing;
+        if self.jobs.export.take_if(traced).is_none() {
+            return Vec::new();
+        }
+        self.jobs.next = None;
+        self.overlays.fail(reason);
+        self.next_export()
+    }
+
+    pub(super) fn exported(
+        &mut self,
+        id: ExportId,
+        outcome: Result<Exported, String>,
+    ) -> Vec<Effect> {
+        let Some(export) = self.jobs.export.take_if(|export| export.id == id) else {
+            // A cancelled export: nobody waits for it, but its file exists now.
+            if let Ok(exported) = outcome {
+                self.overlays
+                    .report(format!("wrote {} anyway", exported.path.display()));
+                self.jobs.note_export(exported);
+            }
+            return Vec::new();
+        };
+        let mut effects = Vec::new();
+        match outcome {
+            Ok(exported) => {
+                let path = exported.path.display();
+                self.overlays
+                    .report(format!("wrote {path}{}", export.summary()));
+                self.jobs.note_export(exported);
+            }
+            Err(reason) => {
+                self.jobs.next = None;
+                self.overlays.fail(reason);
+                effects = export.stop();
+            }
+        }
+        effects.extend(self.next_export());
+        effects
+    }
+
+    /// Handles that another program has written the file of an export: asks whether to overwrite
+    /// it, or reports that it is kept.
+    pub(super) fn is_taken(&mut self, id: ExportId, reason: String) -> Vec<Effect> {
+        let asks = self.jobs.is_asking() && self.overlays.dialog.is_none();
+        if !asks || self.jobs.export.as_ref().map(|export| export.id) != Some(id) {
+            return self.exported(id, Err(reason));
+        }
+        let Some(pending) = self.jobs.take_back() else {
+            return Vec::new();
+        };
+        let mut effects = pending.export.stop();
+        self.overlays.dialog = Some(Dialog::Overwrite(Box::new(pending)));
+        if let Some(next) = self.jobs.next_pending() {
+            effects.extend(self.jobs.begin_export(next));
+        }
+        effects
+    }
+
+    /// Exports after all, to the file that another program has written or to a numbered one.
+    pub(super) fn answer_taken(&mut self, existing: Existing) -> Vec<Effect> {
+        let Some(Dialog::Overwrite(pending)) = self.overlays.dialog.take() else {
+            return Vec::new();
+        };
+        let mut pending = *pending;
+        pending.export.id = self.jobs.next_export();
+        pending.export.destination.existing = existing;
+        pending.asking = Asking::No;
+        self.begin_or_queue(pending)
+    }
+
+    /// The job whose picture an export to `path` writes, or the reason why there is none.
+    fn export_job(&self, path: &Path, size: Size, spp: u32) -> Result<Job, String> {
+        let format = ImageFormat::of_path(path).ok_or_else(|| {
+            let (name, known) = (path.display(), known_extensions());
+            format!("{name}: picture files end in {known}")
+        })?;
+        let job = self.final_job(size, spp)?;
+        let frames = format.frames();
+        format.refuses(size).map_or(Ok(Job { frames, ..job }), Err)
+    }
+
+    /// The full-size trace, if it is complete and exactly what is to be exported.
+    fn traced(&self, size: Size, spp: u32) -> Option<Arc<Frame>> {
+        let trace = self.pictures.trace.as_ref()?;
+        let frame = trace.latest.as_ref().filter(|_| trace.is_complete())?;
+        let same = frame.size == size
+            && size == self.output()
+            && spp == self.pictures.samples(self.pictures.quality.spp);
+        same.then(|| Arc::clone(frame))
+    }
+
+    /// Cancels the running export; those that wait go on.
+    pub(super) fn cancel_export(&mut self) -> Vec<Effect> {
+        let Some(export) = self.jobs.export.take() else {
+            self.overlays.say("nothing is running");
+            return Vec::new();
+        };
+        self.jobs.next = None;
+        match export.stage {
+            Stage::Tracing => self.overlays.say("export cancelled"),
+            Stage::Writing => {
+                let path = export.destination.path.display();
+                self.overlays
+                    .warn(format!("too late to cancel: {path} is being written"));
+            }
+        }
+        let mut effects = export.stop();
+        effects.extend(self.next_export());
+        effects
+    }
+}

@@ -1,0 +1,126 @@
+//! The command line: completions, actions by name, and history.
+
+use super::*;
+
+fn line(app: &App) -> &str {
+    app.overlays
+        .prompt
+        .as_ref()
+        .map_or("", |prompt| prompt.input.value())
+}
+
+fn offered(app: &App) -> Vec<String> {
+    let found = app.completions().into_iter();
+    found.map(|completion| completion.shown).collect()
+}
+
+#[test]
+fn commands_and_actions_are_offered_by_name_and_description() {
+    for (said, first, keys) in [
+        (":ren", ":render", "F5 r"),
+        (":write", ":w [FILE]", "w"),
+        (":outl", "toggle the outline of the selection", "o"),
+        (":undo", "undo", "u"),
+        (":orbit l", "orbit left", "VIEW h ←"),
+        (":view into", ":view save", "S"),
+    ] {
+        let mut app = open(SCENE);
+        press(&mut app, said);
+        let found = app.completions();
+        let found = found.iter().find(|completion| completion.shown == first);
+        assert_eq!(
+            found.map(|found| &*found.keys),
+            Some(keys),
+            "{said}: {:?}",
+            offered(&app)
+        );
+    }
+    let mut app = open(SCENE);
+    press(&mut app, ":zzz");
+    assert!(offered(&app).is_empty());
+}
+
+#[test]
+fn tab_and_arrows_choose_and_the_typed_line_is_among_the_choices() {
+    let mut app = open(SCENE);
+    press(&mut app, ":view ");
+    assert_eq!(offered(&app)[..2], [":view save", ":view reset"]);
+    for (key, expected) in [
+        ("<Tab>", "view save"),
+        ("<Down>", "view reset"),
+        ("<Up>", "view save"),
+        ("<Up>", "view "),
+        ("<Tab><Tab>", "view reset"),
+        ("<Back>", "view rese"),
+    ] {
+        press(&mut app, key);
+        assert_eq!(line(&app), expected, "{key}");
+    }
+}
+
+#[test]
+fn every_action_of_a_key_runs_by_its_description() {
+    let mut app = open(SCENE);
+    press(&mut app, ":next light<Tab><Enter>");
+    assert_eq!(app.selected_row(), 2);
+    // A unique description need not be chosen.
+    press(&mut app, ":edit its<Enter>");
+    assert_eq!(app.mode, Mode::Edit);
+    // The mode that has the key is entered.
+    press(&mut app, "<Esc>:orbit left<Enter>");
+    assert!(app.mode == Mode::View && app.pictures.view.is_some());
+    press(&mut app, ":render<Enter>");
+    assert_eq!(app.mode, Mode::Trace);
+    for named in crate::ui::keymap::actions(Mode::Select) {
+        let mut app = open(SCENE);
+        press(&mut app, &format!(":{}", named.words));
+        let mut found = app.completions().into_iter().chain(app.command_typed());
+        let is_offered =
+            |found: Completion| found.shown == named.words || found.keys.ends_with(&named.keys);
+        assert!(found.any(is_offered), "{named:?}");
+    }
+}
+
+#[test]
+fn earlier_lines_return_while_the_line_is_empty_or_unchanged() {
+    let mut app = open(SCENE);
+    press(
+        &mut app,
+        ":size 8x8<Enter>:view reset<Enter>:view reset<Enter>:",
+    );
+    for (key, expected) in [
+        ("<Up>", "view reset"),
+        ("<Up>", "size 8x8"),
+        ("<Up>", "size 8x8"),
+        ("<Down>", "view reset"),
+        ("<Down>", ""),
+        ("<Down>", "w"),
+    ] {
+        press(&mut app, key);
+        assert_eq!(line(&app), expected, "{key}");
+    }
+}
+
+#[test]
+fn file_names_are_completed_from_their_folder() {
+    let mut app = open(SCENE);
+    let effects = press_all(&mut app, ":w s");
+    let listed = |effects: &[Effect]| {
+        effects.iter().find_map(|effect| match effect {
+            Effect::ListFolder(folder) => Some(folder.clone()),
+            _ => None,
+        })
+    };
+    assert_eq!(listed(&effects), Some(PathBuf::from(".")));
+    assert_eq!(listed(&press_all(&mut app, "c")), None, "it is on its way");
+    let names = ["a.ray", "scene.bmp", "scene.ray", "scenes/"].map(str::to_owned);
+    app.update(Msg::Listed(PathBuf::from("."), names.to_vec()));
+    assert_eq!(offered(&app), ["scene.ray", "scenes/"]);
+    press(&mut app, "<Tab><Tab>");
+    assert_eq!(line(&app), "w scenes/");
+    let effects = press_all(&mut app, "x");
+    assert_eq!(listed(&effects), Some(PathBuf::from("scenes/")));
+    press(&mut app, "<Esc>:export ");
+    app.update(Msg::Listed(PathBuf::from("."), names.to_vec()));
+    assert_eq!(offered(&app), [":export cancel", "scene.bmp", "scenes/"]);
+}

@@ -1,0 +1,200 @@
+//! Where picture and panels are on screens and for pictures of all shapes.
+
+use super::*;
+use crate::ui::layout::{contents, field_rows};
+use proptest::prelude::*;
+
+const SHAPE: Shape = Shape {
+    zoom: Zoom::Panels,
+    output: Size {
+        width: 800,
+        height: 600,
+    },
+    fields: 9,
+    panels: PanelSizes {
+        beside: None,
+        below: None,
+    },
+};
+
+fn screen(width: u16, height: u16) -> Areas {
+    arrange(Rect::new(0, 0, width, height), &SHAPE)
+}
+
+#[test]
+fn panels_appear_as_space_permits() {
+    let check = |width, height, panels: &str| {
+        let areas = screen(width, height);
+        let named = [
+            (areas.picture, 'p'),
+            (areas.list, 'l'),
+            (areas.fields, 'f'),
+            (areas.hint, 'h'),
+            (areas.status, 's'),
+        ];
+        let shown: String = named
+            .iter()
+            .filter(|(area, _)| !area.is_empty())
+            .map(|(_, name)| *name)
+            .collect();
+        assert_eq!(shown, panels, "{width}×{height}");
+    };
+    check(0, 0, "");
+    check(19, 50, "");
+    check(200, 5, "");
+    check(20, 6, "ps");
+    check(39, 50, "ps");
+    check(40, 16, "plfhs");
+    check(80, 24, "plfhs");
+}
+
+/// The cells of the picture on a screen, with the sizes of list and fields.
+fn sizes(areas: &Areas, output: Size) -> [(u16, u16); 3] {
+    let cells = raster(areas.picture, output).map_or_else(Rect::default, |(cells, _)| cells);
+    [cells, areas.list, areas.fields].map(|area| (area.width, area.height))
+}
+
+#[test]
+fn the_shapes_of_picture_and_screen_decide() {
+    let check = |screen: (u16, u16), output: (u32, u32), expected: [(u16, u16); 3]| {
+        let (width, height) = output;
+        let shape = Shape {
+            output: Size { width, height },
+            ..SHAPE
+        };
+        let areas = arrange(Rect::new(0, 0, screen.0, screen.1), &shape);
+        assert_eq!(sizes(&areas, shape.output), expected, "{screen:?}");
+    };
+    // Beside: narrow panels if the picture needs the columns, wide ones if it cannot use them.
+    check((80, 24), (4, 3), [(47, 18), (32, 8), (32, 14)]);
+    check((200, 50), (4, 3), [(128, 48), (60, 34), (60, 14)]);
+    check((80, 24), (1, 2), [(22, 22), (57, 8), (57, 14)]);
+    // Below: as low as the picture needs, side by side or one above the other.
+    check((100, 60), (4, 3), [(100, 38), (39, 20), (60, 20)]);
+    check((60, 40), (4, 3), [(60, 23), (26, 15), (33, 15)]);
+    check((40, 40), (4, 3), [(40, 15), (40, 9), (40, 14)]);
+    check((40, 16), (4, 3), [(19, 7), (15, 7), (24, 7)]);
+    check((120, 30), (4, 1), [(120, 15), (47, 13), (72, 13)]);
+}
+
+/// The columns and lines of the picture when panels were always beside it from 80×24 on, and
+/// took half of a smaller screen.
+#[test]
+fn no_picture_is_smaller_than_beside_panels_of_fixed_size() {
+    for (screen, before) in [
+        ((80, 24), (44, 22)),
+        ((120, 40), (83, 38)),
+        ((200, 50), (155, 48)),
+        ((100, 60), (64, 58)),
+        ((60, 40), (60, 18)),
+    ] {
+        let areas = arrange(Rect::new(0, 0, screen.0, screen.1), &SHAPE);
+        let cells = |area| raster(area, SHAPE.output).map_or(0, |(cells, _)| cells.area());
+        let before = cells(Rect::new(0, 0, before.0, before.1));
+        assert!(before <= cells(areas.picture), "{screen:?}");
+    }
+}
+
+#[test]
+fn the_list_gets_the_lines_that_fields_do_not_need() {
+    let heights = |height, fields| {
+        let shape = Shape { fields, ..SHAPE };
+        let areas = arrange(Rect::new(0, 0, 160, height), &shape);
+        (areas.list.height, areas.fields.height)
+    };
+    // Two of sixty lines are bars; the fields take a title, their lines and four lines of
+    // notes.
+    assert_eq!(heights(60, 14), (39, 19));
+    assert_eq!(heights(60, 10), (43, 15));
+    assert_eq!(heights(60, 1), heights(60, 2));
+    assert_eq!(heights(24, 14), (7, 15));
+}
+
+#[test]
+fn panels_are_resized_within_limits_and_keep_their_sizes() {
+    for (width, height) in [(120, 40), (60, 60)] {
+        let area = Rect::new(0, 0, width, height);
+        let size = |shape: &Shape| {
+            let areas = arrange(area, shape);
+            (areas.list.width, areas.fields.bottom() - areas.list.y)
+        };
+        let mut shape = SHAPE;
+        let before = size(&shape);
+        let step = |shape: &mut Shape, cells| {
+            let areas = arrange(area, shape);
+            shape.panels = resized(&areas, shape, cells).expect("there are panels");
+        };
+        step(&mut shape, 2);
+        assert_ne!(size(&shape), before);
+        step(&mut shape, -2);
+        assert_eq!(size(&shape), before);
+        for cells in [-999, 999] {
+            step(&mut shape, cells);
+            let limit = size(&shape);
+            step(&mut shape, cells);
+            assert_eq!(size(&shape), limit, "nothing to undo first");
+            assert!(!arrange(area, &shape).picture.is_empty());
+        }
+    }
+    let shape = Shape {
+        zoom: Zoom::Picture,
+        ..SHAPE
+    };
+    let areas = arrange(Rect::new(0, 0, 120, 40), &shape);
+    assert_eq!(resized(&areas, &shape, 2), None);
+}
+
+#[test]
+fn a_dragged_border_follows_the_pointer() {
+    for (screen, at) in [((120, 40), (70, 9)), ((60, 60), (9, 30))] {
+        let area = Rect::new(0, 0, screen.0, screen.1);
+        let areas = arrange(area, &SHAPE);
+        let panels = resized(&areas, &SHAPE, areas.dragged(at)).expect("there are panels");
+        let areas = arrange(area, &Shape { panels, ..SHAPE });
+        assert!(areas.border.contains(at.into()), "{screen:?}: {areas:?}");
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::repeatable())]
+
+    #[test]
+    fn areas_are_inside_the_screen_and_disjoint(
+        x in 0u16..5, y in 0u16..5, width in 0u16..220, height in 0u16..90, alone: bool,
+        fields in 0usize..40, output in (1u32..2000, 1u32..2000), errors in 0u16..20,
+        beside: Option<u16>, below: Option<u16>
+    ) {
+        let area = Rect::new(x, y, width, height);
+        let shape = Shape {
+            zoom: if alone { Zoom::Picture } else { Zoom::Panels },
+            output: Size { width: output.0, height: output.1 },
+            fields,
+            panels: PanelSizes { beside, below },
+        };
+        let all = arrange(area, &shape);
+        prop_assert!(all.room_for_errors().height <= all.picture.height);
+        let all = all.make_room(errors);
+        let panels = [
+            all.picture, all.rule, all.list, all.fields, all.hint, all.status, all.errors,
+        ];
+        for (at, panel) in panels.iter().enumerate() {
+            prop_assert_eq!(panel.intersection(area).area(), panel.area());
+            for other in &panels[at + 1..] {
+                prop_assert!(panel.intersection(*other).is_empty());
+            }
+        }
+        prop_assert_eq!(all.border.intersection(area).area(), all.border.area());
+    }
+
+    #[test]
+    fn panels_are_usable_wherever_they_are(
+        width in 40u16..220, height in 24u16..90, output in (1u32..2000, 1u32..2000),
+    ) {
+        let (across, down) = output;
+        let shape = Shape { output: Size { width: across, height: down }, ..SHAPE };
+        let all = arrange(Rect::new(0, 0, width, height), &shape);
+        prop_assert!(8 <= field_rows(all.fields).height, "{all:?}");
+        prop_assert!(3 <= contents(all.list).height, "{all:?}");
+        prop_assert!(59 > width || 26 <= all.list.width, "{all:?}");
+    }
+}

@@ -1,0 +1,44 @@
+//! The keys with a meaning of their own while a line is typed.
+
+/// A line that keys are typed into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Line {
+    /// A value of a field.
+    Value,
+    /// A command after `:`.
+    Command,
+    /// A search after `/`.
+    Search,
+    /// A new name.
+    Name,
+    /// The filter of a menu.
+    Filter,
+}
+
+/// The keys with a meaning of their own while a line is typed, the most useful first.
+pub fn line_hints(line: Line) -> &'static [(&'static str, &'static str)] {
+    match line {
+        Line::Value => &[
+            ("Enter", "keep"),
+            ("Esc", "cancel"),
+            ("Tab", "keep, next number"),
+            ("Shift-Tab", "keep, previous number"),
+            ("Ctrl-U", "clear"),
+        ],
+        Line::Command => &[
+            ("Enter", "run"),
+            ("Esc", "cancel"),
+            ("Tab", "next completion"),
+            ("↑ ↓", "completions; earlier lines if empty"),
+            ("Ctrl-U", "clear"),
+        ],
+        Line::Name => &[("Enter", "rename"), ("Esc", "cancel"), ("Ctrl-U", "clear")],
+        Line::Filter => &[
+            ("Enter", "choose"),
+            ("Esc", "cancel"),
+            ("↑ ↓", "move"),
+            ("Ctrl-U", "clear"),
+        ],
+        Line::Search => &[("Enter", "find"), ("Esc", "cancel"), ("Ctrl-U", "clear")],
+    }
+}

@@ -1,0 +1,120 @@
+//! The palette above the command line: the command being typed, and the ways to complete it.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Style;
+use ratatui::widgets::{Clear, Widget};
+use unicode_width::UnicodeWidthStr;
+
+use super::row::{Row, title};
+use crate::ui::app::{App, Completion};
+use crate::ui::{layout, theme};
+
+/// Maximum number of completions shown.
+const SHOWN: usize = 12;
+
+/// Draws the palette at the bottom of `area` while a command is typed.
+pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
+    let found = app.completions();
+    let typed = app.command_typed();
+    let rows = found.len().min(SHOWN) + usize::from(typed.is_some());
+    // At least half of the screen stays visible.
+    let rows = rows.min(usize::from(area.height / 2).saturating_sub(1));
+    if rows == 0 {
+        return;
+    }
+    let (_, panel) = layout::split_bottom(area, rows as u16 + 1);
+    Clear.render(panel.intersection(buffer.area), buffer);
+    let chosen = app.palette.chosen;
+    let place = match found.len() {
+        0 => String::new(),
+        count => format!("{}/{count}", chosen.map_or(0, |at| at + 1)),
+    };
+    title("", &place, None, panel, buffer);
+    let mut lines = layout::contents(panel);
+    if let Some(command) = typed {
+        entry(&command, theme::DIM, first_line(lines), buffer);
+        lines = layout::contents(lines);
+    }
+    let rows = usize::from(lines.height);
+    let top = layout::first_shown(0, chosen.unwrap_or(0), found.len(), rows);
+    for (index, completion) in found.iter().enumerate().skip(top).take(rows) {
+        let line = Rect {
+            y: lines.y + (index - top) as u16,
+            height: 1,
+            ..lines
+        };
+        let style = if chosen == Some(index) {
+            theme::CURSOR
+        } else {
+            Style::new()
+        };
+        entry(completion, style, line, buffer);
+    }
+}
+
+fn first_line(area: Rect) -> Rect {
+    Rect {
+        height: area.height.min(1),
+        ..area
+    }
+}
+
+/// Draws a completion: its text, its description, and its key at the end.
+fn entry(completion: &Completion, style: Style, line: Rect, buffer: &mut Buffer) {
+    let mut row = Row::new(buffer, line, 0);
+    let width = row.room();
+    let blank = " ".repeat(width);
+    Row::new(buffer, line, 0).put(&blank, style);
+    row = Row::new(buffer, line, 0);
+    row.skip(1);
+    let keys = completion.keys.width();
+    let room = width.saturating_sub(keys + 3);
+    let column = if completion.words.is_empty() {
+        room
+    } else {
+        room * 2 / 5
+    };
+    row.put_in(&completion.shown, column.saturating_sub(1), style);
+    if !completion.words.is_empty() {
+        row.skip_to(line.x + 1 + column as u16);
+        row.put_in(completion.words, room - column, style.patch(theme::DIM));
+    }
+    row.skip_to((line.right()).saturating_sub(keys as u16 + 1));
+    row.put(&completion.keys, style.patch(theme::ACCENT));
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::ui::app::{App, PromptKind};
+    use crate::ui::msg::Msg;
+    use crate::ui::view::tests::{app, drawn};
+    use crossterm::event::KeyCode;
+
+    fn typed(app: &mut App, text: &str) {
+        for c in text.chars() {
+            app.update(Msg::Key(KeyCode::Char(c).into()));
+        }
+    }
+
+    #[test]
+    fn commands_are_shown_with_their_help_and_key() {
+        let mut app = app();
+        typed(&mut app, ":vie");
+        let kind = app.overlays.prompt.as_ref().map(|prompt| prompt.kind);
+        assert_eq!(kind, Some(PromptKind::Command));
+        let lines = drawn(&app, super::render, 70, 24);
+        let line = lines.iter().find(|line| line.contains(":view save"));
+        let line = line.expect("it is offered");
+        assert!(line.contains("write the view into the scene"), "{line}");
+        assert!(line.ends_with('S'), "{line}");
+    }
+
+    #[test]
+    fn the_arguments_of_a_command_are_shown_while_they_are_typed() {
+        let mut app = app();
+        typed(&mut app, ":size 8");
+        let lines = drawn(&app, super::render, 70, 24);
+        assert!(lines[23].contains(":size WxH"), "{lines:#?}");
+    }
+}
