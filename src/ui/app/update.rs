@@ -202,7 +202,10 @@ impl App {
                 let (kind, typed) = (prompt.kind, prompt.input.value().to_owned());
                 match kind {
                     PromptKind::Command => return self.run_line(&typed),
-                    PromptKind::Name => self.rename(&typed),
+                    PromptKind::Name => {
+                        self.overlays.prompt = None;
+                        self.rename(&typed);
+                    }
                     PromptKind::Search => {
                         self.overlays.prompt = None;
                         self.cursor.searched = typed;

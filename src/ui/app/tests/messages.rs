@@ -24,7 +24,7 @@ fn a_message_that_comes_with_another_waits_for_the_next_key() {
     app.overlays.begin_step();
     app.overlays.say("three");
     app.overlays.say("four");
-    press(&mut app, "R");
+    press(&mut app, "X");
     assert!(words(&app).contains("is free"));
     press(&mut app, "j");
     assert_eq!(words(&app), "four");

@@ -22,9 +22,10 @@ fn keys_without_a_meaning_say_where_they_have_one() {
             "jeo",
             "`o` in SELECT: toggle the outline of the selection; ? lists keys",
         ),
-        ("vR", "`R` is free in VIEW; ? lists keys"),
+        ("vR", "`R` in SELECT (Enter): rename; ? lists keys"),
+        ("vX", "`X` is free in VIEW; ? lists keys"),
         ("<Ctrl-y>", "`Ctrl-Y` is free in SELECT; ? lists keys"),
-        ("?R", "`R` is free here"),
+        ("?X", "`X` is free here"),
         ("je5", ""),
     ] {
         let mut app = open(SCENE);

@@ -22,7 +22,7 @@ fn commands_and_actions_are_offered_by_name_and_description() {
         (":outl", "toggle the outline of the selection", "o"),
         (":undo", "undo", "u"),
         (":orbit l", "orbit left", "VIEW h ←"),
-        (":view into", ":view save", "S"),
+        (":view sav", ":view save [NAME]", "S"),
     ] {
         let mut app = open(SCENE);
         press(&mut app, said);
@@ -44,14 +44,14 @@ fn commands_and_actions_are_offered_by_name_and_description() {
 fn tab_and_arrows_choose_and_the_typed_line_is_among_the_choices() {
     let mut app = open(SCENE);
     press(&mut app, ":view ");
-    assert_eq!(offered(&app)[..2], [":view save", ":view reset"]);
+    assert_eq!(offered(&app)[..2], [":view save [NAME]", ":view light"]);
     for (key, expected) in [
         ("<Tab>", "view save"),
-        ("<Down>", "view reset"),
+        ("<Down>", "view light"),
         ("<Up>", "view save"),
         ("<Up>", "view "),
-        ("<Tab><Tab>", "view reset"),
-        ("<Back>", "view rese"),
+        ("<Tab><Tab>", "view light"),
+        ("<Back>", "view ligh"),
     ] {
         press(&mut app, key);
         assert_eq!(line(&app), expected, "{key}");
@@ -64,8 +64,8 @@ fn every_action_of_a_key_runs_by_its_description() {
     press(&mut app, ":next light<Tab><Enter>");
     assert_eq!(app.selected_row(), 2);
     // A unique description need not be chosen.
-    press(&mut app, ":edit its<Enter>");
-    assert_eq!(app.mode, Mode::Edit);
+    press(&mut app, ":move the camera<Enter>");
+    assert_eq!(app.mode, Mode::View);
     // The mode that has the key is entered.
     press(&mut app, "<Esc>:orbit left<Enter>");
     assert!(app.mode == Mode::View && app.pictures.view.is_some());
@@ -92,7 +92,7 @@ fn earlier_lines_return_while_the_line_is_empty_or_unchanged() {
         ("<Up>", "view reset"),
         ("<Up>", "size 8x8"),
         ("<Up>", "size 8x8"),
-        ("<Down>", "view reset"),
+        ("<Down>", "view light"),
         ("<Down>", ""),
         ("<Down>", "w"),
     ] {
