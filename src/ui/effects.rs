@@ -12,23 +12,16 @@ use std::time::{Duration, Instant};
 
 use super::assets::AssetReader;
 use super::editor;
-use super::event::{Event, sending};
+use super::event::{Event, Work, sending};
 use super::heap;
 use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
 use super::options::Options;
 use super::reader::Reader;
 use super::recovery::{self, Edits, End, Keeper, Outcome, Request};
+use super::screen::Screen;
 use super::service::{Ended, Service};
-use super::terminal::tmux;
-use super::terminal::{self, Input, Replies, Reply, Terminal};
-#[cfg(unix)]
-use super::terminal::{Signals, suspend_process};
 use super::writing::Writers;
 use crate::render::{Job, Refusal, Renderer, Threads};
-
-/// Maximum time to wait for replies of the terminal before handing it over; longer than nearly all
-/// round trips.
-const REPLY_PATIENCE: Duration = Duration::from_secs(1);
 
 /// Time for which memory freed by pictures is kept for the next ones.
 const TRIM_TIME: Duration = Duration::from_secs(30);
@@ -38,12 +31,7 @@ const TRIM_TIME: Duration = Duration::from_secs(30);
 pub(crate) struct Runtime {
     // First, because fields are dropped in order: the terminal is restored before renderers and the
     // watcher end, which may take a moment.
-    terminal: Terminal,
-    /// Replies still expected from the terminal.
-    replies: Arc<Replies>,
-    input: Input,
-    #[cfg(unix)]
-    signals: Signals,
+    screen: Screen,
     sender: Sender<Event>,
     reader: Reader,
     /// Frees unneeded values: for a large scene this takes longer than a key may wait.
@@ -70,33 +58,8 @@ impl Runtime {
         reader: Reader,
         sender: Sender<Event>,
     ) -> io::Result<Self> {
-        let replies = Arc::new(Replies::default());
-        let sink = |sender: &Sender<Event>| {
-            let (sender, replies) = (sender.clone(), Arc::clone(&replies));
-            move |event| {
-                if let terminal::Event::Reply(reply) = event {
-                    replies.came(reply);
-                }
-                // The inbox is gone only when the program ends.
-                let _ = sender.send(Event::from(event));
-            }
-        };
-        // Before the terminal is changed: until then the default actions of signals do no harm.
-        #[cfg(unix)]
-        let signals = Signals::start(sink(&sender))?;
-        let terminal = {
-            let sender = sender.clone();
-            let cleared = move || {
-                let _ = sender.send(Event::Cleared);
-            };
-            Terminal::enter(options.colours(), options.mouse, cleared)?
-        };
         Ok(Self {
-            terminal,
-            replies: Arc::clone(&replies),
-            input: Input::start(sink(&sender))?,
-            #[cfg(unix)]
-            signals,
+            screen: Screen::new(options, &sender)?,
             reader,
             freeing: Service::start("freeing", "frees memory", |inbox| {
                 inbox.iter().for_each(drop);
@@ -116,31 +79,9 @@ impl Runtime {
         })
     }
 
-    /// The terminal to draw on.
-    pub(crate) fn terminal(&mut self) -> &mut Terminal {
-        &mut self.terminal
-    }
-
-    /// Whether the terminal is not lent to another program.
-    pub(crate) fn has_terminal(&self) -> bool {
-        self.terminal.is_ours()
-    }
-
-    /// Queries the colours of the terminal and, through tmux, of the terminal behind it. Any
-    /// answers arrive as [`Event::Replied`].
-    pub(crate) fn ask_for_colours(&self) -> io::Result<()> {
-        self.replies.expect(Reply::Attributes);
-        self.terminal.ask_for_colours()?;
-        let sender = self.sender.clone();
-        // Without a thread there is no answer.
-        let _ = thread::Builder::new()
-            .name("colours".to_owned())
-            .spawn(move || {
-                if tmux::shows_true_colour() == Some(true) {
-                    let _ = sender.send(Event::Replied(Reply::TrueColour, Instant::now()));
-                }
-            });
-        Ok(())
+    /// The screen to draw on.
+    pub(crate) fn screen(&mut self) -> &mut Screen {
+        &mut self.screen
     }
 
     /// Whether the program should end.
@@ -155,7 +96,11 @@ impl Runtime {
             Event::Ready(target) => {
                 self.trim_at
                     .get_or_insert_with(|| Instant::now() + TRIM_TIME);
-                let frame = self.numbered(target)?.renderer.latest()?;
+                let mut frame = self.numbered(target)?.renderer.latest()?;
+                if matches!(self.screen, Screen::Page(_)) {
+                    // A page shows the same on every machine.
+                    Arc::make_mut(&mut frame).progress.elapsed = Duration::ZERO;
+                }
                 Some(Msg::Frame(target, frame))
             }
             Event::Ended(target, number) => {
@@ -163,7 +108,7 @@ impl Runtime {
                 let ended = self.numbered(target)?.number == number;
                 ended.then_some(Msg::Ended(target))
             }
-            Event::Cleared | Event::Replied(..) => None,
+            Event::Cleared | Event::Replied(..) | Event::Begun | Event::Done => None,
         }
     }
 
@@ -171,41 +116,23 @@ impl Runtime {
     /// the state of unsaved edits.
     pub(crate) fn close(self, terminal: Duration, files: Duration) -> End {
         let begun = Instant::now();
-        self.await_replies(begun + terminal);
-        self.terminal.close(begun + terminal);
+        self.screen.close(begun + terminal);
         let end = self.keeper.finish(begun + files);
         self.writers.finish(begun + files);
         end
-    }
-
-    /// Requests a status reply, which arrives after everything sent so far.
-    pub(crate) fn ask_status(&self) -> io::Result<()> {
-        self.replies.expect(Reply::Status);
-        self.terminal.ask_status()
-    }
-
-    /// Stops expecting an answer about colours.
-    pub(crate) fn give_up_colours(&self) {
-        self.replies.came(Reply::Attributes);
-    }
-
-    /// Stops expecting status replies.
-    pub(crate) fn give_up_replies(&self) {
-        self.replies.forget_statuses();
-    }
-
-    /// Waits for replies that the next program on the terminal would take for keys.
-    fn await_replies(&self, deadline: Instant) {
-        if self.terminal.is_clear() {
-            self.replies
-                .wait(deadline.min(Instant::now() + REPLY_PATIENCE));
-        }
     }
 
     /// When the next timer is due.
     pub(crate) fn next_timer(&self) -> Option<Instant> {
         let timers = self.timers.iter().map(|&(at, _)| at);
         timers.chain(self.trim_at).min()
+    }
+
+    /// Takes the timer that is due first, whenever that is.
+    pub(crate) fn next_elapsed(&mut self) -> Option<Msg> {
+        let first = self.timers.iter().enumerate();
+        let (first, _) = first.min_by_key(|&(_, &(at, _))| at)?;
+        Some(Msg::Elapsed(self.timers.remove(first).1))
     }
 
     /// Takes the timers that are due, as messages.
@@ -226,6 +153,13 @@ impl Runtime {
     }
 
     fn try_perform(&mut self, effect: Effect) -> Result<Option<Msg>, Failure> {
+        let effect = match self.screen {
+            Screen::Console(_) => effect,
+            Screen::Page(_) => match stand_in(effect) {
+                Ok(answer) => return Ok(answer),
+                Err(other) => other,
+            },
+        };
         match effect {
             Effect::Trace(target, job) => return Ok(Some(self.trace(target, job))),
             Effect::Stop(target) => self.stop(target),
@@ -237,7 +171,10 @@ impl Runtime {
             Effect::CheckTarget(id, to) => self.writers.check(id, to)?,
             Effect::CheckPlace(path) => self.writers.check_place(path)?,
             Effect::FindBackups(scene) => self.writers.find_backups(scene)?,
-            Effect::Read(path, baseline) => self.reader.read(path, baseline)?,
+            Effect::Read(path, baseline) => {
+                let work = Work::begin(&self.sender);
+                self.reader.read(path, baseline, work)?;
+            }
             Effect::Free(unneeded) => self.freeing.request(unneeded)?,
             Effect::Save {
                 id,
@@ -250,7 +187,10 @@ impl Runtime {
                 return Ok(refused.map(|reason| Msg::Saved(id, SaveOutcome::Failed(reason))));
             }
             Effect::Watch(path) => self.reader.watch(path)?,
-            Effect::ReadAssets(wanted) => self.assets.request(wanted)?,
+            Effect::ReadAssets(wanted) => {
+                let work = Work::begin(&self.sender);
+                self.assets.request(wanted, work)?;
+            }
             Effect::Later(time, timer) => {
                 self.timers.retain(|&(_, set)| set != timer);
                 self.timers.push((Instant::now() + time, timer));
@@ -276,12 +216,12 @@ impl Runtime {
                 return Ok(Some(Msg::EditorClosed(outcome)));
             }
             Effect::SetMouse(mouse) => {
-                let set = self.terminal.set_mouse(mouse);
+                let set = self.screen.set_mouse(mouse);
                 set.map_err(Failure::Terminal)?;
             }
-            Effect::Repaint => self.terminal.repaint(),
-            Effect::TakeTerminal => self.take_terminal()?,
-            Effect::Suspend => self.suspend()?,
+            Effect::Repaint => self.screen.repaint(),
+            Effect::TakeTerminal => self.screen.take().map_err(Failure::Terminal)?,
+            Effect::Suspend => self.screen.suspend().map_err(Failure::Terminal)?,
             Effect::Quit => self.ended = true,
         }
         Ok(None)
@@ -348,43 +288,22 @@ impl Runtime {
     }
 
     fn open_editor(&mut self, path: &Path, line: usize) -> Result<(), Failure> {
-        self.await_replies(Instant::now() + REPLY_PATIENCE);
-        self.input.park();
-        #[cfg(unix)]
-        self.signals.lend();
-        let left = self.terminal.leave().map_err(Failure::Terminal);
-        let ran = left.and_then(|()| editor::run(path, line).map_err(Failure::Editor));
-        #[cfg(unix)]
-        self.signals.take_back();
-        self.take_terminal()?;
-        ran
+        let ran = self.screen.lend(|| editor::run(path, line));
+        ran.map_err(Failure::Terminal)?.map_err(Failure::Editor)
     }
+}
 
-    fn take_terminal(&mut self) -> Result<(), Failure> {
-        let taken = self.terminal.reenter();
-        self.input.resume();
-        taken.map_err(Failure::Terminal)
-    }
-
-    #[cfg(unix)]
-    fn suspend(&mut self) -> Result<(), Failure> {
-        self.await_replies(Instant::now() + REPLY_PATIENCE);
-        self.input.park();
-        let stopped = self.terminal.leave().and_then(|()| suspend_process());
-        match stopped {
-            // The continue event takes the terminal back, which must not happen twice.
-            Ok(true) => Ok(()),
-            Ok(false) => self.take_terminal(),
-            Err(error) => {
-                self.take_terminal()?;
-                Err(Failure::Terminal(error))
-            }
-        }
-    }
-
-    #[cfg(not(unix))]
-    fn suspend(&mut self) -> Result<(), Failure> {
-        Err(Failure::Terminal(io::ErrorKind::Unsupported.into()))
+/// Performs the effects that would depend on earlier runs and other programs, for a page: it keeps
+/// no edits and watches no files. Returns any other effect.
+fn stand_in(effect: Effect) -> Result<Option<Msg>, Effect> {
+    match effect {
+        Effect::WriteRecovery { revision, .. } => Ok(Some(Msg::Kept(revision, Ok(())))),
+        Effect::DropRecovery
+        | Effect::LookForKept(_)
+        | Effect::AdoptKept(_)
+        | Effect::DropKept(_)
+        | Effect::Watch(_) => Ok(None),
+        other => Err(other),
     }
 }
 

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::Receiver;
 use std::thread;
 
+use super::event::Work;
 use super::heap;
 use super::msg::Msg;
 use super::reading::{Baseline, Reading, SceneFolder};
@@ -24,7 +25,7 @@ enum Request {
     /// Watch this file instead of the previous one.
     Watch(PathBuf),
     /// Read this file and compare it with the baseline.
-    Read(PathBuf, Baseline),
+    Read(PathBuf, Baseline, Work),
 }
 
 /// Handle of the thread that watches, reads and lowers the scene file. Nothing else waits for it,
@@ -52,8 +53,8 @@ impl Reader {
 
     /// Reads a file, reported by [`Msg::Read`]. Of several pending requests only the last is
     /// carried out.
-    pub(super) fn read(&self, path: PathBuf, baseline: Baseline) -> Result<(), Ended> {
-        self.0.request(Request::Read(path, baseline))
+    pub(super) fn read(&self, path: PathBuf, baseline: Baseline, work: Work) -> Result<(), Ended> {
+        self.0.request(Request::Read(path, baseline, work))
     }
 }
 
@@ -74,7 +75,7 @@ fn follow(
     while let Ok(first) = inbox.recv() {
         let mut requests = vec![first];
         requests.extend(inbox.try_iter());
-        while let Some((path, baseline)) = last(requests, &mut watch) {
+        while let Some((path, baseline, work)) = last(requests, &mut watch) {
             let read = read(&path);
             requests = inbox.try_iter().collect();
             if requests
@@ -102,18 +103,22 @@ fn follow(
                 understood.map(|reading| Reading { place, ..reading })
             });
             send(Msg::Read(path, reading));
+            drop(work);
         }
     }
 }
 
 /// Carries out the requests to watch and returns the last file to read.
-fn last(requests: Vec<Request>, mut watch: impl FnMut(PathBuf)) -> Option<(PathBuf, Baseline)> {
+fn last(
+    requests: Vec<Request>,
+    mut watch: impl FnMut(PathBuf),
+) -> Option<(PathBuf, Baseline, Work)> {
     let mut last = None;
     for request in requests {
         match request {
             // Before the file is read, so that no later change is missed.
             Request::Watch(path) => watch(path),
-            Request::Read(path, baseline) => last = Some((path, baseline)),
+            Request::Read(path, baseline, work) => last = Some((path, baseline, work)),
         }
     }
     last
@@ -153,7 +158,8 @@ mod tests {
             saving: None,
             meshes: Meshes::default(),
         };
-        Request::Read(name.into(), baseline)
+        let (sender, _) = mpsc::channel();
+        Request::Read(name.into(), baseline, Work::begin(&sender))
     }
 
     /// The files read and the files reported, if `during` is requested while the first one is being

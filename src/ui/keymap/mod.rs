@@ -8,3 +8,15 @@ mod table;
 pub use action::{Action, Context, Mode, Stride};
 pub use help::{Entry, HelpLine, help, hints};
 pub use table::action;
+
+use crossterm::event::KeyEvent;
+
+/// The key with this name, such as `j`, `Ctrl-R` or `Shift-Left`, as the help spells it.
+pub fn key_named(name: &str) -> Option<KeyEvent> {
+    chord::Chord::parse(name).map(chord::Chord::event)
+}
+
+/// The names of the keys that are not characters.
+pub fn key_names() -> impl Iterator<Item = &'static str> {
+    chord::names()
+}
