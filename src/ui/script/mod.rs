@@ -221,7 +221,7 @@ mod tests {
                 "unknown key jjj",
                 "write \"jjj\" to type these characters",
             ),
-            ("wiat", (1, 1), "unknown key wiat", "did you mean wait?"),
+            ("wai", (1, 1), "unknown key wai", "did you mean wait?"),
             ("resize 0x1", (1, 8), "resize: 0x1 is not valid", ""),
             ("click", (1, 1), "click: nothing follows", ""),
             ("dump a.gif", (1, 6), "dump: a.gif is not valid", ""),
