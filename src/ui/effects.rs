@@ -153,13 +153,12 @@ impl Runtime {
     }
 
     fn try_perform(&mut self, effect: Effect) -> Result<Option<Msg>, Failure> {
-        let effect = match self.screen {
-            Screen::Console(_) => effect,
-            Screen::Page(_) => match stand_in(effect) {
-                Ok(answer) => return Ok(answer),
-                Err(other) => other,
-            },
-        };
+        if matches!(self.screen, Screen::Page(_)) && reaches_others(&effect) {
+            return Ok(match effect {
+                Effect::WriteRecovery { revision, .. } => Some(Msg::Kept(revision, Ok(()))),
+                _ => None,
+            });
+        }
         match effect {
             Effect::Trace(target, job) => return Ok(Some(self.trace(target, job))),
             Effect::Stop(target) => self.stop(target),
@@ -293,18 +292,18 @@ impl Runtime {
     }
 }
 
-/// Performs the effects that would depend on earlier runs and other programs, for a page: it keeps
-/// no edits and watches no files. Returns any other effect.
-fn stand_in(effect: Effect) -> Result<Option<Msg>, Effect> {
-    match effect {
-        Effect::WriteRecovery { revision, .. } => Ok(Some(Msg::Kept(revision, Ok(())))),
-        Effect::DropRecovery
-        | Effect::LookForKept(_)
-        | Effect::AdoptKept(_)
-        | Effect::DropKept(_)
-        | Effect::Watch(_) => Ok(None),
-        other => Err(other),
-    }
+/// Whether an effect depends on earlier runs or other programs. With a page none is performed: it
+/// keeps no edits and watches no files.
+fn reaches_others(effect: &Effect) -> bool {
+    matches!(
+        effect,
+        Effect::WriteRecovery { .. }
+            | Effect::DropRecovery
+            | Effect::LookForKept(_)
+            | Effect::AdoptKept(_)
+            | Effect::DropKept(_)
+            | Effect::Watch(_)
+    )
 }
 
 /// Reason why an effect cannot be performed.

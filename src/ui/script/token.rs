@@ -1,6 +1,5 @@
 //! The words and quoted texts of a script.
 
-use super::Step;
 use crate::text::{Diagnostic, Span};
 
 /// A word or a text in quotation marks.
@@ -50,13 +49,13 @@ impl<'a> Tokens<'a> {
     }
 
     /// Reads the argument of a command, which stands at `command`.
-    pub(super) fn argument(
+    pub(super) fn argument<T>(
         &mut self,
         command: Span,
         name: &str,
         expected: &str,
-        read: impl Fn(&str) -> Option<Step>,
-    ) -> Result<Step, Diagnostic> {
+        read: impl Fn(&str) -> Option<T>,
+    ) -> Result<T, Diagnostic> {
         let (text, span) = match self.next() {
             Some(Token::Word(text, span) | Token::Text(text, span)) => (text, span),
             Some(Token::Open(span)) => {

@@ -7,7 +7,7 @@ use super::{Session, Urgency};
 use crate::ui::ending::Error;
 use crate::ui::msg::{Effect, Msg};
 use crate::ui::options::Rehearsal;
-use crate::ui::script::Step;
+use crate::ui::script::{Script, Step};
 use crate::ui::snapshot;
 
 impl Session {
@@ -19,7 +19,7 @@ impl Session {
         if let Ok(event) = self.inbox.try_recv() {
             return self.take(event);
         }
-        let next = self.script.as_ref().and_then(|script| script.peek());
+        let next = self.script.as_ref().and_then(Script::peek);
         let is_last = matches!(next, None | Some(Step::Wait | Step::Dump(..)));
         let pictures = &self.app.pictures;
         let is_busy = if is_last {
@@ -39,7 +39,7 @@ impl Session {
         }
         // A page is always written to.
         let _ = self.draw(Urgency::Now);
-        match self.script.as_mut().and_then(|script| script.next()) {
+        match self.script.as_mut().and_then(Script::next) {
             Some(step) => self.act(step),
             None => self.perform(vec![Effect::Quit]),
         }
