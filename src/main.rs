@@ -34,7 +34,10 @@ fn survive_file_size_limit() {
 
 fn interface(options: &ui::Options) -> u8 {
     let outcome = ui::run(options);
-    if let Err(error) = &outcome {
+    if let Err(ui::Error::Faulty { name, text, errors }) = &outcome {
+        // A failure cannot be reported anywhere.
+        let _ = writeln!(io::stderr(), "{}", batch::annotated(name, text, errors));
+    } else if let Err(error) = &outcome {
         report_error(&error.to_string());
         if let Some(note) = ui::note(options, error) {
             report("note", &note);

@@ -66,7 +66,7 @@ fn perform(document: &mut Document, lowered: &Lowered, [what, which, value]: [u8
         (3, ..) => document.end_step(),
         (4, Some(Node::Object(object)), _) => {
             let wanted = [Visibility::Shown, Visibility::Hidden][usize::from(value % 2)];
-            if let Ok(edits) = source.visibility_edits(object, wanted) {
+            if let Ok(edits) = source.visibility_edits(&[object], wanted) {
                 document.edit(&edits);
             }
         }

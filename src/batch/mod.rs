@@ -22,6 +22,11 @@ use crate::text::{Diagnostic, Findings, Span, counted, visible, without_codes};
 
 pub use render::{Output, Render, render};
 
+/// Formats errors in a text for standard error, each with its place, an excerpt and a hint.
+pub fn annotated(name: &str, text: &str, errors: &[Diagnostic]) -> String {
+    report::render(name, text, errors, report::Style::of_error_stream())
+}
+
 /// Why headless work failed. The work has already printed it.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {

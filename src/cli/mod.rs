@@ -1,28 +1,30 @@
 //! Command-line arguments and exit codes. Does no work itself.
 
 mod choices;
+mod interface;
+mod shared;
 
 use std::ffi::OsString;
 use std::fmt::Write;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::thread;
-use std::time::Duration;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory, Parser, Subcommand, value_parser};
+use clap::{Args, CommandFactory, Parser, Subcommand};
 
-use choices::{AovChoice, ColourChoice, FilterChoice, IntegratorChoice, TransferChoice};
+use choices::{AovChoice, FilterChoice, IntegratorChoice, TransferChoice};
+use interface::InterfaceArguments;
+use shared::{AssetArguments, depth_range, spp_range, threads_range};
 
 use crate::batch::{self, Check, Output, Render, Warnings};
 use crate::file::ReadError;
 use crate::image_file::{FORMATS, ImageFormat, known_extensions};
-use crate::render::{DEFAULT_SPP, MAX_SPP};
+use crate::render::DEFAULT_SPP;
 use crate::scene::Size;
 use crate::text::{nearest_word, visible};
 use crate::ui;
-use crate::ui::terminal::Mouse;
 
 /// Success.
 pub const DONE: u8 = 0;
@@ -84,11 +86,12 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, S
             assets: assets.folders,
         })),
         Some(Subcommands::Doctor { scene }) => Ok(Command::Doctor(scene)),
-        None => cli
-            .interface
-            .into_options()
-            .map(Command::Interface)
-            .map_err(|reason| refusal(None, reason)),
+        None => {
+            let interface = cli.interface;
+            check_words(interface.scene.as_deref(), &interface.surplus)
+                .map(|()| Command::Interface(interface.into_options()))
+                .map_err(|reason| refusal(None, reason))
+        }
     }
 }
 
@@ -128,7 +131,8 @@ pub fn interface_exit_code(outcome: &Result<ui::Ending, ui::Error>) -> u8 {
         Ok(ui::Ending::Interrupted) => INTERRUPTED,
         Ok(ui::Ending::Terminated { signal }) => SIGNALLED + signal,
         Err(ui::Error::Read(error)) => read_code(error),
-        Err(ui::Error::UnknownLanguage(_)) => INVALID,
+        Err(ui::Error::UnknownLanguage(_) | ui::Error::Faulty { .. }) => INVALID,
+        Err(ui::Error::Frame { .. }) => NO_OUTPUT,
         Err(ui::Error::Folder { .. } | ui::Error::Assets(_)) => NO_INPUT,
         Err(ui::Error::NoSuch { .. } | ui::Error::NoTerminal | ui::Error::DumbTerminal) => USAGE,
         Err(ui::Error::NoThreads(_) | ui::Error::Terminal(_)) => FAILED,
@@ -183,6 +187,7 @@ Examples:
   halflight render scene.ray -o - --format ppm | ssh far 'cat > scene.ppm'
   halflight check scenes/*.ray                    report errors and warnings
   halflight doctor                                report what was detected, and why
+  halflight scene.ray --keys a.keys --dump-frame a.png    draw the screen after these keys
 
 To open a scene named like a command, write ./render, ./check or ./doctor. Scenes are read from \
 files, not from standard input, pipes or devices.
@@ -231,92 +236,21 @@ impl StrictnessArguments {
     }
 }
 
-#[derive(Args, Debug)]
-struct AssetArguments {
-    /// Also allow pictures and meshes to be read from this folder, not only from the scene's folder
-    /// and, unless it is /, your home or writable by everyone, the folder above it; repeatable
-    #[arg(long = "assets", value_name = "DIR")]
-    folders: Vec<PathBuf>,
-}
-
-#[derive(Args, Debug)]
-struct InterfaceArguments {
-    /// Scene file to open: .ray, .dat or .xml; a new scene if it does not exist
-    #[arg(value_name = "SCENE")]
-    scene: Option<PathBuf>,
-    // Parsed so that a second scene is not rejected as an unknown command.
-    #[arg(hide = true)]
-    surplus: Vec<PathBuf>,
-    /// Check the file for changes every MS milliseconds, 10 to 3600000 (500 if omitted); for
-    /// network file systems, which send no change notifications
-    #[arg(
-        long, value_name = "MS", num_args = 0..=1, require_equals = true,
-        default_missing_value = "500", value_parser = value_parser!(u64).range(10..=3_600_000)
-    )]
-    poll: Option<u64>,
-    /// Limit terminal output, in KB/s (1000 bytes per second), up to 4000000; 0 means no limit
-    #[arg(long, value_name = "KB/s", value_parser = value_parser!(u32).range(..=4_000_000))]
-    bandwidth: Option<u32>,
-    /// Colour depth of the terminal
-    #[arg(
-        long,
-        alias = "colour",
-        value_name = "COLOURS",
-        value_enum,
-        default_value_t
-    )]
-    color: ColourChoice,
-    /// Do not capture the mouse
-    #[arg(long)]
-    no_mouse: bool,
-    /// Samples per pixel of full-size traces and exports, 1 to 65536 [default: 16]
-    #[arg(long, value_name = "N", value_parser = spp_range())]
-    spp: Option<u32>,
-    /// Maximum number of bounces, 0 to 4096 [default: 8, or 64 with path tracing]
-    #[arg(long, value_name = "N", value_parser = depth_range())]
-    depth: Option<u32>,
-    /// Integrator to start with; P switches it [default: whitted, unless the scene sets path]
-    #[arg(long, value_name = "INTEGRATOR", value_enum)]
-    integrator: Option<IntegratorChoice>,
-    /// Pixel filter of full-size traces and exports; the preview always uses box
-    #[arg(long, value_name = "FILTER", value_enum, default_value_t)]
-    filter: FilterChoice,
-    /// Number of tracing threads, 1 to 1024 [default: one per core, one fewer for the preview]
-    #[arg(long, value_name = "N", value_parser = threads_range())]
-    threads: Option<u16>,
-    #[command(flatten)]
-    assets: AssetArguments,
-}
-
-impl InterfaceArguments {
-    fn into_options(self) -> Result<ui::Options, String> {
-        if let Some(command) = self.scene.as_deref().and_then(likely_command) {
-            let word = self.scene.unwrap_or_default();
-            return Err(format!(
-                "unknown command `{}`: did you mean {command}?",
-                word.display()
-            ));
-        }
-        if let Some(second) = self.surplus.first() {
-            return Err(format!(
-                "unexpected second scene {}: only one can be opened; the commands are render, \
-                 check and doctor",
-                second.display()
-            ));
-        }
-        Ok(ui::Options {
-            scene: self.scene,
-            poll: self.poll.map(Duration::from_millis),
-            bandwidth: self.bandwidth.map(|kilobytes| kilobytes * 1000),
-            colour: self.color.value(),
-            mouse: if self.no_mouse { Mouse::Off } else { Mouse::On },
-            spp: self.spp,
-            depth: self.depth,
-            integrator: self.integrator.map(IntegratorChoice::value),
-            filter: self.filter.value(),
-            threads: self.threads.map(usize::from),
-            assets: self.assets.folders,
-        })
+/// Refuses words that are not the scene to open: misspelt commands and a second scene.
+fn check_words(scene: Option<&Path>, surplus: &[PathBuf]) -> Result<(), String> {
+    if let Some((word, command)) = scene.and_then(|scene| Some((scene, likely_command(scene)?))) {
+        return Err(format!(
+            "unknown command `{}`: did you mean {command}?",
+            word.display()
+        ));
+    }
+    match surplus.first() {
+        Some(second) => Err(format!(
+            "unexpected second scene {}: only one can be opened; the commands are render, check \
+             and doctor",
+            second.display()
+        )),
+        None => Ok(()),
     }
 }
 
@@ -427,20 +361,6 @@ impl RenderArguments {
             assets: self.assets.folders,
         })
     }
-}
-
-fn spp_range() -> impl TypedValueParser<Value = u32> {
-    value_parser!(u32).range(1..=i64::from(MAX_SPP))
-}
-
-fn depth_range() -> impl TypedValueParser<Value = u32> {
-    // No sample can have more bounces; see the renderer's ray budget.
-    value_parser!(u32).range(..=4096)
-}
-
-fn threads_range() -> impl TypedValueParser<Value = u16> {
-    // More cores than any machine has; far more threads could not be started.
-    value_parser!(u16).range(1..=1024)
 }
 
 fn format_names() -> impl TypedValueParser<Value = ImageFormat> {

@@ -1,8 +1,10 @@
+use std::time::Duration;
+
 use super::*;
 use crate::image_file::MAX_PIXELS;
-use crate::render::Filter;
+use crate::render::{Filter, MAX_SPP};
 use crate::scene::Integrator;
-use crate::ui::terminal::{Choice, ColourDepth};
+use crate::ui::terminal::{Choice, ColourDepth, Mouse};
 
 /// Parses a command line whose words are separated by spaces.
 fn parsed(line: &str) -> Result<Command, Stop> {
@@ -54,7 +56,17 @@ fn options_reach_the_interface() {
             filter: Filter::Gaussian,
             threads: Some(3),
             assets: vec!["b".into(), "c".into()],
+            rehearsal: None,
         }
+    );
+    let line = "halflight a --keys k --screen 60x20 --dump-frame b.txt --dump-frame c.png";
+    assert_eq!(
+        interface(line).rehearsal,
+        Some(ui::Rehearsal {
+            keys: Some("k".into()),
+            screen: (60, 20),
+            frames: vec!["b.txt".into(), "c.png".into()],
+        })
     );
     assert_eq!(interface("halflight --bandwidth 0 a").bandwidth, Some(0));
     assert_eq!(
@@ -159,6 +171,9 @@ fn wrong_arguments_are_rejected_with_a_reason() {
         ("halflight render a -o b.bmp --spp 65537", "1..=65536"),
         ("halflight render a -o b.bmp --threads 0", "1..=1024"),
         ("halflight check", "<SCENE>..."),
+        ("halflight --dump-frame a.gif", ".txt, .ansi or .png"),
+        ("halflight --keys a --screen 0x9", "such as 100x30"),
+        ("halflight --screen 80x24", "--keys"),
         ("halflight b \u{1b}[31m", "\\u{1b}[31m"),
     ];
     for (line, reason) in cases {

@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 
+use super::event::Work;
 use super::msg::Msg;
 use super::service::{Ended, Service};
 use crate::assets::{Assets, Wanted};
 use crate::watch::{Method, Watcher};
 
 /// Handle of the thread. Nothing waits for its end, as it has no work that could be lost.
-pub(super) struct AssetReader(Service<Wanted>);
+pub(super) struct AssetReader(Service<(Wanted, Work)>);
 
 impl AssetReader {
     /// Starts the thread. `send` is called on it and on the watcher's thread.
@@ -34,8 +35,8 @@ impl AssetReader {
     }
 
     /// Reads files; of several pending requests only the last is carried out.
-    pub(super) fn request(&self, wanted: Wanted) -> Result<(), Ended> {
-        self.0.request(wanted)
+    pub(super) fn request(&self, wanted: Wanted, work: Work) -> Result<(), Ended> {
+        self.0.request((wanted, work))
     }
 }
 
@@ -51,9 +52,9 @@ struct AssetThread<S> {
 }
 
 impl<S: Fn(Msg) + Send + Sync + 'static> AssetThread<S> {
-    fn follow(mut self, inbox: &Receiver<Wanted>) {
+    fn follow(mut self, inbox: &Receiver<(Wanted, Work)>) {
         while let Ok(first) = inbox.recv() {
-            let wanted = inbox.try_iter().last().unwrap_or(first);
+            let (wanted, work) = inbox.try_iter().last().unwrap_or(first);
             self.watch(&wanted);
             self.read(&wanted);
             // Reading has revealed the material libraries of the meshes. They are read again,
@@ -61,6 +62,7 @@ impl<S: Fn(Msg) + Send + Sync + 'static> AssetThread<S> {
             if self.watch(&wanted) {
                 self.read(&wanted);
             }
+            drop(work);
         }
     }
 

@@ -1,11 +1,11 @@
 //! Starts reading the scene before the terminal is taken.
 
-use std::sync::mpsc::Receiver;
+use std::sync::mpsc::{Receiver, Sender};
 use std::time::{Duration, Instant};
 
 use super::app::App;
 use super::ending::Error;
-use super::event::Event;
+use super::event::{Event, Work};
 use super::msg::{Effect, Msg};
 use super::reader::Reader;
 
@@ -21,6 +21,9 @@ pub(super) struct Beginning {
     pub(super) reader: Reader,
     /// Effects to perform once there is a terminal.
     pub(super) effects: Vec<Effect>,
+    /// The number of pieces of work under way.
+    pub(super) at_work: usize,
+    sender: Sender<Event>,
 }
 
 impl Beginning {
@@ -30,21 +33,25 @@ impl Beginning {
         app: App,
         effects: Vec<Effect>,
         reader: Reader,
-        inbox: &Receiver<Event>,
+        (sender, inbox): (Sender<Event>, &Receiver<Event>),
     ) -> Result<Self, Error> {
         let mut beginning = Self {
             app,
             reader,
             effects: Vec::new(),
+            at_work: 0,
+            sender,
         };
         beginning.perform(effects);
         let deadline = Instant::now() + PATIENCE;
         while beginning.app.disk.is_opening() {
             let left = deadline.saturating_duration_since(Instant::now());
-            let Ok(Event::Msg(msg)) = inbox.recv_timeout(left) else {
-                break;
-            };
-            beginning.step(msg);
+            match inbox.recv_timeout(left) {
+                Ok(Event::Msg(msg)) => beginning.step(msg),
+                Ok(Event::Begun) => beginning.at_work += 1,
+                Ok(Event::Done) => beginning.at_work -= 1,
+                _ => break,
+            }
             if let Some(error) = beginning.app.disk.take_failure() {
                 return Err(error.into());
             }
@@ -61,7 +68,9 @@ impl Beginning {
         for effect in effects {
             let requested = match effect {
                 Effect::Watch(path) => self.reader.watch(path),
-                Effect::Read(path, known) => self.reader.read(path, known),
+                Effect::Read(path, known) => {
+                    self.reader.read(path, known, Work::begin(&self.sender))
+                }
                 other => {
                     self.effects.push(other);
                     Ok(())

@@ -12,24 +12,17 @@ use std::time::{Duration, Instant};
 
 use super::assets::AssetReader;
 use super::editor;
-use super::event::{Event, sending};
+use super::event::{Event, Work, sending};
 use super::heap;
 use super::msg::{Effect, Msg, SaveOutcome, Target, Timer};
 use super::options::Options;
 use super::reader::Reader;
 use super::recent::Recent;
 use super::recovery::{self, Edits, End, Keeper, Outcome, Request};
+use super::screen::Screen;
 use super::service::{Ended, Service};
-use super::terminal::tmux;
-use super::terminal::{self, Input, Replies, Reply, Terminal};
-#[cfg(unix)]
-use super::terminal::{Signals, suspend_process};
 use super::writing::Writers;
 use crate::render::{Job, Refusal, Renderer, Threads};
-
-/// Maximum time to wait for replies of the terminal before handing it over; longer than nearly all
-/// round trips.
-const REPLY_PATIENCE: Duration = Duration::from_secs(1);
 
 /// Time for which memory freed by pictures is kept for the next ones.
 const TRIM_TIME: Duration = Duration::from_secs(30);
@@ -39,12 +32,7 @@ const TRIM_TIME: Duration = Duration::from_secs(30);
 pub(crate) struct Runtime {
     // First, because fields are dropped in order: the terminal is restored before renderers and the
     // watcher end, which may take a moment.
-    terminal: Terminal,
-    /// Replies still expected from the terminal.
-    replies: Arc<Replies>,
-    input: Input,
-    #[cfg(unix)]
-    signals: Signals,
+    screen: Screen,
     sender: Sender<Event>,
     reader: Reader,
     /// Frees unneeded values: for a large scene this takes longer than a key may wait.
@@ -72,33 +60,8 @@ impl Runtime {
         reader: Reader,
         sender: Sender<Event>,
     ) -> io::Result<Self> {
-        let replies = Arc::new(Replies::default());
-        let sink = |sender: &Sender<Event>| {
-            let (sender, replies) = (sender.clone(), Arc::clone(&replies));
-            move |event| {
-                if let terminal::Event::Reply(reply) = event {
-                    replies.came(reply);
-                }
-                // The inbox is gone only when the program ends.
-                let _ = sender.send(Event::from(event));
-            }
-        };
-        // Before the terminal is changed: until then the default actions of signals do no harm.
-        #[cfg(unix)]
-        let signals = Signals::start(sink(&sender))?;
-        let terminal = {
-            let sender = sender.clone();
-            let cleared = move || {
-                let _ = sender.send(Event::Cleared);
-            };
-            Terminal::enter(options.colours(), options.mouse, cleared)?
-        };
         Ok(Self {
-            terminal,
-            replies: Arc::clone(&replies),
-            input: Input::start(sink(&sender))?,
-            #[cfg(unix)]
-            signals,
+            screen: Screen::new(options, &sender)?,
             reader,
             freeing: Service::start("freeing", "frees memory", |inbox| {
                 inbox.iter().for_each(drop);
@@ -119,31 +82,9 @@ impl Runtime {
         })
     }
 
-    /// The terminal to draw on.
-    pub(crate) fn terminal(&mut self) -> &mut Terminal {
-        &mut self.terminal
-    }
-
-    /// Whether the terminal is not lent to another program.
-    pub(crate) fn has_terminal(&self) -> bool {
-        self.terminal.is_ours()
-    }
-
-    /// Queries the colours of the terminal and, through tmux, of the terminal behind it. Any
-    /// answers arrive as [`Event::Replied`].
-    pub(crate) fn ask_for_colours(&self) -> io::Result<()> {
-        self.replies.expect(Reply::Attributes);
-        self.terminal.ask_for_colours()?;
-        let sender = self.sender.clone();
-        // Without a thread there is no answer.
-        let _ = thread::Builder::new()
-            .name("colours".to_owned())
-            .spawn(move || {
-                if tmux::shows_true_colour() == Some(true) {
-                    let _ = sender.send(Event::Replied(Reply::TrueColour, Instant::now()));
-                }
-            });
-        Ok(())
+    /// The screen to draw on.
+    pub(crate) fn screen(&mut self) -> &mut Screen {
+        &mut self.screen
     }
 
     /// Whether the program should end.
@@ -158,7 +99,11 @@ impl Runtime {
             Event::Ready(target) => {
                 self.trim_at
                     .get_or_insert_with(|| Instant::now() + TRIM_TIME);
-                let frame = self.numbered(target)?.renderer.latest()?;
+                let mut frame = self.numbered(target)?.renderer.latest()?;
+                if matches!(self.screen, Screen::Page(_)) {
+                    // A page shows the same on every machine.
+                    Arc::make_mut(&mut frame).progress.elapsed = Duration::ZERO;
+                }
                 Some(Msg::Frame(target, frame))
             }
             Event::Ended(target, number) => {
@@ -166,7 +111,7 @@ impl Runtime {
                 let ended = self.numbered(target)?.number == number;
                 ended.then_some(Msg::Ended(target))
             }
-            Event::Cleared | Event::Replied(..) => None,
+            Event::Cleared | Event::Replied(..) | Event::Begun | Event::Done => None,
         }
     }
 
@@ -174,42 +119,24 @@ impl Runtime {
     /// the state of unsaved edits.
     pub(crate) fn close(self, terminal: Duration, files: Duration) -> End {
         let begun = Instant::now();
-        self.await_replies(begun + terminal);
-        self.terminal.close(begun + terminal);
+        self.screen.close(begun + terminal);
         let end = self.keeper.finish(begun + files);
         self.writers.finish(begun + files);
         self.recent.finish(begun + files);
         end
     }
 
-    /// Requests a status reply, which arrives after everything sent so far.
-    pub(crate) fn ask_status(&self) -> io::Result<()> {
-        self.replies.expect(Reply::Status);
-        self.terminal.ask_status()
-    }
-
-    /// Stops expecting an answer about colours.
-    pub(crate) fn give_up_colours(&self) {
-        self.replies.came(Reply::Attributes);
-    }
-
-    /// Stops expecting status replies.
-    pub(crate) fn give_up_replies(&self) {
-        self.replies.forget_statuses();
-    }
-
-    /// Waits for replies that the next program on the terminal would take for keys.
-    fn await_replies(&self, deadline: Instant) {
-        if self.terminal.is_clear() {
-            self.replies
-                .wait(deadline.min(Instant::now() + REPLY_PATIENCE));
-        }
-    }
-
     /// When the next timer is due.
     pub(crate) fn next_timer(&self) -> Option<Instant> {
         let timers = self.timers.iter().map(|&(at, _)| at);
         timers.chain(self.trim_at).min()
+    }
+
+    /// Takes the timer that is due first, whenever that is.
+    pub(crate) fn next_elapsed(&mut self) -> Option<Msg> {
+        let first = self.timers.iter().enumerate();
+        let (first, _) = first.min_by_key(|&(_, &(at, _))| at)?;
+        Some(Msg::Elapsed(self.timers.remove(first).1))
     }
 
     /// Takes the timers that are due, as messages.
@@ -230,6 +157,12 @@ impl Runtime {
     }
 
     fn try_perform(&mut self, effect: Effect) -> Result<Option<Msg>, Failure> {
+        if matches!(self.screen, Screen::Page(_)) && reaches_others(&effect) {
+            return Ok(match effect {
+                Effect::WriteRecovery { revision, .. } => Some(Msg::Kept(revision, Ok(()))),
+                _ => None,
+            });
+        }
         match effect {
             Effect::Trace(target, job) => return Ok(Some(self.trace(target, job))),
             Effect::Stop(target) => self.stop(target),
@@ -242,8 +175,14 @@ impl Runtime {
             Effect::CheckPlace(path) => self.writers.check_place(path)?,
             Effect::ListFolder(folder) => self.writers.list_folder(folder)?,
             Effect::FindBackups(scene) => self.writers.find_backups(scene)?,
-            Effect::Read(path, baseline) => self.reader.read(path, baseline)?,
-            Effect::Open(path, language) => self.reader.open(path, language)?,
+            Effect::Read(path, baseline) => {
+                let work = Work::begin(&self.sender);
+                self.reader.read(path, baseline, work)?;
+            }
+            Effect::Open(path, language) => {
+                let work = Work::begin(&self.sender);
+                self.reader.open(path, language, work)?;
+            }
             Effect::Free(unneeded) => self.freeing.request(unneeded)?,
             Effect::Save {
                 id,
@@ -258,7 +197,10 @@ impl Runtime {
             Effect::NoteRecent(scene) => self.recent.note(scene)?,
             Effect::ListRecent => self.recent.list()?,
             Effect::Watch(path) => self.reader.watch(path)?,
-            Effect::ReadAssets(wanted) => self.assets.request(wanted)?,
+            Effect::ReadAssets(wanted) => {
+                let work = Work::begin(&self.sender);
+                self.assets.request(wanted, work)?;
+            }
             Effect::Later(time, timer) => {
                 self.timers.retain(|&(_, set)| set != timer);
                 self.timers.push((Instant::now() + time, timer));
@@ -284,16 +226,16 @@ impl Runtime {
                 return Ok(Some(Msg::EditorClosed(outcome)));
             }
             Effect::CopyText(text) => {
-                let copied = self.terminal.copy(&text);
+                let copied = self.screen.copy(&text);
                 copied.map_err(Failure::Terminal)?;
             }
             Effect::SetMouse(mouse) => {
-                let set = self.terminal.set_mouse(mouse);
+                let set = self.screen.set_mouse(mouse);
                 set.map_err(Failure::Terminal)?;
             }
-            Effect::Repaint => self.terminal.repaint(),
-            Effect::TakeTerminal => self.take_terminal()?,
-            Effect::Suspend => self.suspend()?,
+            Effect::Repaint => self.screen.repaint(),
+            Effect::TakeTerminal => self.screen.take().map_err(Failure::Terminal)?,
+            Effect::Suspend => self.screen.suspend().map_err(Failure::Terminal)?,
             Effect::Quit => self.ended = true,
         }
         Ok(None)
@@ -360,44 +302,25 @@ impl Runtime {
     }
 
     fn open_editor(&mut self, path: &Path, line: usize) -> Result<(), Failure> {
-        self.await_replies(Instant::now() + REPLY_PATIENCE);
-        self.input.park();
-        #[cfg(unix)]
-        self.signals.lend();
-        let left = self.terminal.leave().map_err(Failure::Terminal);
-        let ran = left.and_then(|()| editor::run(path, line).map_err(Failure::Editor));
-        #[cfg(unix)]
-        self.signals.take_back();
-        self.take_terminal()?;
-        ran
+        let ran = self.screen.lend(|| editor::run(path, line));
+        ran.map_err(Failure::Terminal)?.map_err(Failure::Editor)
     }
+}
 
-    fn take_terminal(&mut self) -> Result<(), Failure> {
-        let taken = self.terminal.reenter();
-        self.input.resume();
-        taken.map_err(Failure::Terminal)
-    }
-
-    #[cfg(unix)]
-    fn suspend(&mut self) -> Result<(), Failure> {
-        self.await_replies(Instant::now() + REPLY_PATIENCE);
-        self.input.park();
-        let stopped = self.terminal.leave().and_then(|()| suspend_process());
-        match stopped {
-            // The continue event takes the terminal back, which must not happen twice.
-            Ok(true) => Ok(()),
-            Ok(false) => self.take_terminal(),
-            Err(error) => {
-                self.take_terminal()?;
-                Err(Failure::Terminal(error))
-            }
-        }
-    }
-
-    #[cfg(not(unix))]
-    fn suspend(&mut self) -> Result<(), Failure> {
-        Err(Failure::Terminal(io::ErrorKind::Unsupported.into()))
-    }
+/// Whether an effect depends on earlier runs or other programs. With a page none is performed: it
+/// keeps no edits and watches no files.
+fn reaches_others(effect: &Effect) -> bool {
+    matches!(
+        effect,
+        Effect::WriteRecovery { .. }
+            | Effect::DropRecovery
+            | Effect::LookForKept(_)
+            | Effect::AdoptKept(_)
+            | Effect::DropKept(_)
+            | Effect::Watch(_)
+            | Effect::NoteRecent(_)
+            | Effect::ListRecent
+    )
 }
 
 /// Reason why an effect cannot be performed.

@@ -7,6 +7,7 @@ use crate::assets::NoFolder;
 use crate::file::ReadError;
 use crate::language::{UnknownLanguage, extensions};
 use crate::memory::NoThreads;
+use crate::text::Diagnostic;
 
 /// How the interface ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,6 +64,24 @@ pub enum Error {
          TERM=xterm; to render a picture, run halflight render SCENE -o FILE"
     )]
     DumbTerminal,
+    /// A text that the user wrote, such as a script of keys, has errors.
+    #[error("{name} has errors")]
+    Faulty {
+        /// Name of the text's file.
+        name: String,
+        /// The text.
+        text: String,
+        /// The errors.
+        errors: Vec<Diagnostic>,
+    },
+    /// A screen cannot be written to a file.
+    #[error("{path}: {source}", path = path.display())]
+    Frame {
+        /// Path of the file.
+        path: PathBuf,
+        /// Reason.
+        source: io::Error,
+    },
     /// No thread can be started.
     #[error(transparent)]
     NoThreads(#[from] NoThreads),

@@ -15,10 +15,33 @@ pub(crate) enum Event {
     Ready(Target),
     /// The renderer with this serial number has ended.
     Ended(Target, u64),
+    /// Work has begun whose results arrive here.
+    Begun,
+    /// Work is done: its results have arrived.
+    Done,
     /// The terminal has taken everything drawn.
     Cleared,
     /// The terminal replied at this time.
     Replied(Reply, Instant),
+}
+
+/// Work under way. Announces its begin when it is created and its end when it is dropped, which
+/// happens after the results are sent.
+#[derive(Debug)]
+pub(crate) struct Work(Sender<Event>);
+
+impl Work {
+    pub(crate) fn begin(sender: &Sender<Event>) -> Self {
+        // The inbox is gone only when the program ends.
+        let _ = sender.send(Event::Begun);
+        Self(sender.clone())
+    }
+}
+
+impl Drop for Work {
+    fn drop(&mut self) {
+        let _ = self.0.send(Event::Done);
+    }
 }
 
 /// Returns a function that puts messages into the inbox.

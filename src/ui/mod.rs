@@ -14,6 +14,7 @@ pub mod app;
 pub mod arrange;
 mod assets;
 mod beginning;
+mod console;
 pub mod doctor;
 mod editor;
 mod effects;
@@ -31,8 +32,11 @@ mod reader;
 pub mod reading;
 mod recent;
 pub mod recovery;
+mod screen;
+mod script;
 mod service;
 mod session;
+mod snapshot;
 pub mod terminal;
 mod theme;
 pub mod view;
@@ -49,8 +53,11 @@ use crate::memory;
 use crate::render::DEFAULT_SPP;
 use app::{App, Opening, OpeningText, Quality};
 pub use ending::{Ending, Error};
-pub use options::Options;
+pub use options::{Options, Rehearsal};
 use reading::Opened;
+use script::Script;
+pub use script::parse_screen;
+pub use snapshot::Format as FrameFormat;
 
 /// Name of the scene in the current folder that is opened by default.
 const DEFAULT_SCENE: &str = "default.ray";
@@ -65,17 +72,14 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
     memory::start_threads()?;
     let (path, language, text) = find_scene(options.scene.as_deref())?;
     check_folders(&options.assets)?;
-    if !io::stdout().is_terminal() {
-        return Err(Error::NoTerminal);
-    }
-    if env::var_os("TERM").is_some_and(|term| term == "dumb") {
-        return Err(Error::DumbTerminal);
-    }
+    let (screen, script) = match &options.rehearsal {
+        Some(rehearsal) => (rehearsal.screen, Some(read_script(rehearsal)?)),
+        None => (terminal_size()?, None),
+    };
     let recent = match (&options.scene, &path) {
-        (None, None) => recent::list(),
+        (None, None) if script.is_none() => recent::list(),
         _ => Vec::new(),
     };
-    let size = terminal::size();
     let opening = Opening {
         path,
         language,
@@ -88,10 +92,30 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
         },
         mouse: options.mouse,
         recent,
-        terminal: (size.width, size.height),
+        terminal: screen,
     };
     let (app, effects) = App::open(opening);
-    session::run(options, app, effects)
+    session::run(options, app, effects, script)
+}
+
+/// The size of the terminal. Fails if there is none to draw on.
+fn terminal_size() -> Result<(u16, u16), Error> {
+    if !io::stdout().is_terminal() {
+        return Err(Error::NoTerminal);
+    }
+    if env::var_os("TERM").is_some_and(|term| term == "dumb") {
+        return Err(Error::DumbTerminal);
+    }
+    let size = terminal::size();
+    Ok((size.width, size.height))
+}
+
+fn read_script(rehearsal: &Rehearsal) -> Result<Script, Error> {
+    let Some(path) = &rehearsal.keys else {
+        return Ok(Script::default());
+    };
+    let (name, text) = (path.display().to_string(), file::read_text(path)?);
+    Script::parse(name.clone(), text.clone()).map_err(|errors| Error::Faulty { name, text, errors })
 }
 
 /// Finds the scene to open: its path (`None` for the embedded scene), its language and its text.

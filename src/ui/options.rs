@@ -34,6 +34,19 @@ pub struct Options {
     pub threads: Option<usize>,
     /// Folders from which pictures and meshes may be read in addition to the scene's own.
     pub assets: Vec<PathBuf>,
+    /// Plays keys on a page in memory instead of reading them from a terminal.
+    pub rehearsal: Option<Rehearsal>,
+}
+
+/// A session without a terminal, whose keys come from a script.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rehearsal {
+    /// The script; `None` presses no key.
+    pub keys: Option<PathBuf>,
+    /// The size of the screen: columns, rows.
+    pub screen: (u16, u16),
+    /// Files that the last screen is written to, each in the format of its extension.
+    pub frames: Vec<PathBuf>,
 }
 
 impl Default for Options {
@@ -50,13 +63,18 @@ impl Default for Options {
             filter: Filter::Box,
             threads: None,
             assets: Vec::new(),
+            rehearsal: None,
         }
     }
 }
 
 impl Options {
     pub(super) fn colours(&self) -> ColourDepth {
-        ColourDepth::detect(self.colour)
+        match (self.colour, &self.rehearsal) {
+            // A page does not depend on the environment.
+            (Choice::Auto, Some(_)) => ColourDepth::TrueColour,
+            (choice, _) => ColourDepth::detect(choice),
+        }
     }
 
     pub(super) fn watching(&self) -> Method {

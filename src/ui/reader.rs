@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::Receiver;
 use std::thread;
 
+use super::event::Work;
 use super::heap;
 use super::msg::Msg;
 use super::reading::{Baseline, Opened, Reading, SceneFolder};
@@ -28,9 +29,9 @@ enum Request {
     /// Watch this file instead of the previous one.
     Watch(PathBuf),
     /// Read this file and compare it with the baseline.
-    Read(PathBuf, Baseline),
+    Read(PathBuf, Baseline, Work),
     /// Read the scene of this file, in place of another.
-    Open(PathBuf, Language),
+    Open(PathBuf, Language, Work),
 }
 
 /// Handle of the thread that watches, reads and lowers the scene file. Nothing else waits for it,
@@ -58,13 +59,13 @@ impl Reader {
 
     /// Reads a file, reported by [`Msg::Read`]. Of several pending requests only the last is
     /// carried out.
-    pub(super) fn read(&self, path: PathBuf, baseline: Baseline) -> Result<(), Ended> {
-        self.0.request(Request::Read(path, baseline))
+    pub(super) fn read(&self, path: PathBuf, baseline: Baseline, work: Work) -> Result<(), Ended> {
+        self.0.request(Request::Read(path, baseline, work))
     }
 
     /// Reads another scene, reported by [`Msg::Opened`]; takes the place of a pending request.
-    pub(super) fn open(&self, path: PathBuf, language: Language) -> Result<(), Ended> {
-        self.0.request(Request::Open(path, language))
+    pub(super) fn open(&self, path: PathBuf, language: Language, work: Work) -> Result<(), Ended> {
+        self.0.request(Request::Open(path, language, work))
     }
 }
 
@@ -92,10 +93,10 @@ fn follow(
             if !requests.iter().all(Request::is_watch) {
                 continue;
             }
-            let (baseline, language) = match request {
+            let (baseline, language, work) = match request {
                 Request::Watch(_) => continue,
-                Request::Read(_, baseline) => (baseline, None),
-                Request::Open(_, language) => (nothing(language), Some(language)),
+                Request::Read(_, baseline, work) => (baseline, None, work),
+                Request::Open(_, language, work) => (nothing(language), Some(language), work),
             };
             let understand = |text: String| {
                 if text.len() < LARGE {
@@ -122,13 +123,14 @@ fn follow(
                     Msg::Opened(path, opened)
                 }
             });
+            drop(work);
         }
     }
 }
 
 impl Request {
     fn path(&self) -> &Path {
-        let (Self::Watch(path) | Self::Read(path, _) | Self::Open(path, _)) = self;
+        let (Self::Watch(path) | Self::Read(path, ..) | Self::Open(path, ..)) = self;
         path
     }
 
@@ -214,7 +216,9 @@ mod tests {
     use std::sync::mpsc;
 
     fn request(name: &str) -> Request {
-        Request::Read(name.into(), nothing(Language::Ray))
+        let (sender, _) = mpsc::channel();
+        let work = Work::begin(&sender);
+        Request::Read(name.into(), nothing(Language::Ray), work)
     }
 
     /// The files read and the files reported, if `during` is requested while the first one is being

@@ -1,5 +1,7 @@
 //! The main loop: waits for events, performs steps, draws.
 
+mod play;
+
 use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::io;
@@ -17,6 +19,7 @@ use super::msg::{Effect, Msg, Target};
 use super::options::Options;
 use super::reader::Reader;
 use super::recovery::End;
+use super::script::Script;
 use super::terminal::{self, Budget, Choice, ColourDepth, Link, Reply, query};
 use super::view::{self, Inks};
 use crate::text;
@@ -25,14 +28,26 @@ use crate::text;
 const FRAME_TIME: Duration = Duration::from_millis(33);
 
 /// Runs the interface until it ends.
-pub(crate) fn run(options: &Options, app: App, effects: Vec<Effect>) -> Result<Ending, Error> {
+///
+/// With a script, the keys come from it instead of the terminal.
+pub(crate) fn run(
+    options: &Options,
+    app: App,
+    mut effects: Vec<Effect>,
+    script: Option<Script>,
+) -> Result<Ending, Error> {
     let (sender, inbox) = mpsc::channel();
     let reader = Reader::start(options.watching(), sending(&sender))?;
-    let beginning = Beginning::new(app, effects, reader, &inbox)?;
-    let budget = options.bandwidth.map_or_else(
-        || Budget::of_environment(|name| std::env::var(name).ok()),
-        Budget::Fixed,
-    );
+    if script.is_some() {
+        // Nothing else changes the files of a script.
+        effects.retain(|effect| !matches!(effect, Effect::Watch(_)));
+    }
+    let beginning = Beginning::new(app, effects, reader, (sender.clone(), &inbox))?;
+    let budget = match (options.bandwidth, &script) {
+        (_, Some(_)) => Budget::Fixed(0),
+        (Some(bandwidth), None) => Budget::Fixed(bandwidth),
+        (None, None) => Budget::of_environment(|name| std::env::var(name).ok()),
+    };
     let mut session = Session {
         app: beginning.app,
         runtime: Runtime::new(options, beginning.reader, sender)?,
@@ -41,13 +56,18 @@ pub(crate) fn run(options: &Options, app: App, effects: Vec<Effect>) -> Result<E
         inks: Inks::for_depth(options.colours()),
         asked: None,
         inbox,
+        script,
+        failed: None,
+        at_work: beginning.at_work,
         refined: None,
         ending: Ending::Quit,
     };
     session.ask_for_colours(options)?;
     session.perform(beginning.effects);
     session.run();
-    session.close()
+    let finished = session.finish(options.rehearsal.as_ref());
+    let ending = session.close()?;
+    finished.map(|()| ending)
 }
 
 struct Session {
@@ -60,6 +80,12 @@ struct Session {
     /// The colour depth in use, and the deadline for an answer of the terminal that it has more.
     asked: Option<(ColourDepth, Instant)>,
     inbox: Receiver<Event>,
+    /// Where the keys come from, if not from the terminal.
+    script: Option<Script>,
+    /// Why the script was not played to its end.
+    failed: Option<Error>,
+    /// The number of pieces of work under way whose results arrive in the inbox.
+    at_work: usize,
     /// When a refined frame was last awaited and drawn.
     refined: Option<Instant>,
     /// Why the program ends.
@@ -86,7 +112,7 @@ impl Session {
             && depth < ColourDepth::TrueColour
             && variable("NO_COLOR").is_none_or(|value| value.is_empty());
         if is_open && query::may_ask(variable) {
-            self.runtime.ask_for_colours()?;
+            self.runtime.screen().ask_for_colours()?;
             self.asked = Some((depth, Instant::now() + query::PATIENCE));
         }
         Ok(())
@@ -102,7 +128,7 @@ impl Session {
             return Urgency::Never;
         }
         self.inks = Inks::for_depth(ColourDepth::TrueColour);
-        self.runtime.terminal().recolour(ColourDepth::TrueColour);
+        self.runtime.screen().recolour(ColourDepth::TrueColour);
         Urgency::Now
     }
 
@@ -111,7 +137,7 @@ impl Session {
         let now = Instant::now();
         match self.asked.take_if(|&mut (_, until)| until <= now) {
             Some((depth, _)) => {
-                self.runtime.give_up_colours();
+                self.runtime.screen().give_up_colours();
                 self.step(Msg::FewColours(depth));
                 Urgency::Now
             }
@@ -132,7 +158,7 @@ impl Session {
                 Urgency::Never => self.rest_at(now),
             };
             // One frame is in flight at a time; the next one waits.
-            let is_clear = self.runtime.terminal().is_clear();
+            let is_clear = self.runtime.screen().is_clear();
             let draw_at = draw_at.filter(|_| is_clear);
             if is_clear && let Some((sent, bytes)) = self.waiting.take() {
                 self.link.waited(bytes, now - sent, now);
@@ -185,12 +211,14 @@ impl Session {
 
     /// Waits for input until `deadline` and handles everything that has arrived.
     fn wait(&mut self, deadline: Option<Instant>, is_clear: bool) -> Urgency {
+        if self.script.is_some() {
+            return self.play();
+        }
+        let has_terminal = self.runtime.screen().has_terminal();
         let others = [
             self.runtime.next_timer(),
             self.link.gives_up_at(),
-            self.link
-                .asks_at()
-                .filter(|_| is_clear && self.runtime.has_terminal()),
+            self.link.asks_at().filter(|_| is_clear && has_terminal),
             self.asked.map(|(_, until)| until),
         ];
         let deadline = others.into_iter().chain([deadline]).flatten().min();
@@ -207,27 +235,39 @@ impl Session {
         let mut urgency = Urgency::Never;
         let events: Vec<_> = first.into_iter().chain(self.inbox.try_iter()).collect();
         for event in events {
-            if let Event::Replied(reply, at) = event {
-                urgency = urgency.max(self.replied(reply, at));
-            } else if let Some(msg) = self.runtime.message(event) {
-                urgency = urgency.max(self.urgency_of(&msg));
-                self.step(msg);
-            }
+            urgency = urgency.max(self.take(event));
         }
         let now = Instant::now();
         if self.link.give_up(now) {
-            self.runtime.give_up_replies();
+            self.runtime.screen().give_up_replies();
         }
         for msg in self.runtime.due(now) {
             urgency = Urgency::Now;
             self.step(msg);
         }
         urgency = urgency.max(self.give_up_on_colours());
-        for panic in self.runtime.terminal().take_panics() {
+        for panic in self.runtime.screen().take_panics() {
             urgency = Urgency::Now;
             self.step(Msg::Failed(panic));
         }
         urgency
+    }
+
+    /// Handles an event.
+    fn take(&mut self, event: Event) -> Urgency {
+        match event {
+            Event::Replied(reply, at) => return self.replied(reply, at),
+            Event::Begun => self.at_work += 1,
+            Event::Done => self.at_work -= 1,
+            event => {
+                if let Some(msg) = self.runtime.message(event) {
+                    let urgency = self.urgency_of(&msg);
+                    self.step(msg);
+                    return urgency;
+                }
+            }
+        }
+        Urgency::Never
     }
 
     fn urgency_of(&self, msg: &Msg) -> Urgency {
@@ -247,7 +287,7 @@ impl Session {
         let effects = self.app.update(msg);
         self.perform(effects);
         let are_kept = self.app.has_kept_edits();
-        self.runtime.terminal().note_kept_edits(are_kept);
+        self.runtime.screen().note_kept_edits(are_kept);
     }
 
     fn perform(&mut self, effects: Vec<Effect>) {
@@ -268,8 +308,8 @@ impl Session {
 
     /// Requests a reply of the terminal if the link should be measured.
     fn ask(&mut self, now: Instant) -> io::Result<()> {
-        if self.runtime.has_terminal() && self.link.has_question(now) {
-            self.runtime.ask_status()?;
+        if self.runtime.screen().has_terminal() && self.link.has_question(now) {
+            self.runtime.screen().ask_status()?;
             self.link.asked(now);
         }
         Ok(())
@@ -292,12 +332,12 @@ impl Session {
         }
         let (app, inks) = (&self.app, &mut self.inks);
         let mut area = app.terminal;
-        let bytes = self.runtime.terminal().draw(|frame| {
+        let bytes = self.runtime.screen().draw(|frame| {
             area = (frame.area().width, frame.area().height);
             view::draw(app, inks, frame);
         })?;
         self.link.spent(bytes, now);
-        if !self.runtime.terminal().is_clear() {
+        if !self.runtime.screen().is_clear() {
             self.waiting = Some((now, bytes));
         }
         if area != self.app.terminal {

@@ -9,7 +9,7 @@ use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 use std::time::Instant;
 
-use super::event::Event;
+use super::event::{Event, Work};
 use super::msg::{Destination, Existing, ExportId, Exported, Guard, Msg, SaveId, SaveOutcome};
 use crate::file;
 use crate::file::{ReadError, Version};
@@ -124,10 +124,12 @@ impl Writers {
             msg: Some(panicked),
         };
         let at_work = at_work.cloned();
+        let begun = Work::begin(&self.sender);
         let thread = thread::Builder::new().name(name.to_owned());
         let spawned = thread.spawn(move || {
             report.msg = work();
             drop(report);
+            drop(begun);
             drop(at_work);
         });
         spawned.map(drop)
@@ -345,7 +347,12 @@ mod tests {
         let far = Instant::now() + std::time::Duration::from_secs(30);
         writers.finish(far);
         let events: Vec<_> = inbox.iter().collect();
-        let [Event::Msg(Msg::Saved(SaveId(3), SaveOutcome::Failed(reason)))] = &events[..] else {
+        let [
+            Event::Begun,
+            Event::Msg(Msg::Saved(SaveId(3), SaveOutcome::Failed(reason))),
+            Event::Done,
+        ] = &events[..]
+        else {
             panic!("{events:?}");
         };
         assert_eq!(reason, "a.ray: broken");

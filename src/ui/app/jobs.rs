@@ -345,9 +345,12 @@ impl Export {
     /// Describes what it shows, its size and samples, and the time it took.
     pub(super) fn summary(&self) -> String {
         let Size { width, height } = self.size;
-        let took = self.progress.map_or_else(String::new, |progress| {
-            format!(", {:.1} s", progress.elapsed.as_secs_f64())
-        });
+        let elapsed = self.progress.map(|progress| progress.elapsed);
+        let took = elapsed
+            .filter(|elapsed| !elapsed.is_zero())
+            .map_or_else(String::new, |elapsed| {
+                format!(", {:.1} s", elapsed.as_secs_f64())
+            });
         let what = self
             .aov
             .map_or_else(String::new, |aov| format!("{}, ", aov.name()));

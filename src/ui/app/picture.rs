@@ -150,6 +150,16 @@ impl Picture {
         self.progress().is_some_and(|progress| progress.complete)
     }
 
+    /// Whether a sample was requested that is not taken yet.
+    pub fn is_awaited(&self) -> bool {
+        self.wanted.is_some() && !self.is_complete()
+    }
+
+    /// Whether a pixel was requested that has no sample of its own yet.
+    pub fn is_coarse(&self) -> bool {
+        self.is_awaited() && self.progress().is_none_or(|progress| progress.spp < 1)
+    }
+
     /// Copies cells of the newest frame, with the outline of `marked`, to the screen until `budget`
     /// bytes are spent, and continues there next time; `usize::MAX` copies the whole frame. Changes
     /// of the outline go first. Over a limited link, pixels of an unfinished frame that are almost

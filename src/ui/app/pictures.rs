@@ -107,6 +107,11 @@ impl Pictures {
         }
     }
 
+    /// Whether a sample of the preview or the trace is still to be taken.
+    pub fn are_awaited(&self) -> bool {
+        self.preview.is_awaited() || self.trace.as_ref().is_some_and(Picture::is_awaited)
+    }
+
     /// The picture that receives a target's frames.
     fn of(&mut self, target: Target) -> Option<&mut Picture> {
         match target {

@@ -51,16 +51,141 @@ impl Chord {
             }
         }
         match code {
-            Char(' ') => name.push_str("Space"),
-            Char(character) if held.contains(CTRL) => name.extend(character.to_uppercase()),
-            Char(character) => name.push(character),
-            Up => name.push('↑'),
-            Down => name.push('↓'),
-            Left => name.push('←'),
-            Right => name.push('→'),
-            BackTab => name.push_str("Shift-Tab"),
-            other => name.push_str(&other.to_string()),
+            Char(character) if held.contains(CTRL) && character != ' ' => {
+                name.extend(character.to_uppercase());
+            }
+            KeyCode::F(number) => name.extend(['F'.to_string(), number.to_string()]),
+            code => match (NAMES.iter().find(|(named, _)| *named == code), code) {
+                (Some((_, known)), _) => name.push_str(known),
+                (None, Char(character)) => name.push(character),
+                (None, other) => name.push_str(&other.to_string()),
+            },
         }
         name
+    }
+
+    /// The chord with this name, in any case except for characters; arrows may also be spelled out.
+    pub(super) fn parse(name: &str) -> Option<Self> {
+        let mut held = NONE;
+        let mut rest = name;
+        let mut left = vec![(CTRL, "ctrl-"), (ALT, "alt-"), (SHIFT, "shift-")];
+        while let Some(at) = left
+            .iter()
+            .position(|(_, prefix)| starts_with(rest, prefix))
+        {
+            let (modifier, prefix) = left.remove(at);
+            held |= modifier;
+            rest = &rest[prefix.len()..];
+        }
+        let mut characters = rest.chars();
+        let code = match (characters.next()?, characters.next()) {
+            (_, Some(_)) => code_of(rest)?,
+            (_, None) if code_of(rest).is_some() => code_of(rest)?,
+            (character, None) if held.contains(CTRL) => Char(character.to_ascii_lowercase()),
+            // Shift is part of a character.
+            (character, None) if held.contains(SHIFT) => Char(character.to_ascii_uppercase()),
+            (character, None) => Char(character),
+        };
+        match code {
+            Char(_) => Some(Self(code, held - SHIFT)),
+            KeyCode::Tab if held.contains(SHIFT) => Some(Self(BackTab, held - SHIFT)),
+            code => Some(Self(code, held)),
+        }
+    }
+
+    /// The event of this key.
+    pub(super) fn event(self) -> KeyEvent {
+        KeyEvent::new(self.0, self.1)
+    }
+}
+
+/// Keys that are not named by a character, and other spellings after the first.
+const NAMES: [(KeyCode, &str); 20] = [
+    (Char(' '), "Space"),
+    (Up, "↑"),
+    (Down, "↓"),
+    (Left, "←"),
+    (Right, "→"),
+    (Up, "Up"),
+    (Down, "Down"),
+    (Left, "Left"),
+    (Right, "Right"),
+    (BackTab, "Shift-Tab"),
+    (KeyCode::Tab, "Tab"),
+    (KeyCode::Enter, "Enter"),
+    (KeyCode::Esc, "Esc"),
+    (KeyCode::Backspace, "Backspace"),
+    (KeyCode::Delete, "Delete"),
+    (KeyCode::Home, "Home"),
+    (KeyCode::End, "End"),
+    (KeyCode::PageUp, "PageUp"),
+    (KeyCode::PageDown, "PageDown"),
+    (KeyCode::Insert, "Insert"),
+];
+
+/// The names of keys that are not characters, without modifiers.
+pub(super) fn names() -> impl Iterator<Item = &'static str> {
+    NAMES.iter().map(|(_, name)| *name)
+}
+
+fn starts_with(text: &str, prefix: &str) -> bool {
+    // A prefix alone names its last character.
+    let start = text
+        .get(..prefix.len())
+        .filter(|_| prefix.len() < text.len());
+    start.is_some_and(|start| start.eq_ignore_ascii_case(prefix))
+}
+
+fn code_of(name: &str) -> Option<KeyCode> {
+    if let Some(number) = name.strip_prefix(['F', 'f']) {
+        let number = number
+            .parse()
+            .ok()
+            .filter(|number| (1..=24).contains(number));
+        return number.map(KeyCode::F);
+    }
+    let mut names = NAMES.iter();
+    let known = names.find(|(_, known)| known.eq_ignore_ascii_case(name));
+    known.map(|&(code, _)| code)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_name_of_a_chord_is_parsed_back() {
+        let codes = NAMES.iter().map(|&(code, _)| code);
+        let codes = codes.chain(['a', 'G', '-', '+', '/', 'é'].map(Char));
+        for code in codes.chain([1, 5, 12].map(KeyCode::F)) {
+            for held in [NONE, CTRL, ALT, SHIFT, ALT | CTRL, ALT | SHIFT] {
+                let chord = Chord::of(KeyEvent::new(code, held));
+                let is_upper = matches!(code, Char(c) if c.is_uppercase());
+                let is_back_tab = code == KeyCode::Tab && held.contains(SHIFT);
+                if held.contains(CTRL) && is_upper || is_back_tab {
+                    // Terminals never send these.
+                    continue;
+                }
+                assert_eq!(Chord::parse(&chord.name()), Some(chord), "{}", chord.name());
+            }
+        }
+    }
+
+    #[test]
+    fn names_are_read_in_any_usual_spelling() {
+        for (name, chord) in [
+            ("ctrl-r", ctrl('r')),
+            ("Shift-Left", Chord(Left, SHIFT)),
+            ("Shift-g", c('G')),
+            ("alt-l", alt('l')),
+            ("pagedown", key(KeyCode::PageDown)),
+            ("f5", key(KeyCode::F(5))),
+            ("-", c('-')),
+        ] {
+            assert_eq!(Chord::parse(name), Some(chord), "{name}");
+        }
+        for name in ["", "jj", "F0", "F99", "Entr", "Ctrl-Entr"] {
+            assert_eq!(Chord::parse(name), None, "{name}");
+        }
     }
 }

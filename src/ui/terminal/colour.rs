@@ -143,12 +143,27 @@ pub(super) enum Ink {
     Rgb(u8, u8, u8),
 }
 
+/// The light of a colour on a screen that shows [`THEME`]; `None` for the terminal's default.
+pub(crate) fn colour_on_screen(colour: Color) -> Option<[u8; 3]> {
+    match ColourDepth::TrueColour.ink(colour) {
+        Ink::Default => None,
+        Ink::Index(index) => {
+            let light = anstyle_lossy::xterm_to_rgb(index.into(), theme());
+            Some([light.r(), light.g(), light.b()])
+        }
+        Ink::Rgb(red, green, blue) => Some([red, green, blue]),
+    }
+}
+
+fn theme() -> Palette {
+    Palette(THEME.map(|[red, green, blue]| (red, green, blue).into()))
+}
+
 fn nearest_of_256(red: u8, green: u8, blue: u8) -> u8 {
     anstyle_lossy::rgb_to_xterm((red, green, blue).into()).index()
 }
 
 fn nearest_of_16(index: u8) -> u8 {
-    let theme = || Palette(THEME.map(|[red, green, blue]| (red, green, blue).into()));
     match index {
         0..16 => index,
         _ => anstyle_lossy::xterm_to_ansi(index.into(), theme()) as u8,

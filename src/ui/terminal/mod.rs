@@ -19,6 +19,7 @@ mod link;
 mod output;
 mod panics;
 mod pen;
+mod print;
 pub(crate) mod query;
 mod reply;
 #[cfg(unix)]
@@ -27,14 +28,15 @@ pub(crate) mod tmux;
 mod tty;
 
 pub use backend::AnsiBackend;
-pub(crate) use colour::THEME;
 pub use colour::{Choice, ColourDepth};
+pub(crate) use colour::{THEME, colour_on_screen};
 #[cfg(unix)]
 pub use decode::Decoder;
 pub use event::Event;
 pub use guard::{Mouse, Terminal};
 pub use input::Input;
 pub use link::{Budget, Link};
+pub(crate) use print::printed;
 pub use reply::{Replies, Reply};
 #[cfg(unix)]
 pub use signals::{Signals, suspend_process};

@@ -282,7 +282,9 @@ fn progress_segments(progress: &Progress, say: &mut impl FnMut(u8, String, Style
     if let Some(noise) = progress.noise {
         say(22, format!("noise {}", percentage(noise)), Style::new());
     }
-    say(24, duration(progress.elapsed), Style::new());
+    if !progress.elapsed.is_zero() {
+        say(24, duration(progress.elapsed), Style::new());
+    }
     if let Some(left) = time_left(progress) {
         say(23, format!("ETA {}", duration(left)), theme::DIM);
     }
@@ -300,7 +302,10 @@ fn progress_segments(progress: &Progress, say: &mut impl FnMut(u8, String, Style
 /// Estimates the remaining time at the pace so far. `None` during the first pass, whose coarse
 /// samples say little about the others.
 fn time_left(progress: &Progress) -> Option<Duration> {
-    let known = 1 <= progress.spp && 0.0 < progress.done && !progress.complete;
+    let known = !progress.elapsed.is_zero()
+        && 1 <= progress.spp
+        && 0.0 < progress.done
+        && !progress.complete;
     let seconds = progress.elapsed.as_secs_f64() * (1.0 - progress.done) / progress.done;
     known.then(|| Duration::try_from_secs_f64(seconds).ok())?
 }

@@ -92,7 +92,7 @@ fn earlier_lines_return_while_the_line_is_empty_or_unchanged() {
         ("<Up>", "view reset"),
         ("<Up>", "size 8x8"),
         ("<Up>", "size 8x8"),
-        ("<Down>", "view light"),
+        ("<Down>", "view reset"),
         ("<Down>", ""),
         ("<Down>", "w"),
     ] {

@@ -1,0 +1,109 @@
+//! The arguments of the interface.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use clap::{ArgGroup, Args, value_parser};
+
+use super::choices::{ColourChoice, FilterChoice, IntegratorChoice};
+use super::shared::{AssetArguments, depth_range, spp_range, threads_range};
+use crate::ui;
+use crate::ui::terminal::Mouse;
+
+/// The size of a screen without a terminal, in cells.
+const SCREEN: (u16, u16) = (100, 30);
+
+#[derive(Args, Debug)]
+#[command(group = ArgGroup::new("headless").args(["keys", "frames"]).multiple(true))]
+pub(super) struct InterfaceArguments {
+    /// Scene file to open: .ray, .dat or .xml; a new scene if it does not exist
+    #[arg(value_name = "SCENE")]
+    pub(super) scene: Option<PathBuf>,
+    // Parsed so that a second scene is not rejected as an unknown command.
+    #[arg(hide = true)]
+    pub(super) surplus: Vec<PathBuf>,
+    /// Check the file for changes every MS milliseconds, 10 to 3600000 (500 if omitted); for
+    /// network file systems, which send no change notifications
+    #[arg(
+        long, value_name = "MS", num_args = 0..=1, require_equals = true,
+        default_missing_value = "500", value_parser = value_parser!(u64).range(10..=3_600_000)
+    )]
+    poll: Option<u64>,
+    /// Limit terminal output, in KB/s (1000 bytes per second), up to 4000000; 0 means no limit
+    #[arg(long, value_name = "KB/s", value_parser = value_parser!(u32).range(..=4_000_000))]
+    bandwidth: Option<u32>,
+    /// Colour depth of the terminal
+    #[arg(
+        long,
+        alias = "colour",
+        value_name = "COLOURS",
+        value_enum,
+        default_value_t
+    )]
+    color: ColourChoice,
+    /// Do not capture the mouse
+    #[arg(long)]
+    no_mouse: bool,
+    /// Samples per pixel of full-size traces and exports, 1 to 65536 [default: 16]
+    #[arg(long, value_name = "N", value_parser = spp_range())]
+    spp: Option<u32>,
+    /// Maximum number of bounces, 0 to 4096 [default: 8, or 64 with path tracing]
+    #[arg(long, value_name = "N", value_parser = depth_range())]
+    depth: Option<u32>,
+    /// Integrator to start with; P switches it [default: whitted, unless the scene sets path]
+    #[arg(long, value_name = "INTEGRATOR", value_enum)]
+    integrator: Option<IntegratorChoice>,
+    /// Pixel filter of full-size traces and exports; the preview always uses box
+    #[arg(long, value_name = "FILTER", value_enum, default_value_t)]
+    filter: FilterChoice,
+    /// Number of tracing threads, 1 to 1024 [default: one per core, one fewer for the preview]
+    #[arg(long, value_name = "N", value_parser = threads_range())]
+    threads: Option<u16>,
+    /// Press the keys of this script instead of reading them from a terminal, and end after the last
+    #[arg(long, value_name = "FILE")]
+    keys: Option<PathBuf>,
+    /// Write the last screen to FILE, which ends in .txt, .ansi or .png; needs no terminal;
+    /// repeatable
+    #[arg(long = "dump-frame", value_name = "FILE", value_parser = parse_frame)]
+    frames: Vec<PathBuf>,
+    /// Size of the screen for --keys and --dump-frame, such as 100x30
+    #[arg(long, value_name = "COLSxROWS", value_parser = parse_screen, requires = "headless")]
+    screen: Option<(u16, u16)>,
+    #[command(flatten)]
+    assets: AssetArguments,
+}
+
+impl InterfaceArguments {
+    pub(super) fn into_options(self) -> ui::Options {
+        let is_headless = self.keys.is_some() || !self.frames.is_empty();
+        ui::Options {
+            scene: self.scene,
+            poll: self.poll.map(Duration::from_millis),
+            bandwidth: self.bandwidth.map(|kilobytes| kilobytes * 1000),
+            colour: self.color.value(),
+            mouse: if self.no_mouse { Mouse::Off } else { Mouse::On },
+            spp: self.spp,
+            depth: self.depth,
+            integrator: self.integrator.map(IntegratorChoice::value),
+            filter: self.filter.value(),
+            threads: self.threads.map(usize::from),
+            assets: self.assets.folders,
+            rehearsal: is_headless.then(|| ui::Rehearsal {
+                keys: self.keys,
+                screen: self.screen.unwrap_or(SCREEN),
+                frames: self.frames,
+            }),
+        }
+    }
+}
+
+fn parse_screen(text: &str) -> Result<(u16, u16), String> {
+    ui::parse_screen(text).ok_or_else(|| "expected columns and rows, such as 100x30".to_owned())
+}
+
+fn parse_frame(text: &str) -> Result<PathBuf, String> {
+    match ui::FrameFormat::of_path(Path::new(text)) {
+        Some(_) => Ok(text.into()),
+        None => Err("expected a name that ends in .txt, .ansi or .png".to_owned()),
+    }
+}

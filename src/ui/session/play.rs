@@ -1,0 +1,109 @@
+//! Plays a script of keys: each step follows once everything before it is done, so that the outcome
+//! does not depend on time.
+
+use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
+
+use super::{Session, Urgency};
+use crate::ui::ending::Error;
+use crate::ui::msg::{Effect, Msg};
+use crate::ui::options::Rehearsal;
+use crate::ui::script::{Script, Step};
+use crate::ui::snapshot;
+
+impl Session {
+    /// Handles what has arrived or, if nothing more will, plays the next step of the script.
+    ///
+    /// A key waits for files, and for one sample of each pixel of the preview, below which it may
+    /// pick an object. Waits and dumps also wait for complete pictures, exports and timers.
+    pub(super) fn play(&mut self) -> Urgency {
+        if let Ok(event) = self.inbox.try_recv() {
+            return self.take(event);
+        }
+        let next = self.script.as_ref().and_then(Script::peek);
+        let is_last = matches!(next, None | Some(Step::Wait | Step::Dump(..)));
+        let pictures = &self.app.pictures;
+        let is_busy = if is_last {
+            pictures.are_awaited() || self.app.jobs.export.is_some()
+        } else {
+            pictures.preview.is_coarse()
+        };
+        if is_busy || 0 < self.at_work {
+            return match self.inbox.recv() {
+                Ok(event) => self.take(event),
+                Err(_) => Urgency::Never,
+            };
+        }
+        if is_last && let Some(elapsed) = self.runtime.next_elapsed() {
+            self.step(elapsed);
+            return Urgency::Now;
+        }
+        // A page is always written to.
+        let _ = self.draw(Urgency::Now);
+        match self.script.as_mut().and_then(Script::next) {
+            Some(step) => self.act(step),
+            None => self.perform(vec![Effect::Quit]),
+        }
+        Urgency::Never
+    }
+
+    /// Writes the last screen; fails if a step could not be played.
+    pub(super) fn finish(&mut self, rehearsal: Option<&Rehearsal>) -> Result<(), Error> {
+        if let Some(error) = self.failed.take() {
+            return Err(error);
+        }
+        if let Some(script) = &self.script
+            && let Some(unplayed) = script.unplayed()
+        {
+            return Err(Error::Faulty {
+                name: script.name.clone(),
+                text: script.text.clone(),
+                errors: vec![unplayed],
+            });
+        }
+        for path in rehearsal.iter().flat_map(|rehearsal| &rehearsal.frames) {
+            let format = snapshot::Format::of_path(path).unwrap_or(snapshot::Format::Text);
+            self.dump(path, format)?;
+        }
+        Ok(())
+    }
+
+    fn act(&mut self, step: Step) {
+        match step {
+            Step::Key(key) => self.step(Msg::Key(key)),
+            Step::Paste(text) => self.step(Msg::Paste(text)),
+            Step::Click(column, row) => {
+                let left = MouseButton::Left;
+                for kind in [MouseEventKind::Down(left), MouseEventKind::Up(left)] {
+                    self.step(Msg::Mouse(MouseEvent {
+                        kind,
+                        column,
+                        row,
+                        modifiers: KeyModifiers::NONE,
+                    }));
+                }
+            }
+            Step::Resize(columns, rows) => {
+                self.runtime.screen().resize((columns, rows));
+                self.step(Msg::Resize(columns, rows));
+            }
+            Step::Wait => {}
+            Step::Dump(path, format) => {
+                if let Err(error) = self.dump(&path, format) {
+                    self.failed = Some(error);
+                    self.perform(vec![Effect::Quit]);
+                }
+            }
+        }
+    }
+
+    fn dump(&mut self, path: &std::path::Path, format: snapshot::Format) -> Result<(), Error> {
+        let Some(cells) = self.runtime.screen().cells() else {
+            return Ok(());
+        };
+        let written = snapshot::write(cells, path, format);
+        written.map_err(|source| Error::Frame {
+            path: path.to_owned(),
+            source,
+        })
+    }
+}
