@@ -300,8 +300,8 @@ fn check_words(scene: Option<&Path>, surplus: &[PathBuf]) -> Result<(), String> 
     }
     match surplus.first() {
         Some(second) => Err(format!(
-            "unexpected second scene {}: only one can be opened; the commands are render, check \
-             and doctor",
+            "unexpected second scene {}: only one can be opened; the commands are render, check, \
+             doctor, completions and man",
             second.display()
         )),
         None => Ok(()),
