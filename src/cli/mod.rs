@@ -12,7 +12,8 @@ use std::thread;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 
 use choices::{AovChoice, FilterChoice, IntegratorChoice, TransferChoice};
 use interface::InterfaceArguments;
@@ -86,6 +87,8 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, S
             assets: assets.folders,
         })),
         Some(Subcommands::Doctor { scene }) => Ok(Command::Doctor(scene)),
+        Some(Subcommands::Completions { shell }) => Err(Stop::requested(completions(shell))),
+        Some(Subcommands::Man) => Err(Stop::requested(manual())),
         None => {
             let interface = cli.interface;
             check_words(interface.scene.as_deref(), &interface.surplus)
@@ -152,6 +155,13 @@ fn read_code(error: &ReadError) -> u8 {
 }
 
 impl Stop {
+    fn requested(text: Vec<u8>) -> Self {
+        Self {
+            text: String::from_utf8_lossy(&text).into_owned(),
+            code: DONE,
+        }
+    }
+
     fn of(error: &clap::Error) -> Self {
         // The text quotes arguments, which may contain anything.
         let mut text = String::new();
@@ -211,12 +221,56 @@ enum Subcommands {
         #[command(flatten)]
         assets: AssetArguments,
     },
+    /// Print the script by which a shell completes words of the command line
+    Completions {
+        /// The shell
+        #[arg(value_name = "SHELL", value_enum)]
+        shell: ShellChoice,
+    },
+    /// Print the manual page
+    Man,
     /// Report what was detected about the terminal and the machine, and why
     Doctor {
         /// Scene file whose folder to examine [default: the current folder]
         #[arg(value_name = "SCENE")]
         scene: Option<PathBuf>,
     },
+}
+
+/// A shell that completes words.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ShellChoice {
+    Bash,
+    Zsh,
+    Fish,
+}
+
+/// The script by which a shell completes the options of every command.
+fn completions(shell: ShellChoice) -> Vec<u8> {
+    let shell = match shell {
+        ShellChoice::Bash => Shell::Bash,
+        ShellChoice::Zsh => Shell::Zsh,
+        ShellChoice::Fish => Shell::Fish,
+    };
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Cli::command(), "halflight", &mut script);
+    script
+}
+
+/// The manual page: that of the interface, followed by those of the commands.
+fn manual() -> Vec<u8> {
+    let mut cli = Cli::command();
+    // Without this, the commands lack the program's name.
+    cli.build();
+    let mut page = Vec::new();
+    let commands = cli
+        .get_subcommands()
+        .filter(|command| command.get_name() != "help");
+    for command in [&cli].into_iter().chain(commands) {
+        // Writing to memory cannot fail.
+        let _ = clap_mangen::Man::new(command.clone()).render(&mut page);
+    }
+    page
 }
 
 #[derive(Args, Debug)]
@@ -246,8 +300,8 @@ fn check_words(scene: Option<&Path>, surplus: &[PathBuf]) -> Result<(), String> 
     }
     match surplus.first() {
         Some(second) => Err(format!(
-            "unexpected second scene {}: only one can be opened; the commands are render, check \
-             and doctor",
+            "unexpected second scene {}: only one can be opened; the commands are render, check, \
+             doctor, completions and man",
             second.display()
         )),
         None => Ok(()),

@@ -233,3 +233,31 @@ fn help_states_the_limits() {
         }
     }
 }
+
+#[test]
+fn completions_and_the_manual_mention_every_option() {
+    let mut cli = Cli::command();
+    cli.build();
+    let commands = cli
+        .get_subcommands()
+        .filter(|command| command.get_name() != "help");
+    let arguments = [&cli]
+        .into_iter()
+        .chain(commands)
+        .flat_map(clap::Command::get_arguments);
+    let options: Vec<_> = arguments.filter_map(clap::Arg::get_long).collect();
+    assert!(options.contains(&"dump-frame"), "{options:?}");
+    for line in [
+        "completions bash",
+        "completions zsh",
+        "completions fish",
+        "man",
+    ] {
+        let stop = parsed(&format!("halflight {line}")).expect_err("a text");
+        assert_eq!(stop.code, DONE);
+        let text = stop.text.replace("\\-", "-");
+        for option in &options {
+            assert!(text.contains(option), "{line}: {option}");
+        }
+    }
+}

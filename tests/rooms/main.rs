@@ -83,6 +83,8 @@ const DEPENDENCIES: &[(&str, &str)] = &[
     ("anstyle_lossy", "ui"),
     ("arrayvec", "accel"),
     ("clap", "cli"),
+    ("clap_complete", "cli"),
+    ("clap_mangen", "cli"),
     ("crossterm", "ui"),
     ("fearless_simd", "geometry"),
     ("glam", "*"),

@@ -81,7 +81,9 @@ impl Chord {
         let code = match (characters.next()?, characters.next()) {
             (_, Some(_)) => code_of(rest)?,
             (_, None) if code_of(rest).is_some() => code_of(rest)?,
-            (character, None) if held.contains(CTRL) => Char(character.to_ascii_lowercase()),
+            (character, None) if held.contains(CTRL) => {
+                Char(character.to_lowercase().next().unwrap_or(character))
+            }
             // Shift is part of a character.
             (character, None) if held.contains(SHIFT) => Char(character.to_ascii_uppercase()),
             (character, None) => Char(character),
