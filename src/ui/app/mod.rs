@@ -5,6 +5,7 @@
 //! jobs. A part owns its state and knows no other; the steps, which handle messages, pass between
 //! them what they need. Nothing here touches files, threads or clocks.
 
+mod arithmetic;
 mod assets;
 mod camera;
 mod command;
@@ -31,6 +32,7 @@ mod saving;
 #[cfg(test)]
 pub(super) mod tests;
 mod tracing;
+mod typed;
 mod typing;
 mod update;
 mod viewing;

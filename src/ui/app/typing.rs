@@ -3,7 +3,7 @@
 use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
-use super::{App, HelpFocus, line, literals};
+use super::{App, HelpFocus, line, literals, typed};
 use crate::language::table::{Field, Kind};
 use crate::text::{Diagnostic, Span};
 use crate::ui::keymap::{Mode, Stride};
@@ -95,15 +95,9 @@ impl App {
             return true;
         };
         let typed = typing.input.value().trim().to_owned();
-        let outcome = if let Some(values) = self.literals_of(&typed) {
-            self.assign_whole(&values)
-        } else {
-            let expected = match self.cursor.current() {
-                Some(row) if !row.field.kind.is_numeric() => row.field.expected(),
-                _ => "one number".to_owned(),
-            };
-            let message = format!("expected {expected}");
-            Err(Diagnostic::error(Span::at(0), message, expected))
+        let outcome = match self.literals_of(&typed) {
+            Ok(values) => self.assign_whole(&values),
+            Err(reason) => Err(Diagnostic::error(Span::at(0), reason, "")),
         };
         match outcome {
             Ok(()) => self.cursor.typing = None,
@@ -127,25 +121,13 @@ impl App {
         outcome
     }
 
-    /// The components that a typed or pasted text sets: the current one, or all of the field.
-    fn literals_of(&self, typed: &str) -> Option<Vec<(usize, String)>> {
-        let field = self.cursor.current()?.field;
-        let kind = field.kind;
-        if let Some(all) = literals::all_of(kind, typed) {
-            return Some(all.into_iter().enumerate().collect());
-        }
-        if let Kind::Choice(words) = kind
-            && field.chosen(typed).is_none()
-            && let Some(word) = literals::word_meant(words, typed)
-        {
-            return Some(vec![(self.cursor.component, word.to_owned())]);
-        }
-        let typed = if kind.is_numeric() && !kind.is_size() {
-            literals::plain(typed)
-        } else {
-            typed
-        };
-        literals::is_one(typed).then(|| vec![(self.cursor.component, typed.to_owned())])
+    /// The components that a typed or pasted text sets, or why it sets none.
+    fn literals_of(&self, text: &str) -> Result<Vec<(usize, String)>, String> {
+        let row = self.field_row(self.cursor.field);
+        row.map_or_else(
+            || Err("nothing to edit here".to_owned()),
+            |row| typed::values(row.field, (self.cursor.component, &row.literals), text),
+        )
     }
 
     pub(super) fn paste(&mut self, text: &str) {
@@ -174,16 +156,18 @@ impl App {
             return;
         }
         let values = self.literals_of(pasted);
-        let is_whole = values.as_ref().is_some_and(|values| 1 < values.len());
+        let is_whole = values.as_ref().is_ok_and(|values| 1 < values.len());
         if let (Some(typing), false) = (&mut self.cursor.typing, is_whole) {
             typing.refused = None;
             line::insert(&mut typing.input, text);
             return;
         }
-        let Some(values) = values else {
-            self.overlays
-                .fail("cannot paste this: expected one number, or one per component");
-            return;
+        let values = match values {
+            Ok(values) => values,
+            Err(reason) => {
+                self.overlays.fail(format!("cannot paste this: {reason}"));
+                return;
+            }
         };
         self.cursor.typing = None;
         if let Err(refused) = self.assign_whole(&values) {

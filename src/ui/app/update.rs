@@ -98,10 +98,10 @@ impl App {
         }
     }
 
-    /// Starts typing a value on a digit or a sign, but not on `.`, which increases the step.
+    /// Starts typing a value on a digit, sign, operator, `.` or `(`.
     fn start_typing_with(&mut self, context: Context, key: KeyEvent) -> Vec<Effect> {
         if let (Context::In(Mode::Edit), KeyCode::Char(first)) = (context, key.code)
-            && (first.is_ascii_digit() || matches!(first, '-' | '+'))
+            && (first.is_ascii_digit() || "+-*/.(".contains(first))
         {
             self.cursor.type_value(Input::from(first.to_string()));
         }
