@@ -298,9 +298,9 @@ mod tests {
     #[derive(Clone, Debug)]
     enum Tree {
         Number(u16),
-        Negative(Box<Tree>),
-        Pair(char, Box<Tree>, Box<Tree>),
-        Root(Box<Tree>),
+        Negative(Box<Self>),
+        Pair(char, Box<Self>, Box<Self>),
+        Root(Box<Self>),
     }
 
     impl Tree {

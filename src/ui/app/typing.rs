@@ -1,8 +1,9 @@
 //! Entering values: nudging, typing, pasting.
 
-use crossterm::event::{KeyCode, KeyEvent};
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
+use super::cursor::Typing;
 use super::{App, HelpFocus, line, literals, typed};
 use crate::language::table::{Field, Kind};
 use crate::text::{Diagnostic, Span};
@@ -62,8 +63,12 @@ impl App {
     }
 
     pub(super) fn type_current(&mut self) {
-        if let Some((_, literal)) = self.current() {
-            self.cursor.type_value(Input::from(literal));
+        if let Some((field, literal)) = self.current() {
+            self.cursor.typing = Some(Typing {
+                input: Input::from(literal),
+                is_selected: !field.kind.is_numeric(),
+                refused: None,
+            });
         }
     }
 
@@ -84,6 +89,15 @@ impl App {
             }
             _ => {
                 typing.refused = None;
+                let held = KeyModifiers::CONTROL | KeyModifiers::ALT;
+                let replaces = match key.code {
+                    KeyCode::Char(_) => !key.modifiers.intersects(held),
+                    KeyCode::Backspace | KeyCode::Delete => true,
+                    _ => false,
+                };
+                if std::mem::take(&mut typing.is_selected) && replaces {
+                    typing.input.reset();
+                }
                 line::edit(&mut typing.input, key);
             }
         }
@@ -159,6 +173,9 @@ impl App {
         let is_whole = values.as_ref().is_ok_and(|values| 1 < values.len());
         if let (Some(typing), false) = (&mut self.cursor.typing, is_whole) {
             typing.refused = None;
+            if std::mem::take(&mut typing.is_selected) {
+                typing.input.reset();
+            }
             line::insert(&mut typing.input, text);
             return;
         }

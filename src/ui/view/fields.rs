@@ -126,6 +126,11 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
 fn typed(typing: &Typing, area: Rect, buffer: &mut Buffer) {
     Clear.render(area.intersection(buffer.area), buffer);
     let style = theme::ACCENT.add_modifier(Modifier::UNDERLINED);
+    let style = if typing.is_selected {
+        style.patch(theme::CURSOR)
+    } else {
+        style
+    };
     let mut row = Row::new(buffer, area, 0);
     let room = row.room();
     row.put_input(&typing.input, room, style, theme::CURSOR);
@@ -229,6 +234,7 @@ mod tests {
                 "radius: must be greater than 0",
                 "a number greater than 0",
             )),
+            ..Typing::default()
         });
         let lines = drawn(&app, render, 34, 20);
         assert_eq!(lines[2], "▸radius    -3");
@@ -255,7 +261,7 @@ mod tests {
         app.cursor.component = 1;
         app.cursor.typing = Some(Typing {
             input: Input::new("0.123456789".to_owned()),
-            refused: None,
+            ..Typing::default()
         });
         let line = drawn(&app, render, 34, 20)[1].clone();
         assert!(line.starts_with("▸centre    0 "), "{line}");

@@ -4,6 +4,7 @@ mod assets;
 mod dat;
 mod disk;
 mod editing;
+mod fields;
 mod making;
 mod moving;
 mod opening;
