@@ -46,6 +46,13 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         };
         let cursor = (focused && index == app.cursor.field).then_some(app.cursor.component);
         field_line(app, field, cursor, line, buffer);
+        if let Some(found) = app.field_finding(index) {
+            // The last cell of the name is otherwise a gap.
+            let (name, _) = layout::field_columns(line, field.literals.len());
+            let mut row = Row::new(buffer, name, 0);
+            row.skip_to(name.right().saturating_sub(1));
+            row.put("!", theme::severity(Some(found.severity)));
+        }
     }
     let below = fields.len().saturating_sub(top);
     for (line, (depth, part)) in (below..rows).zip(app.cursor.parts().iter().copied()) {
@@ -151,6 +158,9 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     {
         say(&refused.message, theme::ERROR);
     }
+    if let Some(found) = app.field_finding(app.cursor.field) {
+        say(&found.message, theme::severity(Some(found.severity)));
+    }
     let names = field.field.kind.component_names();
     let component = names.get(app.cursor.component).copied().unwrap_or_default();
     let expected = field.field.advice();
@@ -198,7 +208,7 @@ fn swatch(field: &FieldRow) -> Option<Rgb> {
 mod tests {
     use super::*;
     use crate::text::{Diagnostic, Span};
-    use crate::ui::view::tests::{app, drawn};
+    use crate::ui::view::tests::{app, drawn, retype};
     use tui_input::Input;
 
     fn editing(selected: Node) -> App {
@@ -253,6 +263,29 @@ mod tests {
             let lines = drawn(&app, render, 50, 20);
             assert!(lines[16].starts_with(shown), "{}", lines[16]);
         }
+    }
+
+    #[test]
+    fn a_warning_is_marked_at_its_field_and_explained_there() {
+        let mut app = editing(Node::Object(0));
+        retype(
+            &mut app,
+            "0.5 0 0  0 0 0  1 0 0 1\nbox",
+            "1.5 0 0  0 0 0  1 0 0 1\nbox",
+        );
+        app.cursor.field = 3;
+        let lines = drawn(&app, render, 50, 20);
+        assert!(
+            lines[4].starts_with("▸kd") && lines[4].contains("●!"),
+            "{}",
+            lines[4]
+        );
+        assert!(!lines[3].contains('!'), "{}", lines[3]);
+        assert!(
+            lines[16].contains("object 1 (sphere) kd red"),
+            "{}",
+            lines[16]
+        );
     }
 
     #[test]
