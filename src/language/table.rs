@@ -311,8 +311,11 @@ pub const fn numbers(fields: &[Field]) -> usize {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
+
+    /// A field for tests of what does not depend on a language.
+    pub(crate) const POINT: Field = Field::point("point", "A point.");
 
     #[test]
     fn ranges_contain_what_their_words_describe() {

@@ -51,6 +51,8 @@ pub struct Cursor {
 pub struct Typing {
     /// The text and its cursor.
     pub input: Input,
+    /// Whether the next character replaces the text; moving the text's cursor keeps it.
+    pub is_selected: bool,
     /// Why the last attempt was refused: the parser's own message.
     pub refused: Option<Diagnostic>,
 }
@@ -217,7 +219,7 @@ impl Cursor {
     pub(super) fn type_value(&mut self, input: Input) {
         self.typing = Some(Typing {
             input,
-            refused: None,
+            ..Typing::default()
         });
     }
 

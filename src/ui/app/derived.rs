@@ -15,6 +15,7 @@ use super::pictures::Outline;
 use crate::language::table::Field;
 use crate::language::{Node, Nodes, Source};
 use crate::scene::{Camera, Integrator, Scene, Size};
+use crate::text::Diagnostic;
 use crate::ui::arrange::{Areas, Shape, Zoom, arrange};
 use crate::ui::errors::{self, Panel, Wrong};
 use crate::ui::keymap::{Context, Line, Mode};
@@ -273,6 +274,17 @@ impl App {
     pub fn fields(&self) -> Vec<FieldRow> {
         let fields = 0..self.cursor.fields().len();
         fields.filter_map(|index| self.field_row(index)).collect()
+    }
+
+    /// The most severe error or warning about a field of the selected node.
+    pub fn field_finding(&self, index: usize) -> Option<&Diagnostic> {
+        let placed = self.cursor.fields().get(index)?;
+        let touches = |d: &&Diagnostic| {
+            let mut spans = (0..).zip(&placed.spans);
+            spans.any(|(at, span)| placed.default_of(at).is_none() && d.span.touches(*span))
+        };
+        let found = self.diagnostics.iter().filter(touches);
+        found.max_by_key(|d| d.severity)
     }
 
     /// The layout of an area of the screen.

@@ -75,13 +75,17 @@ pub(super) fn all_of(kind: Kind, text: &str) -> Option<Vec<String>> {
         .map(|word| if kind.is_size() { word } else { plain(word) }.to_owned())
         .collect();
     let numbers = words.iter().all(|word| parse_number(word).is_ok());
-    // The factor of a scaled vector, or the angle about an axis, may be omitted and stays.
+    (1 < words.len() && is_all(kind, words.len()) && numbers).then_some(words)
+}
+
+/// Whether this many numbers set all components. The factor of a scaled vector, or the angle about
+/// an axis, may be omitted and stays.
+pub(super) fn is_all(kind: Kind, count: usize) -> bool {
     let is_scaled = matches!(
         kind,
         Kind::ScaledVector | Kind::ScaledColour | Kind::Rotation
     );
-    let is_all = words.len() == kind.components() || (is_scaled && words.len() == 3);
-    (1 < words.len() && is_all && numbers).then_some(words)
+    count == kind.components() || (is_scaled && count == 3)
 }
 
 /// Converts six hexadecimal digits to numbers from 0 to 1 with four decimals, finer than 1/255.

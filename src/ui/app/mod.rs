@@ -6,6 +6,7 @@
 //! them what they need. Nothing here touches files, threads or clocks.
 
 mod another;
+mod arithmetic;
 mod assets;
 mod camera;
 mod command;
@@ -41,6 +42,7 @@ mod structure;
 #[cfg(test)]
 pub(super) mod tests;
 mod tracing;
+mod typed;
 mod typing;
 mod update;
 mod viewing;

@@ -1,9 +1,10 @@
 //! Entering values: nudging, typing, pasting.
 
-use crossterm::event::{KeyCode, KeyEvent};
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
-use super::{App, PageFocus, line, literals};
+use super::cursor::Typing;
+use super::{App, PageFocus, line, literals, typed};
 use crate::language::table::{Field, Kind};
 use crate::text::{Diagnostic, Span};
 use crate::ui::keymap::{Mode, Stride};
@@ -63,8 +64,12 @@ impl App {
     }
 
     pub(super) fn type_current(&mut self) {
-        if let Some((_, literal)) = self.current() {
-            self.cursor.type_value(Input::from(literal));
+        if let Some((field, literal)) = self.current() {
+            self.cursor.typing = Some(Typing {
+                input: Input::from(literal),
+                is_selected: !field.kind.is_numeric(),
+                refused: None,
+            });
         }
     }
 
@@ -85,6 +90,15 @@ impl App {
             }
             _ => {
                 typing.refused = None;
+                let held = KeyModifiers::CONTROL | KeyModifiers::ALT;
+                let replaces = match key.code {
+                    KeyCode::Char(_) => !key.modifiers.intersects(held),
+                    KeyCode::Backspace | KeyCode::Delete => true,
+                    _ => false,
+                };
+                if std::mem::take(&mut typing.is_selected) && replaces {
+                    typing.input.reset();
+                }
                 line::edit(&mut typing.input, key);
             }
         }
@@ -96,15 +110,9 @@ impl App {
             return true;
         };
         let typed = typing.input.value().trim().to_owned();
-        let outcome = if let Some(values) = self.literals_of(&typed) {
-            self.assign_whole(&values)
-        } else {
-            let expected = match self.cursor.current() {
-                Some(row) if !row.field.kind.is_numeric() => row.field.expected(),
-                _ => "one number".to_owned(),
-            };
-            let message = format!("expected {expected}");
-            Err(Diagnostic::error(Span::at(0), message, expected))
+        let outcome = match self.literals_of(&typed) {
+            Ok(values) => self.assign_whole(&values),
+            Err(reason) => Err(Diagnostic::error(Span::at(0), reason, "")),
         };
         match outcome {
             Ok(()) => self.cursor.typing = None,
@@ -128,25 +136,13 @@ impl App {
         outcome
     }
 
-    /// The components that a typed or pasted text sets: the current one, or all of the field.
-    fn literals_of(&self, typed: &str) -> Option<Vec<(usize, String)>> {
-        let field = self.cursor.current()?.field;
-        let kind = field.kind;
-        if let Some(all) = literals::all_of(kind, typed) {
-            return Some(all.into_iter().enumerate().collect());
-        }
-        if let Kind::Choice(words) = kind
-            && field.chosen(typed).is_none()
-            && let Some(word) = literals::word_meant(words, typed)
-        {
-            return Some(vec![(self.cursor.component, word.to_owned())]);
-        }
-        let typed = if kind.is_numeric() && !kind.is_size() {
-            literals::plain(typed)
-        } else {
-            typed
-        };
-        literals::is_one(typed).then(|| vec![(self.cursor.component, typed.to_owned())])
+    /// The components that a typed or pasted text sets, or why it sets none.
+    fn literals_of(&self, text: &str) -> Result<Vec<(usize, String)>, String> {
+        let row = self.field_row(self.cursor.field);
+        row.map_or_else(
+            || Err("nothing to edit here".to_owned()),
+            |row| typed::values(row.field, (self.cursor.component, &row.literals), text),
+        )
     }
 
     pub(super) fn paste(&mut self, text: &str) -> Vec<Effect> {
@@ -191,16 +187,21 @@ impl App {
             return;
         }
         let values = self.literals_of(pasted);
-        let is_whole = values.as_ref().is_some_and(|values| 1 < values.len());
+        let is_whole = values.as_ref().is_ok_and(|values| 1 < values.len());
         if let (Some(typing), false) = (&mut self.cursor.typing, is_whole) {
             typing.refused = None;
+            if std::mem::take(&mut typing.is_selected) {
+                typing.input.reset();
+            }
             line::insert(&mut typing.input, text);
             return;
         }
-        let Some(values) = values else {
-            self.overlays
-                .fail("cannot paste this: expected one number, or one per component");
-            return;
+        let values = match values {
+            Ok(values) => values,
+            Err(reason) => {
+                self.overlays.fail(format!("cannot paste this: {reason}"));
+                return;
+            }
         };
         self.cursor.typing = None;
         if let Err(refused) = self.assign_whole(&values) {

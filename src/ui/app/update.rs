@@ -117,11 +117,11 @@ impl App {
         }
     }
 
-    /// Starts typing a value on a digit or a sign, but not on `.`, which increases the step. Other
-    /// keys without a meaning are answered.
+    /// Starts typing a value on a digit, sign, operator, `.` or `(`. Other keys without a meaning are
+    /// answered.
     fn start_typing_with(&mut self, context: Context, key: KeyEvent) -> Vec<Effect> {
         if let (Context::In(Mode::Edit), KeyCode::Char(first)) = (context, key.code)
-            && (first.is_ascii_digit() || matches!(first, '-' | '+'))
+            && (first.is_ascii_digit() || "+-*/.(".contains(first))
         {
             self.cursor.type_value(Input::from(first.to_string()));
         } else {

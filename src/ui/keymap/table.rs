@@ -176,7 +176,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(EDIT, &[alt('l'), Chord(Right, ALT)], A::Nudge(1, Fine), "nudge up a tenth"),
     bind(EDIT, &[alt('h'), Chord(Left, ALT)], A::Nudge(-1, Fine), "nudge down a tenth"),
     bind(EDIT, &[c(',')], A::Stride(-1), "smaller steps"),
-    bind(EDIT, &[c('.')], A::Stride(1), "larger steps"),
+    bind(EDIT, &[c(';')], A::Stride(1), "larger steps"),
     bind(EDIT, &[key(BackTab)], A::Component(-1), "previous number"),
 
     bind(VIEW, &[c('h'), key(Left)], A::Orbit(1, 0), "orbit left"),

@@ -46,6 +46,13 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         };
         let cursor = (focused && index == app.cursor.field).then_some(app.cursor.component);
         field_line(app, field, cursor, line, buffer);
+        if let Some(found) = app.field_finding(index) {
+            // The last cell of the name is otherwise a gap.
+            let (name, _) = layout::field_columns(line, field.literals.len());
+            let mut row = Row::new(buffer, name, 0);
+            row.skip_to(name.right().saturating_sub(1));
+            row.put("!", theme::severity(Some(found.severity)));
+        }
     }
     let below = fields.len().saturating_sub(top);
     for (line, (depth, part)) in (below..rows).zip(app.cursor.parts().iter().copied()) {
@@ -126,6 +133,11 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
 fn typed(typing: &Typing, area: Rect, buffer: &mut Buffer) {
     Clear.render(area.intersection(buffer.area), buffer);
     let style = theme::ACCENT.add_modifier(Modifier::UNDERLINED);
+    let style = if typing.is_selected {
+        style.patch(theme::CURSOR)
+    } else {
+        style
+    };
     let mut row = Row::new(buffer, area, 0);
     let room = row.room();
     row.put_input(&typing.input, room, style, theme::CURSOR);
@@ -145,6 +157,9 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
         .and_then(|typing| typing.refused.as_ref())
     {
         say(&refused.message, theme::ERROR);
+    }
+    if let Some(found) = app.field_finding(app.cursor.field) {
+        say(&found.message, theme::severity(Some(found.severity)));
     }
     let names = field.field.kind.component_names();
     let component = names.get(app.cursor.component).copied().unwrap_or_default();
@@ -193,7 +208,7 @@ fn swatch(field: &FieldRow) -> Option<Rgb> {
 mod tests {
     use super::*;
     use crate::text::{Diagnostic, Span};
-    use crate::ui::view::tests::{app, drawn};
+    use crate::ui::view::tests::{app, drawn, retype};
     use tui_input::Input;
 
     fn editing(selected: Node) -> App {
@@ -229,6 +244,7 @@ mod tests {
                 "radius: must be greater than 0",
                 "a number greater than 0",
             )),
+            ..Typing::default()
         });
         let lines = drawn(&app, render, 34, 20);
         assert_eq!(lines[2], "▸radius    -3");
@@ -250,12 +266,35 @@ mod tests {
     }
 
     #[test]
+    fn a_warning_is_marked_at_its_field_and_explained_there() {
+        let mut app = editing(Node::Object(0));
+        retype(
+            &mut app,
+            "0.5 0 0  0 0 0  1 0 0 1\nbox",
+            "1.5 0 0  0 0 0  1 0 0 1\nbox",
+        );
+        app.cursor.field = 3;
+        let lines = drawn(&app, render, 50, 20);
+        assert!(
+            lines[4].starts_with("▸kd") && lines[4].contains("●!"),
+            "{}",
+            lines[4]
+        );
+        assert!(!lines[3].contains('!'), "{}", lines[3]);
+        assert!(
+            lines[16].contains("object 1 (sphere) kd red"),
+            "{}",
+            lines[16]
+        );
+    }
+
+    #[test]
     fn the_other_components_stay_while_one_is_being_typed() {
         let mut app = editing(Node::Object(0));
         app.cursor.component = 1;
         app.cursor.typing = Some(Typing {
             input: Input::new("0.123456789".to_owned()),
-            refused: None,
+            ..Typing::default()
         });
         let line = drawn(&app, render, 34, 20)[1].clone();
         assert!(line.starts_with("▸centre    0 "), "{line}");

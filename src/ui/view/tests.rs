@@ -228,7 +228,7 @@ const STATES: &[(&str, Change)] = &[
         app.cursor.select(Node::Object(0), app.document.source());
         app.cursor.typing = Some(Typing {
             input: Input::new("1234567890123456789012345678901234567890".to_owned()),
-            refused: None,
+            ..Typing::default()
         });
     }),
     ("palette", |app| {

@@ -79,7 +79,7 @@ fn the_courses_word_for_an_intersection_is_known_and_kept() {
         ("eh", "union"),
         ("elh", "intersection"),
         ("elu", "intersect"),
-        ("eiu<Enter>", "intersect"),
+        ("eiu<Enter>", "union"),
         (
             "elii<Back><Back><Back><Back><Back><Back><Back><Back><Back><Back><Back>intersect<Enter>",
             "intersect",

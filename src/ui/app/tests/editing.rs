@@ -13,8 +13,8 @@ fn nudges_have_the_selected_size() {
         ("jjjeL", "1 0 0"),
         ("jjje<Alt-Right>", "0.01 0 0"),
         ("jjje,l", "0.01 0 0"),
-        ("jjje.l", "1 0 0"),
-        ("jjje,.l", "0.1 0 0"),
+        ("jjje;l", "1 0 0"),
+        ("jjje,;l", "0.1 0 0"),
         ("jjje<Tab>l", "0 0.1 0"),
         ("jjjejl", "1.6 // the radius"),
         // A nudge below the minimum is refused.
@@ -34,6 +34,11 @@ fn a_typed_literal_is_written_unchanged() {
         ("jjjei<Back>.25e1<Enter>", ".25e1 0 0"),
         ("jjje-.5<Enter>", "-.5 0 0"),
         ("jjje1 2 3<Enter>", "1 2 3"),
+        ("jjje.5<Enter>", ".5 0 0"),
+        ("jjje(1+2)/4<Enter>", "0.75 0 0"),
+        ("jjjej*=2<Enter>", "3 // the radius"),
+        ("jjjej/=3<Enter>", "0.5 // the radius"),
+        ("jjje1/3 0 sqrt(2)<Enter>", "0.333333333333 0 1.41421356237"),
         ("jjje7<Esc>", ""),
         ("jjje7<Tab>8<Enter>", "7 8 0"),
     ] {
@@ -48,10 +53,10 @@ fn a_refused_value_stays_in_the_field_with_the_reason() {
             "jjjej0<Enter>",
             "object 1 (sphere) radius: must be greater than 0",
         ),
-        ("jjjei<Ctrl-u>abc<Enter>", "object 1 (sphere) centre x: "),
+        ("jjjei<Ctrl-u>abc<Enter>", "column 1: `abc` is none of"),
         ("jjjei<Ctrl-u>1 2<Enter>", "one number"),
         ("jjjei<Ctrl-u><Enter>", "one number"),
-        ("jjjei<Ctrl-u>1//<Enter>", "one number"),
+        ("jjjei<Ctrl-u>1//<Enter>", "column 3: expected a number"),
         ("ejjj180<Enter>", "view fov: must be"),
     ] {
         let mut app = open(SCENE);

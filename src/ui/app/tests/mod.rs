@@ -5,6 +5,7 @@ mod dat;
 mod disk;
 mod editing;
 mod exports;
+mod fields;
 mod hands;
 mod making;
 mod messages;
