@@ -87,8 +87,8 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, S
             assets: assets.folders,
         })),
         Some(Subcommands::Doctor { scene }) => Ok(Command::Doctor(scene)),
-        Some(Subcommands::Completions { shell }) => Err(Stop::requested(completions(shell))),
-        Some(Subcommands::Man) => Err(Stop::requested(manual())),
+        Some(Subcommands::Completions { shell }) => Err(Stop::requested(&completions(shell))),
+        Some(Subcommands::Man) => Err(Stop::requested(&manual())),
         None => {
             let interface = cli.interface;
             check_words(interface.scene.as_deref(), &interface.surplus)
@@ -155,9 +155,9 @@ fn read_code(error: &ReadError) -> u8 {
 }
 
 impl Stop {
-    fn requested(text: Vec<u8>) -> Self {
+    fn requested(text: &[u8]) -> Self {
         Self {
-            text: String::from_utf8_lossy(&text).into_owned(),
+            text: String::from_utf8_lossy(text).into_owned(),
             code: DONE,
         }
     }

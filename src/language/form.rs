@@ -84,8 +84,9 @@ impl Motion {
     pub(super) fn point(&self, point: DVec3) -> DVec3 {
         match *self {
             Self::Move(by) => point + by,
-            Self::Turn { about, .. } => about + self.linear() * (point - about),
-            Self::Scale { about, .. } => about + self.linear() * (point - about),
+            Self::Turn { about, .. } | Self::Scale { about, .. } => {
+                about + self.linear() * (point - about)
+            }
         }
     }
 
@@ -324,9 +325,9 @@ mod tests {
     #[test]
     fn moved_numbers_are_rounded_and_others_are_kept() {
         for (old, new, decimals, rounded_to) in [
-            (0.1, 0.30000000000000004, 2, 0.3),
-            (0.123456, 0.123456, 1, 0.123456),
-            (0.1, 0.10000000000000002, 1, 0.1),
+            (0.1, 0.300_000_000_000_000_04, 2, 0.3),
+            (0.123_456, 0.123_456, 1, 0.123_456),
+            (0.1, 0.100_000_000_000_000_02, 1, 0.1),
             (1.0, -0.001, 1, 0.0),
         ] {
             assert_eq!(rounded(old, new, decimals), rounded_to);

@@ -247,7 +247,7 @@ pub(super) fn deletions(text: &str, blocks: impl Iterator<Item = Block>) -> Vec<
     for span in spans {
         match merged.last_mut() {
             Some(last) if span.start() <= last.end() => {
-                *last = last.to(Span::new(last.start(), last.end().max(span.end())))
+                *last = last.to(Span::new(last.start(), last.end().max(span.end())));
             }
             _ => merged.push(span),
         }

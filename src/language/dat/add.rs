@@ -207,13 +207,11 @@ impl Source {
             Node::Object(index) => Some(self.origins.objects.get(index)?.id),
             _ => None,
         });
-        match objects.collect::<Vec<_>>().as_slice() {
-            [first, second] => Ok(format!("obj CSG ID 1 {operation} ID {first} ID {second}")),
-            _ => {
-                let reason =
-                    format!("a {operation} combines two objects: mark them with Space first");
-                Err(StructureError::Inexpressible(reason))
-            }
+        if let [first, second] = objects.collect::<Vec<_>>().as_slice() {
+            Ok(format!("obj CSG ID 1 {operation} ID {first} ID {second}"))
+        } else {
+            let reason = format!("a {operation} combines two objects: mark them with Space first");
+            Err(StructureError::Inexpressible(reason))
         }
     }
 

@@ -112,10 +112,10 @@ impl Listing {
         }
         let end = self.entries.last().map_or(self.count, |entry| entry[1]);
         let edit = |span, text| Edit { span, text };
-        let listed = ids.iter().map(|id| format!(" ID {id}")).collect();
+        let listed: Vec<_> = ids.iter().map(|id| format!(" ID {id}")).collect();
         vec![
             edit(self.count, (self.entries.len() + ids.len()).to_string()),
-            edit(Span::at(end.end()), listed),
+            edit(Span::at(end.end()), listed.concat()),
         ]
     }
 

@@ -42,21 +42,18 @@ pub(super) fn addition(
     name: &str,
     wish: &Wish<'_>,
 ) -> Result<Placement, StructureError> {
-    let text = match ShapeKind::of_word(name) {
-        Some(kind) => {
-            let form = Form::upright(wish.centre, wish.half, DVec3::Y);
-            let literals = literals(kind, &new_object(kind, &form), wish);
-            let like = source.like(kind, wish.after);
-            source.laid_out(kind.keyword(), kind.fields(), &literals, like)
-        }
-        None => {
-            let above = wish.centre + DVec3::new(0.0, 4.0 * wish.half, 0.0);
-            let numbers = above.to_array().into_iter().chain([1.0; 3]);
-            let literals: Vec<_> = numbers.map(|number| wish.literal(number)).collect();
-            let lights = source.origins.light_count();
-            let like = lights.checked_sub(1).map(Node::Light);
-            source.laid_out("", LIGHT.iter(), &literals, like)
-        }
+    let text = if let Some(kind) = ShapeKind::of_word(name) {
+        let form = Form::upright(wish.centre, wish.half, DVec3::Y);
+        let literals = literals(kind, &new_object(kind, &form), wish);
+        let like = source.like(kind, wish.after);
+        source.laid_out(kind.keyword(), kind.fields(), &literals, like)
+    } else {
+        let above = wish.centre + DVec3::new(0.0, 4.0 * wish.half, 0.0);
+        let numbers = above.to_array().into_iter().chain([1.0; 3]);
+        let literals: Vec<_> = numbers.map(|number| wish.literal(number)).collect();
+        let lights = source.origins.light_count();
+        let like = lights.checked_sub(1).map(Node::Light);
+        source.laid_out("", LIGHT.iter(), &literals, like)
     };
     source.insertion(&text, wish.after)
 }
@@ -134,7 +131,8 @@ impl Source {
             Node::Object(index) if is_kind(index) => Some(after),
             _ => {
                 let same = (0..objects.len()).rfind(|&index| is_kind(index));
-                same.or(objects.len().checked_sub(1)).map(Node::Object)
+                same.or_else(|| objects.len().checked_sub(1))
+                    .map(Node::Object)
             }
         }
     }

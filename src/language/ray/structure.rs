@@ -277,7 +277,7 @@ fn block(source: &Source, node: Node) -> Block {
     };
     let before = Span::new(line_start(text, own.start()), own.start());
     let behind = Span::new(own.end(), line_end(text, own.end()));
-    let comment = comment_of_line(text, own.end()).map_or(behind.end(), Span::start);
+    let comment = comment_of_line(text, own.end()).map_or_else(|| behind.end(), Span::start);
     let is_blank = |span: Span| span.of(text).trim().is_empty();
     let is_alone = is_blank(before) && is_blank(Span::new(own.end(), comment));
     let lines = lines(text, own, comment_above);

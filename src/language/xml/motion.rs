@@ -189,18 +189,17 @@ impl Source {
         if !point.is_finite() {
             return Err(refused("that is too far away".to_owned()));
         }
-        Ok(match last {
-            Some(last) => self.set(last, point.to_array(), decimals),
-            None => {
-                let point = point
-                    .to_array()
-                    .map(|number| rounded(0.0, number, decimals));
-                if point == [0.0; 3] {
-                    return Ok(Vec::new());
-                }
-                let attributes = attributes(&["x", "y", "z"], &point, 0.0);
-                vec![self.inserted(element, None, &format!("<translate{attributes}/>"))]
+        Ok(if let Some(last) = last {
+            self.set(last, point.to_array(), decimals)
+        } else {
+            let point = point
+                .to_array()
+                .map(|number| rounded(0.0, number, decimals));
+            if point == [0.0; 3] {
+                return Ok(Vec::new());
             }
+            let attributes = attributes(&["x", "y", "z"], &point, 0.0);
+            vec![self.inserted(element, None, &format!("<translate{attributes}/>"))]
         })
     }
 
@@ -217,13 +216,12 @@ impl Source {
         let degrees = rounded(0.0, angle.to_degrees(), 12);
         let axis = axis.to_array().map(|number| rounded(0.0, number, 15));
         let [x, y, z] = axis;
-        match old {
-            Some(old) => self.set_numbers(old, &[x, y, z, degrees], 17),
-            None => {
-                let mut text = attributes(&["x", "y", "z"], &axis, 0.0);
-                text.push_str(&attributes(&["angle"], &[degrees], f64::NAN));
-                vec![self.inserted(element, last, &format!("<rotate{text}/>"))]
-            }
+        if let Some(old) = old {
+            self.set_numbers(old, &[x, y, z, degrees], 17)
+        } else {
+            let mut text = attributes(&["x", "y", "z"], &axis, 0.0);
+            text.push_str(&attributes(&["angle"], &[degrees], f64::NAN));
+            vec![self.inserted(element, last, &format!("<rotate{text}/>"))]
         }
     }
 
@@ -262,15 +260,14 @@ impl Source {
     fn scaled_evenly(&self, scale: &Transform, factor: f64, decimals: usize) -> Vec<Edit> {
         let numbers = self.numbers(scale);
         let new = rounded(numbers.factor, factor * numbers.factor, decimals);
-        match self.origins.value(&self.tree, scale.element, "value") {
-            Some(value) => replacements(&self.text, &[value.value], &[new]),
-            None => {
-                let end = self.tree.elements[scale.element].attributes_end as usize;
-                vec![Edit {
-                    span: Span::at(end),
-                    text: attributes(&["value"], &[new], 1.0),
-                }]
-            }
+        if let Some(value) = self.origins.value(&self.tree, scale.element, "value") {
+            replacements(&self.text, &[value.value], &[new])
+        } else {
+            let end = self.tree.elements[scale.element].attributes_end as usize;
+            vec![Edit {
+                span: Span::at(end),
+                text: attributes(&["value"], &[new], 1.0),
+            }]
         }
     }
 
@@ -435,13 +432,12 @@ fn conformal(matrix: DMat3) -> Option<f64> {
 
 /// Attributes with these numbers; those equal to the default are left out.
 fn attributes(names: &[&str], numbers: &[f64], default: f64) -> String {
-    let pairs = names
-        .iter()
-        .zip(numbers)
-        .filter(|(_, number)| **number != default);
-    pairs
+    let pairs = names.iter().zip(numbers);
+    let stated = pairs.filter(|(_, number)| **number != default);
+    let written: Vec<_> = stated
         .map(|(name, number)| format!(" {name}=\"{number}\""))
-        .collect()
+        .collect();
+    written.concat()
 }
 
 fn sorted(mut edits: Vec<Edit>) -> Vec<Edit> {

@@ -86,38 +86,35 @@ impl Restructure for Source {
             last.or_else(|| children.last().copied())
         });
         let ending = line_ending(&self.text);
-        let edit = match anchor {
-            Some(anchor) => {
-                let element = &tree.elements[anchor];
-                let indent = &self.text
-                    [line_start(&self.text, element.whole.start())..element.whole.start()];
-                let indent = if indent.trim().is_empty() { indent } else { "" };
-                let end = self.with_comment_behind(element.whole);
-                let gap = line_before(&self.text, line_start(&self.text, element.whole.start()))
-                    .filter(|line| line.of(&self.text).trim().is_empty());
-                let gap = gap.map_or("", |_| ending);
-                Edit {
-                    span: Span::at(end),
-                    text: format!("{ending}{gap}{}", copies.indented(indent, ending)),
-                }
+        let edit = if let Some(anchor) = anchor {
+            let element = &tree.elements[anchor];
+            let indent =
+                &self.text[line_start(&self.text, element.whole.start())..element.whole.start()];
+            let indent = if indent.trim().is_empty() { indent } else { "" };
+            let end = self.with_comment_behind(element.whole);
+            let gap = line_before(&self.text, line_start(&self.text, element.whole.start()))
+                .filter(|line| line.of(&self.text).trim().is_empty());
+            let gap = gap.map_or("", |_| ending);
+            Edit {
+                span: Span::at(end),
+                text: format!("{ending}{gap}{}", copies.indented(indent, ending)),
             }
-            None => {
-                let scene = &tree.elements[scene];
-                let own = scene.lead.of(&self.text).trim_start_matches(['\r', '\n']);
-                let inner = format!("{own}  ");
-                let copies = copies.indented(&inner, ending);
-                let content = format!("{ending}{copies}{ending}{own}");
-                if scene.is_empty_tag() {
-                    let name = scene.name.of(&self.text);
-                    Edit {
-                        span: Span::new(scene.attributes_end as usize, scene.tag.end()),
-                        text: format!(">{content}</{name}>"),
-                    }
-                } else {
-                    Edit {
-                        span: Span::new(scene.tag.end(), scene.tag.end()),
-                        text: content,
-                    }
+        } else {
+            let scene = &tree.elements[scene];
+            let own = scene.lead.of(&self.text).trim_start_matches(['\r', '\n']);
+            let inner = format!("{own}  ");
+            let copies = copies.indented(&inner, ending);
+            let content = format!("{ending}{copies}{ending}{own}");
+            if scene.is_empty_tag() {
+                let name = scene.name.of(&self.text);
+                Edit {
+                    span: Span::new(scene.attributes_end as usize, scene.tag.end()),
+                    text: format!(">{content}</{name}>"),
+                }
+            } else {
+                Edit {
+                    span: Span::new(scene.tag.end(), scene.tag.end()),
+                    text: content,
                 }
             }
         };
@@ -331,7 +328,7 @@ impl Source {
             comment.start() <= line_end(text, own.end())
                 && text[own.end()..comment.start()].trim().is_empty()
         });
-        behind.map_or(own.end(), |comment| comment.end())
+        behind.map_or_else(|| own.end(), |comment| comment.end())
     }
 
     /// The text that moves with a node.

@@ -76,7 +76,10 @@ impl App {
         }
         let nodes = self.targets();
         let name = self.targets_name(&nodes);
-        let after = nodes.last().copied().unwrap_or(self.cursor.selected());
+        let after = nodes
+            .last()
+            .copied()
+            .unwrap_or_else(|| self.cursor.selected());
         let copied = self.source().copied(&nodes);
         let placed = copied.and_then(|copied| self.source().insertion(&copied, after));
         let at = placed.as_ref().ok().map(|placed| placed.at);
