@@ -1,16 +1,6 @@
-//! Menus of what can be added and of kinds to change to: typing filters them.
+//! A menu of what can be added, or of kinds to change to: typing filters it.
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-use glam::DVec3;
 use tui_input::Input;
-
-use super::{App, line};
-use crate::language::{Node, Wish};
-use crate::render::{pixel_width, surface_under};
-use crate::ui::keymap::Mode;
-
-/// The fraction of the picture's height that a new thing takes up.
-const SHARE: f64 = 0.2;
 
 /// A menu over the list.
 #[derive(Debug)]
@@ -35,7 +25,11 @@ pub enum Purpose {
 }
 
 impl Menu {
-    fn new(purpose: Purpose, entries: Vec<(&'static str, &'static str)>, at: usize) -> Self {
+    pub(super) fn new(
+        purpose: Purpose,
+        entries: Vec<(&'static str, &'static str)>,
+        at: usize,
+    ) -> Self {
         Self {
             purpose,
             entries,
@@ -59,187 +53,9 @@ impl Menu {
     }
 }
 
-impl App {
-    /// Opens the menu of what can be added.
-    pub(super) fn open_additions(&mut self) {
-        if self.document.text().trim().is_empty() {
-            self.overlays.fail("the text is empty: :new starts a scene");
-            return;
-        }
-        if self.refuses_structure() {
-            return;
-        }
-        let additions = self.source().additions();
-        let entries = additions
-            .iter()
-            .map(|addition| (addition.name, addition.words));
-        self.overlays.menu = Some(Menu::new(Purpose::Add, entries.collect(), 0));
-    }
-
-    /// Opens the menu of kinds that the selected node can be changed to.
-    pub(super) fn open_kinds(&mut self) {
-        if self.refuses_structure() {
-            return;
-        }
-        let node = self.cursor.selected();
-        let name = self.source().name(node);
-        let kinds = self.source().kinds(node);
-        if kinds.is_empty() {
-            self.overlays.fail(format!("{name} has only one kind"));
-            return;
-        }
-        let own = kinds
-            .iter()
-            .position(|kind| name.ends_with(&format!("({kind})")));
-        let entries = kinds.into_iter().map(|kind| (kind, "")).collect();
-        self.overlays.menu = Some(Menu::new(Purpose::Retype, entries, own.unwrap_or(0)));
-    }
-
-    pub(super) fn menu_key(&mut self, key: KeyEvent) {
-        let Some(menu) = &mut self.overlays.menu else {
-            return;
-        };
-        let count = menu.shown().len();
-        let controls = key.modifiers.contains(KeyModifiers::CONTROL);
-        match key.code {
-            KeyCode::Esc => self.overlays.menu = None,
-            KeyCode::Down | KeyCode::Tab => menu.at = (menu.at + 1) % count.max(1),
-            KeyCode::Char('n') if controls => menu.at = (menu.at + 1) % count.max(1),
-            KeyCode::Up | KeyCode::BackTab => menu.at = (menu.at + count.max(1) - 1) % count.max(1),
-            KeyCode::Char('p') if controls => menu.at = (menu.at + count.max(1) - 1) % count.max(1),
-            KeyCode::Enter => {
-                let chosen = menu.shown().get(menu.at).map(|(name, _)| *name);
-                let purpose = menu.purpose;
-                if let Some(name) = chosen {
-                    self.overlays.menu = None;
-                    self.choose_entry(purpose, name);
-                }
-            }
-            _ => {
-                line::edit(&mut menu.filter, key);
-                menu.at = 0;
-            }
-        }
-    }
-
-    fn choose_entry(&mut self, purpose: Purpose, name: &'static str) {
-        match purpose {
-            Purpose::Add => self.add(name),
-            Purpose::Retype => {
-                let node = self.cursor.selected();
-                let edits = self.source().retyping(node, name);
-                self.restructure(edits, None, &format!("changed to {name}"));
-            }
-        }
-    }
-
-    /// Adds a thing where the cross is on a surface, otherwise at the point looked at.
-    fn add(&mut self, name: &'static str) {
-        let marked: Vec<_> = self.cursor.marks.iter().copied().collect();
-        let (centre, half, decimals) = self.place_for_new();
-        let wish = Wish {
-            centre,
-            half,
-            decimals,
-            after: self.cursor.selected(),
-            marked: &marked,
-        };
-        let placed = self.source().addition(name, &wish);
-        let at = placed.as_ref().ok().map(|placed| placed.at);
-        let edits = placed.map(|placed| placed.edits);
-        self.restructure(
-            edits,
-            at,
-            &format!("added: {name}; m moves it, s scales it"),
-        );
-    }
-
-    /// The centre and half the size of a new thing, and the decimals that its place needs.
-    fn place_for_new(&self) -> (DVec3, f64, usize) {
-        let Some(camera) = self.camera() else {
-            return (DVec3::ZERO, 1.0, 2);
-        };
-        let Some((_, size)) = self.raster() else {
-            return (camera.target, 1.0, 2);
-        };
-        let size_at = |point: DVec3| {
-            let half = 0.5 * SHARE * f64::from(size.height) * pixel_width(point, &camera, size);
-            round_up(half)
-        };
-        let surface = self.surface_at_cross();
-        let (centre, half) = match surface {
-            Some((point, normal)) => {
-                let half = size_at(point);
-                (point + half * normal, half)
-            }
-            None => (camera.target, size_at(camera.target)),
-        };
-        let decimals = decimals_of(0.2 * half);
-        (centre, half, decimals)
-    }
-
-    /// The point and the normal of the surface under the cross, if there is one.
-    fn surface_at_cross(&self) -> Option<(DVec3, DVec3)> {
-        if self.mode != Mode::Pick && self.pictures.cross.is_none() {
-            return None;
-        }
-        let (column, row) = self.pictures.cross?;
-        let (x, y) = (u32::from(column), 2 * u32::from(row));
-        let Ok(Some(Node::Object(index))) = self.node_under(x, y) else {
-            return None;
-        };
-        let scene = self.scene.as_ref()?;
-        let object = scene.objects.get(self.source().drawn(index)? as usize)?;
-        let (_, size) = self.raster()?;
-        let found = surface_under(object, &self.camera()?, size, [x, y])?;
-        Some((found.point, found.normal))
-    }
-}
-
-/// The least of 1, 2 and 5 times a power of ten that is not below a number above 0.
-pub(super) fn round_up(number: f64) -> f64 {
-    if !number.is_normal() || number < 0.0 {
-        return 1.0;
-    }
-    let power = libm::floor(libm::log10(number)) as i32;
-    let rounds = [1.0, 2.0, 5.0, 10.0].map(|digit| decimal(digit, power));
-    let fits = |round: &f64| number <= *round * (1.0 + 1e-9);
-    rounds.into_iter().find(fits).unwrap_or(number)
-}
-
-/// A digit times a power of ten, as written.
-fn decimal(digit: f64, power: i32) -> f64 {
-    format!("{digit}e{power}").parse().unwrap_or(digit)
-}
-
-/// The decimals that numbers in steps of this size need.
-pub(super) fn decimals_of(step: f64) -> usize {
-    let power = libm::floor(libm::log10(step));
-    if power.is_finite() {
-        (-power).clamp(0.0, 12.0) as usize
-    } else {
-        0
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn steps_are_round() {
-        for (number, round, decimals) in [
-            (0.03, 0.05, 2),
-            (0.05, 0.05, 2),
-            (1.0, 1.0, 0),
-            (7.0, 10.0, 0),
-            (120.0, 200.0, 0),
-            (0.0, 1.0, 0),
-        ] {
-            assert_eq!(round_up(number), round);
-            assert_eq!(decimals_of(round), decimals, "{round}");
-        }
-    }
 
     #[test]
     fn a_menu_shows_what_begins_with_the_typed_text_first() {

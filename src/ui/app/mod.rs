@@ -5,6 +5,7 @@
 //! jobs. A part owns its state and knows no other; the steps, which handle messages, pass between
 //! them what they need. Nothing here touches files, threads or clocks.
 
+mod adding;
 mod another;
 mod arithmetic;
 mod assets;
@@ -16,6 +17,7 @@ mod derived;
 mod disk;
 mod edit;
 mod exports;
+mod hand;
 mod hands;
 mod jobs;
 mod journal;
@@ -52,7 +54,7 @@ use std::time::Duration;
 pub use cursor::{Cursor, Typing};
 pub use derived::{FieldRow, Provenance};
 pub use disk::{Disk, FirstReading, OnDisk};
-pub use hands::{Hand, Tool};
+pub use hand::Hand;
 pub use jobs::{Export, Jobs, Pending, Stage};
 pub use menu::{Menu, Purpose};
 pub use messages::{Message, Messages};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::hands::Hand;
+use super::hand::Hand;
 use super::picture::Picture;
 use crate::render::{Aov, Filter, Frame};
 use crate::scene::{Camera, Integrator, Scene};

@@ -2,7 +2,6 @@
 
 use crate::language::Neighbour;
 use crate::render::Aov;
-use crate::ui::app::Tool;
 
 /// Meaning of the keys, always shown in the status line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -226,6 +225,17 @@ pub enum Action {
     AllTheirs,
     /// Declines an offer: discards the edits of an earlier run, or exports to another file.
     No,
+}
+
+/// What the hand does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tool {
+    /// Moves.
+    Move,
+    /// Turns.
+    Turn,
+    /// Scales.
+    Scale,
 }
 
 /// Size of a nudge.

@@ -1,11 +1,10 @@
 //! The key bindings as text: the help page and the line of hints.
 
-use super::action::{Action, Context, Mode, Stride};
+use super::action::{Action, Context, Mode, Stride, Tool};
 use super::chord::Chord;
 use super::line::{Line, line_hints};
 use super::table::{Binding, Scope, TABLE};
 use crate::render::Aov;
-use crate::ui::app::Tool;
 
 use Action as A;
 use Mode::{Edit, Fly, Move, Pick, Select, Trace, View};

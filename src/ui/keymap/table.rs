@@ -2,11 +2,10 @@
 
 use crossterm::event::{KeyCode, KeyEvent};
 
-use super::action::{Action, Context, Mode, Stride};
+use super::action::{Action, Context, Mode, Stride, Tool};
 use super::chord::{ALT, Chord, SHIFT, alt, c, ctrl, key};
 use crate::language::Neighbour;
 use crate::render::Aov;
-use crate::ui::app::Tool;
 
 use Action as A;
 use KeyCode::{BackTab, Down, End, Enter, Esc, F, Home, Left, PageDown, PageUp, Right, Tab, Up};

@@ -1,0 +1,219 @@
+//! A motion by hand: what moves, along which axis, and how far.
+
+use glam::DVec3;
+
+use crate::language::{Along, Motion, Node, Pose};
+use crate::text::parse_number;
+use crate::ui::keymap::Tool;
+
+/// The angle of one step, and of the grid of angles, in degrees.
+const TURN: [f64; 2] = [1.0, 15.0];
+/// The change of the factor in one step, and in one of the grid.
+const SCALE: [f64; 2] = [0.05, 0.25];
+/// Steps of a move in one of the grid.
+const GRID: f64 = 10.0;
+
+/// The axis that a motion is locked to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Lock {
+    /// None: the screen's plane, the direction of view, or all directions.
+    #[default]
+    Free,
+    /// An axis of the world: 0 is x.
+    World(usize),
+    /// An axis of the thing itself.
+    Own(usize),
+}
+
+/// Whether amounts are rounded to a grid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Snap {
+    /// Any amount.
+    #[default]
+    Off,
+    /// Whole steps of the grid.
+    Grid,
+}
+
+/// A motion in progress.
+#[derive(Clone, Debug)]
+pub struct Hand {
+    /// What it does.
+    pub tool: Tool,
+    /// What it is locked to.
+    pub lock: Lock,
+    /// Whether amounts are rounded.
+    pub snap: Snap,
+    /// The typed amount; empty if none is.
+    pub typed: String,
+    /// The nodes that move.
+    pub(super) nodes: Vec<Node>,
+    /// The place and the axes of the selected one before.
+    pub(super) pose: Pose,
+    /// The steps to the right and up.
+    pub(super) steps: [f64; 2],
+    /// The length of one step of a move, in world units.
+    pub(super) step: f64,
+    /// The decimals that a step needs.
+    pub(super) decimals: usize,
+    /// The text's revision after the last change; another one ends the motion.
+    pub(super) revision: u64,
+    /// Whether the text is changed.
+    pub(super) is_applied: bool,
+}
+
+impl Hand {
+    /// The amount along the locked axis, or in the first direction: in world units, degrees, or as
+    /// a factor.
+    pub fn amount(&self) -> f64 {
+        if let Ok(typed) = parse_number(&self.typed) {
+            return typed;
+        }
+        let steps = self.steps[0] + self.steps[1];
+        let [step, grid] = match self.tool {
+            Tool::Move => [self.step, GRID * self.step],
+            Tool::Turn => TURN,
+            Tool::Scale => SCALE,
+        };
+        let amount = self.snapped(steps * step, grid);
+        match self.tool {
+            Tool::Scale => (1.0 + amount).max(SCALE[0]),
+            Tool::Move | Tool::Turn => amount,
+        }
+    }
+
+    fn snapped(&self, amount: f64, grid: f64) -> f64 {
+        match self.snap {
+            Snap::Off => amount,
+            Snap::Grid => grid * (amount / grid).round(),
+        }
+    }
+
+    /// The axis it is locked to, in world space.
+    pub fn axis(&self) -> Option<DVec3> {
+        match self.lock {
+            Lock::Free => None,
+            Lock::World(axis) => Some(DVec3::AXES[axis]),
+            Lock::Own(axis) => Some(self.pose.axes[axis]),
+        }
+    }
+
+    /// The point that it turns and scales about: where the selected thing was.
+    pub fn pivot(&self) -> DVec3 {
+        self.pose.centre
+    }
+
+    /// The motion, for a camera with these directions to the right, up and into the picture.
+    pub(super) fn motion(&self, [right, up, into]: [DVec3; 3]) -> Motion {
+        let about = self.pose.centre;
+        match self.tool {
+            Tool::Move => Motion::Move(match self.axis() {
+                Some(axis) => self.amount() * axis,
+                None if self.typed.is_empty() => {
+                    let [across, upwards] = self
+                        .steps
+                        .map(|steps| self.snapped(steps * self.step, GRID * self.step));
+                    across * right + upwards * up
+                }
+                None => self.amount() * right,
+            }),
+            Tool::Turn => Motion::Turn {
+                axis: self.axis().unwrap_or(-into),
+                angle: self.amount(),
+                about,
+            },
+            Tool::Scale => Motion::Scale {
+                factor: self.amount(),
+                along: match self.lock {
+                    Lock::Free => Along::All,
+                    Lock::World(axis) => Along::World(axis),
+                    Lock::Own(axis) => Along::Own(axis),
+                },
+                about,
+            },
+        }
+    }
+
+    /// What it does, in a few words: `move along x by 0.5`.
+    pub fn words(&self) -> String {
+        let along = match self.lock {
+            Lock::Free => String::new(),
+            Lock::World(axis) => format!(" {}", ["x", "y", "z"][axis]),
+            Lock::Own(axis) => format!(" own {}", ["x", "y", "z"][axis]),
+        };
+        let amount = if self.typed.is_empty() {
+            let decimals = if self.tool == Tool::Move {
+                self.decimals
+            } else {
+                2
+            };
+            format!("{:.decimals$}", self.amount() + 0.0)
+        } else {
+            format!("{}_", self.typed)
+        };
+        let grid = match self.snap {
+            Snap::Off => "",
+            Snap::Grid => " on the grid",
+        };
+        match (self.tool, self.lock) {
+            (Tool::Move, Lock::Free) if self.typed.is_empty() => {
+                let [right, up] = self
+                    .steps
+                    .map(|steps| self.snapped(steps * self.step, GRID * self.step));
+                let decimals = self.decimals;
+                format!("move: {right:.decimals$} right, {up:.decimals$} up{grid}")
+            }
+            (Tool::Move, _) => format!("move along{along}: {amount}{grid}"),
+            (Tool::Turn, _) => format!("turn about{along}: {amount}°{grid}"),
+            (Tool::Scale, _) => format!("scale{along}: ×{amount}{grid}"),
+        }
+        .replace("along:", "to the right:")
+        .replace("about:", "in the picture:")
+    }
+}
+
+/// The least of 1, 2 and 5 times a power of ten that is not below a number above 0.
+pub(super) fn round_up(number: f64) -> f64 {
+    if !number.is_normal() || number < 0.0 {
+        return 1.0;
+    }
+    let power = libm::floor(libm::log10(number)) as i32;
+    let rounds = [1.0, 2.0, 5.0, 10.0].map(|digit| decimal(digit, power));
+    let fits = |round: &f64| number <= *round * (1.0 + 1e-9);
+    rounds.into_iter().find(fits).unwrap_or(number)
+}
+
+/// A digit times a power of ten, as written.
+fn decimal(digit: f64, power: i32) -> f64 {
+    format!("{digit}e{power}").parse().unwrap_or(digit)
+}
+
+/// The decimals that numbers in steps of this size need.
+pub(super) fn decimals_of(step: f64) -> usize {
+    let power = libm::floor(libm::log10(step));
+    if power.is_finite() {
+        (-power).clamp(0.0, 12.0) as usize
+    } else {
+        0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_round() {
+        for (number, round, decimals) in [
+            (0.03, 0.05, 2),
+            (0.05, 0.05, 2),
+            (1.0, 1.0, 0),
+            (7.0, 10.0, 0),
+            (120.0, 200.0, 0),
+            (0.0, 1.0, 0),
+        ] {
+            assert_eq!(round_up(number), round);
+            assert_eq!(decimals_of(round), decimals, "{round}");
+        }
+    }
+}
