@@ -103,7 +103,7 @@ fn ours(scene: &str, depth: ColourDepth) -> (Shown, Vec<[u8; 3]>, [f64; 2]) {
         },
     };
     app.update(Msg::Frame(Target::Preview, Arc::new(frame)));
-    app.picture_mut().advance(size, None, usize::MAX);
+    app.picture_mut().advance(size, &[], usize::MAX);
     let backend = AnsiBackend::new(depth, ratatui::layout::Size::from(TERMINAL));
     let Ok(mut terminal) = ratatui::Terminal::new(backend);
     let mut inks = Inks::for_depth(depth);

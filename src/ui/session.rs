@@ -324,9 +324,9 @@ impl Session {
                 Urgency::Now if is_limited => 0,
                 _ => self.link.allowance(now),
             };
-            let marked = self.app.marked_object();
+            let marked = self.app.marked_objects();
             let picture = self.app.picture_mut();
-            picture.advance(size, marked, allowance);
+            picture.advance(size, &marked, allowance);
             let rests = !picture.is_pending() && picture.is_complete();
             self.app.pictures.net = (is_limited && !rests).then(|| self.link.rate(now));
         }

@@ -246,12 +246,23 @@ impl App {
         self.cursor.stride.of(field.step)
     }
 
-    /// The object to outline in the picture.
-    pub fn marked_object(&self) -> Option<u32> {
-        let marks = self.mode == Mode::Select && self.pictures.outline == Outline::Marked;
+    /// The objects of the scene to outline in the picture, ascending: the selected one, or those of
+    /// the selected material.
+    pub fn marked_objects(&self) -> Vec<u32> {
+        let marks = matches!(self.mode, Mode::Select | Mode::Move);
+        if !marks || self.pictures.outline != Outline::Marked || 0 < self.error_count() {
+            return Vec::new();
+        }
+        let source = self.source();
         match self.cursor.selected() {
-            Node::Object(index) if marks && self.error_count() == 0 => self.source().drawn(index),
-            _ => None,
+            Node::Object(index) => source.drawn(index).into_iter().collect(),
+            Node::Material(material) => {
+                let drawn = self.scene.as_ref().map_or(0, |scene| scene.objects.len());
+                let drawn = 0..u32::try_from(drawn).unwrap_or(u32::MAX);
+                let uses = |object: &u32| source.material(source.object(*object)) == Some(material);
+                drawn.filter(uses).collect()
+            }
+            _ => Vec::new(),
         }
     }
 

@@ -5,7 +5,7 @@ use super::assets::Notice;
 use crate::assets::{Loaded, Wanted};
 use crate::language::table::Field;
 use crate::language::{Before, Lowered, Node, Placed};
-use crate::scene::Camera;
+use crate::scene::{Camera, Scene};
 use crate::text::{Diagnostic, Edit, Span};
 use crate::ui::keymap::Mode;
 
@@ -64,6 +64,11 @@ impl App {
     pub(super) fn install(&mut self, lowered: Lowered) {
         let (path, source) = (self.disk.path.as_deref(), self.document.source());
         self.diagnostics = self.assets.report(path, source, lowered.diagnostics);
+        let lights = |scene: &Scene| scene.lights.len();
+        if lowered.scene.as_ref().map(lights) != self.scene.as_deref().map(lights) {
+            // Its index belongs to another light now.
+            self.pictures.solo = None;
+        }
         // A scene that lacks a mesh may still have an error.
         if let Some(scene) = lowered.scene.filter(|_| !self.assets.lack_meshes())
             && self.pictures.follow(self.scene.as_deref(), &scene)

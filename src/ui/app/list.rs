@@ -12,6 +12,7 @@ impl App {
     /// Selects a node; ends the current undo step.
     pub(super) fn select(&mut self, node: Node) {
         self.document.end_step();
+        self.pictures.mark_selection();
         self.cursor.select(node, self.document.source());
     }
 

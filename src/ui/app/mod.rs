@@ -40,6 +40,7 @@ mod pointer;
 mod recover;
 mod reload;
 mod saving;
+mod solo;
 mod structure;
 #[cfg(test)]
 pub(super) mod tests;

@@ -126,7 +126,7 @@ impl App {
             self.announce_new();
         }
         // The first change is more likely to be to an object than to the camera.
-        self.select(Node::Object(0));
+        self.cursor.select(Node::Object(0), self.document.source());
         self.cursor.renew(self.document.source());
         self.scroll(&self.areas());
         let recent = self.note_recent();

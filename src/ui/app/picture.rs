@@ -30,7 +30,7 @@ pub struct Picture {
     /// The number of cells not yet compared with the target.
     left: usize,
     /// The object outlined in the target.
-    marked: Option<u32>,
+    marked: Vec<u32>,
     /// The cells in which the outline changes. They are sent first, because they answer a key.
     outline: VecDeque<usize>,
 }
@@ -78,14 +78,15 @@ impl Shown {
         self.outline.get(at) == Some(&true)
     }
 
-    /// Computes the outline of an object: its pixels that border on others. The edge of the picture
+    /// Computes the outline of objects, ascending: their pixels that border on others. The edge of the picture
     /// does not count as a border, so that an object extending beyond it is not framed there.
-    fn outline_of(&self, object: u32) -> Vec<bool> {
+    fn outline_of(&self, objects: &[u32]) -> Vec<bool> {
         let Size { width, height } = self.size;
         let is_object = |x: u32, y: u32| {
             let inside = x < width && y < height;
             let at = y as usize * width as usize + x as usize;
-            !inside || self.objects.get(at) == Some(&object)
+            let is_marked = |object: &u32| objects.binary_search(object).is_ok();
+            !inside || self.objects.get(at).is_some_and(is_marked)
         };
         let is_border = |x: u32, y: u32| {
             let neighbours = [
@@ -142,7 +143,7 @@ impl Picture {
     /// renumbering, the outline would mark an object that is not selected.
     pub fn forget_objects(&mut self) {
         self.shown.objects.fill(NO_OBJECT);
-        self.mark(None);
+        self.mark(&[]);
     }
 
     /// Whether every requested sample has been taken and is on its way to the screen.
@@ -160,11 +161,11 @@ impl Picture {
         self.is_awaited() && self.progress().is_none_or(|progress| progress.spp < 1)
     }
 
-    /// Copies cells of the newest frame, with the outline of `marked`, to the screen until `budget`
+    /// Copies cells of the newest frame, with the outlines of `marked`, to the screen until `budget`
     /// bytes are spent, and continues there next time; `usize::MAX` copies the whole frame. Changes
     /// of the outline go first. Over a limited link, pixels of an unfinished frame that are almost
     /// right are skipped; a finished frame is shown exactly.
-    pub fn advance(&mut self, size: Size, marked: Option<u32>, budget: usize) {
+    pub fn advance(&mut self, size: Size, marked: &[u32], budget: usize) {
         self.aim(size, marked);
         let tolerance = match budget {
             usize::MAX => 0,
@@ -196,7 +197,7 @@ impl Picture {
     }
 
     /// Makes the newest frame at this size the target, with the outline of an object.
-    fn aim(&mut self, size: Size, marked: Option<u32>) {
+    fn aim(&mut self, size: Size, marked: &[u32]) {
         let Some(frame) = &self.latest else {
             return;
         };
@@ -228,9 +229,12 @@ impl Picture {
     }
 
     /// Sets the outline of the target.
-    fn mark(&mut self, marked: Option<u32>) {
-        self.marked = marked;
-        self.target.outline = marked.map_or_else(Vec::new, |object| self.shown.outline_of(object));
+    fn mark(&mut self, marked: &[u32]) {
+        self.marked = marked.to_vec();
+        self.target.outline = match marked {
+            [] => Vec::new(),
+            marked => self.shown.outline_of(marked),
+        };
         let changes = |cell: &usize| {
             self.pixels_of(*cell)
                 .any(|at| self.shown.is_outlined(at) != self.target.is_outlined(at))
@@ -372,12 +376,12 @@ mod tests {
         let size = size(10, 6);
         let mut picture = Picture::default();
         picture.take(frame(1, size, GREY, true));
-        picture.advance(size, None, 13 * BYTES_PER_CELL);
+        picture.advance(size, &[], 13 * BYTES_PER_CELL);
         assert_eq!(rows_shown(&picture, GREY), [10, 10, 3, 3, 0, 0]);
         assert!(picture.is_pending());
-        picture.advance(size, None, 0);
+        picture.advance(size, &[], 0);
         assert_eq!(rows_shown(&picture, GREY), [10, 10, 3, 3, 0, 0]);
-        picture.advance(size, None, usize::MAX);
+        picture.advance(size, &[], usize::MAX);
         assert_eq!(rows_shown(&picture, GREY), [10; 6]);
         assert!(!picture.is_pending());
     }
@@ -388,11 +392,11 @@ mod tests {
         let newer = [200; 3];
         let mut picture = Picture::default();
         picture.take(frame(1, size, GREY, true));
-        picture.advance(size, None, 10 * BYTES_PER_CELL);
+        picture.advance(size, &[], 10 * BYTES_PER_CELL);
         picture.take(frame(2, size, newer, true));
-        picture.advance(size, None, 10 * BYTES_PER_CELL);
+        picture.advance(size, &[], 10 * BYTES_PER_CELL);
         assert_eq!(rows_shown(&picture, newer), [0, 0, 10, 10, 0, 0]);
-        picture.advance(size, None, usize::MAX);
+        picture.advance(size, &[], usize::MAX);
         assert_eq!(rows_shown(&picture, newer), [10; 6]);
     }
 
@@ -402,9 +406,9 @@ mod tests {
         let shown_after = |pixel, complete, budget| {
             let mut picture = Picture::default();
             picture.take(frame(1, size, GREY, true));
-            picture.advance(size, None, usize::MAX);
+            picture.advance(size, &[], usize::MAX);
             picture.take(frame(1, size, pixel, complete));
-            picture.advance(size, None, budget);
+            picture.advance(size, &[], budget);
             picture.shown.pixels[0]
         };
         for (pixel, complete, budget, shown) in [
@@ -435,16 +439,16 @@ mod tests {
         let mut picture = Picture::default();
         picture.take(half(true));
         for (marked, marks) in [
-            (Some(7), ".#...#.."),
-            (Some(8), "........"),
-            (None, "........"),
+            (&[7][..], ".#...#.."),
+            (&[8], "........"),
+            (&[], "........"),
         ] {
             picture.advance(size(4, 2), marked, usize::MAX);
             assert_eq!(outline(&picture), marks, "{marked:?}");
         }
-        picture.advance(size(4, 2), Some(7), usize::MAX);
+        picture.advance(size(4, 2), &[7], usize::MAX);
         picture.forget_objects();
-        picture.advance(size(4, 2), Some(7), usize::MAX);
+        picture.advance(size(4, 2), &[7], usize::MAX);
         assert_eq!(outline(&picture), "........");
     }
 
@@ -453,17 +457,17 @@ mod tests {
     fn the_outline_precedes_the_picture_but_needs_a_budget() {
         let mut picture = Picture::default();
         picture.take(half(true));
-        picture.advance(size(4, 2), None, usize::MAX);
-        picture.advance(size(4, 2), Some(7), 0);
+        picture.advance(size(4, 2), &[], usize::MAX);
+        picture.advance(size(4, 2), &[7], 0);
         assert_eq!(outline(&picture), "........");
         assert!(picture.is_pending());
         let mut brighter = Arc::unwrap_or_clone(half(true));
         brighter.pixels.fill([200; 3]);
         picture.take(Arc::new(brighter));
-        picture.advance(size(4, 2), Some(7), BYTES_PER_CELL);
+        picture.advance(size(4, 2), &[7], BYTES_PER_CELL);
         assert_eq!(outline(&picture), ".#...#..");
         assert_eq!(rows_shown(&picture, GREY), [3, 3]);
-        picture.advance(size(4, 2), Some(7), usize::MAX);
+        picture.advance(size(4, 2), &[7], usize::MAX);
         assert_eq!(rows_shown(&picture, [200; 3]), [4, 4]);
         assert!(!picture.is_pending());
     }
@@ -489,7 +493,7 @@ mod tests {
     fn a_full_size_trace_is_shown_at_the_size_of_the_screen() {
         let mut picture = Picture::default();
         picture.take(frame(1, size(640, 480), GREY, true));
-        picture.advance(size(64, 48), None, usize::MAX);
+        picture.advance(size(64, 48), &[], usize::MAX);
         assert_eq!(rows_shown(&picture, GREY), [64; 48]);
         assert_eq!(picture.shown.object_at(63, 47), Some(7));
         assert_eq!(picture.shown.object_at(64, 0), None);

@@ -31,6 +31,8 @@ pub struct Pictures {
     pub net: Option<usize>,
     /// Whether the pictures must be traced again.
     pub(super) due: bool,
+    /// The index of the light that the preview shows alone.
+    pub solo: Option<usize>,
     /// What is being moved in [`Mode::Move`].
     pub hand: Option<Hand>,
     /// The pointer's cell when the camera or a thing was last dragged.
@@ -55,8 +57,10 @@ pub struct Quality {
 /// Whether the selected object is outlined in the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Outline {
-    /// It is outlined in SELECT mode.
+    /// Not yet: the user has selected nothing.
     #[default]
+    Unasked,
+    /// It is outlined in SELECT and MOVE mode.
     Marked,
     /// It is never outlined.
     Hidden,
@@ -75,6 +79,7 @@ impl Pictures {
             cross: None,
             net: None,
             due: false,
+            solo: None,
             hand: None,
             drag: None,
             before_trace: None,
@@ -156,8 +161,15 @@ impl Pictures {
     pub(super) fn toggle_outline(&mut self) {
         self.outline = match self.outline {
             Outline::Marked => Outline::Hidden,
-            Outline::Hidden => Outline::Marked,
+            Outline::Hidden | Outline::Unasked => Outline::Marked,
         };
+    }
+
+    /// Outlines what is selected from now on, unless the user has switched that off.
+    pub(super) fn mark_selection(&mut self) {
+        if self.outline == Outline::Unasked {
+            self.outline = Outline::Marked;
+        }
     }
 
     /// The camera in use: the working view, otherwise the scene's own.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{App, Picture};
 use crate::image_file::ImageFormat;
 use crate::render::{Filter, Frame, Frames, Job, Settings, default_depth};
-use crate::scene::{Integrator, Size};
+use crate::scene::{Integrator, Scene, Size};
 use crate::text::Severity;
 use crate::ui::keymap::Mode;
 use crate::ui::msg::{Effect, Target};
@@ -36,7 +36,8 @@ impl App {
         if self.mode != Mode::Trace && self.pictures.preview.asked != size {
             self.pictures.preview.asked = size;
             let spp = preview_samples(self.integrator());
-            let job = size.and_then(|size| self.job(size, spp, Filter::Box));
+            let job = size.zip(self.preview_scene());
+            let job = job.and_then(|(size, scene)| self.job_of(scene, size, spp, Filter::Box));
             effects.extend(job.map(|job| Effect::Trace(Target::Preview, job)));
         }
         effects
@@ -54,10 +55,15 @@ impl App {
     }
 
     fn job(&self, size: Size, spp: u32, filter: Filter) -> Option<Job> {
-        let scene = self.scene.as_ref()?;
+        let scene = Arc::clone(self.scene.as_ref()?);
+        self.job_of(scene, size, spp, filter)
+    }
+
+    fn job_of(&self, scene: Arc<Scene>, size: Size, spp: u32, filter: Filter) -> Option<Job> {
         let integrator = self.integrator();
+        let transfer = scene.setting.transfer;
         Some(Job {
-            scene: Arc::clone(scene),
+            scene,
             images: self.assets.images.clone(),
             camera: self.camera()?,
             settings: Settings {
@@ -72,7 +78,7 @@ impl App {
                 aov: self.pictures.aov,
                 integrator,
                 filter,
-                transfer: scene.setting.transfer,
+                transfer,
             },
             frames: Frames::Live,
         })

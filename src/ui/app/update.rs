@@ -247,6 +247,7 @@ impl App {
             Action::Insert => self.insert_copied(),
             Action::Rename => self.start_renaming(),
             Action::Add => self.open_additions(),
+            Action::Solo => self.toggle_solo(),
             Action::Retype => self.open_kinds(),
             Action::Hand(tool) => self.take_in_hand(tool),
             Action::Step(right, up, stride) => {

@@ -133,6 +133,8 @@ pub enum Action {
     Insert,
     /// Types a new name of the selected node.
     Rename,
+    /// Shows the selected light alone in the preview, or all again.
+    Solo,
     /// Opens the menu of what can be added.
     Add,
     /// Opens the menu of kinds to change to.

@@ -134,6 +134,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(SELECT, &[c('K')], A::Reorder(Neighbour::Previous), "move up in the list"),
     bind(SELECT, &[c('J')], A::Reorder(Neighbour::Next), "move down in the list"),
     bind(SELECT, &[c('a')], A::Add, "add something"),
+    bind(SELECT, &[c('l')], A::Solo, "show the light alone in the preview"),
     bind(SELECT, &[c('c')], A::Retype, "change the kind"),
     bind(SELECT_AND_FIELDS, &[c('m')], A::Hand(Tool::Move), "move by hand"),
     bind(SELECT_AND_FIELDS, &[c('t')], A::Hand(Tool::Turn), "turn by hand"),

@@ -157,7 +157,7 @@ const STATES: &[(&str, Change)] = &[
                 width: 8,
                 height: 6,
             },
-            None,
+            &[],
             usize::MAX,
         );
         app.cursor.select(Node::Object(1), app.document.source());
@@ -383,7 +383,7 @@ fn errors_mark_the_picture_as_stale_and_are_explained() {
     let mut app = app();
     app.pictures.preview.take(frame(8, 6));
     let size = app.raster().expect("there is room").1;
-    app.pictures.preview.advance(size, None, usize::MAX);
+    app.pictures.preview.advance(size, &[], usize::MAX);
     retype(&mut app, " 0.25 ", " -1 ");
     let text = screen(&mut app, 100, 30).join("\n");
     for part in ["STALE", "1 error", "test.ray:6:18", "^^", "SELECT", "[+]"] {
@@ -400,7 +400,7 @@ fn a_picture_of_another_size_is_scaled_to_its_place() {
             width: 4,
             height: 3,
         },
-        None,
+        &[],
         usize::MAX,
     );
     let lines = screen(&mut app, 20, 7);

@@ -255,3 +255,51 @@ fn menus_add_things_and_change_their_kind() {
     press(&mut app, "c");
     assert_eq!(words(&app), "light 1 has only one kind");
 }
+
+#[test]
+fn nothing_is_outlined_until_something_is_selected() {
+    let (mut app, _) = opened_as("a.dat", DAT);
+    assert!(app.marked_objects().is_empty());
+    press(&mut app, "G");
+    assert_eq!(
+        (app.cursor.selected(), app.marked_objects()),
+        (Object(0), vec![0])
+    );
+    let two = DAT.replace(
+        "0 0 0  1\n",
+        "0 0 0  1\nobj sphere ID 2 mat ID 1  1 0 0  1\n",
+    );
+    let (mut app, _) = opened_as("a.dat", &two);
+    app.select(Node::Material(0));
+    assert_eq!(app.marked_objects(), [0, 1], "the users of a material");
+    press(&mut app, "o");
+    assert!(app.marked_objects().is_empty());
+}
+
+#[test]
+fn a_light_is_shown_alone_in_the_preview_and_nowhere_else() {
+    let two = RAY.replace("\n1\n5 5 5  1 1 1\n", "\n2\n5 5 5  1 1 1\n-5 5 5  1 0 0\n");
+    let (mut app, _) = opened_as("a.ray", &two);
+    app.select(Light(1));
+    let colours = |effects: &[Effect]| {
+        let job = effects.iter().find_map(|effect| match effect {
+            Effect::Trace(_, job) => Some(job),
+            _ => None,
+        });
+        let job = job.expect("a picture is traced");
+        let reds: Vec<_> = job
+            .scene
+            .lights
+            .iter()
+            .map(|light| light.colour.x)
+            .collect();
+        (job.scene.ambient.x, reds)
+    };
+    assert_eq!(colours(&press(&mut app, "l")), (0.0, vec![0.0, 1.0]));
+    assert_eq!(app.document.text(), two);
+    assert_eq!(colours(&press(&mut app, "<F5>")).1, [1.0, 1.0]);
+    press(&mut app, "<Esc>");
+    assert_eq!(colours(&press(&mut app, "l")), (0.1, vec![1.0, 1.0]));
+    press(&mut app, "ld");
+    assert_eq!(app.pictures.solo, None, "the light is gone");
+}

@@ -165,7 +165,7 @@ fn an_export_writes_what_is_shown_and_reports_it() {
     app.update(exported(*id, path, None));
     assert_eq!(
         words(&app),
-        "wrote scene.depth.bmp: depth, 800×600, 1 spp, 0.0 s"
+        "wrote scene.depth.bmp: depth, 800×600, 1 spp"
     );
     press(&mut app, "b");
     assert_eq!(words(&app), "exporting to scene.bmp");

@@ -104,7 +104,7 @@ fn an_export_is_traced_written_and_reported() {
     );
     app.update(exported(*id, path, None));
     assert!(app.jobs.export.is_none());
-    assert_eq!(words(&app), "wrote b c.png: 32×8, 2 spp, 0.0 s");
+    assert_eq!(words(&app), "wrote b c.png: 32×8, 2 spp");
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn no_object_is_outlined_by_an_outdated_number() {
         height: 2,
     };
     app.pictures.preview.take(Arc::new(frame(size, vec![1; 8])));
-    app.pictures.preview.advance(size, None, usize::MAX);
+    app.pictures.preview.advance(size, &[], usize::MAX);
     outside(&mut app, &SCENE.replace("1.5", "1.7"));
     assert_eq!(app.pictures.preview.shown.object_at(0, 0), Some(1));
     let (head, second) = SCENE.split_at(SCENE.rfind("sphere").expect("two of them"));
