@@ -163,10 +163,7 @@ fn an_export_writes_what_is_shown_and_reports_it() {
     let done = Arc::new(pictures::frame(size, vec![0; size.pixels()]));
     app.update(Msg::Frame(Target::Export, done));
     app.update(exported(*id, path, None));
-    assert_eq!(
-        words(&app),
-        "wrote scene.depth.bmp: depth, 800×600, 1 spp"
-    );
+    assert_eq!(words(&app), "wrote scene.depth.bmp: depth, 800×600, 1 spp");
     press(&mut app, "b");
     assert_eq!(words(&app), "exporting to scene.bmp");
 }
