@@ -54,10 +54,18 @@ impl Snapshot {
             return Err(merge);
         }
         let mut text = String::clone(self.text());
-        let back = text::apply(&mut text, &merge.edits());
+        let mut back = text::apply(&mut text, &merge.edits());
         let mut document = theirs;
         if let Some(edit) = smallest_edit(document.text(), &text) {
             document.change(&[edit]);
+        }
+        // Both may have added or deleted something, and then state the same count.
+        let counts = document.source.recount();
+        if !counts.is_empty() {
+            document.change(&counts);
+            back = smallest_edit(document.text(), self.text())
+                .into_iter()
+                .collect();
         }
         Ok(Merged { document, back })
     }

@@ -47,6 +47,13 @@ pub trait Restructure {
     /// Fails if there is no such neighbour.
     fn exchange(&self, node: Node, neighbour: Neighbour) -> Result<Placement, StructureError>;
 
+    /// Returns the edits that make the counts of a text agree with what it holds, for instance after
+    /// two texts were merged that both add something. None where they agree, or where it is unclear
+    /// what is counted. Needs no places.
+    fn recount(&self) -> Vec<Edit> {
+        Vec::new()
+    }
+
     /// The name or ID by which the text calls a node; `None` if it has none.
     fn called(&self, node: Node) -> Option<&str>;
 

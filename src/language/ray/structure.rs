@@ -1,7 +1,9 @@
 //! What deleting, copying and moving mean in a `.ray` text: its counts follow.
 
-use super::table::{LIGHT, ShapeKind};
+use super::table::{AMBIENT, LIGHT, ShapeKind};
 use super::tree::{self, comment_of_line};
+use rayon::iter::ParallelIterator;
+
 use super::{Source, add};
 use crate::language::structure::{
     Block, adapted, deletions, line_before, lines, lines_after, pair,
@@ -94,6 +96,34 @@ impl Restructure for Source {
             nodes.map(|node| self.span(node)),
             neighbour,
         ))
+    }
+
+    fn recount(&self) -> Vec<Edit> {
+        let (text, tokens) = (&*self.text, &self.tree.tokens);
+        let ambient = table::numbers(AMBIENT);
+        let is_object = |(_, word): &(usize, Span)| ShapeKind::of_word(word.of(text)).is_some();
+        let objects: Vec<_> = tokens.words().filter(is_object).collect();
+        let Some(&(first, _)) = objects.first() else {
+            return Vec::new();
+        };
+        // Before the first object: ambient light, a count, lights, and another count.
+        let each = table::numbers(LIGHT);
+        let numbers = first
+            .checked_sub(ambient + 2)
+            .filter(|numbers| numbers % each == 0);
+        let Some(lights) = numbers.map(|numbers| numbers / each) else {
+            return Vec::new();
+        };
+        let counts = [(ambient, lights), (first - 1, objects.len())];
+        let edits = counts.into_iter().filter_map(|(token, count)| {
+            let span = tokens.get(token)?;
+            let stated: u64 = span.of(text).parse().ok()?;
+            (stated != count as u64).then(|| Edit {
+                span,
+                text: count.to_string(),
+            })
+        });
+        edits.collect()
     }
 
     fn called(&self, _: Node) -> Option<&str> {

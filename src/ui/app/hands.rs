@@ -137,7 +137,7 @@ impl App {
     /// Keeps the change and ends.
     pub(super) fn keep_hand(&mut self) {
         if let Some(hand) = self.pictures.hand.take() {
-            self.overlays.say(hand.words());
+            self.overlays.say(hand.words().replace('_', ""));
         }
         self.document.end_step();
         self.mode = Mode::Select;

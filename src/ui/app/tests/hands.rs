@@ -173,6 +173,24 @@ fn escape_puts_back_every_byte_and_leaves_no_step() {
 }
 
 #[test]
+fn a_motion_says_how_far_it_went() {
+    for (said, done) in [
+        ("mx1.5", "move along x: 1.5_"),
+        ("mx1.5<Enter>", "move along x: 1.5"),
+        ("mll", "move: 1.0 right, 0.0 up"),
+        ("mllg", "move: 0.0 right, 0.0 up on the grid"),
+        ("tzzl", "turn about own z: 1.00°"),
+        ("tl", "turn in the picture: 1.00°"),
+        ("sk", "scale: ×1.05"),
+    ] {
+        let (mut app, _) = opened_as("a.ray", RAY);
+        app.select(Object(0));
+        press(&mut app, said);
+        assert_eq!(words(&app), done, "{said}");
+    }
+}
+
+#[test]
 fn what_cannot_be_moved_is_said() {
     for (name, text, node, said, reason) in [
         ("a.ray", RAY, Node::View, "m", "v moves the camera"),
