@@ -32,6 +32,8 @@ pub struct Document {
     /// The number of changes to the text.
     revision: u64,
     history: History,
+    /// The longest change of the last undo or redo.
+    longest: Span,
 }
 
 /// The result of adopting a merge whose conflicts were decided.
@@ -54,6 +56,7 @@ impl Document {
             is_dirty: false,
             revision: 0,
             history: History::default(),
+            longest: Span::default(),
         }
     }
 
@@ -161,6 +164,7 @@ impl Document {
     pub fn undo(&mut self) -> Option<Span> {
         let step = self.history.next_undo()?;
         let inverse = self.change(&step);
+        self.longest = longest(&inverse);
         let changed = cover(&inverse);
         self.history.undone(inverse);
         changed
@@ -170,9 +174,16 @@ impl Document {
     pub fn redo(&mut self) -> Option<Span> {
         let step = self.history.next_redo()?;
         let inverse = self.change(&step);
+        self.longest = longest(&inverse);
         let changed = cover(&inverse);
         self.history.redone(inverse);
         changed
+    }
+
+    /// Of the changes of the last undo or redo, the span of the longest: what the step was about,
+    /// rather than a count that followed.
+    pub fn longest_change(&self) -> Span {
+        self.longest
     }
 
     /// Records that `text` was written to the file. It may differ from the current text, which may
@@ -254,4 +265,11 @@ impl Document {
         self.revision += 1;
         inverse
     }
+}
+
+/// The span of the edit that replaces or is replaced by the most text.
+fn longest(inverse: &[Edit]) -> Span {
+    let length = |edit: &&Edit| edit.span.len().max(edit.text.len());
+    let longest = inverse.iter().max_by_key(length);
+    longest.map(|edit| edit.span).unwrap_or_default()
 }

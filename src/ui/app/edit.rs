@@ -243,6 +243,11 @@ impl App {
         let old = Span::new(span.start(), length - behind);
         let lowered = self.lowered_again(old, span);
         self.install(lowered);
+        let node_at = |at: usize| self.source().node_at(Span::at(at));
+        if node_at(span.start()) != node_at(span.end()) {
+            self.show_restructured(done);
+            return;
+        }
         if let Some(node) = self.source().node_at(span)
             && node != self.cursor.selected()
         {
@@ -253,6 +258,22 @@ impl App {
         }
         match self.place_name(span) {
             Some(place) => self.overlays.say(format!("{done}: {place}")),
+            None => self.overlays.say(done),
+        }
+    }
+
+    /// Selects what an undone or redone change of several places was about, and reports it.
+    fn show_restructured(&mut self, done: &str) {
+        let span = self.document.longest_change();
+        let written = self.first_node_in(span);
+        if let Some(node) = written.or_else(|| self.source().node_at(span)) {
+            self.select(node);
+        }
+        match written {
+            Some(node) => {
+                let name = self.source().name(node);
+                self.overlays.say(format!("{done}: {name}"));
+            }
             None => self.overlays.say(done),
         }
     }

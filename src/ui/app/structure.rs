@@ -237,7 +237,7 @@ impl App {
     }
 
     /// The first node, other than the view, whose text is in a span.
-    fn first_node_in(&self, span: Span) -> Option<Node> {
+    pub(super) fn first_node_in(&self, span: Span) -> Option<Node> {
         let mut nodes = self.source().nodes_in(span).into_iter();
         nodes.find(|node| *node != Node::View)
     }

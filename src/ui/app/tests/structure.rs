@@ -357,3 +357,16 @@ fn marks_end_when_their_indices_belong_to_others() {
     outside(&mut app, SCENE);
     assert!(app.cursor.marks.is_empty());
 }
+
+#[test]
+fn undo_and_redo_select_the_thing_that_they_change() {
+    for (said, selected, done) in [
+        ("du", Object(1), "undone: object 2 (sphere)"),
+        ("du<Ctrl-r>", Object(1), "redone"),
+        ("Du<Ctrl-r>", Object(2), "redone: object 3 (sphere)"),
+    ] {
+        let app = after("scene.ray", RAY, Object(1), said);
+        assert_eq!(app.cursor.selected(), selected, "{said}");
+        assert!(words(&app).starts_with(done), "{said}: {}", words(&app));
+    }
+}
