@@ -65,7 +65,7 @@ pub trait Restructure {
     fn renaming(&self, node: Node, name: &str) -> Result<Vec<Edit>, StructureError>;
 
     /// The kinds of things that can be added.
-    fn additions(&self) -> Vec<Addition>;
+    fn additions(&self) -> &'static [Addition];
 
     /// Returns the edits that add a thing of a kind, by its name in [`Restructure::additions`],
     /// spelled like its neighbours.
@@ -111,6 +111,12 @@ pub struct Addition {
     pub name: &'static str,
     /// What it is, in a phrase.
     pub words: &'static str,
+}
+
+impl Addition {
+    pub(super) const fn new(name: &'static str, words: &'static str) -> Self {
+        Self { name, words }
+    }
 }
 
 /// Where to add a thing, and how large.
@@ -169,7 +175,7 @@ pub enum StructureError {
         used: String,
     },
     /// A text is not one of nodes of the language.
-    #[error("this cannot be inserted: {reason}")]
+    #[error("cannot paste this: {reason}")]
     Foreign {
         /// What was expected, or what is wrong.
         reason: String,

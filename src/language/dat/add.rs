@@ -10,26 +10,26 @@ use crate::language::structure::Wish;
 use crate::language::{Addition, Answers, Node, Placement, Restructure, StructureError};
 use crate::text::{Edit, Span};
 
-/// What can be added, each with a description.
-const ADDITIONS: [(&str, &str); 15] = [
-    ("sphere", "round, by centre and radius"),
-    ("ellipsoid", "a sphere stretched along the axes"),
-    ("cylinder", "round and closed, about any axis"),
-    ("box", "six faces, in any directions"),
-    ("quadric", "any surface of second degree, cut by planes"),
-    ("union", "two marked objects together"),
-    ("intersection", "what two marked objects share"),
-    ("difference", "the first marked object without the second"),
-    ("point light", "shines in all directions"),
-    ("spot light", "shines in a cone, downwards"),
-    ("distant light", "shines from infinitely far away"),
-    ("ambient light", "reaches every surface from everywhere"),
-    ("material", "colour, gloss, reflection and transparency"),
-    (
+/// The kinds of things that can be added.
+pub(super) const ADDITIONS: &[Addition] = &[
+    Addition::new("sphere", "round, by centre and radius"),
+    Addition::new("ellipsoid", "a sphere stretched along the axes"),
+    Addition::new("cylinder", "round and closed, about any axis"),
+    Addition::new("box", "six faces, in any directions"),
+    Addition::new("quadric", "any surface of second degree, cut by planes"),
+    Addition::new("union", "two marked objects together"),
+    Addition::new("intersection", "what two marked objects share"),
+    Addition::new("difference", "the first marked object without the second"),
+    Addition::new("point light", "shines in all directions"),
+    Addition::new("spot light", "shines in a cone, downwards"),
+    Addition::new("distant light", "shines from infinitely far away"),
+    Addition::new("ambient light", "reaches every surface from everywhere"),
+    Addition::new("material", "colour, gloss, reflection and transparency"),
+    Addition::new(
         "checker texture",
         "two colours, used by the selected material",
     ),
-    (
+    Addition::new(
         "image texture",
         "a picture file, used by the selected material",
     ),
@@ -43,12 +43,6 @@ pub(super) const SOLIDS: [ObjectKind; 5] = [
     ObjectKind::Box,
     ObjectKind::Quadric,
 ];
-
-/// The kinds of things that can be added.
-pub(super) fn additions() -> Vec<Addition> {
-    let all = ADDITIONS.iter();
-    all.map(|&(name, words)| Addition { name, words }).collect()
-}
 
 /// Returns the edits that add a thing.
 pub(super) fn addition(
@@ -98,11 +92,11 @@ pub(super) fn retyping(
 ) -> Result<Vec<Edit>, StructureError> {
     let refused = |reason: &str| StructureError::Inexpressible(reason.to_owned());
     let Node::Object(index) = node else {
-        return Err(refused("only solids change their kind"));
+        return Err(refused("only solids can change their type"));
     };
     let new = SOLIDS.into_iter().find(|solid| solid.keyword() == kind);
-    let new = new.ok_or_else(|| refused("only solids change their kind"))?;
-    let shapeless = || refused("it has no size that another kind could take");
+    let new = new.ok_or_else(|| refused("only solids can change their type"))?;
+    let shapeless = || refused("it has no size that another type could use");
     let (old, spans, numbers) = source.object_numbers(index).ok_or_else(shapeless)?;
     let form = form(old, &numbers).ok_or_else(shapeless)?;
     let literals = literals(new, &nearest(new, &form), &|number| number.to_string())?;
@@ -210,7 +204,7 @@ impl Source {
         if let [first, second] = objects.collect::<Vec<_>>().as_slice() {
             Ok(format!("obj CSG ID 1 {operation} ID {first} ID {second}"))
         } else {
-            let reason = format!("a {operation} combines two objects: mark them with Space first");
+            let reason = format!("a {operation} combines two objects: first mark them with Space");
             Err(StructureError::Inexpressible(reason))
         }
     }

@@ -63,11 +63,11 @@ pub(super) fn put(kind: ObjectKind, form: &Form, numbers: &mut [f64]) -> Result<
             const { Sphere.at("centre") }.put(numbers, form.centre.to_array());
             const { Sphere.at("radius") }.put(numbers, [a]);
         }
-        Sphere => return Err("a sphere has one radius: c changes it to an ellipsoid"),
+        Sphere => return Err("a sphere has a single radius: press c to make it an ellipsoid"),
         Ellipsoid => {
             let is_world = |axis: &DVec3| 1.0 - axis.abs().max_element() < 1e-9;
             if !form.axes.iter().all(is_world) {
-                return Err("an ellipsoid of .dat keeps to the world's axes");
+                return Err("a .dat ellipsoid is always axis-aligned");
             }
             const { Ellipsoid.at("centre") }.put(numbers, form.centre.to_array());
             let radii = const { [Ellipsoid.at("rx"), Ellipsoid.at("ry"), Ellipsoid.at("rz")] };
@@ -81,7 +81,7 @@ pub(super) fn put(kind: ObjectKind, form: &Form, numbers: &mut [f64]) -> Result<
             const { Cylinder.at("radius") }.put(numbers, [a]);
             const { Cylinder.at("length") }.put(numbers, [2.0 * c]);
         }
-        Cylinder => return Err("a cylinder of .dat is round"),
+        Cylinder => return Err("a .dat cylinder has a circular base"),
         Box => {
             let axes: [_; 3] = const { [Box.at("u"), Box.at("v"), Box.at("w")] };
             let widths = const { [Box.at("uw"), Box.at("vw"), Box.at("ww")] };
@@ -222,7 +222,8 @@ impl Source {
         decimals: usize,
     ) -> Result<Vec<Edit>, StructureError> {
         let refused = |reason: &str| StructureError::Inexpressible(reason.to_owned());
-        let fixed = || StructureError::Inexpressible(format!("{} has no place", self.name(node)));
+        let fixed =
+            || StructureError::Inexpressible(format!("{} has no position", self.name(node)));
         match node {
             Node::Object(index) => {
                 let (kind, spans, old) = self.object_numbers(index).ok_or_else(fixed)?;
@@ -241,7 +242,7 @@ impl Source {
                     return Ok(replacements(&self.text, &spans, &new));
                 }
                 let form = form(kind, &old).ok_or_else(fixed)?;
-                let along = "it can be scaled along its own axes: press the axis again";
+                let along = "it can only be scaled along its own axes: press the axis key again";
                 let form = motion.applied(&form).ok_or_else(|| refused(along))?;
                 put(kind, &form, &mut new).map_err(refused)?;
                 let fields = RecordKind::Object(kind).fields();

@@ -24,9 +24,12 @@ impl Restructure for Source {
     fn consequence(&self, nodes: &[Node]) -> Option<String> {
         match self.dependents(nodes).as_slice() {
             [] => None,
-            [one] => Some(format!("{}, which uses it, goes too", self.name(*one))),
+            [one] => Some(format!(
+                "{} uses it and will be deleted too",
+                self.name(*one)
+            )),
             many => Some(format!(
-                "{}, which use it, go too",
+                "{} use it and will be deleted too",
                 counted(many.len(), "object")
             )),
         }
@@ -166,7 +169,7 @@ impl Restructure for Source {
             return refused(format!("{} has no ID", self.name(node)));
         };
         if id != old && self.ids(category).contains(&id) {
-            return refused(format!("{} {id} exists already", category.word()));
+            return refused(format!("{} {id} already exists", category.word()));
         }
         let records = 0..self.tree.records.len();
         let all = records
@@ -179,8 +182,8 @@ impl Restructure for Source {
         Ok(same.map(edit).collect())
     }
 
-    fn additions(&self) -> Vec<Addition> {
-        add::additions()
+    fn additions(&self) -> &'static [Addition] {
+        add::ADDITIONS
     }
 
     fn addition(&self, name: &str, wish: &Wish<'_>) -> Result<Placement, StructureError> {

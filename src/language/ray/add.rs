@@ -8,33 +8,23 @@ use super::table::{LIGHT, ShapeKind};
 use super::tree::comment_of_line;
 use crate::language::form::Form;
 use crate::language::structure::Wish;
-use crate::language::table::Field;
+use crate::language::table::{self, Field};
 use crate::language::view::line_ending;
 use crate::language::{Addition, Answers, Node, Placement, Restructure, StructureError};
 use crate::text::{Edit, Span, line_start, next_line};
 
-/// The name of an added light.
-const POINT_LIGHT: &str = "light";
-
-/// The kinds of things that can be added.
-pub(super) fn additions() -> Vec<Addition> {
-    let words = |kind| match kind {
-        ShapeKind::Sphere => "round, by centre and radius",
-        ShapeKind::Ellipsoid => "a sphere stretched along three directions",
-        ShapeKind::Box => "six faces, by a corner and three edges",
-        ShapeKind::Cylinder => "closed, on an elliptic base",
-        ShapeKind::Cone => "closed by an elliptic base",
-    };
-    let solids = ShapeKind::ALL.map(|kind| Addition {
-        name: kind.keyword(),
-        words: words(kind),
-    });
-    let light = Addition {
-        name: POINT_LIGHT,
-        words: "shines in all directions, as bright at any distance",
-    };
-    solids.into_iter().chain([light]).collect()
-}
+/// The kinds of things that can be added: solids, by their keywords, and a light.
+pub(super) const ADDITIONS: &[Addition] = &[
+    Addition::new("sphere", "round, by centre and radius"),
+    Addition::new("ellipsoid", "a sphere stretched along three directions"),
+    Addition::new("box", "six faces, by a corner and three edges"),
+    Addition::new("cylinder", "closed, on an elliptic base"),
+    Addition::new("cone", "closed by an elliptic base"),
+    Addition::new(
+        "light",
+        "shines in all directions, as bright at any distance",
+    ),
+];
 
 /// Returns the edits that add a thing.
 pub(super) fn addition(
@@ -65,19 +55,14 @@ pub(super) fn retyping(
     kind: &str,
 ) -> Result<Vec<Edit>, StructureError> {
     let fixed =
-        || StructureError::Inexpressible(format!("{} has only one kind", source.name(node)));
+        || StructureError::Inexpressible(format!("{} has only one type", source.name(node)));
     let Node::Object(index) = node else {
         return Err(fixed());
     };
     let new = ShapeKind::of_word(kind).ok_or_else(fixed)?;
     let (old, spans, values) = source.object_numbers(index).ok_or_else(fixed)?;
     let numbers = retyped(old, new, &values);
-    let geometry = |kind: ShapeKind| {
-        kind.geometry()
-            .iter()
-            .map(|field| field.kind.components())
-            .sum::<usize>()
-    };
+    let geometry = |kind: ShapeKind| table::numbers(kind.geometry());
     let literals: Vec<_> = numbers[..geometry(new)]
         .iter()
         .map(f64::to_string)
@@ -96,11 +81,7 @@ pub(super) fn retyping(
 
 /// The literals of a new object.
 fn literals(kind: ShapeKind, numbers: &[f64], wish: &Wish<'_>) -> Vec<String> {
-    let geometry: usize = kind
-        .geometry()
-        .iter()
-        .map(|field| field.kind.components())
-        .sum();
+    let geometry = table::numbers(kind.geometry());
     let shape = numbers[..geometry]
         .iter()
         .map(|&number| wish.literal(number));

@@ -167,7 +167,8 @@ impl Source {
         motion: &Motion,
         decimals: usize,
     ) -> Result<Vec<Edit>, StructureError> {
-        let fixed = || StructureError::Inexpressible(format!("{} has no place", self.name(node)));
+        let fixed =
+            || StructureError::Inexpressible(format!("{} has no position", self.name(node)));
         match node {
             Node::Object(index) => {
                 let (kind, spans, old) = self.object_numbers(index).ok_or_else(fixed)?;
@@ -207,7 +208,7 @@ impl Source {
 /// Why a solid cannot be scaled along an axis.
 fn uneven(kind: ShapeKind) -> &'static str {
     match kind {
-        ShapeKind::Sphere => "a sphere has one radius: c changes it to an ellipsoid",
-        _ => "it can be scaled along its own axes: press the axis again",
+        ShapeKind::Sphere => "a sphere has a single radius: press c to make it an ellipsoid",
+        _ => "it can only be scaled along its own axes: press the axis key again",
     }
 }

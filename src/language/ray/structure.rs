@@ -131,12 +131,12 @@ impl Restructure for Source {
     }
 
     fn renaming(&self, _: Node, _: &str) -> Result<Vec<Edit>, StructureError> {
-        let reason = "a .ray scene has no names; a comment can say what this is";
+        let reason = "objects have no names in .ray; use a comment instead";
         Err(StructureError::Name(reason.to_owned()))
     }
 
-    fn additions(&self) -> Vec<Addition> {
-        add::additions()
+    fn additions(&self) -> &'static [Addition] {
+        add::ADDITIONS
     }
 
     fn addition(&self, name: &str, wish: &Wish<'_>) -> Result<Placement, StructureError> {
@@ -236,7 +236,7 @@ impl Counted {
             Self::Lights => "light",
             Self::Objects => "object",
         };
-        let reason = "a .ray scene has at least one";
+        let reason = "a .ray scene needs at least one";
         StructureError::Last { noun, reason }
     }
 }

@@ -52,7 +52,7 @@ fn everything_can_be_added_anywhere() {
         let additions = source.additions();
         assert!(5 < additions.len());
         for after in source.nodes().iter() {
-            for addition in &additions {
+            for addition in additions {
                 let marked = [Node::Object(0), Node::Object(1)];
                 let placed = source.addition(addition.name, &wish(after, &marked));
                 let placed = placed.expect("it can be added");
@@ -99,7 +99,7 @@ fn added_solids_have_the_place_and_the_size_that_were_wished_for() {
 fn a_combination_needs_two_marked_objects() {
     let (source, _) = read_as(Language::Dat, DAT, &Meshes::default());
     let refused = source.addition("union", &wish(Node::View, &[Node::Object(0)]));
-    let reason = "a union combines two objects: mark them with Space first";
+    let reason = "a union combines two objects: first mark them with Space";
     assert_eq!(
         refused,
         Err(StructureError::Inexpressible(reason.to_owned()))
@@ -371,28 +371,28 @@ fn what_a_language_cannot_express_is_refused() {
             sphere,
             Node::Object(0),
             stretch(Along::Own(0)),
-            "a sphere has one radius: c changes it to an ellipsoid",
+            "a sphere has a single radius: press c to make it an ellipsoid",
         ),
         (
             Language::Ray,
             sphere,
             Node::Ambient,
             stretch(Along::All),
-            "ambient has no place",
+            "ambient has no position",
         ),
         (
             Language::Dat,
             ellipsoid,
             Node::Object(0),
             turn,
-            "an ellipsoid of .dat keeps to the world's axes",
+            "a .dat ellipsoid is always axis-aligned",
         ),
         (
             Language::Xml,
             skewed,
             Node::Object(1),
             turn,
-            "the group around it is stretched: turn the group",
+            "its group is scaled non-uniformly: rotate the group instead",
         ),
     ] {
         let (source, _) = read_as(language, text, &Meshes::default());

@@ -76,11 +76,11 @@ fn counts_of_ray_follow_what_is_deleted_copied_and_moved() {
         ),
         (
             Delete(&[Object(0), Object(1)]),
-            Err("the last object cannot be deleted: a .ray scene has at least one"),
+            Err("the last object cannot be deleted: a .ray scene needs at least one"),
         ),
         (
             Delete(&[Light(0)]),
-            Err("the last light cannot be deleted: a .ray scene has at least one"),
+            Err("the last light cannot be deleted: a .ray scene needs at least one"),
         ),
         (
             Delete(&[Node::Ambient]),
@@ -108,12 +108,12 @@ fn counts_of_ray_follow_what_is_deleted_copied_and_moved() {
         (Down(Light(0)), Err("light 1 is already the last")),
         (
             Rename(Object(0), "moon"),
-            Err("a .ray scene has no names; a comment can say what this is"),
+            Err("objects have no names in .ray; use a comment instead"),
         ),
         (
             Insert("1 2 3\n", Object(0)),
             Err(
-                "this cannot be inserted: expected objects, or lights of 6 numbers, but it begins with 3 words",
+                "cannot paste this: expected objects, or lights of 6 numbers, but it begins with 3 words",
             ),
         ),
     ] {
@@ -257,7 +257,7 @@ fn references_of_dat_follow_what_is_deleted_copied_and_renamed() {
         ],
     );
     for (change, reason) in [
-        (Rename(Object(0), "5"), "object 5 exists already"),
+        (Rename(Object(0), "5"), "object 5 already exists"),
         (Rename(Object(0), "moon"), "an ID is a whole number"),
         (
             Up(Object(2)),
@@ -265,7 +265,7 @@ fn references_of_dat_follow_what_is_deleted_copied_and_renamed() {
         ),
         (
             Insert("viewport 4 3", Object(0)),
-            "this cannot be inserted: expected records of lights, materials, textures or objects, not `viewport`",
+            "cannot paste this: expected records of lights, materials, textures or objects, not `viewport`",
         ),
         (
             Delete(&[Node::View]),
@@ -287,20 +287,20 @@ fn what_goes_with_a_deleted_node_is_said() {
             Language::Dat,
             dat(""),
             &[Material(1)],
-            Some("2 objects, which use it, go too"),
+            Some("2 objects use it and will be deleted too"),
         ),
         (
             Language::Dat,
             dat(""),
             &[Object(0)],
-            Some("object 9 (CSG), which uses it, goes too"),
+            Some("object 9 (CSG) uses it and will be deleted too"),
         ),
         (Language::Dat, dat(""), &[Object(2)], None),
         (
             Language::Xml,
             xml().to_owned(),
             &[Material(0)],
-            Some("1 object that uses it turns white"),
+            Some("1 object uses it and will be plain white"),
         ),
         (Language::Xml, xml().to_owned(), &[Object(0)], None),
     ] {
@@ -378,11 +378,11 @@ fn elements_go_with_what_is_in_them_and_copies_get_names_of_their_own() {
         (Rename(Object(0), " "), "a name must not be empty"),
         (
             Insert("<camera/>", Object(0)),
-            "this cannot be inserted: expected lights, materials or objects, not <camera>",
+            "cannot paste this: expected lights, materials or objects, not <camera>",
         ),
         (
             Insert("</xml><xml>", Object(0)),
-            "this cannot be inserted: this is not part of XML",
+            "cannot paste this: this is not part of XML",
         ),
         (
             Delete(&[Node::Background]),

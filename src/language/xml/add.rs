@@ -10,28 +10,22 @@ use crate::language::view::line_ending;
 use crate::language::{Addition, Answers, Node, Placement, Restructure, StructureError};
 use crate::text::Edit;
 
-/// What can be added, each with a description.
-const ADDITIONS: [(&str, &str); 10] = [
-    ("sphere", "round; scaled, an ellipsoid"),
-    ("plane", "a square that ends at its edges"),
-    ("mesh", "triangles from an .obj file"),
-    ("group", "moves and turns the objects in it"),
-    ("point light", "shines in all directions"),
-    ("direct light", "shines from infinitely far away"),
-    ("ambient light", "reaches every surface from everywhere"),
-    ("blinn material", "a highlight around the normal"),
-    (
+/// The kinds of things that can be added.
+pub(super) const ADDITIONS: &[Addition] = &[
+    Addition::new("sphere", "round; scaled, an ellipsoid"),
+    Addition::new("plane", "a square that ends at its edges"),
+    Addition::new("mesh", "triangles from an .obj file"),
+    Addition::new("group", "moves and turns the objects in it"),
+    Addition::new("point light", "shines in all directions"),
+    Addition::new("direct light", "shines from infinitely far away"),
+    Addition::new("ambient light", "reaches every surface from everywhere"),
+    Addition::new("blinn material", "a highlight around the normal"),
+    Addition::new(
         "phong material",
         "a highlight around the reflected direction",
     ),
-    ("microfacet material", "metal or plastic, by roughness"),
+    Addition::new("microfacet material", "metal or plastic, by roughness"),
 ];
-
-/// The kinds of things that can be added.
-pub(super) fn additions() -> Vec<Addition> {
-    let all = ADDITIONS.iter();
-    all.map(|&(name, words)| Addition { name, words }).collect()
-}
 
 /// Returns the edits that add a thing.
 pub(super) fn addition(

@@ -60,7 +60,7 @@ impl Source {
         match node {
             Node::Object(_) => self.moved_object(node, motion, decimals),
             Node::Light(_) => Ok(self.moved_light(node, motion, decimals)),
-            _ => Err(refused(format!("{} has no place", self.name(node)))),
+            _ => Err(refused(format!("{} has no position", self.name(node)))),
         }
     }
 
@@ -117,7 +117,7 @@ impl Source {
         motion: &Motion,
         decimals: usize,
     ) -> Result<Vec<Edit>, StructureError> {
-        let fixed = || refused(format!("{} has no place", self.name(node)));
+        let fixed = || refused(format!("{} has no position", self.name(node)));
         let element = self.origins.element(&self.tree, node).ok_or_else(fixed)?;
         let outside = self.outside(element);
         let inside = outside.inverse();
@@ -132,8 +132,11 @@ impl Source {
         match *motion {
             Motion::Move(_) => self.placed(element, last, point(origin), decimals),
             Motion::Turn { axis, angle, .. } => {
-                let uneven =
-                    || refused("the group around it is stretched: turn the group".to_owned());
+                let uneven = || {
+                    refused(
+                        "its group is scaled non-uniformly: rotate the group instead".to_owned(),
+                    )
+                };
                 let local = conformal(outside.matrix3).ok_or_else(uneven)?;
                 let axis = normalise(inside.matrix3 * axis).ok_or_else(uneven)?;
                 let turn = rotation(axis, local.signum() * angle);
@@ -149,7 +152,7 @@ impl Source {
                 let mut factors = DVec3::ONE;
                 factors[axis] = factor;
                 let first = transforms.first();
-                Ok(self.scaled(element, first, first, factors, Some(decimals)))
+                Ok(self.scaled(element, first, first, factors, decimals))
             }
             Motion::Scale { factor, along, .. } => {
                 let factors = match along {
@@ -159,7 +162,8 @@ impl Source {
                         let own = (0..3).find(|&own| 1.0 - local[own] < 1e-9);
                         let own = own.ok_or_else(|| {
                             refused(
-                                "its group is turned: press the axis again for its own".to_owned(),
+                                "its group is rotated: press the axis key again for its own axis"
+                                    .to_owned(),
                             )
                         })?;
                         let mut factors = DVec3::ONE;
@@ -171,7 +175,7 @@ impl Source {
                 let linear = transforms.len() - usize::from(last.is_some());
                 let at = transforms[..linear].last();
                 let scale = at.filter(|at| at.parameter.element == "scale");
-                let mut edits = self.scaled(element, scale, last, factors, Some(decimals));
+                let mut edits = self.scaled(element, scale, last, factors, decimals);
                 edits.extend(self.placed(element, last, point(origin), decimals)?);
                 Ok(sorted(edits))
             }
@@ -187,7 +191,7 @@ impl Source {
         decimals: usize,
     ) -> Result<Vec<Edit>, StructureError> {
         if !point.is_finite() {
-            return Err(refused("that is too far away".to_owned()));
+            return Err(refused("the position is out of range".to_owned()));
         }
         Ok(if let Some(last) = last {
             self.set(last, point.to_array(), decimals)
@@ -232,9 +236,10 @@ impl Source {
         scale: Option<&Transform>,
         before: Option<&Transform>,
         factors: DVec3,
-        decimals: Option<usize>,
+        decimals: usize,
     ) -> Vec<Edit> {
-        let decimals = decimals.unwrap_or(17).max(2) + 1;
+        // A factor needs digits that a short distance does not.
+        let decimals = decimals.max(2) + 1;
         let is_uniform = factors.x == factors.y && factors.y == factors.z;
         match scale.filter(|scale| scale.parameter.element == "scale") {
             Some(scale) if is_uniform => self.scaled_evenly(scale, factors.x, decimals),

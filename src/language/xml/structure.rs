@@ -19,9 +19,9 @@ impl Restructure for Source {
     fn consequence(&self, nodes: &[Node]) -> Option<String> {
         match self.users_outside(nodes).len() {
             0 => None,
-            1 => Some("1 object that uses it turns white".to_owned()),
+            1 => Some("1 object uses it and will be plain white".to_owned()),
             users => Some(format!(
-                "{} that use it turn white",
+                "{} use it and will be plain white",
                 counted(users, "object")
             )),
         }
@@ -60,63 +60,12 @@ impl Restructure for Source {
     fn insertion(&self, text: &str, after: Node) -> Result<Placement, StructureError> {
         let mut copies = Copies::of(text)?;
         copies.rename(&self.names());
-        let (tree, origins) = (&self.tree, &self.origins);
-        let own = match after {
-            Node::Light(_) | Node::Material(_) | Node::Object(_) => origins.element(tree, after),
-            _ => None,
-        };
-        let same = |child: usize| {
-            let node = origins.node_of(child)?;
-            let is_kind = |kind: &str| copies.is_all(kind);
-            let same = match node {
-                Node::Light(_) => is_kind("light"),
-                Node::Material(_) => is_kind("material"),
-                Node::Object(_) => is_kind("object"),
-                _ => false,
-            };
-            (same && origins.element(tree, node) == Some(child)).then_some(child)
-        };
-        let scene = origins.scene.ok_or_else(|| StructureError::Foreign {
+        let scene = self.origins.scene.ok_or_else(|| StructureError::Foreign {
             reason: "there is no <scene> to hold it".to_owned(),
         })?;
-        let children = || tree.children(scene).collect::<Vec<_>>();
-        let anchor = own.and_then(same).or_else(|| {
-            let children = children();
-            let last = children.iter().rev().find_map(|&child| same(child));
-            last.or_else(|| children.last().copied())
-        });
-        let ending = line_ending(&self.text);
-        let edit = if let Some(anchor) = anchor {
-            let element = &tree.elements[anchor];
-            let indent =
-                &self.text[line_start(&self.text, element.whole.start())..element.whole.start()];
-            let indent = if indent.trim().is_empty() { indent } else { "" };
-            let end = self.with_comment_behind(element.whole);
-            let gap = line_before(&self.text, line_start(&self.text, element.whole.start()))
-                .filter(|line| line.of(&self.text).trim().is_empty());
-            let gap = gap.map_or("", |_| ending);
-            Edit {
-                span: Span::at(end),
-                text: format!("{ending}{gap}{}", copies.indented(indent, ending)),
-            }
-        } else {
-            let scene = &tree.elements[scene];
-            let own = scene.lead.of(&self.text).trim_start_matches(['\r', '\n']);
-            let inner = format!("{own}  ");
-            let copies = copies.indented(&inner, ending);
-            let content = format!("{ending}{copies}{ending}{own}");
-            if scene.is_empty_tag() {
-                let name = scene.name.of(&self.text);
-                Edit {
-                    span: Span::new(scene.attributes_end as usize, scene.tag.end()),
-                    text: format!(">{content}</{name}>"),
-                }
-            } else {
-                Edit {
-                    span: Span::new(scene.tag.end(), scene.tag.end()),
-                    text: content,
-                }
-            }
+        let edit = match self.anchor(&copies, after, scene) {
+            Some(anchor) => self.after(anchor, &copies),
+            None => self.inside_empty(scene, &copies),
         };
         Ok(Placement {
             edits: vec![edit],
@@ -157,7 +106,7 @@ impl Restructure for Source {
         let refused = |reason: String| Err(StructureError::Name(reason));
         let Some(old) = self.called(node) else {
             return refused(if self.names_file(node) {
-                "the name of an obj is that of its file: edit its field".to_owned()
+                "an obj's name is its file: edit the field instead".to_owned()
             } else {
                 format!("{} has no name", self.name(node))
             });
@@ -169,7 +118,7 @@ impl Restructure for Source {
         let materials = self.origins.materials.iter();
         let mut named = materials.filter_map(|place| place.name.as_deref());
         if is_material && name != old && named.any(|known| known == name) {
-            return refused(format!("a material is named {name} already"));
+            return refused(format!("a material named {name} already exists"));
         }
         let (tree, origins) = (&self.tree, &self.origins);
         let element = origins.element(tree, node).unwrap_or_default();
@@ -193,8 +142,8 @@ impl Restructure for Source {
         Ok(edits)
     }
 
-    fn additions(&self) -> Vec<Addition> {
-        add::additions()
+    fn additions(&self) -> &'static [Addition] {
+        add::ADDITIONS
     }
 
     fn addition(&self, name: &str, wish: &Wish<'_>) -> Result<Placement, StructureError> {
@@ -234,6 +183,64 @@ impl Restructure for Source {
 }
 
 impl Source {
+    /// The element after which copies stand: that of `after` if they are of its kind, otherwise the
+    /// scene's last child of their kind, or its last child. `None` in an empty scene.
+    fn anchor(&self, copies: &Copies, after: Node, scene: usize) -> Option<usize> {
+        let (tree, origins) = (&self.tree, &self.origins);
+        let is_same = |element: &usize| {
+            let kind = match origins.node_of(*element) {
+                Some(Node::Light(_)) => "light",
+                Some(Node::Material(_)) => "material",
+                Some(Node::Object(_)) => "object",
+                _ => return false,
+            };
+            let node = origins.node_of(*element);
+            // Parameters belong to the node that they are in.
+            let is_own = node.and_then(|node| origins.element(tree, node)) == Some(*element);
+            is_own && copies.is_all(kind)
+        };
+        let own = origins.element(tree, after).filter(is_same);
+        own.or_else(|| tree.children(scene).filter(is_same).last())
+            .or_else(|| tree.children(scene).last())
+    }
+
+    /// The edit that writes copies after an element, with its indentation, and after a blank line if
+    /// one precedes it.
+    fn after(&self, element: usize, copies: &Copies) -> Edit {
+        let (text, ending) = (&*self.text, line_ending(&self.text));
+        let own = self.tree.elements[element].whole;
+        let line = line_start(text, own.start());
+        let indent = &text[line..own.start()];
+        let indent = if indent.trim().is_empty() { indent } else { "" };
+        let before = line_before(text, line);
+        let gap = before.filter(|line| line.of(text).trim().is_empty());
+        let gap = gap.map_or("", |_| ending);
+        Edit {
+            span: Span::at(self.with_comment_behind(own)),
+            text: format!("{ending}{gap}{}", copies.indented(indent, ending)),
+        }
+    }
+
+    /// The edit that writes copies into an element without children.
+    fn inside_empty(&self, element: usize, copies: &Copies) -> Edit {
+        let (text, ending) = (&*self.text, line_ending(&self.text));
+        let element = &self.tree.elements[element];
+        let own = element.lead.of(text).trim_start_matches(['\r', '\n']);
+        let copies = copies.indented(&format!("{own}  "), ending);
+        let content = format!("{ending}{copies}{ending}{own}");
+        if element.is_empty_tag() {
+            let name = element.name.of(text);
+            return Edit {
+                span: Span::new(element.attributes_end as usize, element.tag.end()),
+                text: format!(">{content}</{name}>"),
+            };
+        }
+        Edit {
+            span: Span::at(element.tag.end()),
+            text: content,
+        }
+    }
+
     fn replaced(&self, value: Span, name: &str) -> Edit {
         Edit {
             span: value,

@@ -3,8 +3,8 @@
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use glam::DVec3;
 
-use super::hand::{decimals_of, round_up};
 use super::menu::{Menu, Purpose};
+use super::transform::{decimals_of, round_up};
 use super::{App, line};
 use crate::language::{Node, Wish};
 use crate::render::{pixel_width, surface_under};
@@ -17,7 +17,8 @@ impl App {
     /// Opens the menu of what can be added.
     pub(super) fn open_additions(&mut self) {
         if self.document.text().trim().is_empty() {
-            self.overlays.fail("the text is empty: :new starts a scene");
+            self.overlays
+                .fail("the scene is empty: start one with :new");
             return;
         }
         if self.refuses_structure() {
@@ -39,7 +40,7 @@ impl App {
         let name = self.source().name(node);
         let kinds = self.source().kinds(node);
         if kinds.is_empty() {
-            self.overlays.fail(format!("{name} has only one kind"));
+            self.overlays.fail(format!("{name} has only one type"));
             return;
         }
         let own = kinds

@@ -17,8 +17,6 @@ mod derived;
 mod disk;
 mod edit;
 mod exports;
-mod hand;
-mod hands;
 mod jobs;
 mod journal;
 mod leaving;
@@ -45,6 +43,8 @@ mod structure;
 #[cfg(test)]
 pub(super) mod tests;
 mod tracing;
+mod transform;
+mod transforming;
 mod typed;
 mod typing;
 mod update;
@@ -55,7 +55,6 @@ use std::time::Duration;
 pub use cursor::{Cursor, Typing};
 pub use derived::{FieldRow, Provenance};
 pub use disk::{Disk, FirstReading, OnDisk};
-pub use hand::Hand;
 pub use jobs::{Export, Jobs, Pending, Stage};
 pub use menu::{Menu, Purpose};
 pub use messages::{Message, Messages};
@@ -67,6 +66,7 @@ pub use page::{List, Page, PageFocus};
 pub use palette::{Completion, Palette};
 pub use picture::{Picture, Shown};
 pub use pictures::{Pictures, Quality};
+pub use transform::Transform;
 
 /// A second Ctrl-C within this time ends the program.
 const INTERRUPT_AGAIN: Duration = Duration::from_secs(2);

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::hand::Hand;
 use super::picture::Picture;
+use super::transform::Transform;
 use crate::render::{Aov, Filter, Frame};
 use crate::scene::{Camera, Integrator, Scene};
 use crate::ui::keymap::Mode;
@@ -34,7 +34,7 @@ pub struct Pictures {
     /// The index of the light that the preview shows alone.
     pub solo: Option<usize>,
     /// What is being moved in [`Mode::Move`].
-    pub hand: Option<Hand>,
+    pub transform: Option<Transform>,
     /// The pointer's cell when the camera or a thing was last dragged.
     pub(super) drag: Option<(u16, u16)>,
     /// The mode to return to from the full-size trace.
@@ -80,7 +80,7 @@ impl Pictures {
             net: None,
             due: false,
             solo: None,
-            hand: None,
+            transform: None,
             drag: None,
             before_trace: None,
         }

@@ -132,7 +132,7 @@ impl App {
         if self.mode == Mode::Move {
             // A cell shows two pixels, one above the other.
             let (right, down) = (moved(from.0, at.0), 2.0 * moved(from.1, at.1));
-            self.drag_hand(right, -down);
+            self.drag_transform(right, -down);
             self.pictures.drag = Some(at);
             return;
         }

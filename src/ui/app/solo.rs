@@ -10,7 +10,7 @@ impl App {
     /// Shows the selected light alone in the preview, or all lights again.
     pub(super) fn toggle_solo(&mut self) {
         let Node::Light(light) = self.cursor.selected() else {
-            self.overlays.fail("only lights can be shown alone");
+            self.overlays.fail("only a light can be shown on its own");
             return;
         };
         if self.pictures.solo.take() == Some(light) {
@@ -19,7 +19,7 @@ impl App {
             self.pictures.solo = Some(light);
             let name = self.source().name(Node::Light(light));
             self.overlays
-                .say(format!("{name} alone, in the preview only; l shows all"));
+                .say(format!("the preview shows only {name}; l shows all lights"));
         }
         self.pictures.due = true;
     }

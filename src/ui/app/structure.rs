@@ -19,7 +19,7 @@ impl App {
     fn targets_name(&self, nodes: &[Node]) -> String {
         match nodes {
             [node] => self.source().name(*node),
-            _ => counted(nodes.len(), "thing"),
+            _ => counted(nodes.len(), "item"),
         }
     }
 
@@ -33,9 +33,9 @@ impl App {
             self.select(next);
         }
         let marks = self.cursor.marks.len();
-        let words = counted(marks, "thing");
+        let words = counted(marks, "item");
         self.overlays
-            .say(format!("{words} marked; Esc takes the marks away"));
+            .say(format!("{words} marked; Esc clears the marks"));
     }
 
     /// Deletes the targets; asks first if that changes others.
@@ -112,7 +112,7 @@ impl App {
         match self.source().copied(&nodes) {
             Ok(copied) => {
                 let name = self.targets_name(&nodes);
-                self.overlays.say(format!("copied: {name}; p inserts it"));
+                self.overlays.say(format!("copied: {name}; p pastes it"));
                 self.cursor.copied = Some(copied.clone());
                 vec![Effect::CopyText(copied)]
             }
@@ -129,7 +129,7 @@ impl App {
             Some(copied) => self.insert(&copied),
             None => self
                 .overlays
-                .fail("nothing to insert: y copies the selected thing"),
+                .fail("nothing to paste: y copies the selected item"),
         }
     }
 
@@ -140,13 +140,13 @@ impl App {
         }
         let placed = self.source().insertion(text, self.cursor.selected());
         if let Err(StructureError::Foreign { reason }) = &placed {
-            let message = format!("{reason}; values are pasted into fields: press e");
+            let message = format!("{reason}; to paste values into fields, press e");
             self.overlays.fail(message);
             return;
         }
         let at = placed.as_ref().ok().map(|placed| placed.at);
         let edits = placed.map(|placed| placed.edits);
-        self.restructure(edits, at, "inserted");
+        self.restructure(edits, at, "pasted");
     }
 
     /// Opens a line to type the new name of the selected node.
@@ -247,7 +247,7 @@ impl App {
         let has_errors = 0 < self.error_count();
         if has_errors {
             self.overlays
-                .fail("things can be added, moved or deleted once the text has no errors");
+                .fail("correct the text's errors before adding, moving or deleting items");
         }
         has_errors
     }

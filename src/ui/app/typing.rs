@@ -183,7 +183,7 @@ impl App {
         }
         if self.mode != Mode::Edit {
             self.overlays
-                .say("press Esc to paste things, or e to paste values into fields");
+                .say("press Esc to paste items, or e to paste values into fields");
             return;
         }
         let values = self.literals_of(pasted);

@@ -88,7 +88,7 @@ impl App {
         if is_line && self.overlays.dialog.is_none() && !(reserved && controls) {
             return self.type_key(key);
         }
-        if context == Context::In(Mode::Move) && self.type_into_hand(key) {
+        if context == Context::In(Mode::Move) && self.type_amount(key) {
             return Vec::new();
         }
         let second_g = self.prefix.take() == Some(Action::G);
@@ -249,12 +249,12 @@ impl App {
             Action::Add => self.open_additions(),
             Action::Solo => self.toggle_solo(),
             Action::Retype => self.open_kinds(),
-            Action::Hand(tool) => self.take_in_hand(tool),
+            Action::Transform(tool) => self.start_transform(tool),
             Action::Step(right, up, stride) => {
-                self.step_hand(right.into(), up.into(), stride);
+                self.step_transform(right.into(), up.into(), stride);
             }
-            Action::Lock(axis) => self.lock_hand(axis),
-            Action::Snap => self.snap_hand(),
+            Action::Lock(axis) => self.lock_axis(axis),
+            Action::Snap => self.toggle_snap(),
             Action::Type => self.type_current(),
             Action::Nudge(steps, stride) => self.nudge(steps, stride),
             Action::Stride(step) => {
@@ -346,7 +346,7 @@ impl App {
                 self.mode = self.pictures.mode_before();
             }
             Context::In(Mode::Select) => self.cursor.marks.clear(),
-            Context::In(Mode::Move) => self.put_back(),
+            Context::In(Mode::Move) => self.cancel_transform(),
             Context::In(_) => {
                 self.document.end_step();
                 self.mode = Mode::Select;
@@ -365,7 +365,7 @@ impl App {
             Context::Overwrite => return self.answer_taken(Existing::Overwritten),
             Context::Recover => return self.restore(),
             Context::In(Mode::Pick) => self.pick_cross(),
-            Context::In(Mode::Move) => self.keep_hand(),
+            Context::In(Mode::Move) => self.confirm_transform(),
             Context::In(_) | Context::Help | Context::Messages | Context::Opening => {}
         }
         Vec::new()

@@ -140,7 +140,7 @@ pub enum Action {
     /// Opens the menu of kinds to change to.
     Retype,
     /// Starts to move, turn or scale.
-    Hand(Tool),
+    Transform(Tool),
     /// Moves, turns or scales by steps to the right and up.
     Step(i8, i8, Stride),
     /// Locks an axis of the world, then of the thing itself: 0 is x.
@@ -229,7 +229,7 @@ pub enum Action {
     No,
 }
 
-/// What the hand does.
+/// How things are transformed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tool {
     /// Moves.

@@ -186,7 +186,7 @@ const SELECT_HINTS: &[Hint] = &[
     (&[A::Move(1), A::Move(-1)], "move"),
     (&[A::Go(Edit)], "edit"),
     (&[A::Add], "add"),
-    (&[A::Hand(Tool::Move)], "move it"),
+    (&[A::Transform(Tool::Move)], "move it"),
     (&[A::Go(View)], "camera"),
     (&[A::Go(Pick)], "pick"),
     (&[A::Search], "search"),
@@ -243,8 +243,8 @@ const MOVE_HINTS: &[Hint] = &[
     ),
     (&[A::Lock(0), A::Lock(1), A::Lock(2)], "axis"),
     (&[A::Snap], "grid"),
-    (&[A::Accept], "keep"),
-    (&[A::Back], "put back"),
+    (&[A::Accept], "confirm"),
+    (&[A::Back], "cancel"),
 ];
 const PICK_HINTS: &[Hint] = &[
     (

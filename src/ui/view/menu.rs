@@ -50,6 +50,6 @@ pub(crate) fn render(app: &App, list: Rect, body: Rect, buffer: &mut Buffer) {
         row.put(&format!("{words}{:padding$}", ""), style.patch(theme::DIM));
     }
     if shown.is_empty() {
-        Row::new(buffer, lines, 1).put("  nothing of that name", theme::DIM);
+        Row::new(buffer, lines, 1).put("  no match", theme::DIM);
     }
 }

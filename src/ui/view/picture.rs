@@ -127,17 +127,17 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
     Row::new(buffer, cells, 0).put(&format!(" {name} "), theme::chip(theme::ACCENT));
 }
 
-/// Draws the axis that a motion is locked to, through the thing in hand.
+/// Draws the axis that a transformation is locked to, through what is being transformed.
 fn axis(app: &App, cells: Rect, size: Size, buffer: &mut Buffer) {
-    let (Some(hand), Some(camera)) = (&app.pictures.hand, app.camera()) else {
+    let (Some(transform), Some(camera)) = (&app.pictures.transform, app.camera()) else {
         return;
     };
-    let Some(axis) = hand.axis() else { return };
-    let unit = pixel_width(hand.pivot(), &camera, size);
+    let Some(axis) = transform.axis() else { return };
+    let unit = pixel_width(transform.pivot(), &camera, size);
     let reach = i64::from(2 * size.width.max(size.height));
     let colour = theme::axis(axis);
     for at in -reach..=reach {
-        let point = hand.pivot() + unit * at as f64 * axis;
+        let point = transform.pivot() + unit * at as f64 * axis;
         let Some([x, y]) = pixel_of(point, &camera, size) else {
             continue;
         };

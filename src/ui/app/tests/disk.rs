@@ -559,7 +559,7 @@ fn commands_and_pastes_without_effect_say_why() {
     assert!(app.overlays.prompt.is_some() && words(&app).contains("no file yet"));
     press(&mut app, "<Esc>");
     app.update(Msg::Paste("1 2 3".to_owned()));
-    assert!(words(&app).contains("values are pasted into fields"));
+    assert!(words(&app).contains("to paste values into fields"));
 }
 
 #[test]

@@ -6,7 +6,6 @@ mod disk;
 mod editing;
 mod exports;
 mod fields;
-mod hands;
 mod making;
 mod messages;
 mod moving;
@@ -18,6 +17,7 @@ mod recovering;
 mod saving;
 mod starting;
 mod structure;
+mod transforming;
 mod views;
 mod xml;
 

@@ -248,7 +248,7 @@ fn what_cannot_be_done_is_said_and_changes_nothing() {
             SCENE,
             Light(0),
             "d",
-            "the last light cannot be deleted: a .ray scene has at least one",
+            "the last light cannot be deleted: a .ray scene needs at least one",
         ),
         (
             "a.ray",
@@ -276,28 +276,28 @@ fn what_cannot_be_done_is_said_and_changes_nothing() {
             RAY,
             Object(0),
             "R",
-            "a .ray scene has no names; a comment can say what this is",
+            "objects have no names in .ray; use a comment instead",
         ),
         (
             "a.ray",
             RAY,
             Object(0),
             "p",
-            "nothing to insert: y copies the selected thing",
+            "nothing to paste: y copies the selected item",
         ),
         (
             "a.ray",
             RAY,
             Object(0),
             "   d",
-            "the last object cannot be deleted: a .ray scene has at least one",
+            "the last object cannot be deleted: a .ray scene needs at least one",
         ),
         (
             "a.dat",
             DAT,
             Object(0),
             "R<Ctrl-u>2<Enter>",
-            "object 2 exists already",
+            "object 2 already exists",
         ),
         (
             "a.dat",
@@ -324,7 +324,7 @@ fn deleting_what_others_use_is_asked() {
     let mut app = after("scene.dat", DAT, Material(1), "d");
     assert_eq!(
         app.consequence(&[Material(1)]),
-        "Delete material 2? 2 objects, which use it, go too."
+        "Delete material 2? 2 objects use it and will be deleted too."
     );
     press(&mut app, "n");
     assert_eq!(app.document.text(), DAT);

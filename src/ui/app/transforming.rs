@@ -1,11 +1,11 @@
-//! Moving, turning and scaling by hand, in MOVE mode. Every change is made to the text at once and
+//! Moving, turning and scaling by transform, in MOVE mode. Every change is made to the text at once and
 //! replaces the one before, so that the whole is one undo step.
 
 use crossterm::event::{KeyCode, KeyEvent};
 use glam::DVec3;
 
 use super::App;
-use super::hand::{Hand, Lock, Snap, decimals_of, round_up};
+use super::transform::{Lock, Snap, Transform, decimals_of, round_up};
 use crate::language::{Node, Pose};
 use crate::render::{axes, pixel_width};
 use crate::text::Edit;
@@ -13,7 +13,7 @@ use crate::ui::keymap::{Mode, Stride, Tool};
 
 impl App {
     /// Starts to move, turn or scale the targets.
-    pub(super) fn take_in_hand(&mut self, tool: Tool) {
+    pub(super) fn start_transform(&mut self, tool: Tool) {
         if self.refuses_structure() {
             return;
         }
@@ -25,20 +25,20 @@ impl App {
             nodes[0]
         };
         let (Some(camera), Some((_, size))) = (self.camera(), self.raster()) else {
-            self.overlays.fail("no picture to move in");
+            self.overlays.fail("there is no picture to move it in");
             return;
         };
         let Some(pose) = self.pose(node) else {
             let reason = match node {
                 Node::View => "v moves the camera".to_owned(),
-                _ => format!("{} has no place", self.source().name(node)),
+                _ => format!("{} has no position", self.source().name(node)),
             };
             self.overlays.fail(reason);
             return;
         };
         let step = round_up(pixel_width(pose.centre, &camera, size));
         self.document.end_step();
-        self.pictures.hand = Some(Hand {
+        self.pictures.transform = Some(Transform {
             tool,
             lock: Lock::default(),
             snap: Snap::default(),
@@ -71,35 +71,35 @@ impl App {
     }
 
     /// Moves by steps to the right and up.
-    pub(super) fn step_hand(&mut self, right: f64, up: f64, stride: Stride) {
+    pub(super) fn step_transform(&mut self, right: f64, up: f64, stride: Stride) {
         let factor = stride.of(1.0);
-        self.change_hand(|hand| {
-            hand.typed.clear();
-            hand.steps[0] += factor * right;
-            hand.steps[1] += factor * up;
+        self.change_transform(|transform| {
+            transform.typed.clear();
+            transform.steps[0] += factor * right;
+            transform.steps[1] += factor * up;
         });
     }
 
     /// Moves by pixels of the picture to the right and up, so that a thing follows the pointer.
-    pub(super) fn drag_hand(&mut self, right: f64, up: f64) {
+    pub(super) fn drag_transform(&mut self, right: f64, up: f64) {
         let Some((camera, (_, size))) = self.camera().zip(self.raster()) else {
             return;
         };
-        self.change_hand(|hand| {
-            let pixels = match hand.tool {
-                Tool::Move => pixel_width(hand.pose.centre, &camera, size) / hand.step,
+        self.change_transform(|transform| {
+            let pixels = match transform.tool {
+                Tool::Move => pixel_width(transform.pose.centre, &camera, size) / transform.step,
                 Tool::Turn | Tool::Scale => 1.0,
             };
-            hand.typed.clear();
-            hand.steps[0] += pixels * right;
-            hand.steps[1] += pixels * up;
+            transform.typed.clear();
+            transform.steps[0] += pixels * right;
+            transform.steps[1] += pixels * up;
         });
     }
 
     /// Locks an axis of the world, then of the thing itself, then none.
-    pub(super) fn lock_hand(&mut self, axis: usize) {
-        self.change_hand(|hand| {
-            hand.lock = match hand.lock {
+    pub(super) fn lock_axis(&mut self, axis: usize) {
+        self.change_transform(|transform| {
+            transform.lock = match transform.lock {
                 Lock::World(locked) if locked == axis => Lock::Own(axis),
                 Lock::Own(locked) if locked == axis => Lock::Free,
                 _ => Lock::World(axis),
@@ -107,9 +107,9 @@ impl App {
         });
     }
 
-    pub(super) fn snap_hand(&mut self) {
-        self.change_hand(|hand| {
-            hand.snap = match hand.snap {
+    pub(super) fn toggle_snap(&mut self) {
+        self.change_transform(|transform| {
+            transform.snap = match transform.snap {
                 Snap::Off => Snap::Grid,
                 Snap::Grid => Snap::Off,
             };
@@ -117,17 +117,23 @@ impl App {
     }
 
     /// Types a character of the amount; returns whether it is one.
-    pub(super) fn type_into_hand(&mut self, key: KeyEvent) -> bool {
-        let typed = self.pictures.hand.as_ref().map_or("", |hand| &hand.typed);
+    pub(super) fn type_amount(&mut self, key: KeyEvent) -> bool {
+        let typed = self
+            .pictures
+            .transform
+            .as_ref()
+            .map_or("", |transform| &transform.typed);
         match key.code {
             KeyCode::Char(character)
                 if character.is_ascii_digit() || matches!(character, '.' | '-' | '+') =>
             {
-                self.change_hand(|hand| hand.typed.push(character));
+                self.change_transform(|transform| transform.typed.push(character));
                 true
             }
             KeyCode::Backspace if !typed.is_empty() => {
-                self.change_hand(|hand| hand.typed.truncate(hand.typed.len() - 1));
+                self.change_transform(|transform| {
+                    transform.typed.truncate(transform.typed.len() - 1);
+                });
                 true
             }
             _ => false,
@@ -135,19 +141,19 @@ impl App {
     }
 
     /// Keeps the change and ends.
-    pub(super) fn keep_hand(&mut self) {
-        if let Some(hand) = self.pictures.hand.take() {
-            self.overlays.say(hand.words().replace('_', ""));
+    pub(super) fn confirm_transform(&mut self) {
+        if let Some(transform) = self.pictures.transform.take() {
+            self.overlays.say(transform.words());
         }
         self.document.end_step();
         self.mode = Mode::Select;
     }
 
     /// Puts everything back and ends.
-    pub(super) fn put_back(&mut self) {
-        if let Some(hand) = self.pictures.hand.take()
-            && hand.is_applied
-            && hand.revision == self.document.revision()
+    pub(super) fn cancel_transform(&mut self) {
+        if let Some(transform) = self.pictures.transform.take()
+            && transform.is_applied
+            && transform.revision == self.document.revision()
         {
             self.document.reject();
             self.relower();
@@ -157,35 +163,37 @@ impl App {
     }
 
     /// Changes the motion, and the text with it.
-    fn change_hand(&mut self, change: impl FnOnce(&mut Hand)) {
-        let Some(mut hand) = self.pictures.hand.take() else {
+    fn change_transform(&mut self, change: impl FnOnce(&mut Transform)) {
+        let Some(mut transform) = self.pictures.transform.take() else {
             return;
         };
-        if hand.revision != self.document.revision() {
+        if transform.revision != self.document.revision() {
             self.mode = Mode::Select;
             self.overlays
-                .warn("the scene has changed meanwhile: what was moved is kept");
+                .warn("the scene has changed on disk; the transformation so far is kept");
             return;
         }
-        change(&mut hand);
-        if hand.is_applied {
+        change(&mut transform);
+        if transform.is_applied {
             self.document.reject();
         }
         let axes = self
             .camera()
             .map_or([DVec3::X, DVec3::Y, DVec3::NEG_Z], |camera| axes(&camera));
-        let edits = self
-            .source()
-            .motion(&hand.nodes, &hand.motion(axes), hand.decimals);
+        let edits = self.source().motion(
+            &transform.nodes,
+            &transform.motion(axes),
+            transform.decimals,
+        );
         let edits = edits.map_err(|refused| refused.to_string());
         let outcome = edits.and_then(|edits| self.apply_motion(&edits));
-        hand.is_applied = outcome == Ok(true);
+        transform.is_applied = outcome == Ok(true);
         match outcome {
-            Ok(_) => self.overlays.say(hand.words()),
+            Ok(_) => self.overlays.say(transform.words()),
             Err(reason) => self.overlays.fail(reason),
         }
-        hand.revision = self.document.revision();
-        self.pictures.hand = Some(hand);
+        transform.revision = self.document.revision();
+        self.pictures.transform = Some(transform);
     }
 
     /// Makes edits on the text as it was before the motion; returns whether they change it.

@@ -1,4 +1,4 @@
-//! A motion by hand: what moves, along which axis, and how far.
+//! A motion by transform: what moves, along which axis, and how far.
 
 use glam::DVec3;
 
@@ -37,7 +37,7 @@ pub enum Snap {
 
 /// A motion in progress.
 #[derive(Clone, Debug)]
-pub struct Hand {
+pub struct Transform {
     /// What it does.
     pub tool: Tool,
     /// What it is locked to.
@@ -62,7 +62,7 @@ pub struct Hand {
     pub(super) is_applied: bool,
 }
 
-impl Hand {
+impl Transform {
     /// The amount along the locked axis, or in the first direction: in world units, degrees, or as
     /// a factor.
     pub fn amount(&self) -> f64 {
@@ -110,9 +110,7 @@ impl Hand {
             Tool::Move => Motion::Move(match self.axis() {
                 Some(axis) => self.amount() * axis,
                 None if self.typed.is_empty() => {
-                    let [across, upwards] = self
-                        .steps
-                        .map(|steps| self.snapped(steps * self.step, GRID * self.step));
+                    let [across, upwards] = self.in_plane();
                     across * right + upwards * up
                 }
                 None => self.amount() * right,
@@ -134,41 +132,42 @@ impl Hand {
         }
     }
 
-    /// What it does, in a few words: `move along x by 0.5`.
+    /// The distances to the right and up of a move that is locked to no axis.
+    fn in_plane(&self) -> [f64; 2] {
+        let grid = GRID * self.step;
+        self.steps
+            .map(|steps| self.snapped(steps * self.step, grid))
+    }
+
+    /// What it does, in a few words: `move along x: 0.5`.
     pub fn words(&self) -> String {
-        let along = match self.lock {
-            Lock::Free => String::new(),
-            Lock::World(axis) => format!(" {}", ["x", "y", "z"][axis]),
-            Lock::Own(axis) => format!(" own {}", ["x", "y", "z"][axis]),
+        let axis = match self.lock {
+            Lock::Free => None,
+            Lock::World(axis) => Some(["x", "y", "z"][axis]),
+            Lock::Own(axis) => Some(["own x", "own y", "own z"][axis]),
         };
-        let amount = if self.typed.is_empty() {
-            let decimals = if self.tool == Tool::Move {
-                self.decimals
-            } else {
-                2
-            };
-            format!("{:.decimals$}", self.amount() + 0.0)
-        } else {
-            format!("{}_", self.typed)
+        let amount = match (self.typed.as_str(), self.tool) {
+            ("", Tool::Move) => format!("{:.*}", self.decimals, self.amount() + 0.0),
+            ("", Tool::Turn | Tool::Scale) => format!("{:.2}", self.amount() + 0.0),
+            (typed, _) => typed.to_owned(),
         };
-        let grid = match self.snap {
-            Snap::Off => "",
-            Snap::Grid => " on the grid",
-        };
-        match (self.tool, self.lock) {
-            (Tool::Move, Lock::Free) if self.typed.is_empty() => {
-                let [right, up] = self
-                    .steps
-                    .map(|steps| self.snapped(steps * self.step, GRID * self.step));
+        let what = match (self.tool, axis) {
+            (Tool::Move, Some(axis)) => format!("move along {axis}: {amount}"),
+            (Tool::Move, None) if self.typed.is_empty() => {
+                let [right, up] = self.in_plane();
                 let decimals = self.decimals;
-                format!("move: {right:.decimals$} right, {up:.decimals$} up{grid}")
+                format!("move: {right:.decimals$} right, {up:.decimals$} up")
             }
-            (Tool::Move, _) => format!("move along{along}: {amount}{grid}"),
-            (Tool::Turn, _) => format!("turn about{along}: {amount}°{grid}"),
-            (Tool::Scale, _) => format!("scale{along}: ×{amount}{grid}"),
+            (Tool::Move, None) => format!("move to the right: {amount}"),
+            (Tool::Turn, Some(axis)) => format!("rotate about {axis}: {amount}°"),
+            (Tool::Turn, None) => format!("rotate in the picture: {amount}°"),
+            (Tool::Scale, Some(axis)) => format!("scale along {axis}: ×{amount}"),
+            (Tool::Scale, None) => format!("scale: ×{amount}"),
+        };
+        match self.snap {
+            Snap::Off => what,
+            Snap::Grid => format!("{what} on the grid"),
         }
-        .replace("along:", "to the right:")
-        .replace("about:", "in the picture:")
     }
 }
 

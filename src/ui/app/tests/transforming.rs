@@ -1,4 +1,4 @@
-//! Adding things, changing their kind, and moving, turning and scaling them by hand.
+//! Adding things, changing their kind, and moving, turning and scaling them by transform.
 
 use super::*;
 use crate::language::Node;
@@ -175,13 +175,14 @@ fn escape_puts_back_every_byte_and_leaves_no_step() {
 #[test]
 fn a_motion_says_how_far_it_went() {
     for (said, done) in [
-        ("mx1.5", "move along x: 1.5_"),
+        ("mx1.5", "move along x: 1.5"),
         ("mx1.5<Enter>", "move along x: 1.5"),
         ("mll", "move: 1.0 right, 0.0 up"),
         ("mllg", "move: 0.0 right, 0.0 up on the grid"),
-        ("tzzl", "turn about own z: 1.00°"),
-        ("tl", "turn in the picture: 1.00°"),
+        ("tzzl", "rotate about own z: 1.00°"),
+        ("tl", "rotate in the picture: 1.00°"),
         ("sk", "scale: ×1.05"),
+        ("sxx2", "scale along own x: ×2"),
     ] {
         let (mut app, _) = opened_as("a.ray", RAY);
         app.select(Object(0));
@@ -194,13 +195,13 @@ fn a_motion_says_how_far_it_went() {
 fn what_cannot_be_moved_is_said() {
     for (name, text, node, said, reason) in [
         ("a.ray", RAY, Node::View, "m", "v moves the camera"),
-        ("a.ray", RAY, Node::Ambient, "m", "ambient has no place"),
+        ("a.ray", RAY, Node::Ambient, "m", "ambient has no position"),
         (
             "a.dat",
             DAT,
             Object(0),
             "syy2",
-            "a sphere has one radius: c changes it to an ellipsoid",
+            "a sphere has a single radius: press c to make it an ellipsoid",
         ),
     ] {
         let (mut app, _) = opened_as(name, text);
@@ -233,7 +234,7 @@ fn a_change_on_disk_ends_a_motion_and_loses_nothing() {
     outside(&mut app, &RAY.replace("5 5 5", "6 6 6"));
     press(&mut app, "l");
     assert!(
-        words(&app).contains("what was moved is kept"),
+        words(&app).contains("the transformation so far is kept"),
         "{}",
         words(&app)
     );
@@ -271,7 +272,7 @@ fn menus_add_things_and_change_their_kind() {
     assert_eq!(app.document.text(), RAY);
     app.select(Light(0));
     press(&mut app, "c");
-    assert_eq!(words(&app), "light 1 has only one kind");
+    assert_eq!(words(&app), "light 1 has only one type");
 }
 
 #[test]
