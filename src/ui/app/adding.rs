@@ -8,7 +8,6 @@ use super::transform::{decimals_of, round_up};
 use super::{App, line};
 use crate::language::{Node, Wish};
 use crate::render::{pixel_width, surface_under};
-use crate::ui::keymap::Mode;
 
 /// The fraction of the picture's height that a new thing takes up.
 const SHARE: f64 = 0.2;
@@ -88,7 +87,7 @@ impl App {
         }
     }
 
-    /// Adds a thing where the cross is on a surface, otherwise at the point looked at.
+    /// Adds a thing on the surface looked at, otherwise at the camera's target.
     fn add(&mut self, name: &'static str) {
         let marked: Vec<_> = self.cursor.marks.iter().copied().collect();
         let (centre, half, decimals) = self.place_for_new();
@@ -121,8 +120,7 @@ impl App {
             let half = 0.5 * SHARE * f64::from(size.height) * pixel_width(point, &camera, size);
             round_up(half)
         };
-        let surface = self.surface_at_cross();
-        let (centre, half) = match surface {
+        let (centre, half) = match self.surface_looked_at() {
             Some((point, normal)) => {
                 let half = size_at(point);
                 (point + half * normal, half)
@@ -133,19 +131,18 @@ impl App {
         (centre, half, decimals)
     }
 
-    /// The point and the normal of the surface under the cross, if there is one.
-    fn surface_at_cross(&self) -> Option<(DVec3, DVec3)> {
-        if self.mode != Mode::Pick && self.pictures.cross.is_none() {
-            return None;
-        }
-        let (column, row) = self.pictures.cross?;
+    /// The point and the normal of the surface under the cross, or without a cross under the middle
+    /// of the picture, if there is one.
+    fn surface_looked_at(&self) -> Option<(DVec3, DVec3)> {
+        let (cells, size) = self.raster()?;
+        let middle = (cells.width / 2, cells.height / 2);
+        let (column, row) = self.pictures.cross.unwrap_or(middle);
         let (x, y) = (u32::from(column), 2 * u32::from(row));
         let Ok(Some(Node::Object(index))) = self.node_under(x, y) else {
             return None;
         };
         let scene = self.scene.as_ref()?;
         let object = scene.objects.get(self.source().drawn(index)? as usize)?;
-        let (_, size) = self.raster()?;
         let found = surface_under(object, &self.camera()?, size, [x, y])?;
         Some((found.point, found.normal))
     }

@@ -1,7 +1,10 @@
 //! Adding things, changing their kind, and moving, turning and scaling them by transform.
 
+use std::sync::Arc;
+
 use super::*;
 use crate::language::Node;
+use crate::ui::msg::Target;
 use Node::{Light, Object};
 
 const RAY: &str = "\
@@ -321,4 +324,20 @@ fn a_light_is_shown_alone_in_the_preview_and_nowhere_else() {
     assert_eq!(colours(&press(&mut app, "l")), (0.1, vec![1.0, 1.0]));
     press(&mut app, "ld");
     assert_eq!(app.pictures.solo, None, "the light is gone");
+}
+
+#[test]
+fn added_things_stand_on_the_surface_in_the_middle_of_the_picture() {
+    let behind = DAT.replace("0 0 10  0 0 0", "0 0 10  0 0 -50");
+    let (mut app, _) = opened_as("a.dat", &behind);
+    let (_, size) = app.raster().expect("there is room");
+    let sphere = pictures::frame(size, vec![0; size.pixels()]);
+    app.update(Msg::Frame(Target::Preview, Arc::new(sphere)));
+    app.picture_mut().advance(size, &[], usize::MAX);
+    press(&mut app, "asphere<Enter>");
+    let pose = app.source().pose(app.cursor.selected());
+    let centre = pose.expect("it is a sphere").centre;
+    // The sphere there has the radius 1.
+    assert!(1.0 < centre.z && centre.z < 4.0, "{centre}");
+    assert!(centre.x.abs() < 0.5 && centre.y.abs() < 0.5, "{centre}");
 }
