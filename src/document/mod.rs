@@ -154,8 +154,8 @@ impl Document {
     /// the scene. Does nothing after undo, redo or a text from outside.
     pub fn reject(&mut self) {
         if let Some(inverse) = self.history.revert() {
-            self.change(&inverse);
-            self.source.restore();
+            self.source.revert(&inverse);
+            self.count_change();
         }
     }
 
@@ -261,9 +261,14 @@ impl Document {
     /// Changes text and tree; returns the inverse edits.
     fn change(&mut self, edits: &[Edit]) -> Vec<Edit> {
         let inverse = self.source.change(edits);
+        self.count_change();
+        inverse
+    }
+
+    /// Updates what depends on the text having changed.
+    fn count_change(&mut self) {
         self.is_dirty = *self.source.text() != self.saved;
         self.revision += 1;
-        inverse
     }
 }
 

@@ -355,3 +355,24 @@ fn merges_of_structure_keep_what_both_sides_added_or_ask() {
     }
     assert!(200 < clean, "{clean}");
 }
+
+#[test]
+fn a_rejected_edit_leaves_the_places_of_the_text_before() {
+    let text = "<xml><scene><object type=\"sphere\" name=\"a\"/><object name=\"b\"/></scene></xml>";
+    let mut document = Document::new(Language::Xml, text.to_owned());
+    document.lower(&Meshes::default()).expect("there is memory");
+    let places = |document: &Document| {
+        let nodes = document.source().nodes().iter();
+        nodes
+            .map(|node| (node, document.source().span(node)))
+            .collect::<Vec<_>>()
+    };
+    let before = places(&document);
+    let removed = document.source().removal(&[Node::Object(0)]);
+    document.edit(&removed.expect("it can be deleted"));
+    document.lower(&Meshes::default()).expect("there is memory");
+    assert_ne!(places(&document), before);
+    document.reject();
+    assert_eq!(document.text(), text);
+    assert_eq!(places(&document), before);
+}

@@ -80,6 +80,15 @@ pub enum Along {
 }
 
 impl Motion {
+    /// Whether it changes nothing.
+    pub fn is_identity(&self) -> bool {
+        match *self {
+            Self::Move(by) => by == DVec3::ZERO,
+            Self::Turn { angle, .. } => angle % 360.0 == 0.0,
+            Self::Scale { factor, .. } => factor == 1.0,
+        }
+    }
+
     /// Where a point moves, unless it scales along one axis of the thing's own.
     pub(super) fn point(&self, point: DVec3) -> DVec3 {
         match *self {

@@ -255,9 +255,9 @@ pub trait Editable: Debug {
     /// version.
     fn change(&mut self, edits: &[Edit]) -> Vec<Edit>;
 
-    /// Restores the places from before the last lowering; does nothing if the text has changed
-    /// since.
-    fn restore(&mut self);
+    /// Applies the inverse of the last change, and restores the places of the text before that, even
+    /// if the changed text was lowered.
+    fn revert(&mut self, inverse: &[Edit]);
 }
 
 /// What every language answers about a scene's text. Places are as of the last lowering, and

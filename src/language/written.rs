@@ -81,8 +81,10 @@ impl<Tree: Debug + Parse, Origins: Debug + Default> Editable for Written<Tree, O
         inverse
     }
 
-    fn restore(&mut self) {
-        if let Some(former) = self.former.take() {
+    fn revert(&mut self, inverse: &[Edit]) {
+        let former = self.former.take();
+        self.change(inverse);
+        if let Some(former) = former {
             self.origins = former;
         }
     }

@@ -142,8 +142,9 @@ impl App {
 
     /// Keeps the change and ends.
     pub(super) fn confirm_transform(&mut self) {
-        if let Some(transform) = self.pictures.transform.take() {
-            self.overlays.say(transform.words());
+        match self.pictures.transform.take() {
+            Some(transform) if transform.is_applied => self.overlays.say(transform.words()),
+            _ => self.overlays.say("nothing has changed"),
         }
         self.document.end_step();
         self.mode = Mode::Select;
@@ -180,11 +181,13 @@ impl App {
         let axes = self
             .camera()
             .map_or([DVec3::X, DVec3::Y, DVec3::NEG_Z], |camera| axes(&camera));
-        let edits = self.source().motion(
-            &transform.nodes,
-            &transform.motion(axes),
-            transform.decimals,
-        );
+        let motion = transform.motion(axes);
+        let edits = if motion.is_identity() {
+            Ok(Vec::new())
+        } else {
+            let (nodes, decimals) = (&transform.nodes, transform.decimals);
+            self.source().motion(nodes, &motion, decimals)
+        };
         let edits = edits.map_err(|refused| refused.to_string());
         let outcome = edits.and_then(|edits| self.apply_motion(&edits));
         transform.is_applied = outcome == Ok(true);

@@ -195,6 +195,26 @@ fn a_motion_says_how_far_it_went() {
 }
 
 #[test]
+fn every_step_of_a_motion_starts_from_the_text_before_it() {
+    let group = XML.replace(
+        "    <object type=\"sphere\" name=\"a\">",
+        "    <object name=\"g\"><translate z=\"1\"/><object name=\"h\"/></object>\n    <object type=\"sphere\" name=\"a\">",
+    );
+    let turned = [(
+        "<translate z=\"1\"/>",
+        "<rotate z=\"1\" angle=\"30\"/><translate z=\"1\"/>",
+    )];
+    check("a.xml", &group, Object(0), "tz30<Enter>", &turned);
+    let moved = [(
+        "<object name=\"h\"/>",
+        "<object name=\"h\"><translate x=\"12.5\"/></object>",
+    )];
+    check("a.xml", &group, Object(1), "mx12.5<Enter>", &moved);
+    check("a.xml", &group, Object(0), "tz3<Back><Enter>", &[]);
+    check("a.xml", &group, Object(0), "t<Enter>", &[]);
+}
+
+#[test]
 fn what_cannot_be_moved_is_said() {
     for (name, text, node, said, reason) in [
         ("a.ray", RAY, Node::View, "m", "v moves the camera"),
