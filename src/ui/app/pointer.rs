@@ -69,6 +69,9 @@ impl App {
         self.overlays.clear_message();
         self.cursor.typing = None;
         let areas = self.areas();
+        if self.mode == Mode::Move && !areas.picture.contains(at.into()) {
+            self.confirm_transform();
+        }
         if areas.border.contains(at.into()) {
             self.resizing = true;
             return Vec::new();

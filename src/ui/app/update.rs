@@ -7,7 +7,7 @@ use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
 use super::{App, Help, PageFocus, PromptKind, line};
 use crate::text::Severity;
 use crate::ui::arrange::{Zoom, resized};
-use crate::ui::keymap::{self, Action, Context, Mode};
+use crate::ui::keymap::{self, Action, Context, Mode, Tool};
 use crate::ui::msg::{Effect, Existing, Msg, Timer};
 use crate::ui::terminal::Mouse;
 
@@ -314,7 +314,8 @@ impl App {
                 self.overlays.fail("nothing to edit here");
             }
             Mode::Pick => self.start_pick(),
-            Mode::Select | Mode::View | Mode::Fly | Mode::Edit | Mode::Move => self.mode = mode,
+            Mode::Move => self.start_transform(Tool::Move),
+            Mode::Select | Mode::View | Mode::Fly | Mode::Edit => self.mode = mode,
         }
         Vec::new()
     }

@@ -218,7 +218,7 @@ fn setting_the_size_does_not_write_the_working_view() {
 }
 
 /// Presses the mouse button over a cell.
-fn click(app: &mut App, column: u16, row: u16) {
+pub(super) fn click(app: &mut App, column: u16, row: u16) {
     app.update(Msg::Mouse(MouseEvent {
         kind: MouseEventKind::Down(MouseButton::Left),
         column,

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::moving::click;
 use super::*;
 use crate::language::Node;
 use crate::ui::msg::Target;
@@ -360,4 +361,17 @@ fn added_things_stand_on_the_surface_in_the_middle_of_the_picture() {
     // The sphere there has the radius 1.
     assert!(1.0 < centre.z && centre.z < 4.0, "{centre}");
     assert!(centre.x.abs() < 0.5 && centre.y.abs() < 0.5, "{centre}");
+}
+
+#[test]
+fn a_click_beside_the_picture_confirms_a_motion() {
+    let (mut app, _) = opened_as("a.ray", RAY);
+    app.select(Object(0));
+    press(&mut app, "mx2");
+    let list = app.areas().list;
+    click(&mut app, list.x + 3, list.y + 2);
+    assert!(app.pictures.transform.is_none() && app.mode == Mode::Select);
+    assert_eq!(app.document.text(), RAY.replace("box 0 0 0", "box 2 0 0"));
+    press(&mut app, "u");
+    assert_eq!(app.document.text(), RAY);
 }
