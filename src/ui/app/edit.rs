@@ -2,6 +2,7 @@
 
 use super::App;
 use super::assets::Notice;
+use super::typed::Values;
 use crate::assets::{Loaded, Wanted};
 use crate::language::table::Field;
 use crate::language::{Before, Lowered, Node, Placed};
@@ -155,27 +156,41 @@ impl App {
         if self.cursor.selected() == Node::View && (works || placed.spans.is_empty()) {
             return self.assign_view(placed.field, values);
         }
-        let edits = if self.cursor.marks.contains(&self.cursor.selected()) {
-            self.edits_of_marked(placed.field, values)
-        } else {
-            placed.edits(&**self.source(), values)
-        };
-        self.try_edits(&edits)
+        self.try_edits(&self.edits_of(&[(placed, values)]))
     }
 
-    /// Returns the edits that set components of a field in all marked nodes that have it.
-    fn edits_of_marked(&self, field: &Field, values: &[(usize, String)]) -> Vec<Edit> {
+    /// Sets components of the current field and those below it, in one edit.
+    pub(super) fn assign_fields(&mut self, values: &[Values]) -> Result<(), Diagnostic> {
+        if self.cursor.selected() == Node::View {
+            let message = "the fields of the view are set one at a time";
+            return Err(Diagnostic::error(Span::at(0), message, ""));
+        }
+        let below = self.cursor.fields().iter().skip(self.cursor.field);
+        let wanted: Vec<_> = below.zip(values.iter().map(Vec::as_slice)).collect();
+        self.try_edits(&self.edits_of(&wanted))
+    }
+
+    /// The edits that set components of fields of the selected node or, if it is marked, of all
+    /// marked nodes that have them.
+    fn edits_of(&self, wanted: &[(&Placed, &[(usize, String)])]) -> Vec<Edit> {
         let source = self.source();
-        let has =
-            |placed: &Placed| placed.field.key == field.key && placed.field.kind == field.kind;
-        let marks = self.cursor.marks.iter();
-        let fields = marks.filter_map(|&node| source.fields(node).into_iter().find(has));
-        let fields: Vec<_> = fields.collect();
-        let wanted: Vec<_> = fields
+        if !self.cursor.marks.contains(&self.cursor.selected()) {
+            let owned = |&(placed, values): &(_, &[_])| (placed, values.to_vec());
+            return source.edits(&wanted.iter().map(owned).collect::<Vec<_>>());
+        }
+        let fields = self.cursor.marks.iter().map(|&node| source.fields(node));
+        let found = fields.flatten().filter_map(|placed| {
+            let is_meant = |(wanted, _): &&(&Placed, _)| {
+                wanted.field.key == placed.field.key && wanted.field.kind == placed.field.kind
+            };
+            let (_, values) = wanted.iter().find(is_meant)?;
+            Some((placed, values.to_vec()))
+        });
+        let found: Vec<_> = found.collect();
+        let wanted = found
             .iter()
-            .map(|placed| (placed, values.to_vec()))
-            .collect();
-        source.edits(&wanted)
+            .map(|(placed, values)| (placed, values.clone()));
+        source.edits(&wanted.collect::<Vec<_>>())
     }
 
     /// Sets components of the working view, or of a part of the view that the text omits.

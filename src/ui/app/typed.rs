@@ -12,6 +12,9 @@ const DIGITS: usize = 12;
 /// Operators that, followed by `=`, change the present value.
 const RELATIVE: [char; 4] = ['+', '-', '*', '/'];
 
+/// Components of a field with their new literals.
+pub(super) type Values = Vec<(usize, String)>;
+
 /// Returns the components that a text sets, with their literals: the current one, or all of the
 /// field. Literals are kept as typed; expressions become their values, and those after `+=`, `-=`,
 /// `*=` or `/=` change the present ones.
@@ -23,7 +26,7 @@ pub(super) fn values(
     field: &Field,
     (component, present): (usize, &[String]),
     text: &str,
-) -> Result<Vec<(usize, String)>, String> {
+) -> Result<Values, String> {
     let kind = field.kind;
     if let Some(all) = literals::all_of(kind, text) {
         return Ok(all.into_iter().enumerate().collect());
@@ -52,13 +55,41 @@ pub(super) fn values(
     computed(kind, component, present, text)
 }
 
+/// Returns the values that a list of numbers or expressions gives to the first of some fields and to
+/// those after it, whose kinds are given. `None` unless it sets all components of two fields or more.
+pub(super) fn spread(kinds: impl Iterator<Item = Kind>, text: &str) -> Option<Vec<Values>> {
+    let parts = parts(text);
+    let mut left = &parts[..];
+    let mut fields = Vec::new();
+    for kind in kinds {
+        if left.is_empty() {
+            break;
+        }
+        if !kind.is_numeric() {
+            return None;
+        }
+        let (own, rest) = left.split_at_checked(kind.components())?;
+        let set = |(component, (_, part)): (usize, &(usize, &str))| {
+            value_of(part, "").ok().map(|literal| (component, literal))
+        };
+        fields.push(
+            own.iter()
+                .enumerate()
+                .map(set)
+                .collect::<Option<Values>>()?,
+        );
+        left = rest;
+    }
+    (left.is_empty() && 1 < fields.len()).then_some(fields)
+}
+
 /// The values of expressions: one for each component, or one for the current one.
 fn computed(
     kind: Kind,
     component: usize,
     present: &[String],
     text: &str,
-) -> Result<Vec<(usize, String)>, String> {
+) -> Result<Values, String> {
     let parts = parts(text);
     let set = |(component, (at, part)): (usize, &(usize, &str))| {
         let old = present.get(component).map_or("", String::as_str);
@@ -204,6 +235,33 @@ mod tests {
             ("", "expected one number"),
         ] {
             assert_eq!(set(Kind::Number, text), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_longer_list_fills_the_fields_below() {
+        use Kind::{Colour, Number, Point, Word};
+        let kinds = [Point, Number, Number, Colour, Word];
+        for (text, filled) in [
+            ("1 2 3 4", Some("1 2 3, 4")),
+            ("1, 2, 3, 1/2, sqrt(4)", Some("1 2 3, 0.5, 2")),
+            ("1 2 3 4 5 6 7 8", Some("1 2 3, 4, 5, 6 7 8")),
+            ("1 2 3", None),
+            ("1 2 3 4 5 6", None),
+            ("1 2 3 +=4", None),
+            ("1 2 3 4 5 6 7 8 word", None),
+        ] {
+            let values = |field: Vec<(usize, String)>| {
+                let literals: Vec<_> = field.into_iter().map(|(_, literal)| literal).collect();
+                literals.join(" ")
+            };
+            let fields = spread(kinds.into_iter(), text);
+            let fields = fields.map(|fields| fields.into_iter().map(values).collect::<Vec<_>>());
+            assert_eq!(
+                fields.map(|fields| fields.join(", ")).as_deref(),
+                filled,
+                "{text}"
+            );
         }
     }
 

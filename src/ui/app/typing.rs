@@ -4,10 +4,11 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::Input;
 
 use super::cursor::Typing;
+use super::typed::Values;
 use super::{App, PageFocus, line, literals, typed};
 use crate::language::table::{Field, Kind};
 use crate::text::{Diagnostic, Span};
-use crate::ui::keymap::{Mode, Stride};
+use crate::ui::keymap::{Context, Mode, Stride};
 use crate::ui::msg::Effect;
 
 impl App {
@@ -88,6 +89,12 @@ impl App {
                     self.next_component(step);
                 }
             }
+            KeyCode::Down | KeyCode::Up => {
+                let step = if key.code == KeyCode::Down { 1 } else { -1 };
+                if self.commit() {
+                    self.move_cursor(Context::In(Mode::Edit), step);
+                }
+            }
             _ => {
                 typing.refused = None;
                 let held = KeyModifiers::CONTROL | KeyModifiers::ALT;
@@ -128,21 +135,29 @@ impl App {
         self.cursor.typing.is_none()
     }
 
-    /// Like [`App::assign`], as an undo step of its own.
-    fn assign_whole(&mut self, values: &[(usize, String)]) -> Result<(), Diagnostic> {
+    /// Sets fields as an undo step of its own.
+    fn assign_whole(&mut self, values: &[Values]) -> Result<(), Diagnostic> {
         self.document.end_step();
-        let outcome = self.assign(values);
+        let outcome = match values {
+            [values] => self.assign(values),
+            several => self.assign_fields(several),
+        };
         self.document.end_step();
         outcome
     }
 
-    /// The components that a typed or pasted text sets, or why it sets none.
-    fn literals_of(&self, text: &str) -> Result<Vec<(usize, String)>, String> {
-        let row = self.field_row(self.cursor.field);
-        row.map_or_else(
-            || Err("nothing to edit here".to_owned()),
-            |row| typed::values(row.field, (self.cursor.component, &row.literals), text),
-        )
+    /// The values that a typed or pasted text gives to the current field and, if it is a list that
+    /// is longer, to those below; or why it gives none.
+    fn literals_of(&self, text: &str) -> Result<Vec<Values>, String> {
+        let Some(row) = self.field_row(self.cursor.field) else {
+            return Err("nothing to edit here".to_owned());
+        };
+        let values = typed::values(row.field, (self.cursor.component, &row.literals), text);
+        values.map(|values| vec![values]).or_else(|reason| {
+            let below = self.cursor.fields().iter().skip(self.cursor.field);
+            let kinds = below.map(|placed| placed.field.kind);
+            typed::spread(kinds, text).ok_or(reason)
+        })
     }
 
     pub(super) fn paste(&mut self, text: &str) -> Vec<Effect> {
@@ -187,7 +202,8 @@ impl App {
             return;
         }
         let values = self.literals_of(pasted);
-        let is_whole = values.as_ref().is_ok_and(|values| 1 < values.len());
+        let count = |values: &Vec<Values>| values.iter().map(Vec::len).sum::<usize>();
+        let is_whole = values.as_ref().is_ok_and(|values| 1 < count(values));
         if let (Some(typing), false) = (&mut self.cursor.typing, is_whole) {
             typing.refused = None;
             if std::mem::take(&mut typing.is_selected) {

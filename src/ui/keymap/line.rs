@@ -22,6 +22,7 @@ pub fn line_hints(line: Line) -> &'static [(&'static str, &'static str)] {
             ("Enter", "keep"),
             ("Esc", "cancel"),
             ("Tab", "keep, next number"),
+            ("↓", "keep, next field"),
             ("Shift-Tab", "keep, previous number"),
             ("Ctrl-U", "clear"),
         ],

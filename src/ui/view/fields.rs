@@ -5,6 +5,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
 use ratatui::widgets::{Clear, Widget};
+use unicode_width::UnicodeWidthStr;
 
 use super::row::{self, Row};
 use crate::language::Node;
@@ -120,9 +121,11 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
     if let (Some(component), Some(typing)) = (cursor, &app.cursor.typing)
         && let Some(column) = columns.get(component)
     {
-        // The last cell keeps a gap to the next number.
+        // The last cell keeps a gap to the next number. A long text covers the numbers after it.
+        let fits = typing.input.value().width() + 1 < usize::from(column.width);
+        let end = if fits { column.right() } else { line.right() };
         let room = Rect {
-            width: column.width.saturating_sub(1),
+            width: end.saturating_sub(column.x + 1),
             ..*column
         };
         typed(typing, room, buffer);
@@ -293,12 +296,28 @@ mod tests {
         let mut app = editing(Node::Object(0));
         app.cursor.component = 1;
         app.cursor.typing = Some(Typing {
-            input: Input::new("0.123456789".to_owned()),
+            input: Input::new("0.123".to_owned()),
             ..Typing::default()
         });
         let line = drawn(&app, render, 34, 20)[1].clone();
-        assert!(line.starts_with("▸centre    0 "), "{line}");
-        assert!(line.contains("6789") && line.ends_with(" -1e0"), "{line}");
+        assert_eq!(line, "▸centre    0      0.123  -1e0");
+    }
+
+    #[test]
+    fn a_long_value_covers_the_components_after_it_while_it_is_typed() {
+        let mut app = editing(Node::Object(0));
+        for (component, shown) in [
+            (0, "▸centre    0.123456789"),
+            (1, "▸centre    0      0.123456789"),
+            (2, "▸centre    0      .5     3456789"),
+        ] {
+            app.cursor.component = component;
+            app.cursor.typing = Some(Typing {
+                input: Input::new("0.123456789".to_owned()),
+                ..Typing::default()
+            });
+            assert_eq!(drawn(&app, render, 34, 20)[1], shown);
+        }
     }
 
     #[test]

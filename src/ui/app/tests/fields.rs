@@ -34,3 +34,30 @@ fn a_typed_word_replaces_the_old_one_unless_the_cursor_is_moved() {
 fn a_number_keeps_its_text_with_the_cursor_at_the_end() {
     assert_eq!(typed("jjjej<Enter>5<Enter>"), "1.55 // the radius");
 }
+
+#[test]
+fn a_longer_list_fills_the_fields_below_in_one_step() {
+    let scene =
+        "0 0 0 0 1 cylinder 0 0 0  0 0 1  1 0 0  0 1 0  1 1 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1";
+    let turned = scene.replace("0 0 1  1 0 0  0 1 0", "1 0 0  0 1 0  0 0 1");
+    let sized = scene.replace("1 1 1", "2 0.5 3");
+    for (said, expected) in [
+        ("ej1 0 0 0 1 0 0 0 1<Enter>", &turned),
+        ("ejjjj2 1/2 3<Enter>", &sized),
+        ("ejjjj2 1/2 3<Enter>u", &scene.to_owned()),
+    ] {
+        assert_eq!(
+            &after("scene.ray", scene, Node::Object(0), said),
+            expected,
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn an_arrow_keeps_the_value_and_goes_to_the_next_field() {
+    let scene = "0 0 0 0 1 sphere 0 0 0 1 0 0 0 .5 .5 .5 0 0 0 1 0 0 1";
+    let expected = scene.replace("0 0 0 1 0 0 0", "0 0 7 2 0 0 0");
+    let said = "ej2<Up><Tab><Tab>7<Down>";
+    assert_eq!(after("scene.ray", scene, Node::Object(0), said), expected);
+}
