@@ -17,7 +17,7 @@ pub(super) struct Form {
 }
 
 impl Form {
-    /// A cube of this half edge whose last axis is `up`.
+    /// A cube of this half edge in a right-handed frame whose last axis is `up`: y or, otherwise, z.
     pub(super) fn upright(centre: DVec3, half: f64, up: DVec3) -> Self {
         let axes = if up == DVec3::Y {
             [DVec3::Z, DVec3::X, DVec3::Y]
@@ -215,6 +215,10 @@ pub(super) fn rotation(axis: DVec3, angle: f64) -> DMat3 {
     let turned = |v: DVec3| cos * v + sin * axis.cross(v) + (1.0 - cos) * axis.dot(v) * axis;
     DMat3::from_cols(turned(DVec3::X), turned(DVec3::Y), turned(DVec3::Z))
 }
+
+/// Decimals of directions and angles: so many that thousands of turns add up to no visible drift, but
+/// fewer than show the rounding errors of binary fractions (0.5 after 60°, not 0.5000000000000001).
+pub(super) const PRECISE: usize = 15;
 
 /// Formats a moved number for the place of a literal: unchanged if it differs by rounding errors
 /// only, otherwise rounded to a number of decimals.

@@ -6,7 +6,7 @@ use glam::{DMat4, DVec3, DVec4};
 use super::Source;
 use super::table::{LightKind, ObjectKind, RecordKind, SOURCES};
 use crate::geometry::normalise;
-use crate::language::form::{Form, Motion, rotated, rounded};
+use crate::language::form::{Form, Motion, PRECISE, rotated, rounded};
 use crate::language::structure::{Pose, number, replacements};
 use crate::language::table::Kind;
 use crate::language::{Answers, Node, Placed, StructureError};
@@ -251,7 +251,7 @@ impl Source {
                 for ((new, old), kind) in new.iter_mut().zip(&old).zip(kinds) {
                     let is_direction = matches!(kind, Kind::Direction | Kind::Axis);
                     *new = match (is_direction, motion) {
-                        (true, Motion::Turn { .. }) => rounded(*old, *new, 17),
+                        (true, Motion::Turn { .. }) => rounded(*old, *new, PRECISE),
                         (true, _) => *old,
                         (false, _) => rounded(*old, *new, decimals),
                     };
@@ -267,7 +267,7 @@ impl Source {
                     };
                     let (new, decimals) = match placed.field.key {
                         "position" => (motion.point(old), decimals),
-                        "direction" => (motion.direction(old), 17),
+                        "direction" => (motion.direction(old), PRECISE),
                         _ => continue,
                     };
                     let (old, new) = (old.to_array(), new.to_array());

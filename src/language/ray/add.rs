@@ -33,7 +33,12 @@ pub(super) fn addition(
     wish: &Wish<'_>,
 ) -> Result<Placement, StructureError> {
     let text = if let Some(kind) = ShapeKind::of_word(name) {
-        let form = Form::upright(wish.centre, wish.half, DVec3::Y);
+        // A solid of revolution stands; the frame of another is the world's.
+        let axis = match kind {
+            ShapeKind::Cylinder | ShapeKind::Cone => DVec3::Y,
+            ShapeKind::Sphere | ShapeKind::Ellipsoid | ShapeKind::Box => DVec3::Z,
+        };
+        let form = Form::upright(wish.centre, wish.half, axis);
         let literals = literals(kind, &new_object(kind, &form), wish);
         let like = source.like(kind, wish.after);
         source.laid_out(kind.keyword(), kind.fields(), &literals, like)

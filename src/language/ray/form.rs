@@ -6,7 +6,7 @@ use super::Source;
 use super::table::{LIGHT, MATERIAL, ShapeKind};
 use crate::geometry::normalise;
 use crate::language::at::At;
-use crate::language::form::{Form, Motion, rounded};
+use crate::language::form::{Form, Motion, PRECISE, rounded};
 use crate::language::structure::{Pose, number, replacements};
 use crate::language::table::{Kind, numbers};
 use crate::language::{Answers, Node, StructureError};
@@ -184,7 +184,7 @@ impl Source {
                 let turns = matches!(motion, Motion::Turn { .. });
                 for (at, new) in new.iter_mut().enumerate() {
                     *new = match is_direction(kind, at) {
-                        true if turns => rounded(old[at], *new, 17),
+                        true if turns => rounded(old[at], *new, PRECISE),
                         true => old[at],
                         false => rounded(old[at], *new, decimals),
                     };

@@ -7,7 +7,7 @@ use super::Source;
 use super::origins::Role;
 use super::table::Parameter;
 use crate::geometry::normalise;
-use crate::language::form::{Along, Motion, rotation, rounded};
+use crate::language::form::{Along, Motion, PRECISE, rotation, rounded};
 use crate::language::structure::{Pose, number, replacements};
 use crate::language::{Answers, Node, StructureError};
 use crate::text::{Edit, Span, spell_like};
@@ -70,7 +70,7 @@ impl Source {
             let old = self.field_vector(node, placed.field.key)?;
             let (new, decimals) = match placed.field.key {
                 "position" => (motion.point(old), decimals),
-                "direction" => (motion.direction(old), 17),
+                "direction" => (motion.direction(old), PRECISE),
                 _ => return None,
             };
             let factor = placed
@@ -218,10 +218,10 @@ impl Source {
             .normalize()
             .to_axis_angle();
         let degrees = rounded(0.0, angle.to_degrees(), 12);
-        let axis = axis.to_array().map(|number| rounded(0.0, number, 15));
+        let axis = axis.to_array().map(|number| rounded(0.0, number, PRECISE));
         let [x, y, z] = axis;
         if let Some(old) = old {
-            self.set_numbers(old, &[x, y, z, degrees], 17)
+            self.set_numbers(old, &[x, y, z, degrees], PRECISE)
         } else {
             let mut text = attributes(&["x", "y", "z"], &axis, 0.0);
             text.push_str(&attributes(&["angle"], &[degrees], f64::NAN));

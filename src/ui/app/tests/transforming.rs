@@ -89,6 +89,13 @@ fn things_are_moved_turned_and_scaled_by_typed_amounts_along_axes() {
         "box 0 0 0  1 0 0  0 1 0  0 0 1",
         "box 1.5 0.5 0  0 1 0  -1 0 0  0 0 1",
     );
+    // cos 60° is written without the rounding errors of binary fractions.
+    ray(
+        Object(0),
+        "tz60<Enter>",
+        "box 0 0 0  1 0 0  0 1 0  0 0 1",
+        "box 1.1 0.1 0  0.5 0.866025403784439 0  -0.866025403784439 0.5 0  0 0 1",
+    );
     check(
         "a.dat",
         DAT,
