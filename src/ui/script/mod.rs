@@ -67,9 +67,14 @@ impl Script {
         let mut tokens = Tokens::of(&text);
         while let Some(token) = tokens.next() {
             let span = token.span();
+            // Where a text has no end, what follows may be text or keys.
+            let is_open = matches!(token, Token::Open(_));
             match token.and_then_step(&mut tokens) {
                 Ok(found) => steps.extend(found.into_iter().map(|step| (step, span))),
                 Err(error) => errors.push(error),
+            }
+            if is_open {
+                break;
             }
         }
         if errors.is_empty() {
@@ -234,6 +239,7 @@ mod tests {
             assert_eq!(error.hint.as_deref().unwrap_or_default(), hint);
             let at = Position::of(text, error.span.start());
             assert_eq!((at.line, at.column), (line, column), "{text}");
+            assert_eq!(errors.len(), 1, "{text}");
         }
     }
 }
