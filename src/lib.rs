@@ -35,6 +35,7 @@
 //! | [`file`](mod@file) | reads scenes and replaces files, atomically where the file system allows it; says why it could not | what the bytes mean |
 //! | [`image_file`] | picture files: writes frames, reads textures | what is in a scene |
 //! | [`assets`] | reads the pictures and meshes that scenes name | how they are shaded |
+//! | [`compare`] | two pictures against each other | files, scenes |
 //! | [`watch`] | reports changes of paths on disk | what the files contain |
 //! | [`ui`] | the terminal: the only room that knows ratatui and crossterm; commands are rows of `app/command.rs`, keys of `keymap/table.rs` | how pixels are computed |
 //! | [`batch`] | headless work: check, render | terminals |
@@ -61,6 +62,7 @@ pub mod accel;
 pub mod assets;
 pub mod batch;
 pub mod cli;
+pub mod compare;
 pub mod document;
 pub mod file;
 pub mod geometry;

@@ -34,6 +34,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "text",
         ],
     ),
+    ("compare", &["scene"]),
     ("watch", &["file"]),
     (
         "batch",
