@@ -1,10 +1,12 @@
-//! Headless work: check and render. Knows no terminals, except for a progress line if standard
+//! Headless work: check, compare and render. Knows no terminals, except for a progress line if standard
 //! error is one.
 
+mod compare;
 mod progress;
 mod render;
 mod report;
 mod stdout;
+mod tracing;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -12,6 +14,7 @@ use std::sync::Arc;
 
 use crate::assets::{self, Assets, NoFolder, Wanted};
 use crate::file::{self, ReadError};
+use crate::image_file::Unreadable;
 use crate::language::{
     self, Language, Lowered, Node, Source, UnknownLanguage, errors_of_beginning,
 };
@@ -20,7 +23,9 @@ use crate::render::Refusal;
 use crate::scene::{Images, Meshes, Scene};
 use crate::text::{Diagnostic, Findings, Span, counted, visible, without_codes};
 
+pub use compare::{Compare, Report, Verdict, compare};
 pub use render::{Output, Render, render};
+pub use tracing::Tracing;
 
 /// Formats errors in a text for standard error, each with its place, an excerpt and a hint.
 pub fn annotated(name: &str, text: &str, errors: &[Diagnostic]) -> String {
@@ -48,6 +53,14 @@ pub enum Error {
     /// The picture cannot be rendered, for a reason known before tracing.
     #[error("{0}")]
     Refused(String),
+    /// A picture to compare cannot be decoded.
+    #[error("{path} {source}", path = path.display())]
+    Picture {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: Unreadable,
+    },
     /// The picture file cannot be created.
     #[error("{path}: {source}", path = path.display())]
     Create {

@@ -2,17 +2,13 @@
 
 use std::io;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::mpsc::{self, Receiver};
 
-use super::progress::ProgressLine;
-use super::{Error, Warnings, load, print_error, print_findings, print_message, stdout};
+use super::{Error, Tracing, Warnings, load, print_error, print_findings, print_message, stdout};
 use crate::assets;
 use crate::file;
 use crate::image_file::ImageFormat;
 use crate::memory;
-use crate::render::{Aov, Filter, Frame, Job, Renderer, Settings, Threads, default_depth};
-use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer};
+use crate::render::Frame;
 use crate::text::{Diagnostic, counted};
 
 /// A picture to render.
@@ -26,24 +22,8 @@ pub struct Render {
     pub output: Output,
     /// The format of the picture.
     pub format: ImageFormat,
-    /// The size of the picture; the scene's if `None`.
-    pub size: Option<Size>,
-    /// Samples per pixel.
-    pub spp: u32,
-    /// Maximum number of bounces; the integrator's [`default_depth`] if `None`.
-    pub depth: Option<u32>,
-    /// The integrator; the scene's if `None`.
-    pub integrator: Option<Integrator>,
-    /// The pixel filter.
-    pub filter: Filter,
-    /// The random seed.
-    pub seed: u32,
-    /// What to render instead of light.
-    pub aov: Option<Aov>,
-    /// The transfer curve to 8-bit values; the scene's if `None`.
-    pub transfer: Option<Transfer>,
-    /// The number of tracing threads.
-    pub threads: usize,
+    /// How it is traced.
+    pub tracing: Tracing,
     /// Additional folders that pictures and meshes may be read from.
     pub assets: Vec<PathBuf>,
 }
@@ -75,9 +55,9 @@ fn try_render(work: &Render) -> Result<(), Error> {
         errors: loaded.errors,
     })?;
     check_references(work, &loaded.files)?;
-    let size = work.size.unwrap_or(scene.camera.size);
+    let size = work.tracing.size_of(&scene);
     if let Some(reason) = work.format.refuses(size) {
-        let Some(span) = loaded.size.filter(|_| work.size.is_none()) else {
+        let Some(span) = loaded.size.filter(|_| work.tracing.size.is_none()) else {
             return Err(Error::Refused(format!("--size {reason}")));
         };
         let message = format!("view size {reason}");
@@ -86,17 +66,11 @@ fn try_render(work: &Render) -> Result<(), Error> {
         print_findings(&work.scene, loaded.source.text(), &[diagnostic]);
         return Err(Error::Invalid { errors: 1 });
     }
-    let (wake, woken) = mpsc::channel();
-    // Kept to the end, so that its threads free memory while the picture is written. Starting them
-    // before reading the scene was no faster.
-    let mut renderer = Renderer::new(Threads::Exactly(work.threads), move || {
-        // This fails only while the renderer is being dropped.
-        let _ = wake.send(());
-    });
-    renderer.restart(job(work, scene, loaded.images, size))?;
-    // Freeing a text of 85 MB takes 10 ms, its tree nearly as long; the worker is already running.
-    drop(loaded.source);
-    let frame = wait_for_last_frame(&renderer, &woken)?;
+    // Freeing a text of 85 MB takes 10 ms, its tree nearly as long: the worker is already running.
+    let free = || drop(loaded.source);
+    let frames = work.format.frames();
+    let traced = work.tracing.trace(scene, loaded.images, frames, free)?;
+    let frame = &traced.frame;
     if 0 < frame.progress.over_budget {
         let samples = counted(frame.progress.over_budget as usize, "sample");
         print_message(
@@ -104,7 +78,7 @@ fn try_render(work: &Render) -> Result<(), Error> {
             &format!("{samples} ran out of rays and may be too dark; try a lower --depth"),
         );
     }
-    write(work, &frame)
+    write(work, frame)
 }
 
 /// Checks before any work that the picture can be written.
@@ -136,47 +110,6 @@ fn check_references(work: &Render, files: &[PathBuf]) -> Result<(), Error> {
         }
         Output::File(_) | Output::Stdout | Output::StdoutTerminal => Ok(()),
     }
-}
-
-/// The renderer's job for a picture.
-fn job(work: &Render, scene: Scene, images: Images, size: Size) -> Job {
-    let transfer = work.transfer.unwrap_or(scene.setting.transfer);
-    let integrator = work.integrator.unwrap_or(scene.setting.integrator);
-    Job {
-        images,
-        // The requested size sets the aspect ratio.
-        camera: Camera {
-            size,
-            ..scene.camera
-        },
-        scene: Arc::new(scene),
-        settings: Settings {
-            size,
-            spp: work.aov.map_or(work.spp, |aov| aov.samples(work.spp)),
-            depth: work.depth.unwrap_or_else(|| default_depth(integrator)),
-            seed: work.seed,
-            aov: work.aov,
-            integrator,
-            filter: work.filter,
-            transfer,
-        },
-        frames: work.format.frames(),
-    }
-}
-
-/// Waits for the finished picture and shows the progress.
-fn wait_for_last_frame(renderer: &Renderer, woken: &Receiver<()>) -> Result<Arc<Frame>, Error> {
-    let mut line = ProgressLine::new();
-    while woken.recv().is_ok() {
-        let Some(frame) = renderer.latest() else {
-            continue;
-        };
-        if frame.progress.complete {
-            return Ok(frame);
-        }
-        line.show(&frame.progress);
-    }
-    Err(Error::Stopped)
 }
 
 fn write(work: &Render, frame: &Frame) -> Result<(), Error> {

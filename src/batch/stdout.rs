@@ -1,4 +1,4 @@
-//! A picture on standard output.
+//! Pictures and texts on standard output.
 
 use std::io::{self, BufWriter, IsTerminal, Write};
 
@@ -30,6 +30,15 @@ pub(super) fn write(format: ImageFormat, frame: &Frame) -> io::Result<()> {
     let mut out = BufWriter::with_capacity(CHUNK, io::stdout().lock());
     format.write(frame, &mut out)?;
     out.flush()
+}
+
+/// Prints a text to standard output. A reader that closes the pipe early has what it wanted.
+pub(super) fn print(text: &str) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error),
+        _ => Ok(()),
+    }
 }
 
 /// Whether standard output is what the standard library opens before `main` in place of a closed

@@ -1,29 +1,28 @@
 //! Command-line arguments and exit codes. Does no work itself.
 
 mod choices;
+mod compare;
 mod interface;
 mod shared;
+mod tracing;
 
 use std::ffi::OsString;
 use std::fmt::Write;
-use std::num::NonZero;
 use std::path::{Path, PathBuf};
-use std::thread;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
-use choices::{AovChoice, FilterChoice, IntegratorChoice, TransferChoice};
+use compare::CompareArguments;
 use interface::InterfaceArguments;
-use shared::{AssetArguments, depth_range, spp_range, threads_range};
+use shared::AssetArguments;
+use tracing::TracingArguments;
 
-use crate::batch::{self, Check, Output, Render, Warnings};
+use crate::batch::{self, Check, Compare, Output, Render, Verdict, Warnings};
 use crate::file::ReadError;
 use crate::image_file::{FORMATS, ImageFormat, known_extensions};
-use crate::render::DEFAULT_SPP;
-use crate::scene::Size;
 use crate::text::{nearest_word, visible};
 use crate::ui;
 
@@ -31,6 +30,8 @@ use crate::ui;
 pub const DONE: u8 = 0;
 /// A write or system error.
 pub const FAILED: u8 = 1;
+/// Compared pictures differ.
+pub const DIFFERENT: u8 = 1;
 /// Wrong arguments.
 pub const USAGE: u8 = 2;
 /// A scene has errors.
@@ -39,6 +40,8 @@ pub const INVALID: u8 = 65;
 pub const NO_INPUT: u8 = 66;
 /// The picture file cannot be created.
 pub const NO_OUTPUT: u8 = 73;
+/// A write or system error of a comparison, where 1 has another meaning.
+pub const NO_IO: u8 = 74;
 
 /// The terminal of the interface is gone; the code shells report for `SIGHUP`.
 pub const HUNG_UP: u8 = 129;
@@ -54,6 +57,8 @@ pub enum Command {
     Interface(ui::Options),
     /// Render a picture.
     Render(Render),
+    /// Compare two pictures.
+    Compare(Compare),
     /// Report what was detected about the terminal and the machine, for this scene.
     Doctor(Option<PathBuf>),
     /// Report errors and warnings in scenes.
@@ -77,6 +82,10 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, S
             .into_render()
             .map(Command::Render)
             .map_err(|reason| refusal(Some("render"), reason)),
+        Some(Subcommands::Compare(compare)) => compare
+            .into_compare()
+            .map(Command::Compare)
+            .map_err(|reason| refusal(Some("compare"), reason)),
         Some(Subcommands::Check {
             scenes,
             strictness,
@@ -112,17 +121,30 @@ fn refusal(command: Option<&str>, reason: String) -> Stop {
 
 /// The exit code for headless work.
 pub fn exit_code(outcome: &Result<(), batch::Error>) -> u8 {
+    outcome.as_ref().map_or_else(failure_code, |()| DONE)
+}
+
+fn failure_code(error: &batch::Error) -> u8 {
     use batch::Error;
-    let Err(error) = outcome else {
-        return DONE;
-    };
     match error {
         Error::Read(error) => read_code(error),
         Error::Assets(_) => NO_INPUT,
-        Error::UnknownLanguage(_) | Error::Invalid { .. } => INVALID,
+        Error::UnknownLanguage(_) | Error::Invalid { .. } | Error::Picture { .. } => INVALID,
         Error::Refused(_) => USAGE,
         Error::Create { .. } => NO_OUTPUT,
         Error::Write { .. } | Error::Untraced(_) | Error::Stopped => FAILED,
+    }
+}
+
+/// The exit code for a comparison, of which 1 says nothing but that the pictures differ.
+pub fn comparison_exit_code(outcome: &Result<Verdict, batch::Error>) -> u8 {
+    match outcome {
+        Ok(Verdict::Alike) => DONE,
+        Ok(Verdict::Different) => DIFFERENT,
+        Err(error) => match failure_code(error) {
+            FAILED => NO_IO,
+            code => code,
+        },
     }
 }
 
@@ -211,6 +233,9 @@ enum Subcommands {
     /// Render a scene to a picture file
     #[command(after_help = RENDER_EXAMPLES)]
     Render(RenderArguments),
+    /// Compare two pictures, or what scenes show
+    #[command(after_help = compare::EXAMPLES)]
+    Compare(CompareArguments),
     /// Report errors and warnings in scenes without rendering them
     Check {
         /// Scene files
@@ -301,7 +326,7 @@ fn check_words(scene: Option<&Path>, surplus: &[PathBuf]) -> Result<(), String> 
     match surplus.first() {
         Some(second) => Err(format!(
             "unexpected second scene {}: only one can be opened; the commands are render, check, \
-             doctor, completions and man",
+             compare, doctor, completions and man",
             second.display()
         )),
         None => Ok(()),
@@ -342,34 +367,8 @@ struct RenderArguments {
     /// Picture format, regardless of the file's extension [default for -o -: bmp]
     #[arg(long, value_name = "FORMAT", value_parser = format_names())]
     format: Option<ImageFormat>,
-    /// Width and height in pixels, such as 800x600; at most 268435456 pixels in all (16384x16384)
-    /// [default: the scene's]
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    size: Option<Size>,
-    /// Samples per pixel, 1 to 65536
-    #[arg(long, value_name = "N", default_value_t = DEFAULT_SPP, value_parser = spp_range())]
-    spp: u32,
-    /// Maximum number of bounces, 0 to 4096 [default: 8, or 64 with path tracing]
-    #[arg(long, value_name = "N", value_parser = depth_range())]
-    depth: Option<u32>,
-    /// Integrator [default: whitted, unless the scene sets path]
-    #[arg(long, value_name = "INTEGRATOR", value_enum)]
-    integrator: Option<IntegratorChoice>,
-    /// Pixel filter
-    #[arg(long, value_name = "FILTER", value_enum, default_value_t)]
-    filter: FilterChoice,
-    /// Random seed, 0 to 4294967295
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    seed: u32,
-    /// Render a property of the first surface under each pixel instead of light
-    #[arg(long, value_name = "AOV", value_enum)]
-    aov: Option<AovChoice>,
-    /// Transfer curve from colours to 8-bit values [default: linear, unless the scene sets srgb]
-    #[arg(long, value_name = "CURVE", value_enum)]
-    transfer: Option<TransferChoice>,
-    /// Number of tracing threads, 1 to 1024 [default: one per core]
-    #[arg(long, value_name = "N", value_parser = threads_range())]
-    threads: Option<u16>,
+    #[command(flatten)]
+    tracing: TracingArguments,
     #[command(flatten)]
     strictness: StrictnessArguments,
     #[command(flatten)]
@@ -385,15 +384,8 @@ impl RenderArguments {
         let format = match self.format {
             Some(format) => format,
             None if to_stdout => ImageFormat::Bmp,
-            None => ImageFormat::of_path(&self.output).ok_or_else(|| {
-                format!(
-                    "cannot tell the format of {}: use the extension {}, or --format",
-                    self.output.display(),
-                    known_extensions()
-                )
-            })?,
+            None => picture_format(&self.output)?,
         };
-        let all_cores = || thread::available_parallelism().map_or(1, NonZero::get);
         Ok(Render {
             scene: self.scene,
             warnings: self.strictness.warnings(),
@@ -403,15 +395,7 @@ impl RenderArguments {
                 (true, true) => Output::StdoutTerminal,
             },
             format,
-            size: self.size,
-            spp: self.spp,
-            depth: self.depth,
-            integrator: self.integrator.map(IntegratorChoice::value),
-            filter: self.filter.value(),
-            seed: self.seed,
-            aov: self.aov.map(AovChoice::value),
-            transfer: self.transfer.map(TransferChoice::value),
-            threads: self.threads.map_or_else(all_cores, usize::from),
+            tracing: self.tracing.into_tracing(),
             assets: self.assets.folders,
         })
     }
@@ -428,9 +412,15 @@ fn format_names() -> impl TypedValueParser<Value = ImageFormat> {
     })
 }
 
-fn parse_size(text: &str) -> Result<Size, String> {
-    Size::parse(text)
-        .ok_or_else(|| "expected two integers of at least 1, such as 800x600".to_owned())
+/// The format of a picture file by its extension.
+fn picture_format(path: &Path) -> Result<ImageFormat, String> {
+    ImageFormat::of_path(path).ok_or_else(|| {
+        format!(
+            "cannot tell the format of {}: use the extension {}, or --format",
+            path.display(),
+            known_extensions()
+        )
+    })
 }
 
 #[cfg(test)]

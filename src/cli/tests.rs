@@ -1,9 +1,10 @@
 use std::time::Duration;
 
 use super::*;
+use crate::batch::Report;
 use crate::image_file::MAX_PIXELS;
 use crate::render::{Filter, MAX_SPP};
-use crate::scene::Integrator;
+use crate::scene::{Integrator, Size};
 use crate::ui::terminal::{Choice, ColourDepth, Mouse};
 
 /// Parses a command line whose words are separated by spaces.
@@ -95,10 +96,13 @@ fn the_extension_sets_the_format_unless_one_is_given() {
 #[test]
 fn render_options_have_defaults() {
     let default = render("halflight render a.ray -o a.bmp");
-    assert_eq!((default.spp, default.seed), (16, 0));
-    assert_eq!((default.depth, default.integrator), (None, None));
-    assert_eq!(default.filter, Filter::Box);
-    assert_eq!(default.size, None);
+    assert_eq!((default.tracing.spp, default.tracing.seed), (16, 0));
+    assert_eq!(
+        (default.tracing.depth, default.tracing.integrator),
+        (None, None)
+    );
+    assert_eq!(default.tracing.filter, Filter::Box);
+    assert_eq!(default.tracing.size, None);
     assert_eq!(default.output, Output::File("a.bmp".into()));
     let given = render(
         "halflight render a -o - --force --size 3X2 --spp 65536 --seed 7 --integrator whitted --depth 9 --filter blackman-harris",
@@ -107,11 +111,32 @@ fn render_options_have_defaults() {
         width: 3,
         height: 2,
     };
-    assert_eq!((given.size, given.spp, given.seed), (Some(size), 65_536, 7));
-    assert_eq!(given.integrator, Some(Integrator::Whitted));
-    assert_eq!(given.depth, Some(9));
-    assert_eq!(given.filter, Filter::BlackmanHarris);
+    assert_eq!(
+        (given.tracing.size, given.tracing.spp, given.tracing.seed),
+        (Some(size), 65_536, 7)
+    );
+    assert_eq!(given.tracing.integrator, Some(Integrator::Whitted));
+    assert_eq!(given.tracing.depth, Some(9));
+    assert_eq!(given.tracing.filter, Filter::BlackmanHarris);
     assert_eq!(given.output, Output::StdoutTerminal);
+}
+
+#[test]
+fn what_may_differ_reaches_the_comparison() {
+    let compare = |line: &str| match parsed(line) {
+        Ok(Command::Compare(compare)) => compare,
+        other => panic!("{line}: {other:?}"),
+    };
+    let default = compare("halflight compare a.bmp b.ray");
+    assert_eq!(default.sides, [PathBuf::from("a.bmp"), "b.ray".into()]);
+    assert_eq!((default.tolerance, default.max_differing), (0, 0));
+    assert_eq!((default.report, default.output), (Report::Text, None));
+    let given =
+        compare("halflight compare a b --tolerance 255 --max-differing 9 --json -o c.png --spp 1");
+    assert_eq!((given.tolerance, given.max_differing), (255, 9));
+    assert_eq!(given.report, Report::Json);
+    assert_eq!(given.output, Some(("c.png".into(), ImageFormat::Png)));
+    assert_eq!(given.tracing.spp, 1);
 }
 
 #[test]
@@ -167,6 +192,9 @@ fn wrong_arguments_are_rejected_with_a_reason() {
             "halflight render a -o b.bmp --size 1x4294967296",
             "such as 800x600",
         ),
+        ("halflight compare a", "<B>"),
+        ("halflight compare a b --tolerance 256", "0..=255"),
+        ("halflight compare a b -o c", ".exr or .hdr"),
         ("halflight render a -o b.bmp --spp 0", "1..=65536"),
         ("halflight render a -o b.bmp --spp 65537", "1..=65536"),
         ("halflight render a -o b.bmp --threads 0", "1..=1024"),

@@ -131,6 +131,37 @@ pub struct Frame {
     pub progress: Progress,
 }
 
+impl Frame {
+    /// A picture that was not traced, without values: red, green, blue of each pixel, in rows from
+    /// the top left.
+    pub fn drawn(size: Size, pixels: Vec<[u8; 3]>) -> Self {
+        Self {
+            generation: 0,
+            size,
+            pixels,
+            objects: Vec::new(),
+            values: Vec::new(),
+            progress: Progress::COMPLETE,
+        }
+    }
+}
+
+impl Progress {
+    /// That of a picture of which nothing is traced.
+    const COMPLETE: Self = Self {
+        pass: 1,
+        passes: 1,
+        spp: 1,
+        done: 1.0,
+        elapsed: Duration::ZERO,
+        rays: 0,
+        shadow_rays: 0,
+        over_budget: 0,
+        noise: None,
+        complete: true,
+    };
+}
+
 /// The progress of a job.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {

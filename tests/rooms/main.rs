@@ -40,6 +40,7 @@ const ARROWS: &[(&str, &[&str])] = &[
         "batch",
         &[
             "assets",
+            "compare",
             "file",
             "image_file",
             "language",
@@ -99,6 +100,7 @@ const DEPENDENCIES: &[(&str, &str)] = &[
     ),
     ("roxmltree", "language"),
     ("rustix", "assets batch file memory render ui"),
+    ("serde_json", "batch"),
     ("shlex", "ui"),
     ("signal_hook", "ui"),
     ("signal_hook_registry", "ui"),

@@ -4,7 +4,7 @@ use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::Modifier;
 
 use super::font::{self, HEIGHT, WIDTH};
-use crate::render::{Frame, Progress};
+use crate::render::Frame;
 use crate::scene::Size;
 use crate::ui::terminal::colour_on_screen;
 
@@ -31,31 +31,12 @@ pub(super) fn drawn(cells: &Buffer) -> Frame {
             }
         }
     }
-    Frame {
-        generation: 0,
-        size: Size {
-            width: width as u32,
-            height: height as u32,
-        },
-        pixels,
-        objects: Vec::new(),
-        values: Vec::new(),
-        progress: COMPLETE,
-    }
+    let size = Size {
+        width: width as u32,
+        height: height as u32,
+    };
+    Frame::drawn(size, pixels)
 }
-
-const COMPLETE: Progress = Progress {
-    pass: 1,
-    passes: 1,
-    spp: 1,
-    done: 1.0,
-    elapsed: std::time::Duration::ZERO,
-    rays: 0,
-    shadow_rays: 0,
-    over_budget: 0,
-    noise: None,
-    complete: true,
-};
 
 /// The dots of a cell.
 fn tile(cell: &Cell) -> [[[u8; 3]; WIDTH]; HEIGHT] {

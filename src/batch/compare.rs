@@ -1,0 +1,240 @@
+//! Compares two pictures, each from a picture file or traced from a scene.
+
+use std::fmt::Write;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use super::{Error, Tracing, Warnings, load, print_error, stdout};
+use crate::compare::{Comparison, Difference, SizesDiffer, heat_map};
+use crate::image_file::{self, ImageFormat};
+use crate::language::Language;
+use crate::render::{Frame, Frames};
+use crate::scene::{Image, Size};
+use crate::text::visible;
+use crate::{assets, file, memory};
+
+/// Two pictures to compare.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Compare {
+    /// The files of the pictures or scenes.
+    pub sides: [PathBuf; 2],
+    /// The largest difference of a channel, in levels, that does not count.
+    pub tolerance: u8,
+    /// The number of pixels that may differ by more.
+    pub max_differing: usize,
+    /// How the figures are printed.
+    pub report: Report,
+    /// Where the differences are drawn.
+    pub output: Option<(PathBuf, ImageFormat)>,
+    /// How scenes are traced.
+    pub tracing: Tracing,
+    /// How warnings of scenes are treated.
+    pub warnings: Warnings,
+    /// Additional folders that pictures and meshes of scenes may be read from.
+    pub assets: Vec<PathBuf>,
+}
+
+/// How figures are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Report {
+    /// As a table for people.
+    Text,
+    /// As a JSON object.
+    Json,
+}
+
+/// Whether two pictures are alike.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// As many pixels as permitted differ, or fewer.
+    Alike,
+    /// More pixels differ, or the sizes.
+    Different,
+}
+
+/// Compares two pictures and prints the figures to standard output.
+pub fn compare(work: &Compare) -> Result<Verdict, Error> {
+    try_compare(work).inspect_err(print_error)
+}
+
+fn try_compare(work: &Compare) -> Result<Verdict, Error> {
+    check(work)?;
+    memory::start_threads_or_none();
+    let [a, b] = images(work)?;
+    let found = Comparison::of(&a, &b, work.tolerance);
+    let verdict = match &found {
+        Ok(found) if found.differing <= work.max_differing => Verdict::Alike,
+        _ => Verdict::Different,
+    };
+    let report = match work.report {
+        Report::Text => table(work, &found, verdict),
+        Report::Json => format!("{:#}\n", object(work, &found, verdict)),
+    };
+    stdout::print(&report).map_err(|source| Error::Write {
+        to: "standard output".to_owned(),
+        source,
+    })?;
+    if let (Some((path, format)), Ok(found)) = (&work.output, &found) {
+        draw(path, *format, found.size, heat_map(&a, &b))?;
+    }
+    Ok(verdict)
+}
+
+/// Checks before any work that the picture of the differences can be written.
+fn check(work: &Compare) -> Result<(), Error> {
+    assets::check_folders(&work.assets)?;
+    let Some((path, format)) = &work.output else {
+        return Ok(());
+    };
+    if let Some(side) = work.sides.iter().find(|side| file::is_same(path, side)) {
+        return Err(Error::Refused(format!(
+            "cannot overwrite {}: it is compared; name another file",
+            side.display()
+        )));
+    }
+    if format.frames() != Frames::Last {
+        return Err(Error::Refused(format!(
+            "a picture of differences has 8 bits per channel: name a .png, not .{}",
+            format.name()
+        )));
+    }
+    file::check_target(path).map_err(|source| Error::Create {
+        path: path.clone(),
+        source,
+    })
+}
+
+/// The pictures of both sides. A scene is traced at the size of the picture on the other side.
+fn images(work: &Compare) -> Result<[Image; 2], Error> {
+    let [a, b] = &work.sides;
+    let pictures = [a, b].map(|path| is_picture(path).then(|| read(path)).transpose());
+    let [first, second] = pictures;
+    let (first, second) = (first?, second?);
+    let size = first.as_ref().or(second.as_ref()).map(Image::size);
+    let traced = |path, image: Option<Image>| image.map_or_else(|| trace(work, path, size), Ok);
+    Ok([traced(a, first)?, traced(b, second)?])
+}
+
+fn is_picture(path: &Path) -> bool {
+    Language::of_path(path).is_err()
+}
+
+fn read(path: &Path) -> Result<Image, Error> {
+    let file = file::open(path)?;
+    image_file::decode(file, u64::MAX).map_err(|source| Error::Picture {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+fn trace(work: &Compare, path: &Path, size: Option<Size>) -> Result<Image, Error> {
+    let loaded = load(path, &work.assets, work.warnings)?;
+    let scene = loaded.scene.ok_or(Error::Invalid {
+        errors: loaded.errors,
+    })?;
+    let tracing = Tracing {
+        size: work.tracing.size.or(size),
+        ..work.tracing.clone()
+    };
+    let traced = tracing.trace(scene, loaded.images, Frames::Last, || {})?;
+    let frame = &traced.frame;
+    Image::new(frame.size, frame.pixels.clone()).ok_or(Error::Stopped)
+}
+
+/// The figures as a table.
+fn table(work: &Compare, found: &Result<Comparison, SizesDiffer>, verdict: Verdict) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let mut line = |name: &str, value: String| {
+        let _ = writeln!(text, "{name:<18}{value}");
+    };
+    match found {
+        Err(SizesDiffer(sizes)) => {
+            let [a, b] = sizes.map(|size| format!("{}x{}", size.width, size.height));
+            line("size", format!("{a} and {b}"));
+        }
+        Ok(found) => {
+            let count = found.size.pixels();
+            let percent = 100.0 * found.differing as f64 / count as f64;
+            let beyond = match work.tolerance {
+                0 => String::new(),
+                tolerance => format!(" by more than {tolerance} of 255"),
+            };
+            line(
+                "size",
+                format!("{}x{}", found.size.width, found.size.height),
+            );
+            line(
+                "differing pixels",
+                format!("{} of {count} ({percent:.2} %){beyond}", found.differing),
+            );
+            line("largest", format!("{} of 255", found.largest));
+            line("MSE", format!("{:.4}", found.mse));
+            line("PSNR", format!("{:.2} dB", found.psnr()));
+            line(
+                "SSIM",
+                found.ssim.map_or_else(
+                    || "none: below 11 pixels wide or high".to_owned(),
+                    |ssim| format!("{ssim:.5}"),
+                ),
+            );
+            line("FLIP", format!("{:.5}", found.flip));
+            for (at, worst) in found.worst.iter().enumerate() {
+                let Difference { x, y, colours } = worst;
+                let [a, b] = colours.map(|[r, g, b]| format!("{r:3} {g:3} {b:3}"));
+                let name = if at == 0 { "worst pixels" } else { "" };
+                line(name, format!("{:<12}{a}   {b}", format!("{x},{y}")));
+            }
+        }
+    }
+    let [a, b] = [0, 1].map(|side| visible(&work.sides[side].to_string_lossy()).into_owned());
+    let verdict = match verdict {
+        Verdict::Alike => "alike",
+        Verdict::Different => "different",
+    };
+    let _ = writeln!(text, "{a} and {b} are {verdict}");
+    text
+}
+
+/// The figures as JSON. The keys are part of the interface of the command.
+fn object(work: &Compare, found: &Result<Comparison, SizesDiffer>, verdict: Verdict) -> Value {
+    let sides = [0, 1].map(|side| work.sides[side].to_string_lossy());
+    let size = |size: Size| json!([size.width, size.height]);
+    let mut object = match found {
+        Err(SizesDiffer(sizes)) => json!({ "sizes": sizes.map(size) }),
+        Ok(found) => {
+            let worst = found.worst.iter().map(|worst| {
+                let Difference { x, y, colours } = worst;
+                json!({ "x": x, "y": y, "a": colours[0], "b": colours[1] })
+            });
+            json!({
+                "size": size(found.size),
+                "tolerance": work.tolerance,
+                "max_differing": work.max_differing,
+                "differing": found.differing,
+                "largest": found.largest,
+                "mse": found.mse,
+                // Infinity is no number of JSON.
+                "psnr": found.psnr().is_finite().then(|| found.psnr()),
+                "ssim": found.ssim,
+                "flip": found.flip,
+                "worst": worst.collect::<Value>(),
+            })
+        }
+    };
+    object["a"] = json!(sides[0]);
+    object["b"] = json!(sides[1]);
+    object["alike"] = json!(verdict == Verdict::Alike);
+    object
+}
+
+fn draw(path: &Path, format: ImageFormat, size: Size, pixels: Vec<[u8; 3]>) -> Result<(), Error> {
+    let frame = Frame::drawn(size, pixels);
+    let written = file::deliver(path, |out| format.write(&frame, out), || Ok(()));
+    written.map(drop).map_err(|source: io::Error| Error::Write {
+        to: path.display().to_string(),
+        source,
+    })
+}

@@ -1,0 +1,109 @@
+//! Traces pictures without an interface.
+
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver};
+
+use super::Error;
+use super::progress::ProgressLine;
+use crate::render::{Aov, Filter, Frame, Frames, Job, Renderer, Settings, Threads, default_depth};
+use crate::scene::{Camera, Images, Integrator, Scene, Size, Transfer};
+
+/// How a scene is traced.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Tracing {
+    /// The size of the picture; the scene's if `None`.
+    pub size: Option<Size>,
+    /// Samples per pixel.
+    pub spp: u32,
+    /// Maximum number of bounces; the integrator's [`default_depth`] if `None`.
+    pub depth: Option<u32>,
+    /// The integrator; the scene's if `None`.
+    pub integrator: Option<Integrator>,
+    /// The pixel filter.
+    pub filter: Filter,
+    /// The random seed.
+    pub seed: u32,
+    /// What to render instead of light.
+    pub aov: Option<Aov>,
+    /// The transfer curve to 8-bit values; the scene's if `None`.
+    pub transfer: Option<Transfer>,
+    /// The number of tracing threads.
+    pub threads: usize,
+}
+
+/// A renderer with a complete picture. Kept to the end, so that its threads free memory while the
+/// picture is used.
+pub(super) struct Traced {
+    pub(super) frame: Arc<Frame>,
+    _renderer: Renderer,
+}
+
+impl Tracing {
+    /// Traces a scene and shows the progress. `started` is called while the renderer works.
+    pub(super) fn trace(
+        &self,
+        scene: Scene,
+        images: Images,
+        frames: Frames,
+        started: impl FnOnce(),
+    ) -> Result<Traced, Error> {
+        let (wake, woken) = mpsc::channel();
+        // Starting its threads before reading the scene was no faster.
+        let mut renderer = Renderer::new(Threads::Exactly(self.threads), move || {
+            // This fails only while the renderer is being dropped.
+            let _ = wake.send(());
+        });
+        renderer.restart(self.job(scene, images, frames))?;
+        started();
+        let frame = wait_for_last_frame(&renderer, &woken)?;
+        Ok(Traced {
+            frame,
+            _renderer: renderer,
+        })
+    }
+
+    /// The size of the picture of a scene.
+    pub(super) fn size_of(&self, scene: &Scene) -> Size {
+        self.size.unwrap_or(scene.camera.size)
+    }
+
+    fn job(&self, scene: Scene, images: Images, frames: Frames) -> Job {
+        let transfer = self.transfer.unwrap_or(scene.setting.transfer);
+        let integrator = self.integrator.unwrap_or(scene.setting.integrator);
+        let size = self.size_of(&scene);
+        Job {
+            images,
+            // The requested size sets the aspect ratio.
+            camera: Camera {
+                size,
+                ..scene.camera
+            },
+            scene: Arc::new(scene),
+            settings: Settings {
+                size,
+                spp: self.aov.map_or(self.spp, |aov| aov.samples(self.spp)),
+                depth: self.depth.unwrap_or_else(|| default_depth(integrator)),
+                seed: self.seed,
+                aov: self.aov,
+                integrator,
+                filter: self.filter,
+                transfer,
+            },
+            frames,
+        }
+    }
+}
+
+fn wait_for_last_frame(renderer: &Renderer, woken: &Receiver<()>) -> Result<Arc<Frame>, Error> {
+    let mut line = ProgressLine::new();
+    while woken.recv().is_ok() {
+        let Some(frame) = renderer.latest() else {
+            continue;
+        };
+        if frame.progress.complete {
+            return Ok(frame);
+        }
+        line.show(&frame.progress);
+    }
+    Err(Error::Stopped)
+}

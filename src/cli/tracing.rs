@@ -1,0 +1,66 @@
+//! The arguments that say how a scene is traced without an interface.
+
+use std::num::NonZero;
+use std::thread;
+
+use clap::Args;
+
+use super::choices::{AovChoice, FilterChoice, IntegratorChoice, TransferChoice};
+use super::shared::{depth_range, spp_range, threads_range};
+use crate::batch::Tracing;
+use crate::render::DEFAULT_SPP;
+use crate::scene::Size;
+
+#[derive(Args, Debug)]
+pub(super) struct TracingArguments {
+    /// Width and height in pixels, such as 800x600; at most 268435456 pixels in all (16384x16384)
+    /// [default: the scene's]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<Size>,
+    /// Samples per pixel, 1 to 65536
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_SPP, value_parser = spp_range())]
+    spp: u32,
+    /// Maximum number of bounces, 0 to 4096 [default: 8, or 64 with path tracing]
+    #[arg(long, value_name = "N", value_parser = depth_range())]
+    depth: Option<u32>,
+    /// Integrator [default: whitted, unless the scene sets path]
+    #[arg(long, value_name = "INTEGRATOR", value_enum)]
+    integrator: Option<IntegratorChoice>,
+    /// Pixel filter
+    #[arg(long, value_name = "FILTER", value_enum, default_value_t)]
+    filter: FilterChoice,
+    /// Random seed, 0 to 4294967295
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u32,
+    /// Render a property of the first surface under each pixel instead of light
+    #[arg(long, value_name = "AOV", value_enum)]
+    aov: Option<AovChoice>,
+    /// Transfer curve from colours to 8-bit values [default: linear, unless the scene sets srgb]
+    #[arg(long, value_name = "CURVE", value_enum)]
+    transfer: Option<TransferChoice>,
+    /// Number of tracing threads, 1 to 1024 [default: one per core]
+    #[arg(long, value_name = "N", value_parser = threads_range())]
+    threads: Option<u16>,
+}
+
+impl TracingArguments {
+    pub(super) fn into_tracing(self) -> Tracing {
+        let all_cores = || thread::available_parallelism().map_or(1, NonZero::get);
+        Tracing {
+            size: self.size,
+            spp: self.spp,
+            depth: self.depth,
+            integrator: self.integrator.map(IntegratorChoice::value),
+            filter: self.filter.value(),
+            seed: self.seed,
+            aov: self.aov.map(AovChoice::value),
+            transfer: self.transfer.map(TransferChoice::value),
+            threads: self.threads.map_or_else(all_cores, usize::from),
+        }
+    }
+}
+
+fn parse_size(text: &str) -> Result<Size, String> {
+    Size::parse(text)
+        .ok_or_else(|| "expected two integers of at least 1, such as 800x600".to_owned())
+}
