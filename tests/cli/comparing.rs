@@ -62,7 +62,7 @@ fn the_exit_code_is_1_for_a_difference_and_nothing_else() {
             65,
             "broken.ppm is not a valid picture",
         ),
-        ("mine.ppm broken.ray", 65, "broken.ray:1:8"),
+        ("mine.ppm broken.ray", 65, "broken.ray:1:7"),
         ("mine.ppm theirs.ppm -o none/d.png", 73, "no such folder"),
         (
             "mine.ppm theirs.ppm -o mine.ppm",
