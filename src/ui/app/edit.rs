@@ -155,12 +155,18 @@ impl App {
         if self.cursor.selected() == Node::View && (works || placed.spans.is_empty()) {
             return self.assign_view(placed.field, values);
         }
-        let edits = if self.cursor.marks.contains(&self.cursor.selected()) {
+        let edits = self.edits_of(placed, values);
+        self.try_edits(&edits)
+    }
+
+    /// Returns the edits that set components of a field of the selected node, or of all marked ones
+    /// if that is one of them.
+    pub(super) fn edits_of(&self, placed: &Placed, values: &[(usize, String)]) -> Vec<Edit> {
+        if self.cursor.marks.contains(&self.cursor.selected()) {
             self.edits_of_marked(placed.field, values)
         } else {
             placed.edits(&**self.source(), values)
-        };
-        self.try_edits(&edits)
+        }
     }
 
     /// Returns the edits that set components of a field in all marked nodes that have it.

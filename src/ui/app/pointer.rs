@@ -5,7 +5,7 @@ use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
 use super::App;
 use super::camera::{advanced, dollied, orbited, turned};
 use crate::ui::keymap::{Context, Mode};
-use crate::ui::layout::{field_at, list_row_at, pixel_at};
+use crate::ui::layout::{contents, field_at, first_shown, list_row_at, pixel_at};
 use crate::ui::listing::{ListLine, Listing};
 use crate::ui::msg::{Effect, Timer};
 
@@ -24,9 +24,14 @@ impl App {
             || self.disk.is_opening() && self.overlays.help.is_none();
         match event.kind {
             _ if waits => {}
+            MouseEventKind::ScrollUp | MouseEventKind::ScrollDown
+                if self.overlays.menu.is_some() => {}
             MouseEventKind::ScrollUp => self.wheel(at, -1),
             MouseEventKind::ScrollDown => self.wheel(at, 1),
             _ if self.overlays.help.is_some() => {}
+            MouseEventKind::Down(MouseButton::Left) if self.overlays.menu.is_some() => {
+                self.press_menu(at);
+            }
             MouseEventKind::Down(MouseButton::Left) => return self.press(at),
             MouseEventKind::Drag(MouseButton::Left) => self.drag(at),
             MouseEventKind::Up(_) => {
@@ -62,6 +67,21 @@ impl App {
                 Mode::Fly => advanced(now, steps),
                 _ => dollied(now, steps),
             });
+        }
+    }
+
+    /// Chooses in the menu; beside it, closes it.
+    fn press_menu(&mut self, at: (u16, u16)) {
+        let list = self.areas().list;
+        let lines = contents(contents(list));
+        match &self.overlays.menu {
+            Some(menu) if lines.contains(at.into()) => {
+                let rows = usize::from(lines.height);
+                let top = first_shown(0, menu.filter.at, menu.shown().len(), rows);
+                self.click_menu(top + usize::from(at.1 - lines.y));
+            }
+            _ if list.contains(at.into()) => {}
+            _ => self.close_menu(),
         }
     }
 
@@ -117,7 +137,7 @@ impl App {
         self.mode = Mode::Edit;
         self.focus_field(field, component);
         if self.cursor.click((field, component)) {
-            self.type_current();
+            self.enter_value();
             return Vec::new();
         }
         vec![Effect::Later(super::DOUBLE_CLICK, Timer::Click)]

@@ -37,6 +37,7 @@ impl App {
             }
             Kind::Reference(category) | Kind::Name(category) => {
                 let known = self.source().references(self.cursor.selected(), category);
+                let known: Vec<_> = known.into_iter().map(|(literal, _)| literal).collect();
                 literals::next(&known, &literal, steps)
             }
             _ => literals::nudged(&literal, f64::from(steps) * step, step),
@@ -129,7 +130,7 @@ impl App {
     }
 
     /// Like [`App::assign`], as an undo step of its own.
-    fn assign_whole(&mut self, values: &[(usize, String)]) -> Result<(), Diagnostic> {
+    pub(super) fn assign_whole(&mut self, values: &[(usize, String)]) -> Result<(), Diagnostic> {
         self.document.end_step();
         let outcome = self.assign(values);
         self.document.end_step();
@@ -169,8 +170,12 @@ impl App {
             return;
         }
         if let Some(page) = &mut self.overlays.page {
-            line::insert(&mut page.search, text);
-            page.at = 0;
+            page.filter.insert(text);
+            return;
+        }
+        if let Some(menu) = &mut self.overlays.menu {
+            menu.filter.insert(text);
+            self.follow_menu();
             return;
         }
         if self.disk.is_opening() {

@@ -134,8 +134,7 @@ impl App {
     fn filter_with(&mut self, key: KeyEvent) {
         if let (Some(page), KeyCode::Char(_)) = (&mut self.overlays.page, key.code) {
             page.focus = PageFocus::Search;
-            line::edit(&mut page.search, key);
-            page.at = 0;
+            page.filter.key(key, 0);
         }
     }
 
@@ -179,11 +178,9 @@ impl App {
             match key.code {
                 KeyCode::Enter => return self.choose(),
                 KeyCode::Esc => page.focus = PageFocus::Lines,
-                KeyCode::Down => page.go(1),
-                KeyCode::Up => page.go(-1),
                 _ => {
-                    line::edit(&mut page.search, key);
-                    page.at = 0;
+                    let count = page.rows().len();
+                    page.filter.key(key, count);
                 }
             }
         }
@@ -255,6 +252,7 @@ impl App {
             }
             Action::Lock(axis) => self.lock_axis(axis),
             Action::Snap => self.toggle_snap(),
+            Action::Choose => self.enter_value(),
             Action::Type => self.type_current(),
             Action::Nudge(steps, stride) => self.nudge(steps, stride),
             Action::Stride(step) => {

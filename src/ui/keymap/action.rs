@@ -147,6 +147,8 @@ pub enum Action {
     Lock(usize),
     /// Rounds to a grid, or no longer.
     Snap,
+    /// Opens the list of the values of a field, or starts typing one.
+    Choose,
     /// Starts typing a value.
     Type,
     /// Adds the step of the field times the stride; positive is up.

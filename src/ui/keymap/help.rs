@@ -195,7 +195,7 @@ const EDIT_HINTS: &[Hint] = &[
     (&[A::Move(1), A::Move(-1)], "field"),
     (&[A::Nudge(-1, Plain), A::Nudge(1, Plain)], "nudge"),
     (&[A::Stride(-1), A::Stride(1)], "step"),
-    (&[A::Type], "type"),
+    (&[A::Choose], "type"),
     (&[A::Component(1)], "next number"),
     (&[A::Back], "back"),
 ];

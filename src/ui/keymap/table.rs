@@ -169,7 +169,8 @@ pub(super) const TABLE: &[Binding] = &[
 
     bind(EDIT, &[c('l'), key(Right)], A::Nudge(1, Plain), "nudge up"),
     bind(EDIT, &[c('h'), key(Left)], A::Nudge(-1, Plain), "nudge down"),
-    bind(EDIT, &[key(Enter), c('i')], A::Type, "type a value (or press a digit)"),
+    bind(EDIT, &[key(Enter)], A::Choose, "choose from a list, or type a number"),
+    bind(EDIT, &[c('i')], A::Type, "type a value (or press a digit)"),
     bind(EDIT, &[key(Tab)], A::Component(1), "next number"),
     bind(EDIT, &[c('L'), Chord(Right, SHIFT)], A::Nudge(1, Coarse), "nudge up ten steps"),
     bind(EDIT, &[c('H'), Chord(Left, SHIFT)], A::Nudge(-1, Coarse), "nudge down ten steps"),

@@ -9,8 +9,7 @@ use ratatui::widgets::{Clear, Widget};
 use super::row::{self, Row};
 use crate::language::Node;
 use crate::language::table::Kind;
-use crate::scene::Rgb;
-use crate::text::{counted, parse_number, without_suffix};
+use crate::text::counted;
 use crate::ui::app::{App, FieldRow, Provenance, Typing};
 use crate::ui::fit::wrap;
 use crate::ui::keymap::{Mode, Stride};
@@ -25,10 +24,11 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         Stride::Plain => None,
         Stride::Coarse => Some("step × 10".to_owned()),
     };
-    let name = app.source().name(app.cursor.selected());
+    let selected = app.cursor.selected();
+    let name = app.source().name(selected);
     row::title(
         &name,
-        &stride.or_else(|| users(app)).unwrap_or_default(),
+        &stride.or_else(|| users(app, selected)).unwrap_or_default(),
         focused.then_some(theme::ACCENT),
         area,
         buffer,
@@ -65,12 +65,12 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// The number of objects that use the selected node, if it is a material or texture.
-fn users(app: &App) -> Option<String> {
-    let objects = counted(app.source().users(app.cursor.selected()), "object");
-    match app.cursor.selected() {
-        Node::Material(_) => Some(format!("colours {objects}")),
-        Node::Texture(_) => Some(format!("on {objects}")),
+/// The number of objects that use a node, if it is a material or texture.
+pub(super) fn users(app: &App, node: Node) -> Option<String> {
+    let objects = || counted(app.source().users(node), "object");
+    match node {
+        Node::Material(_) => Some(format!("colours {}", objects())),
+        Node::Texture(_) => Some(format!("on {}", objects())),
         _ => None,
     }
 }
@@ -93,7 +93,7 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
     row.put(if cursor.is_some() { "▸" } else { " " }, selected);
     row.put_in(field.field.key, row.room().saturating_sub(2), selected);
     row.skip_to(name.right().saturating_sub(2));
-    match swatch(field) {
+    match field.colour() {
         _ if field.is_all(Provenance::WorkingView) => row.put("*", theme::WARNING),
         Some(colour) => row.put("●", theme::swatch(colour)),
         None => row.put(" ", Style::new()),
@@ -188,19 +188,6 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
         Row::new(buffer, area, index as u16)
             .skip(1)
             .put(line, *style);
-    }
-}
-
-/// The colour that a field's literals represent.
-fn swatch(field: &FieldRow) -> Option<Rgb> {
-    let channel = |at: usize| {
-        let literal = field.literals.get(at)?;
-        parse_number(without_suffix(literal).unwrap_or(literal)).ok()
-    };
-    match field.field.kind {
-        Kind::Colour => Some(Rgb::new(channel(0)?, channel(1)?, channel(2)?)),
-        Kind::ScaledColour => Some(channel(3)? * Rgb::new(channel(0)?, channel(1)?, channel(2)?)),
-        _ => None,
     }
 }
 

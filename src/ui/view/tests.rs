@@ -193,7 +193,7 @@ const STATES: &[(&str, Change)] = &[
     ("recent scenes", |app| {
         let paths = (0..99).map(|at| PathBuf::from(format!("/界/{at}.ray")));
         let mut page = Page::new(List::Recent(paths.collect()));
-        page.at = 98;
+        page.filter.at = 98;
         app.overlays.page = Some(page);
     }),
     ("quit", |app| {
