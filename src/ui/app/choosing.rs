@@ -35,7 +35,7 @@ impl App {
         let purpose = Purpose::Value(row.field.key);
         let mut menu = Menu::new(purpose, entries, at.unwrap_or(0));
         // A change of the view may concern the working view, which is not in the text.
-        let is_text = node != Node::View && self.error_count() == 0;
+        let is_text = node != Node::View;
         menu.trial = is_text.then(|| self.begin_trial());
         self.overlays.menu = Some(menu);
     }
@@ -113,12 +113,12 @@ impl App {
     fn offered(&self, menu: &Menu) -> Option<Entry> {
         let name = menu.filter.input.value().trim();
         let category = self.cursor.current().and_then(category)?;
-        if name.is_empty() || menu.has(name) {
+        if name.is_empty() || menu.has(name) || 0 < self.error_count() {
             return None;
         }
         let user = self.cursor.selected();
         let created = self.source().creation(category, name, user);
-        let words = format!("create this {}", category.word());
+        let words = format!("new: create this {}", category.word());
         created.is_ok().then(|| Entry::new(name, words))
     }
 
@@ -192,6 +192,16 @@ impl App {
             self.keep_trial();
             self.overlays.menu = None;
         }
+    }
+
+    /// What the current field refers to, with its name there.
+    pub fn referred_to(&self) -> Option<(String, Node)> {
+        let category = category(self.cursor.current()?)?;
+        let row = self.field_row(self.cursor.field)?;
+        let literal = row.literals.first()?;
+        let known = self.source().references(self.cursor.selected(), category);
+        let mut known = known.into_iter();
+        known.find(|(name, _)| name == literal)
     }
 
     /// The colour of what an entry of a menu refers to.

@@ -52,6 +52,7 @@ impl App {
             None if self.overlays.history.is_some() => Context::Messages,
             None if self.overlays.errors.is_some() => Context::Errors,
             None if self.disk.is_opening() => Context::Opening,
+            None if self.overlays.picker.is_some() => Context::Colour,
             None => Context::In(self.mode),
         }
     }

@@ -182,6 +182,10 @@ impl App {
             self.warn_of_opening();
             return;
         }
+        if self.overlays.picker.is_some() {
+            self.paste_colour(pasted);
+            return;
+        }
         if self.mode == Mode::Select {
             self.insert(text);
             return;

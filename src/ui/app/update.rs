@@ -76,6 +76,7 @@ impl App {
 
     fn key(&mut self, key: KeyEvent) -> Vec<Effect> {
         self.overlays.clear_message();
+        self.end_slide();
         let context = self.context();
         let action = keymap::action(context, key);
         let is_line = self.cursor.typing.is_some() || self.overlays.has_line();
@@ -254,7 +255,12 @@ impl App {
             Action::Snap => self.toggle_snap(),
             Action::Choose => self.enter_value(),
             Action::Type => self.type_current(),
+            Action::Nudge(steps, stride) if context == Context::Colour => {
+                self.step_colour(steps, stride);
+            }
             Action::Nudge(steps, stride) => self.nudge(steps, stride),
+            Action::Colour => self.open_picker(),
+            Action::Orthonormalise => self.orthonormalise(),
             Action::Stride(step) => {
                 let words = self.cursor.change_stride(step);
                 self.overlays.say(words);
@@ -341,6 +347,7 @@ impl App {
                 return self.put_off();
             }
             Context::Opening => {}
+            Context::Colour => self.cancel_colour(),
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
             }
@@ -365,6 +372,7 @@ impl App {
             Context::Recover => return self.restore(),
             Context::In(Mode::Pick) => self.pick_cross(),
             Context::In(Mode::Move) => self.confirm_transform(),
+            Context::Colour => self.confirm_colour(),
             Context::In(_) | Context::Help | Context::Messages | Context::Opening => {}
         }
         Vec::new()

@@ -9,11 +9,11 @@ use ratatui::widgets::{Clear, Widget};
 use super::row::{self, Row};
 use crate::language::Node;
 use crate::language::table::Kind;
-use crate::text::counted;
+use crate::text::{counted, parse_number, without_suffix};
 use crate::ui::app::{App, FieldRow, Provenance, Typing};
 use crate::ui::fit::wrap;
 use crate::ui::keymap::{Mode, Stride};
-use crate::ui::layout;
+use crate::ui::layout::{self, marker_at};
 use crate::ui::theme;
 
 /// Draws the fields of the selected node and a description of the current one.
@@ -46,6 +46,16 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         };
         let cursor = (focused && index == app.cursor.field).then_some(app.cursor.component);
         field_line(app, field, cursor, line, buffer);
+        if let Some(bar) = app.slider(index, line)
+            && (cursor.is_none() || app.cursor.typing.is_none())
+        {
+            let style = match cursor {
+                _ if !field.is_all(Provenance::Text) => theme::DIM,
+                Some(_) => theme::ACCENT,
+                None => Style::new(),
+            };
+            slider(field, style, bar, buffer);
+        }
         if let Some(found) = app.field_finding(index) {
             // The last cell of the name is otherwise a gap.
             let (name, _) = layout::field_columns(line, field.literals.len());
@@ -63,6 +73,12 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     if let Some(field) = fields.get(app.cursor.field).filter(|_| focused) {
         explain(app, field, layout::field_notes(area), buffer);
     }
+}
+
+/// What else uses the material or texture that the current field names.
+fn shared(app: &App) -> Option<String> {
+    let (name, node) = app.referred_to()?;
+    Some(format!("{name} {}", users(app, node)?))
 }
 
 /// The number of objects that use a node, if it is a material or texture.
@@ -129,6 +145,19 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
     }
 }
 
+/// Draws a number from 0 to 1 as a bar.
+fn slider(field: &FieldRow, style: Style, bar: Rect, buffer: &mut Buffer) {
+    let literal = field.literals.first().map_or("", String::as_str);
+    let number = parse_number(without_suffix(literal).unwrap_or(literal));
+    let filled = marker_at(bar, number.unwrap_or(0.0)) - bar.x;
+    Clear.render(bar.intersection(buffer.area), buffer);
+    let mut row = Row::new(buffer, bar, 0);
+    row.put(&"━".repeat(usize::from(filled)), style);
+    row.put("●", style);
+    let rest = row.room();
+    row.put(&"─".repeat(rest), theme::DIM);
+}
+
 /// Draws the value being typed in place of the current one.
 fn typed(typing: &Typing, area: Rect, buffer: &mut Buffer) {
     Clear.render(area.intersection(buffer.area), buffer);
@@ -176,6 +205,9 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
         _ => format!(" · step {}{unit}", app.step(field.field)),
     };
     say(&format!("{what}{nudge}"), Style::new());
+    if let Some(users) = shared(app) {
+        say(&users, theme::DIM);
+    }
     say(field.field.doc, theme::DIM);
     match field.sources.get(app.cursor.component) {
         Some(Provenance::Default) => say("Not in the text: this is the default.", theme::DIM),

@@ -9,7 +9,6 @@ use unicode_width::UnicodeWidthStr;
 use super::fields::users;
 use super::row::{Row, title};
 use crate::ui::app::{App, Entry, Purpose};
-use crate::ui::fit::shorten;
 use crate::ui::layout;
 use crate::ui::theme;
 
@@ -38,54 +37,64 @@ pub(crate) fn render(app: &App, list: Rect, body: Rect, buffer: &mut Buffer) {
     let top = layout::first_shown(0, menu.filter.at, shown.len(), rows);
     let widths = shown.iter().map(|entry| entry.name.width());
     let names = widths.max().unwrap_or(0).min(usize::from(area.width / 2));
+    let dots = if shown.iter().any(|entry| entry.node.is_some()) {
+        2
+    } else {
+        0
+    };
+    let columns = Columns { dots, names };
     for (index, entry) in shown.iter().enumerate().skip(top).take(rows) {
         let line = Rect {
             y: entries.y + (index - top) as u16,
             height: 1,
             ..entries
         };
-        let is_selected = index == menu.filter.at;
-        draw_entry(app, entry, names, is_selected, (line, buffer));
+        let look = if index == menu.filter.at {
+            ("▸ ", theme::CURSOR)
+        } else {
+            ("  ", Style::new())
+        };
+        draw_entry(app, entry, columns, look, line, buffer);
     }
     if shown.is_empty() {
         Row::new(buffer, entries, 0).put("  no match", theme::DIM);
     }
 }
 
+/// The columns of the entries.
+#[derive(Clone, Copy)]
+struct Columns {
+    /// Width of the dots with a gap.
+    dots: u16,
+    /// Width of the names.
+    names: usize,
+}
+
 /// Draws an entry: a dot in the colour of what it refers to, its name, and what it is.
 fn draw_entry(
     app: &App,
     entry: &Entry,
-    names: usize,
-    is_selected: bool,
-    (line, buffer): (Rect, &mut Buffer),
+    columns: Columns,
+    (sign, style): (&str, Style),
+    line: Rect,
+    buffer: &mut Buffer,
 ) {
-    let style = if is_selected {
-        theme::CURSOR
-    } else {
-        Style::new()
-    };
     let mut row = Row::new(buffer, line, 0);
-    row.put(if is_selected { "▸ " } else { "  " }, style);
-    if entry.node.is_some() {
-        match app.entry_colour(entry) {
-            // Reversed, a dot would be a hole in its colour.
-            Some(colour) => row.put("●", theme::swatch(colour)),
-            None => row.put(" ", Style::new()),
-        };
-        row.put(" ", style);
+    let blank = " ".repeat(row.room());
+    row.put(&blank, style);
+    let mut row = Row::new(buffer, line, 0);
+    row.put(sign, style);
+    if let Some(colour) = app.entry_colour(entry) {
+        // Reversed, a dot would be a hole in its colour.
+        row.put("●", theme::swatch(colour));
     }
-    let name = shorten(&entry.name, names.min(row.room()));
-    let padding = names.saturating_sub(name.width());
-    row.put(&format!("{name}{:padding$}", ""), style.patch(theme::BOLD));
-    let room = row.room().saturating_sub(2);
-    row.put("  ", style);
+    row.skip_to(line.x + 2 + columns.dots);
+    let words = line.x + 2 + columns.dots + columns.names as u16 + 2;
+    row.put_in(&entry.name, columns.names, style.patch(theme::BOLD));
+    row.skip_to(words);
     let users = entry.node.and_then(|node| users(app, node));
-    let words = match &users {
-        Some(users) if entry.words.is_empty() => users,
-        _ => &entry.words,
+    match &users {
+        Some(users) if entry.words.is_empty() => row.put(users, style.patch(theme::DIM)),
+        _ => row.put(&entry.words, style.patch(theme::DIM)),
     };
-    let words = shorten(words, room);
-    let padding = room.saturating_sub(words.width());
-    row.put(&format!("{words}{:padding$}", ""), style.patch(theme::DIM));
 }
