@@ -134,12 +134,12 @@ impl Answers for Source {
     }
 
     fn references(&self, node: Node, category: Category) -> Vec<(String, Node)> {
+        type OfIndex = fn(usize) -> Node;
         let records = self.origins.records(node).map(|(record, _)| record);
         let Some(record) = records.max() else {
             return Vec::new();
         };
         let of = |places: &[Place]| places.iter().map(|at| (at.record, at.id)).collect();
-        type OfIndex = fn(usize) -> Node;
         let (node, given): (OfIndex, Vec<_>) = match category {
             Category::Light => (Node::Light, of(&self.origins.lights)),
             Category::Material => (Node::Material, of(&self.origins.materials)),

@@ -7,7 +7,6 @@ use super::menu::{Entry, Menu, Purpose};
 use super::{App, colours};
 use crate::language::table::{Category, Kind};
 use crate::language::{Node, Placed, Source};
-use crate::scene::Rgb;
 use crate::text::Edit;
 
 impl App {
@@ -176,17 +175,17 @@ impl App {
     /// Keeps the value that is tried out, or sets one that could not be; the menu stays open if that
     /// is refused.
     fn choose_value(&mut self, name: &str) {
-        let trial = self.overlays.menu.as_ref().map(|menu| menu.trial.as_ref());
-        let is_kept = match trial {
-            Some(Some(trial)) => trial.is_applied() || self.follow_menu(),
-            _ => {
-                let value = (self.cursor.component, name.to_owned());
-                let outcome = self.assign_whole(&[value]);
-                if let Err(refused) = &outcome {
-                    self.overlays.fail(refused.message.as_str());
-                }
-                outcome.is_ok()
+        let menu = self.overlays.menu.as_ref();
+        let trial = menu.and_then(|menu| menu.trial.as_ref());
+        let is_kept = if let Some(trial) = trial {
+            trial.is_applied() || self.follow_menu()
+        } else {
+            let value = (self.cursor.component, name.to_owned());
+            let outcome = self.assign_whole(&[value]);
+            if let Err(refused) = &outcome {
+                self.overlays.fail(refused.message.as_str());
             }
+            outcome.is_ok()
         };
         if is_kept {
             self.keep_trial();
@@ -194,19 +193,17 @@ impl App {
         }
     }
 
-    /// What the current field refers to, with its name there.
-    pub fn referred_to(&self) -> Option<(String, Node)> {
+    /// The material or texture that the current field refers to.
+    pub fn referred_to(&self) -> Option<Node> {
         let category = category(self.cursor.current()?)?;
+        // Others may be very many.
+        let is_shared = matches!(category, Category::Material | Category::Texture);
         let row = self.field_row(self.cursor.field)?;
         let literal = row.literals.first()?;
-        let known = self.source().references(self.cursor.selected(), category);
-        let mut known = known.into_iter();
-        known.find(|(name, _)| name == literal)
-    }
-
-    /// The colour of what an entry of a menu refers to.
-    pub fn entry_colour(&self, entry: &Entry) -> Option<Rgb> {
-        colours::of_node(self.source(), entry.node?)
+        let node = self.cursor.selected();
+        let known = is_shared.then(|| self.source().references(node, category));
+        let mut known = known.into_iter().flatten();
+        Some(known.find(|(name, _)| name == literal)?.1)
     }
 }
 

@@ -1,8 +1,8 @@
-//! The colours of fields and nodes.
+//! The colours of fields.
 
 use super::literals::plain;
 use crate::language::table::Kind;
-use crate::language::{Node, Placed, Source};
+use crate::language::{Placed, Source};
 use crate::scene::Rgb;
 use crate::text::parse_number;
 
@@ -34,16 +34,6 @@ pub(super) fn literals(source: &Source, placed: &Placed) -> Vec<String> {
     };
     let spans = placed.spans.iter().copied();
     spans.enumerate().map(literal).collect()
-}
-
-/// The first colour of a node, or of an object's material.
-pub(super) fn of_node(source: &Source, node: Node) -> Option<Rgb> {
-    let node = match node {
-        Node::Object(index) => source.material(index).map_or(node, Node::Material),
-        _ => node,
-    };
-    let fields = source.fields(node);
-    fields.iter().find_map(|placed| of_field(source, placed))
 }
 
 /// The different colours of the first nodes of a scene, at most `limit`.

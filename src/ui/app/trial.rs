@@ -49,9 +49,10 @@ impl App {
         }
         let outcome = edits(self).and_then(|edits| {
             trial.is_applied = !edits.is_empty();
-            let made = match trial.is_applied {
-                true => self.try_edits_anew(&edits),
-                false => Ok(()),
+            let made = if trial.is_applied {
+                self.try_edits_anew(&edits)
+            } else {
+                Ok(())
             };
             made.map_err(|refused| refused.message)
         });

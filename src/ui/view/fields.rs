@@ -77,7 +77,8 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
 
 /// What else uses the material or texture that the current field names.
 fn shared(app: &App) -> Option<String> {
-    let (name, node) = app.referred_to()?;
+    let node = app.referred_to()?;
+    let name = app.source().name(node);
     Some(format!("{name} {}", users(app, node)?))
 }
 
@@ -152,7 +153,7 @@ fn slider(field: &FieldRow, style: Style, bar: Rect, buffer: &mut Buffer) {
     let filled = marker_at(bar, number.unwrap_or(0.0)) - bar.x;
     Clear.render(bar.intersection(buffer.area), buffer);
     let mut row = Row::new(buffer, bar, 0);
-    row.put(&"━".repeat(usize::from(filled)), style);
+    row.put(&"─".repeat(usize::from(filled)), style);
     row.put("●", style);
     let rest = row.room();
     row.put(&"─".repeat(rest), theme::DIM);
@@ -200,7 +201,9 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
         format!(" {}", field.field.unit)
     };
     let nudge = match field.field.kind {
-        Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => " · h l: change".to_owned(),
+        Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => {
+            " · Enter: list · h l: next".to_owned()
+        }
         Kind::Word => String::new(),
         _ => format!(" · step {}{unit}", app.step(field.field)),
     };

@@ -7,6 +7,7 @@ use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use super::fields::users;
+use super::list::swatch;
 use super::row::{Row, title};
 use crate::ui::app::{App, Entry, Purpose};
 use crate::ui::layout;
@@ -84,8 +85,7 @@ fn draw_entry(
     row.put(&blank, style);
     let mut row = Row::new(buffer, line, 0);
     row.put(sign, style);
-    if let Some(colour) = app.entry_colour(entry) {
-        // Reversed, a dot would be a hole in its colour.
+    if let Some(colour) = entry.node.and_then(|node| swatch(app, node)) {
         row.put("●", theme::swatch(colour));
     }
     row.skip_to(line.x + 2 + columns.dots);

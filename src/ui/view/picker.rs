@@ -141,7 +141,7 @@ fn put(buffer: &mut Buffer, x: u16, y: u16, symbol: &str, style: Style) {
 fn sign(inks: &Inks) -> &'static str {
     match inks.glyphs {
         Glyphs::Characters => "●",
-        _ => "┃",
+        _ => "│",
     }
 }
 
@@ -205,8 +205,8 @@ mod tests {
         let app = picking("jjjc");
         let lines = shown(&app, Glyphs::HalfBlocks);
         assert!(lines[0].starts_with("colour ─") && lines[0].ends_with(" kd"));
-        assert_eq!(lines[1], "▸hue        ┃              0°");
-        assert_eq!(lines[2], " saturation              ┃ 1");
+        assert_eq!(lines[1], "▸hue        │              0°");
+        assert_eq!(lines[2], " saturation              │ 1");
         assert!(lines[3].ends_with(" 0.5"), "{}", lines[3]);
         assert_eq!(lines[5], "      was       now");
         assert_eq!(lines[6], " 0.5 0 0  #800000");

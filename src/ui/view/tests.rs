@@ -231,6 +231,21 @@ const STATES: &[(&str, Change)] = &[
             ..Typing::default()
         });
     }),
+    ("menu", |app| {
+        app.mode = Mode::Select;
+        for key in ['a', 's'] {
+            app.update(Msg::Key(KeyCode::Char(key).into()));
+        }
+        assert!(app.overlays.menu.is_some());
+    }),
+    ("colour picker", |app| {
+        app.mode = Mode::Select;
+        app.cursor.select(Node::Object(0), app.document.source());
+        for key in ['e', 'j', 'j', 'c', 'l'] {
+            app.update(Msg::Key(KeyCode::Char(key).into()));
+        }
+        assert!(app.overlays.picker.is_some());
+    }),
     ("palette", |app| {
         for key in [':', 'e'] {
             app.update(Msg::Key(KeyCode::Char(key).into()));

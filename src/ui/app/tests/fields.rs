@@ -64,100 +64,110 @@ const XML: &str = r#"<xml>
 </xml>
 "#;
 
+/// The file, the text, the node, keys in EDIT without the last Enter, and what they replace by what.
+type Choice = (
+    &'static str,
+    &'static str,
+    Node,
+    &'static str,
+    &'static str,
+    &'static str,
+);
+
+const CHOICES: &[Choice] = &[
+    (
+        "a.dat",
+        dat::SCENE,
+        Node::Object(0),
+        "<Enter><Down>",
+        "mat ID 1  0 0 0",
+        "mat ID 7  0 0 0",
+    ),
+    (
+        "a.dat",
+        dat::SCENE,
+        Node::Object(0),
+        "<Enter><Ctrl-n><Ctrl-p><Up>",
+        "mat ID 1  0 0 0",
+        "mat ID 7  0 0 0",
+    ),
+    (
+        "a.dat",
+        dat::SCENE,
+        Node::Object(0),
+        "<Enter>7",
+        "mat ID 1  0 0 0",
+        "mat ID 7  0 0 0",
+    ),
+    (
+        "a.dat",
+        dat::SCENE,
+        Node::Light(0),
+        "<Enter>pn",
+        "ID 1 inf",
+        "ID 1 pnt",
+    ),
+    (
+        "a.dat",
+        dat::SCENE,
+        Node::Object(2),
+        "<Enter>uni",
+        "difference",
+        "union",
+    ),
+    (
+        "a.dat",
+        dat::SCENE,
+        Node::Object(2),
+        "jj<Enter>1",
+        "ID 1 ID 2\n",
+        "ID 1 ID 1\n",
+    ),
+    (
+        "a.dat",
+        dat::SCENE,
+        Node::View,
+        "<Enter>or",
+        "perspective",
+        "orthographic",
+    ),
+    (
+        "a.xml",
+        XML,
+        Node::Object(0),
+        "jj<Enter>gl",
+        "material=\"clay\"",
+        "material=\"glass\"",
+    ),
+    (
+        "a.xml",
+        XML,
+        Node::Object(0),
+        "jj<Enter>warm<Ctrl-u><Down>",
+        "material=\"clay\"",
+        "material=\"glass\"",
+    ),
+    (
+        "a.xml",
+        XML,
+        Node::Object(1),
+        "jj<Enter>glass",
+        "name=\"bare\"",
+        "name=\"bare\" material=\"glass\"",
+    ),
+    (
+        "a.xml",
+        XML,
+        Node::Material(0),
+        "<Enter>ph",
+        "\"blinn\" name=\"clay\"",
+        "\"phong\" name=\"clay\"",
+    ),
+];
+
 #[test]
 fn names_and_words_are_chosen_from_a_filtered_list_in_one_undo_step() {
-    type Case<'c> = (&'c str, &'c str, Node, &'c str, &'c str, &'c str);
-    let cases: [Case; 11] = [
-        (
-            "a.dat",
-            dat::SCENE,
-            Node::Object(0),
-            "<Enter><Down>",
-            "mat ID 1  0 0 0",
-            "mat ID 7  0 0 0",
-        ),
-        (
-            "a.dat",
-            dat::SCENE,
-            Node::Object(0),
-            "<Enter><Ctrl-n><Ctrl-p><Up>",
-            "mat ID 1  0 0 0",
-            "mat ID 7  0 0 0",
-        ),
-        (
-            "a.dat",
-            dat::SCENE,
-            Node::Object(0),
-            "<Enter>7",
-            "mat ID 1  0 0 0",
-            "mat ID 7  0 0 0",
-        ),
-        (
-            "a.dat",
-            dat::SCENE,
-            Node::Light(0),
-            "<Enter>pn",
-            "ID 1 inf",
-            "ID 1 pnt",
-        ),
-        (
-            "a.dat",
-            dat::SCENE,
-            Node::Object(2),
-            "<Enter>uni",
-            "difference",
-            "union",
-        ),
-        (
-            "a.dat",
-            dat::SCENE,
-            Node::Object(2),
-            "jj<Enter>1",
-            "ID 1 ID 2\n",
-            "ID 1 ID 1\n",
-        ),
-        (
-            "a.dat",
-            dat::SCENE,
-            Node::View,
-            "<Enter>or",
-            "perspective",
-            "orthographic",
-        ),
-        (
-            "a.xml",
-            XML,
-            Node::Object(0),
-            "jj<Enter>gl",
-            "material=\"clay\"",
-            "material=\"glass\"",
-        ),
-        (
-            "a.xml",
-            XML,
-            Node::Object(0),
-            "jj<Enter>warm<Ctrl-u><Down>",
-            "material=\"clay\"",
-            "material=\"glass\"",
-        ),
-        (
-            "a.xml",
-            XML,
-            Node::Object(1),
-            "jj<Enter>glass",
-            "name=\"bare\"",
-            "name=\"bare\" material=\"glass\"",
-        ),
-        (
-            "a.xml",
-            XML,
-            Node::Material(0),
-            "<Enter>ph",
-            "\"blinn\" name=\"clay\"",
-            "\"phong\" name=\"clay\"",
-        ),
-    ];
-    for (name, text, node, said, old, new) in cases {
+    for &(name, text, node, said, old, new) in CHOICES {
         assert!(text.contains(old), "{old}");
         let mut app = opened_as(name, text).0;
         app.select(node);
