@@ -158,29 +158,30 @@ impl Motion {
 }
 
 /// Makes turned directions orthonormal again if they were so before, so that many turns add up to
-/// no skew. Gram–Schmidt from the last axis, with the handedness of before.
+/// no skew.
 fn straightened(turned: [DVec3; 3], before: [DVec3; 3]) -> [DVec3; 3] {
     let [a, b, c] = before;
     let is_straight = [a.dot(b), a.dot(c), b.dot(c)]
         .iter()
         .all(|dot| dot.abs() < 1e-6);
-    let [first, second, last] = turned;
-    let Some(c) = normalise(last).filter(|_| is_straight) else {
-        return turned;
-    };
-    let Some(a) = normalise(first - first.dot(c) * c) else {
-        return turned;
-    };
-    let third = c.cross(a);
-    [
-        a,
-        if third.dot(second) < 0.0 {
-            -third
-        } else {
-            third
-        },
-        c,
-    ]
+    if is_straight {
+        orthonormal(turned).unwrap_or(turned)
+    } else {
+        turned
+    }
+}
+
+/// The orthonormal frame nearest to three directions that has the last one and their handedness, by
+/// Gram–Schmidt; `None` if the first is parallel to the last, or one is 0.
+pub(super) fn orthonormal([first, second, last]: [DVec3; 3]) -> Option<[DVec3; 3]> {
+    let c = normalise(last)?;
+    let first = normalise(first)?;
+    let across = first - first.dot(c) * c;
+    // The rest of a parallel direction is rounding.
+    let a = normalise(across).filter(|_| 1e-9 < across.length())?;
+    let b = c.cross(a);
+    let b = if b.dot(second) < 0.0 { -b } else { b };
+    Some([a, b, c])
 }
 
 /// The images of x, y and z under the shortest rotation from +z to a unit vector: Rodrigues'

@@ -10,6 +10,7 @@ mod camera;
 pub(crate) mod coefficients;
 mod dat;
 mod form;
+mod frame;
 mod node;
 mod partition;
 mod placed;
@@ -372,9 +373,10 @@ pub trait Answers: Editable + Restructure {
         None
     }
 
-    /// The values of a field of a node that refers to nodes of a category: the IDs defined before
-    /// the node's text, ascending, or all names, in text order, without duplicates.
-    fn references(&self, node: Node, category: Category) -> Vec<String> {
+    /// The values of a field of a node that refers to nodes of a category, each with the node that it
+    /// names: the IDs defined before the node's text, ascending, or all names, in text order, without
+    /// duplicates.
+    fn references(&self, node: Node, category: Category) -> Vec<(String, Node)> {
         let _ = (node, category);
         Vec::new()
     }

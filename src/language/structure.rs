@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use super::Node;
 use super::form::{Form, Motion};
+use super::table::Category;
 use super::view::line_ending;
 use crate::text::{
     Edit, Span, line_end, line_start, next_line, parse_number, spell_like, without_suffix,
@@ -75,6 +76,22 @@ pub trait Restructure {
     /// Fails if the text lacks what the thing would refer to.
     fn addition(&self, name: &str, wish: &Wish<'_>) -> Result<Placement, StructureError>;
 
+    /// Returns the edits that add a plain node of a category with this name or ID, where a field of
+    /// `user` can refer to it.
+    ///
+    /// # Errors
+    ///
+    /// Fails if the name or ID is in use or none, or if such nodes cannot be plain.
+    fn creation(
+        &self,
+        category: Category,
+        name: &str,
+        user: Node,
+    ) -> Result<Placement, StructureError> {
+        let _ = (name, user);
+        Err(uncreatable(category))
+    }
+
     /// The words for the kinds that a node can be changed to, with its own; empty if there is no
     /// choice.
     fn kinds(&self, node: Node) -> Vec<&'static str>;
@@ -102,6 +119,19 @@ pub trait Restructure {
         motion: &Motion,
         decimals: usize,
     ) -> Result<Vec<Edit>, StructureError>;
+
+    /// Returns the edits that make the directions of a node's frame orthogonal, and of length 1 unless
+    /// their lengths count; none if they are so. The last direction and the handedness stay.
+    ///
+    /// # Errors
+    ///
+    /// Fails if the node has no such directions, or two are parallel.
+    fn orthonormalised(&self, node: Node) -> Result<Vec<Edit>, StructureError>;
+}
+
+/// The error for a category without plain nodes.
+pub(super) fn uncreatable(category: Category) -> StructureError {
+    StructureError::Inexpressible(format!("there is no plain {}", category.word()))
 }
 
 /// A kind of thing that can be added to a text.

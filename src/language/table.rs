@@ -211,6 +211,11 @@ impl Field {
         Some((place, words[place]))
     }
 
+    /// Whether it is a single number that is usually from 0 to 1.
+    pub fn is_share(&self) -> bool {
+        self.kind == Kind::Number && self.usual == Range::Unit
+    }
+
     /// What each component is, as a noun phrase: `a number greater than 0`.
     pub fn expected(&self) -> String {
         match self.kind {

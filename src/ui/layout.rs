@@ -111,6 +111,19 @@ pub fn field_columns(line: Rect, components: usize) -> (Rect, Vec<Rect>) {
     (name, columns)
 }
 
+/// The cells of a slider behind a literal in a line of the fields panel; `None` if there is no room.
+pub fn slider_cells(line: Rect, literal: &str) -> Option<Rect> {
+    const NARROWEST: u16 = 6;
+    let (_, columns) = field_columns(line, 3);
+    let [number, first, last] = columns.as_slice() else {
+        return None;
+    };
+    // The last cell keeps a gap to the border.
+    let width = (last.right() - first.x).saturating_sub(1);
+    let fits = literal.chars().count() < usize::from(number.width);
+    (fits && NARROWEST <= width).then_some(Rect { width, ..*first })
+}
+
 /// Returns the field and component under a cell, if `first` is the first field shown. `components`
 /// gives the number of components of each field. The name of a field counts as its first component.
 pub fn field_at(
@@ -133,6 +146,82 @@ pub fn field_at(
     let (_, columns) = field_columns(line, components(field)?);
     let component = columns.iter().position(|column| column.contains(position));
     Some((field, component.unwrap_or(0)))
+}
+
+/// The lines of the colour picker.
+#[derive(Clone, Copy, Debug)]
+pub struct PickerLines {
+    /// The line of each bar, and the cells of the bar in it.
+    pub bars: [[Rect; 2]; 3],
+    /// The line of the old and the new colour.
+    pub comparison: Rect,
+    /// The cells of the numbers.
+    pub numbers: Rect,
+    /// The heading of the scene's colours.
+    pub heading: Rect,
+    /// The lines of the scene's colours.
+    pub swatches: Rect,
+}
+
+/// Divides the panel of the colour picker. In a low panel lines share their place.
+pub fn picker_lines(panel: Rect) -> PickerLines {
+    const NAME: u16 = 12;
+    const NUMBER: u16 = 8;
+    let lines = contents(panel);
+    let line = |at: u16| {
+        let below = split_bottom(lines, lines.height.saturating_sub(at)).1;
+        split_bottom(below, below.height.saturating_sub(1)).0
+    };
+    let is_low = lines.height < 10;
+    let [comparison, heading, swatches] = if is_low { [3, 4, 4] } else { [4, 7, 8] };
+    let numbers = if is_low {
+        split_right(line(3), panel.width.saturating_sub(20)).1
+    } else {
+        split_right(line(5), panel.width.saturating_sub(1)).1
+    };
+    let bar = |at: u16| {
+        let right = split_right(line(at), panel.width.saturating_sub(NAME)).1;
+        let width = right.width.saturating_sub(NUMBER);
+        [line(at), Rect { width, ..right }]
+    };
+    PickerLines {
+        bars: [bar(0), bar(1), bar(2)],
+        comparison: line(comparison),
+        numbers,
+        heading: if is_low {
+            Rect::default()
+        } else {
+            line(heading)
+        },
+        swatches: split_bottom(lines, lines.height.saturating_sub(swatches)).1,
+    }
+}
+
+/// The cells of one of the scene's colours, with the marker before it; `None` if they do not fit.
+pub fn swatch_cells(swatches: Rect, index: usize) -> Option<Rect> {
+    const WIDTH: u16 = 3;
+    let across = usize::from(swatches.width / WIDTH);
+    let (row, column) = (index.checked_div(across)?, index.checked_rem(across)?);
+    (row < usize::from(swatches.height)).then(|| {
+        Rect::new(
+            swatches.x + WIDTH * column as u16,
+            swatches.y + row as u16,
+            WIDTH,
+            1,
+        )
+    })
+}
+
+/// The column of a bar's marker for a number from 0 to 1.
+pub fn marker_at(bar: Rect, share: f64) -> u16 {
+    let last = f64::from(bar.width.saturating_sub(1));
+    bar.x + (share.clamp(0.0, 1.0) * last).round() as u16
+}
+
+/// The number from 0 to 1 for a column of a bar, or the end nearest to it.
+pub fn share_at(bar: Rect, column: u16) -> f64 {
+    let last = bar.width.saturating_sub(1).max(1);
+    f64::from(column.saturating_sub(bar.x).min(last)) / f64::from(last)
 }
 
 /// A rectangle with the width and height of `size`, centred in `area` and clipped to it.

@@ -7,6 +7,7 @@ use super::form::{form, put};
 use super::table::{ObjectKind, RecordKind, UseKind};
 use crate::language::form::Form;
 use crate::language::structure::Wish;
+use crate::language::table::Category;
 use crate::language::{Addition, Answers, Node, Placement, Restructure, StructureError};
 use crate::text::{Edit, Span};
 
@@ -71,10 +72,7 @@ pub(super) fn addition(
         ("ambient light", _) => {
             "light ID 1 amb  0 0 0  0 0 0  0.5 0.5 0.5  1 0 0  0 shadow_off".to_owned()
         }
-        ("checker texture", _) => {
-            let checker = "texture ID 1 checker 8 8  0.8 0.8 0.8  0.2 0.2 0.2";
-            source.used(checker, wish)
-        }
+        ("checker texture", _) => source.used(CHECKER, wish),
         ("image texture", _) => source.used("texture ID 1 image 1 1 picture.png", wish),
         _ => MATERIAL.to_owned(),
     };
@@ -83,6 +81,18 @@ pub(super) fn addition(
 
 /// A plain grey.
 const MATERIAL: &str = "mat ID 1  0.8 0.8 0.8  0.2 0.7 0.3 20  0 0 1";
+/// Grey squares.
+const CHECKER: &str = "texture ID 1 checker 8 8  0.8 0.8 0.8  0.2 0.2 0.2";
+
+/// The record of a plain node with an ID; `None` if a category has none.
+pub(super) fn plain(category: Category, id: i64) -> Option<String> {
+    let record = match category {
+        Category::Material => MATERIAL,
+        Category::Texture => CHECKER,
+        Category::Light | Category::Object => return None,
+    };
+    Some(record.replacen("ID 1", &format!("ID {id}"), 1))
+}
 
 /// Returns the edits that change an object to another kind.
 pub(super) fn retyping(

@@ -133,27 +133,29 @@ impl Answers for Source {
         Some(operator.spans.first()?.of(&self.text))
     }
 
-    fn references(&self, node: Node, category: Category) -> Vec<String> {
+    fn references(&self, node: Node, category: Category) -> Vec<(String, Node)> {
+        type OfIndex = fn(usize) -> Node;
         let records = self.origins.records(node).map(|(record, _)| record);
         let Some(record) = records.max() else {
             return Vec::new();
         };
         let of = |places: &[Place]| places.iter().map(|at| (at.record, at.id)).collect();
-        let given: Vec<_> = match category {
-            Category::Light => of(&self.origins.lights),
-            Category::Material => of(&self.origins.materials),
-            Category::Texture => of(&self.origins.textures),
-            Category::Object => self
-                .origins
-                .objects
-                .iter()
-                .map(|at| (at.record, at.id))
-                .collect(),
+        let (node, given): (OfIndex, Vec<_>) = match category {
+            Category::Light => (Node::Light, of(&self.origins.lights)),
+            Category::Material => (Node::Material, of(&self.origins.materials)),
+            Category::Texture => (Node::Texture, of(&self.origins.textures)),
+            Category::Object => {
+                let objects = self.origins.objects.iter();
+                let objects = objects.map(|at| (at.record, at.id));
+                (Node::Object, objects.collect())
+            }
         };
-        let before = given.into_iter().filter(|&(at, _)| at < record);
-        let mut identities: Vec<_> = before.map(|(_, id)| id).collect();
+        let given = given.into_iter().enumerate();
+        let before = given.filter(|&(_, (at, _))| at < record);
+        let mut identities: Vec<_> = before.map(|(index, (_, id))| (id, node(index))).collect();
         identities.sort_unstable();
-        identities.iter().map(i64::to_string).collect()
+        let literal = |(id, node): (i64, Node)| (id.to_string(), node);
+        identities.into_iter().map(literal).collect()
     }
 
     fn files(&self) -> Vec<NamedFile> {

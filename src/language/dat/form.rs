@@ -7,6 +7,7 @@ use super::Source;
 use super::table::{LightKind, ObjectKind, RecordKind, SOURCES};
 use crate::geometry::normalise;
 use crate::language::form::{Form, Motion, PRECISE, rotated, rounded};
+use crate::language::frame::{Lengths, frameless, straight};
 use crate::language::structure::{Pose, number, replacements};
 use crate::language::table::Kind;
 use crate::language::{Answers, Node, Placed, StructureError};
@@ -212,6 +213,24 @@ impl Source {
         Some(DVec3::from_array(
             spans.map(|span| number(&self.text, span)),
         ))
+    }
+
+    /// The edits that make the frame of a box orthogonal.
+    pub(super) fn straightened(&self, node: Node) -> Result<Vec<Edit>, StructureError> {
+        let frameless = || frameless(&self.name(node));
+        let Node::Object(index) = node else {
+            return Err(frameless());
+        };
+        let numbers = self.object_numbers(index);
+        let (_, spans, old) = numbers
+            .filter(|(kind, ..)| *kind == ObjectKind::Box)
+            .ok_or_else(frameless)?;
+        let axes = const {
+            let kind = ObjectKind::Box;
+            [kind.at("u"), kind.at("v"), kind.at("w")]
+        };
+        let new = straight(axes, &old, Lengths::Kept)?;
+        Ok(replacements(&self.text, &spans, &new))
     }
 
     /// The edits that move one node.

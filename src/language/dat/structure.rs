@@ -10,7 +10,7 @@ use super::tree::is_comment;
 use super::visibility::Listing;
 use super::{Source, add};
 use crate::language::structure::{
-    Block, adapted, deletions, line_before, lines, lines_after, pair,
+    Block, adapted, deletions, line_before, lines, lines_after, pair, uncreatable,
 };
 use crate::language::table::Category;
 use crate::language::view::line_ending;
@@ -161,16 +161,13 @@ impl Restructure for Source {
         let (Some(category), Some(old)) = (category(node), self.called(node)) else {
             return refused(format!("{} has no ID", self.name(node)));
         };
-        let id = parse_number(name).ok().filter(|id| id.fract() == 0.0);
-        let Some(id) = id.filter(|id| id.abs() < 1e15).map(|id| id as i64) else {
-            return refused("an ID is a whole number".to_owned());
-        };
         let Ok(old) = old.parse::<i64>() else {
             return refused(format!("{} has no ID", self.name(node)));
         };
-        if id != old && self.ids(category).contains(&id) {
-            return refused(format!("{} {id} already exists", category.word()));
-        }
+        let id = match whole(name)? {
+            id if id == old => id,
+            _ => self.unused_id(category, name)?,
+        };
         let records = 0..self.tree.records.len();
         let all = records
             .flat_map(|record| Identity::all(&self.text, self.tree.tokens_of(&self.text, record)));
@@ -190,6 +187,19 @@ impl Restructure for Source {
         add::addition(self, name, wish)
     }
 
+    fn creation(
+        &self,
+        category: Category,
+        name: &str,
+        user: Node,
+    ) -> Result<Placement, StructureError> {
+        let id = self.unused_id(category, name)?;
+        let text = add::plain(category, id).ok_or_else(|| uncreatable(category))?;
+        let before = self.references(user, category).into_iter();
+        let last = before.map(|(_, node)| node).max();
+        self.insertion(&text, last.unwrap_or(Node::View))
+    }
+
     fn kinds(&self, node: Node) -> Vec<&'static str> {
         match node {
             Node::Object(object) if self.operation(object).is_none() => {
@@ -205,6 +215,10 @@ impl Restructure for Source {
 
     fn pose(&self, node: Node) -> Option<Pose> {
         self.pose_of(node)
+    }
+
+    fn orthonormalised(&self, node: Node) -> Result<Vec<Edit>, StructureError> {
+        self.straightened(node)
     }
 
     fn motion(
@@ -293,6 +307,16 @@ impl Source {
         uses().max(used)
     }
 
+    /// The ID that a text spells, which no node of the category has.
+    fn unused_id(&self, category: Category, name: &str) -> Result<i64, StructureError> {
+        let id = whole(name)?;
+        if self.ids(category).contains(&id) {
+            let reason = format!("{} {id} already exists", category.word());
+            return Err(StructureError::Name(reason));
+        }
+        Ok(id)
+    }
+
     /// The IDs in use.
     fn ids(&self, category: Category) -> HashSet<i64> {
         let of = |places: &[Place]| places.iter().map(|place| place.id).collect();
@@ -337,6 +361,13 @@ impl Source {
         };
         Block::Lines(lines(text, self.tree.span_of(record), comment_above))
     }
+}
+
+/// The ID that a text spells.
+fn whole(name: &str) -> Result<i64, StructureError> {
+    let id = parse_number(name).ok().filter(|id| id.fract() == 0.0);
+    let id = id.filter(|id| id.abs() < 1e15).map(|id| id as i64);
+    id.ok_or_else(|| StructureError::Name("an ID is a whole number".to_owned()))
 }
 
 /// The category of a node with an ID.

@@ -7,6 +7,7 @@ use super::table::{LIGHT, MATERIAL, ShapeKind};
 use crate::geometry::normalise;
 use crate::language::at::At;
 use crate::language::form::{Form, Motion, PRECISE, rounded};
+use crate::language::frame::{Lengths, frameless, straight};
 use crate::language::structure::{Pose, number, replacements};
 use crate::language::table::{Kind, numbers};
 use crate::language::{Answers, Node, StructureError};
@@ -158,6 +159,18 @@ impl Source {
             }
             _ => None,
         }
+    }
+
+    /// The edits that make the frame of an object orthonormal.
+    pub(super) fn straightened(&self, node: Node) -> Result<Vec<Edit>, StructureError> {
+        let frameless = || frameless(&self.name(node));
+        let Node::Object(index) = node else {
+            return Err(frameless());
+        };
+        let (kind, spans, old) = self.object_numbers(index).ok_or_else(frameless)?;
+        let axes = Layout::of(kind).axes.ok_or_else(frameless)?;
+        let new = straight(axes, &old, Lengths::Unit)?;
+        Ok(replacements(&self.text, &spans, &new))
     }
 
     /// The edits that move one node.

@@ -158,6 +158,10 @@ impl Restructure for Source {
         self.pose_of(node)
     }
 
+    fn orthonormalised(&self, node: Node) -> Result<Vec<Edit>, StructureError> {
+        self.straightened(node)
+    }
+
     fn motion(
         &self,
         nodes: &[Node],

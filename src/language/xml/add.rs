@@ -53,8 +53,8 @@ pub(super) fn addition(
             light("direct", &[intensity("0.6"), down])
         }
         "ambient light" => light("ambient", &[intensity("0.2")]),
-        "blinn material" => material("blinn"),
-        "phong material" => material("phong"),
+        "blinn material" => material("blinn", "blinn"),
+        "phong material" => material("phong", "phong"),
         "microfacet material" => vec![
             "<material type=\"microfacet\" name=\"microfacet\">".to_owned(),
             "  <color r=\"0.8\" g=\"0.8\" b=\"0.8\"/>".to_owned(),
@@ -69,7 +69,7 @@ pub(super) fn addition(
     if !needs_material {
         return Ok(placement);
     }
-    let material = material("blinn").join(line_ending(&source.text));
+    let material = material("blinn", "blinn").join(line_ending(&source.text));
     let mut both = source.insertion(&material, Node::View)?;
     let own = placement.edits;
     if both.edits[0].span == own[0].span {
@@ -82,9 +82,10 @@ pub(super) fn addition(
 }
 
 /// A plain grey material.
-fn material(kind: &str) -> Vec<String> {
+pub(super) fn material(kind: &str, name: &str) -> Vec<String> {
+    let name = escaped(name, '"');
     vec![
-        format!("<material type=\"{kind}\" name=\"{kind}\">"),
+        format!("<material type=\"{kind}\" name=\"{name}\">"),
         "  <diffuse r=\"0.7\" g=\"0.7\" b=\"0.7\"/>".to_owned(),
         "  <specular value=\"0.3\"/>".to_owned(),
         "</material>".to_owned(),

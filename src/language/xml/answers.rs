@@ -128,19 +128,20 @@ impl Answers for Source {
         nodes
     }
 
-    fn references(&self, _: Node, category: Category) -> Vec<String> {
+    fn references(&self, _: Node, category: Category) -> Vec<(String, Node)> {
         if category != Category::Material {
             return Vec::new();
         }
         let mut known = HashSet::new();
-        let names = self.origins.materials.iter().filter_map(|place| {
+        let materials = self.origins.materials.iter().enumerate();
+        let names = materials.filter_map(|(index, place)| {
             let name = self
                 .origins
                 .value(&self.tree, place.element as usize, "name")?;
-            Some(name.unescaped(&self.text))
+            Some((name.unescaped(&self.text), Node::Material(index)))
         });
-        let names = names.filter(|name| !name.is_empty() && known.insert(*name));
-        names.map(str::to_owned).collect()
+        let names = names.filter(|(name, _)| !name.is_empty() && known.insert(*name));
+        names.map(|(name, node)| (name.to_owned(), node)).collect()
     }
 
     fn files(&self) -> Vec<NamedFile> {

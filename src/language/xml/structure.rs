@@ -7,7 +7,9 @@ use super::copies::Copies;
 use super::table::ObjectKind;
 use super::tree::{escaped, quote};
 use super::{Source, add};
-use crate::language::structure::{Block, deletions, line_before, lines};
+use crate::language::frame::frameless;
+use crate::language::structure::{Block, deletions, line_before, lines, uncreatable};
+use crate::language::table::Category;
 use crate::language::view::line_ending;
 use crate::language::{
     Addition, Answers, Motion, Neighbour, Node, Placement, Pose, Restructure, StructureError, Wish,
@@ -114,11 +116,8 @@ impl Restructure for Source {
         if name.trim().is_empty() {
             return refused("a name must not be empty".to_owned());
         }
-        let is_material = matches!(node, Node::Material(_));
-        let materials = self.origins.materials.iter();
-        let mut named = materials.filter_map(|place| place.name.as_deref());
-        if is_material && name != old && named.any(|known| known == name) {
-            return refused(format!("a material named {name} already exists"));
+        if matches!(node, Node::Material(_)) && name != old {
+            self.unused_material(name)?;
         }
         let (tree, origins) = (&self.tree, &self.origins);
         let element = origins.element(tree, node).unwrap_or_default();
@@ -150,6 +149,20 @@ impl Restructure for Source {
         add::addition(self, name, wish)
     }
 
+    fn creation(
+        &self,
+        category: Category,
+        name: &str,
+        _: Node,
+    ) -> Result<Placement, StructureError> {
+        if category != Category::Material {
+            return Err(uncreatable(category));
+        }
+        self.unused_material(name)?;
+        let text = add::material("blinn", name).join(line_ending(&self.text));
+        self.insertion(&text, Node::View)
+    }
+
     fn kinds(&self, node: Node) -> Vec<&'static str> {
         add::kinds(node)
     }
@@ -160,6 +173,10 @@ impl Restructure for Source {
 
     fn pose(&self, node: Node) -> Option<Pose> {
         self.pose_of(node)
+    }
+
+    fn orthonormalised(&self, node: Node) -> Result<Vec<Edit>, StructureError> {
+        Err(frameless(&self.name(node)))
     }
 
     fn motion(
@@ -183,6 +200,20 @@ impl Restructure for Source {
 }
 
 impl Source {
+    /// Fails if no material can have a name because it is empty or in use.
+    fn unused_material(&self, name: &str) -> Result<(), StructureError> {
+        let refused = |reason: String| Err(StructureError::Name(reason));
+        if name.trim().is_empty() {
+            return refused("a name must not be empty".to_owned());
+        }
+        let materials = self.origins.materials.iter();
+        let mut named = materials.filter_map(|place| place.name.as_deref());
+        if named.any(|known| known == name) {
+            return refused(format!("a material named {name} already exists"));
+        }
+        Ok(())
+    }
+
     /// The element after which copies stand: that of `after` if they are of its kind, otherwise the
     /// scene's last child of their kind, or its last child. `None` in an empty scene.
     fn anchor(&self, copies: &Copies, after: Node, scene: usize) -> Option<usize> {

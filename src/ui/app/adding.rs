@@ -1,11 +1,10 @@
 //! Adding things and changing their kind, chosen from menus.
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use glam::DVec3;
 
-use super::menu::{Menu, Purpose};
+use super::App;
+use super::menu::{Entry, Menu, Purpose};
 use super::transform::{decimals_of, round_up};
-use super::{App, line};
 use crate::language::{Node, Wish};
 use crate::render::{pixel_width, surface_under};
 
@@ -26,7 +25,7 @@ impl App {
         let additions = self.source().additions();
         let entries = additions
             .iter()
-            .map(|addition| (addition.name, addition.words));
+            .map(|addition| Entry::new(addition.name, addition.words));
         self.overlays.menu = Some(Menu::new(Purpose::Add, entries.collect(), 0));
     }
 
@@ -45,50 +44,12 @@ impl App {
         let own = kinds
             .iter()
             .position(|kind| name.ends_with(&format!("({kind})")));
-        let entries = kinds.into_iter().map(|kind| (kind, "")).collect();
+        let entries = kinds.into_iter().map(|kind| Entry::new(kind, "")).collect();
         self.overlays.menu = Some(Menu::new(Purpose::Retype, entries, own.unwrap_or(0)));
     }
 
-    pub(super) fn menu_key(&mut self, key: KeyEvent) {
-        let Some(menu) = &mut self.overlays.menu else {
-            return;
-        };
-        let count = menu.shown().len();
-        let controls = key.modifiers.contains(KeyModifiers::CONTROL);
-        match key.code {
-            KeyCode::Esc => self.overlays.menu = None,
-            KeyCode::Down | KeyCode::Tab => menu.at = (menu.at + 1) % count.max(1),
-            KeyCode::Char('n') if controls => menu.at = (menu.at + 1) % count.max(1),
-            KeyCode::Up | KeyCode::BackTab => menu.at = (menu.at + count.max(1) - 1) % count.max(1),
-            KeyCode::Char('p') if controls => menu.at = (menu.at + count.max(1) - 1) % count.max(1),
-            KeyCode::Enter => {
-                let chosen = menu.shown().get(menu.at).map(|(name, _)| *name);
-                let purpose = menu.purpose;
-                if let Some(name) = chosen {
-                    self.overlays.menu = None;
-                    self.choose_entry(purpose, name);
-                }
-            }
-            _ => {
-                line::edit(&mut menu.filter, key);
-                menu.at = 0;
-            }
-        }
-    }
-
-    fn choose_entry(&mut self, purpose: Purpose, name: &'static str) {
-        match purpose {
-            Purpose::Add => self.add(name),
-            Purpose::Retype => {
-                let node = self.cursor.selected();
-                let edits = self.source().retyping(node, name);
-                self.restructure(edits, None, &format!("changed to {name}"));
-            }
-        }
-    }
-
     /// Adds a thing on the surface looked at, otherwise at the camera's target.
-    fn add(&mut self, name: &'static str) {
+    pub(super) fn add(&mut self, name: &str) {
         let marked: Vec<_> = self.cursor.marks.iter().copied().collect();
         let (centre, half, decimals) = self.place_for_new();
         let wish = Wish {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use tui_input::Input;
 
+use super::sliding::Slide;
 use crate::language::{Node, Nodes, Placed, Source};
 use crate::text::{Diagnostic, Edit, Span};
 use crate::ui::arrange::Areas;
@@ -34,6 +35,8 @@ pub struct Cursor {
     pub stride: Stride,
     /// A value being typed.
     pub typing: Option<Typing>,
+    /// The slider being dragged.
+    pub(super) slide: Option<Slide>,
     /// The marked nodes, which commands apply to instead of the selected one.
     pub marks: BTreeSet<Node>,
     /// The text copied last.
@@ -78,6 +81,7 @@ impl Default for Cursor {
             component: 0,
             stride: Stride::default(),
             typing: None,
+            slide: None,
             marks: BTreeSet::new(),
             copied: None,
             nodes: Nodes::default(),

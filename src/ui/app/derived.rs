@@ -5,6 +5,7 @@ use std::sync::Arc;
 use ratatui::layout::Rect;
 
 use super::App;
+use super::colours;
 use super::cursor::row_of;
 use super::disk::OnDisk;
 use super::next::Next;
@@ -14,7 +15,7 @@ use super::picture::Picture;
 use super::pictures::Outline;
 use crate::language::table::Field;
 use crate::language::{Node, Nodes, Source};
-use crate::scene::{Camera, Integrator, Scene, Size};
+use crate::scene::{Camera, Integrator, Rgb, Scene, Size};
 use crate::text::Diagnostic;
 use crate::ui::arrange::{Areas, Shape, Zoom, arrange};
 use crate::ui::errors::{self, Panel, Wrong};
@@ -51,6 +52,7 @@ impl App {
             None if self.overlays.history.is_some() => Context::Messages,
             None if self.overlays.errors.is_some() => Context::Errors,
             None if self.disk.is_opening() => Context::Opening,
+            None if self.overlays.picker.is_some() => Context::Colour,
             None => Context::In(self.mode),
         }
     }
@@ -381,6 +383,11 @@ impl FieldRow {
     /// Whether all literals have this provenance.
     pub fn is_all(&self, source: Provenance) -> bool {
         self.sources.iter().all(|&of| of == source)
+    }
+
+    /// The colour that its literals represent.
+    pub fn colour(&self) -> Option<Rgb> {
+        colours::of_literals(self.field.kind, &self.literals)
     }
 }
 

@@ -172,7 +172,7 @@ impl App {
 
     /// The edits that set components of fields of the selected node or, if it is marked, of all
     /// marked nodes that have them.
-    fn edits_of(&self, wanted: &[(&Placed, &[(usize, String)])]) -> Vec<Edit> {
+    pub(super) fn edits_of(&self, wanted: &[(&Placed, &[(usize, String)])]) -> Vec<Edit> {
         let source = self.source();
         if !self.cursor.marks.contains(&self.cursor.selected()) {
             let owned = |&(placed, values): &(_, &[_])| (placed, values.to_vec());

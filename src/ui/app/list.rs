@@ -56,6 +56,7 @@ impl App {
                     page.go(rows);
                 }
             }
+            Context::Colour => self.move_picker(rows),
             Context::In(_)
             | Context::Opening
             | Context::Quit

@@ -1,18 +1,33 @@
-//! A menu of what can be added, or of kinds to change to: typing filters it.
+//! A menu of what can be added, of kinds to change to, or of the values of a field: typing filters
+//! it.
 
-use tui_input::Input;
+use super::filter::Filter;
+use super::trial::Trial;
+use crate::language::Node;
 
 /// A menu over the list.
 #[derive(Debug)]
 pub struct Menu {
     /// What choosing an entry does.
     pub purpose: Purpose,
-    /// The entries, each with a description.
-    entries: Vec<(&'static str, &'static str)>,
-    /// Only entries that contain this text are shown.
-    pub filter: Input,
-    /// The index of the selected entry among those shown.
-    pub at: usize,
+    entries: Vec<Entry>,
+    /// What a new name makes, offered after the entries.
+    pub(super) offer: Option<Entry>,
+    /// The typed filter, and the cursor among the entries shown.
+    pub filter: Filter,
+    /// The change of the text by the entry under the cursor; `None` if that waits for Enter.
+    pub(super) trial: Option<Trial>,
+}
+
+/// An entry of a menu.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Its name, or the value it stands for.
+    pub name: String,
+    /// What it is.
+    pub words: String,
+    /// The node that it refers to.
+    pub node: Option<Node>,
 }
 
 /// What choosing an entry of a menu does.
@@ -22,58 +37,48 @@ pub enum Purpose {
     Add,
     /// Changes the selected thing to the kind.
     Retype,
+    /// Sets the component under the cursor of the field with this name.
+    Value(&'static str),
+}
+
+impl Entry {
+    pub(super) fn new(name: impl Into<String>, words: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            words: words.into(),
+            node: None,
+        }
+    }
 }
 
 impl Menu {
-    pub(super) fn new(
-        purpose: Purpose,
-        entries: Vec<(&'static str, &'static str)>,
-        at: usize,
-    ) -> Self {
+    /// A menu with its cursor on an entry.
+    pub(super) fn new(purpose: Purpose, entries: Vec<Entry>, at: usize) -> Self {
         Self {
             purpose,
             entries,
-            filter: Input::default(),
-            at,
+            offer: None,
+            filter: Filter::at(at),
+            trial: None,
         }
     }
 
     /// The entries that contain the typed text, those that begin with it first.
-    pub fn shown(&self) -> Vec<(&'static str, &'static str)> {
-        let typed = self.filter.value().trim().to_lowercase();
-        let holds = |entry: &&(&str, &str)| entry.0.contains(&typed) || entry.1.contains(&typed);
-        let mut shown: Vec<_> = self.entries.iter().filter(holds).copied().collect();
-        let rank = |name: &str| match name.find(&typed) {
-            Some(0) => 0,
-            Some(_) => 1,
-            None => 2,
-        };
-        shown.sort_by_key(|(name, _)| rank(name));
-        shown
+    pub fn shown(&self) -> Vec<&Entry> {
+        let texts = self.entries.iter();
+        let texts = texts.map(|entry| (entry.name.as_str(), entry.words.as_str()));
+        let shown = self.filter.shown(texts).into_iter();
+        let shown = shown.filter_map(|index| self.entries.get(index));
+        shown.chain(&self.offer).collect()
     }
-}
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+    /// The entry under the cursor.
+    pub(super) fn chosen(&self) -> Option<&Entry> {
+        self.shown().get(self.filter.at).copied()
+    }
 
-    #[test]
-    fn a_menu_shows_what_begins_with_the_typed_text_first() {
-        let entries = vec![
-            ("box", "six faces"),
-            ("sphere", "round"),
-            ("ellipsoid", "a sphere"),
-        ];
-        let mut menu = Menu::new(Purpose::Add, entries, 0);
-        assert_eq!(menu.shown().len(), 3);
-        menu.filter = Input::from("sph");
-        assert!(
-            menu.shown()
-                .iter()
-                .map(|entry| entry.0)
-                .eq(["sphere", "ellipsoid"])
-        );
-        menu.filter = Input::from("cone");
-        assert!(menu.shown().is_empty());
+    /// Whether an entry has exactly this name.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.entries.iter().any(|entry| entry.name == name)
     }
 }

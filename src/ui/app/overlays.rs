@@ -10,6 +10,7 @@ use super::menu::Menu;
 use super::messages::{Lasts, Message, Messages};
 use super::next::Next;
 use super::page::{Page, PageFocus};
+use super::picker::ColourPicker;
 use crate::document::{Merge, Side};
 use crate::language::Node;
 use crate::text::{Severity, without_codes};
@@ -22,6 +23,8 @@ pub struct Overlays {
     pub prompt: Option<Prompt>,
     /// A menu over the list.
     pub menu: Option<Menu>,
+    /// The colour picker over the list.
+    pub picker: Option<ColourPicker>,
     /// A question that must be answered first.
     pub dialog: Option<Dialog>,
     /// The help page, if open.

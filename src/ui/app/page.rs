@@ -2,9 +2,7 @@
 
 use std::path::PathBuf;
 
-use tui_input::Input;
-
-use super::cursor::moved;
+use super::filter::Filter;
 use crate::language::SavedView;
 
 /// A page with a list to choose from.
@@ -12,10 +10,8 @@ use crate::language::SavedView;
 pub struct Page {
     /// What is listed.
     pub list: List,
-    /// The row of the cursor among those shown.
-    pub at: usize,
-    /// Only rows containing this text are shown.
-    pub search: Input,
+    /// The typed filter, and the cursor among the rows shown.
+    pub filter: Filter,
     /// Whether keys are typed into the search.
     pub focus: PageFocus,
 }
@@ -44,8 +40,7 @@ impl Page {
     pub(in crate::ui) fn new(list: List) -> Self {
         Self {
             list,
-            at: 0,
-            search: Input::default(),
+            filter: Filter::default(),
             focus: PageFocus::default(),
         }
     }
@@ -64,18 +59,18 @@ impl Page {
                 .map(|path| path.display().to_string())
                 .collect(),
         };
-        let search = self.search.value().to_lowercase();
-        let is_found = |(_, row): &(usize, String)| row.to_lowercase().contains(&search);
-        all.into_iter().enumerate().filter(is_found).collect()
+        let shown = self.filter.shown(all.iter().map(|row| (row.as_str(), "")));
+        let row = |index: usize| Some((index, all.get(index)?.clone()));
+        shown.into_iter().filter_map(row).collect()
     }
 
     /// The index in the list of the row under the cursor; `None` without rows.
     pub(super) fn chosen(&self) -> Option<usize> {
-        self.rows().get(self.at).map(|&(index, _)| index)
+        self.rows().get(self.filter.at).map(|&(index, _)| index)
     }
 
     /// Moves the cursor.
     pub(super) fn go(&mut self, rows: isize) {
-        self.at = moved(self.at, rows, self.rows().len());
+        self.filter.go(rows, self.rows().len());
     }
 }

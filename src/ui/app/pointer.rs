@@ -2,10 +2,12 @@
 
 use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
 
-use super::App;
 use super::camera::{advanced, dollied, orbited, turned};
+use super::{App, PickerRow};
 use crate::ui::keymap::{Context, Mode};
-use crate::ui::layout::{field_at, list_row_at, pixel_at};
+use crate::ui::layout::{
+    contents, field_at, first_shown, list_row_at, picker_lines, pixel_at, share_at, swatch_cells,
+};
 use crate::ui::listing::{ListLine, Listing};
 use crate::ui::msg::{Effect, Timer};
 
@@ -24,14 +26,26 @@ impl App {
             || self.disk.is_opening() && self.overlays.help.is_none();
         match event.kind {
             _ if waits => {}
+            MouseEventKind::ScrollUp | MouseEventKind::ScrollDown
+                if self.overlays.menu.is_some() || self.overlays.picker.is_some() => {}
             MouseEventKind::ScrollUp => self.wheel(at, -1),
             MouseEventKind::ScrollDown => self.wheel(at, 1),
             _ if self.overlays.help.is_some() => {}
+            MouseEventKind::Down(MouseButton::Left) if self.overlays.picker.is_some() => {
+                self.press_picker(at);
+            }
+            MouseEventKind::Drag(MouseButton::Left) if self.overlays.picker.is_some() => {
+                self.drag_picker(at.0);
+            }
+            MouseEventKind::Down(MouseButton::Left) if self.overlays.menu.is_some() => {
+                self.press_menu(at);
+            }
             MouseEventKind::Down(MouseButton::Left) => return self.press(at),
             MouseEventKind::Drag(MouseButton::Left) => self.drag(at),
             MouseEventKind::Up(_) => {
                 self.pictures.drag = None;
                 self.resizing = false;
+                self.end_slide();
             }
             _ => {}
         }
@@ -65,9 +79,54 @@ impl App {
         }
     }
 
+    /// Chooses in the menu; beside it, closes it.
+    fn press_menu(&mut self, at: (u16, u16)) {
+        let list = self.areas().list;
+        let lines = contents(contents(list));
+        match &self.overlays.menu {
+            Some(menu) if lines.contains(at.into()) => {
+                let rows = usize::from(lines.height);
+                let top = first_shown(0, menu.filter.at, menu.shown().len(), rows);
+                self.click_menu(top + usize::from(at.1 - lines.y));
+            }
+            _ if list.contains(at.into()) => {}
+            _ => self.close_menu(),
+        }
+    }
+
+    /// Sets a bar of the colour picker or takes one of its colours; a click beside it confirms.
+    fn press_picker(&mut self, at: (u16, u16)) {
+        let list = self.areas().list;
+        let lines = picker_lines(list);
+        let mut bars = PickerRow::BARS.into_iter().zip(lines.bars);
+        if let Some((row, [_, bar])) = bars.find(|(_, [line, _])| line.contains(at.into())) {
+            self.place_colour(row, share_at(bar, at.0));
+        } else if lines.swatches.contains(at.into()) {
+            let is_under = |index: &usize| {
+                swatch_cells(lines.swatches, *index).is_some_and(|cells| cells.contains(at.into()))
+            };
+            if let Some(index) = (0..lines.swatches.area() as usize).find(is_under) {
+                self.take_swatch(index);
+            }
+        } else if !list.contains(at.into()) {
+            self.confirm_colour();
+        }
+    }
+
+    /// Moves the marker of the bar that was pressed.
+    fn drag_picker(&mut self, column: u16) {
+        let bars = picker_lines(self.areas().list).bars;
+        let row = self.overlays.picker.as_ref().map(|picker| picker.row);
+        let mut bars = PickerRow::BARS.into_iter().zip(bars);
+        if let Some((row, [_, bar])) = bars.find(|(bar, _)| Some(*bar) == row) {
+            self.place_colour(row, share_at(bar, column));
+        }
+    }
+
     fn press(&mut self, at: (u16, u16)) -> Vec<Effect> {
         self.overlays.clear_message();
         self.cursor.typing = None;
+        self.end_slide();
         let areas = self.areas();
         if self.mode == Mode::Move && !areas.picture.contains(at.into()) {
             self.confirm_transform();
@@ -95,6 +154,9 @@ impl App {
             }
             return Vec::new();
         }
+        if self.press_slider(at) {
+            return Vec::new();
+        }
         let fields = self.cursor.fields();
         let components = |field: usize| Some(fields.get(field)?.field.kind.components());
         if let Some(clicked) = field_at(areas.fields, self.cursor.field_top, components, at) {
@@ -117,7 +179,7 @@ impl App {
         self.mode = Mode::Edit;
         self.focus_field(field, component);
         if self.cursor.click((field, component)) {
-            self.type_current();
+            self.enter_value();
             return Vec::new();
         }
         vec![Effect::Later(super::DOUBLE_CLICK, Timer::Click)]
@@ -126,6 +188,9 @@ impl App {
     fn drag(&mut self, at: (u16, u16)) {
         if self.resizing {
             self.resize_panels(self.areas().dragged(at));
+            return;
+        }
+        if self.slide_to(at.0) {
             return;
         }
         let Some(from) = self.pictures.drag else {

@@ -174,6 +174,21 @@ impl App {
         self.restructure(edits, None, &format!("renamed: {}", name.trim()));
     }
 
+    /// Makes the frame of the selected node orthonormal.
+    pub(super) fn orthonormalise(&mut self) {
+        if self.refuses_structure() {
+            return;
+        }
+        let node = self.cursor.selected();
+        let name = self.source().name(node);
+        let edits = self.source().orthonormalised(node);
+        if edits.as_ref().is_ok_and(Vec::is_empty) {
+            self.overlays.say(format!("{name} is already orthonormal"));
+            return;
+        }
+        self.restructure(edits, None, &format!("orthonormalised: {name}"));
+    }
+
     /// Hides the targets, or shows them again if the first is hidden.
     pub(super) fn toggle_visibility(&mut self) {
         let objects = self.targets().into_iter().filter_map(|node| match node {

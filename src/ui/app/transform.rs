@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::trial::Trial;
 use crate::language::{Along, Motion, Node, Pose};
 use crate::text::parse_number;
 use crate::ui::keymap::Tool;
@@ -56,10 +57,8 @@ pub struct Transform {
     pub(super) step: f64,
     /// The decimals that a step needs.
     pub(super) decimals: usize,
-    /// The text's revision after the last change; another one ends the motion.
-    pub(super) revision: u64,
-    /// Whether the text is changed.
-    pub(super) is_applied: bool,
+    /// The change of the text.
+    pub(super) trial: Trial,
 }
 
 impl Transform {

@@ -8,7 +8,6 @@ use super::App;
 use super::transform::{Lock, Snap, Transform, decimals_of, round_up};
 use crate::language::{Node, Pose};
 use crate::render::{axes, pixel_width};
-use crate::text::Edit;
 use crate::ui::keymap::{Mode, Stride, Tool};
 
 impl App {
@@ -37,7 +36,7 @@ impl App {
             return;
         };
         let step = round_up(pixel_width(pose.centre, &camera, size));
-        self.document.end_step();
+        let trial = self.begin_trial();
         self.pictures.transform = Some(Transform {
             tool,
             lock: Lock::default(),
@@ -48,8 +47,7 @@ impl App {
             steps: [0.0; 2],
             step,
             decimals: decimals_of(step),
-            revision: self.document.revision(),
-            is_applied: false,
+            trial,
         });
         self.mode = Mode::Move;
     }
@@ -143,23 +141,18 @@ impl App {
     /// Keeps the change and ends.
     pub(super) fn confirm_transform(&mut self) {
         match self.pictures.transform.take() {
-            Some(transform) if transform.is_applied => self.overlays.say(transform.words()),
+            Some(transform) if transform.trial.is_applied() => self.overlays.say(transform.words()),
             _ => self.overlays.say("nothing has changed"),
         }
-        self.document.end_step();
+        self.keep_trial();
         self.mode = Mode::Select;
     }
 
     /// Puts everything back and ends.
     pub(super) fn cancel_transform(&mut self) {
-        if let Some(transform) = self.pictures.transform.take()
-            && transform.is_applied
-            && transform.revision == self.document.revision()
-        {
-            self.document.reject();
-            self.relower();
+        if let Some(transform) = self.pictures.transform.take() {
+            self.end_trial(transform.trial);
         }
-        self.document.end_step();
         self.mode = Mode::Select;
     }
 
@@ -168,47 +161,29 @@ impl App {
         let Some(mut transform) = self.pictures.transform.take() else {
             return;
         };
-        if transform.revision != self.document.revision() {
+        if self.is_overtaken(&transform.trial) {
             self.mode = Mode::Select;
             self.overlays
                 .warn("the scene has changed on disk; the transformation so far is kept");
             return;
         }
         change(&mut transform);
-        if transform.is_applied {
-            self.document.reject();
-        }
         let axes = self
             .camera()
             .map_or([DVec3::X, DVec3::Y, DVec3::NEG_Z], |camera| axes(&camera));
         let motion = transform.motion(axes);
-        let edits = if motion.is_identity() {
-            Ok(Vec::new())
-        } else {
-            let (nodes, decimals) = (&transform.nodes, transform.decimals);
-            self.source().motion(nodes, &motion, decimals)
-        };
-        let edits = edits.map_err(|refused| refused.to_string());
-        let outcome = edits.and_then(|edits| self.apply_motion(&edits));
-        transform.is_applied = outcome == Ok(true);
+        let (nodes, decimals) = (&transform.nodes, transform.decimals);
+        let outcome = self.try_instead(&mut transform.trial, |app| {
+            if motion.is_identity() {
+                return Ok(Vec::new());
+            }
+            let edits = app.source().motion(nodes, &motion, decimals);
+            edits.map_err(|refused| refused.to_string())
+        });
         match outcome {
-            Ok(_) => self.overlays.say(transform.words()),
+            Ok(()) => self.overlays.say(transform.words()),
             Err(reason) => self.overlays.fail(reason),
         }
-        transform.revision = self.document.revision();
         self.pictures.transform = Some(transform);
-    }
-
-    /// Makes edits on the text as it was before the motion; returns whether they change it.
-    fn apply_motion(&mut self, edits: &[Edit]) -> Result<bool, String> {
-        if edits.is_empty() {
-            self.relower();
-            return Ok(false);
-        }
-        let outcome = self.try_edits_anew(edits);
-        if outcome.is_err() {
-            self.relower();
-        }
-        outcome.map(|()| true).map_err(|refused| refused.message)
     }
 }

@@ -38,6 +38,7 @@ impl App {
             }
             Kind::Reference(category) | Kind::Name(category) => {
                 let known = self.source().references(self.cursor.selected(), category);
+                let known: Vec<_> = known.into_iter().map(|(literal, _)| literal).collect();
                 literals::next(&known, &literal, steps)
             }
             _ => literals::nudged(&literal, f64::from(steps) * step, step),
@@ -136,7 +137,7 @@ impl App {
     }
 
     /// Sets fields as an undo step of its own.
-    fn assign_whole(&mut self, values: &[Values]) -> Result<(), Diagnostic> {
+    pub(super) fn assign_whole(&mut self, values: &[Values]) -> Result<(), Diagnostic> {
         self.document.end_step();
         let outcome = match values {
             [values] => self.assign(values),
@@ -184,12 +185,20 @@ impl App {
             return;
         }
         if let Some(page) = &mut self.overlays.page {
-            line::insert(&mut page.search, text);
-            page.at = 0;
+            page.filter.insert(text);
+            return;
+        }
+        if let Some(menu) = &mut self.overlays.menu {
+            menu.filter.insert(text);
+            self.follow_menu();
             return;
         }
         if self.disk.is_opening() {
             self.warn_of_opening();
+            return;
+        }
+        if self.overlays.picker.is_some() {
+            self.paste_colour(pasted);
             return;
         }
         if self.mode == Mode::Select {

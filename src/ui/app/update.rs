@@ -76,6 +76,7 @@ impl App {
 
     fn key(&mut self, key: KeyEvent) -> Vec<Effect> {
         self.overlays.clear_message();
+        self.end_slide();
         let context = self.context();
         let action = keymap::action(context, key);
         let is_line = self.cursor.typing.is_some() || self.overlays.has_line();
@@ -134,8 +135,7 @@ impl App {
     fn filter_with(&mut self, key: KeyEvent) {
         if let (Some(page), KeyCode::Char(_)) = (&mut self.overlays.page, key.code) {
             page.focus = PageFocus::Search;
-            line::edit(&mut page.search, key);
-            page.at = 0;
+            page.filter.key(key, 0);
         }
     }
 
@@ -179,11 +179,9 @@ impl App {
             match key.code {
                 KeyCode::Enter => return self.choose(),
                 KeyCode::Esc => page.focus = PageFocus::Lines,
-                KeyCode::Down => page.go(1),
-                KeyCode::Up => page.go(-1),
                 _ => {
-                    line::edit(&mut page.search, key);
-                    page.at = 0;
+                    let count = page.rows().len();
+                    page.filter.key(key, count);
                 }
             }
         }
@@ -255,8 +253,14 @@ impl App {
             }
             Action::Lock(axis) => self.lock_axis(axis),
             Action::Snap => self.toggle_snap(),
+            Action::Choose => self.enter_value(),
             Action::Type => self.type_current(),
+            Action::Nudge(steps, stride) if context == Context::Colour => {
+                self.step_colour(steps, stride);
+            }
             Action::Nudge(steps, stride) => self.nudge(steps, stride),
+            Action::Colour => self.open_picker(),
+            Action::Orthonormalise => self.orthonormalise(),
             Action::Stride(step) => {
                 let words = self.cursor.change_stride(step);
                 self.overlays.say(words);
@@ -343,6 +347,7 @@ impl App {
                 return self.put_off();
             }
             Context::Opening => {}
+            Context::Colour => self.cancel_colour(),
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
             }
@@ -367,6 +372,7 @@ impl App {
             Context::Recover => return self.restore(),
             Context::In(Mode::Pick) => self.pick_cross(),
             Context::In(Mode::Move) => self.confirm_transform(),
+            Context::Colour => self.confirm_colour(),
             Context::In(_) | Context::Help | Context::Messages | Context::Opening => {}
         }
         Vec::new()

@@ -72,6 +72,8 @@ pub enum Context {
     Views,
     /// The page of recently used scenes.
     Recent,
+    /// The colour picker.
+    Colour,
     /// The question how to resolve a merge.
     Conflict,
     /// The question whether to quit although edits are unsaved.
@@ -147,8 +149,14 @@ pub enum Action {
     Lock(usize),
     /// Rounds to a grid, or no longer.
     Snap,
+    /// Opens the list of the values of a field, or starts typing one.
+    Choose,
     /// Starts typing a value.
     Type,
+    /// Opens the colour picker.
+    Colour,
+    /// Makes the directions of a frame orthonormal.
+    Orthonormalise,
     /// Adds the step of the field times the stride; positive is up.
     Nudge(i8, Stride),
     /// Makes the stride smaller or larger.

@@ -25,7 +25,8 @@ pub enum HelpLine {
 }
 
 /// Other contexts with a section of help, by name.
-const DIALOGS: [(&str, Context); 12] = [
+const DIALOGS: [(&str, Context); 13] = [
+    ("the colour picker", Context::Colour),
     ("the list of errors", Context::Errors),
     ("the list of saved views", Context::Views),
     ("the list of recent scenes", Context::Recent),
@@ -46,10 +47,12 @@ const START: [(&str, &str); 2] = [
     ("halflight doctor", "what was detected, and why"),
 ];
 
-const MOUSE: [(&str, &str); 7] = [
+const MOUSE: [(&str, &str); 9] = [
     ("click the list", "select"),
     ("click a field", "move the cursor there"),
-    ("click it again", "type a value"),
+    ("click it again", "choose or type a value"),
+    ("drag a slider", "set a number from 0 to 1"),
+    ("click a menu", "move there; again: choose"),
     ("click the picture", "select the object there"),
     ("drag it in VIEW", "orbit"),
     ("drag the border", "resize the panels"),
@@ -88,6 +91,7 @@ pub fn help(search: &str, mode: Mode, commands: Vec<Entry>) -> Vec<HelpLine> {
     let owned = |(keys, words): &(&str, &'static str)| ((*keys).to_owned(), *words);
     for (heading, line) in [
         ("while a value is typed", Line::Value),
+        ("in a menu, where typing filters", Line::Filter),
         ("after :", Line::Command),
         ("after /", Line::Search),
     ] {
@@ -135,6 +139,7 @@ pub fn hints(context: Context) -> Vec<(String, &'static str)> {
         Context::In(Move) => MOVE_HINTS,
         Context::In(Trace) => TRACE_HINTS,
         Context::Errors => ERROR_HINTS,
+        Context::Colour => COLOUR_HINTS,
         Context::Opening => &[],
         Context::Help
         | Context::Messages
@@ -195,9 +200,17 @@ const EDIT_HINTS: &[Hint] = &[
     (&[A::Move(1), A::Move(-1)], "field"),
     (&[A::Nudge(-1, Plain), A::Nudge(1, Plain)], "nudge"),
     (&[A::Stride(-1), A::Stride(1)], "step"),
-    (&[A::Type], "type"),
+    (&[A::Choose], "type"),
+    (&[A::Colour], "colour"),
     (&[A::Component(1)], "next number"),
     (&[A::Back], "back"),
+];
+const COLOUR_HINTS: &[Hint] = &[
+    (&[A::Nudge(-1, Plain), A::Nudge(1, Plain)], "change"),
+    (&[A::Move(1), A::Move(-1)], "row"),
+    (&[A::Stride(-1), A::Stride(1)], "step"),
+    (&[A::Accept], "confirm"),
+    (&[A::Back], "cancel"),
 ];
 const VIEW_HINTS: &[Hint] = &[
     (
@@ -349,7 +362,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
         let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 26);
+        assert_eq!(headings(&lines).len(), 28);
         assert!(lines.contains(&entry("gg", "first")));
         for row in TABLE {
             assert!(lines.contains(&entry(&row.keys(), row.words)), "{row:?}");

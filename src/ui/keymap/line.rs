@@ -38,6 +38,7 @@ pub fn line_hints(line: Line) -> &'static [(&'static str, &'static str)] {
             ("Enter", "choose"),
             ("Esc", "cancel"),
             ("↑ ↓", "move"),
+            ("Ctrl-N Ctrl-P", "move"),
             ("Ctrl-U", "clear"),
         ],
         Line::Search => &[("Enter", "find"), ("Esc", "cancel"), ("Ctrl-U", "clear")],

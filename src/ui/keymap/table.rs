@@ -71,6 +71,9 @@ const SELECT_AND_FIELDS: Scope = Scope::These(&[Context::In(Select), Context::In
 const FLY: Scope = Scope::These(&[Context::In(Fly)]);
 const VIEWS: Scope = Scope::These(&[Context::In(View), Context::In(Fly)]);
 const EDIT: Scope = Scope::These(&[Context::In(Edit)]);
+const COLOUR: Scope = Scope::These(&[Context::Colour]);
+/// Where numbers are nudged.
+const VALUES: Scope = Scope::These(&[Context::In(Edit), Context::Colour]);
 const TRACE: Scope = Scope::These(&[Context::In(Trace)]);
 /// Contexts in which digits are not part of a number.
 const PICTURES: Scope = Scope::These(&[
@@ -102,6 +105,7 @@ const LISTS: Scope = Scope::These(&[
     Context::Errors,
     Context::Views,
     Context::Recent,
+    Context::Colour,
     Context::Conflict,
 ]);
 const LONG_LISTS: Scope = Scope::These(&[
@@ -167,17 +171,22 @@ pub(super) const TABLE: &[Binding] = &[
     bind(SELECT, &[c('N')], A::SearchAgain(-1), "previous match"),
     bind(SELECT, &[key(BackTab)], A::Cycle(-1), "previous light or object"),
 
-    bind(EDIT, &[c('l'), key(Right)], A::Nudge(1, Plain), "nudge up"),
-    bind(EDIT, &[c('h'), key(Left)], A::Nudge(-1, Plain), "nudge down"),
-    bind(EDIT, &[key(Enter), c('i')], A::Type, "type a value (or press a digit)"),
+    bind(VALUES, &[c('l'), key(Right)], A::Nudge(1, Plain), "nudge up"),
+    bind(VALUES, &[c('h'), key(Left)], A::Nudge(-1, Plain), "nudge down"),
+    bind(EDIT, &[key(Enter)], A::Choose, "choose from a list, or type a number"),
+    bind(EDIT, &[c('i')], A::Type, "type a value (or press a digit)"),
+    bind(EDIT, &[c('c')], A::Colour, "pick a colour"),
     bind(EDIT, &[key(Tab)], A::Component(1), "next number"),
-    bind(EDIT, &[c('L'), Chord(Right, SHIFT)], A::Nudge(1, Coarse), "nudge up ten steps"),
-    bind(EDIT, &[c('H'), Chord(Left, SHIFT)], A::Nudge(-1, Coarse), "nudge down ten steps"),
-    bind(EDIT, &[alt('l'), Chord(Right, ALT)], A::Nudge(1, Fine), "nudge up a tenth"),
-    bind(EDIT, &[alt('h'), Chord(Left, ALT)], A::Nudge(-1, Fine), "nudge down a tenth"),
-    bind(EDIT, &[c(',')], A::Stride(-1), "smaller steps"),
-    bind(EDIT, &[c(';')], A::Stride(1), "larger steps"),
+    bind(VALUES, &[c('L'), Chord(Right, SHIFT)], A::Nudge(1, Coarse), "nudge up ten steps"),
+    bind(VALUES, &[c('H'), Chord(Left, SHIFT)], A::Nudge(-1, Coarse), "nudge down ten steps"),
+    bind(VALUES, &[alt('l'), Chord(Right, ALT)], A::Nudge(1, Fine), "nudge up a tenth"),
+    bind(VALUES, &[alt('h'), Chord(Left, ALT)], A::Nudge(-1, Fine), "nudge down a tenth"),
+    bind(VALUES, &[c(',')], A::Stride(-1), "smaller steps"),
+    bind(VALUES, &[c(';')], A::Stride(1), "larger steps"),
     bind(EDIT, &[key(BackTab)], A::Component(-1), "previous number"),
+    bind(EDIT, &[c('O')], A::Orthonormalise, "orthonormalise the frame"),
+    bind(COLOUR, &[key(Enter)], A::Accept, "confirm"),
+    bind(COLOUR, &[key(Esc)], A::Back, "cancel"),
 
     bind(VIEW, &[c('h'), key(Left)], A::Orbit(1, 0), "orbit left"),
     bind(VIEW, &[c('j'), key(Down)], A::Orbit(0, -1), "orbit down"),
@@ -362,6 +371,7 @@ mod tests {
             Errors,
             Views,
             Recent,
+            Context::Colour,
             Conflict,
             Quit,
             Leave,

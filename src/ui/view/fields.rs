@@ -10,12 +10,11 @@ use unicode_width::UnicodeWidthStr;
 use super::row::{self, Row};
 use crate::language::Node;
 use crate::language::table::Kind;
-use crate::scene::Rgb;
 use crate::text::{counted, parse_number, without_suffix};
 use crate::ui::app::{App, FieldRow, Provenance, Typing};
 use crate::ui::fit::wrap;
 use crate::ui::keymap::{Mode, Stride};
-use crate::ui::layout;
+use crate::ui::layout::{self, marker_at};
 use crate::ui::theme;
 
 /// Draws the fields of the selected node and a description of the current one.
@@ -26,10 +25,11 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         Stride::Plain => None,
         Stride::Coarse => Some("step × 10".to_owned()),
     };
-    let name = app.source().name(app.cursor.selected());
+    let selected = app.cursor.selected();
+    let name = app.source().name(selected);
     row::title(
         &name,
-        &stride.or_else(|| users(app)).unwrap_or_default(),
+        &stride.or_else(|| users(app, selected)).unwrap_or_default(),
         focused.then_some(theme::ACCENT),
         area,
         buffer,
@@ -47,6 +47,16 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         };
         let cursor = (focused && index == app.cursor.field).then_some(app.cursor.component);
         field_line(app, field, cursor, line, buffer);
+        if let Some(bar) = app.slider(index, line)
+            && (cursor.is_none() || app.cursor.typing.is_none())
+        {
+            let style = match cursor {
+                _ if !field.is_all(Provenance::Text) => theme::DIM,
+                Some(_) => theme::ACCENT,
+                None => Style::new(),
+            };
+            slider(field, style, bar, buffer);
+        }
         if let Some(found) = app.field_finding(index) {
             // The last cell of the name is otherwise a gap.
             let (name, _) = layout::field_columns(line, field.literals.len());
@@ -66,12 +76,19 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// The number of objects that use the selected node, if it is a material or texture.
-fn users(app: &App) -> Option<String> {
-    let objects = counted(app.source().users(app.cursor.selected()), "object");
-    match app.cursor.selected() {
-        Node::Material(_) => Some(format!("colours {objects}")),
-        Node::Texture(_) => Some(format!("on {objects}")),
+/// What else uses the material or texture that the current field names.
+fn shared(app: &App) -> Option<String> {
+    let node = app.referred_to()?;
+    let name = app.source().name(node);
+    Some(format!("{name} {}", users(app, node)?))
+}
+
+/// The number of objects that use a node, if it is a material or texture.
+pub(super) fn users(app: &App, node: Node) -> Option<String> {
+    let objects = || counted(app.source().users(node), "object");
+    match node {
+        Node::Material(_) => Some(format!("colours {}", objects())),
+        Node::Texture(_) => Some(format!("on {}", objects())),
         _ => None,
     }
 }
@@ -94,7 +111,7 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
     row.put(if cursor.is_some() { "▸" } else { " " }, selected);
     row.put_in(field.field.key, row.room().saturating_sub(2), selected);
     row.skip_to(name.right().saturating_sub(2));
-    match swatch(field) {
+    match field.colour() {
         _ if field.is_all(Provenance::WorkingView) => row.put("*", theme::WARNING),
         Some(colour) => row.put("●", theme::swatch(colour)),
         None => row.put(" ", Style::new()),
@@ -130,6 +147,19 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
         };
         typed(typing, room, buffer);
     }
+}
+
+/// Draws a number from 0 to 1 as a bar.
+fn slider(field: &FieldRow, style: Style, bar: Rect, buffer: &mut Buffer) {
+    let literal = field.literals.first().map_or("", String::as_str);
+    let number = parse_number(without_suffix(literal).unwrap_or(literal));
+    let filled = marker_at(bar, number.unwrap_or(0.0)) - bar.x;
+    Clear.render(bar.intersection(buffer.area), buffer);
+    let mut row = Row::new(buffer, bar, 0);
+    row.put(&"─".repeat(usize::from(filled)), style);
+    row.put("●", style);
+    let rest = row.room();
+    row.put(&"─".repeat(rest), theme::DIM);
 }
 
 /// Draws the value being typed in place of the current one.
@@ -174,11 +204,16 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
         format!(" {}", field.field.unit)
     };
     let nudge = match field.field.kind {
-        Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => " · h l: change".to_owned(),
+        Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => {
+            " · Enter: list · h l: next".to_owned()
+        }
         Kind::Word => String::new(),
         _ => format!(" · step {}{unit}", app.step(field.field)),
     };
     say(&format!("{what}{nudge}"), Style::new());
+    if let Some(users) = shared(app) {
+        say(&users, theme::DIM);
+    }
     say(field.field.doc, theme::DIM);
     match field.sources.get(app.cursor.component) {
         Some(Provenance::Default) => say("Not in the text: this is the default.", theme::DIM),
@@ -191,19 +226,6 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
         Row::new(buffer, area, index as u16)
             .skip(1)
             .put(line, *style);
-    }
-}
-
-/// The colour that a field's literals represent.
-fn swatch(field: &FieldRow) -> Option<Rgb> {
-    let channel = |at: usize| {
-        let literal = field.literals.get(at)?;
-        parse_number(without_suffix(literal).unwrap_or(literal)).ok()
-    };
-    match field.field.kind {
-        Kind::Colour => Some(Rgb::new(channel(0)?, channel(1)?, channel(2)?)),
-        Kind::ScaledColour => Some(channel(3)? * Rgb::new(channel(0)?, channel(1)?, channel(2)?)),
-        _ => None,
     }
 }
 

@@ -111,7 +111,7 @@ fn marked(app: &App) -> Vec<(Node, Style)> {
 }
 
 /// The colour that identifies a node: the colour of a light, the diffuse colour of an object.
-fn swatch(app: &App, node: Node) -> Option<Rgb> {
+pub(super) fn swatch(app: &App, node: Node) -> Option<Rgb> {
     let scene = app.scene.as_ref()?;
     match node {
         Node::View | Node::Texture(_) => None,

@@ -1,4 +1,4 @@
-//! Menus of what can be added and of kinds to change to.
+//! Menus of what can be added, of kinds to change to and of values.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -6,9 +6,10 @@ use ratatui::style::Style;
 use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
+use super::fields::users;
+use super::list::swatch;
 use super::row::{Row, title};
-use crate::ui::app::{App, Purpose};
-use crate::ui::fit::shorten;
+use crate::ui::app::{App, Entry, Purpose};
 use crate::ui::layout;
 use crate::ui::theme;
 
@@ -22,34 +23,78 @@ pub(crate) fn render(app: &App, list: Rect, body: Rect, buffer: &mut Buffer) {
     let name = match menu.purpose {
         Purpose::Add => "add",
         Purpose::Retype => "change to",
+        Purpose::Value(key) => key,
     };
     let shown = menu.shown();
-    let place = format!("{}/{}", (menu.at + 1).min(shown.len()), shown.len());
+    let place = format!("{}/{}", (menu.filter.at + 1).min(shown.len()), shown.len());
     title(name, &place, Some(theme::ACCENT), area, buffer);
     let lines = layout::contents(area);
     let mut row = Row::new(buffer, lines, 0);
     row.put("/", theme::ACCENT);
     let room = row.room();
-    row.put_input(&menu.filter, room, Style::new(), theme::CURSOR);
-    let rows = usize::from(lines.height.saturating_sub(1));
-    let top = layout::first_shown(0, menu.at, shown.len(), rows);
-    for (index, (name, words)) in shown.iter().enumerate().skip(top).take(rows) {
-        let is_selected = index == menu.at;
-        let style = if is_selected {
-            theme::CURSOR
-        } else {
-            Style::new()
+    row.put_input(&menu.filter.input, room, Style::new(), theme::CURSOR);
+    let entries = layout::contents(lines);
+    let rows = usize::from(entries.height);
+    let top = layout::first_shown(0, menu.filter.at, shown.len(), rows);
+    let widths = shown.iter().map(|entry| entry.name.width());
+    let names = widths.max().unwrap_or(0).min(usize::from(area.width / 2));
+    let dots = if shown.iter().any(|entry| entry.node.is_some()) {
+        2
+    } else {
+        0
+    };
+    let columns = Columns { dots, names };
+    for (index, entry) in shown.iter().enumerate().skip(top).take(rows) {
+        let line = Rect {
+            y: entries.y + (index - top) as u16,
+            height: 1,
+            ..entries
         };
-        let mut row = Row::new(buffer, lines, (index - top) as u16 + 1);
-        row.put(if is_selected { "▸ " } else { "  " }, style);
-        row.put(name, style.patch(theme::BOLD));
-        let room = row.room().saturating_sub(2);
-        row.put("  ", style);
-        let words = shorten(words, room);
-        let padding = room.saturating_sub(words.width());
-        row.put(&format!("{words}{:padding$}", ""), style.patch(theme::DIM));
+        let look = if index == menu.filter.at {
+            ("▸ ", theme::CURSOR)
+        } else {
+            ("  ", Style::new())
+        };
+        draw_entry(app, entry, columns, look, line, buffer);
     }
     if shown.is_empty() {
-        Row::new(buffer, lines, 1).put("  no match", theme::DIM);
+        Row::new(buffer, entries, 0).put("  no match", theme::DIM);
     }
+}
+
+/// The columns of the entries.
+#[derive(Clone, Copy)]
+struct Columns {
+    /// Width of the dots with a gap.
+    dots: u16,
+    /// Width of the names.
+    names: usize,
+}
+
+/// Draws an entry: a dot in the colour of what it refers to, its name, and what it is.
+fn draw_entry(
+    app: &App,
+    entry: &Entry,
+    columns: Columns,
+    (sign, style): (&str, Style),
+    line: Rect,
+    buffer: &mut Buffer,
+) {
+    let mut row = Row::new(buffer, line, 0);
+    let blank = " ".repeat(row.room());
+    row.put(&blank, style);
+    let mut row = Row::new(buffer, line, 0);
+    row.put(sign, style);
+    if let Some(colour) = entry.node.and_then(|node| swatch(app, node)) {
+        row.put("●", theme::swatch(colour));
+    }
+    row.skip_to(line.x + 2 + columns.dots);
+    let words = line.x + 2 + columns.dots + columns.names as u16 + 2;
+    row.put_in(&entry.name, columns.names, style.patch(theme::BOLD));
+    row.skip_to(words);
+    let users = entry.node.and_then(|node| users(app, node));
+    match &users {
+        Some(users) if entry.words.is_empty() => row.put(users, style.patch(theme::DIM)),
+        _ => row.put(&entry.words, style.patch(theme::DIM)),
+    };
 }

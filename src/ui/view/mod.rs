@@ -19,6 +19,7 @@ mod message;
 mod oklab;
 mod page;
 mod palette;
+mod picker;
 mod picture;
 mod row;
 mod status;
@@ -73,6 +74,7 @@ fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {
         message::render(message, body, buffer);
     }
     menu::render(app, areas.list, body, buffer);
+    picker::render(app, inks, areas.list, body, buffer);
     completions::render(app, body, buffer);
     dialog::render(app, body, buffer);
 }

@@ -33,9 +33,9 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     block.render(place, buffer);
     let (body, foot) = layout::split_bottom(inner, 2);
     let visible = usize::from(body.height);
-    let top = layout::first_shown(0, page.at, rows.len(), visible);
+    let top = layout::first_shown(0, page.filter.at, rows.len(), visible);
     for (line, (_, words)) in rows.iter().skip(top).take(visible).enumerate() {
-        let is_here = top + line == page.at;
+        let is_here = top + line == page.filter.at;
         let mut row = Row::new(buffer, body, line as u16);
         let style = if is_here { theme::BOLD } else { Style::new() };
         row.put(if is_here { "▸ " } else { "  " }, style);
@@ -46,14 +46,14 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     if page.focus == PageFocus::Search {
         row.put("/", theme::ACCENT);
         let room = row.room();
-        row.put_input(&page.search, room, Style::new(), theme::CURSOR);
+        row.put_input(&page.filter.input, room, Style::new(), theme::CURSOR);
         return;
     }
-    if !page.search.value().is_empty() {
+    if !page.filter.input.value().is_empty() {
         let words = format!(
             "{} with “{}”",
             counted(rows.len(), "line"),
-            page.search.value()
+            page.filter.input.value()
         );
         row.put(&words, theme::DIM).skip(2);
     }
@@ -77,7 +77,7 @@ mod tests {
         let mut app = app();
         let paths = ["/a/one.ray", "/a/two.dat", "/b/three.xml"].map(PathBuf::from);
         let mut page = Page::new(List::Recent(paths.into()));
-        page.at = 1;
+        page.filter.at = 1;
         app.overlays.page = Some(page);
         let text = drawn(&app, super::render, 80, 24).join("\n");
         for part in [
@@ -90,7 +90,7 @@ mod tests {
             assert!(text.contains(part), "{part} in\n{text}");
         }
         let page = app.overlays.page.as_mut().expect("it is open");
-        (page.at, page.search) = (0, Input::new("B/".to_owned()));
+        (page.filter.at, page.filter.input) = (0, Input::new("B/".to_owned()));
         let text = drawn(&app, super::render, 80, 24).join("\n");
         assert!(
             text.contains("▸ /b/three.xml") && !text.contains("/a/"),

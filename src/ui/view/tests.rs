@@ -193,7 +193,7 @@ const STATES: &[(&str, Change)] = &[
     ("recent scenes", |app| {
         let paths = (0..99).map(|at| PathBuf::from(format!("/界/{at}.ray")));
         let mut page = Page::new(List::Recent(paths.collect()));
-        page.at = 98;
+        page.filter.at = 98;
         app.overlays.page = Some(page);
     }),
     ("quit", |app| {
@@ -230,6 +230,21 @@ const STATES: &[(&str, Change)] = &[
             input: Input::new("1234567890123456789012345678901234567890".to_owned()),
             ..Typing::default()
         });
+    }),
+    ("menu", |app| {
+        app.mode = Mode::Select;
+        for key in ['a', 's'] {
+            app.update(Msg::Key(KeyCode::Char(key).into()));
+        }
+        assert!(app.overlays.menu.is_some());
+    }),
+    ("colour picker", |app| {
+        app.mode = Mode::Select;
+        app.cursor.select(Node::Object(0), app.document.source());
+        for key in ['e', 'j', 'j', 'c', 'l'] {
+            app.update(Msg::Key(KeyCode::Char(key).into()));
+        }
+        assert!(app.overlays.picker.is_some());
     }),
     ("palette", |app| {
         for key in [':', 'e'] {

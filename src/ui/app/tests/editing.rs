@@ -83,7 +83,8 @@ fn pastes_fill_all_components_in_one_step() {
         ("je", "#ff8000", "1 0.502 0"),
         ("jjje", "#ff8000", ""),
         ("jjje", "1 2", ""),
-        ("jjjejjjjj", "1 2 3", ""),
+        ("jjjejjjjj", "1 2 3", "1 2 3 1"),
+        ("jjjejjjjj", "1 2 3 4 5", ""),
         ("jjj", "1 2 3", ""),
     ] {
         let mut app = open(SCENE);

@@ -1,6 +1,7 @@
 //! Tests of the interface: keys, pastes and files in; text, state and effects out.
 
 mod assets;
+mod colours;
 mod dat;
 mod disk;
 mod editing;

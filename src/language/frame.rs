@@ -1,0 +1,44 @@
+//! Frames of directions that are made orthonormal.
+
+use super::StructureError;
+use super::at::At;
+use super::form::{orthonormal, rounded};
+
+/// The error for a node without directions.
+pub(super) fn frameless(name: &str) -> StructureError {
+    StructureError::Inexpressible(format!("{name} has no frame to orthonormalise"))
+}
+
+/// The new numbers of the directions at these places, without rounding errors of the old.
+///
+/// # Errors
+///
+/// Fails if the directions span no frame.
+pub(super) fn straight(
+    places: [At<3>; 3],
+    old: &[f64],
+    lengths: Lengths,
+) -> Result<Vec<f64>, StructureError> {
+    let directions = places.map(|at| at.vector(old));
+    let refused = || StructureError::Inexpressible("two of its directions are parallel".to_owned());
+    let frame = orthonormal(directions).ok_or_else(refused)?;
+    let mut new = old.to_vec();
+    for ((at, direction), before) in places.iter().zip(frame).zip(directions) {
+        let length = match lengths {
+            Lengths::Unit => 1.0,
+            Lengths::Kept => before.length(),
+        };
+        at.put(&mut new, (length * direction).to_array());
+    }
+    let kept = old.iter().zip(&new);
+    Ok(kept.map(|(old, new)| rounded(*old, *new, 15)).collect())
+}
+
+/// The lengths of directions that become orthogonal.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Lengths {
+    /// They become 1.
+    Unit,
+    /// They stay, since they count.
+    Kept,
+}

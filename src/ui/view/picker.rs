@@ -1,0 +1,224 @@
+//! The colour picker: bars of hue, saturation and value, the old and the new colour, and the colours
+//! of the scene.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::style::{Color, Style};
+use ratatui::widgets::{Clear, Widget};
+
+use super::Inks;
+use super::inks::Glyphs;
+use super::row::{Row, title};
+use crate::scene::Rgb;
+use crate::ui::app::{App, ColourPicker, Hsv, PickerRow};
+use crate::ui::layout::{PickerLines, marker_at, picker_lines, swatch_cells};
+use crate::ui::theme;
+
+/// Draws the open colour picker over the list, or over everything if there is no list.
+pub(crate) fn render(app: &App, inks: &mut Inks, list: Rect, body: Rect, buffer: &mut Buffer) {
+    let Some(picker) = &app.overlays.picker else {
+        return;
+    };
+    let area = if list.is_empty() { body } else { list };
+    let area = area.intersection(buffer.area);
+    Clear.render(area, buffer);
+    title("colour", picker.key, Some(theme::ACCENT), area, buffer);
+    let lines = picker_lines(area);
+    for (row, line) in PickerRow::BARS.into_iter().zip(lines.bars) {
+        bar_line(picker, row, line, inks, buffer);
+    }
+    comparison(picker, &lines, inks, buffer);
+    swatches(picker, &lines, inks, buffer);
+}
+
+/// Draws a row's name, its bar and its number.
+fn bar_line(
+    picker: &ColourPicker,
+    row: PickerRow,
+    [line, bar]: [Rect; 2],
+    inks: &mut Inks,
+    buffer: &mut Buffer,
+) {
+    let Hsv {
+        hue,
+        saturation,
+        value,
+    } = picker.colour;
+    let (name, number) = match row {
+        PickerRow::Hue => ("hue", format!("{}°", short(hue, 1))),
+        PickerRow::Saturation => ("saturation", short(saturation, 3)),
+        PickerRow::Value | PickerRow::Swatches => ("value", short(value, 3)),
+    };
+    let is_here = picker.row == row;
+    let style = if is_here { theme::BOLD } else { Style::new() };
+    Row::new(buffer, line, 0)
+        .put(if is_here { "▸" } else { " " }, style)
+        .put(name, style)
+        .skip_to(bar.right() + 1)
+        .put(&number, style);
+    let marker = marker_at(bar, picker.share(row));
+    for x in bar.left()..bar.right() {
+        let share = f64::from(x - bar.x) / f64::from((bar.width - 1).max(1));
+        let mut shown = picker.at_share(row, share);
+        if row == PickerRow::Hue {
+            // A hue shows even of a grey.
+            (shown.saturation, shown.value) = (1.0, 1.0);
+        }
+        let colour = shown.rgb();
+        paint(colour, Position::new(x, bar.y), inks, buffer);
+        if inks.glyphs == Glyphs::Characters {
+            put(buffer, x, bar.y, "─", theme::DIM);
+        }
+        if x == marker {
+            put(buffer, x, bar.y, sign(inks), over(colour, inks));
+        }
+    }
+}
+
+/// Draws the colour before, the one chosen, and its numbers.
+fn comparison(picker: &ColourPicker, lines: &PickerLines, inks: &mut Inks, buffer: &mut Buffer) {
+    const WIDTH: u16 = 4;
+    let line = lines.comparison;
+    let now = picker.colour.rgb();
+    let places = [(1, picker.before, "was"), (11, now, "now")];
+    for (left, colour, word) in places {
+        for x in (line.x + left..line.right()).take(usize::from(WIDTH)) {
+            paint(colour, Position::new(x, line.y), inks, buffer);
+        }
+        let mut row = Row::new(buffer, line, 0);
+        row.skip(left + WIDTH + 1).put(word, theme::DIM);
+    }
+    let channels = now.to_array().map(|channel| short(channel, 3)).join(" ");
+    let mut row = Row::new(buffer, lines.numbers, 0);
+    row.put(&channels, Style::new()).skip(2);
+    row.put(&hexadecimal(now), theme::DIM);
+}
+
+/// Draws the colours of the scene.
+fn swatches(picker: &ColourPicker, lines: &PickerLines, inks: &mut Inks, buffer: &mut Buffer) {
+    let is_here = picker.row == PickerRow::Swatches;
+    let style = if is_here { theme::BOLD } else { theme::DIM };
+    Row::new(buffer, lines.heading, 0)
+        .put(if is_here { "▸" } else { " " }, style)
+        .put("colours of the scene", style);
+    for (index, colour) in picker.swatches.iter().enumerate() {
+        let Some(cells) = swatch_cells(lines.swatches, index) else {
+            return;
+        };
+        let is_chosen = is_here && picker.swatch.unwrap_or(0) == index;
+        if is_chosen {
+            put(buffer, cells.x, cells.y, "▸", theme::BOLD);
+        }
+        for x in cells.left() + 1..cells.right() {
+            paint(*colour, Position::new(x, cells.y), inks, buffer);
+        }
+        if inks.glyphs == Glyphs::Characters {
+            let mut row = Row::new(buffer, cells, 0);
+            row.skip(1).put(&(index + 1).to_string(), Style::new());
+        }
+    }
+}
+
+/// Paints a cell in a colour, as two pixels if it must be dithered; leaves it alone without colours.
+fn paint(colour: Rgb, at: Position, inks: &mut Inks, buffer: &mut Buffer) {
+    if inks.glyphs == Glyphs::Characters {
+        return;
+    }
+    let pixel = bytes(colour);
+    let (x, y) = (u32::from(at.x), 2 * u32::from(at.y));
+    let (upper, lower) = (inks.colour(pixel, x, y), inks.colour(pixel, x, y + 1));
+    let symbol = if upper == lower { " " } else { "▀" };
+    put(buffer, at.x, at.y, symbol, Style::new().fg(upper).bg(lower));
+}
+
+fn put(buffer: &mut Buffer, x: u16, y: u16, symbol: &str, style: Style) {
+    if let Some(cell) = buffer.cell_mut(Position::new(x, y)) {
+        cell.set_symbol(symbol).set_style(style);
+    }
+}
+
+/// The marker of a bar.
+fn sign(inks: &Inks) -> &'static str {
+    match inks.glyphs {
+        Glyphs::Characters => "●",
+        _ => "│",
+    }
+}
+
+/// The style of a marker over a colour: black or white, by its luminance.
+fn over(colour: Rgb, inks: &Inks) -> Style {
+    let [red, green, blue] = bytes(colour).map(f64::from);
+    let luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+    match inks.glyphs {
+        Glyphs::Characters => theme::BOLD,
+        _ if luminance < 110.0 => Style::new().fg(Color::White),
+        _ => Style::new().fg(Color::Black),
+    }
+}
+
+fn bytes(colour: Rgb) -> [u8; 3] {
+    colour
+        .to_array()
+        .map(|channel| (255.0 * channel.clamp(0.0, 1.0)).round() as u8)
+}
+
+fn hexadecimal(colour: Rgb) -> String {
+    let [red, green, blue] = bytes(colour);
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+/// A number with at most so many decimals.
+fn short(number: f64, decimals: usize) -> String {
+    let rounded = format!("{number:.decimals$}").parse::<f64>();
+    rounded.unwrap_or(number).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::Node;
+    use crate::ui::keymap::Mode;
+    use crate::ui::msg::Msg;
+    use crate::ui::view::tests::{app, drawn};
+    use crossterm::event::KeyCode;
+
+    fn picking(keys: &str) -> App {
+        let mut app = app();
+        app.cursor.select(Node::Object(0), app.document.source());
+        app.mode = Mode::Edit;
+        for c in keys.chars() {
+            app.update(Msg::Key(KeyCode::Char(c).into()));
+        }
+        app
+    }
+
+    fn shown(app: &App, glyphs: Glyphs) -> Vec<String> {
+        let panel = |app: &App, area: Rect, buffer: &mut Buffer| {
+            render(app, &mut Inks::new(glyphs), area, area, buffer);
+        };
+        drawn(app, panel, 34, 14)
+    }
+
+    #[test]
+    fn bars_show_the_colour_and_its_numbers() {
+        // kd is 0.5 0 0.
+        let app = picking("jjjc");
+        let lines = shown(&app, Glyphs::HalfBlocks);
+        assert!(lines[0].starts_with("colour ─") && lines[0].ends_with(" kd"));
+        assert_eq!(lines[1], "▸hue        │              0°");
+        assert_eq!(lines[2], " saturation              │ 1");
+        assert!(lines[3].ends_with(" 0.5"), "{}", lines[3]);
+        assert_eq!(lines[5], "      was       now");
+        assert_eq!(lines[6], " 0.5 0 0  #800000");
+        assert_eq!(lines[8], " colours of the scene");
+    }
+
+    #[test]
+    fn without_colours_the_marker_and_the_numbers_remain() {
+        let lines = shown(&picking("jjjcjjjll"), Glyphs::Characters);
+        assert!(lines[1].contains("●──────"), "{lines:#?}");
+        assert!(lines[2].contains("──●"), "{lines:#?}");
+        assert_eq!(lines[8], "▸colours of the scene");
+        assert!(lines[9].contains(" 1 ▸2  3"), "{lines:#?}");
+    }
+}
