@@ -1,5 +1,9 @@
 //! The state of changes of the text that are tried out.
 
+use std::collections::BTreeSet;
+
+use crate::language::Node;
+
 /// A change of the text that is being tried out: each attempt replaces the one before, so that the
 /// whole is one undo step.
 #[derive(Clone, Debug)]
@@ -8,4 +12,6 @@ pub(super) struct Trial {
     pub(super) revision: u64,
     /// Whether the last attempt changed the text.
     pub(super) is_applied: bool,
+    /// The marked nodes, whose marks go if an attempt adds a node.
+    pub(super) marks: BTreeSet<Node>,
 }

@@ -11,6 +11,7 @@ impl App {
         Trial {
             revision: self.document.revision(),
             is_applied: false,
+            marks: self.cursor.marks.clone(),
         }
     }
 
@@ -30,6 +31,7 @@ impl App {
         if was_applied {
             self.document.reject();
             self.cursor.renew(self.document.source());
+            self.cursor.marks.clone_from(&trial.marks);
         }
         let outcome = edits(self).and_then(|edits| {
             trial.is_applied = !edits.is_empty();
