@@ -178,7 +178,7 @@ impl App {
         let menu = self.overlays.menu.as_ref();
         let trial = menu.and_then(|menu| menu.trial.as_ref());
         let is_kept = if let Some(trial) = trial {
-            trial.is_applied() || self.follow_menu()
+            trial.is_applied || self.follow_menu()
         } else {
             let value = (self.cursor.component, name.to_owned());
             let outcome = self.assign_whole(&[vec![value]]);

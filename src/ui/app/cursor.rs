@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use ratatui::layout::Rect;
 use tui_input::Input;
 
-use super::sliding::Slide;
+use super::trial::Trial;
 use crate::language::{Node, Nodes, Placed, Source};
 use crate::text::{Diagnostic, Edit, Span};
 use crate::ui::arrange::Areas;
@@ -47,6 +48,15 @@ pub struct Cursor {
     pub(super) searched: String,
     /// The component clicked a moment ago.
     clicked: Option<(usize, usize)>,
+}
+
+/// A slider being dragged.
+#[derive(Debug)]
+pub(super) struct Slide {
+    /// Its cells.
+    pub(super) bar: Rect,
+    /// The change of the text.
+    pub(super) trial: Trial,
 }
 
 /// A value being typed into a component.

@@ -2,20 +2,12 @@
 
 use ratatui::layout::Rect;
 
-use super::trial::Trial;
+use super::cursor::Slide;
 use super::{App, colours};
 use crate::language::Node;
 use crate::text::{Edit, parse_number, spell_like};
 use crate::ui::keymap::Mode;
 use crate::ui::layout::{field_rows, share_at, slider_cells};
-
-/// A slider being dragged.
-#[derive(Debug)]
-pub(super) struct Slide {
-    /// Its cells.
-    bar: Rect,
-    trial: Trial,
-}
 
 impl App {
     /// The cells of a field's slider in its line; `None` for other fields, and if there is no room.

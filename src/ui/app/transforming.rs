@@ -141,7 +141,7 @@ impl App {
     /// Keeps the change and ends.
     pub(super) fn confirm_transform(&mut self) {
         match self.pictures.transform.take() {
-            Some(transform) if transform.trial.is_applied() => self.overlays.say(transform.words()),
+            Some(transform) if transform.trial.is_applied => self.overlays.say(transform.words()),
             _ => self.overlays.say("nothing has changed"),
         }
         self.keep_trial();

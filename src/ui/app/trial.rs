@@ -1,79 +1,17 @@
-//! Changes of the text that are tried out: each attempt replaces the one before, so that the whole is
-//! one undo step.
+//! The state of changes of the text that are tried out.
 
-use super::App;
-use crate::text::Edit;
+use std::collections::BTreeSet;
 
-/// A change of the text that is being tried out.
+use crate::language::Node;
+
+/// A change of the text that is being tried out: each attempt replaces the one before, so that the
+/// whole is one undo step.
 #[derive(Clone, Debug)]
 pub(super) struct Trial {
     /// The text's revision after the last attempt; at another one, it can no longer be replaced.
-    revision: u64,
+    pub(super) revision: u64,
     /// Whether the last attempt changed the text.
-    is_applied: bool,
-}
-
-impl Trial {
-    /// Whether the last attempt changed the text.
-    pub(super) fn is_applied(&self) -> bool {
-        self.is_applied
-    }
-}
-
-impl App {
-    /// Begins to try out changes of the present text.
-    pub(super) fn begin_trial(&mut self) -> Trial {
-        self.document.end_step();
-        Trial {
-            revision: self.document.revision(),
-            is_applied: false,
-        }
-    }
-
-    /// Whether something else has changed the text since the last attempt, which then stays.
-    pub(super) fn is_overtaken(&self, trial: &Trial) -> bool {
-        trial.revision != self.document.revision()
-    }
-
-    /// Replaces the last attempt by another one, whose edits are those of the text before the trial;
-    /// without edits that is restored. On failure, with the reason, as well.
-    pub(super) fn try_instead(
-        &mut self,
-        trial: &mut Trial,
-        edits: impl FnOnce(&Self) -> Result<Vec<Edit>, String>,
-    ) -> Result<(), String> {
-        let was_applied = std::mem::take(&mut trial.is_applied);
-        if was_applied {
-            self.document.reject();
-            self.cursor.renew(self.document.source());
-        }
-        let outcome = edits(self).and_then(|edits| {
-            trial.is_applied = !edits.is_empty();
-            let made = if trial.is_applied {
-                self.try_edits_anew(&edits)
-            } else {
-                Ok(())
-            };
-            made.map_err(|refused| refused.message)
-        });
-        trial.is_applied &= outcome.is_ok();
-        if was_applied && !trial.is_applied {
-            self.relower();
-        }
-        trial.revision = self.document.revision();
-        outcome
-    }
-
-    /// Keeps the last attempt as one undo step.
-    pub(super) fn keep_trial(&mut self) {
-        self.document.end_step();
-    }
-
-    /// Puts the text back as it was before the trial, unless something else has changed it.
-    pub(super) fn end_trial(&mut self, mut trial: Trial) {
-        if !self.is_overtaken(&trial) {
-            let _ = self.try_instead(&mut trial, |_| Ok(Vec::new()));
-        }
-        self.document.end_step();
-    }
+    pub(super) is_applied: bool,
+    /// The marked nodes, whose marks go if an attempt adds a node.
+    pub(super) marks: BTreeSet<Node>,
 }

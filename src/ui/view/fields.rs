@@ -7,9 +7,11 @@ use ratatui::style::{Modifier, Style};
 use ratatui::widgets::{Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
+use super::list::swatch;
 use super::row::{self, Row};
 use crate::language::Node;
-use crate::language::table::Kind;
+use crate::language::table::{Category, Kind};
+use crate::scene::Rgb;
 use crate::text::{counted, parse_number, without_suffix};
 use crate::ui::app::{App, FieldRow, Provenance, Typing};
 use crate::ui::fit::wrap;
@@ -111,7 +113,7 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
     row.put(if cursor.is_some() { "▸" } else { " " }, selected);
     row.put_in(field.field.key, row.room().saturating_sub(2), selected);
     row.skip_to(name.right().saturating_sub(2));
-    match field.colour() {
+    match dot(app, field) {
         _ if field.is_all(Provenance::WorkingView) => row.put("*", theme::WARNING),
         Some(colour) => row.put("●", theme::swatch(colour)),
         None => row.put(" ", Style::new()),
@@ -147,6 +149,18 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
         };
         typed(typing, room, buffer);
     }
+}
+
+/// The colour of a field, or of the material that it names.
+fn dot(app: &App, field: &FieldRow) -> Option<Rgb> {
+    let named = || match (field.field.kind, app.cursor.selected()) {
+        (
+            Kind::Reference(Category::Material) | Kind::Name(Category::Material),
+            Node::Object(object),
+        ) => swatch(app, Node::Material(app.source().material(object)?)),
+        _ => None,
+    };
+    field.colour().or_else(named)
 }
 
 /// Draws a number from 0 to 1 as a bar.

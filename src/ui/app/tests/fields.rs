@@ -222,6 +222,42 @@ fn a_new_name_creates_what_it_names_in_the_same_step() {
 }
 
 #[test]
+fn a_new_texture_stands_before_its_use_and_marked_things_follow() {
+    let textures = "texture ID 1 checker 8 8  1 1 1  0 0 0\nuse colour ID 1 mat ID 1\n";
+    let text = dat::SCENE.replace("obj sphere ID 1", &format!("{textures}obj sphere ID 1"));
+    let mut app = opened_as("a.dat", &text).0;
+    app.select(Node::Material(0));
+    press(&mut app, "e");
+    let fields = app.fields();
+    let field = fields.iter().position(|row| row.field.key == "texture");
+    app.cursor.field = field.expect("it uses one");
+    press(&mut app, "<Enter>5<Enter>");
+    let created = textures.replace(
+        "\nuse colour ID 1",
+        "\ntexture ID 5 checker 8 8  0.8 0.8 0.8  0.2 0.2 0.2\nuse colour ID 5",
+    );
+    assert_eq!(app.document.text(), text.replace(textures, &created));
+    press(&mut app, "u<Esc>");
+    app.select(Node::Object(0));
+    press(&mut app, "  ke<Enter>42");
+    let marked = |id: &str| {
+        let first = app
+            .document
+            .text()
+            .contains(&format!("ID 1 mat ID {id}  0 0 0"));
+        first
+            && app
+                .document
+                .text()
+                .contains(&format!("ID 2 mat ID {id}  .5 0 0"))
+    };
+    assert!(marked("42"), "{}", app.document.text());
+    press(&mut app, "<Back><Back>7<Enter>");
+    let both = text.replace("mat ID 1  0 0 0  1", "mat ID 7  0 0 0  1");
+    assert_eq!(app.document.text(), both);
+}
+
+#[test]
 fn what_cannot_be_chosen_or_created_stays_in_the_list() {
     let mut app = opened_as("a.dat", dat::SCENE).0;
     app.select(Node::Object(0));

@@ -1,0 +1,166 @@
+//! Picking a colour: each change is tried out in the text at once, and the whole is one undo step.
+
+use super::hsv::Hsv;
+use super::literals::{self, plain};
+use super::picker::{ColourPicker, PickerRow, rounded};
+use super::{App, colours};
+use crate::language::Placed;
+use crate::language::table::Kind;
+use crate::scene::Rgb;
+use crate::text::{parse_number, spell_like};
+use crate::ui::keymap::Stride;
+
+/// The number of the scene's colours offered.
+const SWATCHES: usize = 30;
+
+impl App {
+    /// Opens the colour picker at the current field.
+    pub(super) fn open_picker(&mut self) {
+        let Some(row) = self.field_row(self.cursor.field) else {
+            return;
+        };
+        let Some(before) = row.colour() else {
+            self.overlays
+                .fail(format!("{} is not a colour", row.field.key));
+            return;
+        };
+        self.overlays.picker = Some(ColourPicker {
+            key: row.field.key,
+            row: PickerRow::Hue,
+            colour: Hsv::of(before),
+            before,
+            swatches: colours::of_scene(self.source(), SWATCHES),
+            swatch: None,
+            trial: self.begin_trial(),
+        });
+    }
+
+    /// Moves the cursor of the colour picker by rows.
+    pub(super) fn move_picker(&mut self, rows: isize) {
+        if let Some(picker) = &mut self.overlays.picker {
+            let last = PickerRow::ALL.len() - 1;
+            let at = (picker.row as usize).saturating_add_signed(rows).min(last);
+            picker.row = PickerRow::ALL[at];
+        }
+    }
+
+    /// Changes what the colour picker's cursor is on by steps.
+    pub(super) fn step_colour(&mut self, steps: i8, stride: Stride) {
+        let stride = match stride {
+            Stride::Plain => self.cursor.stride,
+            held => held,
+        };
+        let steps = stride.of(f64::from(steps));
+        self.change_colour(|picker| picker.step(steps));
+    }
+
+    /// Moves a row's marker to a place on its bar.
+    pub(super) fn place_colour(&mut self, row: PickerRow, share: f64) {
+        self.change_colour(|picker| {
+            picker.row = row;
+            picker.colour = picker.at_share(row, share);
+        });
+    }
+
+    /// Takes one of the scene's colours.
+    pub(super) fn take_swatch(&mut self, index: usize) {
+        self.change_colour(|picker| {
+            if let Some(&colour) = picker.swatches.get(index) {
+                picker.row = PickerRow::Swatches;
+                picker.swatch = Some(index);
+                picker.colour = Hsv::of(colour);
+            }
+        });
+    }
+
+    /// Takes a pasted colour: three numbers or `#rrggbb`.
+    pub(super) fn paste_colour(&mut self, text: &str) {
+        let pasted = literals::all_of(Kind::Colour, text)
+            .and_then(|literals| colours::of_literals(Kind::Colour, &literals));
+        match pasted {
+            Some(colour) => self.change_colour(|picker| picker.colour = Hsv::of(colour)),
+            None => self
+                .overlays
+                .fail("cannot paste this: expected three numbers or #rrggbb"),
+        }
+    }
+
+    /// Keeps the colour and closes the picker.
+    pub(super) fn confirm_colour(&mut self) {
+        self.overlays.picker = None;
+        self.keep_trial();
+    }
+
+    /// Puts the colour back and closes the picker.
+    pub(super) fn cancel_colour(&mut self) {
+        if let Some(picker) = self.overlays.picker.take() {
+            self.end_trial(picker.trial);
+        }
+    }
+
+    /// Changes the colour chosen, and the text with it.
+    fn change_colour(&mut self, change: impl FnOnce(&mut ColourPicker)) {
+        let Some(mut picker) = self.overlays.picker.take() else {
+            return;
+        };
+        if self.is_overtaken(&picker.trial) {
+            self.overlays
+                .warn("the scene has changed on disk; the colour so far is kept");
+            return;
+        }
+        change(&mut picker);
+        let colour = picker.colour.rgb();
+        let outcome = self.try_instead(&mut picker.trial, |app| {
+            let edits = app.cursor.current().map(|placed| {
+                let values = app.colour_values(placed, colour);
+                app.edits_of(&[(placed, &values)])
+            });
+            Ok(edits.unwrap_or_default())
+        });
+        if let Err(reason) = outcome {
+            self.overlays.fail(reason);
+        }
+        self.overlays.picker = Some(picker);
+    }
+
+    /// The literals that give a field a colour; none for channels that have their value already.
+    fn colour_values(&self, placed: &Placed, colour: Rgb) -> Vec<(usize, String)> {
+        let present = colours::literals(self.source(), placed);
+        let number = |at: usize| {
+            let literal = present.get(at).map(|literal| plain(literal));
+            literal.and_then(|literal| parse_number(literal).ok())
+        };
+        let mut values = Vec::new();
+        let scale = match (placed.field.kind, number(3)) {
+            (Kind::ScaledColour, Some(0.0)) => {
+                values.push((3, "1".to_owned()));
+                1.0
+            }
+            (Kind::ScaledColour, Some(scale)) => scale,
+            _ => 1.0,
+        };
+        let channels = colour.to_array();
+        for (at, channel) in channels.into_iter().enumerate() {
+            let old = number(at).unwrap_or_default();
+            if (channel - scale * old).abs() <= 1e-9 * channel.abs().max(1e-6) {
+                continue;
+            }
+            let new = rounded(channel / scale, decimals(channels));
+            let literal = match (placed.default_of(at), present.get(at)) {
+                (None, Some(old)) => spell_like(old.trim(), new),
+                _ => new.to_string(),
+            };
+            if new != old {
+                values.push((at, literal));
+            }
+        }
+        values.sort_by_key(|(at, _)| *at);
+        values
+    }
+}
+
+/// The decimals of a colour's channels: finer than 1/255, and than a hundredth of dark ones.
+fn decimals(channels: [f64; 3]) -> usize {
+    let brightest = channels.into_iter().fold(0.0, f64::max);
+    if brightest < 0.1 { 4 } else { 3 }
+}
