@@ -117,6 +117,15 @@ impl Quadric {
         Chart::of_ball(line.position + (hit.t - line.start) * line.direction)
     }
 
+    /// A function that is at most 0 inside the region only, continuous and without a scale.
+    pub(super) fn excess(&self, point: DVec3) -> f64 {
+        let position = point - self.form.centre;
+        let p = self.form.map_vector(position) + self.form.offset;
+        let outside = |half: &HalfSpace| half.normal.dot(position) - half.distance;
+        let curved = self.form.value(p);
+        self.half_spaces.iter().map(outside).fold(curved, f64::max)
+    }
+
     /// The number of parts.
     pub(super) fn parts(&self) -> u32 {
         1 + self.half_spaces.len() as u32
