@@ -49,6 +49,7 @@ mod typed;
 mod typing;
 mod update;
 mod viewing;
+mod wires;
 
 use std::time::Duration;
 
@@ -67,6 +68,7 @@ pub use palette::{Completion, Palette};
 pub use picture::{Picture, Shown};
 pub use pictures::{Pictures, Quality};
 pub use transform::Transform;
+pub use wires::Wires;
 
 /// A second Ctrl-C within this time ends the program.
 const INTERRUPT_AGAIN: Duration = Duration::from_secs(2);

@@ -287,6 +287,7 @@ impl App {
             Action::Zoom => self.toggle_zoom(),
             Action::Resize(step) => self.resize_panels(step),
             Action::Show(aov) => self.overlays.say(self.pictures.show(aov)),
+            Action::Wireframe => self.overlays.say(self.pictures.show_wires()),
             Action::Integrator => {
                 let words = self.pictures.toggle_integrator(self.scene.as_deref());
                 self.overlays.say(words);

@@ -207,6 +207,8 @@ pub enum Action {
     Resize(i32),
     /// Shows one of the auxiliary images, or the lit picture.
     Show(Option<Aov>),
+    /// Shows the preview as a wireframe.
+    Wireframe,
     /// Switches between Whitted ray tracing and path tracing.
     Integrator,
     /// Redraws every cell, in case another program has written over them.

@@ -79,6 +79,13 @@ const PICTURES: Scope = Scope::These(&[
     Context::In(Fly),
     Context::In(Trace),
 ]);
+/// Such contexts with the preview on screen.
+const PREVIEWS: Scope = Scope::These(&[
+    Context::In(Select),
+    Context::In(View),
+    Context::In(Fly),
+    Context::In(Pick),
+]);
 const PICK: Scope = Scope::These(&[Context::In(Pick)]);
 const HELP: Scope = Scope::These(&[Context::Help]);
 const MESSAGES: Scope = Scope::These(&[Context::Messages]);
@@ -256,6 +263,8 @@ pub(super) const TABLE: &[Binding] = &[
     bind(PICTURES, &[c('3')], A::Show(Some(Aov::Normal)), "show normals"),
     bind(PICTURES, &[c('4')], A::Show(Some(Aov::Object)), "show objects, one colour each"),
     bind(PICTURES, &[c('5')], A::Show(Some(Aov::Albedo)), "show unlit colours"),
+
+    bind(PREVIEWS, &[c('6')], A::Wireframe, "show a wireframe, for slow links"),
 
     bind(TRACE, &[c('x')], A::Stop, "stop"),
     bind(SELECT, &[c('x')], A::Stop, "cancel the export"),

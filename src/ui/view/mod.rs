@@ -22,6 +22,7 @@ mod palette;
 mod picture;
 mod row;
 mod status;
+mod wireframe;
 
 #[cfg(test)]
 mod tests;

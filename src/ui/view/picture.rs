@@ -12,6 +12,7 @@ use unicode_width::UnicodeWidthStr;
 use super::characters::Characters;
 use super::inks::{Glyphs, Inks};
 use super::row::Row;
+use super::wireframe;
 use crate::render::{pixel_of, pixel_width};
 use crate::scene::Size;
 use crate::ui::app::{App, FirstReading, Shown};
@@ -24,6 +25,11 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     let Some((cells, size)) = raster(area, app.output()) else {
         return;
     };
+    if let Some(wires) = app.wires().and_then(|wires| wires.lines(size)) {
+        wireframe::paint(wires, &app.marked_objects(), cells, buffer);
+        overlays(app, area, cells, size, buffer);
+        return;
+    }
     let shown = &app.picture().shown;
     if shown.size.pixels() == 0 || shown.pixels.len() != shown.size.pixels() {
         if app.is_empty() {
@@ -39,6 +45,11 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         Cow::Owned(shown.resampled(size))
     };
     paint(&shown, inks, cells, buffer);
+    overlays(app, area, cells, size, buffer);
+}
+
+/// Draws what lies over the picture.
+fn overlays(app: &App, area: Rect, cells: Rect, size: Size, buffer: &mut Buffer) {
     if app.mode == Mode::Pick {
         cross(app, cells, buffer);
     }

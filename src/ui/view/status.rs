@@ -254,6 +254,10 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
 
 /// Adds the auxiliary image shown, or the integrator, with a star if it differs from the scene's.
 fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
+    if app.wires().is_some() {
+        say(7, "wireframe".to_owned(), theme::WARNING);
+        return;
+    }
     if let Some(aov) = app.pictures.aov {
         say(7, aov.name().to_owned(), theme::WARNING);
         return;
