@@ -48,7 +48,7 @@ pub use mesh::{
 };
 pub use outline::Detail;
 pub use plane::Plane;
-pub use quadric::Quadric;
+pub use quadric::{Quadric, principal_axes};
 pub use ray::{Packet, Packets, Ray, Rays};
 pub use shape::Shape;
 pub use solid::Solid;

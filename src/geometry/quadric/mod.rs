@@ -9,6 +9,7 @@ use glam::DVec3;
 use super::line::{Ends, half_line, roots};
 use super::transform::{normalise, power_of_two};
 use super::{Aabb, Chart, Crossings, Hit, Ray, Surface};
+pub use axes::principal_axes;
 use form::{Form, QuadricLine};
 
 /// The part of the curved side; plane i is part 1 + i.

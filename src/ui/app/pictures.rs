@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::marks;
 use super::picture::Picture;
 use super::transform::Transform;
 use super::wires::Wires;
@@ -27,6 +28,8 @@ pub struct Pictures {
     pub wires: Option<Wires>,
     /// Whether the selected object is outlined in SELECT mode.
     pub(super) outline: Outline,
+    /// Which marks are shown of what has no surface.
+    pub(super) marks: marks::Shown,
     /// The cell of the crosshair in [`Mode::Pick`], relative to the picture's upper left corner;
     /// `None` before the first pick.
     pub cross: Option<(u16, u16)>,
@@ -80,6 +83,7 @@ impl Pictures {
             aov: None,
             wires: None,
             outline: Outline::default(),
+            marks: marks::Shown::default(),
             cross: None,
             net: None,
             due: false,
@@ -96,6 +100,7 @@ impl Pictures {
             aov: self.aov,
             wires: self.wires.take().map(|_| Wires::default()),
             outline: self.outline,
+            marks: self.marks,
             net: self.net,
             ..Self::new(self.quality)
         };
@@ -233,7 +238,7 @@ impl Pictures {
 
     /// Selects what all pictures show, light or an AOV, and returns its description.
     pub(super) fn show(&mut self, aov: Option<Aov>) -> &'static str {
-        self.due |= self.aov != aov || self.wires.take().is_some();
+        self.due |= self.wires.take().is_some() || self.aov != aov;
         self.aov = aov;
         match aov {
             None => "light",

@@ -46,12 +46,14 @@ const START: [(&str, &str); 2] = [
     ("halflight doctor", "what was detected, and why"),
 ];
 
-const MOUSE: [(&str, &str); 7] = [
+const MOUSE: [(&str, &str); 9] = [
     ("click the list", "select"),
     ("click a field", "move the cursor there"),
     ("click it again", "type a value"),
-    ("click the picture", "select the object there"),
+    ("click the picture", "select the object or mark there"),
     ("drag it in VIEW", "orbit"),
+    ("drag it with Ctrl or right", "in VIEW, pan"),
+    ("drag it in MOVE", "move, rotate or scale"),
     ("drag the border", "resize the panels"),
     ("wheel", "scroll; in VIEW, dolly"),
 ];

@@ -15,7 +15,7 @@ use super::row::Row;
 use super::wireframe;
 use crate::render::{pixel_of, pixel_width};
 use crate::scene::Size;
-use crate::ui::app::{App, FirstReading, Shown};
+use crate::ui::app::{App, FirstReading, Mark, MarkKind, Shown};
 use crate::ui::keymap::Mode;
 use crate::ui::layout::{self, raster};
 use crate::ui::theme;
@@ -27,7 +27,7 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     };
     if let Some(wires) = app.wires().and_then(|wires| wires.lines(size)) {
         wireframe::paint(wires, &app.marked_objects(), cells, buffer);
-        overlays(app, area, cells, size, buffer);
+        overlays(app, inks.glyphs, area, (cells, size), buffer);
         return;
     }
     let shown = &app.picture().shown;
@@ -45,11 +45,20 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         Cow::Owned(shown.resampled(size))
     };
     paint(&shown, inks, cells, buffer);
-    overlays(app, area, cells, size, buffer);
+    overlays(app, inks.glyphs, area, (cells, size), buffer);
 }
 
 /// Draws what lies over the picture.
-fn overlays(app: &App, area: Rect, cells: Rect, size: Size, buffer: &mut Buffer) {
+fn overlays(
+    app: &App,
+    glyphs: Glyphs,
+    area: Rect,
+    (cells, size): (Rect, Size),
+    buffer: &mut Buffer,
+) {
+    for mark in app.marks() {
+        put_mark(app, mark, glyphs, cells, buffer);
+    }
     if app.mode == Mode::Pick {
         cross(app, cells, buffer);
     }
@@ -118,6 +127,34 @@ fn opening(name: &str, bytes: u64) -> String {
     }
 }
 
+/// Draws the mark of a light, a camera or a group.
+fn put_mark(app: &App, mark: Mark, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
+    let (symbol, plain, style) = match mark.kind {
+        MarkKind::Light => ("✶", "*", theme::WARNING),
+        MarkKind::Camera => ("◎", "@", theme::ACCENT),
+        MarkKind::Group => ("◇", "#", theme::GOOD),
+    };
+    let (x, y) = (cells.x + mark.cell.0, cells.y + mark.cell.1);
+    let Some(cell) = buffer
+        .cell_mut((x, y))
+        .filter(|_| cells.contains((x, y).into()))
+    else {
+        return;
+    };
+    let symbol = if glyphs == Glyphs::Characters {
+        plain
+    } else {
+        symbol
+    };
+    let style = if app.cursor.selected() == mark.node {
+        theme::chip(style)
+    } else {
+        style.bg(Color::Black)
+    };
+    cell.set_symbol(symbol).set_style(Style::reset());
+    cell.set_style(style);
+}
+
 /// Marks the cell to pick from and names the object there.
 fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
     let Some((column, row)) = app.pictures.cross else {
@@ -130,7 +167,9 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
         cell.set_symbol("┼").set_style(Style::reset());
         cell.set_style(theme::chip(Style::new()));
     }
-    let name = match app.node_under(u32::from(column), 2 * u32::from(row)) {
+    let marked = app.mark_at((column, row));
+    let under = || app.node_under(u32::from(column), 2 * u32::from(row));
+    let name = match marked.map_or_else(under, |node| Ok(Some(node))) {
         Ok(Some(node)) => app.source().name(node),
         Ok(None) => "nothing".to_owned(),
         Err(reason) => reason.to_owned(),

@@ -84,7 +84,7 @@ fn character(mask: u8) -> char {
 
 #[cfg(test)]
 mod tests {
-    use ratatui::style::Style;
+    use ratatui::style::Color;
 
     use super::*;
 
@@ -114,7 +114,7 @@ mod tests {
         let down = [[3.0, 0.0], [3.0, 3.5]];
         let diagonal = [[4.0, 0.0], [6.0, 2.0]];
         let buffer = painted(&[(across, 0), (down, 0), (diagonal, 0)], &[], 3);
-        assert_eq!(rows(&buffer), ["⠉⠉⠁⡇⠑⢄", "   ⡇", ""]);
+        assert_eq!(rows(&buffer), ["⠉⠉⠁⡇⠑⢄", "   ⡇  ⠁", ""]);
         // A line on the right edge of the picture has no cell of its own.
         let edge = [[16.0, 0.0], [16.0, 5.0]];
         assert_eq!(rows(&painted(&[(edge, 0)], &[], 3)), [""; 3]);
@@ -125,7 +125,7 @@ mod tests {
         let at = |x| [[x, 0.0], [x, 0.0]];
         let buffer = painted(&[(at(0.0), 4), (at(1.0), 7), (at(1.0), 1)], &[2, 7], 3);
         let style = |x: u16| buffer[(x, 0)].style();
-        assert_eq!(style(0), Style::reset());
+        assert_eq!(style(0).fg, Some(Color::Reset));
         assert_eq!(style(1).fg, theme::MARKED.fg);
     }
 

@@ -7,6 +7,7 @@ mod editing;
 mod exports;
 mod fields;
 mod making;
+mod marks;
 mod messages;
 mod moving;
 mod opening;
@@ -19,6 +20,7 @@ mod starting;
 mod structure;
 mod transforming;
 mod views;
+mod wires;
 mod xml;
 
 use std::path::{Path, PathBuf};
