@@ -244,9 +244,9 @@ const MOVE_HINTS: &[Hint] = &[
         "step",
     ),
     (&[A::Lock(0), A::Lock(1), A::Lock(2)], "axis"),
-    (&[A::Snap], "grid"),
     (&[A::Accept], "confirm"),
     (&[A::Back], "cancel"),
+    (&[A::Snap], "grid"),
 ];
 const PICK_HINTS: &[Hint] = &[
     (

@@ -56,14 +56,14 @@ fn overlays(
     (cells, size): (Rect, Size),
     buffer: &mut Buffer,
 ) {
+    if app.mode == Mode::Move {
+        axis(app, cells, size, buffer);
+    }
     for mark in app.marks() {
         put_mark(app, mark, glyphs, cells, buffer);
     }
     if app.mode == Mode::Pick {
         cross(app, cells, buffer);
-    }
-    if app.mode == Mode::Move {
-        axis(app, cells, size, buffer);
     }
     if app.is_empty() {
         invitation(area, buffer);
