@@ -1,7 +1,7 @@
 //! Marks of what has no surface in the picture: lights, the camera and groups.
 
 use super::App;
-use super::pictures::Outline;
+use super::pictures::{Marking, Outline};
 use crate::language::Node;
 use crate::render::pixel_of;
 use crate::scene::Emitter;
@@ -35,23 +35,13 @@ pub enum MarkKind {
     Group,
 }
 
-/// Which marks are shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Shown {
-    /// Those of the selected kind.
-    #[default]
-    Selected,
-    /// All.
-    All,
-}
-
 impl App {
     /// The marks over the picture: of the kind of the selected node once the user has selected
     /// something; all of them while picking or on request.
     pub fn marks(&self) -> Vec<Mark> {
         let asked = match (self.mode, self.pictures.marks) {
-            (Mode::Pick, _) | (Mode::Select | Mode::Move, Shown::All) => None,
-            (Mode::Select | Mode::Move, Shown::Selected) => match self.selected_kind() {
+            (Mode::Pick, _) | (Mode::Select | Mode::Move, Marking::All) => None,
+            (Mode::Select | Mode::Move, Marking::Selected) => match self.selected_kind() {
                 Some(kind) if self.pictures.outline == Outline::Marked => Some(kind),
                 _ => return Vec::new(),
             },
@@ -80,8 +70,8 @@ impl App {
 
     pub(super) fn toggle_marks(&mut self) {
         let (shown, words) = match self.pictures.marks {
-            Shown::Selected => (Shown::All, "lights, cameras and groups are marked"),
-            Shown::All => (Shown::Selected, "only what is selected is marked"),
+            Marking::Selected => (Marking::All, "lights, cameras and groups are marked"),
+            Marking::All => (Marking::Selected, "only what is selected is marked"),
         };
         self.pictures.marks = shown;
         self.overlays.say(words);

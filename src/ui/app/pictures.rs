@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::marks;
 use super::picture::Picture;
 use super::transform::Transform;
 use super::wires::Wires;
@@ -29,7 +28,7 @@ pub struct Pictures {
     /// Whether the selected object is outlined in SELECT mode.
     pub(super) outline: Outline,
     /// Which marks are shown of what has no surface.
-    pub(super) marks: marks::Shown,
+    pub(super) marks: Marking,
     /// The cell of the crosshair in [`Mode::Pick`], relative to the picture's upper left corner;
     /// `None` before the first pick.
     pub cross: Option<(u16, u16)>,
@@ -72,6 +71,16 @@ pub(super) enum Outline {
     Hidden,
 }
 
+/// Which marks are shown of what has no surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Marking {
+    /// Those of the selected kind.
+    #[default]
+    Selected,
+    /// All.
+    All,
+}
+
 impl Pictures {
     /// Creates the state without any picture.
     pub(super) fn new(quality: Quality) -> Self {
@@ -83,7 +92,7 @@ impl Pictures {
             aov: None,
             wires: None,
             outline: Outline::default(),
-            marks: marks::Shown::default(),
+            marks: Marking::default(),
             cross: None,
             net: None,
             due: false,

@@ -14,6 +14,7 @@ mod help;
 mod history;
 mod inks;
 mod list;
+mod marks;
 mod menu;
 mod message;
 mod oklab;

@@ -12,10 +12,10 @@ use unicode_width::UnicodeWidthStr;
 use super::characters::Characters;
 use super::inks::{Glyphs, Inks};
 use super::row::Row;
-use super::wireframe;
+use super::{marks, wireframe};
 use crate::render::{pixel_of, pixel_width};
 use crate::scene::Size;
-use crate::ui::app::{App, FirstReading, Mark, MarkKind, Shown};
+use crate::ui::app::{App, FirstReading, Shown};
 use crate::ui::keymap::Mode;
 use crate::ui::layout::{self, raster};
 use crate::ui::theme;
@@ -59,9 +59,7 @@ fn overlays(
     if app.mode == Mode::Move {
         axis(app, cells, size, buffer);
     }
-    for mark in app.marks() {
-        put_mark(app, mark, glyphs, cells, buffer);
-    }
+    marks::render(app, glyphs, cells, buffer);
     if app.mode == Mode::Pick {
         cross(app, cells, buffer);
     }
@@ -125,34 +123,6 @@ fn opening(name: &str, bytes: u64) -> String {
         megabytes @ ..1e3 => format!("opening {name}, {megabytes:.0} MB…"),
         megabytes => format!("opening {name}, {:.1} GB…", megabytes / 1e3),
     }
-}
-
-/// Draws the mark of a light, a camera or a group.
-fn put_mark(app: &App, mark: Mark, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
-    let (symbol, plain, style) = match mark.kind {
-        MarkKind::Light => ("✶", "*", theme::WARNING),
-        MarkKind::Camera => ("◎", "@", theme::ACCENT),
-        MarkKind::Group => ("◇", "#", theme::GOOD),
-    };
-    let (x, y) = (cells.x + mark.cell.0, cells.y + mark.cell.1);
-    let Some(cell) = buffer
-        .cell_mut((x, y))
-        .filter(|_| cells.contains((x, y).into()))
-    else {
-        return;
-    };
-    let symbol = if glyphs == Glyphs::Characters {
-        plain
-    } else {
-        symbol
-    };
-    let style = if app.cursor.selected() == mark.node {
-        theme::chip(style)
-    } else {
-        style.bg(Color::Black)
-    };
-    cell.set_symbol(symbol).set_style(Style::reset());
-    cell.set_style(style);
 }
 
 /// Marks the cell to pick from and names the object there.

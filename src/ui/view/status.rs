@@ -343,7 +343,7 @@ mod tests {
     use super::*;
     use crate::language::Language;
     use crate::render::Aov;
-    use crate::ui::app::{Message, Typing};
+    use crate::ui::app::{Message, Typing, Wires};
     use crate::ui::view::tests::{app, app_of, drawn, retype};
     use tui_input::Input;
 
@@ -383,6 +383,8 @@ mod tests {
         assert_eq!(said(&app), ["path*"]);
         app.pictures.aov = Some(Aov::Depth);
         assert_eq!(said(&app), ["depth"]);
+        app.pictures.wires = Some(Wires::default());
+        assert_eq!(said(&app), ["wireframe"]);
         let paths = "<xml><scene/><camera gamma='sRGB'/></xml>";
         assert_eq!(said(&app_of(Language::Xml, paths)), ["path"]);
     }
