@@ -6,7 +6,7 @@
 //! A hit is found in two steps: [`Shape::hit`] returns a distance for every candidate, and
 //! [`Shape::surface`] the point and normal, for the nearest hit only. [`Shape::spans`] returns the
 //! parts of a line inside a solid, more than one if the solid is not convex; squares and meshes are
-//! surfaces without an inside. There is no epsilon: the point is re-projected onto its surface, and
+//! surfaces without an inside. [`Shape::outline`] returns lines along the surface, for wireframes. There is no epsilon: the point is re-projected onto its surface, and
 //! [`Surface::leave`] starts a secondary ray a few ulps off the surface.
 
 mod aabb;
@@ -21,6 +21,7 @@ mod hit;
 pub mod lanes;
 mod line;
 mod mesh;
+mod outline;
 mod plane;
 mod quadric;
 mod ray;
@@ -45,8 +46,9 @@ pub use hit::{Crossings, Hit, Hits, Spans};
 pub use mesh::{
     ABSENT, Attribute, Instance, Mesh, MeshError, MeshLine, MeshLines, MeshParts, SlotRun,
 };
+pub use outline::Detail;
 pub use plane::Plane;
-pub use quadric::Quadric;
+pub use quadric::{Quadric, principal_axes};
 pub use ray::{Packet, Packets, Ray, Rays};
 pub use shape::Shape;
 pub use solid::Solid;

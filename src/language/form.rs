@@ -4,6 +4,7 @@
 use glam::{DMat3, DVec3};
 
 use crate::geometry::normalise;
+use crate::scene::Camera;
 
 /// An oriented box that a solid fills.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,6 +105,25 @@ impl Motion {
         match self {
             Self::Turn { .. } => self.linear() * direction,
             Self::Move(_) | Self::Scale { .. } => direction,
+        }
+    }
+
+    /// A camera after the motion, with its target. Points are rounded to this number of decimals
+    /// where they change.
+    #[must_use]
+    pub fn camera(&self, camera: &Camera, decimals: usize) -> Camera {
+        let place = |old: DVec3, new: DVec3, decimals| {
+            let component = |at: usize| rounded(old[at], new[at], decimals);
+            DVec3::from_array([0, 1, 2].map(component))
+        };
+        let Camera {
+            eye, target, up, ..
+        } = *camera;
+        Camera {
+            eye: place(eye, self.point(eye), decimals),
+            target: place(target, self.point(target), decimals),
+            up: place(up, self.direction(up), 17),
+            ..*camera
         }
     }
 

@@ -101,6 +101,58 @@ impl Projection {
         2.0 * self.half_width * self.scale_at(point).abs() / f64::from(self.raster.width)
     }
 
+    /// The part of a line inside the picture and between the depth limits, as its ends in pixels;
+    /// `None` if all of it is outside.
+    pub(crate) fn line(&self, ends: [DVec3; 2]) -> Option<[[f64; 2]; 2]> {
+        let [start, end] = ends;
+        let depths = ends.map(|end| (end - self.eye).dot(self.forward));
+        let farthest = depths[0].max(depths[1]);
+        let near = self.depths[0].max(NEAR * farthest);
+        if farthest <= 0.0 {
+            return None;
+        }
+        let mut part = [0.0, 1.0];
+        cut(&mut part, near - depths[0], depths[0] - depths[1]);
+        cut(&mut part, depths[0] - self.depths[1], depths[1] - depths[0]);
+        let [from, to] = part;
+        if to < from {
+            return None;
+        }
+        let shown = |share: f64| self.pixel(start + share * (end - start));
+        let (a, b) = (shown(from)?, shown(to)?);
+        let limits = [self.raster.width, self.raster.height].map(f64::from);
+        let mut part = [0.0, 1.0];
+        for axis in 0..2 {
+            cut(&mut part, -a[axis], a[axis] - b[axis]);
+            cut(&mut part, a[axis] - limits[axis], b[axis] - a[axis]);
+        }
+        let [from, to] = part;
+        let at = |share: f64| [0, 1].map(|axis| a[axis] + share * (b[axis] - a[axis]));
+        (from <= to).then(|| [at(from), at(to)])
+    }
+
+    /// About how many pixels a sphere is wide; `None` if it is outside the picture or the depth
+    /// limits.
+    pub(crate) fn diameter(&self, centre: DVec3, radius: f64) -> Option<f64> {
+        let offset = centre - self.eye;
+        let depth = offset.dot(self.forward);
+        if depth + radius <= self.depths[0] || self.depths[1] <= depth - radius {
+            return None;
+        }
+        let (nearest, scale, slant) = match self.bundle {
+            Bundle::FromTheEye => (depth.max(radius), depth, 1.0),
+            Bundle::SideBySide => (1.0, 1.0, 0.0),
+        };
+        for (axis, half) in [(self.right, self.half_width), (self.up, self.half_height)] {
+            // The distance from the plane through the eye and the edge of the picture.
+            let beyond = offset.dot(axis).abs() - half * scale;
+            if radius * libm::sqrt(1.0 + slant * half * half) < beyond {
+                return None;
+            }
+        }
+        Some(radius * f64::from(self.raster.width) / (self.half_width * nearest))
+    }
+
     /// The directions to the right, up and into the picture.
     pub(crate) fn axes(&self) -> [DVec3; 3] {
         [self.right, self.up, self.forward]
@@ -171,6 +223,21 @@ impl Projection {
             origin,
             direction: (sharp - origin).normalize(),
         }
+    }
+}
+
+/// The part of a line's depth that is too close to the eye to be projected.
+const NEAR: f64 = 1e-6;
+
+/// Cuts the part of a line to where `outside + share · change` is at most 0 (Liang and Barsky, "A new
+/// concept and method for line clipping", 1984).
+fn cut(part: &mut [f64; 2], outside: f64, change: f64) {
+    if change < 0.0 {
+        part[0] = part[0].max(-outside / change);
+    } else if 0.0 < change {
+        part[1] = part[1].min(-outside / change);
+    } else if 0.0 < outside {
+        part[1] = f64::NEG_INFINITY;
     }
 }
 

@@ -23,6 +23,8 @@
 //! ([`texture`]), shade according to [`shading`], and sample [`lights`] for [`direct`] light.
 //! [`optics`], [`microfacet`] and [`warp`] hold the formulas.
 //!
+//! [`wireframe`] projects the outlines of objects without tracing.
+//!
 //! Rays are intersected in packets of eight with one object after the other ([`packets`]), or
 //! singly with up to eight [`spheres`] at once ([`intersect`]), with bitwise equal results.
 
@@ -62,6 +64,7 @@ mod tracer;
 mod warp;
 mod wave;
 mod whitted;
+mod wireframe;
 mod worker;
 mod world;
 
@@ -73,6 +76,7 @@ pub use frame::{
 pub use place::{SurfacePoint, axes, pixel_of, pixel_width, surface_under};
 pub use refusal::Refusal;
 pub use renderer::{Renderer, Threads};
+pub use wireframe::{WireLine, Wireframe, wireframe};
 
 #[cfg(test)]
 mod tests;

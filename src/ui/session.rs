@@ -318,8 +318,11 @@ impl Session {
     fn draw(&mut self, urgency: Urgency) -> io::Result<()> {
         let now = Instant::now();
         let is_limited = self.link.is_limited();
+        self.app.follow_wires();
         if let Some((_, size)) = self.app.raster() {
             let allowance = match urgency {
+                // Nothing of the picture is sent.
+                _ if self.app.wires().is_some() => usize::MAX,
                 // The part that the user is waiting for is sent first, without the picture.
                 Urgency::Now if is_limited => 0,
                 _ => self.link.allowance(now),

@@ -258,6 +258,11 @@ impl Csg {
         leaf.solid.chart(ray, own)
     }
 
+    /// The solids that are combined.
+    pub(super) fn solids(&self) -> impl Iterator<Item = &Solid> {
+        self.leaves.iter().map(|leaf| &leaf.solid)
+    }
+
     /// The tags of the leaves.
     pub fn tags(&self) -> impl Iterator<Item = u32> {
         self.leaves.iter().map(|leaf| leaf.tag)

@@ -66,6 +66,20 @@ impl Instance {
         }
     }
 
+    /// The edges of its triangles, three each; of more than `most` triangles only every second,
+    /// third and so on.
+    pub(in crate::geometry) fn edges(&self, most: usize) -> impl Iterator<Item = [DVec3; 2]> {
+        let step = self.mesh.len().div_ceil(most.max(1));
+        let [x, y, z] = self.frame.axes();
+        let place =
+            move |corner: DVec3| self.frame.origin() + (corner.x * x + corner.y * y + corner.z * z);
+        let shown = self.mesh.triangles.iter().step_by(step.max(1));
+        shown.flat_map(move |triangle| {
+            let [a, b, c] = self.mesh.corners(*triangle).map(place);
+            [[a, b], [b, c], [c, a]]
+        })
+    }
+
     /// Transforms a ray to the space of the mesh; `None` if the mesh is behind it.
     ///
     /// The line starts near the mesh: at the ray's own start if that is near enough, otherwise in

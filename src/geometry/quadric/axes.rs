@@ -204,6 +204,12 @@ impl Axes {
     }
 }
 
+/// The eigenvalues and unit eigenvectors of a symmetric matrix, in no particular order.
+pub fn principal_axes(matrix: [[f64; 3]; 3]) -> ([f64; 3], [DVec3; 3]) {
+    let (lambda, axes) = eigen(matrix.map(|row| row.map(Double::of)));
+    (lambda.map(Double::round), axes.map(rounded))
+}
+
 /// Eigenvalues and unit eigenvectors of a symmetric matrix by Jacobi rotations: G. Golub,
 /// C. Van Loan, "Matrix Computations", 4th edition, section 8.5. They converge quadratically: ten
 /// sweeps are more than a matrix of 106 bits needs.

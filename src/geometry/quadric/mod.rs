@@ -9,6 +9,7 @@ use glam::DVec3;
 use super::line::{Ends, half_line, roots};
 use super::transform::{normalise, power_of_two};
 use super::{Aabb, Chart, Crossings, Hit, Ray, Surface};
+pub use axes::principal_axes;
 use form::{Form, QuadricLine};
 
 /// The part of the curved side; plane i is part 1 + i.
@@ -115,6 +116,15 @@ impl Quadric {
     pub fn chart(&self, ray: &Ray, hit: Hit) -> Chart {
         let line = self.form.line(ray);
         Chart::of_ball(line.position + (hit.t - line.start) * line.direction)
+    }
+
+    /// A function that is at most 0 inside the region only, continuous and without a scale.
+    pub(super) fn excess(&self, point: DVec3) -> f64 {
+        let position = point - self.form.centre;
+        let p = self.form.map_vector(position) + self.form.offset;
+        let outside = |half: &HalfSpace| half.normal.dot(position) - half.distance;
+        let curved = self.form.value(p);
+        self.half_spaces.iter().map(outside).fold(curved, f64::max)
     }
 
     /// The number of parts.

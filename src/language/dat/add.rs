@@ -107,10 +107,23 @@ pub(super) fn retyping(
     let new = SOLIDS.into_iter().find(|solid| solid.keyword() == kind);
     let new = new.ok_or_else(|| refused("only solids can change their type"))?;
     let shapeless = || refused("it has no size that another type could use");
-    let (old, spans, numbers) = source.object_numbers(index).ok_or_else(shapeless)?;
+    let (old, _, numbers) = source.object_numbers(index).ok_or_else(shapeless)?;
     let form = form(old, &numbers).ok_or_else(shapeless)?;
-    let literals = literals(new, &nearest(new, &form), &|number| number.to_string())?;
-    let record = source.span(node);
+    respelled(source, index, new, &nearest(new, &form))
+}
+
+/// Returns the edits that make an object one of another kind, of this form.
+pub(super) fn respelled(
+    source: &Source,
+    index: usize,
+    new: ObjectKind,
+    form: &Form,
+) -> Result<Vec<Edit>, StructureError> {
+    let shapeless =
+        || StructureError::Inexpressible("it has no size that another type could use".to_owned());
+    let (_, spans, _) = source.object_numbers(index).ok_or_else(shapeless)?;
+    let literals = literals(new, form, &|number| number.to_string())?;
+    let record = source.span(Node::Object(index));
     let mut tokens = source
         .tree
         .tokens_of(&source.text, source.origins.objects[index].record);

@@ -1,12 +1,12 @@
 //! The forms of `.dat` objects: conversion between the numbers of a record and a box that the solid
 //! fills, and motions of what has no such form.
 
-use glam::{DMat4, DVec3, DVec4};
+use glam::{DMat3, DMat4, DVec3, DVec4};
 
 use super::Source;
 use super::table::{LightKind, ObjectKind, RecordKind, SOURCES};
-use crate::geometry::normalise;
-use crate::language::form::{Form, Motion, PRECISE, rotated, rounded};
+use crate::geometry::{normalise, principal_axes};
+use crate::language::form::{Along, Form, Motion, PRECISE, rotated, rounded};
 use crate::language::frame::{Lengths, frameless, straight};
 use crate::language::structure::{Pose, number, replacements};
 use crate::language::table::Kind;
@@ -66,9 +66,10 @@ pub(super) fn put(kind: ObjectKind, form: &Form, numbers: &mut [f64]) -> Result<
         }
         Sphere => return Err("a sphere has a single radius: press c to make it an ellipsoid"),
         Ellipsoid => {
-            let is_world = |axis: &DVec3| 1.0 - axis.abs().max_element() < 1e-9;
-            if !form.axes.iter().all(is_world) {
-                return Err("a .dat ellipsoid is always axis-aligned");
+            if !is_aligned(form) {
+                return Err(
+                    "a .dat ellipsoid is always axis-aligned: press c to make it a quadric",
+                );
             }
             const { Ellipsoid.at("centre") }.put(numbers, form.centre.to_array());
             let radii = const { [Ellipsoid.at("rx"), Ellipsoid.at("ry"), Ellipsoid.at("rz")] };
@@ -114,6 +115,12 @@ pub(super) fn put(kind: ObjectKind, form: &Form, numbers: &mut [f64]) -> Result<
     Ok(())
 }
 
+/// Whether the axes of a form are those of the world, in any order.
+fn is_aligned(form: &Form) -> bool {
+    let is_world = |axis: &DVec3| 1.0 - axis.abs().max_element() < 1e-9;
+    form.axes.iter().all(is_world)
+}
+
 /// The keys of a quadric's coefficients, with their places in its symmetric matrix.
 const COEFFICIENTS: [(&str, usize, usize); 10] = [
     ("A", 0, 0),
@@ -147,11 +154,88 @@ fn put_matrix(matrix: &DMat4, numbers: &mut [f64]) {
     }
 }
 
+/// An eigenvalue below this fraction of the largest is due to rounding.
+const WEAK: f64 = 1e-9;
+
+/// The place and the principal axes of a quadric; `None` for a plane. Each axis has the number of the
+/// world's axis that it is nearest to. Along an axis without curvature, as of a cylinder, the place is
+/// in the middle of what the cuts leave.
+fn quadric_pose(numbers: &[f64], cuts: &[[f64; 4]]) -> Option<Pose> {
+    let matrix = matrix(numbers);
+    let rows = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|row| row.truncate().to_array());
+    let (mut values, mut axes) = principal_axes(rows);
+    let largest = values
+        .iter()
+        .fold(0.0, |most: f64, value| most.max(value.abs()));
+    if largest == 0.0 {
+        return None;
+    }
+    for world in 0..3 {
+        let share = |own: &usize| axes[*own][world].abs();
+        let nearest = (world..3).max_by(|a, b| share(a).total_cmp(&share(b)).then(b.cmp(a)));
+        let nearest = nearest.unwrap_or(world);
+        axes.swap(world, nearest);
+        values.swap(world, nearest);
+        if axes[world][world] < 0.0 {
+            axes[world] = -axes[world];
+        }
+    }
+    let slope = matrix.w_axis.truncate();
+    let mut centre = DVec3::ZERO;
+    for (value, axis) in values.into_iter().zip(axes) {
+        if WEAK * largest < value.abs() {
+            centre -= slope.dot(axis) / value * axis;
+        }
+    }
+    for (value, axis) in values.into_iter().zip(axes) {
+        if value.abs() <= WEAK * largest {
+            centre += middle(cuts, centre, axis) * axis;
+        }
+    }
+    Some(Pose { centre, axes })
+}
+
+/// The middle, from a point along an axis, of what the cuts across the axis leave; 0 if that has no
+/// end.
+fn middle(cuts: &[[f64; 4]], point: DVec3, axis: DVec3) -> f64 {
+    let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
+    for &[x, y, z, distance] in cuts {
+        let normal = DVec3::new(x, y, z);
+        let along = normal.dot(axis);
+        let end = (distance - normal.dot(point)) / along;
+        if (1.0 - WEAK) * normal.length() <= along {
+            ends[1] = ends[1].min(end);
+        } else if along <= -(1.0 - WEAK) * normal.length() {
+            ends[0] = ends[0].max(end);
+        }
+    }
+    let middle = 0.5 * ends[0] + 0.5 * ends[1];
+    if middle.is_finite() { middle } else { 0.0 }
+}
+
+/// The half-spaces that cut a quadric, each as n, d of n · x ≤ d.
+fn cuts(numbers: &[f64]) -> Vec<[f64; 4]> {
+    let count = RecordKind::Object(ObjectKind::Quadric).numbers();
+    let cuts = numbers[count..].chunks_exact(4);
+    cuts.map(|cut| [cut[0], cut[1], cut[2], cut[3]]).collect()
+}
+
 /// Moves a quadric and the half-spaces that cut it: with the inverse B of the motion its matrix
 /// becomes Bᵀ Q B, and a normal (n, −d) becomes (n, −d) B.
 fn move_quadric(motion: &Motion, numbers: &mut [f64], cuts: &mut [[f64; 4]]) {
-    let to_world = motion.linear();
-    let origin = motion.point(DVec3::ZERO);
+    let (mut to_world, mut origin) = (motion.linear(), motion.point(DVec3::ZERO));
+    if let Motion::Scale {
+        factor,
+        along: Along::Own(axis),
+        about,
+    } = *motion
+        && let Some(pose) = quadric_pose(numbers, cuts)
+    {
+        let axis = pose.axes[axis];
+        let stretch = |v: DVec3| v + (factor - 1.0) * axis.dot(v) * axis;
+        to_world = DMat3::from_cols(stretch(DVec3::X), stretch(DVec3::Y), stretch(DVec3::Z));
+        origin = about - to_world * about;
+    }
     let inverse = to_world.inverse();
     let back = DMat4::from_mat3(inverse);
     let back = DMat4 {
@@ -190,7 +274,10 @@ impl Source {
         match node {
             Node::Object(index) => {
                 let (kind, _, numbers) = self.object_numbers(index)?;
-                form(kind, &numbers).map(|form| Pose::of(&form))
+                match kind {
+                    ObjectKind::Quadric => quadric_pose(&numbers, &cuts(&numbers)),
+                    _ => form(kind, &numbers).map(|form| Pose::of(&form)),
+                }
             }
             Node::Light(_) => {
                 let fields = self.fields(node);
@@ -233,6 +320,16 @@ impl Source {
         Ok(replacements(&self.text, &spans, &new))
     }
 
+    /// The form of an ellipsoid after a rotation by which it is no longer aligned with the axes.
+    pub(super) fn turned_ellipsoid(&self, index: usize, motion: &Motion) -> Option<Form> {
+        let (kind, _, numbers) = self.object_numbers(index)?;
+        if kind != ObjectKind::Ellipsoid || !matches!(motion, Motion::Turn { .. }) {
+            return None;
+        }
+        let turned = motion.applied(&form(kind, &numbers)?)?;
+        (!is_aligned(&turned)).then_some(turned)
+    }
+
     /// The edits that move one node.
     pub(super) fn moved(
         &self,
@@ -249,10 +346,7 @@ impl Source {
                 let count = RecordKind::Object(kind).numbers();
                 let mut new = old.clone();
                 if kind == ObjectKind::Quadric {
-                    let mut cuts: Vec<[f64; 4]> = old[count..]
-                        .chunks_exact(4)
-                        .map(|cut| [cut[0], cut[1], cut[2], cut[3]])
-                        .collect();
+                    let mut cuts = cuts(&old);
                     move_quadric(motion, &mut new, &mut cuts);
                     new.truncate(count);
                     new.extend(cuts.concat());

@@ -241,9 +241,15 @@ impl Restructure for Source {
         }
         solids.sort_unstable();
         solids.dedup();
-        let moved = solids
-            .into_iter()
-            .map(|node| self.moved(node, motion, decimals));
+        let moved = solids.into_iter().map(|node| {
+            // Of the solids, only a quadric can be an ellipsoid in any direction.
+            if let Node::Object(index) = node
+                && let Some(turned) = self.turned_ellipsoid(index, motion)
+            {
+                return add::respelled(self, index, ObjectKind::Quadric, &turned);
+            }
+            self.moved(node, motion, decimals)
+        });
         let mut edits = moved.collect::<Result<Vec<_>, _>>()?.concat();
         edits.sort_by_key(|edit| edit.span);
         Ok(edits)

@@ -362,7 +362,6 @@ fn what_a_language_cannot_express_is_refused() {
         about,
     };
     let sphere = "1 1 1 1 0 5 5 1 1 1 1 sphere 0 0 0 1 0 0 0 .5 .5 .5 0 0 0 1 0 0 1";
-    let ellipsoid = "mat ID 1 1 1 1 .1 .5 .4 9 0 0 1\nobj ellipsoid ID 1 mat ID 1 0 0 0 1 2 3\n";
     let skewed =
         "<xml><scene><object><scale x=\"2\"/><object type=\"sphere\"/></object></scene></xml>";
     for (language, text, node, motion, reason) in [
@@ -381,13 +380,6 @@ fn what_a_language_cannot_express_is_refused() {
             "ambient has no position",
         ),
         (
-            Language::Dat,
-            ellipsoid,
-            Node::Object(0),
-            turn,
-            "a .dat ellipsoid is always axis-aligned",
-        ),
-        (
             Language::Xml,
             skewed,
             Node::Object(1),
@@ -401,5 +393,81 @@ fn what_a_language_cannot_express_is_refused() {
             refused,
             Err(StructureError::Inexpressible(reason.to_owned()))
         );
+    }
+}
+
+/// A `.dat` with one object.
+fn dat(object: &str) -> String {
+    format!("mat ID 1 1 1 1 .1 .5 .4 9 0 0 1\nobj {object}\n")
+}
+
+#[test]
+fn an_ellipsoid_of_dat_turns_exactly_as_a_quadric() {
+    let text = dat("ellipsoid ID 1 mat ID 1 1 0 0 1 2 3");
+    let (source, _) = read_as(Language::Dat, &text, &Meshes::default());
+    let node = Node::Object(0);
+    let turn = Motion::Turn {
+        axis: DVec3::Z,
+        angle: 30.0,
+        about: DVec3::X,
+    };
+    let edits = source.motion(&[node], &turn, 3).expect("it turns");
+    let (turned, scene) = changed(Language::Dat, &text, &edits);
+    assert_eq!(turned.name(node), "object 1 (quadric)");
+    let bounds = scene.objects[0].shape.bounds();
+    let (sin, cos) = 30.0_f64.to_radians().sin_cos();
+    let half = DVec3::new(cos.hypot(2.0 * sin), sin.hypot(2.0 * cos), 3.0);
+    assert!((bounds.max - DVec3::X - half).length() < 1e-8, "{bounds:?}");
+    let pose = turned.pose(node).expect("it has a place");
+    assert!((pose.centre - DVec3::X).length() < 1e-12);
+    let own = DVec3::new(cos, sin, 0.0);
+    assert!((pose.axes[0] - own).length() < 1e-12, "{pose:?}");
+    // Twice as long along its own x, which then ends there.
+    let stretch = Motion::Scale {
+        factor: 2.0,
+        along: Along::Own(0),
+        about: pose.centre,
+    };
+    let edits = turned.motion(&[node], &stretch, 3).expect("it stretches");
+    let (_, scene) = changed(Language::Dat, turned.text(), &edits);
+    let bounds = scene.objects[0].shape.bounds();
+    let half = DVec3::new(
+        (2.0 * cos).hypot(2.0 * sin),
+        (2.0 * sin).hypot(2.0 * cos),
+        3.0,
+    );
+    assert!((bounds.max - DVec3::X - half).length() < 1e-8, "{bounds:?}");
+}
+
+#[test]
+fn a_quadric_has_principal_axes_and_a_place() {
+    let x = DVec3::new(0.8, 0.6, 0.0);
+    for (numbers, centre, axes) in [
+        // An ellipsoid, a cylinder along z with cuts at 1 and 3, and one without.
+        ("1 0 0 -1 4 0 0 9 0 0  0", DVec3::X, DVec3::AXES),
+        (
+            "1 0 0 -2 1 0 0 0 0 0  2 0 0 1 3 0 0 -1 -1",
+            DVec3::new(2.0, 0.0, 2.0),
+            DVec3::AXES,
+        ),
+        ("1 0 0 0 1 0 0 0 0 -1  0", DVec3::ZERO, DVec3::AXES),
+        // (x/2)² + y² in a frame turned by the angle of 3, 4 and 5.
+        (
+            "0.52 -0.36 0 0 0.73 0 0 1 0 -1  0",
+            DVec3::ZERO,
+            [x, DVec3::new(-0.6, 0.8, 0.0), DVec3::Z],
+        ),
+    ] {
+        let text = dat(&format!("quadric ID 1 mat ID 1 {numbers}"));
+        let (source, lowered) = read_as(Language::Dat, &text, &Meshes::default());
+        assert_eq!(lowered.diagnostics.errors(), 0, "{numbers}");
+        let pose = source.pose(Node::Object(0)).expect("it has a place");
+        assert!(
+            (pose.centre - centre).length() < 1e-12,
+            "{numbers}: {pose:?}"
+        );
+        for (own, expected) in pose.axes.into_iter().zip(axes) {
+            assert!((own - expected).length() < 1e-12, "{numbers}: {pose:?}");
+        }
     }
 }

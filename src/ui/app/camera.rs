@@ -31,9 +31,14 @@ pub(super) fn panned(camera: Camera, left: i8, up: i8) -> Camera {
     let offset = camera.eye - camera.target;
     let axes = Axes::of(&camera);
     let shift = offset.length() * PAN * (f64::from(up) * axes.up - f64::from(left) * axes.right);
+    shifted(camera, shift)
+}
+
+/// Moves the camera and its target by a vector.
+pub(super) fn shifted(camera: Camera, by: DVec3) -> Camera {
     Camera {
-        eye: camera.eye + shift,
-        target: camera.target + shift,
+        eye: camera.eye + by,
+        target: camera.target + by,
         ..camera
     }
 }
@@ -59,12 +64,10 @@ pub(super) fn faced(camera: Camera, left: i8, up: i8) -> Camera {
 
 /// Moves the camera and its target by steps forward.
 pub(super) fn advanced(camera: Camera, steps: i8) -> Camera {
-    let shift = ADVANCE * f64::from(steps) * (camera.target - camera.eye);
-    Camera {
-        eye: camera.eye + shift,
-        target: camera.target + shift,
-        ..camera
-    }
+    shifted(
+        camera,
+        ADVANCE * f64::from(steps) * (camera.target - camera.eye),
+    )
 }
 
 /// Rolls the camera around the view direction by steps to the left.

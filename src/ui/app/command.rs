@@ -344,7 +344,12 @@ impl App {
 
     fn run(&mut self, command: Command) -> Vec<Effect> {
         match command {
-            Command::Quit(_) | Command::Mouse | Command::Help => {}
+            Command::Quit(Force::Yes) | Command::Mouse | Command::Help => {}
+            _ if self.mode == Mode::Move => {
+                self.warn_of_transform();
+                return Vec::new();
+            }
+            Command::Quit(Force::No) => {}
             _ if self.disk.is_opening() => {
                 self.warn_of_opening();
                 return Vec::new();

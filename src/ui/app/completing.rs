@@ -9,7 +9,7 @@ use tui_input::Input;
 use super::command::{self, Described};
 use super::{App, Completion, PromptKind, line};
 use crate::image_file::ImageFormat;
-use crate::ui::keymap::{self, Action, Context};
+use crate::ui::keymap::{self, Action, Context, Mode};
 use crate::ui::msg::Effect;
 
 /// What is completed.
@@ -67,6 +67,10 @@ impl App {
             (None, _) => None,
         };
         match described.and_then(|completion| completion.act) {
+            Some((_, context)) if self.mode == Mode::Move && context != Context::In(Mode::Move) => {
+                self.warn_of_transform();
+                Vec::new()
+            }
             Some((action, context)) => self.act_in(action, context),
             None => self.command(line),
         }

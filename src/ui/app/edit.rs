@@ -170,11 +170,16 @@ impl App {
         self.try_edits(&self.edits_of(&wanted))
     }
 
+    /// Whether a field is set in all marked nodes, as the selected one is one of them.
+    pub(super) fn sets_marked(&self) -> bool {
+        self.cursor.marks.contains(&self.cursor.selected())
+    }
+
     /// The edits that set components of fields of the selected node or, if it is marked, of all
     /// marked nodes that have them.
     pub(super) fn edits_of(&self, wanted: &[(&Placed, &[(usize, String)])]) -> Vec<Edit> {
         let source = self.source();
-        if !self.cursor.marks.contains(&self.cursor.selected()) {
+        if !self.sets_marked() {
             let owned = |&(placed, values): &(_, &[_])| (placed, values.to_vec());
             return source.edits(&wanted.iter().map(owned).collect::<Vec<_>>());
         }

@@ -217,7 +217,9 @@ impl App {
     }
 
     pub(super) fn pick_cross(&mut self) {
-        if let Some((column, row)) = self.pictures.cross {
+        if let Some((column, row)) = self.pictures.cross
+            && !self.pick_mark((column, row))
+        {
             self.pick(u32::from(column), 2 * u32::from(row));
         }
     }
@@ -235,15 +237,27 @@ impl App {
         Ok(object.map(|object| Node::Object(self.source().object(object))))
     }
 
+    /// Selects the node whose mark is at a cell of the picture, and ends picking; returns whether
+    /// there is one.
+    pub(super) fn pick_mark(&mut self, cell: (u16, u16)) -> bool {
+        let node = self.mark_at(cell);
+        if let Some(node) = node {
+            self.pick_node(node);
+        }
+        node.is_some()
+    }
+
+    fn pick_node(&mut self, node: Node) {
+        self.select(node);
+        if self.mode == Mode::Pick {
+            self.mode = Mode::Select;
+        }
+    }
+
     /// Selects the node under a pixel of the picture on screen, and ends picking.
     pub(super) fn pick(&mut self, x: u32, y: u32) {
         match self.node_under(x, y) {
-            Ok(Some(node)) => {
-                self.select(node);
-                if self.mode == Mode::Pick {
-                    self.mode = Mode::Select;
-                }
-            }
+            Ok(Some(node)) => self.pick_node(node),
             Ok(None) => self.overlays.say("nothing there"),
             Err(reason) => self.refuse_picture(Severity::Warning, reason),
         }

@@ -28,6 +28,7 @@ mod leaving;
 mod line;
 mod list;
 mod literals;
+mod marks;
 mod menu;
 mod messages;
 mod model;
@@ -58,6 +59,7 @@ mod typed;
 mod typing;
 mod update;
 mod viewing;
+mod wires;
 
 use std::time::Duration;
 
@@ -67,6 +69,7 @@ pub use disk::{Disk, FirstReading, OnDisk};
 pub use filter::Filter;
 pub use hsv::Hsv;
 pub use jobs::{Export, Jobs, Pending, Stage};
+pub use marks::{Mark, MarkKind};
 pub use menu::{Entry, Menu, Purpose};
 pub use messages::{Message, Messages};
 pub use model::App;
@@ -79,6 +82,7 @@ pub use picker::{ColourPicker, PickerRow};
 pub use picture::{Picture, Shown};
 pub use pictures::{Pictures, Quality};
 pub use transform::Transform;
+pub use wires::Wires;
 
 /// A second Ctrl-C within this time ends the program.
 const INTERRUPT_AGAIN: Duration = Duration::from_secs(2);

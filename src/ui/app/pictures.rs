@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::picture::Picture;
 use super::transform::Transform;
+use super::wires::Wires;
 use crate::render::{Aov, Filter, Frame};
 use crate::scene::{Camera, Integrator, Scene};
 use crate::ui::keymap::Mode;
@@ -20,10 +21,14 @@ pub struct Pictures {
     pub view: Option<Camera>,
     /// The user's quality settings.
     pub quality: Quality,
-    /// What pictures show instead of light.
+    /// What traced pictures show instead of light.
     pub aov: Option<Aov>,
+    /// The wireframe, if it is shown instead of the preview.
+    pub wires: Option<Wires>,
     /// Whether the selected object is outlined in SELECT mode.
     pub(super) outline: Outline,
+    /// Which marks are shown of what has no surface.
+    pub(super) marks: Marking,
     /// The cell of the crosshair in [`Mode::Pick`], relative to the picture's upper left corner;
     /// `None` before the first pick.
     pub cross: Option<(u16, u16)>,
@@ -66,6 +71,16 @@ pub(super) enum Outline {
     Hidden,
 }
 
+/// Which marks are shown of what has no surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Marking {
+    /// Those of the selected kind.
+    #[default]
+    Selected,
+    /// All.
+    All,
+}
+
 impl Pictures {
     /// Creates the state without any picture.
     pub(super) fn new(quality: Quality) -> Self {
@@ -75,7 +90,9 @@ impl Pictures {
             view: None,
             quality,
             aov: None,
+            wires: None,
             outline: Outline::default(),
+            marks: Marking::default(),
             cross: None,
             net: None,
             due: false,
@@ -90,7 +107,9 @@ impl Pictures {
     pub(super) fn renew(&mut self) {
         *self = Self {
             aov: self.aov,
+            wires: self.wires.take().map(|_| Wires::default()),
             outline: self.outline,
+            marks: self.marks,
             net: self.net,
             ..Self::new(self.quality)
         };
@@ -228,7 +247,7 @@ impl Pictures {
 
     /// Selects what all pictures show, light or an AOV, and returns its description.
     pub(super) fn show(&mut self, aov: Option<Aov>) -> &'static str {
-        self.due |= self.aov != aov;
+        self.due |= self.wires.take().is_some() || self.aov != aov;
         self.aov = aov;
         match aov {
             None => "light",
@@ -237,6 +256,20 @@ impl Pictures {
             Some(Aov::Object) => "objects: one colour each",
             Some(Aov::Albedo) => "albedo: unlit colours",
         }
+    }
+
+    /// Shows the preview as a wireframe, and returns its description. Only the objects under its
+    /// pixels are traced, because they can be picked.
+    pub(super) fn show_wires(&mut self) -> &'static str {
+        self.due |= self.wires.is_none();
+        self.aov = None;
+        self.wires.get_or_insert_default();
+        "wireframe: the objects' edges and curves"
+    }
+
+    /// What the preview traces instead of light.
+    pub(super) fn preview_aov(&self) -> Option<Aov> {
+        self.wires.as_ref().map(|_| Aov::Object).or(self.aov)
     }
 
     /// The number of samples per pixel to take if `asked` are requested.

@@ -1,9 +1,10 @@
 //! The mouse.
 
-use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
+use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
-use super::camera::{advanced, dollied, orbited, turned};
+use super::camera::{advanced, dollied, orbited, shifted, turned};
 use super::{App, PickerRow};
+use crate::render::{axes, pixel_width};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{
     contents, field_at, first_shown, list_row_at, picker_lines, pixel_at, share_at, swatch_cells,
@@ -41,7 +42,13 @@ impl App {
                 self.press_menu(at);
             }
             MouseEventKind::Down(MouseButton::Left) => return self.press(at),
-            MouseEventKind::Drag(MouseButton::Left) => self.drag(at),
+            MouseEventKind::Down(_) => self.press_to_pan(at),
+            MouseEventKind::Drag(MouseButton::Left)
+                if !event.modifiers.contains(KeyModifiers::CONTROL) =>
+            {
+                self.drag(at);
+            }
+            MouseEventKind::Drag(_) => self.drag_to_pan(at),
             MouseEventKind::Up(_) => {
                 self.pictures.drag = None;
                 self.resizing = false;
@@ -166,6 +173,10 @@ impl App {
         if drags && areas.picture.contains(at.into()) {
             self.pictures.drag = Some(at);
         } else if let Some(raster) = self.raster() {
+            let cells = raster.0;
+            if cells.contains(at.into()) && self.pick_mark((at.0 - cells.x, at.1 - cells.y)) {
+                return Vec::new();
+            }
             let size = self.picture().shown.size;
             if let Some((x, y)) = pixel_at(raster, size, at.0, at.1) {
                 self.pick(x, y);
@@ -183,6 +194,29 @@ impl App {
             return Vec::new();
         }
         vec![Effect::Later(super::DOUBLE_CLICK, Timer::Click)]
+    }
+
+    fn press_to_pan(&mut self, at: (u16, u16)) {
+        if self.mode.moves_camera() && self.areas().picture.contains(at.into()) {
+            self.pictures.drag = Some(at);
+        }
+    }
+
+    /// Pans so that what is at the distance of the target follows the pointer.
+    fn drag_to_pan(&mut self, at: (u16, u16)) {
+        let Some(from) = self.pictures.drag.filter(|_| self.mode.moves_camera()) else {
+            return;
+        };
+        let Some((camera, (_, size))) = self.camera().zip(self.raster()) else {
+            return;
+        };
+        let unit = pixel_width(camera.target, &camera, size);
+        let [right, up, _] = axes(&camera);
+        let moved = |from: u16, to: u16| f64::from(to) - f64::from(from);
+        // A cell shows two pixels, one above the other.
+        let by = 2.0 * moved(from.1, at.1) * up - moved(from.0, at.0) * right;
+        self.move_camera(|now| shifted(now, unit * by));
+        self.pictures.drag = Some(at);
     }
 
     fn drag(&mut self, at: (u16, u16)) {

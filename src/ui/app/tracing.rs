@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{App, Picture};
+use super::{App, Picture, Wires};
 use crate::image_file::ImageFormat;
 use crate::render::{Filter, Frame, Frames, Job, Settings, default_depth};
 use crate::scene::{Integrator, Scene, Size};
@@ -37,10 +37,36 @@ impl App {
             self.pictures.preview.asked = size;
             let spp = preview_samples(self.integrator());
             let job = size.zip(self.preview_scene());
-            let job = job.and_then(|(size, scene)| self.job_of(scene, size, spp, Filter::Box));
+            let job = job.and_then(|(size, scene)| {
+                let mut job = self.job_of(scene, size, spp, Filter::Box)?;
+                job.settings.aov = self.pictures.preview_aov();
+                if let Some(aov) = job.settings.aov {
+                    job.settings.spp = aov.samples(spp);
+                }
+                Some(job)
+            });
             effects.extend(job.map(|job| Effect::Trace(Target::Preview, job)));
         }
         effects
+    }
+
+    /// The wireframe if it is on screen instead of a traced picture.
+    pub fn wires(&self) -> Option<&Wires> {
+        let wires = self.pictures.wires.as_ref();
+        wires.filter(|_| self.mode != Mode::Trace)
+    }
+
+    /// Brings the wireframe up to date, if it is on screen.
+    pub fn follow_wires(&mut self) {
+        if self.mode == Mode::Trace {
+            return;
+        }
+        let (camera, raster) = (self.camera(), self.raster());
+        if let (Some(wires), Some(scene)) = (&mut self.pictures.wires, &self.scene)
+            && let (Some(camera), Some((_, size))) = (camera, raster)
+        {
+            wires.follow(scene, camera, size);
+        }
     }
 
     fn follow_trace(&mut self) -> Option<Effect> {

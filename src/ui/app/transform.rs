@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::trial::Trial;
 use crate::language::{Along, Motion, Node, Pose};
+use crate::scene::Camera;
 use crate::text::parse_number;
 use crate::ui::keymap::Tool;
 
@@ -51,8 +52,14 @@ pub struct Transform {
     pub(super) nodes: Vec<Node>,
     /// The place and the axes of the selected one before.
     pub(super) pose: Pose,
+    /// The camera of the picture before.
+    pub(super) camera: Camera,
+    /// The text's camera before.
+    pub(super) own: Camera,
     /// The steps to the right and up.
     pub(super) steps: [f64; 2],
+    /// The width of a pixel, in world units.
+    pub(super) pixel: f64,
     /// The length of one step of a move, in world units.
     pub(super) step: f64,
     /// The decimals that a step needs.

@@ -6,8 +6,10 @@ use glam::DVec3;
 
 use super::App;
 use super::transform::{Lock, Snap, Transform, decimals_of, round_up};
-use crate::language::{Node, Pose};
+use crate::language::{Language, Node, Pose, StructureError};
 use crate::render::{axes, pixel_width};
+use crate::scene::{Camera, Size};
+use crate::text::Edit;
 use crate::ui::keymap::{Mode, Stride, Tool};
 
 impl App {
@@ -23,19 +25,26 @@ impl App {
         } else {
             nodes[0]
         };
-        let (Some(camera), Some((_, size))) = (self.camera(), self.raster()) else {
+        let Some((camera, (_, size))) = self.camera().zip(self.raster()) else {
             self.overlays.fail("there is no picture to move it in");
             return;
         };
-        let Some(pose) = self.pose(node) else {
-            let reason = match node {
-                Node::View => "v moves the camera".to_owned(),
-                _ => format!("{} has no position", self.source().name(node)),
-            };
-            self.overlays.fail(reason);
+        let Some(own) = self.own_camera() else {
             return;
         };
-        let step = round_up(pixel_width(pose.centre, &camera, size));
+        if nodes.contains(&Node::View)
+            && let Some(reason) = self.refuses_camera(tool)
+        {
+            self.overlays.fail(reason);
+            return;
+        }
+        let Some(pose) = self.pose(node) else {
+            let name = self.source().name(node);
+            self.overlays.fail(format!("{name} has no position"));
+            return;
+        };
+        let pixel = pixel_at(pose.centre, &camera, size);
+        let step = round_up(pixel);
         let trial = self.begin_trial();
         self.pictures.transform = Some(Transform {
             tool,
@@ -44,7 +53,10 @@ impl App {
             typed: String::new(),
             nodes,
             pose,
+            camera,
+            own,
             steps: [0.0; 2],
+            pixel,
             step,
             decimals: decimals_of(step),
             trial,
@@ -55,8 +67,17 @@ impl App {
     /// The place of a node; that of a combination is the middle of what it draws.
     fn pose(&self, node: Node) -> Option<Pose> {
         self.source().pose(node).or_else(|| {
-            let Node::Object(index) = node else {
-                return None;
+            let index = match node {
+                Node::Object(index) => index,
+                Node::View => {
+                    let own = self.own_camera()?;
+                    let [right, up, into] = axes(&own);
+                    return Some(Pose {
+                        centre: own.eye,
+                        axes: [right, up, -into],
+                    });
+                }
+                _ => return None,
             };
             let scene = self.scene.as_ref()?;
             let drawn = self.source().drawn(index)?;
@@ -66,6 +87,16 @@ impl App {
                 axes: DVec3::AXES,
             })
         })
+    }
+
+    /// Why the text's camera cannot be transformed, if it cannot.
+    fn refuses_camera(&self, tool: Tool) -> Option<&'static str> {
+        match (tool, self.document.language()) {
+            // Only a comment states a view there, which S writes.
+            (_, Language::Ray) => Some("v moves the camera"),
+            (Tool::Scale, _) => Some("a camera has no size: [ and ] in VIEW change what it sees"),
+            (Tool::Move | Tool::Turn, _) => None,
+        }
     }
 
     /// Moves by steps to the right and up.
@@ -80,12 +111,9 @@ impl App {
 
     /// Moves by pixels of the picture to the right and up, so that a thing follows the pointer.
     pub(super) fn drag_transform(&mut self, right: f64, up: f64) {
-        let Some((camera, (_, size))) = self.camera().zip(self.raster()) else {
-            return;
-        };
         self.change_transform(|transform| {
             let pixels = match transform.tool {
-                Tool::Move => pixel_width(transform.pose.centre, &camera, size) / transform.step,
+                Tool::Move => transform.pixel / transform.step,
                 Tool::Turn | Tool::Scale => 1.0,
             };
             transform.typed.clear();
@@ -138,6 +166,12 @@ impl App {
         }
     }
 
+    /// Says what ends the transformation, which other actions have to wait for.
+    pub(super) fn warn_of_transform(&mut self) {
+        self.overlays
+            .warn("Enter confirms the change first; Esc cancels it");
+    }
+
     /// Keeps the change and ends.
     pub(super) fn confirm_transform(&mut self) {
         match self.pictures.transform.take() {
@@ -168,16 +202,9 @@ impl App {
             return;
         }
         change(&mut transform);
-        let axes = self
-            .camera()
-            .map_or([DVec3::X, DVec3::Y, DVec3::NEG_Z], |camera| axes(&camera));
-        let motion = transform.motion(axes);
-        let (nodes, decimals) = (&transform.nodes, transform.decimals);
+        let own = transform.clone();
         let outcome = self.try_instead(&mut transform.trial, |app| {
-            if motion.is_identity() {
-                return Ok(Vec::new());
-            }
-            let edits = app.source().motion(nodes, &motion, decimals);
+            let edits = app.edits_of_motion(&own);
             edits.map_err(|refused| refused.to_string())
         });
         match outcome {
@@ -185,5 +212,31 @@ impl App {
             Err(reason) => self.overlays.fail(reason),
         }
         self.pictures.transform = Some(transform);
+    }
+
+    /// The edits that a motion makes to the text before it.
+    fn edits_of_motion(&self, transform: &Transform) -> Result<Vec<Edit>, StructureError> {
+        let motion = transform.motion(axes(&transform.camera));
+        if motion.is_identity() {
+            return Ok(Vec::new());
+        }
+        let (decimals, own) = (transform.decimals, &transform.own);
+        let mut nodes = transform.nodes.clone();
+        nodes.retain(|node| *node != Node::View);
+        let mut edits = self.source().motion(&nodes, &motion, decimals)?;
+        if nodes.len() < transform.nodes.len() {
+            let moved = motion.camera(own, decimals);
+            edits.extend(self.source().view_edits(own, &moved));
+            edits.sort_by_key(|edit| edit.span);
+        }
+        Ok(edits)
+    }
+}
+
+/// The width of a pixel at a point in world units; at the target if the point is the eye itself.
+fn pixel_at(point: DVec3, camera: &Camera, size: Size) -> f64 {
+    match pixel_width(point, camera, size) {
+        0.0 => pixel_width(camera.target, camera, size),
+        width => width,
     }
 }

@@ -144,6 +144,12 @@ impl App {
         let Some(name) = keymap::name(key) else {
             return;
         };
+        if context == Context::In(Mode::Move)
+            && keymap::action(Context::In(Mode::Select), key).is_some()
+        {
+            self.warn_of_transform();
+            return;
+        }
         let words = match (keymap::elsewhere(context, key), context) {
             (Some((mode, way, words)), _) => {
                 let way = way.map_or_else(String::new, |way| format!(" ({way})"));
@@ -236,6 +242,7 @@ impl App {
             Action::SearchAgain(step) => self.search(step),
             Action::Command => self.open_palette(),
             Action::Outline => self.pictures.toggle_outline(),
+            Action::Marks => self.toggle_marks(),
             Action::Visibility => self.toggle_visibility(),
             Action::Mark => self.toggle_mark(),
             Action::Delete => self.delete(),
@@ -291,6 +298,7 @@ impl App {
             Action::Zoom => self.toggle_zoom(),
             Action::Resize(step) => self.resize_panels(step),
             Action::Show(aov) => self.overlays.say(self.pictures.show(aov)),
+            Action::Wireframe => self.overlays.say(self.pictures.show_wires()),
             Action::Integrator => {
                 let words = self.pictures.toggle_integrator(self.scene.as_deref());
                 self.overlays.say(words);
@@ -301,6 +309,7 @@ impl App {
             Action::Editor => return self.open_editor(),
             Action::Repaint => return vec![Effect::Repaint],
             Action::Suspend => return vec![Effect::Suspend],
+            Action::Quit if self.mode == Mode::Move => self.warn_of_transform(),
             Action::Quit => return self.quit(),
             Action::Interrupt => return self.interrupt(),
         }

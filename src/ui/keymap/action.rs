@@ -119,6 +119,8 @@ pub enum Action {
     Command,
     /// Shows or hides the outline of the selected object.
     Outline,
+    /// Marks all lights, cameras and groups in the picture, or only the selected kind.
+    Marks,
     /// Shows or hides the selected object itself.
     Visibility,
     /// Marks the selected node for the commands that follow.
@@ -215,6 +217,8 @@ pub enum Action {
     Resize(i32),
     /// Shows one of the auxiliary images, or the lit picture.
     Show(Option<Aov>),
+    /// Shows the preview as a wireframe.
+    Wireframe,
     /// Switches between Whitted ray tracing and path tracing.
     Integrator,
     /// Redraws every cell, in case another program has written over them.

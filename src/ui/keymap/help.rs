@@ -47,14 +47,16 @@ const START: [(&str, &str); 2] = [
     ("halflight doctor", "what was detected, and why"),
 ];
 
-const MOUSE: [(&str, &str); 9] = [
+const MOUSE: [(&str, &str); 11] = [
     ("click the list", "select"),
     ("click a field", "move the cursor there"),
     ("click it again", "choose or type a value"),
     ("drag a slider", "set a number from 0 to 1"),
     ("click a menu", "move there; again: choose"),
-    ("click the picture", "select the object there"),
+    ("click the picture", "select the object or mark there"),
     ("drag it in VIEW", "orbit"),
+    ("drag it with Ctrl or right", "in VIEW, pan"),
+    ("drag it in MOVE", "move, rotate or scale"),
     ("drag the border", "resize the panels"),
     ("wheel", "scroll; in VIEW, dolly"),
 ];
@@ -255,9 +257,9 @@ const MOVE_HINTS: &[Hint] = &[
         "step",
     ),
     (&[A::Lock(0), A::Lock(1), A::Lock(2)], "axis"),
-    (&[A::Snap], "grid"),
     (&[A::Accept], "confirm"),
     (&[A::Back], "cancel"),
+    (&[A::Snap], "grid"),
 ];
 const PICK_HINTS: &[Hint] = &[
     (

@@ -27,9 +27,9 @@ pub(super) struct Binding {
 pub(super) enum Scope {
     /// Active only in these contexts.
     These(&'static [Context]),
-    /// All modes and the list of errors.
+    /// All modes but [`Mode::Move`], and the list of errors.
     Everywhere,
-    /// [`Self::Everywhere`], and while a scene is being opened.
+    /// [`Self::Everywhere`], while something is being transformed, and while a scene is being opened.
     Sceneless,
     /// All contexts, including pages and questions.
     Always,
@@ -44,7 +44,9 @@ impl Scope {
             Self::Everywhere => {
                 matches!(context, Context::In(mode) if mode != Move) || context == Context::Errors
             }
-            Self::Sceneless => Self::Everywhere.holds(context) || context == Context::Opening,
+            Self::Sceneless => {
+                matches!(context, Context::In(_) | Context::Opening | Context::Errors)
+            }
             Self::Always => true,
         }
     }
@@ -81,6 +83,13 @@ const PICTURES: Scope = Scope::These(&[
     Context::In(View),
     Context::In(Fly),
     Context::In(Trace),
+]);
+/// Such contexts with the preview on screen.
+const PREVIEWS: Scope = Scope::These(&[
+    Context::In(Select),
+    Context::In(View),
+    Context::In(Fly),
+    Context::In(Pick),
 ]);
 const PICK: Scope = Scope::These(&[Context::In(Pick)]);
 const HELP: Scope = Scope::These(&[Context::Help]);
@@ -167,6 +176,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(LONG_LISTS, &[key(PageDown)], A::Page(1), "page down"),
     bind(LONG_LISTS, &[key(PageUp)], A::Page(-1), "page up"),
     bind(SELECT, &[c('o')], A::Outline, "toggle the outline of the selection"),
+    bind(SELECT, &[c('O')], A::Marks, "mark all lights, cameras and groups, or only the selected kind"),
     bind(SELECT, &[c('n')], A::SearchAgain(1), "next match"),
     bind(SELECT, &[c('N')], A::SearchAgain(-1), "previous match"),
     bind(SELECT, &[key(BackTab)], A::Cycle(-1), "previous light or object"),
@@ -265,6 +275,8 @@ pub(super) const TABLE: &[Binding] = &[
     bind(PICTURES, &[c('3')], A::Show(Some(Aov::Normal)), "show normals"),
     bind(PICTURES, &[c('4')], A::Show(Some(Aov::Object)), "show objects, one colour each"),
     bind(PICTURES, &[c('5')], A::Show(Some(Aov::Albedo)), "show unlit colours"),
+
+    bind(PREVIEWS, &[c('6')], A::Wireframe, "show a wireframe, for slow links"),
 
     bind(TRACE, &[c('x')], A::Stop, "stop"),
     bind(SELECT, &[c('x')], A::Stop, "cancel the export"),

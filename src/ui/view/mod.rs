@@ -14,6 +14,7 @@ mod help;
 mod history;
 mod inks;
 mod list;
+mod marks;
 mod menu;
 mod message;
 mod oklab;
@@ -23,6 +24,7 @@ mod picker;
 mod picture;
 mod row;
 mod status;
+mod wireframe;
 
 #[cfg(test)]
 mod tests;

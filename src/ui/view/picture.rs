@@ -12,6 +12,7 @@ use unicode_width::UnicodeWidthStr;
 use super::characters::Characters;
 use super::inks::{Glyphs, Inks};
 use super::row::Row;
+use super::{marks, wireframe};
 use crate::render::{pixel_of, pixel_width};
 use crate::scene::Size;
 use crate::ui::app::{App, FirstReading, Shown};
@@ -24,6 +25,11 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
     let Some((cells, size)) = raster(area, app.output()) else {
         return;
     };
+    if let Some(wires) = app.wires().and_then(|wires| wires.lines(size)) {
+        wireframe::paint(wires, &app.marked_objects(), cells, buffer);
+        overlays(app, inks.glyphs, area, (cells, size), buffer);
+        return;
+    }
     let shown = &app.picture().shown;
     if shown.size.pixels() == 0 || shown.pixels.len() != shown.size.pixels() {
         if app.is_empty() {
@@ -39,11 +45,23 @@ pub(crate) fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer
         Cow::Owned(shown.resampled(size))
     };
     paint(&shown, inks, cells, buffer);
-    if app.mode == Mode::Pick {
-        cross(app, cells, buffer);
-    }
+    overlays(app, inks.glyphs, area, (cells, size), buffer);
+}
+
+/// Draws what lies over the picture.
+fn overlays(
+    app: &App,
+    glyphs: Glyphs,
+    area: Rect,
+    (cells, size): (Rect, Size),
+    buffer: &mut Buffer,
+) {
     if app.mode == Mode::Move {
         axis(app, cells, size, buffer);
+    }
+    marks::render(app, glyphs, cells, buffer);
+    if app.mode == Mode::Pick {
+        cross(app, cells, buffer);
     }
     if app.is_empty() {
         invitation(area, buffer);
@@ -119,7 +137,9 @@ fn cross(app: &App, cells: Rect, buffer: &mut Buffer) {
         cell.set_symbol("┼").set_style(Style::reset());
         cell.set_style(theme::chip(Style::new()));
     }
-    let name = match app.node_under(u32::from(column), 2 * u32::from(row)) {
+    let marked = app.mark_at((column, row));
+    let under = || app.node_under(u32::from(column), 2 * u32::from(row));
+    let name = match marked.map_or_else(under, |node| Ok(Some(node))) {
         Ok(Some(node)) => app.source().name(node),
         Ok(None) => "nothing".to_owned(),
         Err(reason) => reason.to_owned(),

@@ -254,6 +254,10 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
 
 /// Adds the auxiliary image shown, or the integrator, with a star if it differs from the scene's.
 fn making_segment(app: &App, say: &mut impl FnMut(u8, String, Style)) {
+    if app.wires().is_some() {
+        say(7, "wireframe".to_owned(), theme::WARNING);
+        return;
+    }
     if let Some(aov) = app.pictures.aov {
         say(7, aov.name().to_owned(), theme::WARNING);
         return;
@@ -339,7 +343,7 @@ mod tests {
     use super::*;
     use crate::language::Language;
     use crate::render::Aov;
-    use crate::ui::app::{Message, Typing};
+    use crate::ui::app::{Message, Typing, Wires};
     use crate::ui::view::tests::{app, app_of, drawn, retype};
     use tui_input::Input;
 
@@ -379,6 +383,8 @@ mod tests {
         assert_eq!(said(&app), ["path*"]);
         app.pictures.aov = Some(Aov::Depth);
         assert_eq!(said(&app), ["depth"]);
+        app.pictures.wires = Some(Wires::default());
+        assert_eq!(said(&app), ["wireframe"]);
         let paths = "<xml><scene/><camera gamma='sRGB'/></xml>";
         assert_eq!(said(&app_of(Language::Xml, paths)), ["path"]);
     }

@@ -19,7 +19,7 @@ use crate::scene::Size;
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
     App, Dialog, Export, Help, List, Message, Next, OnDisk, Opening, OpeningText, Outside, Page,
-    PageFocus, Prompt, PromptKind, Quality, Stage, Typing,
+    PageFocus, Prompt, PromptKind, Quality, Stage, Typing, Wires,
 };
 use crate::ui::arrange::Zoom;
 use crate::ui::keymap::Mode;
@@ -111,6 +111,7 @@ fn lines(buffer: &Buffer) -> Vec<String> {
 /// The lines of the whole screen.
 fn screen(app: &mut App, width: u16, height: u16) -> Vec<String> {
     app.terminal = (width, height);
+    app.follow_wires();
     let mut terminal = Terminal::new(TestBackend::new(width, height)).expect("cannot fail");
     terminal
         .draw(|frame| draw(app, &mut Inks::new(Glyphs::HalfBlocks), frame))
@@ -198,6 +199,10 @@ const STATES: &[(&str, Change)] = &[
     }),
     ("quit", |app| {
         app.overlays.dialog = Some(Dialog::Leave(Next::Quit));
+    }),
+    ("wires", |app| {
+        app.pictures.wires = Some(Wires::default());
+        app.update(Msg::Key(KeyCode::Char('O').into()));
     }),
     ("history", |app| {
         app.overlays.history = Some(usize::MAX);

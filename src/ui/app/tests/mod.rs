@@ -8,6 +8,7 @@ mod editing;
 mod exports;
 mod fields;
 mod making;
+mod marks;
 mod messages;
 mod moving;
 mod opening;
@@ -20,6 +21,7 @@ mod starting;
 mod structure;
 mod transforming;
 mod views;
+mod wires;
 mod xml;
 
 use std::path::{Path, PathBuf};

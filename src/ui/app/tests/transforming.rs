@@ -230,6 +230,13 @@ fn what_cannot_be_moved_is_said() {
         (
             "a.dat",
             DAT,
+            Node::View,
+            "s",
+            "a camera has no size: [ and ] in VIEW change what it sees",
+        ),
+        (
+            "a.dat",
+            DAT,
             Object(0),
             "syy2",
             "a sphere has a single radius: press c to make it an ellipsoid",
@@ -381,4 +388,125 @@ fn a_click_beside_the_picture_confirms_a_motion() {
     assert_eq!(app.document.text(), RAY.replace("box 0 0 0", "box 2 0 0"));
     press(&mut app, "u");
     assert_eq!(app.document.text(), RAY);
+}
+
+#[test]
+fn the_camera_is_moved_and_turned_in_its_own_record() {
+    let dat = |said, old, new| check("a.dat", DAT, Node::View, said, &[(old, new)]);
+    dat("mx2<Enter>", "0 0 10  0 0 0", "2 0 10  2 0 0");
+    dat("mzz-1<Enter>", "0 0 10  0 0 0", "0 0 9  0 0 -1");
+    // A quarter turn about y looks along −x; about its own z it rolls.
+    dat("ty90<Enter>", "0 0 10  0 0 0", "0 0 10  -10 0 10");
+    dat("tzz90<Enter>", "0 0 0  0 1 0", "0 0 0  -1 0 0");
+    dat("m<Esc>mx1<Enter>", "0 0 10  0 0 0", "1 0 10  1 0 0");
+    let xml = |said, changes: &[_]| check("a.xml", XML, Node::View, said, changes);
+    xml(
+        "mz-2<Enter>",
+        &[
+            ("<position z=\"10\"/>", "<position z=\"8\"/>"),
+            (
+                "<target value=\"0\"/>",
+                "<target value=\"1\" x=\"0\" y=\"0\" z=\"-2\"/>",
+            ),
+        ],
+    );
+    // Steps are as long as a cell shows at the target, and each starts from the camera before.
+    let (mut app, _) = opened_as("a.dat", DAT);
+    app.select(Node::View);
+    press(&mut app, "mll");
+    let moved = app.camera().expect("there is a camera").eye.x;
+    assert!(0.01 < moved && moved < 1.0, "{moved}");
+    press(&mut app, "hh");
+    assert_eq!(app.document.text(), DAT);
+}
+
+#[test]
+fn only_the_mark_moves_where_the_picture_is_seen_from_elsewhere() {
+    let (mut app, _) = opened_as("a.dat", DAT);
+    app.select(Node::View);
+    press(&mut app, "v-<Esc>");
+    let (seen, mark) = (app.camera(), app.marks()[0]);
+    press(&mut app, "mx0.1<Enter>");
+    assert_eq!(app.camera(), seen);
+    assert!(mark.cell.0 < app.marks()[0].cell.0, "{mark:?}");
+    assert_eq!(
+        app.document.text(),
+        DAT.replace("0 0 10  0 0 0", "0.1 0 10  0.1 0 0")
+    );
+}
+
+#[test]
+fn a_rotated_ellipsoid_becomes_a_quadric_in_the_same_step() {
+    let text = DAT.replace(
+        "obj sphere ID 1 mat ID 1  0 0 0  1",
+        "obj ellipsoid ID 1 mat ID 1  0 0 0  1 2 3",
+    );
+    check(
+        "a.dat",
+        &text,
+        Object(0),
+        "tz90<Enter>",
+        &[("1 2 3\n", "2 1 3\n")],
+    );
+    let (mut app, _) = opened_as("a.dat", &text);
+    app.select(Object(0));
+    press(&mut app, "tz3");
+    assert_eq!(app.source().name(Object(0)), "object 1 (quadric)");
+    press(&mut app, "0<Enter>");
+    assert_eq!((app.error_count(), words(&app)), (0, "rotate about z: 30°"));
+    // Scaled along its own axis it is an ellipsoid still.
+    press(&mut app, "sxx2<Enter>");
+    assert_eq!(app.error_count(), 0, "{}", app.document.text());
+    press(&mut app, "uu");
+    assert_eq!(app.document.text(), text);
+}
+
+#[test]
+fn what_has_to_wait_for_the_end_of_a_motion_says_so() {
+    let end = "Enter confirms the change first; Esc cancels it";
+    for said in [
+        "q",
+        "w",
+        "u",
+        "<F5>",
+        "a",
+        "E",
+        "P",
+        ":w<Enter>",
+        ":q<Enter>",
+        ":wq<Enter>",
+    ] {
+        let (mut app, _) = opened_as("a.ray", RAY);
+        app.select(Object(0));
+        press(&mut app, "mx2");
+        let effects = press(&mut app, said);
+        assert!(effects.is_empty(), "{said} {effects:?}");
+        assert_eq!((words(&app), app.mode), (end, Mode::Move), "{said}");
+        press(&mut app, "<Esc>");
+        assert_eq!(app.document.text(), RAY, "{said}");
+    }
+    for (said, is_open) in [
+        ("?", (|app| app.overlays.help.is_some()) as fn(&App) -> bool),
+        (":", |app| app.overlays.prompt.is_some()),
+        ("M", |app| app.overlays.history.is_some()),
+        (":help<Enter>", |app| app.overlays.help.is_some()),
+    ] {
+        let (mut app, _) = opened_as("a.ray", RAY);
+        app.select(Object(0));
+        press(&mut app, "mx2");
+        press(&mut app, said);
+        assert!(is_open(&app), "{said}");
+        press(&mut app, "<Esc><Enter>");
+        assert_eq!(
+            app.document.text(),
+            RAY.replace("box 0 0 0", "box 2 0 0"),
+            "{said}"
+        );
+    }
+    let (mut app, _) = opened_as("a.ray", RAY);
+    app.select(Object(0));
+    assert!(wants(&press(&mut app, "mx2:q!<Enter>"), |effect| matches!(
+        effect,
+        Effect::Quit
+    )));
 }

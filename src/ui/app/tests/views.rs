@@ -298,3 +298,44 @@ fn a_light_is_looked_from_if_it_has_a_place_or_a_direction() {
     press(&mut app, "o");
     assert!(words(&app).starts_with("ambient light"), "{}", words(&app));
 }
+
+#[test]
+fn dragging_with_another_button_or_ctrl_pans_so_that_the_scene_follows() {
+    let ctrl = KeyModifiers::CONTROL;
+    for (button, modifiers) in [
+        (MouseButton::Right, KeyModifiers::NONE),
+        (MouseButton::Middle, KeyModifiers::NONE),
+        (MouseButton::Left, ctrl),
+    ] {
+        let mut app = open(SCENE);
+        press(&mut app, "v");
+        let before = app.camera().expect("there is a camera");
+        let (cells, size) = app.raster().expect("there is room");
+        let seen = |app: &App| {
+            let camera = app.camera().expect("there is a camera");
+            crate::render::pixel_of(before.target, &camera, size).expect("it is in front")
+        };
+        let [x, y] = seen(&app);
+        let (column, row) = (cells.x + cells.width / 2, cells.y + cells.height / 2);
+        for (kind, column, row) in [
+            (MouseEventKind::Down(button), column, row),
+            (MouseEventKind::Drag(button), column + 4, row + 1),
+            (MouseEventKind::Drag(button), column + 6, row + 3),
+            (MouseEventKind::Up(button), column + 6, row + 3),
+        ] {
+            app.update(Msg::Mouse(MouseEvent {
+                kind,
+                column,
+                row,
+                modifiers,
+            }));
+        }
+        let [after_x, after_y] = seen(&app);
+        // Two pixels in a row of cells.
+        let off = (after_x - x - 6.0).abs().max((after_y - y - 6.0).abs());
+        assert!(off < 0.05, "{button:?} {off}");
+        let after = app.camera().expect("there is a camera");
+        let turned = (after.eye - after.target) - (before.eye - before.target);
+        assert!(turned.length() < 1e-3, "{button:?} {turned}");
+    }
+}

@@ -1,0 +1,138 @@
+//! Wireframes in braille: eight dots per cell, in a single ink, so that a step of the camera sends
+//! few bytes over a slow link.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use super::row::Row;
+use crate::render::{WireLine, Wireframe};
+use crate::ui::theme;
+
+/// Columns and rows of dots in a cell.
+const DOTS: [usize; 2] = [2, 4];
+/// Dots per pixel, in both directions.
+const PER_PIXEL: f64 = 2.0;
+
+/// Draws the lines over the cells of the picture; those of the `marked` objects, ascending, stand
+/// out. Says how many objects are drawn if not all are.
+pub(super) fn paint(wireframe: &Wireframe, marked: &[u32], area: Rect, buffer: &mut Buffer) {
+    let [columns, rows] = [area.width, area.height].map(usize::from);
+    let mut cells = vec![(0_u8, Ink::Plain); columns * rows];
+    for line in &wireframe.lines {
+        let ink = match marked.binary_search(&line.object) {
+            Ok(_) => Ink::Marked,
+            Err(_) => Ink::Plain,
+        };
+        for [x, y] in dots(line) {
+            let (column, row) = (x / DOTS[0], y / DOTS[1]);
+            if column < columns && row < rows {
+                let cell = &mut cells[row * columns + column];
+                cell.0 |= bit(x % DOTS[0], y % DOTS[1]);
+                cell.1 = cell.1.max(ink);
+            }
+        }
+    }
+    for (position, (mask, ink)) in area.positions().zip(cells) {
+        let Some(cell) = buffer.cell_mut(position) else {
+            continue;
+        };
+        cell.reset();
+        if mask != 0 {
+            cell.set_char(character(mask));
+        }
+        if ink == Ink::Marked {
+            cell.set_style(theme::MARKED);
+        }
+    }
+    if wireframe.drawn < wireframe.seen {
+        let text = format!(" {} of {} objects ", wireframe.drawn, wireframe.seen);
+        Row::new(buffer, area, 0).put(&text, theme::DIM);
+    }
+}
+
+/// How the lines of a cell look.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Ink {
+    Plain,
+    Marked,
+}
+
+/// The dots of a line, one for each step along its longer direction.
+fn dots(line: &WireLine) -> impl Iterator<Item = [usize; 2]> {
+    let [start, end] = line.ends.map(|end| end.map(|at| PER_PIXEL * at));
+    let run = [end[0] - start[0], end[1] - start[1]];
+    let steps = run[0].abs().max(run[1].abs()).ceil().max(1.0);
+    (0..=steps as usize).map(move |step| {
+        let share = step as f64 / steps;
+        // A line along the right or lower edge of the picture is inside it.
+        [0, 1].map(|axis| (start[axis] + share * run[axis]) as usize)
+    })
+}
+
+/// The bit of a dot in the code of a braille character: the first six go down the columns, the last
+/// two are below.
+fn bit(x: usize, y: usize) -> u8 {
+    match (x, y) {
+        (x, 3) => 0x40 << x,
+        (x, y) => 1 << (3 * x + y),
+    }
+}
+
+fn character(mask: u8) -> char {
+    char::from_u32(0x2800 + u32::from(mask)).unwrap_or(' ')
+}
+
+#[cfg(test)]
+mod tests {
+    use ratatui::style::Color;
+
+    use super::*;
+
+    fn painted(lines: &[([[f64; 2]; 2], u32)], marked: &[u32], drawn: usize) -> Buffer {
+        let lines = lines
+            .iter()
+            .map(|&(ends, object)| WireLine { ends, object });
+        let wireframe = Wireframe {
+            lines: lines.collect(),
+            drawn,
+            seen: 3,
+        };
+        let area = Rect::new(0, 0, 16, 3);
+        let mut buffer = Buffer::empty(area);
+        paint(&wireframe, marked, area, &mut buffer);
+        buffer
+    }
+
+    fn rows(buffer: &Buffer) -> Vec<String> {
+        let row = |y| (0..16).map(|x| buffer[(x, y)].symbol()).collect::<String>();
+        (0..3).map(|y| row(y).trim_end().to_owned()).collect()
+    }
+
+    #[test]
+    fn lines_are_dots_of_braille() {
+        let across = [[0.0, 0.0], [2.0, 0.0]];
+        let down = [[3.0, 0.0], [3.0, 3.5]];
+        let diagonal = [[4.0, 0.0], [6.0, 2.0]];
+        let buffer = painted(&[(across, 0), (down, 0), (diagonal, 0)], &[], 3);
+        assert_eq!(rows(&buffer), ["⠉⠉⠁⡇⠑⢄", "   ⡇  ⠁", ""]);
+        // A line on the right edge of the picture has no cell of its own.
+        let edge = [[16.0, 0.0], [16.0, 5.0]];
+        assert_eq!(rows(&painted(&[(edge, 0)], &[], 3)), [""; 3]);
+    }
+
+    #[test]
+    fn only_marked_objects_are_styled() {
+        let at = |x| [[x, 0.0], [x, 0.0]];
+        let buffer = painted(&[(at(0.0), 4), (at(1.0), 7), (at(1.0), 1)], &[2, 7], 3);
+        let style = |x: u16| buffer[(x, 0)].style();
+        assert_eq!(style(0).fg, Some(Color::Reset));
+        assert_eq!(style(1).fg, theme::MARKED.fg);
+    }
+
+    #[test]
+    fn objects_left_out_are_counted() {
+        let shown = |drawn| rows(&painted(&[], &[], drawn))[0].clone();
+        assert_eq!(shown(2), " 2 of 3 objects");
+        assert_eq!(shown(3), "");
+    }
+}
