@@ -129,10 +129,10 @@ impl App {
         let node = self.cursor.selected();
         let component = self.cursor.component;
         let present = colours::literals(self.source(), placed);
-        if present
+        let is_present = present
             .get(component)
-            .is_some_and(|present| present == name)
-        {
+            .is_some_and(|present| present == name);
+        if is_present && !self.sets_marked() {
             return Ok(Vec::new());
         }
         let mut edits = self.edits_of(placed, &[(component, name.to_owned())]);

@@ -162,11 +162,16 @@ impl App {
     /// Returns the edits that set components of a field of the selected node, or of all marked ones
     /// if that is one of them.
     pub(super) fn edits_of(&self, placed: &Placed, values: &[(usize, String)]) -> Vec<Edit> {
-        if self.cursor.marks.contains(&self.cursor.selected()) {
+        if self.sets_marked() {
             self.edits_of_marked(placed.field, values)
         } else {
             placed.edits(&**self.source(), values)
         }
+    }
+
+    /// Whether a field is set in all marked nodes, as the selected one is one of them.
+    pub(super) fn sets_marked(&self) -> bool {
+        self.cursor.marks.contains(&self.cursor.selected())
     }
 
     /// Returns the edits that set components of a field in all marked nodes that have it.
