@@ -142,17 +142,21 @@ impl App {
         let channels = colour.to_array();
         for (at, channel) in channels.into_iter().enumerate() {
             let old = number(at).unwrap_or_default();
-            if (channel - scale * old).abs() <= 1e-9 * channel.abs().max(1e-6) {
+            let is_near = (channel - scale * old).abs() <= 1e-9 * channel.abs().max(1e-6);
+            let new = if is_near {
+                old
+            } else {
+                rounded(channel / scale, decimals(channels))
+            };
+            if new == old && !self.sets_marked() {
                 continue;
             }
-            let new = rounded(channel / scale, decimals(channels));
             let literal = match (placed.default_of(at), present.get(at)) {
+                (_, Some(old)) if is_near => old.clone(),
                 (None, Some(old)) => spell_like(old.trim(), new),
                 _ => new.to_string(),
             };
-            if new != old {
-                values.push((at, literal));
-            }
+            values.push((at, literal));
         }
         values.sort_by_key(|(at, _)| *at);
         values

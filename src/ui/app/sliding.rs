@@ -77,7 +77,7 @@ impl App {
         };
         let present = colours::literals(self.source(), placed);
         let present = present.first().map_or("", |literal| literal.trim());
-        if parse_number(present) == Ok(share) {
+        if parse_number(present) == Ok(share) && !self.sets_marked() {
             return Vec::new();
         }
         let literal = match placed.default_of(0) {

@@ -89,9 +89,13 @@ fn comparison(picker: &ColourPicker, lines: &PickerLines, inks: &mut Inks, buffe
         row.skip(left + WIDTH + 1).put(word, theme::DIM);
     }
     let channels = now.to_array().map(|channel| short(channel, 3)).join(" ");
+    let hexadecimal = hexadecimal(now);
     let mut row = Row::new(buffer, lines.numbers, 0);
-    row.put(&channels, Style::new()).skip(2);
-    row.put(&hexadecimal(now), theme::DIM);
+    // The fields show the numbers as well.
+    if channels.len() + 2 + hexadecimal.len() <= row.room() {
+        row.put(&channels, Style::new()).skip(2);
+    }
+    row.put(&hexadecimal, theme::DIM);
 }
 
 /// Draws the colours of the scene.

@@ -145,6 +145,18 @@ fn a_pasted_colour_is_taken_and_marked_things_follow() {
 }
 
 #[test]
+fn marked_things_get_the_channels_that_the_selected_one_has_already() {
+    let text = SCENE.replacen(".45 .45 .45", ".45 .36 .36", 1);
+    let mut app = picked("a.ray", &text, (Node::Object(0), "kd"), "");
+    app.cursor.marks = [Node::Object(0), Node::Object(1)].into();
+    press(&mut app, "cjjL<Enter>");
+    let both = SCENE.replace(".45 .45 .45", ".65 .52 .52");
+    assert_eq!(app.document.text(), both);
+    press(&mut app, "u");
+    assert_eq!(app.document.text(), text);
+}
+
+#[test]
 fn what_is_no_colour_says_so_and_the_palette_opens_the_picker() {
     let mut app = picked("a.ray", SCENE, (Node::Object(0), "radius"), "c");
     assert_eq!(words(&app), "radius is not a colour");
