@@ -10,6 +10,7 @@ mod camera;
 pub(crate) mod coefficients;
 mod dat;
 mod form;
+mod listed;
 mod node;
 mod partition;
 mod placed;
@@ -28,6 +29,7 @@ mod written;
 mod xml;
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fmt::Debug;
 use std::ops::{Deref, DerefMut};
@@ -361,6 +363,18 @@ pub trait Answers: Editable + Restructure {
     fn is_group(&self, object: usize) -> bool {
         let _ = object;
         false
+    }
+
+    /// The group that an object is in, or the first object that combines it.
+    fn group_of(&self, object: usize) -> Option<usize> {
+        let _ = object;
+        None
+    }
+
+    /// The objects outside folded ones, ascending: what a folded object holds or combines is not
+    /// listed, unless it is drawn by itself or an unfolded object combines it, too.
+    fn unfolded(&self, folded: &BTreeSet<usize>) -> Vec<usize> {
+        listed::unfolded(self, folded)
     }
 
     /// Maps an object of the scene to its object of the text.

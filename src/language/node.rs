@@ -103,6 +103,11 @@ impl Nodes {
         (0..self.len()).filter_map(move |row| self.get(row))
     }
 
+    /// The number of objects.
+    pub fn objects(self) -> usize {
+        self.objects
+    }
+
     fn kinds(self) -> [(IndexedNode, usize); 8] {
         [
             (|_| Node::View, usize::from(self.view)),

@@ -17,6 +17,7 @@ mod derived;
 mod disk;
 mod edit;
 mod exports;
+mod filtering;
 mod jobs;
 mod journal;
 mod leaving;
@@ -37,6 +38,7 @@ mod places;
 mod pointer;
 mod recover;
 mod reload;
+mod rows;
 mod saving;
 mod solo;
 mod structure;
@@ -52,7 +54,7 @@ mod viewing;
 
 use std::time::Duration;
 
-pub use cursor::{Cursor, Typing};
+pub use cursor::{Cursor, Names, Typing};
 pub use derived::{FieldRow, Provenance};
 pub use disk::{Disk, FirstReading, OnDisk};
 pub use jobs::{Export, Jobs, Pending, Stage};
@@ -66,6 +68,8 @@ pub use page::{List, Page, PageFocus};
 pub use palette::{Completion, Palette};
 pub use picture::{Picture, Shown};
 pub use pictures::{Pictures, Quality};
+pub use rows::Rows;
+pub use solo::Solo;
 pub use transform::Transform;
 
 /// A second Ctrl-C within this time ends the program.

@@ -45,6 +45,8 @@ pub struct Prompt {
     pub kind: PromptKind,
     /// The text and its cursor.
     pub input: Input,
+    /// Whether the next character replaces the text; other keys edit it.
+    pub is_selected: bool,
 }
 
 /// The purpose of a prompt.
@@ -52,8 +54,8 @@ pub struct Prompt {
 pub enum PromptKind {
     /// A command, after `:`.
     Command,
-    /// Part of a name to jump to, after `/`.
-    Search,
+    /// What the list is filtered by, after `/`, and the node selected before.
+    Filter(Node),
     /// The new name of the selected node.
     Name,
 }
@@ -116,18 +118,28 @@ impl Overlays {
         self.prompt = Some(Prompt {
             kind,
             input: Input::from(text),
+            is_selected: false,
         });
     }
 
-    /// Starts a search: of the help page or the other page if it is open, otherwise of the list.
-    pub(super) fn open_search(&mut self) {
+    /// Opens a prompt containing `text`, which the first typed character replaces.
+    pub(super) fn open_prompt_over(&mut self, kind: PromptKind, text: &str) {
+        self.open_prompt(kind, text);
+        if let Some(prompt) = &mut self.prompt {
+            prompt.is_selected = !text.is_empty();
+        }
+    }
+
+    /// Starts a search of the help page or the other page if it is open; returns whether one is.
+    pub(super) fn open_search(&mut self) -> bool {
         if let Some(help) = &mut self.help {
             help.focus = PageFocus::Search;
         } else if let Some(page) = &mut self.page {
             page.focus = PageFocus::Search;
         } else {
-            self.open_prompt(PromptKind::Search, "");
+            return false;
         }
+        true
     }
 
     /// Whether keys are typed into a line here.

@@ -6,7 +6,7 @@ use super::App;
 use super::camera::{advanced, dollied, orbited, turned};
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{field_at, list_row_at, pixel_at};
-use crate::ui::listing::{ListLine, Listing};
+use crate::ui::listing::ListLine;
 use crate::ui::msg::{Effect, Timer};
 
 /// Angles of orbit, in degrees, for dragging across a cell, which is twice as high as wide.
@@ -77,7 +77,7 @@ impl App {
             return Vec::new();
         }
         if let Some(line) = list_row_at(areas.list, self.cursor.list_top, at.0, at.1) {
-            let line = Listing::new(self.nodes()).get(line);
+            let line = self.listing().get(line);
             if let Some(ListLine::Node(_, node)) = line {
                 self.select(node);
                 self.overlays.errors = None;

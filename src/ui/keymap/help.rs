@@ -89,6 +89,7 @@ pub fn help(search: &str, mode: Mode, commands: Vec<Entry>) -> Vec<HelpLine> {
     for (heading, line) in [
         ("while a value is typed", Line::Value),
         ("after :", Line::Command),
+        ("while the list is filtered", Line::List),
         ("after /", Line::Search),
     ] {
         add(heading, line_hints(line).iter().map(owned).collect());
@@ -189,7 +190,7 @@ const SELECT_HINTS: &[Hint] = &[
     (&[A::Transform(Tool::Move)], "move it"),
     (&[A::Go(View)], "camera"),
     (&[A::Go(Pick)], "pick"),
-    (&[A::Search], "search"),
+    (&[A::Search], "filter"),
 ];
 const EDIT_HINTS: &[Hint] = &[
     (&[A::Move(1), A::Move(-1)], "field"),
@@ -349,7 +350,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
         let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 26);
+        assert_eq!(headings(&lines).len(), 27);
         assert!(lines.contains(&entry("gg", "first")));
         for row in TABLE {
             assert!(lines.contains(&entry(&row.keys(), row.words)), "{row:?}");
