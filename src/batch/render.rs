@@ -161,6 +161,7 @@ fn job(work: &Render, scene: Scene, images: Images, size: Size) -> Job {
             transfer,
         },
         frames: work.format.frames(),
+        numbers: None,
     }
 }
 

@@ -37,7 +37,10 @@ impl App {
             self.pictures.preview.asked = size;
             let spp = preview_samples(self.integrator());
             let job = size.zip(self.preview_scene());
-            let job = job.and_then(|(size, scene)| self.job_of(scene, size, spp, Filter::Box));
+            let job = job.and_then(|(size, (scene, numbers))| {
+                let job = self.job_of(scene, size, spp, Filter::Box)?;
+                Some(Job { numbers, ..job })
+            });
             effects.extend(job.map(|job| Effect::Trace(Target::Preview, job)));
         }
         effects
@@ -81,6 +84,7 @@ impl App {
                 transfer,
             },
             frames: Frames::Live,
+            numbers: None,
         })
     }
 
