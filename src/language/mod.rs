@@ -9,6 +9,7 @@ mod at;
 mod camera;
 pub(crate) mod coefficients;
 mod dat;
+mod first;
 mod form;
 mod listed;
 mod node;
@@ -51,7 +52,7 @@ pub use saved::{SavedView, view_name};
 pub use structure::{Addition, Neighbour, Placement, Pose, Restructure, StructureError, Wish};
 
 /// Declares the languages, one per line, by folder name, which is also the file extension. A folder
-/// provides `Source`, `errors_of_beginning`, `tree_bytes`, `LEAVES_KEEP_TO_LINES` and `TEMPLATE`.
+/// provides `Source`, `errors_of_beginning`, `tree_bytes`, `LEAVES_KEEP_TO_LINES`, `TEMPLATE` and `SKELETON`.
 macro_rules! languages {
     ($($(#[$doc:meta])* $name:ident in $folder:ident,)+) => {
         /// The supported scene languages.
@@ -75,6 +76,13 @@ macro_rules! languages {
             pub const fn template(self) -> &'static str {
                 match self {
                     $(Self::$name => $folder::TEMPLATE,)+
+                }
+            }
+
+            /// A minimal valid scene to put a first thing into.
+            const fn skeleton(self) -> &'static str {
+                match self {
+                    $(Self::$name => $folder::SKELETON,)+
                 }
             }
 

@@ -63,7 +63,7 @@ pub struct Nodes {
 }
 
 /// Makes the node with an index; kinds with at most one node ignore it.
-type IndexedNode = fn(usize) -> Node;
+pub(super) type IndexedNode = fn(usize) -> Node;
 
 impl Nodes {
     /// The number of nodes.

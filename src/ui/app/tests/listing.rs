@@ -83,6 +83,7 @@ fn the_list_is_filtered_while_typing() {
                 "ambient|>object 1 (sphere)|object 2 (box)|object 3 (sphere)",
             ),
             ("ox", ">object 2 (box)"),
+            ("<Back>", ">object 2 (box)"),
             (
                 "<Back>",
                 "ambient|>object 1 (sphere)|object 2 (box)|object 3 (sphere)",
