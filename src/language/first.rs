@@ -91,9 +91,8 @@ impl Source {
     /// Finds the places of the nodes.
     fn understand(&mut self) -> Result<(), StructureError> {
         let lowered = self.lower(&Meshes::default());
-        let refused = |reason: crate::memory::OutOfMemory| {
-            StructureError::Inexpressible(reason.to_string())
-        };
+        let refused =
+            |reason: crate::memory::OutOfMemory| StructureError::Inexpressible(reason.to_string());
         lowered.map(|_| ()).map_err(refused)
     }
 }
@@ -117,7 +116,11 @@ mod tests {
             (Language::Ray, "// a\n1", false),
             (Language::Dat, "# a\r\n// b\r\n", true),
             (Language::Dat, "# a\nmat", false),
-            (Language::Xml, "<?xml version='1.0'?>\n<!-- a\nb -->\n", true),
+            (
+                Language::Xml,
+                "<?xml version='1.0'?>\n<!-- a\nb -->\n",
+                true,
+            ),
             (Language::Xml, "<!-- a", false),
             (Language::Xml, "<xml/>", false),
         ] {

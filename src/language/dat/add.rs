@@ -182,7 +182,11 @@ impl Source {
             let field = fields.iter().find(|placed| placed.field.key == key);
             field.map_or(&[][..], |placed| &placed.spans)
         };
-        let is_zero = |key| spans(key).iter().all(|span| number(&self.text, *span) == 0.0);
+        let is_zero = |key| {
+            spans(key)
+                .iter()
+                .all(|span| number(&self.text, *span) == 0.0)
+        };
         let mut wanted = vec![(spans("source").first(), kind)];
         if kind == "inf" && is_zero("direction") && is_zero("position") {
             wanted.push((spans("direction").get(2), "-1"));

@@ -160,7 +160,7 @@ impl App {
             // A cancelled export: nobody waits for it, but its file exists now.
             if let Ok(exported) = outcome {
                 self.overlays
-                    .report(format!("wrote {} anyway", exported.path.display()));
+                    .say(format!("wrote {} anyway", exported.path.display()));
                 self.jobs.note_export(exported);
             }
             return Vec::new();
@@ -170,7 +170,7 @@ impl App {
             Ok(exported) => {
                 let path = exported.path.display();
                 self.overlays
-                    .report(format!("wrote {path}{}", export.summary()));
+                    .say(format!("wrote {path}{}", export.summary()));
                 self.jobs.note_export(exported);
             }
             Err(reason) => {

@@ -49,11 +49,11 @@ impl App {
         let source = self.document.source();
         self.cursor.rows.filter_by(words, source);
         let nodes = source.nodes();
-        let nearest = match words.is_empty() {
-            true => Some(from),
-            false => {
-                (self.cursor.rows.match_from(nodes.before(from))).and_then(|row| nodes.get(row))
-            }
+        let nearest = if words.is_empty() {
+            Some(from)
+        } else {
+            let row = self.cursor.rows.match_from(nodes.before(from));
+            row.and_then(|row| nodes.get(row))
         };
         if let Some(node) = nearest {
             self.select(node);

@@ -2,6 +2,7 @@
 //! messages and their history.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use tui_input::Input;
 
@@ -30,7 +31,8 @@ pub struct Overlays {
     pub page: Option<Page>,
     /// The selected diagnostic while the list of errors has the keys. Errors are always shown.
     pub errors: Option<usize>,
-    /// The message in the status line; the next key dismisses it.
+    /// The message in the status line. The next key dismisses it, or the next message once it could
+    /// be read.
     pub message: Option<Message>,
     /// The first message shown of the history, if it is open.
     pub history: Option<usize>,
@@ -185,25 +187,21 @@ impl Overlays {
     /// the other.
     pub(super) fn fail_too(&mut self, text: &str) {
         let text = &*without_codes(text);
-        let before = self.message.as_ref();
-        let before = before.filter(|before| before.severity == Some(Severity::Error));
-        let both = before.map(|before| {
-            if before.text.contains(text) {
-                before.text.clone()
-            } else {
-                format!("{}; {text}", before.text)
+        let before = self.message.as_mut();
+        match before.filter(|before| before.severity == Some(Severity::Error)) {
+            Some(before) => {
+                if !before.text.contains(text) {
+                    before.text = format!("{}; {text}", before.text);
+                }
+                self.messages.remember(before);
             }
-        });
-        self.replace(
-            Some(Severity::Error),
-            both.unwrap_or_else(|| text.to_owned()),
-        );
+            None => self.fail(text),
+        }
     }
 
-    /// Shows a message. If another came in the same step, which nobody has seen yet, this one waits
-    /// for the next key.
+    /// Shows a message. If another is shown, this one waits until that has been read.
     pub(super) fn show(&mut self, severity: Option<Severity>, text: impl Into<String>) {
-        self.put(Lasts::UntilNext, severity, &text.into());
+        self.put(Lasts::UntilRead, severity, &text.into());
     }
 
     /// Answers a key that does nothing. This is not remembered.
@@ -220,21 +218,12 @@ impl Overlays {
         self.put(Lasts::WhileErrors, Some(severity), &text.into());
     }
 
-    /// Reports the end of something that the user waits for. If another report is shown, this one
-    /// waits for the next key.
-    pub(super) fn report(&mut self, text: impl Into<String>) {
-        self.messages.is_unseen |= self.messages.lasts == Lasts::Report;
-        self.put(Lasts::Report, None, &text.into());
-    }
-
     fn put(&mut self, lasts: Lasts, severity: Option<Severity>, text: &str) {
         let text = without_codes(text).into_owned();
         let message = Message { severity, text };
         self.messages.remember(&message);
-        if self.message.is_some() && self.messages.is_unseen {
-            if self.message.as_ref() != Some(&message) {
-                self.messages.queue(message);
-            }
+        if self.message.is_some() && self.message.as_ref() != Some(&message) {
+            self.messages.queue(message, lasts);
             return;
         }
         self.message = Some(message);
@@ -242,22 +231,31 @@ impl Overlays {
         self.messages.lasts = lasts;
     }
 
-    /// Replaces the message, which caused this one or was caused by the same.
-    fn replace(&mut self, severity: Option<Severity>, text: String) {
-        self.message = None;
-        self.show(severity, text);
-    }
-
-    /// Begins a step: messages shown so far have been seen.
+    /// Begins a step: messages shown so far may have been seen.
     pub(super) fn begin_step(&mut self) {
         self.messages.is_unseen = false;
     }
 
     /// Ends a step: shows the next message that waits if there is none.
     pub(super) fn end_step(&mut self) {
-        if self.message.is_none() {
-            self.message = self.messages.next();
-            self.messages.lasts = Lasts::UntilNext;
+        if self.message.is_none()
+            && let Some((message, lasts)) = self.messages.next()
+        {
+            self.message = Some(message);
+            self.messages.lasts = lasts;
+        }
+    }
+
+    /// The time after which the next message takes the place of the one shown, if that time begins
+    /// now: another waits.
+    pub(super) fn time_to_read(&mut self) -> Option<Duration> {
+        self.messages.time_to_read(self.message.as_ref())
+    }
+
+    /// Dismisses the message for the next one, once it could be read.
+    pub(super) fn turn_message(&mut self) {
+        if self.messages.is_timed(self.message.as_ref()) {
+            self.message = None;
         }
     }
 
@@ -272,10 +270,11 @@ impl Overlays {
         self.messages.withdraw(text);
     }
 
-    /// Dismisses a message about errors in the text, which has none any more.
+    /// Dismisses messages about errors in the text, which has none any more.
     pub(super) fn forgive_errors(&mut self) {
         if self.messages.lasts == Lasts::WhileErrors && !self.messages.is_unseen {
             self.message = None;
         }
+        self.messages.forgive_errors();
     }
 }

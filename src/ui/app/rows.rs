@@ -1,6 +1,6 @@
 //! The rows of the list: which nodes it shows, by a filter and by the groups that are folded.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use crate::language::{Node, Source};
 use crate::ui::listing::Listing;
@@ -98,9 +98,10 @@ impl Rows {
     pub(super) fn filter_by(&mut self, words: &str, source: &Source) {
         let words = words.to_lowercase();
         let narrows = !self.filter.is_empty() && words.contains(&self.filter);
-        self.matches = match words.is_empty() {
-            true => Vec::new(),
-            false => source.rows_called(&words, narrows.then_some(&self.matches)),
+        self.matches = if words.is_empty() {
+            Vec::new()
+        } else {
+            source.rows_called(&words, narrows.then_some(&self.matches))
         };
         self.filter = words;
         self.show(source);
@@ -109,9 +110,10 @@ impl Rows {
     /// Folds or unfolds objects.
     pub(super) fn fold(&mut self, folded: BTreeSet<usize>, source: &Source) {
         let named = |(object, name)| folded.contains(&object).then_some(name);
-        self.names = match folded.is_empty() {
-            true => BTreeSet::new(),
-            false => foldable(source).into_iter().filter_map(named).collect(),
+        self.names = if folded.is_empty() {
+            BTreeSet::new()
+        } else {
+            foldable(source).into_iter().filter_map(named).collect()
         };
         self.folded = folded;
         self.show(source);
@@ -152,7 +154,7 @@ impl Rows {
 /// The objects that can be folded, each with its name and a number that tells it from those of the
 /// same name before it.
 pub(super) fn foldable(source: &Source) -> Vec<(usize, (String, usize))> {
-    let mut names: std::collections::HashMap<String, usize> = std::collections::HashMap::new();
+    let mut names: HashMap<String, usize> = HashMap::new();
     let objects = (0..source.nodes().objects()).filter(|&object| source.is_foldable(object));
     let named = objects.map(|object| {
         let name = source.called(Node::Object(object)).unwrap_or_default();

@@ -27,6 +27,8 @@ impl App {
         effects.extend(self.follow());
         effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
+        let time = self.overlays.time_to_read();
+        effects.extend(time.map(|time| Effect::Later(time, Timer::Message)));
         effects
     }
 
@@ -51,6 +53,7 @@ impl App {
             Msg::Elapsed(Timer::Settled) => return self.settled(),
             Msg::Elapsed(Timer::Interrupt) => self.jobs.interrupt = false,
             Msg::Elapsed(Timer::Click) => self.cursor.forget_click(),
+            Msg::Elapsed(Timer::Message) => self.overlays.turn_message(),
             Msg::Elapsed(Timer::Keep) => return self.keep_edits().into_iter().collect(),
             Msg::Elapsed(Timer::Writing) => return self.tick(),
             Msg::Saved(id, outcome) => return self.was_saved(id, outcome),

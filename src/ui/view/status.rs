@@ -209,7 +209,7 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
         let style = theme::severity(message.severity);
         let more = match app.overlays.messages.waiting() {
             0 => String::new(),
-            waiting => format!(" (+{waiting})"),
+            waiting => format!(" (+{waiting}, M)"),
         };
         let text = visible(&message.text);
         say(MESSAGE, format!("{text}{more}"), style);

@@ -1,5 +1,6 @@
 //! Tests of the interface: keys, pastes and files in; text, state and effects out.
 
+mod adding;
 mod assets;
 mod dat;
 mod disk;
@@ -160,11 +161,20 @@ fn typed(said: &str) -> String {
     changed_lines(&app).join("|")
 }
 
+/// The newest message, unless all have been dismissed.
 fn words(app: &App) -> &str {
-    app.overlays
-        .message
-        .as_ref()
-        .map_or("", |message| &message.text)
+    let messages = &app.overlays.messages;
+    let newest = match messages.waiting() {
+        0 => app.overlays.message.as_ref(),
+        _ => messages.past().next(),
+    };
+    newest.map_or("", |message| &message.text)
+}
+
+/// The message in the status line.
+fn shown(app: &App) -> &str {
+    let message = app.overlays.message.as_ref();
+    message.map_or("", |message| &message.text)
 }
 
 fn outside(app: &mut App, text: &str) -> Vec<Effect> {
