@@ -296,9 +296,9 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         };
         if let Some(numbers) = self.numbers {
             let number = |index: u32| numbers.get(index as usize).copied().unwrap_or(NO_OBJECT);
-            objects
-                .iter_mut()
-                .for_each(|object| *object = number(*object));
+            for object in &mut objects {
+                *object = number(*object);
+            }
         }
         self.developing = begun.elapsed();
         let untaken = self.ticket.shared.publish(Frame {

@@ -127,7 +127,7 @@ fn objects_are_called_by_the_numbers_of_the_job() {
         };
         let generation = restart(&mut renderer, job);
         let frame = finish(&renderer, &woken, generation);
-        frame.objects.iter().copied().collect::<Vec<_>>()
+        frame.objects.clone()
     };
     let plain = seen(None);
     let named = seen(Some([7, 3].into()));

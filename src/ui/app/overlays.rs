@@ -266,8 +266,12 @@ impl Overlays {
 
     /// Dismisses a message whose cause is gone, also while it waits.
     pub(super) fn withdraw(&mut self, text: &str) {
-        self.message.take_if(|message| message.text == text);
         self.messages.withdraw(text);
+        let is_stale = |message: &mut Message| message.text == text;
+        if self.message.take_if(is_stale).is_some() {
+            // Before messages that are yet to come in this step.
+            self.end_step();
+        }
     }
 
     /// Dismisses messages about errors in the text, which has none any more.

@@ -78,7 +78,10 @@ impl Rows {
     /// The first match from a row on, otherwise the first of all.
     pub(super) fn match_from(&self, row: usize) -> Option<usize> {
         let at = self.matches.partition_point(|&other| other < row);
-        self.matches.get(at).or(self.matches.first()).copied()
+        self.matches
+            .get(at)
+            .or_else(|| self.matches.first())
+            .copied()
     }
 
     /// The index of a row among the matches.

@@ -100,12 +100,12 @@ fn the_list_is_filtered_while_typing() {
             ("<Esc>", first),
             (
                 "n",
-                &first.replace(">", "").replace("object 3", ">object 3"),
+                &first.replace('>', "").replace("object 3", ">object 3"),
             ),
             ("/xyz", ""),
             (
                 "<Enter>",
-                &first.replace(">", "").replace("object 3", ">object 3"),
+                &first.replace('>', "").replace("object 3", ">object 3"),
             ),
             ("k", all),
             ("/light<Esc>", all),
