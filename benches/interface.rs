@@ -441,6 +441,7 @@ fn tracing(scene: &Arc<Scene>) -> (Renderer, Receiver<()>) {
         camera: scene.camera,
         settings,
         frames: Frames::Live,
+        numbers: None,
     };
     renderer.restart(job).expect("the worker runs");
     (renderer, woken)

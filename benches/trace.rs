@@ -263,6 +263,7 @@ fn traced(scene: &Arc<Scene>, threads: usize) -> (Duration, Arc<Frame>) {
             camera: scene.camera,
             settings,
             frames: Frames::Last,
+            numbers: None,
         };
         let generation = renderer.restart(job).expect("the worker runs");
         loop {

@@ -130,6 +130,7 @@ fn trace(scene: &Arc<Scene>, threads: usize) -> Arc<Frame> {
                 transfer: Transfer::default(),
             },
             frames: Frames::Last,
+            numbers: None,
         })
         .expect("there is memory");
     loop {

@@ -224,6 +224,7 @@ fn trace(scene: &Arc<Scene>, images: Images, size: Size, spp: u32) -> Arc<Frame>
         camera: scene.camera,
         settings,
         frames: Frames::Last,
+        numbers: None,
     };
     renderer.restart(job).expect("the worker runs");
     loop {

@@ -68,6 +68,7 @@ fn the_example_is_white_on_black() {
         },
         scene,
         frames: Frames::Last,
+        numbers: None,
     };
     renderer.restart(job).expect("the worker runs");
     let frame = loop {

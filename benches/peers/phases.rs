@@ -271,6 +271,7 @@ impl Stage {
                 transfer: scene.setting.transfer,
             },
             frames: Frames::Last,
+            numbers: None,
         };
         let begun = Instant::now();
         let generation = self.renderer.restart(job).expect("the worker runs");

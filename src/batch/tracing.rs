@@ -90,6 +90,7 @@ impl Tracing {
                 transfer,
             },
             frames,
+            numbers: None,
         }
     }
 }

@@ -9,8 +9,10 @@ mod at;
 mod camera;
 pub(crate) mod coefficients;
 mod dat;
+mod first;
 mod form;
 mod frame;
+mod listed;
 mod node;
 mod partition;
 mod placed;
@@ -29,6 +31,7 @@ mod written;
 mod xml;
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fmt::Debug;
 use std::ops::{Deref, DerefMut};
@@ -50,7 +53,7 @@ pub use saved::{SavedView, view_name};
 pub use structure::{Addition, Neighbour, Placement, Pose, Restructure, StructureError, Wish};
 
 /// Declares the languages, one per line, by folder name, which is also the file extension. A folder
-/// provides `Source`, `errors_of_beginning`, `tree_bytes`, `LEAVES_KEEP_TO_LINES` and `TEMPLATE`.
+/// provides `Source`, `errors_of_beginning`, `tree_bytes`, `LEAVES_KEEP_TO_LINES`, `TEMPLATE` and `SKELETON`.
 macro_rules! languages {
     ($($(#[$doc:meta])* $name:ident in $folder:ident,)+) => {
         /// The supported scene languages.
@@ -74,6 +77,13 @@ macro_rules! languages {
             pub const fn template(self) -> &'static str {
                 match self {
                     $(Self::$name => $folder::TEMPLATE,)+
+                }
+            }
+
+            /// A minimal valid scene to put a first thing into.
+            const fn skeleton(self) -> &'static str {
+                match self {
+                    $(Self::$name => $folder::SKELETON,)+
                 }
             }
 
@@ -362,6 +372,18 @@ pub trait Answers: Editable + Restructure {
     fn is_group(&self, object: usize) -> bool {
         let _ = object;
         false
+    }
+
+    /// The group that an object is in, or the first object that combines it.
+    fn group_of(&self, object: usize) -> Option<usize> {
+        let _ = object;
+        None
+    }
+
+    /// The objects outside folded ones, ascending: what a folded object holds or combines is not
+    /// listed, unless it is drawn by itself or an unfolded object combines it, too.
+    fn unfolded(&self, folded: &BTreeSet<usize>) -> Vec<usize> {
+        listed::unfolded(self, folded)
     }
 
     /// Maps an object of the scene to its object of the text.

@@ -63,7 +63,7 @@ pub struct Nodes {
 }
 
 /// Makes the node with an index; kinds with at most one node ignore it.
-type IndexedNode = fn(usize) -> Node;
+pub(super) type IndexedNode = fn(usize) -> Node;
 
 impl Nodes {
     /// The number of nodes.
@@ -101,6 +101,11 @@ impl Nodes {
     /// All nodes.
     pub fn iter(self) -> impl Iterator<Item = Node> {
         (0..self.len()).filter_map(move |row| self.get(row))
+    }
+
+    /// The number of objects.
+    pub fn objects(self) -> usize {
+        self.objects
     }
 
     fn kinds(self) -> [(IndexedNode, usize); 8] {

@@ -111,6 +111,9 @@ pub struct Job {
     pub settings: Settings,
     /// Which frames contain pixels.
     pub frames: Frames,
+    /// What frames call the objects of the scene, by index; `None` calls them by their indices. A
+    /// scene with a part of another's objects is shown as that one.
+    pub numbers: Option<Arc<[u32]>>,
 }
 
 /// A picture as far as it is traced.
@@ -123,7 +126,8 @@ pub struct Frame {
     /// Red, green, blue of each pixel, in rows from the top left, as exported; empty in frames
     /// without pixels, see [`Frames`].
     pub pixels: Vec<[u8; 3]>,
-    /// Index of the object under each pixel's centre, or [`NO_OBJECT`]; only with [`Frames::Live`].
+    /// Number of the object under each pixel's centre, see [`Job::numbers`], or [`NO_OBJECT`]; only
+    /// with [`Frames::Live`].
     pub objects: Vec<u32>,
     /// Linear radiance or AOV of each pixel; only with [`Frames::LastWithValues`].
     pub values: Vec<[f32; 3]>,

@@ -9,7 +9,7 @@ use rayon::ThreadPool;
 use super::camera::Projection;
 use super::film::{Film, Raster};
 use super::filter::Spread;
-use super::frame::{Frame, Frames, Job, Progress};
+use super::frame::{Frame, Frames, Job, NO_OBJECT, Progress};
 use super::probe::Counts;
 use super::shared::Shared;
 use super::shot::Shot;
@@ -180,6 +180,7 @@ struct Tracing<'s, W> {
     size: Size,
     spp: u32,
     frames: Frames,
+    numbers: Option<&'s [u32]>,
     counts: Counts,
     /// Samples taken, divided by the number of pixels.
     taken: f64,
@@ -194,7 +195,7 @@ struct Tracing<'s, W> {
 }
 
 impl<'s, W: Fn() + Sync> Tracing<'s, W> {
-    fn new(ticket: Ticket<'s>, begun: Instant, job: &Job, film: Film, wake: &'s W) -> Self {
+    fn new(ticket: Ticket<'s>, begun: Instant, job: &'s Job, film: Film, wake: &'s W) -> Self {
         Self {
             ticket,
             wake,
@@ -203,6 +204,7 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
             size: job.settings.size,
             spp: job.settings.spp,
             frames: job.frames,
+            numbers: job.numbers.as_deref(),
             counts: Counts::default(),
             taken: 0.0,
             pass: 1,
@@ -286,12 +288,18 @@ impl<'s, W: Fn() + Sync> Tracing<'s, W> {
         };
         let Some(Raster {
             pixels,
-            objects,
+            mut objects,
             values,
         }) = raster
         else {
             return;
         };
+        if let Some(numbers) = self.numbers {
+            let number = |index: u32| numbers.get(index as usize).copied().unwrap_or(NO_OBJECT);
+            for object in &mut objects {
+                *object = number(*object);
+            }
+        }
         self.developing = begun.elapsed();
         let untaken = self.ticket.shared.publish(Frame {
             generation: self.ticket.generation,

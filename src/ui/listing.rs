@@ -1,7 +1,7 @@
 //! The lines of the list: its nodes under headings with their counts.
 //!
 //! Headings cannot be selected. Nothing is stored per line, so that a list of millions of objects
-//! costs no more than a short one.
+//! costs no more than a short one, except the rows of a list that shows only some.
 
 use crate::language::{Node, Nodes};
 use crate::text::counted;
@@ -17,8 +17,10 @@ pub enum ListLine {
 
 /// The lines of the list of some nodes.
 #[derive(Clone, Copy, Debug)]
-pub struct Listing {
+pub struct Listing<'a> {
     nodes: Nodes,
+    /// The rows shown, ascending; `None` if all are.
+    shown: Option<&'a [usize]>,
     sections: [Section; 4],
 }
 
@@ -26,22 +28,34 @@ pub struct Listing {
 #[derive(Clone, Copy, Debug)]
 struct Section {
     noun: &'static str,
-    /// The row of the first node.
+    /// The number of rows shown before it.
     first: usize,
+    /// The number of its rows shown.
+    shown: usize,
+    /// The number of all nodes of the kind.
     count: usize,
 }
 
-impl Listing {
-    /// The lines of the list of these nodes.
-    pub fn new(nodes: Nodes) -> Self {
+impl<'a> Listing<'a> {
+    /// The lines of the list of these nodes, of which only some rows, ascending, may be shown.
+    pub fn new(nodes: Nodes, shown: Option<&'a [usize]>) -> Self {
+        let shown_before =
+            |row: usize| shown.map_or(row, |shown| shown.partition_point(|&other| other < row));
         let section = |noun, kind: fn(usize) -> Node| {
             let first = nodes.before(kind(0));
             // No node of the kind has this index.
-            let count = nodes.before(kind(usize::MAX)) - first;
-            Section { noun, first, count }
+            let end = nodes.before(kind(usize::MAX));
+            let before = shown_before(first);
+            Section {
+                noun,
+                first: before,
+                shown: shown_before(end) - before,
+                count: end - first,
+            }
         };
         Self {
             nodes,
+            shown,
             sections: [
                 section("light", Node::Light),
                 section("material", Node::Material),
@@ -53,37 +67,59 @@ impl Listing {
 
     /// The number of lines.
     pub fn len(&self) -> usize {
-        self.nodes.len() + self.headed().count()
+        let rows = self.shown.map_or_else(|| self.nodes.len(), <[usize]>::len);
+        rows + self.headed().count()
     }
 
     /// Whether there are no lines.
     pub fn is_empty(&self) -> bool {
-        self.nodes.is_empty()
+        self.len() == 0
     }
 
     /// The line with an index.
     pub fn get(&self, line: usize) -> Option<ListLine> {
-        let mut row = line;
+        let mut place = line;
         for section in self.headed() {
-            if row < section.first {
+            if place < section.first {
                 break;
             }
-            if row == section.first {
-                return Some(ListLine::Heading(counted(section.count, section.noun)));
+            if place == section.first {
+                return Some(ListLine::Heading(section.heading()));
             }
-            row -= 1;
+            place -= 1;
         }
+        let row = match self.shown {
+            Some(shown) => *shown.get(place)?,
+            None => place,
+        };
         Some(ListLine::Node(row, self.nodes.get(row)?))
     }
 
-    /// The index of the line that shows the node with a row.
+    /// The index of the line that shows the node with a row, or would if it were shown.
     pub fn line_of(&self, row: usize) -> usize {
-        row + self.headed().filter(|section| section.first <= row).count()
+        let shown = self.shown;
+        let place = shown.map_or(row, |shown| shown.partition_point(|&other| other < row));
+        place
+            + self
+                .headed()
+                .filter(|section| section.first <= place)
+                .count()
     }
 
     /// The sections with a heading.
     fn headed(&self) -> impl Iterator<Item = &Section> {
-        self.sections.iter().filter(|section| 0 < section.count)
+        self.sections.iter().filter(|section| 0 < section.shown)
+    }
+}
+
+impl Section {
+    fn heading(&self) -> String {
+        let all = counted(self.count, self.noun);
+        if self.shown == self.count {
+            all
+        } else {
+            format!("{} of {all}", self.shown)
+        }
     }
 }
 
@@ -95,18 +131,17 @@ mod tests {
     use crate::language::{Language, Source};
     use crate::scene::Meshes;
 
-    fn listing(language: Language, text: &str) -> Listing {
+    fn nodes(language: Language, text: &str) -> Nodes {
         let mut source = Source::new(language, Arc::new(text.to_owned()));
         source.lower(&Meshes::default()).expect("there is memory");
-        Listing::new(source.nodes())
+        source.nodes()
     }
 
-    #[test]
-    fn every_node_has_a_line_below_the_heading_of_its_kind() {
-        let ball = "sphere 0 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1\n";
-        let text = format!(".1 .1 .1\n1\n1 5 5 5 1 1\n2\n{ball}{ball}");
-        let listing = listing(Language::Ray, &text);
-        let lines: Vec<_> = (0..listing.len())
+    /// The lines of a list, each found by its row as well.
+    fn lines(nodes: Nodes, shown: Option<&[usize]>) -> Vec<String> {
+        let listing = Listing::new(nodes, shown);
+        assert_eq!(listing.get(listing.len()), None);
+        (0..listing.len())
             .map(|line| match listing.get(line) {
                 Some(ListLine::Heading(words)) => words,
                 Some(ListLine::Node(row, node)) => {
@@ -115,9 +150,16 @@ mod tests {
                 }
                 None => panic!("line {line} is missing"),
             })
-            .collect();
+            .collect()
+    }
+
+    #[test]
+    fn every_node_has_a_line_below_the_heading_of_its_kind() {
+        let ball = "sphere 0 0 0 1 0 0 0 0 0 0 0 0 0 1 0 0 1\n";
+        let text = format!(".1 .1 .1\n1\n1 5 5 5 1 1\n2\n{ball}{ball}");
+        let nodes = nodes(Language::Ray, &text);
         assert_eq!(
-            lines,
+            lines(nodes, None),
             [
                 "view",
                 "ambient",
@@ -128,12 +170,15 @@ mod tests {
                 "object 2"
             ]
         );
-        assert_eq!(listing.get(listing.len()), None);
+        assert_eq!(
+            lines(nodes, Some(&[1, 4])),
+            ["ambient", "1 of 2 objects", "object 2"]
+        );
+        assert!(lines(nodes, Some(&[])).is_empty());
     }
 
     #[test]
     fn an_empty_list_has_no_lines() {
-        let listing = listing(Language::Xml, "");
-        assert!(listing.is_empty() && listing.get(0).is_none());
+        assert!(lines(nodes(Language::Xml, ""), None).is_empty());
     }
 }

@@ -119,6 +119,8 @@ pub enum Timer {
     Keep,
     /// Files that are being written.
     Writing,
+    /// The time to read a message while another waits.
+    Message,
 }
 
 /// Result of a save.

@@ -6,7 +6,7 @@ use super::Source;
 use super::form::{form, put};
 use super::table::{ObjectKind, RecordKind, UseKind};
 use crate::language::form::Form;
-use crate::language::structure::Wish;
+use crate::language::structure::{Wish, number};
 use crate::language::table::Category;
 use crate::language::{Addition, Answers, Node, Placement, Restructure, StructureError};
 use crate::text::{Edit, Span};
@@ -101,11 +101,14 @@ pub(super) fn retyping(
     kind: &str,
 ) -> Result<Vec<Edit>, StructureError> {
     let refused = |reason: &str| StructureError::Inexpressible(reason.to_owned());
+    if let Node::Light(_) = node {
+        return Ok(source.light_as(node, kind));
+    }
     let Node::Object(index) = node else {
-        return Err(refused("only solids can change their type"));
+        return Err(refused("only solids and lights can change their type"));
     };
     let new = SOLIDS.into_iter().find(|solid| solid.keyword() == kind);
-    let new = new.ok_or_else(|| refused("only solids can change their type"))?;
+    let new = new.ok_or_else(|| refused("only solids and lights can change their type"))?;
     let shapeless = || refused("it has no size that another type could use");
     let (old, _, numbers) = source.object_numbers(index).ok_or_else(shapeless)?;
     let form = form(old, &numbers).ok_or_else(shapeless)?;
@@ -194,6 +197,32 @@ fn literals(
 }
 
 impl Source {
+    /// The edits that make a light one of another kind, which keeps its numbers. A distant light
+    /// that has neither a direction nor a position shines down.
+    fn light_as(&self, node: Node, kind: &str) -> Vec<Edit> {
+        let fields = self.fields(node);
+        let spans = |key: &str| {
+            let field = fields.iter().find(|placed| placed.field.key == key);
+            field.map_or(&[][..], |placed| &placed.spans)
+        };
+        let is_zero = |key| {
+            spans(key)
+                .iter()
+                .all(|span| number(&self.text, *span) == 0.0)
+        };
+        let mut wanted = vec![(spans("source").first(), kind)];
+        if kind == "inf" && is_zero("direction") && is_zero("position") {
+            wanted.push((spans("direction").get(2), "-1"));
+        }
+        let edit = |(span, text): (Option<&Span>, &str)| {
+            Some(Edit {
+                span: *span?,
+                text: text.to_owned(),
+            })
+        };
+        wanted.into_iter().filter_map(edit).collect()
+    }
+
     /// The records of a new solid, with a material if there is none.
     fn solid(&self, kind: ObjectKind, wish: &Wish<'_>) -> Result<String, StructureError> {
         let form = Form::upright(wish.centre, wish.half, DVec3::Z);
@@ -204,7 +233,7 @@ impl Source {
         };
         let selected = match wish.after {
             Node::Material(index) => Some(index),
-            Node::Object(index) => self.material(index),
+            Node::Object(index) => self.material_in(index),
             _ => None,
         };
         let material = self.origins.materials.get(selected.unwrap_or(0));
@@ -216,6 +245,17 @@ impl Source {
         Ok(format!(
             "{before}obj {keyword} ID 1 mat ID {id}  {literals}"
         ))
+    }
+
+    /// The material of an object, or that of the first part of a combination that has one.
+    fn material_in(&self, index: usize) -> Option<usize> {
+        let parts = self.parts(index, usize::MAX).into_iter();
+        let of_part = |(_, part)| match part {
+            Node::Object(part) => self.material(part),
+            _ => None,
+        };
+        let mut parts = parts.filter_map(of_part);
+        self.material(index).or_else(|| parts.next())
     }
 
     /// The record that combines the two marked objects.

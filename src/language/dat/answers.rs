@@ -1,5 +1,7 @@
 //! The answers of a `.dat` text.
 
+use std::collections::BTreeSet;
+
 use super::origins::{ObjectPlace, Place, place};
 use super::table::OPERATIONS;
 use super::tree::{is_comment, leaves};
@@ -131,6 +133,29 @@ impl Answers for Source {
         let is_operator = |placed: &&Placed| placed.field.kind == operator;
         let operator = fields.iter().find(is_operator)?;
         Some(operator.spans.first()?.of(&self.text))
+    }
+
+    fn group_of(&self, object: usize) -> Option<usize> {
+        let combines = |at: &ObjectPlace| at.operands.is_some_and(|parts| parts.contains(&object));
+        let objects = self.origins.objects.iter();
+        // Operands precede their use.
+        let mut users = objects.enumerate().skip(object + 1);
+        users.find_map(|(index, at)| combines(at).then_some(index))
+    }
+
+    fn unfolded(&self, folded: &BTreeSet<usize>) -> Vec<usize> {
+        let objects = &self.origins.objects;
+        // Whether it is listed whatever is folded: nothing combines it, or it is drawn by itself.
+        let mut is_listed = vec![true; objects.len()];
+        let parts = objects.iter().filter_map(|at| at.operands).flatten();
+        parts.for_each(|part| is_listed[part] = self.drawn(part).is_some());
+        for (index, at) in objects.iter().enumerate().rev() {
+            let shows = is_listed[index] && !folded.contains(&index);
+            for part in at.operands.iter().flatten() {
+                is_listed[*part] |= shows;
+            }
+        }
+        (0..objects.len()).filter(|&at| is_listed[at]).collect()
     }
 
     fn references(&self, node: Node, category: Category) -> Vec<(String, Node)> {

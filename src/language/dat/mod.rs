@@ -31,6 +31,9 @@ pub(super) const LEAVES_KEEP_TO_LINES: bool = true;
 /// A small valid scene to begin with.
 pub(super) const TEMPLATE: &str = include_str!("template.dat");
 
+/// A minimal valid scene to put a first thing into.
+pub(super) const SKELETON: &str = include_str!("skeleton.dat");
+
 /// Returns the errors of every text with this beginning.
 pub(super) fn errors_of_beginning(beginning: &str) -> Findings {
     lower::errors_of_beginning(beginning, &tree::parse(beginning))

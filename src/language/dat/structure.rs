@@ -5,7 +5,7 @@ use std::collections::HashSet;
 
 use super::copies::{Copies, Identity};
 use super::origins::Place;
-use super::table::ObjectKind;
+use super::table::{ObjectKind, SOURCES};
 use super::tree::is_comment;
 use super::visibility::Listing;
 use super::{Source, add};
@@ -205,6 +205,7 @@ impl Restructure for Source {
             Node::Object(object) if self.operation(object).is_none() => {
                 add::SOLIDS.map(ObjectKind::keyword).into()
             }
+            Node::Light(_) => SOURCES.map(|(word, _)| word).into(),
             _ => Vec::new(),
         }
     }

@@ -39,7 +39,13 @@ pub(super) fn addition(
             ShapeKind::Sphere | ShapeKind::Ellipsoid | ShapeKind::Box => DVec3::Z,
         };
         let form = Form::upright(wish.centre, wish.half, axis);
-        let literals = literals(kind, &new_object(kind, &form), wish);
+        let mut literals = literals(kind, &new_object(kind, &form), wish);
+        if let Node::Object(selected) = wish.after
+            && let Some(material) = source.material_literals(selected)
+        {
+            literals.truncate(table::numbers(kind.geometry()));
+            literals.extend(material);
+        }
         let like = source.like(kind, wish.after);
         source.laid_out(kind.keyword(), kind.fields(), &literals, like)
     } else {
@@ -95,6 +101,14 @@ fn literals(kind: ShapeKind, numbers: &[f64], wish: &Wish<'_>) -> Vec<String> {
 }
 
 impl Source {
+    /// The material of an object as it is written.
+    fn material_literals(&self, index: usize) -> Option<Vec<String>> {
+        let (kind, spans, _) = self.object_numbers(index)?;
+        let spans = spans.get(table::numbers(kind.geometry())..)?;
+        let literals = spans.iter().map(|span| span.of(&self.text).to_owned());
+        Some(literals.collect())
+    }
+
     /// A new text for a span, with the comments of the old one before it, each on its own line.
     fn with_comments(&self, span: Span, new: &str) -> String {
         let text = &*self.text;

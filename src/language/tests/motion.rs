@@ -108,7 +108,7 @@ fn a_combination_needs_two_marked_objects() {
 
 #[test]
 fn new_text_is_laid_out_like_its_neighbours() {
-    let material = "0.1 0.1 0.1  0.6 0.6 0.6  0.3 0.3 0.3  20  0  0  1";
+    let material = "0 0 0  .5 .5 .5  0 0 0  1  0  0  1";
     let old = "0 0 0  1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1";
     let line = format!("1 1 1\n1\n0 5 5 1 1 1\n1\n  sphere {old}\n");
     let (source, _) = read_as(Language::Ray, &line, &Meshes::default());

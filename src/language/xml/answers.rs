@@ -71,6 +71,15 @@ impl Answers for Source {
         place.is_some_and(|place| place.kind == ObjectKind::Group)
     }
 
+    fn group_of(&self, object: usize) -> Option<usize> {
+        let element = self.origins.objects.get(object)?.element as usize;
+        let parent = self.tree.elements.get(element)?.parent?;
+        match self.origins.node_of(parent as usize)? {
+            Node::Object(group) => Some(group),
+            _ => None,
+        }
+    }
+
     fn span(&self, node: Node) -> Span {
         let tree = &self.tree;
         let element = self.origins.element(tree, node);

@@ -31,6 +31,9 @@ pub(super) const LEAVES_KEEP_TO_LINES: bool = false;
 /// A small valid scene to begin with.
 pub(super) const TEMPLATE: &str = include_str!("template.xml");
 
+/// A minimal valid scene to put a first thing into.
+pub(super) const SKELETON: &str = include_str!("skeleton.xml");
+
 /// Returns the errors of every text with this beginning.
 pub(super) fn errors_of_beginning(beginning: &str) -> Findings {
     let mut findings = Findings::default();

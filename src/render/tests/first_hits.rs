@@ -34,6 +34,7 @@ fn values(aov: Aov, spp: u32) -> Arc<Frame> {
             ..settings(SIZE.width, SIZE.height, spp)
         },
         frames: Frames::LastWithValues,
+        numbers: None,
     };
     let generation = restart(&mut renderer, job);
     finish(&renderer, &woken, generation)
@@ -104,10 +105,37 @@ fn radiance_is_returned_unclamped_on_request() {
             images: Images::default(),
             settings: settings(41, 31, 1),
             frames,
+            numbers: None,
         };
         let generation = restart(&mut renderer, job);
         let frame = finish(&renderer, &woken, generation);
         assert_eq!(frame.pixels[CENTRE], [255; 3]);
         assert_eq!(frame.values.get(CENTRE), told.then_some(&[3.5; 3]));
     }
+}
+
+#[test]
+fn objects_are_called_by_the_numbers_of_the_job() {
+    let objects = [-1.5, 1.5].map(|x| (sphere([x, 0.0, 0.0], 1.0), grey(0.5)));
+    let scene = Arc::new(scene(&objects, &[]));
+    let (mut renderer, woken) = renderer(1);
+    let own = job(&scene, settings(41, 31, 1));
+    let mut seen = |numbers: Option<Arc<[u32]>>| {
+        let job = Job {
+            numbers,
+            ..own.clone()
+        };
+        let generation = restart(&mut renderer, job);
+        let frame = finish(&renderer, &woken, generation);
+        frame.objects.clone()
+    };
+    let plain = seen(None);
+    let named = seen(Some([7, 3].into()));
+    let name = |&object: &u32| match object {
+        0 => 7,
+        1 => 3,
+        other => other,
+    };
+    assert!(plain.contains(&0) && plain.contains(&1) && plain.contains(&NO_OBJECT));
+    assert_eq!(named, plain.iter().map(name).collect::<Vec<_>>());
 }

@@ -299,6 +299,7 @@ fn job(scene: &Arc<Scene>, settings: Settings) -> Job {
         camera: scene.camera,
         settings,
         frames: Frames::Live,
+        numbers: None,
     }
 }
 

@@ -14,12 +14,7 @@ const SHARE: f64 = 0.2;
 impl App {
     /// Opens the menu of what can be added.
     pub(super) fn open_additions(&mut self) {
-        if self.document.text().trim().is_empty() {
-            self.overlays
-                .fail("the scene is empty: start one with :new");
-            return;
-        }
-        if self.refuses_structure() {
+        if !self.source().is_blank() && self.refuses_structure() {
             return;
         }
         let additions = self.source().additions();
@@ -41,15 +36,29 @@ impl App {
             self.overlays.fail(format!("{name} has only one type"));
             return;
         }
+        let fields = self.source().fields(node);
+        let written = fields.iter().filter_map(|placed| placed.spans.first());
+        let written: Vec<_> = written.map(|&span| self.source().leaf_text(span)).collect();
         let own = kinds
             .iter()
-            .position(|kind| name.ends_with(&format!("({kind})")));
+            .position(|kind| name.ends_with(&format!("({kind})")) || written.contains(kind));
         let entries = kinds.into_iter().map(|kind| Entry::new(kind, "")).collect();
         self.overlays.menu = Some(Menu::new(Purpose::Retype, entries, own.unwrap_or(0)));
     }
 
-    /// Adds a thing on the surface looked at, otherwise at the camera's target.
+    /// Adds a thing on the surface looked at, otherwise at the camera's target; in an empty text, a
+    /// minimal scene with it.
     pub(super) fn add(&mut self, name: &str) {
+        let done = format!("added: {name}; m moves it, s scales it");
+        if self.source().is_blank() {
+            let first = self.source().first(name);
+            let node = first.as_ref().ok().map(|&(_, node)| node);
+            self.restructure(first.map(|(edit, _)| vec![edit]), None, &done);
+            if let Some(node) = node.filter(|_| self.error_count() == 0) {
+                self.select(node);
+            }
+            return;
+        }
         let marked: Vec<_> = self.cursor.marks.iter().copied().collect();
         let (centre, half, decimals) = self.place_for_new();
         let wish = Wish {
@@ -62,11 +71,7 @@ impl App {
         let placed = self.source().addition(name, &wish);
         let at = placed.as_ref().ok().map(|placed| placed.at);
         let edits = placed.map(|placed| placed.edits);
-        self.restructure(
-            edits,
-            at,
-            &format!("added: {name}; m moves it, s scales it"),
-        );
+        self.restructure(edits, at, &done);
     }
 
     /// The centre and half the size of a new thing, and the decimals that its place needs.

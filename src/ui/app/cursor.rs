@@ -6,13 +6,13 @@ use std::sync::Arc;
 use ratatui::layout::Rect;
 use tui_input::Input;
 
+use super::rows::Rows;
 use super::trial::Trial;
 use crate::language::{Node, Nodes, Placed, Source};
 use crate::text::{Diagnostic, Edit, Span};
 use crate::ui::arrange::Areas;
 use crate::ui::keymap::Stride;
 use crate::ui::layout;
-use crate::ui::listing::Listing;
 
 /// The maximum number of parts listed for a combined object.
 const MAX_PARTS: usize = 32;
@@ -24,6 +24,8 @@ pub struct Cursor {
     /// The fields of the selected node in the current text.
     fields: Vec<Placed>,
     parts: Vec<(usize, Node)>,
+    /// Which rows the list shows.
+    pub rows: Rows,
     /// The first line of the list that is shown.
     pub list_top: usize,
     /// The index of the selected field.
@@ -44,7 +46,7 @@ pub struct Cursor {
     pub(super) copied: Option<String>,
     /// The nodes of the text that the marks belong to.
     nodes: Nodes,
-    /// The last search in the list.
+    /// What the list was filtered by last.
     pub(super) searched: String,
     /// The component clicked a moment ago.
     clicked: Option<(usize, usize)>,
@@ -79,12 +81,22 @@ pub(super) struct SavedCursor {
     field: Option<(&'static str, Option<Span>)>,
 }
 
+/// Whether a change of the text may have changed what nodes are called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Names {
+    /// It may have.
+    Changed,
+    /// It has only changed numbers.
+    Kept,
+}
+
 impl Default for Cursor {
     fn default() -> Self {
         Self {
             selected: Node::View,
             fields: Vec::new(),
             parts: Vec::new(),
+            rows: Rows::default(),
             list_top: 0,
             field: 0,
             field_top: 0,
@@ -123,9 +135,11 @@ impl Cursor {
         self.fields.get(self.field)
     }
 
-    /// Selects a node and drops a value being typed.
+    /// Selects a node and drops a value being typed. If the list does not show the node, it is shown
+    /// unfiltered and unfolded as far as necessary.
     pub fn select(&mut self, node: Node, source: &Source) {
         self.typing = None;
+        self.reveal(node, source);
         if node != self.selected {
             self.field = 0;
             self.component = 0;
@@ -134,9 +148,47 @@ impl Cursor {
         }
     }
 
+    fn reveal(&mut self, node: Node, source: &Source) {
+        let row = source.nodes().before(node);
+        if !self.rows.shows(row) && !self.rows.filter().is_empty() {
+            self.rows.filter_by("", source);
+        }
+        if let (Node::Object(object), false) = (node, self.rows.shows(row)) {
+            let mut folded = self.rows.folded().clone();
+            for group in source.groups_of(object) {
+                folded.remove(&group);
+            }
+            self.rows.fold(folded, source);
+        }
+    }
+
+    /// Moves the selection to a row that the list shows: to the group that hides it, otherwise to the
+    /// nearest one. A list without rows is shown unfiltered.
+    pub(super) fn settle(&mut self, source: &Source) {
+        let (nodes, row) = (source.nodes(), row_of(source, self.selected));
+        if self.rows.shows(row) {
+            return;
+        }
+        let group = match self.selected {
+            Node::Object(object) if self.rows.filter().is_empty() => {
+                let groups = source.groups_of(object);
+                let mut rows = groups.map(|group| nodes.before(Node::Object(group)));
+                rows.find(|&row| self.rows.shows(row))
+            }
+            _ => None,
+        };
+        match group.or_else(|| self.rows.nearest(row, source)) {
+            Some(row) => self.select(nodes.get(row).unwrap_or(self.selected), source),
+            None => self.reveal(self.selected, source),
+        }
+    }
+
     /// Updates the cursor after the text has changed; the selection stays on an existing node.
-    pub fn renew(&mut self, source: &Source) {
+    pub fn renew(&mut self, source: &Source, names: Names) {
         let nodes = source.nodes();
+        if nodes != self.nodes || names == Names::Changed {
+            self.rows.renew(source);
+        }
         if nodes != self.nodes {
             // Their indices belong to others now.
             self.marks.clear();
@@ -145,6 +197,9 @@ impl Cursor {
         let row = row_of(source, self.selected);
         self.stand_on(nodes.get(row).unwrap_or(self.selected), source);
         self.keep();
+        if self.typing.is_none() {
+            self.settle(source);
+        }
     }
 
     fn stand_on(&mut self, node: Node, source: &Source) {
@@ -166,8 +221,9 @@ impl Cursor {
 
     /// Returns the node `rows` further down the list.
     pub(super) fn row_after(&self, rows: isize, source: &Source) -> Option<Node> {
-        let nodes = source.nodes();
-        nodes.get(moved(row_of(source, self.selected), rows, nodes.len()))
+        let place = self.rows.place_of(row_of(source, self.selected));
+        let place = moved(place, rows, self.rows.count(source));
+        source.nodes().get(self.rows.at(place, source)?)
     }
 
     /// Moves the cursor to a component of a field.
@@ -243,7 +299,7 @@ impl Cursor {
         let count = self.fields.len();
         self.field_top = layout::first_shown(self.field_top, self.field, count, fields);
         let rows = usize::from(layout::contents(areas.list).height);
-        let listing = Listing::new(source.nodes());
+        let listing = self.rows.listing(source);
         let line = listing.line_of(row_of(source, self.selected));
         self.list_top = layout::first_shown(self.list_top, line, listing.len(), rows);
     }
@@ -280,6 +336,7 @@ impl Cursor {
         if let Some(node) = moved.and_then(|span| source.node_at(span))
             && node != self.selected
         {
+            self.reveal(node, source);
             self.stand_on(node, source);
         }
         // Several fields may have the same key.

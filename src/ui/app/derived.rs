@@ -21,6 +21,7 @@ use crate::ui::arrange::{Areas, Shape, Zoom, arrange};
 use crate::ui::errors::{self, Panel, Wrong};
 use crate::ui::keymap::{Context, Line, Mode};
 use crate::ui::layout::raster;
+use crate::ui::listing::Listing;
 
 /// The picture size without a scene.
 const NO_SCENE: Size = Size {
@@ -67,7 +68,7 @@ impl App {
         match &overlays.prompt {
             Some(prompt) => Some(match prompt.kind {
                 PromptKind::Command => Line::Command,
-                PromptKind::Search => Line::Search,
+                PromptKind::Filter(_) => Line::List,
                 PromptKind::Name => Line::Name,
             }),
             None if overlays.menu.is_some() => Some(Line::Filter),
@@ -276,6 +277,11 @@ impl App {
     /// The nodes of the current text: the rows of the list.
     pub fn nodes(&self) -> Nodes {
         self.source().nodes()
+    }
+
+    /// The lines of the list.
+    pub fn listing(&self) -> Listing<'_> {
+        self.cursor.rows.listing(self.source())
     }
 
     /// The list's row of the selected node.

@@ -2,12 +2,13 @@
 
 use super::App;
 use super::assets::Notice;
+use super::cursor::Names;
 use super::typed::Values;
 use crate::assets::{Loaded, Wanted};
 use crate::language::table::Field;
 use crate::language::{Before, Lowered, Node, Placed};
-use crate::scene::{Camera, Scene};
-use crate::text::{Diagnostic, Edit, Span};
+use crate::scene::Camera;
+use crate::text::{Diagnostic, Edit, Span, parse_number};
 use crate::ui::keymap::Mode;
 
 impl App {
@@ -63,28 +64,24 @@ impl App {
 
     /// Installs the new meaning of the text.
     pub(super) fn install(&mut self, lowered: Lowered) {
+        self.install_with(lowered, Names::Changed);
+    }
+
+    fn install_with(&mut self, lowered: Lowered, names: Names) {
         let (path, source) = (self.disk.path.as_deref(), self.document.source());
         self.diagnostics = self.assets.report(path, source, lowered.diagnostics);
-        let lights = |scene: &Scene| scene.lights.len();
-        if lowered.scene.as_ref().map(lights) != self.scene.as_deref().map(lights) {
-            // Its index belongs to another light now.
-            self.pictures.solo = None;
-        }
+        self.keep_solo();
         // A scene that lacks a mesh may still have an error.
         if let Some(scene) = lowered.scene.filter(|_| !self.assets.lack_meshes())
             && self.pictures.follow(self.scene.as_deref(), &scene)
         {
             self.scene = Some(scene.into());
         }
-        self.keep_selection();
-    }
-
-    /// Updates the cursor. EDIT mode ends if there is no field.
-    fn keep_selection(&mut self) {
-        self.cursor.renew(self.document.source());
+        self.cursor.renew(self.document.source(), names);
         self.keep_mode();
     }
 
+    /// Ends EDIT mode if there is no field.
     pub(super) fn keep_mode(&mut self) {
         if self.cursor.fields().is_empty() && self.mode == Mode::Edit {
             self.mode = Mode::Select;
@@ -115,6 +112,7 @@ impl App {
     ) -> Result<(), Diagnostic> {
         let written = self.written_view_parts();
         let errors = self.error_count();
+        let names = self.names_after(edits);
         match edits {
             [edit] if !edit.span.is_empty() => self.document.set(edit.span, &edit.text),
             _ => self.document.edit(edits),
@@ -135,8 +133,21 @@ impl App {
             self.document.reject();
             return Err(refused);
         }
-        self.install(lowered);
+        self.install_with(lowered, names);
         Ok(())
+    }
+
+    /// Whether edits may change what nodes are called: edits of numbers do not.
+    fn names_after(&self, edits: &[Edit]) -> Names {
+        let text = self.document.text();
+        let is_number = |edit: &Edit| {
+            parse_number(edit.span.of(text)).is_ok() && parse_number(&edit.text).is_ok()
+        };
+        if edits.iter().all(is_number) {
+            Names::Kept
+        } else {
+            Names::Changed
+        }
     }
 
     fn written_view_parts(&self) -> usize {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::jobs::{Asking, Making, Pending};
 use super::{App, Dialog, Export, Stage};
 use crate::image_file::{ImageFormat, known_extensions};
-use crate::render::{Frame, Frames, Job};
+use crate::render::{Aov, Frame, Frames, Job};
 use crate::scene::{Camera, Size};
 use crate::text::Severity;
 use crate::ui::msg::{Destination, Effect, Existing, ExportId, Exported, Target};
@@ -90,14 +90,10 @@ impl App {
 
     /// Says what is exported, and whether that has to wait.
     fn announce_export(&mut self, path: &Path) {
-        let what = self
-            .pictures
-            .aov
-            .map_or_else(String::new, |aov| format!("{} ", aov.name()));
-        let path = path.display();
+        let [begun, queued] = announcements(self.pictures.aov, path);
         let words = match self.jobs.export {
-            Some(_) => format!("queued: {what}to {path}"),
-            None => format!("exporting {what}to {path}"),
+            Some(_) => queued,
+            None => begun,
         };
         if self.error_count() == 0 {
             self.overlays.say(words);
@@ -160,17 +156,20 @@ impl App {
             // A cancelled export: nobody waits for it, but its file exists now.
             if let Ok(exported) = outcome {
                 self.overlays
-                    .report(format!("wrote {} anyway", exported.path.display()));
+                    .say(format!("wrote {} anyway", exported.path.display()));
                 self.jobs.note_export(exported);
             }
             return Vec::new();
         };
         let mut effects = Vec::new();
+        for stale in announcements(export.aov, &export.destination.path) {
+            self.overlays.withdraw(&stale);
+        }
         match outcome {
             Ok(exported) => {
                 let path = exported.path.display();
                 self.overlays
-                    .report(format!("wrote {path}{}", export.summary()));
+                    .say(format!("wrote {path}{}", export.summary()));
                 self.jobs.note_export(exported);
             }
             Err(reason) => {
@@ -253,4 +252,14 @@ impl App {
         effects.extend(self.next_export());
         effects
     }
+}
+
+/// The messages that an export of an AOV to a file has begun, and that it waits for others.
+fn announcements(aov: Option<Aov>, path: &Path) -> [String; 2] {
+    let what = aov.map_or_else(String::new, |aov| format!("{} ", aov.name()));
+    let path = path.display();
+    [
+        format!("exporting {what}to {path}"),
+        format!("queued: {what}to {path}"),
+    ]
 }

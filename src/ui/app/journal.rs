@@ -52,7 +52,7 @@ pub(super) enum Outcome {
     /// They are kept; this message no longer applies.
     Kept(Option<String>),
     /// They are not kept: the message, unless the previous attempt showed it, and the next attempt.
-    Failed(Option<String>, Effect),
+    Failed(Option<String>, Box<Effect>),
 }
 
 impl Journal {
@@ -141,7 +141,7 @@ impl Journal {
         let is_new = before.is_none_or(|(_, before)| before != reason);
         let message = is_new.then(|| words(&reason));
         self.trouble = Some((time, reason));
-        Outcome::Failed(message, Effect::Later(time, Timer::Keep))
+        Outcome::Failed(message, Box::new(Effect::Later(time, Timer::Keep)))
     }
 
     /// Looks for undecided edits that earlier runs kept.

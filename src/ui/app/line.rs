@@ -28,6 +28,19 @@ pub(super) fn edit(input: &mut Input, key: KeyEvent) {
     input.handle(request);
 }
 
+/// Applies a key to a line that is selected as a whole at first: a character replaces it, any other
+/// key edits it. Returns whether the text has changed.
+pub(super) fn edit_over(input: &mut Input, is_selected: &mut bool, key: KeyEvent) -> bool {
+    let before = input.value().to_owned();
+    let held = KeyModifiers::CONTROL | KeyModifiers::ALT;
+    let types = matches!(key.code, KeyCode::Char(_)) && !key.modifiers.intersects(held);
+    if std::mem::take(is_selected) && types {
+        input.reset();
+    }
+    edit(input, key);
+    input.value() != before
+}
+
 /// Inserts pasted text, replacing line breaks with blanks.
 pub(super) fn insert(input: &mut Input, text: &str) {
     for character in text.trim_end().chars() {

@@ -1,4 +1,4 @@
-//! Moving cursors: in the list, the fields, the help and the errors; searching and picking.
+//! Moving cursors: in the list, the fields, the help and the errors; picking.
 
 use super::App;
 use super::cursor::moved;
@@ -101,56 +101,23 @@ impl App {
         self.cursor.scroll(areas, self.document.source());
     }
 
-    /// Selects the next or previous light or object, wrapping around.
+    /// Selects the next or previous light or object in the list, wrapping around.
     pub(super) fn cycle(&mut self, step: isize) {
-        let nodes = self.nodes();
-        let first = nodes.before(Node::Light(0));
-        let count = nodes.len() - first;
+        let (rows, source) = (&self.cursor.rows, self.source());
+        let first = rows.place_of(source.nodes().before(Node::Light(0)));
+        let count = rows.count(source) - first;
         if count == 0 {
             return;
         }
-        let row = match self.selected_row().checked_sub(first) {
+        let place = match rows.place_of(self.selected_row()).checked_sub(first) {
             Some(at) => (at as isize + step).rem_euclid(count as isize) as usize,
             None if step < 0 => count - 1,
             None => 0,
         };
-        if let Some(node) = nodes.get(first + row) {
+        let row = rows.at(first + place, source);
+        if let Some(node) = row.and_then(|row| source.nodes().get(row)) {
             self.select(node);
         }
-    }
-
-    /// Selects the next or previous node whose name or comment contains the text searched for.
-    pub(super) fn search(&mut self, step: isize) {
-        let wanted = self.cursor.searched.to_lowercase();
-        let nodes = self.nodes();
-        let count = nodes.len() as isize;
-        if wanted.is_empty() || count == 0 {
-            return;
-        }
-        let from = self.selected_row() as isize;
-        let called = |&row: &usize| {
-            let node = nodes.get(row);
-            node.is_some_and(|node| self.is_called(node, &wanted))
-        };
-        let found: Vec<_> = (0..nodes.len()).filter(called).collect();
-        let nearest = |&at: &usize| (step * (found[at] as isize - from) - 1).rem_euclid(count);
-        match (0..found.len()).min_by_key(nearest) {
-            Some(at) => {
-                if let Some(node) = nodes.get(found[at]) {
-                    self.select(node);
-                }
-                self.overlays.say(format!("{} of {}", at + 1, found.len()));
-            }
-            None => self
-                .overlays
-                .fail(format!("no match for {}", self.cursor.searched)),
-        }
-    }
-
-    /// Whether a node's name or comment contains a word in lower case.
-    fn is_called(&self, node: Node, word: &str) -> bool {
-        let holds = |text: &str| text.to_lowercase().contains(word);
-        holds(&self.source().name(node)) || self.source().comment(node).is_some_and(holds)
     }
 
     pub(super) fn toggle_errors(&mut self) {

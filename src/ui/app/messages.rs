@@ -1,6 +1,7 @@
 //! Messages that wait to be shown, and those of the session so far.
 
 use std::collections::VecDeque;
+use std::time::Duration;
 
 use crate::text::Severity;
 
@@ -9,6 +10,15 @@ const REMEMBERED: usize = 50;
 
 /// The number of messages that may wait; more are only remembered.
 const WAITING: usize = 9;
+
+/// The time to notice a message.
+const NOTICE: Duration = Duration::from_secs(2);
+
+/// The time to read a character.
+const READING: Duration = Duration::from_millis(50);
+
+/// The number of characters to read at most; the rest can be read in the history.
+const MOST_READ: usize = 120;
 
 /// A message to the user.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,26 +32,26 @@ pub struct Message {
 /// The messages that are not in the status line.
 #[derive(Debug, Default)]
 pub struct Messages {
-    /// Messages that came together with another, the next one first.
-    waiting: VecDeque<Message>,
+    /// Messages that came while another was shown, the next one first: errors before others.
+    waiting: VecDeque<(Message, Lasts)>,
     /// The last messages, the newest first.
     past: VecDeque<Message>,
     /// Whether the message in the status line came in this step, so that nobody has seen it.
     pub(super) is_unseen: bool,
-    /// Why the message in the status line may become obsolete.
+    /// How long the message in the status line is worth showing.
     pub(super) lasts: Lasts,
+    /// The message in the status line when the time to read it began, while others wait.
+    timed: Option<Message>,
 }
 
 /// How long a message is worth showing, unless a key dismisses it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Lasts {
-    /// Until another message comes.
+    /// Until it could be read and another one waits.
     #[default]
-    UntilNext,
-    /// Until another message comes, but never longer than the text has errors.
+    UntilRead,
+    /// As long, but never longer than the text has errors.
     WhileErrors,
-    /// It reports the end of something that the user waits for: other reports wait.
-    Report,
 }
 
 impl Messages {
@@ -63,20 +73,50 @@ impl Messages {
         }
     }
 
-    /// Lets a message wait, unless it already does.
-    pub(super) fn queue(&mut self, message: Message) {
-        if self.waiting.len() < WAITING && !self.waiting.contains(&message) {
-            self.waiting.push_back(message);
+    /// Lets a message wait, unless it already does: an error before all that are none.
+    pub(super) fn queue(&mut self, message: Message, lasts: Lasts) {
+        let is_error = |message: &Message| message.severity == Some(Severity::Error);
+        let mut waiting = self.waiting.iter();
+        if WAITING <= waiting.len() || waiting.any(|(other, _)| *other == message) {
+            return;
         }
+        let at = if is_error(&message) {
+            self.waiting.partition_point(|(other, _)| is_error(other))
+        } else {
+            self.waiting.len()
+        };
+        self.waiting.insert(at, (message, lasts));
     }
 
     /// Drops a message that waits.
     pub(super) fn withdraw(&mut self, text: &str) {
-        self.waiting.retain(|message| message.text != text);
+        self.waiting.retain(|(message, _)| message.text != text);
+    }
+
+    /// Drops the messages about errors that wait.
+    pub(super) fn forgive_errors(&mut self) {
+        self.waiting
+            .retain(|(_, lasts)| *lasts != Lasts::WhileErrors);
     }
 
     /// Takes the next message that waits.
-    pub(super) fn next(&mut self) -> Option<Message> {
+    pub(super) fn next(&mut self) -> Option<(Message, Lasts)> {
         self.waiting.pop_front()
+    }
+
+    /// The time to read the message shown, if it begins now: it has not begun yet, and others wait.
+    pub(super) fn time_to_read(&mut self, shown: Option<&Message>) -> Option<Duration> {
+        let shown = shown.filter(|_| !self.waiting.is_empty());
+        if self.timed.as_ref() == shown {
+            return None;
+        }
+        self.timed = shown.cloned();
+        let characters = shown?.text.chars().count().min(MOST_READ);
+        Some(NOTICE + READING * characters as u32)
+    }
+
+    /// Whether the time that has elapsed is that of the message shown, and others wait.
+    pub(super) fn is_timed(&self, shown: Option<&Message>) -> bool {
+        shown.is_some() && self.timed.as_ref() == shown && !self.waiting.is_empty()
     }
 }

@@ -21,6 +21,7 @@ mod disk;
 mod edit;
 mod exports;
 mod filter;
+mod filtering;
 mod hsv;
 mod jobs;
 mod journal;
@@ -44,6 +45,7 @@ mod places;
 mod pointer;
 mod recover;
 mod reload;
+mod rows;
 mod saving;
 mod sliding;
 mod solo;
@@ -63,7 +65,7 @@ mod wires;
 
 use std::time::Duration;
 
-pub use cursor::{Cursor, Typing};
+pub use cursor::{Cursor, Names, Typing};
 pub use derived::{FieldRow, Provenance};
 pub use disk::{Disk, FirstReading, OnDisk};
 pub use filter::Filter;
@@ -81,6 +83,8 @@ pub use palette::{Completion, Palette};
 pub use picker::{ColourPicker, PickerRow};
 pub use picture::{Picture, Shown};
 pub use pictures::{Pictures, Quality};
+pub use rows::Rows;
+pub use solo::Solo;
 pub use transform::Transform;
 pub use wires::Wires;
 

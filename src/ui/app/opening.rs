@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::assets::Assets;
+use super::cursor::Names;
 use super::palette::Palette;
 use super::{App, Cursor, Disk, FirstReading, Jobs, OnDisk, Overlays, Page, Pictures, Quality};
 use crate::document::Document;
@@ -127,7 +128,8 @@ impl App {
         }
         // The first change is more likely to be to an object than to the camera.
         self.cursor.select(Node::Object(0), self.document.source());
-        self.cursor.renew(self.document.source());
+        let source = self.document.source();
+        self.cursor.renew(source, Names::Changed);
         self.scroll(&self.areas());
         let recent = self.note_recent();
         [self.look_for_kept()].into_iter().chain(recent).collect()

@@ -2,6 +2,7 @@
 //! messages and their history.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use tui_input::Input;
 
@@ -33,7 +34,8 @@ pub struct Overlays {
     pub page: Option<Page>,
     /// The selected diagnostic while the list of errors has the keys. Errors are always shown.
     pub errors: Option<usize>,
-    /// The message in the status line; the next key dismisses it.
+    /// The message in the status line. The next key dismisses it, or the next message once it could
+    /// be read.
     pub message: Option<Message>,
     /// The first message shown of the history, if it is open.
     pub history: Option<usize>,
@@ -48,6 +50,8 @@ pub struct Prompt {
     pub kind: PromptKind,
     /// The text and its cursor.
     pub input: Input,
+    /// Whether the next character replaces the text; other keys edit it.
+    pub is_selected: bool,
 }
 
 /// The purpose of a prompt.
@@ -55,8 +59,8 @@ pub struct Prompt {
 pub enum PromptKind {
     /// A command, after `:`.
     Command,
-    /// Part of a name to jump to, after `/`.
-    Search,
+    /// What the list is filtered by, after `/`, and the node selected before.
+    Filter(Node),
     /// The new name of the selected node.
     Name,
 }
@@ -119,18 +123,28 @@ impl Overlays {
         self.prompt = Some(Prompt {
             kind,
             input: Input::from(text),
+            is_selected: false,
         });
     }
 
-    /// Starts a search: of the help page or the other page if it is open, otherwise of the list.
-    pub(super) fn open_search(&mut self) {
+    /// Opens a prompt containing `text`, which the first typed character replaces.
+    pub(super) fn open_prompt_over(&mut self, kind: PromptKind, text: &str) {
+        self.open_prompt(kind, text);
+        if let Some(prompt) = &mut self.prompt {
+            prompt.is_selected = !text.is_empty();
+        }
+    }
+
+    /// Starts a search of the help page or the other page if it is open; returns whether one is.
+    pub(super) fn open_search(&mut self) -> bool {
         if let Some(help) = &mut self.help {
             help.focus = PageFocus::Search;
         } else if let Some(page) = &mut self.page {
             page.focus = PageFocus::Search;
         } else {
-            self.open_prompt(PromptKind::Search, "");
+            return false;
         }
+        true
     }
 
     /// Whether keys are typed into a line here.
@@ -176,25 +190,21 @@ impl Overlays {
     /// the other.
     pub(super) fn fail_too(&mut self, text: &str) {
         let text = &*without_codes(text);
-        let before = self.message.as_ref();
-        let before = before.filter(|before| before.severity == Some(Severity::Error));
-        let both = before.map(|before| {
-            if before.text.contains(text) {
-                before.text.clone()
-            } else {
-                format!("{}; {text}", before.text)
+        let before = self.message.as_mut();
+        match before.filter(|before| before.severity == Some(Severity::Error)) {
+            Some(before) => {
+                if !before.text.contains(text) {
+                    before.text = format!("{}; {text}", before.text);
+                }
+                self.messages.remember(before);
             }
-        });
-        self.replace(
-            Some(Severity::Error),
-            both.unwrap_or_else(|| text.to_owned()),
-        );
+            None => self.fail(text),
+        }
     }
 
-    /// Shows a message. If another came in the same step, which nobody has seen yet, this one waits
-    /// for the next key.
+    /// Shows a message. If another is shown, this one waits until that has been read.
     pub(super) fn show(&mut self, severity: Option<Severity>, text: impl Into<String>) {
-        self.put(Lasts::UntilNext, severity, &text.into());
+        self.put(Lasts::UntilRead, severity, &text.into());
     }
 
     /// Answers a key that does nothing. This is not remembered.
@@ -211,21 +221,12 @@ impl Overlays {
         self.put(Lasts::WhileErrors, Some(severity), &text.into());
     }
 
-    /// Reports the end of something that the user waits for. If another report is shown, this one
-    /// waits for the next key.
-    pub(super) fn report(&mut self, text: impl Into<String>) {
-        self.messages.is_unseen |= self.messages.lasts == Lasts::Report;
-        self.put(Lasts::Report, None, &text.into());
-    }
-
     fn put(&mut self, lasts: Lasts, severity: Option<Severity>, text: &str) {
         let text = without_codes(text).into_owned();
         let message = Message { severity, text };
         self.messages.remember(&message);
-        if self.message.is_some() && self.messages.is_unseen {
-            if self.message.as_ref() != Some(&message) {
-                self.messages.queue(message);
-            }
+        if self.message.is_some() && self.message.as_ref() != Some(&message) {
+            self.messages.queue(message, lasts);
             return;
         }
         self.message = Some(message);
@@ -233,22 +234,31 @@ impl Overlays {
         self.messages.lasts = lasts;
     }
 
-    /// Replaces the message, which caused this one or was caused by the same.
-    fn replace(&mut self, severity: Option<Severity>, text: String) {
-        self.message = None;
-        self.show(severity, text);
-    }
-
-    /// Begins a step: messages shown so far have been seen.
+    /// Begins a step: messages shown so far may have been seen.
     pub(super) fn begin_step(&mut self) {
         self.messages.is_unseen = false;
     }
 
     /// Ends a step: shows the next message that waits if there is none.
     pub(super) fn end_step(&mut self) {
-        if self.message.is_none() {
-            self.message = self.messages.next();
-            self.messages.lasts = Lasts::UntilNext;
+        if self.message.is_none()
+            && let Some((message, lasts)) = self.messages.next()
+        {
+            self.message = Some(message);
+            self.messages.lasts = lasts;
+        }
+    }
+
+    /// The time after which the next message takes the place of the one shown, if that time begins
+    /// now: another waits.
+    pub(super) fn time_to_read(&mut self) -> Option<Duration> {
+        self.messages.time_to_read(self.message.as_ref())
+    }
+
+    /// Dismisses the message for the next one, once it could be read.
+    pub(super) fn turn_message(&mut self) {
+        if self.messages.is_timed(self.message.as_ref()) {
+            self.message = None;
         }
     }
 
@@ -259,14 +269,19 @@ impl Overlays {
 
     /// Dismisses a message whose cause is gone, also while it waits.
     pub(super) fn withdraw(&mut self, text: &str) {
-        self.message.take_if(|message| message.text == text);
         self.messages.withdraw(text);
+        let is_stale = |message: &mut Message| message.text == text;
+        if self.message.take_if(is_stale).is_some() {
+            // Before messages that are yet to come in this step.
+            self.end_step();
+        }
     }
 
-    /// Dismisses a message about errors in the text, which has none any more.
+    /// Dismisses messages about errors in the text, which has none any more.
     pub(super) fn forgive_errors(&mut self) {
         if self.messages.lasts == Lasts::WhileErrors && !self.messages.is_unseen {
             self.message = None;
         }
+        self.messages.forgive_errors();
     }
 }

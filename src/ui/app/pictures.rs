@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::picture::Picture;
+use super::solo::Solo;
 use super::transform::Transform;
 use super::wires::Wires;
 use crate::render::{Aov, Filter, Frame};
@@ -36,8 +37,8 @@ pub struct Pictures {
     pub net: Option<usize>,
     /// Whether the pictures must be traced again.
     pub(super) due: bool,
-    /// The index of the light that the preview shows alone.
-    pub solo: Option<usize>,
+    /// What the preview shows alone.
+    pub solo: Option<Solo>,
     /// What is being moved in [`Mode::Move`].
     pub transform: Option<Transform>,
     /// The pointer's cell when the camera or a thing was last dragged.

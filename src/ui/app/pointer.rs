@@ -9,7 +9,7 @@ use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{
     contents, field_at, first_shown, list_row_at, picker_lines, pixel_at, share_at, swatch_cells,
 };
-use crate::ui::listing::{ListLine, Listing};
+use crate::ui::listing::ListLine;
 use crate::ui::msg::{Effect, Timer};
 
 /// Angles of orbit, in degrees, for dragging across a cell, which is twice as high as wide.
@@ -143,7 +143,7 @@ impl App {
             return Vec::new();
         }
         if let Some(line) = list_row_at(areas.list, self.cursor.list_top, at.0, at.1) {
-            let line = Listing::new(self.nodes()).get(line);
+            let line = self.listing().get(line);
             if let Some(ListLine::Node(_, node)) = line {
                 self.select(node);
                 self.overlays.errors = None;

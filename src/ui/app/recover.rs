@@ -56,7 +56,7 @@ impl App {
                 if let Some(trouble) = trouble {
                     self.overlays.fail(trouble);
                 }
-                Some(again)
+                Some(*again)
             }
         }
     }

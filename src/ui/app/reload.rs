@@ -149,7 +149,7 @@ impl App {
         let before = self.disk.move_to(place.clone());
         let before = before.unwrap_or_else(|| place.clone());
         let is_moved = before.id != place.id || before.folder != place.folder;
-        self.overlays.message.take_if(|_| is_moved);
+        let earlier = self.overlays.message.take_if(|_| is_moved);
         let effects = self.take_text(reading, settle);
         let folder = place.folder.display();
         let news = if before.id != place.id {
@@ -159,7 +159,7 @@ impl App {
         } else {
             return effects;
         };
-        let message = self.overlays.message.take();
+        let message = std::mem::replace(&mut self.overlays.message, earlier);
         let message = message.map_or_else(String::new, |message| format!("; {}", message.text));
         self.overlays.warn(format!("{news}{message}"));
         effects

@@ -1,44 +1,112 @@
-//! Soloing: the preview shows one light alone, without a change of the text.
+//! Soloing: the preview shows some lights or objects alone, without a change of the text.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::App;
-use crate::language::Node;
+use crate::language::{Node, Nodes};
 use crate::scene::{Light, Rgb, Scene};
 
+/// What the preview shows alone. Without lights, or without objects, it shows all of them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Solo {
+    lights: BTreeSet<usize>,
+    /// Objects of the text; groups stand for what is in them.
+    objects: BTreeSet<usize>,
+    /// The nodes of the text that these indices belong to.
+    nodes: Nodes,
+}
+
+/// A scene to show, and what its objects are called if it lacks some.
+pub(super) type Part = (Arc<Scene>, Option<Arc<[u32]>>);
+
 impl App {
-    /// Shows the selected light alone in the preview, or all lights again.
+    /// Shows the targets alone in the preview, or everything again.
     pub(super) fn toggle_solo(&mut self) {
-        let Node::Light(light) = self.cursor.selected() else {
-            self.overlays.fail("only a light can be shown on its own");
-            return;
+        let targets = self.targets();
+        let mut solo = Solo {
+            lights: BTreeSet::new(),
+            objects: BTreeSet::new(),
+            nodes: self.nodes(),
         };
-        if self.pictures.solo.take() == Some(light) {
-            self.overlays.say("all lights are on again");
-        } else {
-            self.pictures.solo = Some(light);
-            let name = self.source().name(Node::Light(light));
+        for &node in &targets {
+            match node {
+                Node::Light(light) => solo.lights.insert(light),
+                Node::Object(object) => solo.objects.insert(object),
+                _ => false,
+            };
+        }
+        let is_nothing = solo.lights.is_empty() && solo.objects.is_empty();
+        let before = self.pictures.solo.take();
+        if before.as_ref() == Some(&solo) || before.is_some() && is_nothing {
+            self.overlays.say("everything is shown again");
+        } else if is_nothing {
             self.overlays
-                .say(format!("the preview shows only {name}; l shows all lights"));
+                .fail("only lights, objects and groups can be shown alone");
+        } else if !solo.objects.is_empty() && self.drawn_in(&solo.objects).is_empty() {
+            self.pictures.solo = before;
+            let name = self.targets_name(&targets);
+            self.overlays
+                .fail(format!("{name} is not drawn: h shows it"));
+        } else {
+            self.pictures.solo = Some(solo);
+            let name = self.targets_name(&targets);
+            self.overlays
+                .say(format!("the preview shows only {name}; l shows everything"));
         }
         self.pictures.due = true;
     }
 
-    /// The scene of the preview: with the soloed light alone, if there is one.
-    pub(super) fn preview_scene(&self) -> Option<Arc<Scene>> {
+    /// Ends soloing if its indices belong to others now.
+    pub(super) fn keep_solo(&mut self) {
+        let nodes = self.nodes();
+        let solo = &mut self.pictures.solo;
+        self.pictures.due |= solo.take_if(|solo| solo.nodes != nodes).is_some();
+    }
+
+    /// The scene of the preview: only what is soloed.
+    pub(super) fn preview_scene(&self) -> Option<Part> {
         let scene = self.scene.as_ref()?;
-        let Some(solo) = self.pictures.solo else {
-            return Some(Arc::clone(scene));
+        let Some(solo) = &self.pictures.solo else {
+            return Some((Arc::clone(scene), None));
         };
-        let lit = |(at, light): (usize, &Light)| Light {
-            colour: if at == solo { light.colour } else { Rgb::ZERO },
-            ..*light
+        let mut alone = (**scene).clone();
+        if !solo.lights.is_empty() {
+            alone.ambient = Rgb::ZERO;
+            let others = alone.lights.iter_mut().enumerate();
+            let others = others.filter(|(at, _)| !solo.lights.contains(at));
+            others.for_each(|(_, light)| *light = unlit(*light));
+        }
+        let mut numbers = None;
+        if !solo.objects.is_empty() {
+            let drawn = self.drawn_in(&solo.objects);
+            let objects = drawn.iter().map(|&number| number as usize);
+            let objects = objects.filter_map(|number| scene.objects.get(number));
+            alone.objects = objects.cloned().collect();
+            numbers = Some(drawn.into());
+        }
+        Some((Arc::new(alone), numbers))
+    }
+
+    /// The objects of the scene that these of the text draw, ascending.
+    fn drawn_in(&self, objects: &BTreeSet<usize>) -> Vec<u32> {
+        let source = self.source();
+        let depth = |object: usize| source.depth(Node::Object(object));
+        let count = source.nodes().objects();
+        let inside = |&object: &usize| {
+            let inner = (object + 1..count).take_while(move |&at| depth(object) < depth(at));
+            std::iter::once(object).chain(inner)
         };
-        let alone = Scene {
-            ambient: Rgb::ZERO,
-            lights: scene.lights.iter().enumerate().map(lit).collect(),
-            ..(**scene).clone()
-        };
-        Some(Arc::new(alone))
+        let drawn = objects.iter().flat_map(inside);
+        let drawn: BTreeSet<_> = drawn.filter_map(|object| source.drawn(object)).collect();
+        drawn.into_iter().collect()
+    }
+}
+
+/// A light that gives none.
+fn unlit(light: Light) -> Light {
+    Light {
+        colour: Rgb::ZERO,
+        ..light
     }
 }

@@ -16,7 +16,7 @@ impl App {
     }
 
     /// The name of the targets: `object 2 (box)`, or `3 things`.
-    fn targets_name(&self, nodes: &[Node]) -> String {
+    pub(super) fn targets_name(&self, nodes: &[Node]) -> String {
         match nodes {
             [node] => self.source().name(*node),
             _ => counted(nodes.len(), "item"),
@@ -156,7 +156,7 @@ impl App {
         }
         let node = self.cursor.selected();
         match self.source().called(node).map(str::to_owned) {
-            Some(name) => self.overlays.open_prompt(PromptKind::Name, &name),
+            Some(name) => self.overlays.open_prompt_over(PromptKind::Name, &name),
             None => {
                 if let Err(reason) = self.source().renaming(node, "name") {
                     self.overlays.fail(reason.to_string());

@@ -37,13 +37,13 @@ impl App {
             self.pictures.preview.asked = size;
             let spp = preview_samples(self.integrator());
             let job = size.zip(self.preview_scene());
-            let job = job.and_then(|(size, scene)| {
+            let job = job.and_then(|(size, (scene, numbers))| {
                 let mut job = self.job_of(scene, size, spp, Filter::Box)?;
                 job.settings.aov = self.pictures.preview_aov();
                 if let Some(aov) = job.settings.aov {
                     job.settings.spp = aov.samples(spp);
                 }
-                Some(job)
+                Some(Job { numbers, ..job })
             });
             effects.extend(job.map(|job| Effect::Trace(Target::Preview, job)));
         }
@@ -107,6 +107,7 @@ impl App {
                 transfer,
             },
             frames: Frames::Live,
+            numbers: None,
         })
     }
 

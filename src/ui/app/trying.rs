@@ -1,6 +1,7 @@
 //! Trying out changes of the text.
 
 use super::App;
+use super::cursor::Names;
 use super::trial::Trial;
 use crate::text::Edit;
 
@@ -30,7 +31,7 @@ impl App {
         let was_applied = std::mem::take(&mut trial.is_applied);
         if was_applied {
             self.document.reject();
-            self.cursor.renew(self.document.source());
+            self.cursor.renew(self.document.source(), Names::Changed);
             self.cursor.marks.clone_from(&trial.marks);
         }
         let outcome = edits(self).and_then(|edits| {

@@ -5,7 +5,7 @@ use tui_input::Input;
 
 use super::cursor::Typing;
 use super::typed::Values;
-use super::{App, PageFocus, line, literals, typed};
+use super::{App, PageFocus, PromptKind, line, literals, typed};
 use crate::language::table::{Field, Kind};
 use crate::text::{Diagnostic, Span};
 use crate::ui::keymap::{Context, Mode, Stride};
@@ -165,7 +165,13 @@ impl App {
         if let Some(prompt) = &mut self.overlays.prompt
             && self.overlays.dialog.is_none()
         {
+            if std::mem::take(&mut prompt.is_selected) {
+                prompt.input.reset();
+            }
             line::insert(&mut prompt.input, text);
+            if let PromptKind::Filter(from) = prompt.kind {
+                self.filter_list(from);
+            }
             return self.palette_pasted();
         }
         self.paste_value(text);

@@ -27,6 +27,8 @@ impl App {
         effects.extend(self.follow());
         effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
+        let time = self.overlays.time_to_read();
+        effects.extend(time.map(|time| Effect::Later(time, Timer::Message)));
         effects
     }
 
@@ -51,6 +53,7 @@ impl App {
             Msg::Elapsed(Timer::Settled) => return self.settled(),
             Msg::Elapsed(Timer::Interrupt) => self.jobs.interrupt = false,
             Msg::Elapsed(Timer::Click) => self.cursor.forget_click(),
+            Msg::Elapsed(Timer::Message) => self.overlays.turn_message(),
             Msg::Elapsed(Timer::Keep) => return self.keep_edits().into_iter().collect(),
             Msg::Elapsed(Timer::Writing) => return self.tick(),
             Msg::Saved(id, outcome) => return self.was_saved(id, outcome),
@@ -210,15 +213,16 @@ impl App {
                         self.overlays.prompt = None;
                         self.rename(&typed);
                     }
-                    PromptKind::Search => {
-                        self.overlays.prompt = None;
-                        self.cursor.searched = typed;
-                        self.search(1);
-                    }
+                    PromptKind::Filter(from) => self.keep_filter(from),
                 }
             }
-            _ if prompt.kind == PromptKind::Command => return self.palette_key(key),
-            _ => line::edit(&mut prompt.input, key),
+            _ => match prompt.kind {
+                PromptKind::Command => return self.palette_key(key),
+                PromptKind::Filter(from) => self.filter_key(key, from),
+                PromptKind::Name => {
+                    line::edit_over(&mut prompt.input, &mut prompt.is_selected, key);
+                }
+            },
         }
         Vec::new()
     }
@@ -238,7 +242,9 @@ impl App {
                 return self.answer_taken(Existing::Numbered);
             }
             Action::No => return self.decline(),
-            Action::Search => self.overlays.open_search(),
+            Action::Search if self.overlays.open_search() => {}
+            Action::Search => self.start_filter(),
+            Action::Fold(fold) => self.fold(fold),
             Action::SearchAgain(step) => self.search(step),
             Action::Command => self.open_palette(),
             Action::Outline => self.pictures.toggle_outline(),
@@ -335,7 +341,10 @@ impl App {
 
     /// Closes a line without accepting it, and gives up leaving, which waited for a file name.
     fn close_prompt(&mut self) {
-        self.overlays.prompt = None;
+        let prompt = self.overlays.prompt.take();
+        if let Some(PromptKind::Filter(from)) = prompt.map(|prompt| prompt.kind) {
+            self.drop_filter(from);
+        }
         self.palette.reset();
         self.jobs.next = None;
     }
@@ -360,6 +369,7 @@ impl App {
             Context::In(Mode::Trace) => {
                 self.mode = self.pictures.mode_before();
             }
+            Context::In(Mode::Select) if self.end_filter() => {}
             Context::In(Mode::Select) => self.cursor.marks.clear(),
             Context::In(Mode::Move) => self.cancel_transform(),
             Context::In(_) => {

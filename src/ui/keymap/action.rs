@@ -111,7 +111,9 @@ pub enum Action {
     Back,
     /// Accepts the item under the cursor.
     Accept,
-    /// Opens the search prompt.
+    /// Folds or unfolds groups in the list.
+    Fold(Fold),
+    /// Starts filtering the list, or searching the open page.
     Search,
     /// Goes to the next or previous match.
     SearchAgain(isize),
@@ -239,6 +241,19 @@ pub enum Action {
     AllTheirs,
     /// Declines an offer: discards the edits of an earlier run, or exports to another file.
     No,
+}
+
+/// Which groups are folded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fold {
+    /// The selected one as well.
+    Selected,
+    /// Not the selected one.
+    Unselected,
+    /// All.
+    All,
+    /// None.
+    None,
 }
 
 /// How things are transformed.

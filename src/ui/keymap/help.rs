@@ -95,6 +95,7 @@ pub fn help(search: &str, mode: Mode, commands: Vec<Entry>) -> Vec<HelpLine> {
         ("while a value is typed", Line::Value),
         ("in a menu, where typing filters", Line::Filter),
         ("after :", Line::Command),
+        ("while the list is filtered", Line::List),
         ("after /", Line::Search),
     ] {
         add(heading, line_hints(line).iter().map(owned).collect());
@@ -196,7 +197,7 @@ const SELECT_HINTS: &[Hint] = &[
     (&[A::Transform(Tool::Move)], "move it"),
     (&[A::Go(View)], "camera"),
     (&[A::Go(Pick)], "pick"),
-    (&[A::Search], "search"),
+    (&[A::Search], "filter"),
 ];
 const EDIT_HINTS: &[Hint] = &[
     (&[A::Move(1), A::Move(-1)], "field"),
@@ -364,7 +365,7 @@ mod tests {
     fn the_keys_of_the_mode_come_first_and_no_key_is_missing() {
         let lines = lines("", View);
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
-        assert_eq!(headings(&lines).len(), 28);
+        assert_eq!(headings(&lines).len(), 29);
         assert!(lines.contains(&entry("gg", "first")));
         for row in TABLE {
             assert!(lines.contains(&entry(&row.keys(), row.words)), "{row:?}");

@@ -7,8 +7,10 @@ pub enum Line {
     Value,
     /// A command after `:`.
     Command,
-    /// A search after `/`.
+    /// A search of a page after `/`.
     Search,
+    /// The filter of the list after `/`.
+    List,
     /// A new name.
     Name,
     /// The filter of a menu.
@@ -39,6 +41,12 @@ pub fn line_hints(line: Line) -> &'static [(&'static str, &'static str)] {
             ("Esc", "cancel"),
             ("↑ ↓", "move"),
             ("Ctrl-N Ctrl-P", "move"),
+            ("Ctrl-U", "clear"),
+        ],
+        Line::List => &[
+            ("Enter", "keep"),
+            ("Esc", "show all"),
+            ("↑ ↓", "move"),
             ("Ctrl-U", "clear"),
         ],
         Line::Search => &[("Enter", "find"), ("Esc", "cancel"), ("Ctrl-U", "clear")],

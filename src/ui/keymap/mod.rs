@@ -7,7 +7,7 @@ mod line;
 mod named;
 mod table;
 
-pub use action::{Action, Context, Mode, Stride, Tool};
+pub use action::{Action, Context, Fold, Mode, Stride, Tool};
 pub use help::{Entry, HelpLine, help, hints, in_columns, lasting_hints};
 pub use line::{Line, line_hints};
 pub use named::{NamedAction, actions};

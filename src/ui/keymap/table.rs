@@ -2,7 +2,7 @@
 
 use crossterm::event::{KeyCode, KeyEvent};
 
-use super::action::{Action, Context, Mode, Stride, Tool};
+use super::action::{Action, Context, Fold, Mode, Stride, Tool};
 use super::chord::{ALT, Chord, SHIFT, alt, c, ctrl, key};
 use crate::language::Neighbour;
 use crate::render::Aov;
@@ -147,7 +147,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(SELECT, &[c('K')], A::Reorder(Neighbour::Previous), "move up in the list"),
     bind(SELECT, &[c('J')], A::Reorder(Neighbour::Next), "move down in the list"),
     bind(SELECT, &[c('a')], A::Add, "add"),
-    bind(SELECT, &[c('l')], A::Solo, "show only this light in the preview"),
+    bind(SELECT, &[c('l')], A::Solo, "show only this in the preview"),
     bind(SELECT, &[c('c')], A::Retype, "change the type"),
     bind(SELECT_AND_FIELDS, &[c('m')], A::Transform(Tool::Move), "move"),
     bind(SELECT_AND_FIELDS, &[c('t')], A::Transform(Tool::Turn), "rotate"),
@@ -169,7 +169,11 @@ pub(super) const TABLE: &[Binding] = &[
     bind(SELECT, &[c('i')], A::Go(Pick), "pick in the picture"),
     bind(SELECT, &[key(Tab)], A::Cycle(1), "next light or object"),
     bind(SELECT, &[c('h')], A::Visibility, "show or hide the object"),
-    bind(SELECT, &[c('/')], A::Search, "search for a name"),
+    bind(SELECT, &[c('/')], A::Search, "filter the list"),
+    bind(SELECT, &[key(Left)], A::Fold(Fold::Selected), "fold the group, or go to it"),
+    bind(SELECT, &[key(Right)], A::Fold(Fold::Unselected), "unfold the group, or go into it"),
+    bind(SELECT, &[Chord(Left, SHIFT)], A::Fold(Fold::All), "fold all groups"),
+    bind(SELECT, &[Chord(Right, SHIFT)], A::Fold(Fold::None), "unfold all groups"),
     bind(LONG_LISTS, &[c('g')], A::G, "first"),
     bind(LONG_LISTS, &[c('G'), key(End)], A::Last, "last"),
     bind(LONG_LISTS, &[key(Home)], A::First, "first"),

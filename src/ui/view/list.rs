@@ -3,6 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Modifier, Style};
+use unicode_width::UnicodeWidthStr;
 
 use super::row::{Row, title};
 use crate::language::Node;
@@ -11,8 +12,11 @@ use crate::ui::app::App;
 use crate::ui::fit::{shorten, visible};
 use crate::ui::keymap::Mode;
 use crate::ui::layout;
-use crate::ui::listing::{ListLine, Listing};
+use crate::ui::listing::ListLine;
 use crate::ui::theme;
+
+/// The heading of the list.
+const TITLE: &str = "scene";
 
 /// Minimum width of a comment, in columns.
 const COMMENT: usize = 6;
@@ -20,20 +24,28 @@ const COMMENT: usize = 6;
 /// Draws the list of lights and objects with names and comments.
 pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let selected = app.selected_row();
-    let count = app.nodes().len();
+    let rows = &app.cursor.rows;
+    let count = rows.count(app.source());
     let focused = matches!(app.mode, Mode::Select | Mode::Pick | Mode::Move);
-    let place = format!("{}/{count}", (selected + 1).min(count));
+    let place = format!("{}/{count}", (rows.place_of(selected) + 1).min(count));
     title(
-        "scene",
+        TITLE,
         &place,
         focused.then_some(theme::ACCENT),
         area,
         buffer,
     );
+    if !rows.filter().is_empty() {
+        let chip = format!(" /{} {} ", rows.filter(), rows.matches());
+        let mut row = Row::new(buffer, area, 0);
+        row.skip(TITLE.len() as u16 + 1);
+        let room = row.room().saturating_sub(place.len() + 1);
+        row.put_in(&chip, room, theme::chip(theme::ACCENT));
+    }
 
     let lines = layout::contents(area);
     let rows = usize::from(lines.height);
-    let listing = Listing::new(app.nodes());
+    let listing = app.listing();
     let top = app.cursor.list_top;
     let top = top.min(listing.len().saturating_sub(rows));
     let marked = marked(app);
@@ -68,21 +80,25 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
             (false, false) => "  ",
         };
         row.put(sign, style);
-        match swatch(app, node) {
+        let fold = fold_sign(app, node);
+        let swatch = swatch(app, node);
+        match swatch {
             // Not reversed with the selected line, so that the dot shows its own colour.
             Some(colour) if is_drawn => row.put("● ", theme::swatch(colour)),
             Some(colour) => row.put("○ ", theme::swatch(colour)),
+            None if let Some(sign) = fold => row.put(sign, style),
             None if !is_drawn => row.put("○ ", style),
             None => row.put("  ", style),
         };
-        let name = indented(app, node, usize::from(lines.width));
+        let fold = fold.filter(|_| swatch.is_some()).unwrap_or_default();
+        let name = indented(app, node, fold, usize::from(lines.width));
         let mark = marked.iter().find(|(at, _)| *at == node);
         let end = if mark.is_some() { "! " } else { "" };
         let room = row.room().saturating_sub(end.len());
         let comment = app.source().comment(node);
-        let comment = comment.filter(|_| name.len() + 2 + COMMENT <= room);
+        let comment = comment.filter(|_| name.width() + 2 + COMMENT <= room);
         row.put_in(&name, room, style);
-        let room = room.saturating_sub(name.len());
+        let room = room.saturating_sub(name.width());
         let beside = comment.map_or_else(String::new, |comment| format!("  {}", visible(comment)));
         let beside = format!("{:room$}", shorten(&beside, room));
         row.put_in(&beside, room, style.patch(theme::DIM));
@@ -90,10 +106,20 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     }
 }
 
-/// The name of a node, indented by two columns per level of nesting, up to a third of the width.
-fn indented(app: &App, node: Node, width: usize) -> String {
+/// The sign of an object that holds others: whether they are listed.
+fn fold_sign(app: &App, node: Node) -> Option<&'static str> {
+    match node {
+        Node::Object(object) if app.cursor.rows.is_folded(object) => Some("▸ "),
+        Node::Object(object) if app.source().is_foldable(object) => Some("▾ "),
+        _ => None,
+    }
+}
+
+/// The name of a node after a sign, indented by two columns per level of nesting, up to a third of
+/// the width.
+fn indented(app: &App, node: Node, sign: &str, width: usize) -> String {
     let indent = (2 * app.source().depth(node)).min(width / 3);
-    format!("{:indent$}{}", "", app.source().name(node))
+    format!("{:indent$}{sign}{}", "", app.source().name(node))
 }
 
 /// Nodes with diagnostics, styled by severity, the most severe first.
@@ -148,7 +174,7 @@ mod tests {
             "  ● background",
             "  ● environment",
             "2 objects",
-            "    all (group)",
+            "  ▾ all (group)",
             "  ●   ball (sphere)",
         ];
         assert_eq!(lines[1..7], listed);

@@ -78,7 +78,7 @@ fn put_hint(row: &mut Row, (key, words): &Hint) {
 pub(crate) fn render_prompt(prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
     let sign = match prompt.kind {
         PromptKind::Command => ":",
-        PromptKind::Search => "/",
+        PromptKind::Filter(_) => "/",
         PromptKind::Name => "name: ",
     };
     let blank = " ".repeat(usize::from(area.width));
@@ -86,7 +86,12 @@ pub(crate) fn render_prompt(prompt: &Prompt, area: Rect, buffer: &mut Buffer) {
     let mut row = Row::new(buffer, area, 0);
     row.put(sign, theme::ACCENT);
     let room = row.room();
-    row.put_input(&prompt.input, room, Style::new(), theme::CURSOR);
+    let style = if prompt.is_selected {
+        theme::CURSOR
+    } else {
+        Style::new()
+    };
+    row.put_input(&prompt.input, room, style, theme::CURSOR);
 }
 
 /// A part of the status line, omitted if more important ones need its room.
@@ -204,7 +209,7 @@ fn segments(app: &App, glyphs: Glyphs) -> Vec<Segment> {
         let style = theme::severity(message.severity);
         let more = match app.overlays.messages.waiting() {
             0 => String::new(),
-            waiting => format!(" (+{waiting})"),
+            waiting => format!(" (+{waiting}, M)"),
         };
         let text = visible(&message.text);
         say(MESSAGE, format!("{text}{more}"), style);
@@ -243,6 +248,9 @@ fn text_segments(app: &App, say: &mut impl FnMut(u8, String, Style)) {
     }
     if app.fails_to_keep() {
         say(3, "[not kept]".to_owned(), theme::WARNING);
+    }
+    if app.pictures.solo.is_some() {
+        say(3, " SOLO ".to_owned(), theme::chip(theme::WARNING));
     }
     if app.pictures.view.is_some() {
         say(7, "view*".to_owned(), theme::WARNING);
@@ -452,6 +460,7 @@ mod tests {
         );
         app.overlays.prompt = Some(Prompt {
             kind: PromptKind::Command,
+            is_selected: false,
             input: Input::new("export a.bmp".to_owned()),
         });
         assert_eq!(drawn(&app, render_hint, 80, 1)[0], ":export a.bmp");

@@ -18,8 +18,8 @@ use crate::render::{Filter, Frame, NO_OBJECT, Progress};
 use crate::scene::Size;
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
-    App, Dialog, Export, Help, List, Message, Next, OnDisk, Opening, OpeningText, Outside, Page,
-    PageFocus, Prompt, PromptKind, Quality, Stage, Typing, Wires,
+    App, Dialog, Export, Help, List, Message, Names, Next, OnDisk, Opening, OpeningText, Outside,
+    Page, PageFocus, Prompt, PromptKind, Quality, Stage, Typing, Wires,
 };
 use crate::ui::arrange::Zoom;
 use crate::ui::keymap::Mode;
@@ -77,7 +77,7 @@ pub(super) fn retype(app: &mut App, old: &str, new: &str) {
         .lower(&app.assets.meshes)
         .expect("there is memory");
     app.diagnostics = lowered.diagnostics;
-    app.cursor.renew(app.document.source());
+    app.cursor.renew(app.document.source(), Names::Changed);
 }
 
 /// The conflict between the text and a text from outside.
@@ -259,7 +259,8 @@ const STATES: &[(&str, Change)] = &[
     }),
     ("prompt", |app| {
         app.overlays.prompt = Some(Prompt {
-            kind: PromptKind::Search,
+            kind: PromptKind::Filter(Node::View),
+            is_selected: false,
             input: Input::new("界界界界界界界界界界界界界界界界".to_owned()).with_cursor(3),
         });
     }),

@@ -332,9 +332,6 @@ fn a_file_found_elsewhere_is_reported_once() {
         (3, "/b/skin.ppm", "skin.ppm is read from /b/skin.ppm"),
     ] {
         app.update(Msg::AssetsRead(wanted(&["skin.ppm"]), found(colour, place)));
-        assert_eq!(
-            app.overlays.message.as_ref().map(|m| m.text.as_str()),
-            Some(said)
-        );
+        assert_eq!(words(&app), said);
     }
 }

@@ -54,11 +54,8 @@ fn exports_run_one_after_the_other_and_each_is_reported() {
     finish(&mut app, 4, "b.bmp");
     assert!(app.jobs.export.is_none());
     for path in ["a.bmp", "c.bmp", "b.bmp"] {
-        assert!(
-            words(&app).starts_with(&format!("wrote {path}")),
-            "{}",
-            words(&app)
-        );
+        let expected = format!("wrote {path}");
+        assert!(shown(&app).starts_with(&expected), "{}", shown(&app));
         press(&mut app, "j");
     }
 }

@@ -9,25 +9,64 @@ fn past(app: &App) -> Vec<&str> {
 }
 
 #[test]
-fn a_message_that_comes_with_another_waits_for_the_next_key() {
+fn a_message_that_comes_while_another_is_shown_waits_for_a_key() {
     let mut app = open(SCENE);
-    app.overlays.begin_step();
     app.overlays.say("one");
-    app.overlays.warn("two");
+    app.overlays.say("two");
     app.overlays.say("one");
-    assert_eq!(words(&app), "one");
+    assert_eq!(shown(&app), "one");
     press(&mut app, "j");
-    assert_eq!(words(&app), "two");
+    assert_eq!(shown(&app), "two");
     press(&mut app, "j");
-    assert_eq!(words(&app), "");
+    assert_eq!(shown(&app), "");
     // The answer to a key is shown first.
-    app.overlays.begin_step();
     app.overlays.say("three");
     app.overlays.say("four");
     press(&mut app, "X");
-    assert!(words(&app).contains("is free"));
+    assert!(shown(&app).contains("is free"));
     press(&mut app, "j");
-    assert_eq!(words(&app), "four");
+    assert_eq!(shown(&app), "four");
+}
+
+#[test]
+fn a_message_makes_way_once_it_could_be_read_and_errors_go_first() {
+    let timer = |effects: &[Effect]| {
+        effects.iter().find_map(|effect| match effect {
+            Effect::Later(time, Timer::Message) => Some(time.as_millis()),
+            _ => None,
+        })
+    };
+    let mut app = open(SCENE);
+    let effects = app.update(Msg::Failed("a disk is full".to_owned()));
+    assert_eq!(timer(&effects), None, "nothing waits");
+    app.overlays.clear_message();
+    app.overlays.say("0123456789");
+    app.overlays.say("saved");
+    let effects = app.update(Msg::Failed("failed".to_owned()));
+    assert_eq!(timer(&effects), Some(2500));
+    let effects = app.update(Msg::Failed("failed twice".to_owned()));
+    assert_eq!((timer(&effects), shown(&app)), (None, "0123456789"));
+    for (next, time) in [
+        ("failed", Some(2300)),
+        ("failed twice", Some(2600)),
+        ("saved", None),
+        ("saved", None),
+    ] {
+        let effects = app.update(Msg::Elapsed(Timer::Message));
+        assert_eq!((shown(&app), timer(&effects)), (next, time));
+    }
+}
+
+#[test]
+fn a_timer_set_for_another_message_does_not_turn_this_one() {
+    let mut app = open(SCENE);
+    app.overlays.say("one");
+    app.overlays.say("two");
+    app.update(Msg::Resize(120, 40));
+    press(&mut app, "j");
+    assert_eq!(shown(&app), "two");
+    app.update(Msg::Elapsed(Timer::Message));
+    assert_eq!(shown(&app), "two");
 }
 
 #[test]

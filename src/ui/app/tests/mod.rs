@@ -1,5 +1,6 @@
 //! Tests of the interface: keys, pastes and files in; text, state and effects out.
 
+mod adding;
 mod assets;
 mod colours;
 mod dat;
@@ -7,6 +8,7 @@ mod disk;
 mod editing;
 mod exports;
 mod fields;
+mod listing;
 mod making;
 mod marks;
 mod messages;
@@ -17,6 +19,7 @@ mod panels;
 pub(in crate::ui) mod pictures;
 mod recovering;
 mod saving;
+mod soloing;
 mod starting;
 mod structure;
 mod transforming;
@@ -161,11 +164,20 @@ fn typed(said: &str) -> String {
     changed_lines(&app).join("|")
 }
 
+/// The newest message, unless all have been dismissed.
 fn words(app: &App) -> &str {
-    app.overlays
-        .message
-        .as_ref()
-        .map_or("", |message| &message.text)
+    let messages = &app.overlays.messages;
+    let newest = match messages.waiting() {
+        0 => app.overlays.message.as_ref(),
+        _ => messages.past().next(),
+    };
+    newest.map_or("", |message| &message.text)
+}
+
+/// The message in the status line.
+fn shown(app: &App) -> &str {
+    let message = app.overlays.message.as_ref();
+    message.map_or("", |message| &message.text)
 }
 
 fn outside(app: &mut App, text: &str) -> Vec<Effect> {

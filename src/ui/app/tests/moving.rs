@@ -151,7 +151,7 @@ fn a_search_finds_names_and_comments_and_counts_them() {
     press(&mut app, "/the light<Enter>");
     assert_eq!(
         (app.cursor.selected(), words(&app)),
-        (Node::Light(0), "1 of 1")
+        (Node::Light(0), "1 of 1; Esc shows all")
     );
 }
 

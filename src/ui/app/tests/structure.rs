@@ -211,7 +211,7 @@ fn xml_scenes_are_restructured_by_keys() {
     check(Object(0), "J", &[(&format!("{a}{b}"), &format!("{b}{a}"))]);
     check(
         Material(0),
-        "Ratte<Enter>",
+        "R<Right>atte<Enter>",
         &[
             ("material=\"m\"", "material=\"matte\""),
             ("<material name=\"m\"", "<material name=\"matte\""),

@@ -334,34 +334,6 @@ fn nothing_is_outlined_until_something_is_selected() {
 }
 
 #[test]
-fn a_light_is_shown_alone_in_the_preview_and_nowhere_else() {
-    let two = RAY.replace("\n1\n5 5 5  1 1 1\n", "\n2\n5 5 5  1 1 1\n-5 5 5  1 0 0\n");
-    let (mut app, _) = opened_as("a.ray", &two);
-    app.select(Light(1));
-    let colours = |effects: &[Effect]| {
-        let job = effects.iter().find_map(|effect| match effect {
-            Effect::Trace(_, job) => Some(job),
-            _ => None,
-        });
-        let job = job.expect("a picture is traced");
-        let reds: Vec<_> = job
-            .scene
-            .lights
-            .iter()
-            .map(|light| light.colour.x)
-            .collect();
-        (job.scene.ambient.x, reds)
-    };
-    assert_eq!(colours(&press(&mut app, "l")), (0.0, vec![0.0, 1.0]));
-    assert_eq!(app.document.text(), two);
-    assert_eq!(colours(&press(&mut app, "<F5>")).1, [1.0, 1.0]);
-    press(&mut app, "<Esc>");
-    assert_eq!(colours(&press(&mut app, "l")), (0.1, vec![1.0, 1.0]));
-    press(&mut app, "ld");
-    assert_eq!(app.pictures.solo, None, "the light is gone");
-}
-
-#[test]
 fn added_things_stand_on_the_surface_in_the_middle_of_the_picture() {
     let behind = DAT.replace("0 0 10  0 0 0", "0 0 10  0 0 -50");
     let (mut app, _) = opened_as("a.dat", &behind);

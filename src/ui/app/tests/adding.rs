@@ -1,0 +1,162 @@
+//! Adding things in the selected material and into empty texts, and changing the type of lights.
+
+use super::*;
+use crate::language::Node::{self, Light, Material, Object};
+
+#[track_caller]
+fn added(name: &str, text: &str, node: Node, said: &str) -> App {
+    let (mut app, _) = opened_as(name, text);
+    app.select(node);
+    press(&mut app, said);
+    assert_eq!(app.error_count(), 0, "{said}: {}", app.document.text());
+    app
+}
+
+const RAY: &str = "\
+0.1 0.1 0.1
+1
+5 5 5  1 1 1
+2
+sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1
+sphere 4 0 0 1  0.25 0 0  .5 .4 .3 0.10 0 0 1 0 0 1.50
+";
+
+const DAT: &str = "\
+light ID 1 pnt  5 5 5  0 0 0  1 1 1  1 0 0  0 shadow_on
+light ID 2 amb  0 0 0  0 0 0  1 1 1  1 0 0  0 shadow_on
+mat ID 1  1 1 1  .3 .5 .2 9  0 0 1
+mat ID 2  1 0 0  .3 .5 .2 9  0 0 1
+obj sphere ID 1 mat ID 2  0 0 0  1
+obj sphere ID 2 mat ID 1  1 0 0  1
+obj CSG ID 3 union ID 1 ID 2
+";
+
+const XML: &str = "\
+<xml>
+  <scene>
+    <object type=\"sphere\" name=\"a\" material=\"red\"/>
+    <material type=\"blinn\" name=\"grey\"/>
+    <material type=\"blinn\" name=\"red\"/>
+    <light type=\"point\" name=\"lamp\"><position z=\"9\"/></light>
+  </scene>
+  <camera><position z=\"9\"/></camera>
+</xml>
+";
+
+#[test]
+fn new_things_take_the_material_of_the_selection() {
+    for (name, text, node, written) in [
+        (
+            "a.ray",
+            RAY,
+            Object(1),
+            "0.25 0 0  .5 .4 .3  0.10 0 0  1  0  0  1.50",
+        ),
+        (
+            "a.ray",
+            RAY,
+            Object(0),
+            "0 0 0  .5 .5 .5  0 0 0  1  0  0  1",
+        ),
+        ("a.ray", RAY, Light(0), "0.1 0.1 0.1  0.6 0.6 0.6"),
+        ("a.dat", DAT, Object(0), "obj cylinder ID 4 mat ID 2"),
+        ("a.dat", DAT, Object(2), "obj cylinder ID 4 mat ID 2"),
+        ("a.dat", DAT, Material(0), "obj cylinder ID 4 mat ID 1"),
+    ] {
+        let app = added(name, text, node, "acylinder<Enter>");
+        assert!(
+            app.document.text().contains(written),
+            "{}",
+            app.document.text()
+        );
+    }
+    for (node, written) in [
+        (Object(0), "name=\"plane\" material=\"red\""),
+        (Material(1), "name=\"plane\" material=\"red\""),
+        (Material(0), "name=\"plane\" material=\"grey\""),
+    ] {
+        let app = added("a.xml", XML, node, "aplane<Enter>");
+        assert!(
+            app.document.text().contains(written),
+            "{}",
+            app.document.text()
+        );
+    }
+}
+
+#[test]
+fn lights_change_their_type_and_keep_what_both_share() {
+    for (name, text, node, said, old, new) in [
+        (
+            "a.dat",
+            DAT,
+            Light(0),
+            "cinf<Enter>",
+            "ID 1 pnt",
+            "ID 1 inf",
+        ),
+        (
+            "a.dat",
+            DAT,
+            Light(0),
+            "camb<Enter>",
+            "ID 1 pnt",
+            "ID 1 amb",
+        ),
+        (
+            "a.dat",
+            DAT,
+            Light(0),
+            "c<Down><Enter>",
+            "ID 1 pnt",
+            "ID 1 inf",
+        ),
+        // A light without a place or a direction gets a direction.
+        (
+            "a.dat",
+            DAT,
+            Light(1),
+            "cinf<Enter>",
+            "amb  0 0 0  0 0 0",
+            "inf  0 0 0  0 0 -1",
+        ),
+        (
+            "a.xml",
+            XML,
+            Light(0),
+            "cambient<Enter>",
+            "type=\"point\"",
+            "type=\"ambient\"",
+        ),
+    ] {
+        let mut app = added(name, text, node, said);
+        assert_eq!(app.document.text(), text.replacen(old, new, 1), "{said}");
+        press(&mut app, "u");
+        assert_eq!(app.document.text(), text);
+    }
+    let app = added("a.ray", RAY, Light(0), "c");
+    assert_eq!(words(&app), "light 1 has only one type");
+}
+
+#[test]
+fn the_first_thing_brings_a_scene_with_it() {
+    for (name, text, said, node) in [
+        ("a.ray", "", "asphere<Enter>", Object(0)),
+        ("a.ray", "// mine\n", "acone<Enter>", Object(0)),
+        ("a.ray", "\n", "alight<Enter>", Light(0)),
+        ("a.dat", "", "abox<Enter>", Object(0)),
+        ("a.dat", "# mine", "aspot<Enter>", Light(0)),
+        ("a.xml", "", "asphere<Enter>", Object(0)),
+        ("a.xml", "<!-- mine -->", "aphong<Enter>", Material(0)),
+    ] {
+        let mut app = added(name, text, Node::View, said);
+        assert_eq!(app.cursor.selected(), node, "{name} {said}");
+        assert!(app.document.text().starts_with(text.trim_end()), "{name}");
+        press(&mut app, "u");
+        assert_eq!(app.document.text(), text, "{name} {said}");
+    }
+    let (mut app, _) = opened_as("a.dat", "");
+    press(&mut app, "aunion<Enter>");
+    assert_eq!(app.document.text(), "");
+    assert!(words(&app).contains("Space"), "{}", words(&app));
+}
