@@ -1,6 +1,7 @@
 //! Deleting, copying, inserting, exchanging and renaming nodes in all languages.
 
 use super::{Random, read_as};
+use crate::language::table::Category;
 use crate::language::{Language, Neighbour, Node, Source, StructureError};
 use crate::scene::Meshes;
 use crate::text::{Edit, apply};
@@ -463,7 +464,7 @@ fn random_changes_of_structure_leave_no_error_and_are_undone_to_the_byte() {
 fn random_change(source: &Source, random: &mut Random) -> Option<Vec<Edit>> {
     let nodes = source.nodes();
     let node = nodes.get(random.below(nodes.len()))?;
-    let edits = match random.below(5) {
+    let edits = match random.below(7) {
         0 => source.removal(&[node]),
         1 => {
             let other = nodes.get(random.below(nodes.len()))?;
@@ -476,6 +477,12 @@ fn random_change(source: &Source, random: &mut Random) -> Option<Vec<Edit>> {
         3 => source
             .exchange(node, Neighbour::Previous)
             .map(|placed| placed.edits),
+        4 => source.orthonormalised(node),
+        5 => {
+            let name = random.below(1000).to_string();
+            let created = source.creation(Category::Material, &name, node);
+            created.map(|placed| placed.edits)
+        }
         _ => source.renaming(node, &random.below(1000).to_string()),
     };
     edits.ok().filter(|edits| !edits.is_empty())

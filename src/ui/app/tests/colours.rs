@@ -1,8 +1,10 @@
 //! The colour picker.
 
+use super::fields::{DOWN, DRAG, UP, mouse};
 use super::*;
 use crate::language::Node;
 use crate::ui::keymap::Context;
+use crate::ui::layout::{picker_lines, swatch_cells};
 
 const XML: &str = r#"<xml>
   <scene>
@@ -173,4 +175,28 @@ fn a_colour_overtaken_by_the_file_is_kept() {
     assert!(words(&app).contains("changed on disk"), "{}", words(&app));
     assert_eq!(app.context(), Context::In(Mode::Edit));
     assert!(app.document.text().contains(".45 .36 .36"));
+}
+
+#[test]
+fn the_mouse_drags_bars_takes_swatches_and_confirms_beside_them() {
+    let mut app = picked("a.ray", SCENE, (Node::Object(0), "kd"), "c");
+    let lines = picker_lines(app.areas().list);
+    let [[_, hue], [_, saturation], _] = lines.bars;
+    let kd = |kd: &str| SCENE.replacen(".45 .45 .45", kd, 1);
+    mouse(&mut app, DOWN, (saturation.right() - 1, saturation.y));
+    assert_eq!(app.document.text(), kd(".45 .00 .00"));
+    // A drag stays on its bar.
+    mouse(&mut app, DRAG, (saturation.x, hue.y));
+    assert_eq!(app.document.text(), SCENE);
+    mouse(&mut app, DRAG, (saturation.right() + 5, saturation.y));
+    mouse(&mut app, UP, (saturation.right() + 5, saturation.y));
+    assert_eq!(app.document.text(), kd(".45 .00 .00"));
+    let swatch = swatch_cells(lines.swatches, 1).expect("there are two");
+    mouse(&mut app, DOWN, (swatch.x + 1, swatch.y));
+    assert_eq!(app.document.text(), kd("1.00 1.00 1.00"));
+    mouse(&mut app, DOWN, (1, 1));
+    assert_eq!(app.context(), Context::In(Mode::Edit));
+    assert_eq!(app.document.text(), kd("1.00 1.00 1.00"));
+    press(&mut app, "u");
+    assert_eq!(app.document.text(), SCENE);
 }

@@ -6,11 +6,11 @@ use super::*;
 use crate::language::Node;
 use crate::ui::layout::field_rows;
 
-const DOWN: MouseEventKind = MouseEventKind::Down(MouseButton::Left);
-const DRAG: MouseEventKind = MouseEventKind::Drag(MouseButton::Left);
-const UP: MouseEventKind = MouseEventKind::Up(MouseButton::Left);
+pub(super) const DOWN: MouseEventKind = MouseEventKind::Down(MouseButton::Left);
+pub(super) const DRAG: MouseEventKind = MouseEventKind::Drag(MouseButton::Left);
+pub(super) const UP: MouseEventKind = MouseEventKind::Up(MouseButton::Left);
 
-fn mouse(app: &mut App, kind: MouseEventKind, (column, row): (u16, u16)) {
+pub(super) fn mouse(app: &mut App, kind: MouseEventKind, (column, row): (u16, u16)) {
     app.update(Msg::Mouse(MouseEvent {
         kind,
         column,
