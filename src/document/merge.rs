@@ -8,9 +8,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::Document;
-use super::hunks::{Chunks, Hunk, hunks};
-use super::windows::{Change, Window, widening, windows};
-use crate::language::Language;
+use super::hunks::{Chunks, Hunk, Leaves, hunks};
+use super::windows::{self, Change, Window, widening, windows};
+use crate::language::{Language, Source};
 use crate::text;
 use crate::text::{Edit, Span};
 
@@ -47,6 +47,8 @@ pub struct Merge {
     pub conflicts: Vec<Conflict>,
     /// The changes to `mine`, in text order.
     pieces: Vec<Piece>,
+    /// Whether the changes are sound only one side at a time.
+    is_undivided: bool,
     pub(super) base: Arc<String>,
     pub(super) mine: Arc<String>,
     pub(super) theirs: Arc<String>,
@@ -97,6 +99,30 @@ impl Merge {
         Self {
             conflicts,
             pieces,
+            is_undivided: false,
+            base: Arc::clone(base),
+            mine: Arc::clone(mine),
+            theirs: Arc::clone(theirs),
+        }
+    }
+
+    /// A merge that leaves everything from the first change to the last to one decision.
+    pub(super) fn undivided(base: &Arc<String>, mine: &Arc<String>, theirs: &Arc<String>) -> Self {
+        let changes = [mine, theirs].map(|other| Change::between(base, other));
+        let window = windows::undivided(base, changes[0], changes[1]);
+        let conflict = |window: Window| Conflict {
+            span: window.mine,
+            base: window.base.of(base).to_owned(),
+            mine: window.mine.of(mine).to_owned(),
+            theirs: window.theirs.of(theirs).to_owned(),
+            decision: None,
+            ancestor: window.base,
+        };
+        let conflicts: Vec<_> = window.map(conflict).into_iter().collect();
+        Self {
+            pieces: (0..conflicts.len()).map(Piece::Conflict).collect(),
+            conflicts,
+            is_undivided: true,
             base: Arc::clone(base),
             mine: Arc::clone(mine),
             theirs: Arc::clone(theirs),
@@ -115,6 +141,32 @@ impl Merge {
         text
     }
 
+    /// The edits that turn the text being edited into the merged text, and then correct its counts.
+    pub(super) fn counted_edits(&self, language: Language) -> Vec<Edit> {
+        let mut source = Source::new(language, Arc::new(self.text()));
+        let counts = self.counts(&source);
+        if counts.is_empty() {
+            return self.edits();
+        }
+        source.change(&counts);
+        let edit = text::smallest_edit(&self.mine, source.text());
+        edit.into_iter().collect()
+    }
+
+    /// The edits that correct the counts of the merged text: both sides may have added or deleted
+    /// something, and then state the same count. None if the counts of a side were already wrong.
+    pub(super) fn counts(&self, merged: &Source) -> Vec<Edit> {
+        let is_exact = |text: &Arc<String>| {
+            let source = Source::new(merged.language(), Arc::clone(text));
+            source.recount().is_empty()
+        };
+        let counts = merged.recount();
+        if counts.is_empty() || !is_exact(&self.mine) || !is_exact(&self.theirs) {
+            return Vec::new();
+        }
+        counts
+    }
+
     /// The edits that turn the text being edited into the merged text.
     pub(super) fn edits(&self) -> Vec<Edit> {
         edits(&self.pieces, &self.conflicts, |conflict| {
@@ -124,7 +176,11 @@ impl Merge {
 
     /// Repeats the merge for a text edited meanwhile. Unchanged conflicts keep their decisions.
     pub(super) fn onto(self, language: Language, mine: &Arc<String>) -> Self {
-        let mut merge = Self::new(language, &self.base, mine, &self.theirs);
+        let mut merge = if self.is_undivided {
+            Self::undivided(&self.base, mine, &self.theirs)
+        } else {
+            Self::new(language, &self.base, mine, &self.theirs)
+        };
         let mut earlier = self.conflicts.into_iter().peekable();
         for conflict in &mut merge.conflicts {
             while earlier
@@ -224,7 +280,7 @@ impl Sides<'_> {
                 .iter()
                 .eq(self.outcome(&regions, side))
         });
-        if holds {
+        if holds && !self.divides_a_move(&regions) {
             return Some((pieces, conflicts));
         }
         let whole = regions.into_iter().reduce(|first, later| first.to(&later));
@@ -263,6 +319,37 @@ impl Sides<'_> {
         (pieces, conflicts)
     }
 
+    /// Whether one side has moved what the other has deleted, moved elsewhere or copied. Half of a
+    /// move is then a change that both made alike, and only the other half would be merged.
+    fn divides_a_move(&self, regions: &[Region]) -> bool {
+        let is_alike = |region: &&Region| {
+            let mine = self.mine.slice(&region.mine);
+            mine == self.theirs.slice(&region.theirs) && mine != self.base.slice(&region.base)
+        };
+        let (alike, others): (Vec<_>, Vec<_>) = regions.iter().partition(is_alike);
+        let others: Vec<_> = others
+            .into_iter()
+            .flat_map(|region| {
+                [(&self.mine, &region.mine), (&self.theirs, &region.theirs)]
+                    .map(|(side, range)| [self.base.leaves(&region.base), side.leaves(range)])
+            })
+            .collect();
+        alike.iter().any(|region| {
+            let (old, new) = (
+                self.base.leaves(&region.base),
+                self.mine.leaves(&region.mine),
+            );
+            let (removed, added) = (without(&old, &new), without(&new, &old));
+            // Some leaves of a moved thing may have been taken for those of another.
+            let is_among = |leaves: &Leaves<'_>, others: &Leaves<'_>| {
+                2 * number(&without(leaves, others)) < number(leaves)
+            };
+            let moves =
+                |[old, new]: &[Leaves<'_>; 2]| is_among(&removed, new) || is_among(&added, old);
+            others.iter().any(moves)
+        })
+    }
+
     /// The chunks of the merged text if all conflicts are decided for one side.
     fn outcome(&self, regions: &[Region], side: Side) -> impl Iterator<Item = &str> {
         let mut parts = Vec::with_capacity(2 * regions.len() + 1);
@@ -284,6 +371,19 @@ impl Sides<'_> {
             .into_iter()
             .flat_map(|(chunks, range)| range.map(|at| &chunks[at]))
     }
+}
+
+/// The leaves of which there are more than among others, and how many more.
+fn without<'t>(leaves: &Leaves<'t>, others: &Leaves<'_>) -> Leaves<'t> {
+    let more = leaves.iter().filter_map(|(&leaf, &count)| {
+        let more = count.saturating_sub(others.get(leaf).copied().unwrap_or(0));
+        (0 < more).then_some((leaf, more))
+    });
+    more.collect()
+}
+
+fn number(leaves: &Leaves<'_>) -> usize {
+    leaves.values().sum()
 }
 
 /// Corresponding chunks of all three texts, with changes that belong together.

@@ -236,7 +236,7 @@ impl Document {
                 return Adopted::Conflict(merge);
             }
         }
-        self.edit(&merge.edits());
+        self.edit(&merge.counted_edits(self.language()));
         self.history.commit();
         self.set_saved(merge.theirs);
         Adopted::Taken
@@ -248,7 +248,7 @@ impl Document {
         if merge.mine != *self.source.text() {
             return Adopted::OutOfDate;
         }
-        self.edit(&merge.edits());
+        self.edit(&merge.counted_edits(self.language()));
         self.history.commit();
         Adopted::Taken
     }
