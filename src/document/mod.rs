@@ -5,6 +5,7 @@
 mod history;
 mod hunks;
 mod merge;
+mod regions;
 mod snapshot;
 #[cfg(test)]
 mod tests;
