@@ -1,4 +1,7 @@
-//! Edits of one object among very many: of its colour and shape, and by another program.
+//! Edits of one object among very many: of its colour and shape, and by another program;
+//! and changes of structure.
+
+mod structure;
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -14,6 +17,8 @@ struct Case {
     /// The position of the first sphere in the list.
     row: usize,
     target: &'static str,
+    /// The time within which a picture settles.
+    settled: Duration,
     from_disk: &'static str,
 }
 
@@ -28,6 +33,7 @@ pub(crate) fn measure() {
             text: scenes::sphereflake(5),
             row: 6,
             target: "p95 <= 50",
+            settled: SECOND / 2,
             from_disk: "-",
         },
         Case {
@@ -35,6 +41,7 @@ pub(crate) fn measure() {
             text: format!("{head}sphere\n0 0 0 .7\n{rest}"),
             row: 3,
             target: "p95 <= 250",
+            settled: 2 * SECOND,
             from_disk: "p95 <= 1000",
         },
     ] {
@@ -55,6 +62,9 @@ fn edit(case: &Case) {
     times_row(&format!("{name}: start to picture"), &opened, "-");
     save(&mut desk, case, &text);
     merge(&mut desk, case, &text);
+    down(&mut desk, &["gg"]);
+    down(&mut desk, &vec!["j"; case.row]);
+    structure::measure(&mut desk, name, case.target, case.settled);
     down(&mut desk, &["gg"]);
     down(&mut desk, &vec!["j"; case.row]);
     down(&mut desk, &["e"]);

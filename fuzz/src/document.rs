@@ -147,11 +147,10 @@ pub fn merge(input: &[u8]) {
     document.edit(&edits);
     document.end_step();
     assert_eq!(document.text(), mine);
-    match document
-        .snapshot()
-        .merge(Document::new(language, theirs.clone().into_owned()))
-    {
-        Ok(merged) => {
+    let theirs_read = Document::new(language, theirs.clone().into_owned());
+    let merged = document.snapshot().merge(theirs_read, &Meshes::default());
+    match merged.expect("there is memory") {
+        Ok((merged, _)) => {
             drop(document.take(merged));
             assert!(one_sided.is_none_or(|text| document.text() == text));
             let fresh = Source::new(language, document.shared_text());

@@ -4,6 +4,7 @@
 //! it cannot tell which one is new. Ambiguities are resolved in favour of larger hunks, since a
 //! needless question is better than a silently wrong merge.
 
+use std::collections::BTreeMap;
 use std::ops::{Index, Range};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -20,6 +21,9 @@ const PATIENCE: Duration = Duration::from_millis(if cfg!(test) { 3_600_000 } els
 
 /// More unchanged leaves in a row than this are never taken for a coincidence.
 const COINCIDENCE: usize = 4;
+
+/// The number of leaves of each text.
+pub(super) type Leaves<'t> = BTreeMap<&'t str, usize>;
 
 /// A text split into alternating chunks: white space, leaf, white space, …, leaf, white space.
 /// White space may be empty; leaves have odd indices. The concatenated chunks are the text.
@@ -63,6 +67,16 @@ impl<'t> Chunks<'t> {
     /// The span of a range of chunks.
     pub(super) fn span(&self, chunks: &Range<usize>) -> Span {
         Span::new(self.bound(chunks.start), self.bound(chunks.end))
+    }
+
+    /// How often each leaf is in a range of chunks.
+    pub(super) fn leaves(&self, chunks: &Range<usize>) -> Leaves<'t> {
+        let mut leaves = Leaves::new();
+        for leaf in chunks.clone().filter(|chunk| chunk % 2 == 1) {
+            let span = self.span(&(leaf..leaf + 1));
+            *leaves.entry(span.of(self.text)).or_insert(0) += 1;
+        }
+        leaves
     }
 
     /// The text of a range of chunks.

@@ -4,13 +4,13 @@
 //! both texts to their common ancestor are aligned, overlapping ones form a region, and a region
 //! that both changed differently is a conflict.
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use super::Document;
-use super::hunks::{Chunks, Hunk, hunks};
-use super::windows::{Change, Window, widening, windows};
-use crate::language::Language;
+use super::hunks::{Chunks, Leaves, hunks};
+use super::regions::{Region, regions};
+use super::windows::{self, Change, Window, widening, windows};
+use crate::language::{Language, Source};
 use crate::text;
 use crate::text::{Edit, Span};
 
@@ -47,6 +47,8 @@ pub struct Merge {
     pub conflicts: Vec<Conflict>,
     /// The changes to `mine`, in text order.
     pieces: Vec<Piece>,
+    /// Whether the changes are sound only one side at a time.
+    is_undivided: bool,
     pub(super) base: Arc<String>,
     pub(super) mine: Arc<String>,
     pub(super) theirs: Arc<String>,
@@ -97,6 +99,30 @@ impl Merge {
         Self {
             conflicts,
             pieces,
+            is_undivided: false,
+            base: Arc::clone(base),
+            mine: Arc::clone(mine),
+            theirs: Arc::clone(theirs),
+        }
+    }
+
+    /// A merge that leaves everything from the first change to the last to one decision.
+    pub(super) fn undivided(base: &Arc<String>, mine: &Arc<String>, theirs: &Arc<String>) -> Self {
+        let changes = [mine, theirs].map(|other| Change::between(base, other));
+        let window = windows::undivided(base, changes[0], changes[1]);
+        let conflict = |window: Window| Conflict {
+            span: window.mine,
+            base: window.base.of(base).to_owned(),
+            mine: window.mine.of(mine).to_owned(),
+            theirs: window.theirs.of(theirs).to_owned(),
+            decision: None,
+            ancestor: window.base,
+        };
+        let conflicts: Vec<_> = window.map(conflict).into_iter().collect();
+        Self {
+            pieces: (0..conflicts.len()).map(Piece::Conflict).collect(),
+            conflicts,
+            is_undivided: true,
             base: Arc::clone(base),
             mine: Arc::clone(mine),
             theirs: Arc::clone(theirs),
@@ -115,6 +141,32 @@ impl Merge {
         text
     }
 
+    /// The edits that turn the text being edited into the merged text, and then correct its counts.
+    pub(super) fn counted_edits(&self, language: Language) -> Vec<Edit> {
+        let mut source = Source::new(language, Arc::new(self.text()));
+        let counts = self.counts(&source);
+        if counts.is_empty() {
+            return self.edits();
+        }
+        source.change(&counts);
+        let edit = text::smallest_edit(&self.mine, source.text());
+        edit.into_iter().collect()
+    }
+
+    /// The edits that correct the counts of the merged text: both sides may have added or deleted
+    /// something, and then state the same count. None if the counts of a side were already wrong.
+    pub(super) fn counts(&self, merged: &Source) -> Vec<Edit> {
+        let is_exact = |text: &Arc<String>| {
+            let source = Source::new(merged.language(), Arc::clone(text));
+            source.recount().is_empty()
+        };
+        let counts = merged.recount();
+        if counts.is_empty() || !is_exact(&self.mine) || !is_exact(&self.theirs) {
+            return Vec::new();
+        }
+        counts
+    }
+
     /// The edits that turn the text being edited into the merged text.
     pub(super) fn edits(&self) -> Vec<Edit> {
         edits(&self.pieces, &self.conflicts, |conflict| {
@@ -124,7 +176,11 @@ impl Merge {
 
     /// Repeats the merge for a text edited meanwhile. Unchanged conflicts keep their decisions.
     pub(super) fn onto(self, language: Language, mine: &Arc<String>) -> Self {
-        let mut merge = Self::new(language, &self.base, mine, &self.theirs);
+        let mut merge = if self.is_undivided {
+            Self::undivided(&self.base, mine, &self.theirs)
+        } else {
+            Self::new(language, &self.base, mine, &self.theirs)
+        };
         let mut earlier = self.conflicts.into_iter().peekable();
         for conflict in &mut merge.conflicts {
             while earlier
@@ -224,7 +280,7 @@ impl Sides<'_> {
                 .iter()
                 .eq(self.outcome(&regions, side))
         });
-        if holds {
+        if holds && !self.divides_a_move(&regions) {
             return Some((pieces, conflicts));
         }
         let whole = regions.into_iter().reduce(|first, later| first.to(&later));
@@ -263,6 +319,37 @@ impl Sides<'_> {
         (pieces, conflicts)
     }
 
+    /// Whether one side has moved what the other has deleted, moved elsewhere or copied. Half of a
+    /// move is then a change that both made alike, and only the other half would be merged.
+    fn divides_a_move(&self, regions: &[Region]) -> bool {
+        let is_alike = |region: &&Region| {
+            let mine = self.mine.slice(&region.mine);
+            mine == self.theirs.slice(&region.theirs) && mine != self.base.slice(&region.base)
+        };
+        let (alike, others): (Vec<_>, Vec<_>) = regions.iter().partition(is_alike);
+        let others: Vec<_> = others
+            .into_iter()
+            .flat_map(|region| {
+                [(&self.mine, &region.mine), (&self.theirs, &region.theirs)]
+                    .map(|(side, range)| [self.base.leaves(&region.base), side.leaves(range)])
+            })
+            .collect();
+        alike.iter().any(|region| {
+            let (old, new) = (
+                self.base.leaves(&region.base),
+                self.mine.leaves(&region.mine),
+            );
+            let (removed, added) = (without(&old, &new), without(&new, &old));
+            // Some leaves of a moved thing may have been taken for those of another.
+            let is_among = |leaves: &Leaves<'_>, others: &Leaves<'_>| {
+                2 * number(&without(leaves, others)) < number(leaves)
+            };
+            let moves =
+                |[old, new]: &[Leaves<'_>; 2]| is_among(&removed, new) || is_among(&added, old);
+            others.iter().any(moves)
+        })
+    }
+
     /// The chunks of the merged text if all conflicts are decided for one side.
     fn outcome(&self, regions: &[Region], side: Side) -> impl Iterator<Item = &str> {
         let mut parts = Vec::with_capacity(2 * regions.len() + 1);
@@ -286,114 +373,17 @@ impl Sides<'_> {
     }
 }
 
-/// Corresponding chunks of all three texts, with changes that belong together.
-#[derive(Clone, Debug)]
-struct Region {
-    base: Range<usize>,
-    mine: Range<usize>,
-    theirs: Range<usize>,
+/// The leaves of which there are more than among others, and how many more.
+fn without<'t>(leaves: &Leaves<'t>, others: &Leaves<'_>) -> Leaves<'t> {
+    let more = leaves.iter().filter_map(|(&leaf, &count)| {
+        let more = count.saturating_sub(others.get(leaf).copied().unwrap_or(0));
+        (0 < more).then_some((leaf, more))
+    });
+    more.collect()
 }
 
-impl Region {
-    /// The region from this one to a later one.
-    fn to(&self, later: &Self) -> Self {
-        Self {
-            base: self.base.start..later.base.end,
-            mine: self.mine.start..later.mine.end,
-            theirs: self.theirs.start..later.theirs.end,
-        }
-    }
-}
-
-/// Aligns the changes of two texts: those that clash share a region.
-fn regions(mine: &[Hunk], theirs: &[Hunk]) -> Vec<Region> {
-    let (mut mine, mut theirs) = (Walk::new(mine), Walk::new(theirs));
-    let mut regions = Vec::new();
-    loop {
-        let first = [mine.peek(), theirs.peek()]
-            .into_iter()
-            .flatten()
-            .min_by_key(|hunk| (hunk.base.start, hunk.base.end));
-        let Some(first) = first else {
-            return regions;
-        };
-        let mut base = first.base.clone();
-        let starts = (mine.position(base.start), theirs.position(base.start));
-        mine.structural = false;
-        theirs.structural = false;
-        // The first hunk starts the region; others join by clashing with it.
-        if !mine.take_if(&mut base, |hunk, base| hunk.base == *base) {
-            theirs.take_if(&mut base, |hunk, base| hunk.base == *base);
-        }
-        loop {
-            let grown = mine.take_if(&mut base, |hunk, base| clash(hunk, base, &theirs))
-                || theirs.take_if(&mut base, |hunk, base| clash(hunk, base, &mine));
-            if !grown {
-                break;
-            }
-        }
-        regions.push(Region {
-            mine: starts.0..mine.position(base.end),
-            theirs: starts.1..theirs.position(base.end),
-            base,
-        });
-    }
-}
-
-/// Whether a hunk overlaps a region, or is adjacent to it while both the hunk and the other text
-/// change the number of chunks, so that their order would be ambiguous.
-fn clash(hunk: &Hunk, region: &Range<usize>, other: &Walk) -> bool {
-    let shares = hunk.base.start < region.end && region.start < hunk.base.end;
-    let touches = hunk.base.start <= region.end && region.start <= hunk.base.end;
-    shares || (touches && hunk.is_structural() && other.structural)
-}
-
-/// A cursor over the hunks of one text.
-struct Walk<'h> {
-    hunks: &'h [Hunk],
-    /// The end of the last hunk taken, in the base and in the other text.
-    passed: (usize, usize),
-    /// Whether a hunk in the current region changes the number of chunks.
-    structural: bool,
-}
-
-impl<'h> Walk<'h> {
-    fn new(hunks: &'h [Hunk]) -> Self {
-        Self {
-            hunks,
-            passed: (0, 0),
-            structural: false,
-        }
-    }
-
-    /// The next hunk, without passing it.
-    fn peek(&self) -> Option<&'h Hunk> {
-        self.hunks.first()
-    }
-
-    /// Maps a base index, not before the last hunk taken, to the other text.
-    fn position(&self, base: usize) -> usize {
-        self.passed.1 + (base - self.passed.0)
-    }
-
-    /// Takes the next hunk into the region if `condition` holds; returns whether it did.
-    fn take_if(
-        &mut self,
-        region: &mut Range<usize>,
-        condition: impl Fn(&Hunk, &Range<usize>) -> bool,
-    ) -> bool {
-        let Some((hunk, rest)) = self.hunks.split_first() else {
-            return false;
-        };
-        if !condition(hunk, region) {
-            return false;
-        }
-        region.end = region.end.max(hunk.base.end);
-        self.hunks = rest;
-        self.passed = (hunk.base.end, hunk.other.end);
-        self.structural |= hunk.is_structural();
-        true
-    }
+fn number(leaves: &Leaves<'_>) -> usize {
+    leaves.values().sum()
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 mod history;
 mod hunks;
 mod merge;
+mod regions;
 mod snapshot;
 #[cfg(test)]
 mod tests;
@@ -236,7 +237,7 @@ impl Document {
                 return Adopted::Conflict(merge);
             }
         }
-        self.edit(&merge.edits());
+        self.edit(&merge.counted_edits(self.language()));
         self.history.commit();
         self.set_saved(merge.theirs);
         Adopted::Taken
@@ -248,7 +249,7 @@ impl Document {
         if merge.mine != *self.source.text() {
             return Adopted::OutOfDate;
         }
-        self.edit(&merge.edits());
+        self.edit(&merge.counted_edits(self.language()));
         self.history.commit();
         Adopted::Taken
     }

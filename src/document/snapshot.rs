@@ -1,11 +1,15 @@
 //! Merges a text from outside with unsaved edits, while the document can be edited.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::{Document, Merge};
-use crate::language::Language;
+use crate::language;
+use crate::language::{Language, Lowered, Source};
+use crate::memory::OutOfMemory;
+use crate::scene::Meshes;
 use crate::text;
-use crate::text::{Edit, smallest_edit};
+use crate::text::{Edit, Findings, smallest_edit};
 
 /// What a merge with a text from outside needs of a document, at one moment.
 #[derive(Clone, Debug)]
@@ -42,31 +46,105 @@ impl Snapshot {
         self.edited.as_ref().unwrap_or(&self.saved)
     }
 
-    /// Merges a text from outside with the unsaved edits; the error is a merge with conflicts.
-    pub fn merge(&self, theirs: Document) -> Result<Merged, Merge> {
-        let merge = Merge::new(
-            self.language,
-            &self.saved,
-            self.text(),
-            theirs.source.text(),
-        );
+    /// Merges a text from outside with the unsaved edits, and lowers the result. The inner error is
+    /// a merge to decide: both changed the same places, or each of them is sound and both together
+    /// are not, as where one deletes what the other begins to use.
+    ///
+    /// # Errors
+    ///
+    /// Fails if that would take more memory than is available.
+    pub fn merge(
+        &self,
+        theirs: Document,
+        meshes: &Meshes,
+    ) -> Result<Result<(Merged, Lowered), Merge>, OutOfMemory> {
+        let (base, mine, outside) = (&self.saved, self.text(), theirs.shared_text());
+        let merge = Merge::new(self.language, base, mine, &outside);
         if !merge.conflicts.is_empty() {
-            return Err(merge);
+            return Ok(Err(merge));
         }
-        let mut text = String::clone(self.text());
+        let (merged, lowered) = self.merged(theirs, &merge, meshes)?;
+        if self.agrees(&lowered.diagnostics, &outside, meshes)? {
+            return Ok(Ok((merged, lowered)));
+        }
+        if let Some(apart) = self.set_apart(&outside) {
+            let merge = Merge::new(self.language, base, &apart, &outside);
+            if merge.conflicts.is_empty() {
+                let (merged, lowered) = self.merged(merged.document, &merge, meshes)?;
+                if self.agrees(&lowered.diagnostics, &outside, meshes)? {
+                    return Ok(Ok((merged, lowered)));
+                }
+            }
+        }
+        Ok(Err(Merge::undivided(base, mine, &outside)))
+    }
+
+    /// The result of a merge without conflicts, made from a document whose saved text is the one
+    /// from outside.
+    fn merged(
+        &self,
+        mut document: Document,
+        merge: &Merge,
+        meshes: &Meshes,
+    ) -> Result<(Merged, Lowered), OutOfMemory> {
+        let mut text = String::clone(&merge.mine);
         let mut back = text::apply(&mut text, &merge.edits());
-        let mut document = theirs;
         if let Some(edit) = smallest_edit(document.text(), &text) {
             document.change(&[edit]);
         }
-        // Both may have added or deleted something, and then state the same count.
-        let counts = document.source.recount();
+        let counts = merge.counts(&document.source);
         if !counts.is_empty() {
             document.change(&counts);
+        }
+        if !counts.is_empty() || merge.mine != *self.text() {
             back = smallest_edit(document.text(), self.text())
                 .into_iter()
                 .collect();
         }
-        Ok(Merged { document, back })
+        let lowered = document.lower(meshes)?;
+        Ok((Merged { document, back }, lowered))
     }
+
+    /// Whether a merged text has only errors and warnings that the changes of both sides explain.
+    fn agrees(
+        &self,
+        merged: &Findings,
+        theirs: &Arc<String>,
+        meshes: &Meshes,
+    ) -> Result<bool, OutOfMemory> {
+        if merged.is_empty() {
+            return Ok(true);
+        }
+        let found = |text: &Arc<String>| {
+            language::fits(self.language, text, 0)?;
+            let lowered = Source::new(self.language, Arc::clone(text)).lower(meshes)?;
+            Ok(kinds(&lowered.diagnostics))
+        };
+        let (base, mine, theirs) = (found(&self.saved)?, found(self.text())?, found(theirs)?);
+        Ok(kinds(merged).into_iter().all(|(kind, count)| {
+            let [base, mine, theirs] =
+                [&base, &mine, &theirs].map(|found| found.get(&kind).copied().unwrap_or(0));
+            // Both may have corrected the same.
+            count <= (mine + theirs).saturating_sub(base).max(mine.min(theirs))
+        }))
+    }
+
+    /// The text being edited with other names and IDs for what is new in it, where a text from
+    /// outside gives the same to something new of its own.
+    fn set_apart(&self, theirs: &str) -> Option<Arc<String>> {
+        let mut source = Source::new(self.language, Arc::clone(self.text()));
+        let edits = source.set_apart(&self.saved, theirs);
+        source.change(&edits);
+        (!edits.is_empty()).then(|| Arc::clone(source.text()))
+    }
+}
+
+/// The number of findings of each kind: messages without their numbers, since nodes are counted.
+fn kinds(findings: &Findings) -> BTreeMap<String, usize> {
+    let mut kinds = BTreeMap::new();
+    for finding in findings.iter() {
+        let kind = finding.message.replace(|c: char| c.is_ascii_digit(), "");
+        *kinds.entry(kind).or_insert(0) += 1;
+    }
+    kinds
 }

@@ -2,7 +2,9 @@ use proptest::prelude::*;
 use proptest::sample::{Index, select};
 
 use super::*;
-use crate::language::{Neighbour, Node};
+use crate::language::Node;
+
+mod structure;
 
 fn document(text: &str) -> Document {
     Document::new(Language::Ray, text.to_owned())
@@ -22,11 +24,12 @@ fn check_tree(document: &Document) {
 
 /// Applies a text from outside; returns the undecided merge if there are conflicts.
 fn replace(document: &mut Document, theirs: &str) -> Result<(), Merge> {
-    let theirs = self::document(theirs);
+    let theirs = Document::new(document.language(), theirs.to_owned());
     let snapshot = document.snapshot();
     assert!(snapshot.is_of(document));
     drop(if snapshot.edited.is_some() {
-        document.take(snapshot.merge(theirs)?)
+        let merged = snapshot.merge(theirs, &Meshes::default());
+        document.take(merged.expect("there is memory")?.0)
     } else {
         document.load(theirs)
     });
@@ -284,76 +287,6 @@ proptest! {
         prop_assert_eq!(doc.text(), edited);
         check_tree(&doc);
     }
-}
-
-/// A scene of this many spheres, one a line.
-fn spheres(count: usize) -> String {
-    let sphere = |at: usize| format!("sphere {at} 0 0 1 0 0 0 .5 .5 .5 0 0 0 1 0 0 1\n");
-    let spheres: String = (0..count).map(sphere).collect();
-    format!("1 1 1\n1\n0 5 5 1 1 1\n{count}\n{spheres}")
-}
-
-/// Random changes of structure on both sides.
-#[test]
-fn merges_of_structure_keep_what_both_sides_added_or_ask() {
-    let mut random = 19_u64;
-    let mut below = |bound: usize| {
-        random = random
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
-        (random >> 33) as usize % bound
-    };
-    let mut clean = 0;
-    for round in 0..1000 {
-        let base = spheres(8);
-        let mut changed = |side: &str| {
-            let mut document = document(&base);
-            document.lower(&Meshes::default()).expect("there is memory");
-            let (source, node) = (document.source(), Node::Object(below(8)));
-            let edits = match below(3) {
-                0 => source.removal(&[node]).expect("others are left"),
-                1 => {
-                    let copied = source.copied(&[node]).expect("it can be copied");
-                    let copied = copied
-                        .replace(" 1\n", " 2\n")
-                        .replace("sphere", &format!("// {side}\nsphere"));
-                    source
-                        .insertion(&copied, node)
-                        .expect("it is a sphere")
-                        .edits
-                }
-                _ => {
-                    let placed = source.exchange(node, Neighbour::Next);
-                    let previous = || source.exchange(node, Neighbour::Previous);
-                    placed
-                        .or_else(|_| previous())
-                        .expect("it has a neighbour")
-                        .edits
-                }
-            };
-            document.edit(&edits);
-            document
-        };
-        let (mut mine, theirs) = (changed("mine"), changed("theirs"));
-        let before = mine.text().to_owned();
-        let added = [&mine, &theirs].map(|side| side.text().matches("//").count());
-        if replace(&mut mine, theirs.text()).is_err() {
-            continue;
-        }
-        clean += 1;
-        let lowered = mine.lower(&Meshes::default()).expect("there is memory");
-        assert_eq!(lowered.diagnostics.errors(), 0, "{round}: {}", mine.text());
-        assert_eq!(
-            mine.text().matches("//").count(),
-            added[0] + added[1],
-            "{}",
-            mine.text()
-        );
-        if mine.text() != before && mine.undo().is_some() {
-            assert_eq!(mine.text(), before, "undone");
-        }
-    }
-    assert!(200 < clean, "{clean}");
 }
 
 #[test]

@@ -109,6 +109,21 @@ pub(super) fn windows(
     spans.into_iter().map(window).collect()
 }
 
+/// The lines from the first change of two texts to the last; `None` if neither differs from the base.
+pub(super) fn undivided(
+    base: &str,
+    mine: Option<Change>,
+    theirs: Option<Change>,
+) -> Option<Window> {
+    let whole = windows(base, mine, theirs, 0).into_iter();
+    whole.reduce(|first, last| Window {
+        base: first.base.to(last.base),
+        mine: first.mine.to(last.mine),
+        theirs: first.theirs.to(last.theirs),
+        at_ends: [first.at_ends[0], last.at_ends[1]],
+    })
+}
+
 /// The lines that contain a span and a margin around it.
 fn lines_around(text: &str, span: Span, margin: usize) -> Span {
     let from = span.start().saturating_sub(margin);

@@ -284,8 +284,8 @@ pub trait Answers: Editable + Restructure {
     fn lower(&mut self, meshes: &Meshes) -> Result<Lowered, OutOfMemory>;
 
     /// As [`Answers::lower`] after an edit that replaced the bytes `old` by `changed`, but faster
-    /// for a number of one object among very many. `before` is the result that belongs to the
-    /// current places.
+    /// for numbers of one object among very many. `before` is the result that belongs to the current
+    /// places; without findings, it may also be that of another such edit of the same object.
     ///
     /// # Errors
     ///

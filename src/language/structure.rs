@@ -55,6 +55,14 @@ pub trait Restructure {
         Vec::new()
     }
 
+    /// Returns the edits that give what is new in this text since `base` other names or IDs where
+    /// `theirs`, another text made from `base`, gives the same to something new of its own;
+    /// references follow. Needs no places.
+    fn set_apart(&self, base: &str, theirs: &str) -> Vec<Edit> {
+        let _ = (base, theirs);
+        Vec::new()
+    }
+
     /// The name or ID by which the text calls a node; `None` if it has none.
     fn called(&self, node: Node) -> Option<&str>;
 

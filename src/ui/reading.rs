@@ -120,11 +120,10 @@ impl News {
         if lowered.scene.is_none() {
             return Ok(Self::Broken(document.shared_text(), lowered.diagnostics));
         }
-        let mut merged = match before.merge(document) {
+        let (merged, lowered) = match before.merge(document, &baseline.meshes)? {
             Ok(merged) => merged,
             Err(merge) => return Ok(Self::Conflict(merge)),
         };
-        let lowered = merged.document.lower(&baseline.meshes)?;
         let edit = edit(merged.document.text());
         Ok(Self::Merged(merged, Meaning { lowered, edit }))
     }

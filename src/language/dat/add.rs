@@ -226,9 +226,15 @@ impl Source {
     /// The records of a new solid, with a material if there is none.
     fn solid(&self, kind: ObjectKind, wish: &Wish<'_>) -> Result<String, StructureError> {
         let form = Form::upright(wish.centre, wish.half, DVec3::Z);
-        let exact = |number: f64| number.to_string();
+        // Coefficients cancel each other far from the origin; only what rounding added is left out.
+        let precise = |number: f64| {
+            let rounded = format!("{number:.12e}").parse();
+            rounded
+                .map_or(number, |rounded: f64| rounded + 0.0)
+                .to_string()
+        };
         let literals = match kind {
-            ObjectKind::Quadric => literals(kind, &form, &exact)?,
+            ObjectKind::Quadric => literals(kind, &form, &precise)?,
             _ => literals(kind, &form, &|number| wish.literal(number))?,
         };
         let selected = match wish.after {

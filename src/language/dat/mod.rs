@@ -2,6 +2,7 @@
 
 mod add;
 mod answers;
+mod apart;
 mod copies;
 mod form;
 mod lower;

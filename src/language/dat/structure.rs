@@ -8,7 +8,7 @@ use super::origins::Place;
 use super::table::{ObjectKind, SOURCES};
 use super::tree::is_comment;
 use super::visibility::Listing;
-use super::{Source, add};
+use super::{Source, add, apart};
 use crate::language::structure::{
     Block, adapted, deletions, line_before, lines, lines_after, pair, uncreatable,
 };
@@ -147,6 +147,14 @@ impl Restructure for Source {
             records.map(|record| self.tree.span_of(record)),
             neighbour,
         ))
+    }
+
+    fn recount(&self) -> Vec<Edit> {
+        apart::recount(&self.text, &self.tree)
+    }
+
+    fn set_apart(&self, base: &str, theirs: &str) -> Vec<Edit> {
+        apart::set_apart(&self.text, &self.tree, base, theirs)
     }
 
     fn called(&self, node: Node) -> Option<&str> {

@@ -1,4 +1,4 @@
-//! Incremental lowering of a long `.ray` text after a number of an object has changed: only the
+//! Incremental lowering of a long `.ray` text after numbers of one object have changed: only the
 //! block of that object is read again. Gives up wherever anything else may have changed.
 
 use std::sync::Arc;
@@ -23,22 +23,28 @@ pub(super) fn lower(
     before: &Before<'_>,
     [old, changed]: [Span; 2],
 ) -> Option<(Origins, Lowered)> {
-    // If only one token has changed and is plain, all other tokens keep their meaning.
+    // If as many tokens as before have changed and are plain, all others keep their meaning.
     let is_same =
         origins.tokens == tree.tokens.len() && origins.view_comments == tree.tokens.views().count();
-    let is_plain = |byte: u8| byte.is_ascii_digit() || b"+-.eE".contains(&byte);
+    let is_plain = |byte: u8| byte.is_ascii_digit() || b"+-.eE \t\r\n".contains(&byte);
     if !is_same || changed.is_empty() || !changed.of(text).bytes().all(is_plain) {
         return None;
     }
-    let token = tree
-        .tokens
-        .partition_point(|token| token.end() < changed.end());
-    if tree.tokens.get(token) != Some(changed) {
+    let before_end = |end: usize| {
+        let tokens = &tree.tokens;
+        tokens.partition_point(|token| token.end() < end)
+    };
+    let (first, last) = (before_end(changed.start() + 1), before_end(changed.end()));
+    let ends = tree.tokens.get(first)?.start()..tree.tokens.get(last)?.end();
+    if ends != changed.range() {
         return None;
     }
-    let Some(Node::Object(object)) = origins.node_of_token(token) else {
+    let Some(Node::Object(object)) = origins.node_of_token(first) else {
         return None;
     };
+    if origins.node_of_token(last) != Some(Node::Object(object)) {
+        return None;
+    }
     // A view without eye or target depends on all objects.
     if !origins
         .view

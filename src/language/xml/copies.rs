@@ -141,7 +141,7 @@ impl Copies {
 }
 
 /// A name like this one that is not taken: with the least free number from 2.
-fn unused(name: &str, taken: &HashSet<String>) -> String {
+pub(super) fn unused(name: &str, taken: &HashSet<String>) -> String {
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
     let stem = if stem.len() < name.len() && stem.ends_with(' ') {
         stem.trim_end()

@@ -2,6 +2,7 @@
 
 mod add;
 mod answers;
+mod apart;
 mod copies;
 mod insertions;
 mod lower;

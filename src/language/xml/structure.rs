@@ -6,7 +6,7 @@ use std::collections::HashSet;
 use super::copies::Copies;
 use super::table::ObjectKind;
 use super::tree::{escaped, quote};
-use super::{Source, add};
+use super::{Source, add, apart};
 use crate::language::frame::frameless;
 use crate::language::structure::{Block, deletions, line_before, lines, uncreatable};
 use crate::language::table::Category;
@@ -91,6 +91,10 @@ impl Restructure for Source {
             Neighbour::Previous => ([other, own], [spans[1], spans[0]]),
         };
         Ok(structure::exchange(&self.text, blocks, parts, neighbour))
+    }
+
+    fn set_apart(&self, base: &str, theirs: &str) -> Vec<Edit> {
+        apart::set_apart(&self.text, &self.tree, base, theirs)
     }
 
     fn called(&self, node: Node) -> Option<&str> {

@@ -8,7 +8,7 @@ use crate::assets::{Loaded, Wanted};
 use crate::language::table::Field;
 use crate::language::{Before, Lowered, Node, Placed};
 use crate::scene::Camera;
-use crate::text::{Diagnostic, Edit, Span, parse_number};
+use crate::text::{Diagnostic, Edit, Span, cover, parse_number};
 use crate::ui::keymap::Mode;
 
 impl App {
@@ -91,18 +91,27 @@ impl App {
     /// Makes edits. If they add errors, or an error touches one of them, returns that error and
     /// leaves the text as before.
     pub(super) fn try_edits(&mut self, edits: &[Edit]) -> Result<(), Diagnostic> {
-        match (edits, &spans_after(edits)[..]) {
-            ([edit], &[changed]) => {
-                let old = edit.span;
-                self.attempt(edits, |app| app.lowered_again(old, changed))
-            }
-            _ => self.try_edits_anew(edits),
+        self.attempt(edits, |app| app.lowered_after(edits))
+    }
+
+    /// As [`App::try_edits`] if the scene is that of the text after other edits of the same things,
+    /// which were taken back.
+    pub(super) fn try_edits_anew(&mut self, edits: &[Edit]) -> Result<(), Diagnostic> {
+        // The findings would be in the wrong places.
+        if self.diagnostics.is_empty() {
+            self.try_edits(edits)
+        } else {
+            self.attempt(edits, Self::lowered)
         }
     }
 
-    /// As [`App::try_edits`] if the scene is not that of the text before the edits.
-    pub(super) fn try_edits_anew(&mut self, edits: &[Edit]) -> Result<(), Diagnostic> {
-        self.attempt(edits, Self::lowered)
+    /// Lowers the text after edits.
+    fn lowered_after(&mut self, edits: &[Edit]) -> Lowered {
+        let after = spans_after(edits);
+        match (cover(edits), after.first(), after.last()) {
+            (Some(old), Some(first), Some(last)) => self.lowered_again(old, first.to(*last)),
+            _ => self.lowered(),
+        }
     }
 
     fn attempt(

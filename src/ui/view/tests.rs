@@ -83,7 +83,8 @@ pub(super) fn retype(app: &mut App, old: &str, new: &str) {
 /// The conflict between the text and a text from outside.
 pub(super) fn conflict(app: &App, theirs: &str) -> Merge {
     let theirs = Document::new(app.document.language(), theirs.to_owned());
-    let merged = app.document.snapshot().merge(theirs);
+    let merged = app.document.snapshot().merge(theirs, &app.assets.meshes);
+    let merged = merged.expect("there is memory");
     merged.expect_err("both changed the same place")
 }
 

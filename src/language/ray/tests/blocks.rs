@@ -83,7 +83,7 @@ fn an_edit_of_a_shape_copies_only_its_block() {
     let (mut source, lowered) = read(&format!("// view: eye 0 0 9 target 0 0 0\n{text}"));
     let sphere = format!("sphere {} 2 3 0.5", BLOCK + 6);
     let at = source.text.find(&sphere).expect("it is there") + sphere.len();
-    let spans = put(&mut source, Span::new(at - 3, at), "0.75");
+    let spans = put(&mut source, Span::new(at - 7, at), "4 -1 0.75");
     let known = before(&lowered).expect("a scene without errors");
     let again = source.lower_again(&Meshes::default(), known, spans);
     let before = known.scene.objects.clone();
@@ -112,6 +112,7 @@ proptest! {
         edits in prop::collection::vec(
             (
                 any::<prop::sample::Index>(),
+                prop_oneof![3 => Just(0), 1 => 1..4_usize],
                 prop_oneof![
                     8 => "[0-9]{0,2}\\.[0-9]", 2 => "-[0-9]", 1 => "[ /x]{0,2}1", 1 => "sphere|1 2|",
                 ],
@@ -121,9 +122,12 @@ proptest! {
     ) {
         let (mut source, mut lowered) =
             read(&format!("{view}{}{behind}", text(BLOCK + 70, BLOCK + 70, 400)));
-        for (place, literal) in edits {
-            let token = place.index(source.tree.tokens.len());
-            let old = source.tree.tokens.get(token).expect("a token");
+        for (place, more, literal) in edits {
+            let tokens = &source.tree.tokens;
+            let token = place.index(tokens.len());
+            let last = tokens.get(tokens.len().min(token + more + 1) - 1);
+            let old = tokens.get(token).expect("a token").to(last.expect("a token"));
+            let literal = vec![literal; more + 1].join("\n");
             let spans = put(&mut source, old, &literal);
             let (fresh, expected) = read(&source.text);
             lowered = match before(&lowered) {

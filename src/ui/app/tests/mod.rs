@@ -1,5 +1,6 @@
 //! Tests of the interface: keys, pastes and files in; text, state and effects out.
 
+mod actions;
 mod adding;
 mod assets;
 mod colours;
@@ -19,6 +20,7 @@ mod panels;
 pub(in crate::ui) mod pictures;
 mod recovering;
 mod saving;
+mod sequences;
 mod soloing;
 mod starting;
 mod structure;
@@ -35,7 +37,7 @@ use super::*;
 use crate::file::Version;
 use crate::language::Language;
 use crate::render::Filter;
-use crate::ui::keymap::Mode;
+use crate::ui::keymap::{self, Mode};
 use crate::ui::msg::{Effect, ExportId, Exported, Msg};
 use crate::ui::reading::Reading;
 use crate::ui::terminal::Mouse;

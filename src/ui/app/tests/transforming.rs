@@ -223,6 +223,29 @@ fn every_step_of_a_motion_starts_from_the_text_before_it() {
 }
 
 #[test]
+fn every_step_of_a_motion_shows_the_scene_of_its_text() {
+    let two = RAY.replace(
+        "\n1\nbox",
+        "\n2\nsphere 1 2 3 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\nbox",
+    );
+    // An ambient reflection above 1 is a warning.
+    let warned = two.replace("sphere 1 2 3 1  0 0 0", "sphere 1 2 3 1  2 0 0");
+    for (text, node) in [(&two, Object(0)), (&two, Object(1)), (&warned, Object(1))] {
+        for said in ["mllkL", "mx12.5", "tz305", "s2", "sl", "mlhhl", "ml<Esc>"] {
+            let (mut app, _) = opened_as("a.ray", text);
+            assert_eq!(app.diagnostics.is_empty(), *text != warned);
+            app.select(node);
+            for key in keys(said) {
+                app.update(Msg::Key(key));
+                let fresh = opened_as("a.ray", app.document.text()).0;
+                assert_eq!(app.scene, fresh.scene, "{said}");
+                assert_eq!(app.diagnostics, fresh.diagnostics, "{said}");
+            }
+        }
+    }
+}
+
+#[test]
 fn what_cannot_be_moved_is_said() {
     for (name, text, node, said, reason) in [
         ("a.ray", RAY, Node::View, "m", "v moves the camera"),
