@@ -41,6 +41,7 @@ mod reload;
 mod rows;
 mod saving;
 mod solo;
+mod soloed;
 mod structure;
 #[cfg(test)]
 pub(super) mod tests;
@@ -69,7 +70,7 @@ pub use palette::{Completion, Palette};
 pub use picture::{Picture, Shown};
 pub use pictures::{Pictures, Quality};
 pub use rows::Rows;
-pub use solo::Solo;
+pub use soloed::Solo;
 pub use transform::Transform;
 
 /// A second Ctrl-C within this time ends the program.
