@@ -49,6 +49,7 @@ mod rows;
 mod saving;
 mod sliding;
 mod solo;
+mod soloed;
 mod structure;
 #[cfg(test)]
 pub(super) mod tests;
@@ -84,7 +85,7 @@ pub use picker::{ColourPicker, PickerRow};
 pub use picture::{Picture, Shown};
 pub use pictures::{Pictures, Quality};
 pub use rows::Rows;
-pub use solo::Solo;
+pub use soloed::Solo;
 pub use transform::Transform;
 pub use wires::Wires;
 

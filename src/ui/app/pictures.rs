@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::picture::Picture;
-use super::solo::Solo;
+use super::soloed::Solo;
 use super::transform::Transform;
 use super::wires::Wires;
 use crate::render::{Aov, Filter, Frame};

@@ -4,18 +4,9 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::App;
-use crate::language::{Node, Nodes};
+use super::soloed::Solo;
+use crate::language::Node;
 use crate::scene::{Light, Rgb, Scene};
-
-/// What the preview shows alone. Without lights, or without objects, it shows all of them.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Solo {
-    lights: BTreeSet<usize>,
-    /// Objects of the text; groups stand for what is in them.
-    objects: BTreeSet<usize>,
-    /// The nodes of the text that these indices belong to.
-    nodes: Nodes,
-}
 
 /// A scene to show, and what its objects are called if it lacks some.
 pub(super) type Part = (Arc<Scene>, Option<Arc<[u32]>>);
