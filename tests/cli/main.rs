@@ -1,6 +1,7 @@
 //! Tests of the program as run from a shell: arguments, streams, files and exit codes.
 
 mod arguments;
+mod config;
 mod keys;
 mod limits;
 mod pictures;

@@ -9,7 +9,7 @@ use tui_input::Input;
 use super::command::{self, Described};
 use super::{App, Completion, PromptKind, line};
 use crate::image_file::ImageFormat;
-use crate::ui::keymap::{self, Action, Context};
+use crate::ui::keymap::{Action, Context};
 use crate::ui::msg::Effect;
 
 /// What is completed.
@@ -150,7 +150,7 @@ impl App {
         let actions = if self.disk.is_opening() {
             Vec::new()
         } else {
-            keymap::actions(self.mode)
+            self.keymap.actions(self.mode)
         };
         // A command that is offered does the same.
         let is_other = |action| commands.iter().all(|(_, other, _)| *other != Some(action));
@@ -158,7 +158,7 @@ impl App {
         let actions: Vec<_> = actions
             .map(|named| {
                 let keys = match named.context {
-                    Context::In(mode) if mode != self.mode => {
+                    Context::In(mode) if mode != self.mode && !named.keys.is_empty() => {
                         format!("{} {}", mode.name(), named.keys)
                     }
                     _ => named.keys,
@@ -228,7 +228,7 @@ impl App {
 
     /// The keys of an action in the present mode, otherwise in any.
     fn keys_of(&self, action: Option<Action>) -> String {
-        let mut named = keymap::actions(self.mode).into_iter();
+        let mut named = self.keymap.actions(self.mode).into_iter();
         let named = named.find(|named| Some(named.action) == action);
         named.map_or_else(String::new, |named| named.keys)
     }

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use crossterm::event::KeyEvent;
+
 use super::assets::Assets;
 use super::cursor::Cursor;
 use super::disk::Disk;
@@ -13,8 +15,9 @@ use crate::document::Document;
 use crate::scene::Scene;
 use crate::text::Findings;
 use crate::ui::arrange::{PanelSizes, Zoom};
-use crate::ui::keymap::{Action, Mode};
+use crate::ui::keymap::{Keymap, Mode};
 use crate::ui::terminal::Mouse;
+use crate::ui::theme::Theme;
 
 /// The whole state of the interface: the text, its meaning, and one part for each concern, which
 /// owns its own state.
@@ -42,8 +45,12 @@ pub struct App {
     pub jobs: Jobs,
     /// The mode, which determines the meaning of keys.
     pub mode: Mode,
+    /// The colours of everything but pictures.
+    pub theme: Theme,
+    /// What keys do.
+    pub keymap: Keymap,
     /// The first of two keys, until the second arrives.
-    pub(super) prefix: Option<Action>,
+    pub(super) prefix: Option<KeyEvent>,
     /// How much of the screen the picture takes, except in the full-size trace.
     pub zoom: Zoom,
     /// The sizes of the panels that the user chose.

@@ -10,10 +10,11 @@ use crate::file::ReadError;
 use crate::language::{Language, Lowered, Node};
 use crate::text::{Findings, Severity};
 use crate::ui::arrange::{PanelSizes, Zoom};
-use crate::ui::keymap::Mode;
+use crate::ui::keymap::{Keymap, Mode};
 use crate::ui::msg::Effect;
 use crate::ui::reading::{News, Reading};
 use crate::ui::terminal::Mouse;
+use crate::ui::theme::Theme;
 
 /// The initial settings of the interface.
 #[derive(Clone, Debug)]
@@ -28,10 +29,21 @@ pub struct Opening {
     pub quality: Quality,
     /// Who receives mouse events.
     pub mouse: Mouse,
+    /// What the user has configured.
+    pub preferences: Preferences,
     /// Recently used scenes, offered first if there are any.
     pub recent: Vec<PathBuf>,
     /// Size of the terminal in cells.
     pub terminal: (u16, u16),
+}
+
+/// What a user configures once and for all.
+#[derive(Clone, Debug, Default)]
+pub struct Preferences {
+    /// What keys do.
+    pub keymap: Keymap,
+    /// The colours of everything but pictures.
+    pub theme: Theme,
 }
 
 /// The text that the interface starts with.
@@ -72,6 +84,8 @@ impl App {
             overlays: Overlays::default(),
             jobs: Jobs::default(),
             mode: Mode::Select,
+            keymap: opening.preferences.keymap,
+            theme: opening.preferences.theme,
             prefix: None,
             palette: Palette::default(),
             zoom: Zoom::default(),

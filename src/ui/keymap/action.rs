@@ -97,8 +97,6 @@ pub enum Action {
     Page(isize),
     /// Moves the cursor to the first line.
     First,
-    /// The first key of `gg`.
-    G,
     /// Moves the cursor to the last line.
     Last,
     /// Selects the next or previous object or light.

@@ -4,6 +4,7 @@ use ratatui::style::Color;
 
 use super::palette::Palette;
 use crate::ui::terminal::ColourDepth;
+use crate::ui::theme::Theme;
 
 /// The cells that pixels are drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,6 +61,14 @@ impl Inks {
             Glyphs::HalfBlocks | Glyphs::Characters => None,
         };
         Self { glyphs, palette }
+    }
+
+    /// The theme to use when this one is wanted: without colours, attributes take their place.
+    pub(super) fn theme(&self, wanted: Theme) -> Theme {
+        match self.glyphs {
+            Glyphs::Characters => Theme::Mono,
+            _ => wanted,
+        }
     }
 
     /// The terminal colour of a pixel at a position.

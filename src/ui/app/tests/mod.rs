@@ -83,6 +83,7 @@ fn opening_as(name: &str, text: String) -> Opening {
             filter: Filter::Box,
         },
         mouse: Mouse::On,
+        preferences: Preferences::default(),
         recent: Vec::new(),
         terminal: (120, 40),
     }

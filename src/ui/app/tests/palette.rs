@@ -71,7 +71,7 @@ fn every_action_of_a_key_runs_by_its_description() {
     assert!(app.mode == Mode::View && app.pictures.view.is_some());
     press(&mut app, ":render<Enter>");
     assert_eq!(app.mode, Mode::Trace);
-    for named in crate::ui::keymap::actions(Mode::Select) {
+    for named in open(SCENE).keymap.actions(Mode::Select) {
         let mut app = open(SCENE);
         press(&mut app, &format!(":{}", named.words));
         let mut found = app.completions().into_iter().chain(app.command_typed());
