@@ -199,6 +199,7 @@ impl Runtime {
             }
             Effect::NoteRecent(scene) => self.recent.note(scene)?,
             Effect::ListRecent => self.recent.list()?,
+            Effect::KeepPanels(sizes) => self.recent.keep_panels(sizes)?,
             Effect::Watch(path) => self.reader.watch(path)?,
             Effect::ReadAssets(wanted) => {
                 let work = Work::begin(&self.sender);
@@ -324,6 +325,7 @@ fn reaches_others(effect: &Effect) -> bool {
             | Effect::Watch(_)
             | Effect::NoteRecent(_)
             | Effect::ListRecent
+            | Effect::KeepPanels(_)
     )
 }
 

@@ -52,6 +52,7 @@ use crate::language::Language;
 use crate::memory;
 use crate::render::{DEFAULT_SPP, Filter};
 use app::{App, Opening, OpeningText, Preferences, Quality};
+use arrange::PanelSizes;
 pub use ending::{Ending, Error};
 pub use options::{Options, Rehearsal};
 use reading::Opened;
@@ -95,6 +96,10 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
         preferences: Preferences {
             keymap: options.keymap.clone(),
             theme: options.theme.unwrap_or_default(),
+            panels: match script {
+                None => recent::panels(),
+                Some(_) => PanelSizes::default(),
+            },
         },
         recent,
         terminal: screen,

@@ -19,6 +19,15 @@ use crate::ui::keymap::{Keymap, Mode};
 use crate::ui::terminal::Mouse;
 use crate::ui::theme::Theme;
 
+/// A border that can be dragged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Border {
+    /// Between the picture and the panels.
+    Panels,
+    /// Between the list and the fields.
+    List,
+}
+
 /// The whole state of the interface: the text, its meaning, and one part for each concern, which
 /// owns its own state.
 #[derive(Debug)]
@@ -55,8 +64,10 @@ pub struct App {
     pub zoom: Zoom,
     /// The sizes of the panels that the user chose.
     pub panels: PanelSizes,
-    /// Whether the border of the panels is being dragged.
-    pub(super) resizing: bool,
+    /// The sizes that were last kept for other sessions.
+    pub(super) kept_panels: PanelSizes,
+    /// The border that is being dragged.
+    pub(super) resizing: Option<Border>,
     /// Who receives mouse events.
     pub mouse: Mouse,
     /// Size of the terminal in cells.

@@ -44,6 +44,8 @@ pub struct Preferences {
     pub keymap: Keymap,
     /// The colours of everything but pictures.
     pub theme: Theme,
+    /// The sizes of the panels, which an earlier session may have kept.
+    pub panels: PanelSizes,
 }
 
 /// The text that the interface starts with.
@@ -89,8 +91,9 @@ impl App {
             prefix: None,
             palette: Palette::default(),
             zoom: Zoom::default(),
-            panels: PanelSizes::default(),
-            resizing: false,
+            panels: opening.preferences.panels,
+            kept_panels: opening.preferences.panels,
+            resizing: None,
             mouse: opening.mouse,
             terminal: opening.terminal,
         };

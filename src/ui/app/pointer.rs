@@ -4,6 +4,7 @@ use crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
 
 use super::App;
 use super::camera::{advanced, dollied, orbited, turned};
+use super::model::Border;
 use crate::ui::keymap::{Context, Mode};
 use crate::ui::layout::{field_at, list_row_at, pixel_at};
 use crate::ui::listing::{ListLine, Listing};
@@ -31,7 +32,7 @@ impl App {
             MouseEventKind::Drag(MouseButton::Left) => self.drag(at),
             MouseEventKind::Up(_) => {
                 self.pictures.drag = None;
-                self.resizing = false;
+                self.resizing = None;
             }
             _ => {}
         }
@@ -73,7 +74,11 @@ impl App {
             self.confirm_transform();
         }
         if areas.border.contains(at.into()) {
-            self.resizing = true;
+            self.resizing = Some(Border::Panels);
+            return Vec::new();
+        }
+        if areas.divider().contains(at.into()) {
+            self.resizing = Some(Border::List);
             return Vec::new();
         }
         if let Some(line) = list_row_at(areas.list, self.cursor.list_top, at.0, at.1) {
@@ -124,9 +129,10 @@ impl App {
     }
 
     fn drag(&mut self, at: (u16, u16)) {
-        if self.resizing {
-            self.resize_panels(self.areas().dragged(at));
-            return;
+        match self.resizing {
+            Some(Border::Panels) => return self.resize_panels(self.areas().dragged(at)),
+            Some(Border::List) => return self.resize_list(self.areas().divided_at(at)),
+            None => {}
         }
         let Some(from) = self.pictures.drag else {
             return;

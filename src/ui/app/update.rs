@@ -6,7 +6,7 @@ use tui_input::Input;
 use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
 use super::{App, Help, PageFocus, PromptKind, line};
 use crate::text::Severity;
-use crate::ui::arrange::{Zoom, resized};
+use crate::ui::arrange::{Zoom, divided, resized};
 use crate::ui::keymap::{self, Action, Context, Meaning, Mode, Tool};
 use crate::ui::msg::{Effect, Existing, Msg, Timer};
 use crate::ui::terminal::Mouse;
@@ -27,6 +27,7 @@ impl App {
         effects.extend(self.follow());
         effects.extend(self.disk.journal.follow(&self.document));
         effects.extend(self.follow_kept());
+        effects.extend(self.keep_panels());
         effects
     }
 
@@ -290,6 +291,7 @@ impl App {
             Action::Help => self.overlays.help = Some(Help::default()),
             Action::Zoom => self.toggle_zoom(),
             Action::Resize(step) => self.resize_panels(step),
+            Action::Divide(step) => self.resize_list(step),
             Action::Show(aov) => self.overlays.say(self.pictures.show(aov)),
             Action::Integrator => {
                 let words = self.pictures.toggle_integrator(self.scene.as_deref());
@@ -390,6 +392,26 @@ impl App {
             Some(panels) => self.panels = panels,
             None => self.overlays.say("there are no panels to resize here"),
         }
+    }
+
+    /// Moves the border between list and fields by some cells, towards the fields if positive.
+    pub(super) fn resize_list(&mut self, cells: i32) {
+        let zoom = self.zoom_now();
+        match divided(&self.areas(), &self.shape(zoom), cells) {
+            Some(panels) => self.panels = panels,
+            None => self.overlays.say("there are no panels to resize here"),
+        }
+    }
+
+    /// Keeps new sizes of the panels for other sessions, once they are not being dragged.
+    fn keep_panels(&mut self) -> Option<Effect> {
+        let is_new = self.resizing.is_none() && self.panels != self.kept_panels;
+        self.kept_panels = if is_new {
+            self.panels
+        } else {
+            self.kept_panels
+        };
+        is_new.then_some(Effect::KeepPanels(self.panels))
     }
 
     pub(super) fn toggle_mouse(&mut self) -> Vec<Effect> {

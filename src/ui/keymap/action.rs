@@ -203,6 +203,8 @@ pub enum Action {
     Zoom,
     /// Moves the border of the panels by this many cells, towards the picture if positive.
     Resize(i32),
+    /// Moves the border of list and fields by this many cells, towards the fields if positive.
+    Divide(i32),
     /// Shows one of the auxiliary images, or the lit picture.
     Show(Option<Aov>),
     /// Switches between Whitted ray tracing and path tracing.

@@ -37,7 +37,7 @@ const MOUSE: [(&str, &str); 7] = [
     ("click it again", "type a value"),
     ("click the picture", "select the object there"),
     ("drag it in VIEW", "orbit"),
-    ("drag the border", "resize the panels"),
+    ("drag a border", "resize the panels"),
     ("wheel", "scroll; in VIEW, dolly"),
 ];
 

@@ -78,6 +78,8 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::Zoom => "panels",
         A::Resize(1..) => "larger-panels",
         A::Resize(_) => "smaller-panels",
+        A::Divide(1..) => "larger-list",
+        A::Divide(_) => "smaller-list",
         A::Show(None) => "show-light",
         A::Show(Some(Aov::Depth)) => "show-depth",
         A::Show(Some(Aov::Normal)) => "show-normals",

@@ -297,6 +297,8 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Everywhere, &[c('z')], A::Zoom, "show or hide the panels"),
     bind(Scope::Everywhere, &[c('{')], A::Resize(2), "larger panels"),
     bind(Scope::Everywhere, &[c('}')], A::Resize(-2), "smaller panels"),
+    bind(Scope::Everywhere, &[alt('{')], A::Divide(-1), "smaller list, larger fields"),
+    bind(Scope::Everywhere, &[alt('}')], A::Divide(1), "larger list, smaller fields"),
     bind(Scope::Everywhere, &[c('P')], A::Integrator, "toggle path tracing"),
     bind(Scope::Always, &[ctrl('l')], A::Repaint, "redraw the screen"),
     bind(Scope::Always, &[ctrl('z')], A::Suspend, "suspend"),

@@ -13,6 +13,7 @@ mod opening;
 mod palette;
 mod panels;
 pub(in crate::ui) mod pictures;
+mod rebinding;
 mod recovering;
 mod saving;
 mod starting;
