@@ -71,8 +71,8 @@ pub(super) struct InterfaceArguments {
     /// Number of tracing threads, 1 to 1024 [default: one per core, one fewer for the preview]
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
-    /// Configuration file [default: halflight/config.toml in ~/.config or $XDG_CONFIG_HOME; none
-    /// with --keys and --dump-frame]
+    /// Configuration file [default: halflight/config.toml in ~/.config; none with --keys
+    /// and --dump-frame]
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
     /// Print the configuration in use, with every setting and key, instead of opening a scene

@@ -2,7 +2,7 @@
 
 use toml::de::DeValue;
 
-use super::read::{Name, Value, advised, in_order, kind_of, span_of};
+use super::value::{Name, Value, advised, in_order, kind_of, span_of};
 use crate::text::{Diagnostic, Span, alternatives};
 use crate::ui::keymap::{self, Action, Keymap, Keys, Section, key_names};
 

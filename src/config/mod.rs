@@ -7,6 +7,7 @@ mod keys;
 mod print;
 mod read;
 mod settings;
+mod value;
 
 #[cfg(test)]
 mod tests;

@@ -1,11 +1,11 @@
 //! Reads a configuration.
 
-use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::keys;
 use super::settings::{Kind, SETTINGS, Setting, folder};
-use crate::text::{Diagnostic, Span, alternatives, nearest_word};
+use super::value::{Name, Value, advised, in_order, kind_of, span_of};
+use crate::text::{Diagnostic, Span, alternatives};
 use crate::ui::Options;
 
 /// The table of keys.
@@ -37,49 +37,6 @@ pub fn read(text: &str) -> Result<Options, Vec<Diagnostic>> {
     }
     errors.sort_by_key(|error| error.span);
     Err(errors)
-}
-
-/// A key of a table.
-pub(super) type Name<'a> = Spanned<std::borrow::Cow<'a, str>>;
-/// A value of a table.
-pub(super) type Value<'a> = Spanned<DeValue<'a>>;
-
-/// The entries of a table in the order of the text.
-pub(super) fn in_order<'a, 'i>(table: &'a DeTable<'i>) -> Vec<(&'a Name<'i>, &'a Value<'i>)> {
-    let mut entries: Vec<_> = table.iter().collect();
-    entries.sort_by_key(|(name, _)| name.span().start);
-    entries
-}
-
-/// The place of a name or a value.
-pub(super) fn span_of<T>(spanned: &Spanned<T>) -> Span {
-    let span = spanned.span();
-    Span::new(span.start, span.end)
-}
-
-/// What a value is, with its article.
-pub(super) fn kind_of(value: &DeValue<'_>) -> &'static str {
-    match value {
-        DeValue::String(_) => "a string",
-        DeValue::Integer(_) => "an integer",
-        DeValue::Float(_) => "a float",
-        DeValue::Boolean(_) => "a boolean",
-        DeValue::Datetime(_) => "a date or time",
-        DeValue::Array(_) => "an array",
-        DeValue::Table(_) => "a table",
-    }
-}
-
-/// The best advice for a misspelt word, if any.
-pub(super) fn advised<'a>(
-    error: Diagnostic,
-    word: &str,
-    known: impl IntoIterator<Item = &'a str>,
-) -> Diagnostic {
-    match nearest_word(word, known) {
-        Some(nearest) => error.with_hint(format!("did you mean {nearest}?")),
-        None => error,
-    }
 }
 
 fn set(name: &Name<'_>, value: &Value<'_>, options: &mut Options) -> Result<(), Diagnostic> {
@@ -116,7 +73,7 @@ fn set(name: &Name<'_>, value: &Value<'_>, options: &mut Options) -> Result<(), 
         (Kind::Text { set, .. }, DeValue::String(text)) => set(options, text),
         (Kind::Folders { set, .. }, DeValue::Array(list)) => {
             let folders = list.iter().map(|entry| match entry.get_ref() {
-                DeValue::String(text) => folder(text).ok_or_else(|| (entry, "a relative path")),
+                DeValue::String(text) => folder(text).ok_or((entry, "a relative path")),
                 other => Err((entry, kind_of(other))),
             });
             let folders: Result<Vec<_>, _> = folders.collect();

@@ -226,6 +226,19 @@ impl App {
         }
     }
 
+    /// What to press for an action, as messages say it: its first key here or in another mode,
+    /// otherwise its description in the command line.
+    pub(super) fn key_for(&self, action: Action) -> String {
+        let here = self.keymap.key(self.context(), action);
+        let named = || {
+            let mut named = self.keymap.actions(self.mode).into_iter();
+            let named = named.find(|named| named.action == action)?;
+            let first = named.keys.split(' ').next().filter(|key| !key.is_empty());
+            Some(first.map_or_else(|| format!(":{}", named.words), str::to_owned))
+        };
+        here.or_else(named).unwrap_or_default()
+    }
+
     /// The keys of an action in the present mode, otherwise in any.
     fn keys_of(&self, action: Option<Action>) -> String {
         let mut named = self.keymap.actions(self.mode).into_iter();

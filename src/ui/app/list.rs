@@ -5,7 +5,7 @@ use super::cursor::moved;
 use crate::language::Node;
 use crate::text::Severity;
 use crate::ui::arrange::Areas;
-use crate::ui::keymap::{Context, Mode};
+use crate::ui::keymap::{Action, Context, Mode};
 use crate::ui::layout;
 
 impl App {
@@ -169,8 +169,10 @@ impl App {
             return;
         };
         if self.is_disk_wrong() {
-            self.overlays
-                .warn("this is in the file on disk: press E to edit that line");
+            let editor = self.key_for(Action::Editor);
+            self.overlays.warn(format!(
+                "this is in the file on disk: press {editor} to edit that line"
+            ));
             return;
         }
         let Some(span) = self.diagnostics.get(at).map(|diagnostic| diagnostic.span) else {
@@ -183,9 +185,12 @@ impl App {
                 let field = self.cursor.field_at(span);
                 self.focus_field(field.unwrap_or(0), 0);
             }
-            None => self
-                .overlays
-                .warn("nothing to select there: press E to edit that line"),
+            None => {
+                let editor = self.key_for(Action::Editor);
+                self.overlays.warn(format!(
+                    "nothing to select there: press {editor} to edit that line"
+                ));
+            }
         }
     }
 

@@ -90,10 +90,8 @@ impl Keymap {
             let mut modes = Mode::ALL.into_iter().map(|mode| (mode, Context::In(mode)));
             modes.find(|&(_, mode)| has(row, mode))
         };
-        let own = self.rows.iter().filter(|row| !row.is_common());
-        let (words, (mode, _)) = own
-            .filter_map(|row| Some((row.words, mode_of(row)?)))
-            .next()?;
+        let mut own = self.rows.iter().filter(|row| !row.is_common());
+        let (words, (mode, _)) = own.find_map(|row| Some((row.words, mode_of(row)?)))?;
         Some((mode, self.key(context, Action::Go(mode)), words))
     }
 

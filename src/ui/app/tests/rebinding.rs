@@ -1,7 +1,7 @@
 //! Keys that the user has bound.
 
 use super::*;
-use crate::ui::keymap::{HelpLine, Keys, Section};
+use crate::ui::keymap::{Action, HelpLine, Keys, Section};
 
 /// The interface with other keys in sections: `x` for undoing, none for what `u` did.
 fn rebound() -> App {
@@ -26,6 +26,24 @@ fn a_bound_key_acts_and_the_one_it_replaces_does_not() {
     assert_eq!(words(&app), "`u` is free in SELECT; ? lists keys");
     press(&mut app, "<Ctrl-x>u");
     assert_eq!(app.document.text(), SCENE);
+}
+
+#[test]
+fn messages_name_the_bound_keys() {
+    let mut app = open(SCENE);
+    let select = Section::In(app.context());
+    for (keys, action) in [("x", None), ("F5", None), ("r", None), ("T", Some("trace"))] {
+        let named = app.keymap.actions_in(select).into_iter();
+        let action = named
+            .filter(|known| Some(known.name) == action)
+            .map(|known| known.action);
+        let action = action.last();
+        app.keymap
+            .bind(select, Keys::parse(keys).expect("keys"), action);
+    }
+    assert_eq!(app.key_for(Action::Go(Mode::Trace)), "T");
+    assert_eq!(app.key_for(Action::Redo), "Ctrl-R");
+    assert_eq!(app.key_for(Action::Stop), ":cancel the export");
 }
 
 #[test]
