@@ -79,3 +79,15 @@ impl Inks {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn attributes_take_the_place_of_colours_that_cannot_be_shown() {
+        let theme = |depth| Inks::for_depth(depth).theme(Theme::Light);
+        assert_eq!(theme(ColourDepth::Mono), Theme::Mono);
+        assert_eq!(theme(ColourDepth::Palette16), Theme::Light);
+    }
+}

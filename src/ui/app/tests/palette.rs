@@ -82,6 +82,19 @@ fn every_action_of_a_key_runs_by_its_description() {
 }
 
 #[test]
+fn themes_are_completed_and_chosen() {
+    use crate::ui::theme::Theme;
+    let mut app = open(SCENE);
+    press(&mut app, ":theme ");
+    assert_eq!(
+        offered(&app)[..3],
+        [":theme dark", ":theme light", ":theme mono"]
+    );
+    press(&mut app, "light<Enter>");
+    assert_eq!(app.theme, Theme::Light);
+}
+
+#[test]
 fn earlier_lines_return_while_the_line_is_empty_or_unchanged() {
     let mut app = open(SCENE);
     press(
