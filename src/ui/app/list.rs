@@ -178,19 +178,16 @@ impl App {
         let Some(span) = self.diagnostics.get(at).map(|diagnostic| diagnostic.span) else {
             return;
         };
-        match self.source().node_at(span) {
-            Some(node) => {
-                self.overlays.errors = None;
-                self.select(node);
-                let field = self.cursor.field_at(span);
-                self.focus_field(field.unwrap_or(0), 0);
-            }
-            None => {
-                let editor = self.key_for(Action::Editor);
-                self.overlays.warn(format!(
-                    "nothing to select there: press {editor} to edit that line"
-                ));
-            }
+        if let Some(node) = self.source().node_at(span) {
+            self.overlays.errors = None;
+            self.select(node);
+            let field = self.cursor.field_at(span);
+            self.focus_field(field.unwrap_or(0), 0);
+        } else {
+            let editor = self.key_for(Action::Editor);
+            self.overlays.warn(format!(
+                "nothing to select there: press {editor} to edit that line"
+            ));
         }
     }
 

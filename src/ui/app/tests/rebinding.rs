@@ -34,12 +34,11 @@ fn messages_name_the_bound_keys() {
     let select = Section::In(app.context());
     for (keys, action) in [("x", None), ("F5", None), ("r", None), ("T", Some("trace"))] {
         let named = app.keymap.actions_in(select).into_iter();
-        let action = named
+        let mut action = named
             .filter(|known| Some(known.name) == action)
             .map(|known| known.action);
-        let action = action.last();
         app.keymap
-            .bind(select, Keys::parse(keys).expect("keys"), action);
+            .bind(select, Keys::parse(keys).expect("keys"), action.next());
     }
     assert_eq!(app.key_for(Action::Go(Mode::Trace)), "T");
     assert_eq!(app.key_for(Action::Redo), "Ctrl-R");
