@@ -39,6 +39,7 @@
 //! | [`watch`] | reports changes of paths on disk | what the files contain |
 //! | [`ui`] | the terminal: the only room that knows ratatui and crossterm; commands are rows of `app/command.rs`, keys of `keymap/table.rs` | how pixels are computed |
 //! | [`batch`] | headless work: check, render | terminals |
+//! | [`config`] | the user's configuration: reads, checks and prints it | terminals |
 //! | [`cli`] | arguments and exit codes | how the work is done |
 //!
 //! `tests/rooms` enforces the dependencies between rooms and forbids cycles between sibling files.
@@ -63,6 +64,7 @@ pub mod assets;
 pub mod batch;
 pub mod cli;
 pub mod compare;
+pub mod config;
 pub mod document;
 pub mod file;
 pub mod geometry;

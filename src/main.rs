@@ -5,15 +5,15 @@ use std::process::ExitCode;
 #[cfg(unix)]
 use std::sync::Arc;
 
-use halflight::cli::{self, Command, Stop};
-use halflight::text::{visible, without_codes};
-use halflight::{batch, ui};
+use halflight::cli::{self, Command, Purpose, Stop};
+use halflight::text::{Diagnostic, visible, without_codes};
+use halflight::{batch, config, ui};
 
 fn main() -> ExitCode {
     #[cfg(unix)]
     survive_file_size_limit();
     ExitCode::from(match cli::parse(std::env::args_os()) {
-        Ok(Command::Interface(options)) => interface(&options),
+        Ok(Command::Interface(options, source, purpose)) => configured(options, &source, purpose),
         Ok(Command::Render(work)) => cli::exit_code(&batch::render(&work)),
         Ok(Command::Check(work)) => cli::exit_code(&batch::check(&work)),
         Ok(Command::Compare(work)) => cli::comparison_exit_code(&batch::compare(&work)),
@@ -33,11 +33,37 @@ fn survive_file_size_limit() {
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
 }
 
+/// Opens the interface, or prints its configuration.
+fn configured(options: ui::Options, source: &config::Source, purpose: Purpose) -> u8 {
+    let options = match config::complete(options, source) {
+        Ok(options) => options,
+        Err(error) => {
+            match &error {
+                config::Error::Faulty { name, text, errors } => report_faults(name, text, errors),
+                config::Error::Read(error) => report_error(&error.to_string()),
+            }
+            return cli::config_exit_code(&error);
+        }
+    };
+    let text = match purpose {
+        Purpose::Open => return interface(&options),
+        Purpose::PrintConfig => config::print_config(&options),
+        Purpose::PrintKeys => config::print_keys(&options.keymap),
+    };
+    let code = cli::DONE;
+    print(&Stop { text, code })
+}
+
+/// Prints the errors of a text that the user wrote, with excerpts.
+fn report_faults(name: &str, text: &str, errors: &[Diagnostic]) {
+    // A failure cannot be reported anywhere.
+    let _ = writeln!(io::stderr(), "{}", batch::annotated(name, text, errors));
+}
+
 fn interface(options: &ui::Options) -> u8 {
     let outcome = ui::run(options);
     if let Err(ui::Error::Faulty { name, text, errors }) = &outcome {
-        // A failure cannot be reported anywhere.
-        let _ = writeln!(io::stderr(), "{}", batch::annotated(name, text, errors));
+        report_faults(name, text, errors);
     } else if let Err(error) = &outcome {
         report_error(&error.to_string());
         if let Some(note) = ui::note(options, error) {

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use crossterm::event::{KeyCode, KeyEvent};
 use halflight::language::Language;
 use halflight::render::{Filter, Frame, Job, Renderer, Threads};
-use halflight::ui::app::{App, Opening, OpeningText, Quality};
+use halflight::ui::app::{App, Opening, OpeningText, Preferences, Quality};
 use halflight::ui::msg::{Effect, Msg, Target};
 use halflight::ui::terminal::{AnsiBackend, ColourDepth, Mouse};
 use halflight::ui::view::{self, Inks};
@@ -62,6 +62,7 @@ pub(crate) fn opened(scene: &str, terminal: (u16, u16)) -> (App, Job) {
             filter: Filter::Box,
         },
         mouse: Mouse::On,
+        preferences: Preferences::default(),
         recent: Vec::new(),
         terminal,
     });

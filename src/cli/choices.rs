@@ -4,13 +4,13 @@ use clap::ValueEnum;
 
 use crate::render::{Aov, Filter};
 use crate::scene::{Integrator, Transfer};
+use crate::ui::Theme;
 use crate::ui::terminal::{Choice, ColourDepth};
 
 /// The terminal's colour depth.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum ColourChoice {
     /// As detected.
-    #[default]
     Auto,
     /// 24-bit colour.
     #[value(name = "24")]
@@ -34,6 +34,27 @@ impl ColourChoice {
             Self::Basic => ColourDepth::Palette16,
             Self::Mono => ColourDepth::Mono,
         })
+    }
+}
+
+/// The colours of the interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ThemeChoice {
+    /// For dark screens.
+    Dark,
+    /// For light screens.
+    Light,
+    /// No colours except in pictures.
+    Mono,
+}
+
+impl ThemeChoice {
+    pub(super) fn value(self) -> Theme {
+        match self {
+            Self::Dark => Theme::Dark,
+            Self::Light => Theme::Light,
+            Self::Mono => Theme::Mono,
+        }
     }
 }
 
@@ -116,5 +137,30 @@ impl TransferChoice {
             Self::Linear => Transfer::Linear,
             Self::Srgb => Transfer::Srgb,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::{COLOURS, FILTERS, INTEGRATORS};
+
+    /// Checks that the words of an option mean the same in a configuration.
+    fn check<C: ValueEnum, V: PartialEq>(configured: &[(&str, V)], value: fn(C) -> V) {
+        assert_eq!(configured.len(), C::value_variants().len());
+        for (choice, (word, meant)) in C::value_variants().iter().zip(configured) {
+            let name = choice.to_possible_value().expect("it is not hidden");
+            assert_eq!(name.get_name(), *word);
+            assert!(value(choice.clone()) == *meant, "{word}");
+        }
+    }
+
+    #[test]
+    fn options_and_settings_have_the_same_words() {
+        check(&COLOURS, ColourChoice::value);
+        check(&INTEGRATORS, IntegratorChoice::value);
+        check(&FILTERS, FilterChoice::value);
+        let themes = Theme::ALL.map(|theme| (theme.name(), theme));
+        check(&themes, ThemeChoice::value);
     }
 }

@@ -5,13 +5,26 @@ use std::time::Duration;
 
 use clap::{ArgGroup, Args, value_parser};
 
-use super::choices::{ColourChoice, FilterChoice, IntegratorChoice};
+use super::choices::{ColourChoice, FilterChoice, IntegratorChoice, ThemeChoice};
 use super::shared::{AssetArguments, depth_range, spp_range, threads_range};
+use crate::config::{self, MAX_BANDWIDTH, POLLS};
 use crate::ui;
+use crate::ui::keymap::Keymap;
 use crate::ui::terminal::Mouse;
 
 /// The size of a screen without a terminal, in cells.
 const SCREEN: (u16, u16) = (100, 30);
+
+/// What to do with the options of the interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// Open the interface.
+    Open,
+    /// Print the configuration in use.
+    PrintConfig,
+    /// Print the keys.
+    PrintKeys,
+}
 
 #[derive(Args, Debug)]
 #[command(group = ArgGroup::new("headless").args(["keys", "frames"]).multiple(true))]
@@ -26,21 +39,20 @@ pub(super) struct InterfaceArguments {
     /// network file systems, which send no change notifications
     #[arg(
         long, value_name = "MS", num_args = 0..=1, require_equals = true,
-        default_missing_value = "500", value_parser = value_parser!(u64).range(10..=3_600_000)
+        default_missing_value = "500", value_parser = value_parser!(u64).range(POLLS)
     )]
     poll: Option<u64>,
     /// Limit terminal output, in KB/s (1000 bytes per second), up to 4000000; 0 means no limit
-    #[arg(long, value_name = "KB/s", value_parser = value_parser!(u32).range(..=4_000_000))]
-    bandwidth: Option<u32>,
-    /// Colour depth of the terminal
     #[arg(
-        long,
-        alias = "colour",
-        value_name = "COLOURS",
-        value_enum,
-        default_value_t
+        long, value_name = "KB/s", value_parser = value_parser!(u32).range(..=i64::from(MAX_BANDWIDTH))
     )]
-    color: ColourChoice,
+    bandwidth: Option<u32>,
+    /// Colour depth of the terminal [default: auto]
+    #[arg(long, alias = "colour", value_name = "COLOURS", value_enum)]
+    color: Option<ColourChoice>,
+    /// Colours of the interface [default: dark]
+    #[arg(long, value_name = "THEME", value_enum)]
+    theme: Option<ThemeChoice>,
     /// Do not capture the mouse
     #[arg(long)]
     no_mouse: bool,
@@ -53,12 +65,22 @@ pub(super) struct InterfaceArguments {
     /// Integrator to start with; P switches it [default: whitted, unless the scene sets path]
     #[arg(long, value_name = "INTEGRATOR", value_enum)]
     integrator: Option<IntegratorChoice>,
-    /// Pixel filter of full-size traces and exports; the preview always uses box
-    #[arg(long, value_name = "FILTER", value_enum, default_value_t)]
-    filter: FilterChoice,
+    /// Pixel filter of full-size traces and exports; the preview always uses box [default: box]
+    #[arg(long, value_name = "FILTER", value_enum)]
+    filter: Option<FilterChoice>,
     /// Number of tracing threads, 1 to 1024 [default: one per core, one fewer for the preview]
     #[arg(long, value_name = "N", value_parser = threads_range())]
     threads: Option<u16>,
+    /// Configuration file [default: halflight/config.toml in ~/.config; none with --keys
+    /// and --dump-frame]
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+    /// Print the configuration in use, with every setting and key, instead of opening a scene
+    #[arg(long, conflicts_with = "headless")]
+    print_config: bool,
+    /// Print all keys and the names of their actions instead of opening a scene
+    #[arg(long, conflicts_with_all = ["headless", "print_config"])]
+    print_keys: bool,
     /// Press the keys of this script instead of reading them from a terminal, and end after the last
     #[arg(long, value_name = "FILE")]
     keys: Option<PathBuf>,
@@ -74,20 +96,41 @@ pub(super) struct InterfaceArguments {
 }
 
 impl InterfaceArguments {
+    /// Where the configuration comes from. A script of keys has the same effect for every user.
+    pub(super) fn configuration(&self) -> config::Source {
+        match &self.config {
+            Some(path) => config::Source::File(path.clone()),
+            None if self.keys.is_some() || !self.frames.is_empty() => config::Source::None,
+            None => config::Source::Usual,
+        }
+    }
+
+    /// What to do with the options.
+    pub(super) fn purpose(&self) -> Purpose {
+        match (self.print_config, self.print_keys) {
+            (true, _) => Purpose::PrintConfig,
+            (_, true) => Purpose::PrintKeys,
+            (false, false) => Purpose::Open,
+        }
+    }
+
     pub(super) fn into_options(self) -> ui::Options {
         let is_headless = self.keys.is_some() || !self.frames.is_empty();
         ui::Options {
             scene: self.scene,
             poll: self.poll.map(Duration::from_millis),
             bandwidth: self.bandwidth.map(|kilobytes| kilobytes * 1000),
-            colour: self.color.value(),
-            mouse: if self.no_mouse { Mouse::Off } else { Mouse::On },
+            colour: self.color.map(ColourChoice::value),
+            theme: self.theme.map(ThemeChoice::value),
+            mouse: self.no_mouse.then_some(Mouse::Off),
+            editor: None,
             spp: self.spp,
             depth: self.depth,
             integrator: self.integrator.map(IntegratorChoice::value),
-            filter: self.filter.value(),
+            filter: self.filter.map(FilterChoice::value),
             threads: self.threads.map(usize::from),
             assets: self.assets.folders,
+            keymap: Keymap::default(),
             rehearsal: is_headless.then(|| ui::Rehearsal {
                 keys: self.keys,
                 screen: self.screen.unwrap_or(SCREEN),

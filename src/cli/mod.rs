@@ -17,10 +17,12 @@ use clap_complete::Shell;
 
 use compare::CompareArguments;
 use interface::InterfaceArguments;
+pub use interface::Purpose;
 use shared::AssetArguments;
 use tracing::TracingArguments;
 
 use crate::batch::{self, Check, Compare, Output, Render, Verdict, Warnings};
+use crate::config;
 use crate::file::ReadError;
 use crate::image_file::{FORMATS, ImageFormat, known_extensions};
 use crate::text::{nearest_word, visible};
@@ -53,8 +55,8 @@ pub const SIGNALLED: u8 = 128;
 /// A parsed command line.
 #[derive(Clone, Debug)]
 pub enum Command {
-    /// Open the interface.
-    Interface(ui::Options),
+    /// Open the interface, or print how it is configured.
+    Interface(ui::Options, config::Source, Purpose),
     /// Render a picture.
     Render(Render),
     /// Compare two pictures.
@@ -101,7 +103,10 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, S
         None => {
             let interface = cli.interface;
             check_words(interface.scene.as_deref(), &interface.surplus)
-                .map(|()| Command::Interface(interface.into_options()))
+                .map(|()| {
+                    let (source, purpose) = (interface.configuration(), interface.purpose());
+                    Command::Interface(interface.into_options(), source, purpose)
+                })
                 .map_err(|reason| refusal(None, reason))
         }
     }
@@ -161,6 +166,14 @@ pub fn interface_exit_code(outcome: &Result<ui::Ending, ui::Error>) -> u8 {
         Err(ui::Error::Folder { .. } | ui::Error::Assets(_)) => NO_INPUT,
         Err(ui::Error::NoSuch { .. } | ui::Error::NoTerminal | ui::Error::DumbTerminal) => USAGE,
         Err(ui::Error::NoThreads(_) | ui::Error::Terminal(_)) => FAILED,
+    }
+}
+
+/// The exit code for a configuration that cannot be used.
+pub fn config_exit_code(error: &config::Error) -> u8 {
+    match error {
+        config::Error::Read(error) => read_code(error),
+        config::Error::Faulty { .. } => USAGE,
     }
 }
 
@@ -224,7 +237,7 @@ Examples:
 To open a scene named like a command, write ./render, ./check or ./doctor. Scenes are read from \
 files, not from standard input, pipes or devices.
 
-Exit codes: 0 success, 1 write or system error, 2 wrong arguments, 65 invalid scene, \
+Exit codes: 0 success, 1 write or system error, 2 wrong arguments or configuration, 65 invalid scene, \
 66 scene not found or unreadable, 73 picture file cannot be created, 129 terminal gone, \
 130 SIGINT, 143 SIGTERM, 128 + N any other signal N. Ctrl-C quits the interface with 0, like q.";
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::builder::TypedValueParser;
 use clap::{Args, value_parser};
 
+use crate::config::{MAX_DEPTH, MAX_THREADS};
 use crate::render::MAX_SPP;
 
 #[derive(Args, Debug)]
@@ -20,11 +21,9 @@ pub(super) fn spp_range() -> impl TypedValueParser<Value = u32> {
 }
 
 pub(super) fn depth_range() -> impl TypedValueParser<Value = u32> {
-    // No sample can have more bounces; see the renderer's ray budget.
-    value_parser!(u32).range(..=4096)
+    value_parser!(u32).range(..=i64::from(MAX_DEPTH))
 }
 
 pub(super) fn threads_range() -> impl TypedValueParser<Value = u16> {
-    // More cores than any machine has; far more threads could not be started.
-    value_parser!(u16).range(1..=1024)
+    value_parser!(u16).range(1..=i64::from(MAX_THREADS))
 }

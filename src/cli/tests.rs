@@ -5,6 +5,8 @@ use crate::batch::Report;
 use crate::image_file::MAX_PIXELS;
 use crate::render::{Filter, MAX_SPP};
 use crate::scene::{Integrator, Size};
+use crate::ui::Theme;
+use crate::ui::keymap::Keymap;
 use crate::ui::terminal::{Choice, ColourDepth, Mouse};
 
 /// Parses a command line whose words are separated by spaces.
@@ -14,7 +16,7 @@ fn parsed(line: &str) -> Result<Command, Stop> {
 
 fn interface(line: &str) -> ui::Options {
     match parsed(line) {
-        Ok(Command::Interface(options)) => options,
+        Ok(Command::Interface(options, ..)) => options,
         other => panic!("{line}: {other:?}"),
     }
 }
@@ -42,21 +44,24 @@ fn omitted_options_have_the_defaults_of_the_interface() {
 
 #[test]
 fn options_reach_the_interface() {
-    let line = "halflight --poll=20 --bandwidth 128 --color 256 --no-mouse --spp 4 --depth 0 --integrator path --filter gaussian --threads 3 --assets b --assets c a";
+    let line = "halflight --poll=20 --bandwidth 128 --color 256 --theme light --no-mouse --spp 4 --depth 0 --integrator path --filter gaussian --threads 3 --assets b --assets c a";
     assert_eq!(
         interface(line),
         ui::Options {
             scene: Some("a".into()),
             poll: Some(Duration::from_millis(20)),
             bandwidth: Some(128_000),
-            colour: Choice::Fixed(ColourDepth::Palette256),
-            mouse: Mouse::Off,
+            colour: Some(Choice::Fixed(ColourDepth::Palette256)),
+            theme: Some(Theme::Light),
+            mouse: Some(Mouse::Off),
+            editor: None,
             spp: Some(4),
             depth: Some(0),
             integrator: Some(Integrator::Path),
-            filter: Filter::Gaussian,
+            filter: Some(Filter::Gaussian),
             threads: Some(3),
             assets: vec!["b".into(), "c".into()],
+            keymap: Keymap::default(),
             rehearsal: None,
         }
     );
@@ -72,7 +77,7 @@ fn options_reach_the_interface() {
     assert_eq!(interface("halflight --bandwidth 0 a").bandwidth, Some(0));
     assert_eq!(
         interface("halflight --colour mono a").colour,
-        Choice::Fixed(ColourDepth::Mono)
+        Some(Choice::Fixed(ColourDepth::Mono))
     );
     assert_eq!(interface("halflight ./check").scene, Some("./check".into()));
 }

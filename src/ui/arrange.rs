@@ -58,7 +58,40 @@ pub struct PanelSizes {
     pub beside: Option<u16>,
     /// Height of the panels below the picture.
     pub below: Option<u16>,
+    /// Height of the list above the fields.
+    pub list_height: Option<u16>,
+    /// Width of the list beside the fields.
+    pub list_width: Option<u16>,
 }
+
+impl PanelSizes {
+    /// The sizes as text, a name and a number a line; sizes that are `None` are omitted.
+    pub fn to_text(self) -> String {
+        let sizes = [self.beside, self.below, self.list_height, self.list_width];
+        let lines = SIZE_NAMES.iter().zip(sizes);
+        lines
+            .filter_map(|(name, size)| Some(format!("{name} {}\n", size?)))
+            .collect()
+    }
+
+    /// The sizes in such a text; what is not understood is ignored.
+    pub fn of_text(text: &str) -> Self {
+        let size = |name: &str| {
+            let mut lines = text.lines().filter_map(|line| line.split_once(' '));
+            let (_, size) = lines.find(|(of, _)| *of == name)?;
+            size.parse().ok()
+        };
+        let [beside, below, list_height, list_width] = SIZE_NAMES.map(size);
+        Self {
+            beside,
+            below,
+            list_height,
+            list_width,
+        }
+    }
+}
+
+const SIZE_NAMES: [&str; 4] = ["beside", "below", "list-height", "list-width"];
 
 /// The area of each panel; empty for a panel that does not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -131,8 +164,8 @@ pub fn arrange(area: Rect, shape: &Shape) -> Areas {
         return bars;
     }
     match chosen(body, shape, fits(FULL)) {
-        Arrangement::Beside(width) => side_by_side(bars, width, shape.fields),
-        Arrangement::Below(height) => stacked(bars, height, shape.fields),
+        Arrangement::Beside(width) => side_by_side(bars, width, shape),
+        Arrangement::Below(height) => stacked(bars, height, shape),
     }
 }
 
@@ -153,6 +186,22 @@ pub fn resized(areas: &Areas, shape: &Shape, cells: i32) -> Option<PanelSizes> {
     Some(panels)
 }
 
+/// Moves the border between list and fields by some cells, towards the fields if positive. Returns
+/// the panels' new sizes; `None` if there is no such border.
+pub fn divided(areas: &Areas, shape: &Shape, cells: i32) -> Option<PanelSizes> {
+    let moved = |size: u16| size.saturating_add_signed(cells.clamp(-999, 999) as i16);
+    let mut panels = shape.panels;
+    if areas.list.is_empty() || areas.fields.is_empty() {
+        return None;
+    }
+    if areas.is_column() {
+        panels.list_height = Some(moved(areas.list.height));
+    } else {
+        panels.list_width = Some(moved(areas.list.width));
+    }
+    Some(panels)
+}
+
 /// Whether the panels are beside the picture.
 fn is_beside(areas: &Areas) -> bool {
     areas.list.y == areas.picture.y
@@ -166,6 +215,32 @@ impl Areas {
         } else {
             i32::from(self.border.y) - i32::from(row)
         }
+    }
+
+    /// The cells between list and fields, which resize these when dragged: the fields' title line
+    /// below the list, the rule beside it.
+    pub fn divider(&self) -> Rect {
+        if self.list.is_empty() {
+            Rect::default()
+        } else if self.is_column() {
+            split_bottom(self.fields, self.fields.height.saturating_sub(1)).0
+        } else {
+            self.rule
+        }
+    }
+
+    /// Where the divider must be to be under a cell, as cells towards the fields.
+    pub fn divided_at(&self, (column, row): (u16, u16)) -> i32 {
+        if self.is_column() {
+            i32::from(row) - i32::from(self.fields.y)
+        } else {
+            i32::from(column) - i32::from(self.rule.x)
+        }
+    }
+
+    /// Whether the list is above the fields.
+    fn is_column(&self) -> bool {
+        self.list.y < self.fields.y
     }
 
     /// The lines that errors may take below the picture, of which it keeps at least half.
@@ -238,10 +313,10 @@ fn below(body: Rect, shape: &Shape, low: u16) -> u16 {
 }
 
 /// Places the picture on the left, and the list above the fields on the right.
-fn side_by_side(bars: Areas, width: u16, fields: usize) -> Areas {
+fn side_by_side(bars: Areas, width: u16, shape: &Shape) -> Areas {
     let (left, panels) = split_right(bars.picture, width);
     let (picture, rule) = split_right(left, 1);
-    let (list, fields) = column(panels, fields);
+    let (list, fields) = column(panels, shape);
     Areas {
         picture,
         rule,
@@ -253,16 +328,20 @@ fn side_by_side(bars: Areas, width: u16, fields: usize) -> Areas {
 }
 
 /// Places the picture above the panels, which are side by side if they are wide enough.
-fn stacked(bars: Areas, height: u16, fields: usize) -> Areas {
+fn stacked(bars: Areas, height: u16, shape: &Shape) -> Areas {
     let (picture, panels) = split_bottom(bars.picture, height);
     let (border, _) = split_bottom(panels, panels.height.saturating_sub(1));
     let is_tall = 1 + LIST + LOW <= panels.height;
     let (list, rule, fields) = if panels.width < NARROW + 1 + SNUG && is_tall {
-        let (list, fields) = column(panels, fields);
+        let (list, fields) = column(panels, shape);
         (list, Rect::default(), fields)
     } else {
         let most = panels.width.saturating_sub(NARROW + 1).max(24);
-        let (list, fields) = split_right(panels, (panels.width * 6 / 10).clamp(24, most));
+        let width = match shape.panels.list_width {
+            Some(list) => panels.width.saturating_sub(list.saturating_add(1)),
+            None => panels.width * 6 / 10,
+        };
+        let (list, fields) = split_right(panels, width.clamp(24, most));
         let (list, rule) = split_right(list, 1);
         (list, rule, fields)
     };
@@ -277,11 +356,19 @@ fn stacked(bars: Areas, height: u16, fields: usize) -> Areas {
 }
 
 /// Divides a column of panels: the list above the fields.
-fn column(panels: Rect, fields: usize) -> (Rect, Rect) {
+fn column(panels: Rect, shape: &Shape) -> (Rect, Rect) {
     // Small field counts share one height, so that the list seldom moves with the cursor.
-    let wanted = u16::try_from(fields).unwrap_or(u16::MAX);
+    let wanted = u16::try_from(shape.fields).unwrap_or(u16::MAX);
     let wanted = wanted.saturating_add(1 + NOTES).max(1 + ROOMY);
     let most = (panels.height * 2 / 3).max(15);
     let most = most.min(panels.height.saturating_sub(1 + LIST));
-    split_bottom(panels, wanted.min(most))
+    let height = match shape.panels.list_height {
+        Some(list) => {
+            let lowest = LOWEST.min(panels.height.saturating_sub(LIST));
+            let list = list.clamp(LIST, (panels.height - lowest).max(LIST));
+            panels.height.saturating_sub(list)
+        }
+        None => wanted.min(most),
+    };
+    split_bottom(panels, height)
 }

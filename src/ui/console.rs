@@ -52,7 +52,7 @@ impl Console {
             let cleared = move || {
                 let _ = sender.send(Event::Cleared);
             };
-            Terminal::enter(options.colours(), options.mouse, cleared)?
+            Terminal::enter(options.colours(), options.mouse(), cleared)?
         };
         Ok(Self {
             terminal,

@@ -63,17 +63,29 @@ enum Argument {
     FileLine,
 }
 
-/// Opens the user's editor on a file at a line, from 1, and waits for it to end.
-pub(super) fn run(path: &Path, line: usize) -> Result<(), String> {
-    let (program, status) = open(path, line).map_err(|reason| {
-        format!("cannot start the editor: {reason}; set $VISUAL or $EDITOR to another one")
+/// Opens the user's editor on a file at a line, from 1, and waits for it to end. A command line that
+/// is configured takes precedence over the environment's.
+pub(super) fn run(configured: Option<&str>, path: &Path, line: usize) -> Result<(), String> {
+    let (program, status) = open(configured, path, line).map_err(|reason| {
+        let place = match configured {
+            Some(_) => "`editor` in the configuration",
+            None => "$VISUAL or $EDITOR",
+        };
+        format!("cannot start the editor: {reason}; set {place} to another one")
     })?;
     ending(&program, status)
 }
 
 /// Starts the editor and waits; returns its program and exit status.
-fn open(path: &Path, line: usize) -> Result<(String, ExitStatus), String> {
-    let command = variable("VISUAL")?.or(variable("EDITOR")?);
+fn open(
+    configured: Option<&str>,
+    path: &Path,
+    line: usize,
+) -> Result<(String, ExitStatus), String> {
+    let command = match configured {
+        Some(command) => Some(command.to_owned()),
+        None => variable("VISUAL")?.or(variable("EDITOR")?),
+    };
     let words = words(command.as_deref().unwrap_or(DEFAULT))?;
     let (program, own) = words.split_first().ok_or("the command is empty")?;
     let path = place(path).map_err(|error| error.to_string())?;

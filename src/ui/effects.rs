@@ -42,6 +42,8 @@ pub(crate) struct Runtime {
     recent: Recent,
     assets: AssetReader,
     threads: Option<usize>,
+    /// The command line of the editor that is configured.
+    editor: Option<String>,
     preview: Option<Numbered>,
     trace: Option<Numbered>,
     export: Option<Numbered>,
@@ -71,6 +73,7 @@ impl Runtime {
             recent: remembering(&sender)?,
             assets: AssetReader::start(&options.assets, options.watching(), sending(&sender))?,
             threads: options.threads,
+            editor: options.editor.clone(),
             preview: None,
             trace: None,
             export: None,
@@ -196,6 +199,7 @@ impl Runtime {
             }
             Effect::NoteRecent(scene) => self.recent.note(scene)?,
             Effect::ListRecent => self.recent.list()?,
+            Effect::KeepPanels(sizes) => self.recent.keep_panels(sizes)?,
             Effect::Watch(path) => self.reader.watch(path)?,
             Effect::ReadAssets(wanted) => {
                 let work = Work::begin(&self.sender);
@@ -302,7 +306,8 @@ impl Runtime {
     }
 
     fn open_editor(&mut self, path: &Path, line: usize) -> Result<(), Failure> {
-        let ran = self.screen.lend(|| editor::run(path, line));
+        let configured = self.editor.as_deref();
+        let ran = self.screen.lend(|| editor::run(configured, path, line));
         ran.map_err(Failure::Terminal)?.map_err(Failure::Editor)
     }
 }
@@ -320,6 +325,7 @@ fn reaches_others(effect: &Effect) -> bool {
             | Effect::Watch(_)
             | Effect::NoteRecent(_)
             | Effect::ListRecent
+            | Effect::KeepPanels(_)
     )
 }
 

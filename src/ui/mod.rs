@@ -50,14 +50,16 @@ use crate::assets::check_folders;
 use crate::file::{self, ReadError};
 use crate::language::Language;
 use crate::memory;
-use crate::render::DEFAULT_SPP;
-use app::{App, Opening, OpeningText, Quality};
+use crate::render::{DEFAULT_SPP, Filter};
+use app::{App, Opening, OpeningText, Preferences, Quality};
+use arrange::PanelSizes;
 pub use ending::{Ending, Error};
 pub use options::{Options, Rehearsal};
 use reading::Opened;
 use script::Script;
 pub use script::parse_screen;
 pub use snapshot::Format as FrameFormat;
+pub use theme::Theme;
 
 /// Name of the scene in the current folder that is opened by default.
 const DEFAULT_SCENE: &str = "default.ray";
@@ -88,9 +90,17 @@ pub fn run(options: &Options) -> Result<Ending, Error> {
             spp: options.spp.unwrap_or(DEFAULT_SPP),
             depth: options.depth,
             integrator: options.integrator,
-            filter: options.filter,
+            filter: options.filter.unwrap_or(Filter::Box),
         },
-        mouse: options.mouse,
+        mouse: options.mouse(),
+        preferences: Preferences {
+            keymap: options.keymap.clone(),
+            theme: options.theme.unwrap_or_default(),
+            panels: match script {
+                None => recent::panels(),
+                Some(_) => PanelSizes::default(),
+            },
+        },
         recent,
         terminal: screen,
     };

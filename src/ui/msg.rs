@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use crossterm::event::{KeyEvent, MouseEvent};
 
+use super::arrange::PanelSizes;
 use super::reading::{Baseline, Opened, Reading};
 use super::recovery::{Claim, Found, Sought};
 use super::terminal::{ColourDepth, Mouse};
@@ -178,6 +179,8 @@ pub enum Effect {
     NoteRecent(PathBuf),
     /// Lists recently used scenes that still exist, reported by [`Msg::RecentListed`].
     ListRecent,
+    /// Keeps the sizes of the panels for other sessions.
+    KeepPanels(PanelSizes),
     /// Lists a folder, reported by [`Msg::Listed`].
     ListFolder(PathBuf),
     /// Watches this file from now on, reported by [`Msg::FileChanged`].

@@ -3,13 +3,15 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use super::keymap::Keymap;
 use super::terminal::{Choice, ColourDepth, Mouse};
+use super::theme::Theme;
 use crate::render::Filter;
 use crate::scene::Integrator;
 use crate::watch::Method;
 
-/// Command-line options of the interface; `None` selects the default.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// Options of the interface, from the command line and a configuration; `None` selects the default.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// The scene to open. Default: `default.ray` in the current folder, otherwise the embedded
     /// scene.
@@ -19,9 +21,13 @@ pub struct Options {
     /// Limit of terminal output, in bytes per second; 0 means no limit.
     pub bandwidth: Option<u32>,
     /// The colour depth, or how to detect it.
-    pub colour: Choice,
+    pub colour: Option<Choice>,
+    /// The colours of everything but pictures.
+    pub theme: Option<Theme>,
     /// Whether the mouse is taken from the terminal.
-    pub mouse: Mouse,
+    pub mouse: Option<Mouse>,
+    /// The command line of the editor, before that of the environment.
+    pub editor: Option<String>,
     /// Samples per pixel of full-size traces and exports.
     pub spp: Option<u32>,
     /// Maximum number of bounces.
@@ -29,11 +35,13 @@ pub struct Options {
     /// The integrator to start with; `None` leaves the choice to the scene.
     pub integrator: Option<Integrator>,
     /// Reconstruction filter of full-size traces and exports.
-    pub filter: Filter,
+    pub filter: Option<Filter>,
     /// Number of rendering threads.
     pub threads: Option<usize>,
     /// Folders from which pictures and meshes may be read in addition to the scene's own.
     pub assets: Vec<PathBuf>,
+    /// What keys do.
+    pub keymap: Keymap,
     /// Plays keys on a page in memory instead of reading them from a terminal.
     pub rehearsal: Option<Rehearsal>,
 }
@@ -49,28 +57,40 @@ pub struct Rehearsal {
     pub frames: Vec<PathBuf>,
 }
 
-impl Default for Options {
-    fn default() -> Self {
+impl Options {
+    /// These options, completed by those of a configuration.
+    #[must_use]
+    pub fn or(self, configured: Self) -> Self {
         Self {
-            scene: None,
-            poll: None,
-            bandwidth: None,
-            colour: Choice::Auto,
-            mouse: Mouse::On,
-            spp: None,
-            depth: None,
-            integrator: None,
-            filter: Filter::Box,
-            threads: None,
-            assets: Vec::new(),
-            rehearsal: None,
+            scene: self.scene.or(configured.scene),
+            poll: self.poll.or(configured.poll),
+            bandwidth: self.bandwidth.or(configured.bandwidth),
+            colour: self.colour.or(configured.colour),
+            theme: self.theme.or(configured.theme),
+            mouse: self.mouse.or(configured.mouse),
+            editor: self.editor.or(configured.editor),
+            spp: self.spp.or(configured.spp),
+            depth: self.depth.or(configured.depth),
+            integrator: self.integrator.or(configured.integrator),
+            filter: self.filter.or(configured.filter),
+            threads: self.threads.or(configured.threads),
+            assets: [self.assets, configured.assets].concat(),
+            // There are no keys on the command line.
+            keymap: configured.keymap,
+            rehearsal: self.rehearsal.or(configured.rehearsal),
         }
     }
-}
 
-impl Options {
+    pub(super) fn colour(&self) -> Choice {
+        self.colour.unwrap_or_default()
+    }
+
+    pub(super) fn mouse(&self) -> Mouse {
+        self.mouse.unwrap_or(Mouse::On)
+    }
+
     pub(super) fn colours(&self) -> ColourDepth {
-        match (self.colour, &self.rehearsal) {
+        match (self.colour(), &self.rehearsal) {
             // A page does not depend on the environment.
             (Choice::Auto, Some(_)) => ColourDepth::TrueColour,
             (choice, _) => ColourDepth::detect(choice),

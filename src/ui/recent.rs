@@ -1,4 +1,5 @@
-//! Recently used scenes: absolute paths, one a line and the newest first, in `halflight/recent` in
+//! What sessions remember for later ones: the sizes of panels, in `halflight/panels` in the state
+//! folder, and recently used scenes: absolute paths, one a line and the newest first, in `halflight/recent` in
 //! the state folder. Sessions that end up there at the same moment may lose one of their entries.
 
 use std::convert::Infallible;
@@ -8,9 +9,14 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver};
 use std::time::Instant;
 
+use super::arrange::PanelSizes;
 use super::recovery;
 use super::service::{Ended, Service};
 use crate::file;
+
+/// Names of the files.
+const SCENES: &str = "recent";
+const PANELS: &str = "panels";
 
 /// The maximum number of scenes remembered.
 const MOST: usize = 20;
@@ -24,6 +30,8 @@ enum Request {
     Note(PathBuf),
     /// Report the scenes.
     List,
+    /// Keep the sizes of the panels.
+    Panels(PanelSizes),
 }
 
 /// Handle of the thread that remembers scenes.
@@ -47,6 +55,10 @@ impl Recent {
             for request in inbox {
                 match request {
                     Request::List => report(list()),
+                    Request::Panels(sizes) => {
+                        // The loss is too small to interrupt anyone.
+                        let _ = recovery::state().and_then(|state| keep_in(&state, sizes));
+                    }
                     Request::Note(scene) => {
                         let noted = recovery::state().and_then(|state| note_in(&state, &scene));
                         let reason = noted.err().map(|error| error.to_string());
@@ -75,6 +87,11 @@ impl Recent {
         self.service.request(Request::List)
     }
 
+    /// Keeps the sizes of the panels.
+    pub(super) fn keep_panels(&self, sizes: PanelSizes) -> Result<(), Ended> {
+        self.service.request(Request::Panels(sizes))
+    }
+
     /// Waits until all scenes are remembered, at most until `deadline`.
     pub(super) fn finish(self, deadline: Instant) {
         drop(self.service);
@@ -87,6 +104,19 @@ impl Recent {
 /// The recently used scenes that still exist, the newest first; empty if that is unknown.
 pub(super) fn list() -> Vec<PathBuf> {
     recovery::state().map_or_else(|_| Vec::new(), |state| list_in(&state))
+}
+
+/// The sizes of the panels that were kept last; the default ones if that is unknown.
+pub(super) fn panels() -> PanelSizes {
+    recovery::state().map_or_else(|_| PanelSizes::default(), |state| panels_in(&state))
+}
+
+fn panels_in(state: &Path) -> PanelSizes {
+    PanelSizes::of_text(&text_of(&place(state, PANELS)))
+}
+
+fn keep_in(state: &Path, sizes: PanelSizes) -> io::Result<()> {
+    write(&place(state, PANELS), &sizes.to_text())
 }
 
 fn list_in(state: &Path) -> Vec<PathBuf> {
@@ -111,35 +141,42 @@ fn note_in(state: &Path, scene: &Path) -> io::Result<()> {
     scenes.retain(|other| *other != scene);
     scenes.insert(0, scene);
     scenes.truncate(MOST);
-    let place = place(state);
+    let lines: Vec<_> = scenes.iter().filter_map(|scene| scene.to_str()).collect();
+    write(&place(state, SCENES), &format!("{}\n", lines.join("\n")))
+}
+
+/// Replaces a file in a folder that only the user can read.
+fn write(place: &Path, text: &str) -> io::Result<()> {
     let mut builder = DirBuilder::new();
     #[cfg(unix)]
     std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-    builder.recursive(true).create(file::directory_of(&place))?;
-    let lines: Vec<_> = scenes.iter().filter_map(|scene| scene.to_str()).collect();
-    let text = format!("{}\n", lines.join("\n"));
-    file::replace(&place, |out| out.write_all(text.as_bytes()), || Ok(()))
+    builder.recursive(true).create(file::directory_of(place))?;
+    file::replace(place, |out| out.write_all(text.as_bytes()), || Ok(()))
 }
 
 /// The scenes in the file; none if it cannot be read.
 fn read(state: &Path) -> Vec<PathBuf> {
-    let place = place(state);
-    // A pipe would never end.
-    let is_file = fs::metadata(&place).is_ok_and(|found| found.is_file());
-    let file = is_file.then(|| File::open(&place));
-    let Some(Ok(file)) = file else {
-        return Vec::new();
-    };
-    let bytes = file::read_opened(&file, &place, LONGEST).unwrap_or_default();
-    let text = String::from_utf8(bytes).unwrap_or_default();
+    let text = text_of(&place(state, SCENES));
     let scenes = text.lines().map(PathBuf::from);
     let mut scenes: Vec<_> = scenes.filter(|scene| scene.is_absolute()).collect();
     scenes.truncate(MOST);
     scenes
 }
 
-fn place(state: &Path) -> PathBuf {
-    state.join("halflight").join("recent")
+/// The text of a file; empty if it cannot be read.
+fn text_of(place: &Path) -> String {
+    // A pipe would never end.
+    let is_file = fs::metadata(place).is_ok_and(|found| found.is_file());
+    let file = is_file.then(|| File::open(place));
+    let Some(Ok(file)) = file else {
+        return String::new();
+    };
+    let bytes = file::read_opened(&file, place, LONGEST).unwrap_or_default();
+    String::from_utf8(bytes).unwrap_or_default()
+}
+
+fn place(state: &Path, name: &str) -> PathBuf {
+    state.join("halflight").join(name)
 }
 
 #[cfg(test)]
@@ -175,6 +212,26 @@ mod tests {
     }
 
     #[test]
+    fn sizes_of_panels_are_kept() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let state = folder.path().join("state");
+        assert_eq!(panels_in(&state), PanelSizes::default());
+        let sizes = PanelSizes {
+            beside: Some(40),
+            list_height: Some(9),
+            ..PanelSizes::default()
+        };
+        keep_in(&state, sizes).expect("it can be written");
+        assert_eq!(panels_in(&state), sizes);
+        fs::write(
+            place(&state, PANELS),
+            "beside\nbelow -3\nlist-width 99999999\n\u{7}",
+        )
+        .expect("written");
+        assert_eq!(panels_in(&state), PanelSizes::default());
+    }
+
+    #[test]
     fn a_file_of_another_kind_lists_nothing_and_is_replaced() {
         let folder = tempfile::tempdir().expect("a folder");
         let scene = folder.path().join("a.ray");
@@ -182,7 +239,7 @@ mod tests {
         fs::create_dir(folder.path().join("halflight")).expect("the folder is new");
         let long = "a".repeat(2 << 20);
         for content in [b"\xff\xfe", b"relative.ray\n\n" as &[u8], long.as_bytes()] {
-            fs::write(place(folder.path()), content).expect("written");
+            fs::write(place(folder.path(), SCENES), content).expect("written");
             assert_eq!(list_in(folder.path()), [] as [PathBuf; 0]);
         }
         note_in(folder.path(), &scene).expect("it can be written");

@@ -108,7 +108,7 @@ impl Session {
     fn ask_for_colours(&mut self, options: &Options) -> io::Result<()> {
         let variable = |name: &str| std::env::var(name).ok();
         let depth = options.colours();
-        let is_open = options.colour == Choice::Auto
+        let is_open = options.colour() == Choice::Auto
             && depth < ColourDepth::TrueColour
             && variable("NO_COLOR").is_none_or(|value| value.is_empty());
         if is_open && query::may_ask(variable) {

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod comparing;
+mod config;
 mod keys;
 mod limits;
 mod pictures;

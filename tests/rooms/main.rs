@@ -65,10 +65,12 @@ const ARROWS: &[(&str, &[&str])] = &[
             "watch",
         ],
     ),
+    ("config", &["file", "render", "scene", "text", "ui"]),
     (
         "cli",
         &[
             "batch",
+            "config",
             "file",
             "image_file",
             "render",
@@ -110,15 +112,16 @@ const DEPENDENCIES: &[(&str, &str)] = &[
     ("termprofile", "ui"),
     (
         "thiserror",
-        "assets batch file geometry image_file language memory render ui",
+        "assets batch config file geometry image_file language memory render ui",
     ),
+    ("toml", "config"),
     ("tui_input", "ui"),
     ("unicode_width", "text ui"),
 ];
 
 /// The rooms without any cycle of files. In the others, a file and those in its folder may use each
 /// other, like a type and its parts; siblings may not.
-const ACYCLIC: &[&str] = &["cli", "text", "ui", "watch"];
+const ACYCLIC: &[&str] = &["cli", "config", "text", "ui", "watch"];
 
 #[test]
 fn rooms_use_only_permitted_rooms() {

@@ -12,6 +12,7 @@ use crate::scene::{Camera, Size};
 use crate::text::{Severity, nearest_word};
 use crate::ui::keymap::{self, Action, HelpLine, Mode};
 use crate::ui::msg::{Effect, Guard};
+use crate::ui::theme::Theme;
 
 /// A parsed command line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,6 +45,8 @@ enum Command {
     Size(Size),
     /// Take the mouse or leave it to the terminal.
     Mouse,
+    /// Use other colours.
+    Theme(Theme),
     /// Open the help page.
     Help,
 }
@@ -122,6 +125,9 @@ const TABLE: &[CommandRow] = &[
     row(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
     row(&["size"], A::Size(C::Size), "set the picture size in the scene"),
     row(&["mouse"], A::Nothing(C::Mouse), "take the mouse or leave it to the terminal"),
+    row(&["theme dark"], A::Nothing(C::Theme(Theme::Dark)), "use colours for dark screens"),
+    row(&["theme light"], A::Nothing(C::Theme(Theme::Light)), "use colours for light screens"),
+    row(&["theme mono"], A::Nothing(C::Theme(Theme::Mono)), "use no colours except in pictures"),
     row(&["help"], A::Nothing(C::Help), "show this page"),
 ];
 
@@ -319,7 +325,7 @@ impl App {
             .as_ref()
             .map_or("", |help| help.search.value());
         let commands = TABLE.iter().map(|form| (form.usage(), form.words));
-        keymap::help(search, self.mode, commands.collect())
+        self.keymap.help(search, self.mode, commands.collect())
     }
 
     /// The columns of the help page on a screen of this width.
@@ -344,7 +350,7 @@ impl App {
 
     fn run(&mut self, command: Command) -> Vec<Effect> {
         match command {
-            Command::Quit(Force::Yes) | Command::Mouse | Command::Help => {}
+            Command::Quit(Force::Yes) | Command::Mouse | Command::Theme(_) | Command::Help => {}
             _ if self.mode == Mode::Move => {
                 self.warn_of_transform();
                 return Vec::new();
@@ -384,6 +390,7 @@ impl App {
             Command::ViewReset => self.pictures.reset_view(),
             Command::Size(size) => self.set_size(size),
             Command::Mouse => return self.toggle_mouse(),
+            Command::Theme(theme) => self.theme = theme,
             Command::Help => self.overlays.help = Some(Help::default()),
         }
         Vec::new()

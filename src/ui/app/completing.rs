@@ -9,7 +9,7 @@ use tui_input::Input;
 use super::command::{self, Described};
 use super::{App, Completion, PromptKind, line};
 use crate::image_file::ImageFormat;
-use crate::ui::keymap::{self, Action, Context, Mode};
+use crate::ui::keymap::{Action, Context, Mode};
 use crate::ui::msg::Effect;
 
 /// What is completed.
@@ -154,7 +154,7 @@ impl App {
         let actions = if self.disk.is_opening() {
             Vec::new()
         } else {
-            keymap::actions(self.mode)
+            self.keymap.actions(self.mode)
         };
         // A command that is offered does the same.
         let is_other = |action| commands.iter().all(|(_, other, _)| *other != Some(action));
@@ -162,7 +162,7 @@ impl App {
         let actions: Vec<_> = actions
             .map(|named| {
                 let keys = match named.context {
-                    Context::In(mode) if mode != self.mode => {
+                    Context::In(mode) if mode != self.mode && !named.keys.is_empty() => {
                         format!("{} {}", mode.name(), named.keys)
                     }
                     _ => named.keys,
@@ -230,9 +230,22 @@ impl App {
         }
     }
 
+    /// What to press for an action, as messages say it: its first key here or in another mode,
+    /// otherwise its description in the command line.
+    pub(super) fn key_for(&self, action: Action) -> String {
+        let here = self.keymap.key(self.context(), action);
+        let named = || {
+            let mut named = self.keymap.actions(self.mode).into_iter();
+            let named = named.find(|named| named.action == action)?;
+            let first = named.keys.split(' ').next().filter(|key| !key.is_empty());
+            Some(first.map_or_else(|| format!(":{}", named.words), str::to_owned))
+        };
+        here.or_else(named).unwrap_or_default()
+    }
+
     /// The keys of an action in the present mode, otherwise in any.
     fn keys_of(&self, action: Option<Action>) -> String {
-        let mut named = keymap::actions(self.mode).into_iter();
+        let mut named = self.keymap.actions(self.mode).into_iter();
         let named = named.find(|named| Some(named.action) == action);
         named.map_or_else(String::new, |named| named.keys)
     }

@@ -2,6 +2,7 @@
 //! for work under way.
 
 use super::{App, Dialog, Next};
+use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Timer};
 
 impl App {
@@ -69,7 +70,10 @@ impl App {
     pub(super) fn leave_when_done(&mut self) -> Vec<Effect> {
         if self.jobs.next == Some(Next::Quit) && self.jobs.export.is_some() {
             let words = match self.jobs.queued() {
-                0 => "will quit once the export finishes; press x to cancel it".to_owned(),
+                0 => {
+                    let stop = self.key_for(Action::Stop);
+                    format!("will quit once the export finishes; press {stop} to cancel it")
+                }
                 queued => format!("will quit once {} exports finish", queued + 1),
             };
             self.overlays.say(words);

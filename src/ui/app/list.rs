@@ -5,7 +5,7 @@ use super::cursor::moved;
 use crate::language::Node;
 use crate::text::Severity;
 use crate::ui::arrange::Areas;
-use crate::ui::keymap::{Context, Mode};
+use crate::ui::keymap::{Action, Context, Mode};
 use crate::ui::layout;
 
 impl App {
@@ -137,23 +137,25 @@ impl App {
             return;
         };
         if self.is_disk_wrong() {
-            self.overlays
-                .warn("this is in the file on disk: press E to edit that line");
+            let editor = self.key_for(Action::Editor);
+            self.overlays.warn(format!(
+                "this is in the file on disk: press {editor} to edit that line"
+            ));
             return;
         }
         let Some(span) = self.diagnostics.get(at).map(|diagnostic| diagnostic.span) else {
             return;
         };
-        match self.source().node_at(span) {
-            Some(node) => {
-                self.overlays.errors = None;
-                self.select(node);
-                let field = self.cursor.field_at(span);
-                self.focus_field(field.unwrap_or(0), 0);
-            }
-            None => self
-                .overlays
-                .warn("nothing to select there: press E to edit that line"),
+        if let Some(node) = self.source().node_at(span) {
+            self.overlays.errors = None;
+            self.select(node);
+            let field = self.cursor.field_at(span);
+            self.focus_field(field.unwrap_or(0), 0);
+        } else {
+            let editor = self.key_for(Action::Editor);
+            self.overlays.warn(format!(
+                "nothing to select there: press {editor} to edit that line"
+            ));
         }
     }
 

@@ -77,7 +77,7 @@ pub use menu::{Entry, Menu, Purpose};
 pub use messages::{Message, Messages};
 pub use model::App;
 pub use next::Next;
-pub use opening::{Opening, OpeningText};
+pub use opening::{Opening, OpeningText, Preferences};
 pub use overlays::{Dialog, Help, Outside, Overlays, Prompt, PromptKind};
 pub use page::{List, Page, PageFocus};
 pub use palette::{Completion, Palette};

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use crossterm::event::KeyEvent;
+
 use super::assets::Assets;
 use super::cursor::Cursor;
 use super::disk::Disk;
@@ -13,8 +15,18 @@ use crate::document::Document;
 use crate::scene::Scene;
 use crate::text::Findings;
 use crate::ui::arrange::{PanelSizes, Zoom};
-use crate::ui::keymap::{Action, Mode};
+use crate::ui::keymap::{Keymap, Mode};
 use crate::ui::terminal::Mouse;
+use crate::ui::theme::Theme;
+
+/// A border that can be dragged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Border {
+    /// Between the picture and the panels.
+    Panels,
+    /// Between the list and the fields.
+    List,
+}
 
 /// The whole state of the interface: the text, its meaning, and one part for each concern, which
 /// owns its own state.
@@ -42,14 +54,20 @@ pub struct App {
     pub jobs: Jobs,
     /// The mode, which determines the meaning of keys.
     pub mode: Mode,
+    /// The colours of everything but pictures.
+    pub theme: Theme,
+    /// What keys do.
+    pub keymap: Keymap,
     /// The first of two keys, until the second arrives.
-    pub(super) prefix: Option<Action>,
+    pub(super) prefix: Option<KeyEvent>,
     /// How much of the screen the picture takes, except in the full-size trace.
     pub zoom: Zoom,
     /// The sizes of the panels that the user chose.
     pub panels: PanelSizes,
-    /// Whether the border of the panels is being dragged.
-    pub(super) resizing: bool,
+    /// The sizes that were last kept for other sessions.
+    pub(super) kept_panels: PanelSizes,
+    /// The border that is being dragged.
+    pub(super) resizing: Option<Border>,
     /// Who receives mouse events.
     pub mouse: Mouse,
     /// Size of the terminal in cells.

@@ -11,10 +11,11 @@ use crate::file::ReadError;
 use crate::language::{Language, Lowered, Node};
 use crate::text::{Findings, Severity};
 use crate::ui::arrange::{PanelSizes, Zoom};
-use crate::ui::keymap::Mode;
+use crate::ui::keymap::{Keymap, Mode};
 use crate::ui::msg::Effect;
 use crate::ui::reading::{News, Reading};
 use crate::ui::terminal::Mouse;
+use crate::ui::theme::Theme;
 
 /// The initial settings of the interface.
 #[derive(Clone, Debug)]
@@ -29,10 +30,23 @@ pub struct Opening {
     pub quality: Quality,
     /// Who receives mouse events.
     pub mouse: Mouse,
+    /// What the user has configured.
+    pub preferences: Preferences,
     /// Recently used scenes, offered first if there are any.
     pub recent: Vec<PathBuf>,
     /// Size of the terminal in cells.
     pub terminal: (u16, u16),
+}
+
+/// What a user configures once and for all.
+#[derive(Clone, Debug, Default)]
+pub struct Preferences {
+    /// What keys do.
+    pub keymap: Keymap,
+    /// The colours of everything but pictures.
+    pub theme: Theme,
+    /// The sizes of the panels, which an earlier session may have kept.
+    pub panels: PanelSizes,
 }
 
 /// The text that the interface starts with.
@@ -73,11 +87,14 @@ impl App {
             overlays: Overlays::default(),
             jobs: Jobs::default(),
             mode: Mode::Select,
+            keymap: opening.preferences.keymap,
+            theme: opening.preferences.theme,
             prefix: None,
             palette: Palette::default(),
             zoom: Zoom::default(),
-            panels: PanelSizes::default(),
-            resizing: false,
+            panels: opening.preferences.panels,
+            kept_panels: opening.preferences.panels,
+            resizing: None,
             mouse: opening.mouse,
             terminal: opening.terminal,
         };

@@ -3,6 +3,7 @@
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
 use super::camera::{advanced, dollied, orbited, shifted, turned};
+use super::model::Border;
 use super::{App, PickerRow};
 use crate::render::{axes, pixel_width};
 use crate::ui::keymap::{Context, Mode};
@@ -51,7 +52,7 @@ impl App {
             MouseEventKind::Drag(_) => self.drag_to_pan(at),
             MouseEventKind::Up(_) => {
                 self.pictures.drag = None;
-                self.resizing = false;
+                self.resizing = None;
                 self.end_slide();
             }
             _ => {}
@@ -139,7 +140,11 @@ impl App {
             self.confirm_transform();
         }
         if areas.border.contains(at.into()) {
-            self.resizing = true;
+            self.resizing = Some(Border::Panels);
+            return Vec::new();
+        }
+        if areas.divider().contains(at.into()) {
+            self.resizing = Some(Border::List);
             return Vec::new();
         }
         if let Some(line) = list_row_at(areas.list, self.cursor.list_top, at.0, at.1) {
@@ -220,9 +225,10 @@ impl App {
     }
 
     fn drag(&mut self, at: (u16, u16)) {
-        if self.resizing {
-            self.resize_panels(self.areas().dragged(at));
-            return;
+        match self.resizing {
+            Some(Border::Panels) => return self.resize_panels(self.areas().dragged(at)),
+            Some(Border::List) => return self.resize_list(self.areas().divided_at(at)),
+            None => {}
         }
         if self.slide_to(at.0) {
             return;

@@ -224,8 +224,9 @@ impl App {
         let line = first.map_or(1, |d| Position::of(&text, d.span.start()).line);
         self.jobs.next = None;
         self.disk.state = OnDisk::Faulty(Faulty { text, diagnostics });
+        let editor = self.key_for(Action::Editor);
         self.overlays.fail(format!(
-            "line {line} of the file on disk has an error: press E to edit it, or use :w! to overwrite it"
+            "line {line} of the file on disk has an error: press {editor} to edit it, or use :w! to overwrite it"
         ));
     }
 
@@ -381,15 +382,19 @@ impl App {
         };
         if self.disk.state == OnDisk::New {
             let name = self.disk.name();
-            self.overlays
-                .warn(format!("{name} is new: press w to write it, then E"));
+            let (save, editor) = (self.key_for(Action::Save), self.key_for(Action::Editor));
+            self.overlays.warn(format!(
+                "{name} is new: press {save} to write it, then {editor}"
+            ));
             return Vec::new();
         }
         // A file that was not taken must be corrected first.
         let is_refused = matches!(self.disk.state, OnDisk::Faulty(_) | OnDisk::Unreadable);
         if self.document.is_dirty() && !is_refused {
-            self.overlays
-                .warn("there are unsaved edits: press w to save them, then E");
+            let (save, editor) = (self.key_for(Action::Save), self.key_for(Action::Editor));
+            self.overlays.warn(format!(
+                "there are unsaved edits: press {save} to save them, then {editor}"
+            ));
             return Vec::new();
         }
         let wrong = self.wrong();

@@ -4,6 +4,7 @@
 use super::{App, Dialog, PromptKind};
 use crate::language::{Neighbour, Node, StructureError, Visibility};
 use crate::text::{Edit, Span, counted};
+use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::Effect;
 
 impl App {
@@ -140,7 +141,8 @@ impl App {
         }
         let placed = self.source().insertion(text, self.cursor.selected());
         if let Err(StructureError::Foreign { reason }) = &placed {
-            let message = format!("{reason}; to paste values into fields, press e");
+            let edit = self.key_for(Action::Go(Mode::Edit));
+            let message = format!("{reason}; to paste values into fields, press {edit}");
             self.overlays.fail(message);
             return;
         }

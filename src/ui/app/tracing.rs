@@ -7,7 +7,7 @@ use crate::image_file::ImageFormat;
 use crate::render::{Filter, Frame, Frames, Job, Settings, default_depth};
 use crate::scene::{Integrator, Scene, Size};
 use crate::text::Severity;
-use crate::ui::keymap::Mode;
+use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::{Effect, Target};
 
 /// Samples per pixel at which the preview stops: by then edges are smooth and the noise of paths is
@@ -207,7 +207,9 @@ impl App {
             .filter(|_| self.mode == Mode::Trace);
         if let Some(trace) = seen.filter(|trace| trace.wanted.is_some() && !trace.is_complete()) {
             trace.wanted = None;
-            self.overlays.say("stopped; press F5 to restart");
+            let trace = self.key_for(Action::Go(Mode::Trace));
+            self.overlays
+                .say(format!("stopped; press {trace} to restart"));
             return vec![Effect::Stop(Target::Trace)];
         }
         self.cancel_export()

@@ -6,8 +6,8 @@ use tui_input::Input;
 use super::camera::{advanced, dollied, faced, panned, rolled, stepped, widened};
 use super::{App, Help, PageFocus, PromptKind, line};
 use crate::text::Severity;
-use crate::ui::arrange::{Zoom, resized};
-use crate::ui::keymap::{self, Action, Context, Mode, Tool};
+use crate::ui::arrange::{Zoom, divided, resized};
+use crate::ui::keymap::{self, Action, Context, Meaning, Mode, Tool};
 use crate::ui::msg::{Effect, Existing, Msg, Timer};
 use crate::ui::terminal::Mouse;
 
@@ -29,6 +29,7 @@ impl App {
         effects.extend(self.follow_kept());
         let time = self.overlays.time_to_read();
         effects.extend(time.map(|time| Effect::Later(time, Timer::Message)));
+        effects.extend(self.keep_panels());
         effects
     }
 
@@ -81,12 +82,13 @@ impl App {
         self.overlays.clear_message();
         self.end_slide();
         let context = self.context();
-        let action = keymap::action(context, key);
+        let before = self.prefix.take();
+        let meaning = self.keymap.meaning(context, before, key);
         let is_line = self.cursor.typing.is_some() || self.overlays.has_line();
         let controls = key.modifiers.contains(KeyModifiers::CONTROL);
         let reserved = matches!(
-            action,
-            Some(Action::Interrupt | Action::Suspend | Action::Repaint)
+            meaning,
+            Meaning::Action(Action::Interrupt | Action::Suspend | Action::Repaint)
         );
         // Only a dialog takes precedence over a line being typed.
         if is_line && self.overlays.dialog.is_none() && !(reserved && controls) {
@@ -95,13 +97,17 @@ impl App {
         if context == Context::In(Mode::Move) && self.type_amount(key) {
             return Vec::new();
         }
-        let second_g = self.prefix.take() == Some(Action::G);
-        match action {
-            Some(Action::G) if second_g => self.act(Action::First, context),
-            Some(action) => self.act(action, context),
-            None if self.overlays.dialog.is_some() => {
+        match meaning {
+            Meaning::Action(action) => self.act(action, context),
+            Meaning::Begins => {
+                self.prefix = Some(key);
+                Vec::new()
+            }
+            Meaning::None if self.overlays.dialog.is_some() => {
                 // A user who types on without noticing the question learns why nothing happens.
-                let keys: Vec<_> = keymap::hints(context)
+                let keys: Vec<_> = self
+                    .keymap
+                    .hints(context)
                     .into_iter()
                     .map(|(key, _)| key)
                     .collect();
@@ -109,15 +115,15 @@ impl App {
                     .warn(format!("answer the question first: {}", keys.join(", ")));
                 Vec::new()
             }
-            None if context == Context::Opening => {
+            Meaning::None if context == Context::Opening => {
                 self.warn_of_opening();
                 Vec::new()
             }
-            None if matches!(context, Context::Views | Context::Recent) => {
+            Meaning::None if matches!(context, Context::Views | Context::Recent) => {
                 self.filter_with(key);
                 Vec::new()
             }
-            None => self.start_typing_with(context, key),
+            Meaning::None => self.start_typing_with(context, key),
         }
     }
 
@@ -125,7 +131,7 @@ impl App {
     /// answered.
     fn start_typing_with(&mut self, context: Context, key: KeyEvent) -> Vec<Effect> {
         if let (Context::In(Mode::Edit), KeyCode::Char(first)) = (context, key.code)
-            && (first.is_ascii_digit() || "+-*/.(".contains(first))
+            && keymap::begins_value(first)
         {
             self.cursor.type_value(Input::from(first.to_string()));
         } else {
@@ -147,13 +153,12 @@ impl App {
         let Some(name) = keymap::name(key) else {
             return;
         };
-        if context == Context::In(Mode::Move)
-            && keymap::action(Context::In(Mode::Select), key).is_some()
-        {
+        let selects = self.keymap.meaning(Context::In(Mode::Select), None, key);
+        if context == Context::In(Mode::Move) && selects != Meaning::None {
             self.warn_of_transform();
             return;
         }
-        let words = match (keymap::elsewhere(context, key), context) {
+        let words = match (self.keymap.elsewhere(context, key), context) {
             (Some((mode, way, words)), _) => {
                 let way = way.map_or_else(String::new, |way| format!(" ({way})"));
                 format!("`{name}` in {}{way}: {words}", mode.name())
@@ -161,9 +166,9 @@ impl App {
             (None, Context::In(mode)) => format!("`{name}` is free in {}", mode.name()),
             (None, _) => format!("`{name}` is free here"),
         };
-        let help = match context {
-            Context::Help => "",
-            _ => "; ? lists keys",
+        let help = match self.keymap.key(context, Action::Help) {
+            Some(key) if context != Context::Help => format!("; {key} lists keys"),
+            _ => String::new(),
         };
         self.overlays.answer(format!("{words}{help}"));
     }
@@ -233,7 +238,6 @@ impl App {
             Action::Page(pages) => self.move_cursor(context, pages * self.page(context)),
             Action::First => self.move_cursor(context, isize::MIN),
             Action::Last => self.move_cursor(context, isize::MAX),
-            Action::G => self.prefix = Some(action),
             Action::Cycle(step) => self.cycle(step),
             Action::Go(mode) => return self.go(mode),
             Action::Back => return self.back(context),
@@ -303,6 +307,7 @@ impl App {
             Action::Help => self.overlays.help = Some(Help::default()),
             Action::Zoom => self.toggle_zoom(),
             Action::Resize(step) => self.resize_panels(step),
+            Action::Divide(step) => self.resize_list(step),
             Action::Show(aov) => self.overlays.say(self.pictures.show(aov)),
             Action::Wireframe => self.overlays.say(self.pictures.show_wires()),
             Action::Integrator => {
@@ -411,6 +416,26 @@ impl App {
             Some(panels) => self.panels = panels,
             None => self.overlays.say("there are no panels to resize here"),
         }
+    }
+
+    /// Moves the border between list and fields by some cells, towards the fields if positive.
+    pub(super) fn resize_list(&mut self, cells: i32) {
+        let zoom = self.zoom_now();
+        match divided(&self.areas(), &self.shape(zoom), cells) {
+            Some(panels) => self.panels = panels,
+            None => self.overlays.say("there are no panels to resize here"),
+        }
+    }
+
+    /// Keeps new sizes of the panels for other sessions, once they are not being dragged.
+    fn keep_panels(&mut self) -> Option<Effect> {
+        let is_new = self.resizing.is_none() && self.panels != self.kept_panels;
+        self.kept_panels = if is_new {
+            self.panels
+        } else {
+            self.kept_panels
+        };
+        is_new.then_some(Effect::KeepPanels(self.panels))
     }
 
     pub(super) fn toggle_mouse(&mut self) -> Vec<Effect> {

@@ -14,6 +14,8 @@ const SHAPE: Shape = Shape {
     panels: PanelSizes {
         beside: None,
         below: None,
+        list_height: None,
+        list_width: None,
     },
 };
 
@@ -162,14 +164,15 @@ proptest! {
     fn areas_are_inside_the_screen_and_disjoint(
         x in 0u16..5, y in 0u16..5, width in 0u16..220, height in 0u16..90, alone: bool,
         fields in 0usize..40, output in (1u32..2000, 1u32..2000), errors in 0u16..20,
-        beside: Option<u16>, below: Option<u16>
+        beside: Option<u16>, below: Option<u16>,
+        list_height: Option<u16>, list_width: Option<u16>
     ) {
         let area = Rect::new(x, y, width, height);
         let shape = Shape {
             zoom: if alone { Zoom::Picture } else { Zoom::Panels },
             output: Size { width: output.0, height: output.1 },
             fields,
-            panels: PanelSizes { beside, below },
+            panels: PanelSizes { beside, below, list_height, list_width },
         };
         let all = arrange(area, &shape);
         prop_assert!(all.room_for_errors().height <= all.picture.height);
@@ -184,6 +187,8 @@ proptest! {
             }
         }
         prop_assert_eq!(all.border.intersection(area).area(), all.border.area());
+        let divider = all.divider();
+        prop_assert_eq!(divider.intersection(area).area(), divider.area());
     }
 
     #[test]

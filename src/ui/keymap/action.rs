@@ -99,8 +99,6 @@ pub enum Action {
     Page(isize),
     /// Moves the cursor to the first line.
     First,
-    /// The first key of `gg`.
-    G,
     /// Moves the cursor to the last line.
     Last,
     /// Selects the next or previous object or light.
@@ -217,6 +215,8 @@ pub enum Action {
     Zoom,
     /// Moves the border of the panels by this many cells, towards the picture if positive.
     Resize(i32),
+    /// Moves the border of list and fields by this many cells, towards the fields if positive.
+    Divide(i32),
     /// Shows one of the auxiliary images, or the lit picture.
     Show(Option<Aov>),
     /// Shows the preview as a wireframe.

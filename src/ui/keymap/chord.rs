@@ -8,6 +8,67 @@ use KeyCode::{BackTab, Char, Down, Left, Right, Up};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Chord(pub(super) KeyCode, pub(super) KeyModifiers);
 
+/// A key, or two keys pressed one after the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Keys {
+    pub(super) first: Chord,
+    pub(super) second: Option<Chord>,
+}
+
+impl Keys {
+    pub(super) const fn one(first: Chord) -> Self {
+        Self {
+            first,
+            second: None,
+        }
+    }
+
+    pub(super) const fn in_turn(first: Chord, second: Chord) -> Self {
+        Self {
+            first,
+            second: Some(second),
+        }
+    }
+
+    /// The keys with these names, separated by a blank: `Ctrl-R`, `g g`.
+    pub fn parse(names: &str) -> Option<Self> {
+        let mut names = names.split(' ').filter(|name| !name.is_empty());
+        let first = Chord::parse(names.next()?)?;
+        let second = match names.next() {
+            Some(name) => Some(Chord::parse(name)?),
+            None => None,
+        };
+        let rest = names.next();
+        rest.is_none().then_some(Self { first, second })
+    }
+
+    /// The names of the keys, as they are parsed.
+    pub fn spelling(&self) -> String {
+        match self.second {
+            Some(second) => format!("{} {}", self.first.name(), second.name()),
+            None => self.first.name(),
+        }
+    }
+
+    /// The keys as the help shows them: two characters need no blank.
+    pub(super) fn name(&self) -> String {
+        match (self.first, self.second) {
+            (Chord(Char(first), NONE), Some(Chord(Char(second), NONE)))
+                if ![first, second].contains(&' ') =>
+            {
+                format!("{first}{second}")
+            }
+            _ => self.spelling(),
+        }
+    }
+
+    /// Whether both cannot have a meaning in the same place.
+    pub fn collides(self, other: Self) -> bool {
+        self.first == other.first
+            && (self.second.is_none() || other.second.is_none() || self.second == other.second)
+    }
+}
+
 pub(super) const NONE: KeyModifiers = KeyModifiers::NONE;
 pub(super) const SHIFT: KeyModifiers = KeyModifiers::SHIFT;
 pub(super) const ALT: KeyModifiers = KeyModifiers::ALT;

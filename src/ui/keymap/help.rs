@@ -1,9 +1,10 @@
 //! The key bindings as text: the help page and the line of hints.
 
 use super::action::{Action, Context, Mode, Stride, Tool};
-use super::chord::Chord;
+use super::bindings::{Keymap, Row, names};
 use super::line::{Line, line_hints};
-use super::table::{Binding, Scope, TABLE};
+use super::section::DIALOGS;
+use super::table::Scope;
 use crate::render::Aov;
 
 use Action as A;
@@ -24,23 +25,6 @@ pub enum HelpLine {
     },
 }
 
-/// Other contexts with a section of help, by name.
-const DIALOGS: [(&str, Context); 13] = [
-    ("the colour picker", Context::Colour),
-    ("the list of errors", Context::Errors),
-    ("the list of saved views", Context::Views),
-    ("the list of recent scenes", Context::Recent),
-    ("the messages so far", Context::Messages),
-    ("this page", Context::Help),
-    ("merge conflicts", Context::Conflict),
-    ("when asked to confirm quitting", Context::Quit),
-    ("when asked to confirm deleting", Context::Delete),
-    ("when asked to confirm leaving the scene", Context::Leave),
-    ("when asked to quit during an export", Context::Wait),
-    ("when asked to overwrite a picture", Context::Overwrite),
-    ("when unsaved edits were found", Context::Recover),
-];
-
 /// Command line arguments.
 const START: [(&str, &str); 2] = [
     ("--color 24", "use 24-bit colour even if not detected"),
@@ -57,53 +41,136 @@ const MOUSE: [(&str, &str); 11] = [
     ("drag it in VIEW", "orbit"),
     ("drag it with Ctrl or right", "in VIEW, pan"),
     ("drag it in MOVE", "move, rotate or scale"),
-    ("drag the border", "resize the panels"),
+    ("drag a border", "resize the panels"),
     ("wheel", "scroll; in VIEW, dolly"),
 ];
 
 /// An input and its description.
 pub type Entry = (String, &'static str);
 
-/// Returns the help for someone in `mode`, whose keys come first: sections of lines whose keys,
-/// description or heading contain `search`, ignoring case.
-pub fn help(search: &str, mode: Mode, commands: Vec<Entry>) -> Vec<HelpLine> {
-    let search = search.to_lowercase();
-    let mut lines = Vec::new();
-    let mut add = |heading: &'static str, entries: Vec<Entry>| {
-        let all = holds(heading, &search);
-        let found = entries
-            .into_iter()
-            .filter(|(keys, words)| all || holds(keys, &search) || holds(words, &search))
-            .map(|(keys, words)| HelpLine::Entry { keys, words });
-        let start = lines.len();
-        lines.extend(found);
-        if start < lines.len() {
-            lines.insert(start, HelpLine::Heading(heading));
+impl Keymap {
+    /// Returns the help for someone in `mode`, whose keys come first: sections of lines whose keys,
+    /// description or heading contain `search`, ignoring case.
+    pub fn help(&self, search: &str, mode: Mode, commands: Vec<Entry>) -> Vec<HelpLine> {
+        let search = search.to_lowercase();
+        let mut lines = Vec::new();
+        let mut add = |heading: &'static str, entries: Vec<Entry>| {
+            let all = holds(heading, &search);
+            let found = entries
+                .into_iter()
+                .filter(|(keys, words)| all || holds(keys, &search) || holds(words, &search))
+                .map(|(keys, words)| HelpLine::Entry { keys, words });
+            let start = lines.len();
+            lines.extend(found);
+            if start < lines.len() {
+                lines.insert(start, HelpLine::Heading(heading));
+            }
+        };
+        add(mode.name(), self.entries(Context::In(mode)));
+        add("anywhere", self.common_entries());
+        for other in Mode::ALL.into_iter().filter(|other| *other != mode) {
+            add(other.name(), self.entries(Context::In(other)));
         }
-    };
-    let of = |context: Context| entries(|row| !is_common(row) && row.scope.holds(context));
-    add(mode.name(), of(Context::In(mode)));
-    add("anywhere", entries(is_common));
-    for other in Mode::ALL.into_iter().filter(|other| *other != mode) {
-        add(other.name(), of(Context::In(other)));
+        for (heading, context) in DIALOGS {
+            add(heading, self.entries(context));
+        }
+        let owned = |(keys, words): &(&str, &'static str)| ((*keys).to_owned(), *words);
+        for (heading, line) in [
+            ("while a value is typed", Line::Value),
+            ("in a menu, where typing filters", Line::Filter),
+            ("after :", Line::Command),
+            ("while the list is filtered", Line::List),
+            ("after /", Line::Search),
+        ] {
+            add(heading, line_hints(line).iter().map(owned).collect());
+        }
+        add("commands", commands);
+        add("mouse", MOUSE.iter().map(owned).collect());
+        add("command line", START.iter().map(owned).collect());
+        lines
     }
-    for (heading, context) in DIALOGS {
-        add(heading, of(context));
+
+    /// Returns the hints that are never omitted in a context: how to get help, to give a command,
+    /// and to quit.
+    pub fn lasting_hints(&self, context: Context) -> Vec<Entry> {
+        self.described(context, LASTING_HINTS.iter())
     }
-    let owned = |(keys, words): &(&str, &'static str)| ((*keys).to_owned(), *words);
-    for (heading, line) in [
-        ("while a value is typed", Line::Value),
-        ("in a menu, where typing filters", Line::Filter),
-        ("after :", Line::Command),
-        ("while the list is filtered", Line::List),
-        ("after /", Line::Search),
-    ] {
-        add(heading, line_hints(line).iter().map(owned).collect());
+
+    /// Returns the hints for a context, the most useful first. A dialog shows only its own keys.
+    pub fn hints(&self, context: Context) -> Vec<Entry> {
+        let own: &[Hint] = match context {
+            Context::In(Select) => SELECT_HINTS,
+            Context::In(Edit) => EDIT_HINTS,
+            Context::In(View) => VIEW_HINTS,
+            Context::In(Fly) => FLY_HINTS,
+            Context::In(Pick) => PICK_HINTS,
+            Context::In(Move) => MOVE_HINTS,
+            Context::In(Trace) => TRACE_HINTS,
+            Context::Errors => ERROR_HINTS,
+            Context::Colour => COLOUR_HINTS,
+            Context::Opening => &[],
+            Context::Help
+            | Context::Messages
+            | Context::Views
+            | Context::Recent
+            | Context::Conflict
+            | Context::Quit
+            | Context::Leave
+            | Context::Delete
+            | Context::Wait
+            | Context::Overwrite
+            | Context::Recover => {
+                let rows = self.rows.iter();
+                return rows
+                    .filter(|row| row.scope.holds(context) && !row.is_common())
+                    .filter(|row| is_alone(row) || matches!(row.action, A::Move(_)))
+                    .filter_map(|row| Some((row.keys_in(context).first()?.name(), row.words)))
+                    .collect();
+            }
+        };
+        let is_here =
+            |hint: &&Hint| matches!(context, Context::In(mode) if hint.0 == [A::Go(mode)]);
+        let hints = own
+            .iter()
+            .chain(COMMON_HINTS.iter().filter(|hint| !is_here(hint)));
+        self.described(context, hints)
     }
-    add("commands", commands);
-    add("mouse", MOUSE.iter().map(owned).collect());
-    add("command line", START.iter().map(owned).collect());
-    lines
+
+    /// The keys of hints in a context, without those that have none there.
+    fn described(
+        &self,
+        context: Context,
+        hints: impl Iterator<Item = &'static Hint>,
+    ) -> Vec<Entry> {
+        hints
+            .map(|(actions, words)| {
+                let keys: Vec<_> = actions
+                    .iter()
+                    .filter_map(|action| self.key(context, *action))
+                    .collect();
+                (keys.join("/"), *words)
+            })
+            .filter(|(keys, _)| !keys.is_empty())
+            .collect()
+    }
+
+    /// The keys of a context that are not the same everywhere.
+    fn entries(&self, context: Context) -> Vec<Entry> {
+        let differs = |row: &Row| row.own.iter().any(|(of, _)| *of == context);
+        let rows = self.rows.iter();
+        let rows = rows.filter(|row| row.scope.holds(context));
+        let rows = rows.filter(|row| !row.is_common() || differs(row));
+        with_keys(rows.map(|row| (names(row.keys_in(context)), row.words)))
+    }
+
+    fn common_entries(&self) -> Vec<Entry> {
+        let rows = self.rows.iter().filter(|row| row.is_common());
+        with_keys(rows.map(|row| (names(&row.keys), row.words)))
+    }
+}
+
+fn with_keys(entries: impl Iterator<Item = Entry>) -> Vec<Entry> {
+    entries.filter(|(keys, _)| !keys.is_empty()).collect()
 }
 
 /// Distributes sections of help over columns of about the same height, each section in one column
@@ -123,68 +190,6 @@ pub fn in_columns(lines: Vec<HelpLine>, count: usize) -> Vec<Vec<HelpLine>> {
         }
     }
     columns
-}
-
-/// Returns the hints that are never omitted in a context: how to get help, to give a command, and
-/// to quit.
-pub fn lasting_hints(context: Context) -> Vec<(String, &'static str)> {
-    described(context, LASTING_HINTS.iter())
-}
-
-/// Returns the hints for a context, the most useful first. A dialog shows only its own keys.
-pub fn hints(context: Context) -> Vec<(String, &'static str)> {
-    let own: &[Hint] = match context {
-        Context::In(Select) => SELECT_HINTS,
-        Context::In(Edit) => EDIT_HINTS,
-        Context::In(View) => VIEW_HINTS,
-        Context::In(Fly) => FLY_HINTS,
-        Context::In(Pick) => PICK_HINTS,
-        Context::In(Move) => MOVE_HINTS,
-        Context::In(Trace) => TRACE_HINTS,
-        Context::Errors => ERROR_HINTS,
-        Context::Colour => COLOUR_HINTS,
-        Context::Opening => &[],
-        Context::Help
-        | Context::Messages
-        | Context::Views
-        | Context::Recent
-        | Context::Conflict
-        | Context::Quit
-        | Context::Leave
-        | Context::Delete
-        | Context::Wait
-        | Context::Overwrite
-        | Context::Recover => {
-            return TABLE
-                .iter()
-                .filter(|row| row.scope.holds(context) && !is_common(row))
-                .filter(|row| is_alone(row) || matches!(row.action, A::Move(_)))
-                .map(|row| (first_key(row), row.words))
-                .collect();
-        }
-    };
-    let is_here = |hint: &&Hint| matches!(context, Context::In(mode) if hint.0 == [A::Go(mode)]);
-    let hints = own
-        .iter()
-        .chain(COMMON_HINTS.iter().filter(|hint| !is_here(hint)));
-    described(context, hints)
-}
-
-/// The keys of hints in a context, without those that have none there.
-fn described(
-    context: Context,
-    hints: impl Iterator<Item = &'static Hint>,
-) -> Vec<(String, &'static str)> {
-    hints
-        .map(|(actions, words)| {
-            let keys: Vec<_> = actions
-                .iter()
-                .filter_map(|action| binding(context, *action).map(first_key))
-                .collect();
-            (keys.join("/"), *words)
-        })
-        .filter(|(keys, _)| !keys.is_empty())
-        .collect()
 }
 
 /// Actions whose keys are shown together, and their description in a word or two.
@@ -313,29 +318,9 @@ fn holds(text: &str, lower_case: &str) -> bool {
     text.to_lowercase().contains(lower_case)
 }
 
-/// Whether a binding is active in all modes.
-fn is_common(row: &Binding) -> bool {
-    !matches!(row.scope, Scope::These(_))
-}
-
 /// Whether a binding is active in only one context.
-fn is_alone(row: &Binding) -> bool {
+fn is_alone(row: &Row) -> bool {
     matches!(row.scope, Scope::These([_]))
-}
-
-fn binding(context: Context, action: Action) -> Option<&'static Binding> {
-    TABLE
-        .iter()
-        .find(|row| row.action == action && row.scope.holds(context))
-}
-
-fn entries(shown: impl Fn(&Binding) -> bool) -> Vec<Entry> {
-    let rows = TABLE.iter().filter(|row| shown(row));
-    rows.map(|row| (row.keys(), row.words)).collect()
-}
-
-fn first_key(row: &Binding) -> String {
-    row.chords.first().map_or_else(String::new, Chord::name)
 }
 
 #[cfg(test)]
@@ -343,7 +328,8 @@ mod tests {
     use super::*;
 
     fn lines(search: &str, mode: Mode) -> Vec<HelpLine> {
-        help(search, mode, vec![(":export [WxH]".to_owned(), "write")])
+        let keymap = Keymap::default();
+        keymap.help(search, mode, vec![(":export [WxH]".to_owned(), "write")])
     }
 
     fn headings(lines: &[HelpLine]) -> Vec<&'static str> {
@@ -367,8 +353,9 @@ mod tests {
         assert_eq!(headings(&lines)[..3], ["VIEW", "anywhere", "SELECT"]);
         assert_eq!(headings(&lines).len(), 29);
         assert!(lines.contains(&entry("gg", "first")));
-        for row in TABLE {
-            assert!(lines.contains(&entry(&row.keys(), row.words)), "{row:?}");
+        for row in Keymap::default().rows {
+            let entry = entry(&names(&row.keys), row.words);
+            assert!(lines.contains(&entry), "{row:?}");
         }
     }
 
@@ -405,17 +392,19 @@ mod tests {
     fn every_hint_has_a_key() {
         let modes = Mode::ALL.map(Context::In).into_iter();
         for context in modes.chain(DIALOGS.map(|(_, context)| context)) {
-            for (keys, words) in hints(context) {
+            for (keys, words) in Keymap::default().hints(context) {
                 let whole = keys.split('/').all(|key| !key.is_empty());
                 assert!(keys == "/" || whole, "{context:?} {words}");
             }
         }
-        assert_eq!(hints(Context::In(View))[0], ("h/j/k/l".to_owned(), "orbit"));
+        let hints = Keymap::default().hints(Context::In(View));
+        assert_eq!(hints[0], ("h/j/k/l".to_owned(), "orbit"));
     }
 
     #[test]
     fn a_question_shows_only_its_answers() {
-        let keys: Vec<_> = hints(Context::Quit)
+        let keys: Vec<_> = Keymap::default()
+            .hints(Context::Quit)
             .into_iter()
             .map(|hint| hint.0)
             .collect();

@@ -1,17 +1,27 @@
-//! The key bindings: one table gives both the action of a key and the help page.
+//! The key bindings: one table, as changed by the user, gives the actions of keys, the help page,
+//! the hints and the palette.
 
 mod action;
+mod bindings;
 mod chord;
 mod help;
 mod line;
+mod listed;
 mod named;
+mod names;
+mod rules;
+mod section;
 mod table;
 
 pub use action::{Action, Context, Fold, Mode, Stride, Tool};
-pub use help::{Entry, HelpLine, help, hints, in_columns, lasting_hints};
+pub use bindings::{Keymap, Meaning, name};
+pub use chord::Keys;
+pub use help::{Entry, HelpLine, in_columns};
 pub use line::{Line, line_hints};
-pub use named::{NamedAction, actions};
-pub use table::{action, elsewhere, name};
+pub use listed::{Bound, NamedHere};
+pub use named::NamedAction;
+pub use rules::{begins_value, refusal};
+pub use section::Section;
 
 use crossterm::event::KeyEvent;
 

@@ -1,7 +1,7 @@
 //! The actions of keys by their descriptions, for the palette.
 
 use super::action::{Action, Context, Mode};
-use super::table::TABLE;
+use super::bindings::{Keymap, names};
 
 /// An action of a key, by its description.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -10,30 +10,42 @@ pub struct NamedAction {
     pub action: Action,
     /// The mode that has the key.
     pub context: Context,
-    /// Its keys: `j ↓`.
+    /// Its keys: `j ↓`; empty if it has none.
     pub keys: String,
     /// Its description.
     pub words: &'static str,
 }
 
-/// Returns the actions of the keys of all modes, those of `mode` first.
-pub fn actions(mode: Mode) -> Vec<NamedAction> {
-    let others = Mode::ALL.into_iter().filter(|other| *other != mode);
-    let mut found: Vec<NamedAction> = Vec::new();
-    for context in [mode].into_iter().chain(others).map(Context::In) {
-        let rows = TABLE.iter().filter(|row| row.scope.holds(context));
-        for row in rows.filter(|row| !matches!(row.action, Action::G | Action::Command)) {
-            let is_known =
-                |named: &NamedAction| named.action == row.action && named.words == row.words;
-            if !found.iter().any(is_known) {
-                found.push(NamedAction {
-                    action: row.action,
-                    context,
-                    keys: row.keys(),
-                    words: row.words,
-                });
+impl Keymap {
+    /// Returns the actions of all modes, those of `mode` first.
+    pub fn actions(&self, mode: Mode) -> Vec<NamedAction> {
+        let others = Mode::ALL.into_iter().filter(|other| *other != mode);
+        let mut found: Vec<NamedAction> = Vec::new();
+        for context in [mode].into_iter().chain(others).map(Context::In) {
+            let rows = self.rows.iter().filter(|row| row.scope.holds(context));
+            for row in rows.filter(|row| row.action != Action::Command) {
+                let known = found
+                    .iter_mut()
+                    .find(|named| named.action == row.action && named.words == row.words);
+                let keys = names(row.keys_in(context));
+                match known {
+                    None => found.push(NamedAction {
+                        action: row.action,
+                        context,
+                        keys,
+                        words: row.words,
+                    }),
+                    // Another row of the same mode: `gg`, `Home`.
+                    Some(named) if named.context == context && !keys.is_empty() => {
+                        if !named.keys.is_empty() {
+                            named.keys.push(' ');
+                        }
+                        named.keys.push_str(&keys);
+                    }
+                    Some(_) => {}
+                }
             }
         }
+        found
     }
-    found
 }

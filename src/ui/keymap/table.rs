@@ -1,9 +1,9 @@
-//! The table of key bindings.
+//! The table of key bindings, unless the user changes them.
 
-use crossterm::event::{KeyCode, KeyEvent};
+use crossterm::event::KeyCode;
 
 use super::action::{Action, Context, Fold, Mode, Stride, Tool};
-use super::chord::{ALT, Chord, SHIFT, alt, c, ctrl, key};
+use super::chord::{ALT, Chord, Keys, SHIFT, alt, c, ctrl, key};
 use crate::language::Neighbour;
 use crate::render::Aov;
 
@@ -17,13 +17,24 @@ use Stride::{Coarse, Fine, Plain};
 pub(super) struct Binding {
     pub(super) scope: Scope,
     pub(super) chords: &'static [Chord],
+    /// Whether the keys are pressed one after the other instead.
+    pub(super) pressed: Pressed,
     pub(super) action: Action,
     /// Description of the action.
     pub(super) words: &'static str,
 }
 
+/// How the keys of a row are pressed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Pressed {
+    /// Any one of them.
+    Each,
+    /// These two, one after the other.
+    InTurn,
+}
+
 /// The contexts of a binding.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scope {
     /// Active only in these contexts.
     These(&'static [Context]),
@@ -61,8 +72,21 @@ const fn bind(
     Binding {
         scope,
         chords,
+        pressed: Pressed::Each,
         action,
         words,
+    }
+}
+
+const fn in_turn(
+    scope: Scope,
+    chords: &'static [Chord; 2],
+    action: Action,
+    words: &'static str,
+) -> Binding {
+    Binding {
+        pressed: Pressed::InTurn,
+        ..bind(scope, chords, action, words)
     }
 }
 
@@ -174,7 +198,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(SELECT, &[key(Right)], A::Fold(Fold::Unselected), "unfold the group, or go into it"),
     bind(SELECT, &[Chord(Left, SHIFT)], A::Fold(Fold::All), "fold all groups"),
     bind(SELECT, &[Chord(Right, SHIFT)], A::Fold(Fold::None), "unfold all groups"),
-    bind(LONG_LISTS, &[c('g')], A::G, "first"),
+    in_turn(LONG_LISTS, &[c('g'), c('g')], A::First, "first"),
     bind(LONG_LISTS, &[c('G'), key(End)], A::Last, "last"),
     bind(LONG_LISTS, &[key(Home)], A::First, "first"),
     bind(LONG_LISTS, &[key(PageDown)], A::Page(1), "page down"),
@@ -298,6 +322,8 @@ pub(super) const TABLE: &[Binding] = &[
     bind(Scope::Everywhere, &[c('z')], A::Zoom, "show or hide the panels"),
     bind(Scope::Everywhere, &[c('{')], A::Resize(2), "larger panels"),
     bind(Scope::Everywhere, &[c('}')], A::Resize(-2), "smaller panels"),
+    bind(Scope::Everywhere, &[alt('{')], A::Divide(-1), "smaller list, larger fields"),
+    bind(Scope::Everywhere, &[alt('}')], A::Divide(1), "larger list, smaller fields"),
     bind(Scope::Everywhere, &[c('P')], A::Integrator, "toggle path tracing"),
     bind(Scope::Always, &[ctrl('l')], A::Repaint, "redraw the screen"),
     bind(Scope::Always, &[ctrl('z')], A::Suspend, "suspend"),
@@ -308,63 +334,13 @@ pub(super) const TABLE: &[Binding] = &[
     bind(VIEWS, &[key(Enter)], A::Go(Select), "back to the list"),
 ];
 
-/// The action of a key in a context.
-pub fn action(context: Context, event: KeyEvent) -> Option<Action> {
-    let pressed = Chord::of(event);
-    let mut rows = TABLE.iter();
-    let row = rows.find(|row| row.scope.holds(context) && row.chords.contains(&pressed));
-    row.map(|row| row.action)
-}
-
-/// The binding of a key in modes other than that of `context`: the first mode that has it, the key
-/// of `context` that leads there, and the description of the key.
-pub fn elsewhere(
-    context: Context,
-    event: KeyEvent,
-) -> Option<(Mode, Option<String>, &'static str)> {
-    let pressed = Chord::of(event);
-    let mut others = TABLE.iter().filter(|row| row.chords.contains(&pressed));
-    let (mode, words) = others.find_map(|row| Some((row.mode()?, row.words)))?;
-    let way = TABLE
-        .iter()
-        .find(|row| row.action == A::Go(mode) && row.scope.holds(context));
-    let way = way.and_then(|row| Some(row.chords.first()?.name()));
-    Some((mode, way, words))
-}
-
-/// The name of a key, as in the help; `None` for keys that cannot be bound.
-pub fn name(event: KeyEvent) -> Option<String> {
-    let is_key = !matches!(
-        event.code,
-        KeyCode::Null
-            | KeyCode::Modifier(_)
-            | KeyCode::Media(_)
-            | KeyCode::CapsLock
-            | KeyCode::NumLock
-            | KeyCode::ScrollLock
-    );
-    is_key.then(|| Chord::of(event).name())
-}
-
 impl Binding {
-    /// The keys as the help shows them: `j ↓`.
-    pub(super) fn keys(&self) -> String {
-        if self.action == A::G {
-            return "gg".to_owned();
+    /// The keys of the row.
+    pub(super) fn keys(&self) -> Vec<Keys> {
+        match (self.pressed, self.chords) {
+            (Pressed::InTurn, &[first, second]) => vec![Keys::in_turn(first, second)],
+            (_, chords) => chords.iter().copied().map(Keys::one).collect(),
         }
-        let names: Vec<_> = self.chords.iter().map(Chord::name).collect();
-        names.join(" ")
-    }
-
-    /// The first mode in which the binding is active, unless it is active in all of them.
-    fn mode(&self) -> Option<Mode> {
-        let Scope::These(contexts) = self.scope else {
-            return None;
-        };
-        contexts.iter().find_map(|context| match context {
-            Context::In(mode) => Some(*mode),
-            _ => None,
-        })
     }
 }
 
@@ -375,7 +351,6 @@ mod tests {
         Conflict, Errors, Help, Leave, Messages, Opening, Overwrite, Quit, Recent, Recover, Views,
         Wait,
     };
-    use KeyCode::Char;
 
     #[test]
     fn no_key_has_two_meanings_in_one_context() {
@@ -398,9 +373,10 @@ mod tests {
         ];
         for context in modes.into_iter().chain(others) {
             let rows = TABLE.iter().filter(|row| row.scope.holds(context));
-            let mut bound: Vec<_> = rows.flat_map(|row| row.chords).collect();
-            while let Some(chord) = bound.pop() {
-                assert!(!bound.contains(&chord), "{context:?} {chord:?}");
+            let mut bound: Vec<_> = rows.flat_map(Binding::keys).collect();
+            while let Some(keys) = bound.pop() {
+                let is_free = bound.iter().all(|other| !other.collides(keys));
+                assert!(is_free, "{context:?} {keys:?}");
             }
         }
     }
@@ -416,13 +392,5 @@ mod tests {
     #[test]
     fn every_binding_is_explained() {
         assert!(TABLE.iter().all(|row| !row.words.is_empty()));
-    }
-
-    #[test]
-    fn shift_is_part_of_a_character() {
-        let event = KeyEvent::new(Char('G'), SHIFT);
-        assert_eq!(action(Context::In(Select), event), Some(A::Last));
-        let event = KeyEvent::new(BackTab, SHIFT);
-        assert_eq!(action(Context::In(Select), event), Some(A::Cycle(-1)));
     }
 }

@@ -97,10 +97,11 @@ impl Session {
     }
 
     fn dump(&mut self, path: &std::path::Path, format: snapshot::Format) -> Result<(), Error> {
+        let theme = self.app.theme;
         let Some(cells) = self.runtime.screen().cells() else {
             return Ok(());
         };
-        let written = snapshot::write(cells, path, format);
+        let written = snapshot::write(cells, path, format, theme);
         written.map_err(|source| Error::Frame {
             path: path.to_owned(),
             source,

@@ -10,6 +10,7 @@ use ratatui::buffer::Buffer;
 use unicode_width::UnicodeWidthStr;
 
 use super::terminal;
+use super::theme::Theme;
 use crate::file;
 use crate::image_file;
 
@@ -37,13 +38,13 @@ impl Format {
 }
 
 /// Writes a screen. Replaces an existing file.
-pub(super) fn write(cells: &Buffer, path: &Path, format: Format) -> io::Result<()> {
+pub(super) fn write(cells: &Buffer, path: &Path, format: Format, theme: Theme) -> io::Result<()> {
     let confirm = || Ok::<(), io::Error>(());
     let bytes = match format {
         Format::Text => text(cells).into_bytes(),
         Format::Ansi => terminal::printed(cells),
         Format::Picture => {
-            return image_file::save(&picture::drawn(cells), path, confirm).map(drop);
+            return image_file::save(&picture::drawn(cells, theme), path, confirm).map(drop);
         }
     };
     file::deliver(path, |out| out.write_all(&bytes), confirm).map(drop)

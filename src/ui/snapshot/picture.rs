@@ -7,22 +7,28 @@ use super::font::{self, HEIGHT, WIDTH};
 use crate::render::Frame;
 use crate::scene::Size;
 use crate::ui::terminal::colour_on_screen;
+use crate::ui::theme::Theme;
 
 /// The side of a dot of the font, in pixels.
 const DOT: usize = 2;
 
-/// The colours of a terminal that sets none.
-const INK: [u8; 3] = [204, 204, 204];
-const PAPER: [u8; 3] = [16, 16, 20];
+/// The ink and the paper of a dark terminal where no colours are set.
+const DARK: [[u8; 3]; 2] = [[204, 204, 204], [16, 16, 20]];
+/// The same of a light one.
+const LIGHT: [[u8; 3]; 2] = [[36, 36, 40], [255, 255, 255]];
 
-/// Draws a screen.
-pub(super) fn drawn(cells: &Buffer) -> Frame {
+/// Draws a screen on a terminal for a theme.
+pub(super) fn drawn(cells: &Buffer, theme: Theme) -> Frame {
+    let plain = match theme {
+        Theme::Dark | Theme::Mono => DARK,
+        Theme::Light => LIGHT,
+    };
     let (columns, rows) = (cells.area.width as usize, cells.area.height as usize);
     let (width, height) = (columns * WIDTH * DOT, rows * HEIGHT * DOT);
-    let mut pixels = vec![PAPER; width * height];
+    let mut pixels = vec![plain[1]; width * height];
     for row in 0..rows {
         for column in 0..columns {
-            let tile = tile(&cells[(column as u16, row as u16)]);
+            let tile = tile(&cells[(column as u16, row as u16)], plain);
             for y in 0..HEIGHT * DOT {
                 let from = ((row * HEIGHT * DOT) + y) * width + column * WIDTH * DOT;
                 for x in 0..WIDTH * DOT {
@@ -39,9 +45,9 @@ pub(super) fn drawn(cells: &Buffer) -> Frame {
 }
 
 /// The dots of a cell.
-fn tile(cell: &Cell) -> [[[u8; 3]; WIDTH]; HEIGHT] {
-    let mut ink = colour_on_screen(cell.fg).unwrap_or(INK);
-    let mut paper = colour_on_screen(cell.bg).unwrap_or(PAPER);
+fn tile(cell: &Cell, [ink, paper]: [[u8; 3]; 2]) -> [[[u8; 3]; WIDTH]; HEIGHT] {
+    let mut ink = colour_on_screen(cell.fg).unwrap_or(ink);
+    let mut paper = colour_on_screen(cell.bg).unwrap_or(paper);
     if cell.modifier.contains(Modifier::REVERSED) {
         std::mem::swap(&mut ink, &mut paper);
     }
@@ -76,7 +82,7 @@ mod tests {
         let mut cells = Buffer::empty(Rect::new(0, 0, 2, 1));
         let colours = Style::new().fg(Color::Rgb(1, 2, 3)).bg(Color::Rgb(4, 5, 6));
         cells.set_string(1, 0, "▀", colours);
-        let frame = drawn(&cells);
+        let frame = drawn(&cells, Theme::Dark);
         assert_eq!((frame.size.width, frame.size.height), (24, 24));
         for x in WIDTH..2 * WIDTH {
             for y in 0..HEIGHT {
@@ -84,15 +90,16 @@ mod tests {
                 assert_eq!(dot(&frame, x, y), expected, "{x} {y}");
             }
         }
-        assert_eq!(dot(&frame, 0, 0), PAPER);
+        assert_eq!(dot(&frame, 0, 0), DARK[1]);
+        assert_eq!(dot(&drawn(&cells, Theme::Light), 0, 0), LIGHT[1]);
     }
 
     #[test]
     fn reverse_video_exchanges_the_colours() {
         let mut cells = Buffer::empty(Rect::new(0, 0, 1, 1));
         cells.set_string(0, 0, "l", Style::new().add_modifier(Modifier::REVERSED));
-        let frame = drawn(&cells);
-        assert_eq!(dot(&frame, 0, 0), INK);
-        assert!(frame.pixels.contains(&PAPER));
+        let frame = drawn(&cells, Theme::Dark);
+        assert_eq!(dot(&frame, 0, 0), DARK[0]);
+        assert!(frame.pixels.contains(&DARK[1]));
     }
 }

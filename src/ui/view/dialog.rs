@@ -11,7 +11,6 @@ use crate::document::Merge;
 use crate::text::{Position, counted};
 use crate::ui::app::{App, Dialog, Next, OnDisk, Outside};
 use crate::ui::fit::wrap;
-use crate::ui::keymap;
 use crate::ui::layout;
 use crate::ui::recovery::{Offer, Since};
 use crate::ui::theme;
@@ -184,7 +183,7 @@ fn answers(app: &App, width: u16) -> Vec<Answers> {
     let mut lines: Vec<Answers> = Vec::new();
     let mut left = 0;
     let context = app.context();
-    for (key, words) in keymap::hints(context) {
+    for (key, words) in app.keymap.hints(context) {
         let room = key.width() + words.width() + 3;
         if lines.is_empty() || left < room {
             left = usize::from(width);

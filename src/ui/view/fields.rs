@@ -115,7 +115,7 @@ fn field_line(app: &App, field: &FieldRow, cursor: Option<usize>, line: Rect, bu
     row.skip_to(name.right().saturating_sub(2));
     match dot(app, field) {
         _ if field.is_all(Provenance::WorkingView) => row.put("*", theme::WARNING),
-        Some(colour) => row.put("●", theme::swatch(colour)),
+        Some(colour) => row.put("●", app.theme.swatch(colour)),
         None => row.put(" ", Style::new()),
     };
     let literals = field.literals.iter().zip(&field.sources);

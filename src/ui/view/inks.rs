@@ -4,6 +4,7 @@ use ratatui::style::Color;
 
 use super::palette::Palette;
 use crate::ui::terminal::ColourDepth;
+use crate::ui::theme::Theme;
 
 /// The cells that pixels are drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,11 +63,31 @@ impl Inks {
         Self { glyphs, palette }
     }
 
+    /// The theme to use when this one is wanted: without colours, attributes take their place.
+    pub(super) fn theme(&self, wanted: Theme) -> Theme {
+        match self.glyphs {
+            Glyphs::Characters => Theme::Mono,
+            _ => wanted,
+        }
+    }
+
     /// The terminal colour of a pixel at a position.
     pub(super) fn colour(&mut self, colour: [u8; 3], x: u32, y: u32) -> Color {
         match &mut self.palette {
             Some(palette) => Color::Indexed(palette.at(colour, x, y)),
             None => Color::Rgb(colour[0], colour[1], colour[2]),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn attributes_take_the_place_of_colours_that_cannot_be_shown() {
+        let theme = |depth| Inks::for_depth(depth).theme(Theme::Light);
+        assert_eq!(theme(ColourDepth::Mono), Theme::Mono);
+        assert_eq!(theme(ColourDepth::Palette16), Theme::Light);
     }
 }

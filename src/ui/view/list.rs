@@ -84,8 +84,8 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         let swatch = swatch(app, node);
         match swatch {
             // Not reversed with the selected line, so that the dot shows its own colour.
-            Some(colour) if is_drawn => row.put("● ", theme::swatch(colour)),
-            Some(colour) => row.put("○ ", theme::swatch(colour)),
+            Some(colour) if is_drawn => row.put("● ", app.theme.swatch(colour)),
+            Some(colour) => row.put("○ ", app.theme.swatch(colour)),
             None if let Some(sign) = fold => row.put(sign, style),
             None if !is_drawn => row.put("○ ", style),
             None => row.put("  ", style),

@@ -86,7 +86,7 @@ fn draw_entry(
     let mut row = Row::new(buffer, line, 0);
     row.put(sign, style);
     if let Some(colour) = entry.node.and_then(|node| swatch(app, node)) {
-        row.put("●", theme::swatch(colour));
+        row.put("●", app.theme.swatch(colour));
     }
     row.skip_to(line.x + 2 + columns.dots);
     let words = line.x + 2 + columns.dots + columns.names as u16 + 2;

@@ -44,6 +44,7 @@ pub use inks::Inks;
 pub fn draw(app: &App, inks: &mut Inks, frame: &mut Frame) {
     let area = frame.area();
     render(app, inks, area, frame.buffer_mut());
+    inks.theme(app.theme).apply(frame.buffer_mut());
 }
 
 fn render(app: &App, inks: &mut Inks, area: Rect, buffer: &mut Buffer) {

@@ -8,7 +8,6 @@ use ratatui::widgets::{Block, BorderType, Clear, Widget};
 use super::row::Row;
 use crate::text::counted;
 use crate::ui::app::{App, List, PageFocus};
-use crate::ui::keymap;
 use crate::ui::layout;
 use crate::ui::theme;
 
@@ -57,7 +56,7 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
         );
         row.put(&words, theme::DIM).skip(2);
     }
-    for (key, words) in keymap::hints(app.context()) {
+    for (key, words) in app.keymap.hints(app.context()) {
         row.put(&key, theme::ACCENT).put(" ", Style::new());
         row.put(words, theme::DIM).skip(2);
     }

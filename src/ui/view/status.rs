@@ -32,8 +32,8 @@ pub(crate) fn render_hint(app: &App, area: Rect, buffer: &mut Buffer) {
             )
         }
         None => (
-            keymap::hints(app.context()),
-            keymap::lasting_hints(app.context()),
+            app.keymap.hints(app.context()),
+            app.keymap.lasting_hints(app.context()),
         ),
     };
     let mut row = Row::new(buffer, area, 0);

@@ -19,7 +19,7 @@ use crate::scene::Size;
 use crate::text::{Edit, Severity, Span};
 use crate::ui::app::{
     App, Dialog, Export, Help, List, Message, Names, Next, OnDisk, Opening, OpeningText, Outside,
-    Page, PageFocus, Prompt, PromptKind, Quality, Stage, Typing, Wires,
+    Page, PageFocus, Preferences, Prompt, PromptKind, Quality, Stage, Typing, Wires,
 };
 use crate::ui::arrange::Zoom;
 use crate::ui::keymap::Mode;
@@ -58,6 +58,7 @@ pub(super) fn app_of(language: Language, text: &str) -> App {
             filter: Filter::Box,
         },
         mouse: Mouse::Off,
+        preferences: Preferences::default(),
         recent: Vec::new(),
         terminal: (80, 24),
     });

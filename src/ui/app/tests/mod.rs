@@ -18,6 +18,7 @@ mod opening;
 mod palette;
 mod panels;
 pub(in crate::ui) mod pictures;
+mod rebinding;
 mod recovering;
 mod saving;
 mod sequences;
@@ -91,6 +92,7 @@ fn opening_as(name: &str, text: String) -> Opening {
             filter: Filter::Box,
         },
         mouse: Mouse::On,
+        preferences: Preferences::default(),
         recent: Vec::new(),
         terminal: (120, 40),
     }

@@ -71,7 +71,7 @@ fn every_action_of_a_key_runs_by_its_description() {
     assert!(app.mode == Mode::View && app.pictures.view.is_some());
     press(&mut app, ":render<Enter>");
     assert_eq!(app.mode, Mode::Trace);
-    for named in keymap::actions(Mode::Select) {
+    for named in open(SCENE).keymap.actions(Mode::Select) {
         let mut app = open(SCENE);
         press(&mut app, &format!(":{}", named.words));
         let mut found = app.completions().into_iter().chain(app.command_typed());
@@ -79,6 +79,19 @@ fn every_action_of_a_key_runs_by_its_description() {
             |found: Completion| found.shown == named.words || found.keys.ends_with(&named.keys);
         assert!(found.any(is_offered), "{named:?}");
     }
+}
+
+#[test]
+fn themes_are_completed_and_chosen() {
+    use crate::ui::theme::Theme;
+    let mut app = open(SCENE);
+    press(&mut app, ":theme ");
+    assert_eq!(
+        offered(&app)[..3],
+        [":theme dark", ":theme light", ":theme mono"]
+    );
+    press(&mut app, "light<Enter>");
+    assert_eq!(app.theme, Theme::Light);
 }
 
 #[test]

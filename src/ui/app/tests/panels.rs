@@ -40,6 +40,29 @@ fn keys_and_mouse_resize_the_panels() {
 }
 
 #[test]
+fn keys_and_mouse_divide_list_and_fields_and_the_sizes_are_kept() {
+    let mut app = open(SCENE);
+    let before = app.areas();
+    let kept =
+        |effects: &[Effect]| wants(effects, |effect| matches!(effect, Effect::KeepPanels(_)));
+    assert!(kept(&press(&mut app, "<Alt-}>")));
+    assert_eq!(app.areas().list.height, before.list.height + 1);
+    press(&mut app, "<Alt-{><Alt-{>");
+    assert_eq!(app.areas().list.height, before.list.height - 1);
+    let divider = app.areas().divider();
+    let left = MouseButton::Left;
+    mouse(
+        &mut app,
+        MouseEventKind::Down(left),
+        (divider.x + 2, divider.y),
+    );
+    mouse(&mut app, MouseEventKind::Drag(left), (divider.x + 2, 15));
+    mouse(&mut app, MouseEventKind::Up(left), (divider.x + 2, 15));
+    assert_eq!(app.areas().fields.y, 15);
+    assert!(!kept(&press(&mut app, "j")));
+}
+
+#[test]
 fn a_click_selects_the_node_on_its_line_and_headings_take_none() {
     let mut app = open(SCENE);
     let list = app.areas().list;

@@ -1,0 +1,108 @@
+//! Reads a configuration.
+
+use toml::de::{DeTable, DeValue};
+
+use super::keys;
+use super::settings::{Kind, SETTINGS, Setting, folder};
+use super::value::{Name, Value, advised, in_order, kind_of, span_of};
+use crate::text::{Diagnostic, Span, alternatives};
+use crate::ui::Options;
+
+/// The table of keys.
+const KEYS: &str = "keys";
+
+/// Reads a configuration; what it does not set is left to its default. Fails with all errors, in
+/// the order of the text.
+pub fn read(text: &str) -> Result<Options, Vec<Diagnostic>> {
+    let (root, faults) = DeTable::parse_recoverable(text);
+    let faults = faults.iter().map(|fault| {
+        let span = fault.span().unwrap_or_default();
+        let expected = "a setting such as spp = 16, or a table such as [keys.select]";
+        Diagnostic::error(Span::new(span.start, span.end), fault.message(), expected)
+    });
+    let mut errors: Vec<_> = faults.collect();
+    let mut options = Options::default();
+    // What could not be read would only cause more errors.
+    if errors.is_empty() {
+        for (name, value) in in_order(root.get_ref()) {
+            if name.get_ref() == KEYS {
+                keys::read(value, &mut options.keymap, &mut errors);
+            } else if let Err(error) = set(name, value, &mut options) {
+                errors.push(error);
+            }
+        }
+    }
+    if errors.is_empty() {
+        return Ok(options);
+    }
+    errors.sort_by_key(|error| error.span);
+    Err(errors)
+}
+
+fn set(name: &Name<'_>, value: &Value<'_>, options: &mut Options) -> Result<(), Diagnostic> {
+    let named = SETTINGS
+        .iter()
+        .find(|setting| setting.name == name.get_ref());
+    let Some(setting) = named else {
+        let names = || SETTINGS.iter().map(|setting| setting.name).chain([KEYS]);
+        let message = format!("unknown setting `{}`", name.get_ref());
+        let error = Diagnostic::error(span_of(name), message, alternatives(names()));
+        return Err(advised(error, name.get_ref(), names()));
+    };
+    let wrong = |is: &str| {
+        let message = format!("`{}`: {is}", setting.name);
+        Diagnostic::error(span_of(value), message, setting.expected())
+    };
+    match (&setting.kind, value.get_ref()) {
+        (Kind::Integer { range, set, .. }, DeValue::Integer(number)) => {
+            let parsed = i64::from_str_radix(number.as_str(), number.radix()).ok();
+            let number = parsed.filter(|number| range.contains(number));
+            set(options, number.ok_or_else(|| wrong("out of range"))?);
+        }
+        (Kind::Word { words, set, .. }, DeValue::String(word)) => {
+            if !words().contains(&&**word) {
+                let error = wrong(&format!("unknown word `{word}`"));
+                return Err(advised(error, word, words()));
+            }
+            set(options, word);
+        }
+        (Kind::Switch { set, .. }, DeValue::Boolean(is_on)) => set(options, *is_on),
+        (Kind::Text { .. }, DeValue::String(text)) if text.trim().is_empty() => {
+            return Err(wrong("the string is empty"));
+        }
+        (Kind::Text { set, .. }, DeValue::String(text)) => set(options, text),
+        (Kind::Folders { set, .. }, DeValue::Array(list)) => {
+            let folders = list.iter().map(|entry| match entry.get_ref() {
+                DeValue::String(text) => folder(text).ok_or((entry, "a relative path")),
+                other => Err((entry, kind_of(other))),
+            });
+            let folders: Result<Vec<_>, _> = folders.collect();
+            set(
+                options,
+                folders.map_err(|(entry, is)| Diagnostic {
+                    span: span_of(entry),
+                    ..wrong(&format!("this is {is}"))
+                })?,
+            );
+        }
+        (_, other) => return Err(wrong(&format!("this is {}", kind_of(other)))),
+    }
+    Ok(())
+}
+
+impl Setting {
+    /// The values that it may have.
+    fn expected(&self) -> String {
+        match &self.kind {
+            Kind::Integer { range, .. } => {
+                format!("an integer from {} to {}", range.start(), range.end())
+            }
+            Kind::Word { words, .. } => {
+                alternatives(words().iter().map(|word| format!("\"{word}\"")))
+            }
+            Kind::Switch { .. } => "true or false".to_owned(),
+            Kind::Text { .. } => "a string".to_owned(),
+            Kind::Folders { .. } => "an array of absolute paths".to_owned(),
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! Keys that the user has bound.
+
+use super::*;
+use crate::ui::keymap::{Action, HelpLine, Keys, Section};
+
+/// The interface with other keys in sections: `x` for undoing, none for what `u` did.
+fn rebound() -> App {
+    let mut app = open(SCENE);
+    let undo = app.keymap.actions_in(Section::Anywhere);
+    let undo = undo.iter().find(|known| known.name == "undo");
+    let undo = undo.map(|known| known.action);
+    for (keys, action) in [("u", None), ("Ctrl-X u", undo)] {
+        let keys = Keys::parse(keys).expect("keys");
+        app.keymap.bind(Section::Anywhere, keys, action);
+    }
+    app
+}
+
+#[test]
+fn a_bound_key_acts_and_the_one_it_replaces_does_not() {
+    let mut app = rebound();
+    press(&mut app, "jjjjd");
+    let deleted = app.document.text().to_owned();
+    press(&mut app, "u");
+    assert_eq!(app.document.text(), deleted);
+    assert_eq!(words(&app), "`u` is free in SELECT; ? lists keys");
+    press(&mut app, "<Ctrl-x>u");
+    assert_eq!(app.document.text(), SCENE);
+}
+
+#[test]
+fn messages_name_the_bound_keys() {
+    let mut app = open(SCENE);
+    let select = Section::In(app.context());
+    for (keys, action) in [("x", None), ("F5", None), ("r", None), ("T", Some("trace"))] {
+        let named = app.keymap.actions_in(select).into_iter();
+        let mut action = named
+            .filter(|known| Some(known.name) == action)
+            .map(|known| known.action);
+        app.keymap
+            .bind(select, Keys::parse(keys).expect("keys"), action.next());
+    }
+    assert_eq!(app.key_for(Action::Go(Mode::Trace)), "T");
+    assert_eq!(app.key_for(Action::Redo), "Ctrl-R");
+    assert_eq!(app.key_for(Action::Stop), ":cancel the export");
+}
+
+#[test]
+fn help_hints_and_palette_show_the_bound_keys() {
+    let mut app = rebound();
+    let undo = HelpLine::Entry {
+        keys: "Ctrl-X u".to_owned(),
+        words: "undo",
+    };
+    assert!(app.help_lines().contains(&undo));
+    let hints = app.keymap.hints(app.context());
+    assert!(hints.contains(&("Ctrl-X u".to_owned(), "undo")));
+    press(&mut app, ":undo");
+    let found = app.completions().into_iter();
+    let keys = found
+        .filter(|found| found.shown == "undo")
+        .map(|found| found.keys);
+    assert_eq!(keys.collect::<Vec<_>>(), ["Ctrl-X u"]);
+}

@@ -1,0 +1,129 @@
+//! The keys of each section, with the names and descriptions of their actions.
+
+use super::action::Action;
+use super::bindings::{Keymap, Row};
+use super::chord::Keys;
+use super::names::of_action;
+use super::section::Section;
+use super::table::TABLE;
+
+/// Keys, and what they do in a section.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bound {
+    /// The keys.
+    pub keys: Keys,
+    /// Their action; `None` if the user has taken away what they did.
+    pub action: Option<NamedHere>,
+    /// Whether the user has changed nothing about the keys of the action.
+    pub is_default: bool,
+}
+
+/// An action of a section.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NamedHere {
+    /// The action.
+    pub action: Action,
+    /// Its name, such as `redo`.
+    pub name: &'static str,
+    /// Its description.
+    pub words: &'static str,
+}
+
+impl Keymap {
+    /// The keys of a section, in the order of the help. Those of [`Section::Anywhere`] are listed in
+    /// other sections only where they differ there.
+    pub fn bound_in(&self, section: Section) -> Vec<Bound> {
+        let rows = self.rows.iter().enumerate();
+        let rows = rows.filter(|(_, row)| section.lists(row));
+        let keys_of = |row: &Row| match section {
+            Section::Anywhere => row.keys.clone(),
+            Section::In(context) => row.keys_in(context).to_vec(),
+        };
+        let mut bound: Vec<Bound> = Vec::new();
+        let mut defaults = Vec::new();
+        for (at, row) in rows {
+            let default = match section {
+                Section::In(_) if row.is_common() => row.keys.clone(),
+                _ => TABLE[at].keys(),
+            };
+            let keys = keys_of(row);
+            let is_default = keys == default;
+            bound.extend(keys.into_iter().map(|keys| Bound {
+                keys,
+                action: Some(named(row)),
+                is_default,
+            }));
+            defaults.extend(default);
+        }
+        let is_free = |keys: &Keys| bound.iter().all(|bound| !bound.keys.collides(*keys));
+        defaults.retain(is_free);
+        bound.extend(defaults.into_iter().map(|keys| Bound {
+            keys,
+            action: None,
+            is_default: false,
+        }));
+        bound
+    }
+
+    /// The actions that keys of a section can have.
+    pub fn actions_in(&self, section: Section) -> Vec<NamedHere> {
+        let rows = self.rows.iter().filter(|row| section.has(row.scope));
+        let mut found: Vec<NamedHere> = Vec::new();
+        for row in rows {
+            if found.iter().all(|other| other.action != row.action) {
+                found.push(named(row));
+            }
+        }
+        found
+    }
+}
+
+impl Section {
+    /// Whether the keys of a row are listed in the section.
+    fn lists(self, row: &Row) -> bool {
+        match self {
+            Self::In(context) if row.is_common() => row.own.iter().any(|(of, _)| *of == context),
+            _ => self.has(row.scope),
+        }
+    }
+}
+
+fn named(row: &Row) -> NamedHere {
+    NamedHere {
+        action: row.action,
+        name: of_action(row.action),
+        words: row.words,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn changes_made_again_give_the_same_keys() {
+        let changes: [(&str, &str, Option<Action>); 6] = [
+            ("anywhere", "Ctrl-S", Some(Action::Save)),
+            ("anywhere", "u", None),
+            ("select", "s", Some(Action::Save)),
+            ("select", "Ctrl-R", None),
+            ("select", "d d", Some(Action::Delete)),
+            ("quit", "y", None),
+        ];
+        for count in 0..=changes.len() {
+            let mut keymap = Keymap::default();
+            for (section, keys, action) in changes.into_iter().take(count) {
+                let section = Section::named(section).expect("a section");
+                keymap.bind(section, Keys::parse(keys).expect("keys"), action);
+            }
+            let mut again = Keymap::default();
+            for section in Section::all() {
+                let bound = keymap.bound_in(section).into_iter().rev();
+                for bound in bound.filter(|bound| !bound.is_default) {
+                    again.bind(section, bound.keys, bound.action.map(|named| named.action));
+                }
+            }
+            assert_eq!(again, keymap, "{count} changes");
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! Keys that cannot be bound.
+
+use crossterm::event::KeyCode;
+
+use super::action::{Action, Context, Mode};
+use super::bindings::{Keymap, Row};
+use super::chord::{CTRL, Chord, Keys, NONE};
+use super::section::Section;
+
+/// Control characters that terminals send for other keys.
+const SAME_BYTES: [(char, &str); 4] = [
+    ('h', "Backspace"),
+    ('i', "Tab"),
+    ('m', "Enter"),
+    ('[', "Esc"),
+];
+
+/// Characters that begin to type a value in EDIT.
+const BEGINS_VALUE: &str = "0123456789+-*/.(";
+/// Characters that are typed in MOVE.
+const BEGINS_AMOUNT: &str = "0123456789+-.";
+
+/// Whether a character begins to type a value in EDIT.
+pub fn begins_value(character: char) -> bool {
+    BEGINS_VALUE.contains(character)
+}
+
+/// Why keys cannot have an action in a section.
+pub fn refusal(section: Section, keys: Keys, action: Option<Action>) -> Option<String> {
+    let mut pressed = [Some(keys.first), keys.second].into_iter().flatten();
+    let fixed = pressed.find_map(|chord| match chord {
+        Chord(KeyCode::Char('c'), CTRL) if action == Some(Action::Interrupt) => None,
+        Chord(KeyCode::Char('c'), CTRL) => Some("it always quits".to_owned()),
+        Chord(KeyCode::Char(c), CTRL) => {
+            let other = SAME_BYTES.iter().find(|(character, _)| *character == c)?;
+            Some(format!("terminals send the same byte for {}", other.1))
+        }
+        _ => None,
+    });
+    let typed = || {
+        let Chord(KeyCode::Char(c), NONE) = keys.first else {
+            return None;
+        };
+        match section {
+            Section::In(Context::In(Mode::Edit)) if begins_value(c) => {
+                Some("it begins to type a value".to_owned())
+            }
+            Section::Anywhere if begins_value(c) => Some(
+                "it begins to type a value in EDIT; bind it in the sections of modes".to_owned(),
+            ),
+            Section::In(Context::In(Mode::Move)) if BEGINS_AMOUNT.contains(c) => {
+                Some("it types the amount".to_owned())
+            }
+            _ => None,
+        }
+    };
+    let reason = fixed.or_else(typed)?;
+    Some(format!("`{}` cannot be bound: {reason}", keys.spelling()))
+}
+
+/// Whether terminals often keep a key for themselves.
+fn belongs_to_terminals(keys: &Keys) -> bool {
+    matches!(keys.first, Chord(KeyCode::F(1 | 10 | 11), NONE))
+}
+
+impl Keymap {
+    /// Whether an action that had other keys is left with ones that terminals often keep for
+    /// themselves: F1, F10 or F11. Returns those keys.
+    pub fn unreachable_in(&self, section: Section) -> Option<Keys> {
+        let keys_of = |row: &Row| match section {
+            Section::Anywhere => row.keys.clone(),
+            Section::In(context) => row.keys_in(context).to_vec(),
+        };
+        let here = self.rows.iter().filter(|row| section.has(row.scope));
+        let mut left = here.map(|row| (row, keys_of(row)));
+        left.find_map(|(row, keys)| {
+            let mut others = self.rows.iter().filter(|other| other.action == row.action);
+            let has_other = |other: &Row| {
+                let is_here = section.has(other.scope);
+                is_here && !keys_of(other).iter().all(belongs_to_terminals)
+            };
+            let is_lost = keys.iter().all(belongs_to_terminals) && !others.any(has_other);
+            keys.first().copied().filter(|_| is_lost)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ui::keymap::table::TABLE;
+
+    #[test]
+    fn nothing_in_the_table_is_refused() {
+        for row in TABLE {
+            for section in Section::all().filter(|section| section.has(row.scope)) {
+                for keys in row.keys() {
+                    assert_eq!(refusal(section, keys, Some(row.action)), None);
+                }
+            }
+        }
+        for section in Section::all() {
+            assert_eq!(Keymap::default().unreachable_in(section), None);
+        }
+    }
+}

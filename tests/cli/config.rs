@@ -1,0 +1,47 @@
+//! The configuration: its errors as printed, and what it changes.
+
+use std::path::Path;
+
+use super::*;
+
+/// Each faulty configuration of `tests/config` is answered by the text beside it, which is written
+/// instead if `UPDATE_FRAMES` is set.
+#[test]
+fn each_error_is_printed_with_its_place_and_advice() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/config");
+    let place = Place::new();
+    for name in ["keys", "settings", "syntax", "twice"] {
+        let file = folder.join(name).with_extension("toml");
+        place.write("a.toml", fs::read(file).expect("it is there"));
+        let printed = place.stderr("--config a.toml ball.ray", 2);
+        let expected = folder.join(name).with_extension("txt");
+        if std::env::var_os("UPDATE_FRAMES").is_some() {
+            fs::write(&expected, &printed).expect("writable");
+        }
+        let expected = fs::read_to_string(expected).unwrap_or_default();
+        assert_eq!(printed, expected, "{name}:\n{printed}");
+    }
+}
+
+#[test]
+fn a_configuration_that_is_named_must_exist_and_the_usual_one_need_not() {
+    let place = Place::new();
+    let missing = place.stderr("--config none.toml --print-config", 66);
+    assert!(missing.contains("none.toml"), "{missing}");
+    let printed = |line: &str| {
+        let ran = place
+            .command(line)
+            .env("XDG_CONFIG_HOME", place.at("config"))
+            .output();
+        String::from_utf8(ran.expect("it starts").stdout).expect("UTF-8")
+    };
+    assert!(printed("--print-config").contains("\n# spp = 16\n"));
+    fs::create_dir_all(place.at("config/halflight")).expect("it is new");
+    place.write(
+        "config/halflight/config.toml",
+        "spp = 5\ntheme = \"mono\"\n",
+    );
+    assert!(printed("--print-config").contains("\nspp = 5\n"));
+    assert!(printed("--print-config --spp 6").contains("\nspp = 6\n"));
+    assert!(printed("--print-config --spp 6").contains("\ntheme = \"mono\"\n"));
+}
