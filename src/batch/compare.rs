@@ -7,13 +7,15 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::{Error, Tracing, Warnings, load, print_error, stdout};
+use crate::assets;
 use crate::compare::{Comparison, Difference, SizesDiffer, heat_map};
+use crate::file;
 use crate::image_file::{self, ImageFormat};
 use crate::language::Language;
+use crate::memory;
 use crate::render::{Frame, Frames};
 use crate::scene::{Image, Size};
 use crate::text::visible;
-use crate::{assets, file, memory};
 
 /// Two pictures to compare.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -4,9 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::shared::AssetArguments;
+use super::shared::{AssetArguments, StrictnessArguments, picture_format};
 use super::tracing::TracingArguments;
-use super::{StrictnessArguments, picture_format};
 use crate::batch::{Compare, Report};
 
 pub(super) const EXAMPLES: &str = "\

@@ -18,10 +18,10 @@ use clap_complete::Shell;
 use compare::CompareArguments;
 use interface::InterfaceArguments;
 pub use interface::Purpose;
-use shared::AssetArguments;
+use shared::{AssetArguments, StrictnessArguments, picture_format};
 use tracing::TracingArguments;
 
-use crate::batch::{self, Check, Compare, Output, Render, Verdict, Warnings};
+use crate::batch::{self, Check, Compare, Output, Render, Verdict};
 use crate::config;
 use crate::file::ReadError;
 use crate::image_file::{FORMATS, ImageFormat, known_extensions};
@@ -311,23 +311,6 @@ fn manual() -> Vec<u8> {
     page
 }
 
-#[derive(Args, Debug)]
-struct StrictnessArguments {
-    /// Treat warnings in the scene as errors; notes are unaffected
-    #[arg(long)]
-    strict: bool,
-}
-
-impl StrictnessArguments {
-    fn warnings(&self) -> Warnings {
-        if self.strict {
-            Warnings::Refused
-        } else {
-            Warnings::Allowed
-        }
-    }
-}
-
 /// Refuses words that are not the scene to open: misspelt commands and a second scene.
 fn check_words(scene: Option<&Path>, surplus: &[PathBuf]) -> Result<(), String> {
     if let Some((word, command)) = scene.and_then(|scene| Some((scene, likely_command(scene)?))) {
@@ -422,17 +405,6 @@ fn format_names() -> impl TypedValueParser<Value = ImageFormat> {
         let mut formats = FORMATS.into_iter();
         let known = formats.find(|(_, extensions)| extensions.contains(&name.as_str()));
         known.map(|(format, _)| format).ok_or("unknown format")
-    })
-}
-
-/// The format of a picture file by its extension.
-fn picture_format(path: &Path) -> Result<ImageFormat, String> {
-    ImageFormat::of_path(path).ok_or_else(|| {
-        format!(
-            "cannot tell the format of {}: use the extension {}, or --format",
-            path.display(),
-            known_extensions()
-        )
     })
 }
 

@@ -1,11 +1,13 @@
 //! Arguments and ranges that several commands have in common.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::builder::TypedValueParser;
 use clap::{Args, value_parser};
 
+use crate::batch::Warnings;
 use crate::config::{MAX_DEPTH, MAX_THREADS};
+use crate::image_file::{ImageFormat, known_extensions};
 use crate::render::MAX_SPP;
 
 #[derive(Args, Debug)]
@@ -14,6 +16,23 @@ pub(super) struct AssetArguments {
     /// and, unless it is /, your home or writable by everyone, the folder above it; repeatable
     #[arg(long = "assets", value_name = "DIR")]
     pub(super) folders: Vec<PathBuf>,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct StrictnessArguments {
+    /// Treat warnings in the scene as errors; notes are unaffected
+    #[arg(long)]
+    strict: bool,
+}
+
+impl StrictnessArguments {
+    pub(super) fn warnings(&self) -> Warnings {
+        if self.strict {
+            Warnings::Refused
+        } else {
+            Warnings::Allowed
+        }
+    }
 }
 
 pub(super) fn spp_range() -> impl TypedValueParser<Value = u32> {
@@ -26,4 +45,15 @@ pub(super) fn depth_range() -> impl TypedValueParser<Value = u32> {
 
 pub(super) fn threads_range() -> impl TypedValueParser<Value = u16> {
     value_parser!(u16).range(1..=i64::from(MAX_THREADS))
+}
+
+/// The format of a picture file by its extension.
+pub(super) fn picture_format(path: &Path) -> Result<ImageFormat, String> {
+    ImageFormat::of_path(path).ok_or_else(|| {
+        format!(
+            "cannot tell the format of {}: use the extension {}, or --format",
+            path.display(),
+            known_extensions()
+        )
+    })
 }

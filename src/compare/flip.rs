@@ -20,7 +20,7 @@ pub(super) fn mean(a: &Image, b: &Image) -> f64 {
 /// The difference at each pixel, 0 to 1.
 pub(super) fn map(a: &Image, b: &Image) -> Vec<f64> {
     let [a, b] = [a, b].map(opponent);
-    let colours = [&a, &b].map(|planes| perceived(planes));
+    let colours = [&a, &b].map(perceived);
     let features = [&a[0], &b[0]].map(Features::of);
     let colours = colours[0].iter().zip(&colours[1]);
     let edges = features[0]
@@ -42,7 +42,7 @@ pub(super) fn map(a: &Image, b: &Image) -> Vec<f64> {
     .collect()
 }
 
-/// The planes of a picture in YCxCz, an opponent colour space that is linear in light.
+/// The planes of a picture in `YCxCz`, an opponent colour space that is linear in light.
 fn opponent(image: &Image) -> [Plane; 3] {
     let curve: Vec<f64> = (0..=255)
         .map(|byte| linear(f64::from(byte) / 255.0))
@@ -141,7 +141,7 @@ fn balanced(kernel: &[f64]) -> Vec<f64> {
     kernel.iter().map(weight).collect()
 }
 
-/// The difference of two colours in L*a*b*, 0 to 1: HyAB to the power of 0.7, of which the range up
+/// The difference of two colours in L*a*b*, 0 to 1: `HyAB` to the power of 0.7, of which the range up
 /// to 0.4 of the largest (between green and blue) takes 0.95 (equations 5 to 8).
 fn colour_difference(a: Rgb, b: Rgb) -> f64 {
     let largest = hyab(lab(Rgb::Y), lab(Rgb::Z)).powf(0.7);
