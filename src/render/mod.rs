@@ -23,7 +23,7 @@
 //! ([`texture`]), shade according to [`shading`], and sample [`lights`] for [`direct`] light.
 //! [`optics`], [`microfacet`] and [`warp`] hold the formulas.
 //!
-//! [`wireframe`] projects the outlines of objects without tracing.
+//! [`mod@wireframe`] projects the outlines of objects without tracing.
 //!
 //! Rays are intersected in packets of eight with one object after the other ([`packets`]), or
 //! singly with up to eight [`spheres`] at once ([`intersect`]), with bitwise equal results.

@@ -4,11 +4,11 @@ use glam::DVec3;
 
 use super::Source;
 use super::form::{new_object, retyped};
-use super::table::{LIGHT, ShapeKind};
+use super::table::{LIGHT, MATERIAL, ShapeKind};
 use super::tree::comment_of_line;
 use crate::language::form::Form;
 use crate::language::structure::Wish;
-use crate::language::table::{self, Field};
+use crate::language::table::{self, Field, Kind};
 use crate::language::view::line_ending;
 use crate::language::{Addition, Answers, Node, Placement, Restructure, StructureError};
 use crate::text::{Edit, Span, line_start, next_line};
@@ -137,8 +137,8 @@ impl Source {
         }
     }
 
-    /// A thing's text with one field a line if its model takes several lines, with the model's
-    /// indentation.
+    /// A thing's text. Its fields share lines as they do in its model and in the last objects; on
+    /// several lines it has the model's indentation.
     fn laid_out<'f>(
         &self,
         keyword: &str,
@@ -152,19 +152,102 @@ impl Source {
         let start = line_start(text, own.start());
         let indent = &text[start..own.start()];
         let indent = if indent.trim().is_empty() { indent } else { "" };
+        let joints = if is_long {
+            self.joints(like)
+        } else {
+            Vec::new()
+        };
+        let mut laid_out = format!("{indent}{keyword}");
+        let mut before = (!keyword.is_empty()).then_some(KEYWORD);
         let mut rest = literals;
-        let groups = fields.map(|field| {
+        for field in fields {
             let (own, behind) = rest.split_at(field.kind.components());
             rest = behind;
-            own.join(" ")
-        });
-        let keyword = (!keyword.is_empty()).then(|| keyword.to_owned());
-        let parts: Vec<_> = keyword.into_iter().chain(groups).collect();
-        let between = if is_long {
-            format!("{}{indent}", line_ending(text))
-        } else {
-            "  ".to_owned()
-        };
-        format!("{indent}{}", parts.join(&between))
+            match before {
+                Some(before) if is_long && breaks(&joints, before, field) => {
+                    laid_out.push_str(line_ending(text));
+                    laid_out.push_str(indent);
+                }
+                Some((_, Some(Kind::Number))) if is_long && field.kind == Kind::Number => {
+                    laid_out.push(' ');
+                }
+                Some(_) => laid_out.push_str("  "),
+                None => {}
+            }
+            laid_out.push_str(&own.join(" "));
+            before = Some((field.key, Some(field.kind)));
+        }
+        laid_out
     }
+
+    /// How a model, and after it the last objects of several lines, go from each field to the next.
+    fn joints(&self, like: Option<Node>) -> Vec<Joint> {
+        let objects = self.origins.objects.len();
+        let last = (objects.saturating_sub(MODELS)..objects).rev();
+        let models = like.into_iter().chain(last.map(Node::Object));
+        let is_long = |model: &Node| self.span(*model).of(&self.text).contains(['\n', '\r']);
+        let joints = models.filter(is_long).flat_map(|model| {
+            let spans = self.origins.numbers(&self.tree, model);
+            let (fields, mut before): (Vec<&Field>, _) = match model {
+                Node::Object(index) => {
+                    let kind = self.origins.objects[index].kind;
+                    let start = self.span(model).start() + kind.keyword().len();
+                    (kind.fields().collect(), Some((KEYWORD, start)))
+                }
+                _ => (LIGHT.iter().collect(), None),
+            };
+            let mut at = 0;
+            let mut joints = Vec::new();
+            for field in fields {
+                let own = &spans[at.min(spans.len())..];
+                at += field.kind.components();
+                let (Some(first), Some(last)) = (own.first(), own.get(field.kind.components() - 1))
+                else {
+                    break;
+                };
+                let side = (field.key, Some(field.kind));
+                if let Some((before, end)) = before {
+                    let between = Span::new(end, first.start().max(end)).of(&self.text);
+                    joints.push(Joint {
+                        sides: [before, side],
+                        breaks: between.contains(['\n', '\r']),
+                    });
+                }
+                before = Some((side, last.end()));
+            }
+            joints
+        });
+        joints.collect()
+    }
+}
+
+/// The number of objects, from the last, that a new one may be laid out like.
+const MODELS: usize = 16;
+
+/// What stands before or after a line break: a field by its key, with its kind, or the keyword.
+type Side = (&'static str, Option<Kind>);
+
+const KEYWORD: Side = ("", None);
+
+/// Two parts of an object that follow each other.
+struct Joint {
+    sides: [Side; 2],
+    /// Whether there is a line break between them.
+    breaks: bool,
+}
+
+/// Whether a field begins a line: as after the same field before, otherwise as between two fields of
+/// the same kinds in a shape.
+fn breaks(joints: &[Joint], before: Side, field: &Field) -> bool {
+    let is_same = |joint: &&Joint| joint.sides == [before, (field.key, Some(field.kind))];
+    let is_alike = |joint: &&Joint| {
+        let [a, b] = joint.sides;
+        let is_shape = |key| MATERIAL.iter().all(|field| field.key != key);
+        let kinds = [a.1, b.1] == [before.1, Some(field.kind)];
+        kinds && [a.0, b.0, before.0, field.key].into_iter().all(is_shape)
+    };
+    let found = joints.iter().find(is_same);
+    found
+        .or_else(|| joints.iter().find(is_alike))
+        .is_none_or(|joint| joint.breaks)
 }

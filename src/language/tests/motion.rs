@@ -127,10 +127,11 @@ fn new_text_is_laid_out_like_its_neighbours() {
         .addition("sphere", &wish(Node::Object(0), &[]))
         .expect("it can be added");
     let (source, _) = changed(Language::Ray, &lines, &placed.edits);
-    let material = material.replace("  ", "\r\n");
+    // All numbers share the line after the keyword.
+    let material = "0 0 0  .5 .5 .5  0 0 0  1 0 0 1";
     assert!(
         source.text().ends_with(&format!(
-            "{old}\r\n\r\nsphere\r\n0.25 0.5 1\r\n0.5\r\n{material}\r\n"
+            "{old}\r\n\r\nsphere\r\n0.25 0.5 1  0.5  {material}\r\n"
         )),
         "{:?}",
         source.text()

@@ -160,3 +160,38 @@ fn the_first_thing_brings_a_scene_with_it() {
     assert_eq!(app.document.text(), "");
     assert!(words(&app).contains("Space"), "{}", words(&app));
 }
+
+/// Solids of several lines, whose lengths and last numbers share lines.
+const LINES: &str = "\
+0.1 0.1 0.1
+1
+5 5 5  1 1 1
+1
+  cylinder // the ground
+  0 -0.2 0
+  0 0 1
+  1 0 0
+  0 1 0
+  6 6 0.2
+  0 0 0  .5 .5 .5
+  0.2 0.2 0.2
+  20
+  0.1 0 1
+";
+
+#[test]
+fn fields_of_new_solids_share_lines_as_in_their_neighbours() {
+    let material = "  0 0 0  .5 .5 .5\n  0.2 0.2 0.2\n  20\n  0.1 0 1\n";
+    for (kind, shape) in [
+        ("cone", "  X\n  0 0 1\n  1 0 0\n  0 1 0\n  2 2 4\n"),
+        ("ellipsoid", "  X\n  1 0 0\n  0 1 0\n  0 0 1\n  2 2 2\n"),
+        ("sphere", "  X\n  2\n"),
+    ] {
+        let app = added("a.ray", LINES, Object(0), &format!("a{kind}<Enter>"));
+        let text = app.document.text();
+        let object = &text[text.rfind(&format!("  {kind}\n")).expect("it is there")..];
+        let centre = object.lines().nth(1).expect("a second line");
+        let expected = format!("  {kind}\n{shape}{material}").replace("  X", centre);
+        assert_eq!(object, expected);
+    }
+}
