@@ -5,6 +5,7 @@ use glam::{DMat3, DVec3};
 
 use crate::geometry::normalise;
 use crate::scene::Camera;
+use crate::text;
 
 /// An oriented box that a solid fills.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -241,15 +242,26 @@ pub(super) fn rotation(axis: DVec3, angle: f64) -> DMat3 {
 /// fewer than show the rounding errors of binary fractions (0.5 after 60°, not 0.5000000000000001).
 pub(super) const PRECISE: usize = 15;
 
-/// Formats a moved number for the place of a literal: unchanged if it differs by rounding errors
-/// only, otherwise rounded to a number of decimals.
+/// The number that a moved one is written as: the old one if they differ by rounding errors only,
+/// with the digits of the old one after a step of no more than this number of decimals, otherwise
+/// rounded to them.
 pub(super) fn rounded(old: f64, new: f64, decimals: usize) -> f64 {
-    if (new - old).abs() <= 1e-12 * old.abs().max(new.abs()) {
+    let error = 1e-12 * old.abs().max(new.abs());
+    if (new - old).abs() <= error {
         return old;
     }
-    format!("{new:.decimals$}")
-        .parse()
-        .map_or(new, |rounded: f64| rounded + 0.0)
+    let step = to_decimals(new - old, decimals);
+    if (old + step - new).abs() <= error {
+        let own = text::decimals(&old.to_string());
+        return to_decimals(old + step, decimals.max(own));
+    }
+    to_decimals(new, decimals)
+}
+
+fn to_decimals(number: f64, decimals: usize) -> f64 {
+    let rounded = format!("{number:.decimals$}").parse();
+    // Adding 0 turns −0 into 0.
+    rounded.map_or(number, |rounded: f64| rounded + 0.0)
 }
 
 #[cfg(test)]
@@ -363,6 +375,10 @@ mod tests {
             (0.123_456, 0.123_456, 1, 0.123_456),
             (0.1, 0.100_000_000_000_000_02, 1, 0.1),
             (1.0, -0.001, 1, 0.0),
+            // A step keeps the digits that it does not touch; anything else is rounded.
+            (0.123, 0.223, 1, 0.223),
+            (0.123, 0.213, 1, 0.2),
+            (0.0, 3.28, 2, 3.28),
         ] {
             assert_eq!(rounded(old, new, decimals), rounded_to);
         }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::trial::Trial;
 use crate::language::{Along, Motion, Node, Pose};
 use crate::scene::Camera;
-use crate::text::parse_number;
+use crate::text::{decimals, parse_number};
 use crate::ui::keymap::Tool;
 
 /// The angle of one step, and of the grid of angles, in degrees.
@@ -63,12 +63,23 @@ pub struct Transform {
     /// The length of one step of a move, in world units.
     pub(super) step: f64,
     /// The decimals that a step needs.
-    pub(super) decimals: usize,
+    pub(super) step_decimals: usize,
     /// The change of the text.
     pub(super) trial: Trial,
 }
 
 impl Transform {
+    /// The decimals of the numbers that it changes: what a cell can show or, for a typed amount,
+    /// enough that nothing of it is lost.
+    pub(super) fn decimals(&self) -> usize {
+        /// More decimals than the amount has, for its product with a number of the text.
+        const MORE: usize = 4;
+        match self.typed.as_str() {
+            "" => self.step_decimals,
+            typed => self.step_decimals.max(decimals(typed)) + MORE,
+        }
+    }
+
     /// The amount along the locked axis, or in the first direction: in world units, degrees, or as
     /// a factor.
     pub fn amount(&self) -> f64 {
@@ -153,7 +164,7 @@ impl Transform {
             Lock::Own(axis) => Some(["own x", "own y", "own z"][axis]),
         };
         let amount = match (self.typed.as_str(), self.tool) {
-            ("", Tool::Move) => format!("{:.*}", self.decimals, self.amount() + 0.0),
+            ("", Tool::Move) => format!("{:.*}", self.step_decimals, self.amount() + 0.0),
             ("", Tool::Turn | Tool::Scale) => format!("{:.2}", self.amount() + 0.0),
             (typed, _) => typed.to_owned(),
         };
@@ -161,7 +172,7 @@ impl Transform {
             (Tool::Move, Some(axis)) => format!("move along {axis}: {amount}"),
             (Tool::Move, None) if self.typed.is_empty() => {
                 let [right, up] = self.in_plane();
-                let decimals = self.decimals;
+                let decimals = self.step_decimals;
                 format!("move: {right:.decimals$} right, {up:.decimals$} up")
             }
             (Tool::Move, None) => format!("move to the right: {amount}"),

@@ -58,7 +58,7 @@ impl App {
             steps: [0.0; 2],
             pixel,
             step,
-            decimals: decimals_of(step),
+            step_decimals: decimals_of(step),
             trial,
         });
         self.mode = Mode::Move;
@@ -220,7 +220,7 @@ impl App {
         if motion.is_identity() {
             return Ok(Vec::new());
         }
-        let (decimals, own) = (transform.decimals, &transform.own);
+        let (decimals, own) = (transform.decimals(), &transform.own);
         let mut nodes = transform.nodes.clone();
         nodes.retain(|node| *node != Node::View);
         let mut edits = self.source().motion(&nodes, &motion, decimals)?;

@@ -89,6 +89,14 @@ fn things_are_moved_turned_and_scaled_by_typed_amounts_along_axes() {
         "box 0 0 0  1 0 0  0 1 0  0 0 1",
         "box 1.5 0.5 0  0 1 0  -1 0 0  0 0 1",
     );
+    // Nothing of a typed amount is lost, however coarse the cells are.
+    ray(Object(0), "my3.285<Enter>", "box 0 0 0", "box 0 3.285 0");
+    ray(
+        Object(0),
+        "sxx1.125<Enter>",
+        "box 0 0 0  1 0 0  0 1 0  0 0 1  1 2 3",
+        "box -0.0625 0 0  1 0 0  0 1 0  0 0 1  1.125 2 3",
+    );
     // cos 60° is written without the rounding errors of binary fractions.
     ray(
         Object(0),
