@@ -62,6 +62,31 @@ fn the_picture_in_the_readme_can_be_made_again() {
     );
 }
 
+/// The keys of the tutorial: the indented lines after its heading.
+fn tutorial() -> String {
+    let page = fs::read_to_string(root().join("scenes/README.md")).expect("a page");
+    let heading = "## From an empty file to the default scene\n";
+    let (_, steps) = page.split_once(heading).expect("the tutorial is there");
+    let is_key = |line: &&str| line.starts_with("       ");
+    steps.lines().filter(is_key).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn the_tutorial_builds_the_default_scene() {
+    let place = Place::new();
+    place.write("default.ray", DEFAULT);
+    place.write("tutorial.keys", tutorial());
+    place.run("evening.ray --keys tutorial.keys --screen 112x40");
+    let compared = place.run("compare evening.ray default.ray --size 80x60 --spp 1");
+    let figures = String::from_utf8_lossy(&compared.stdout);
+    assert_eq!(compared.status.code(), Some(0), "{figures}");
+    let evening = String::from_utf8(place.read("evening.ray")).expect("text");
+    assert!(
+        evening.contains("// view front: eye 0.6 3.1 9.6 "),
+        "{evening}"
+    );
+}
+
 #[test]
 fn an_error_in_a_script_is_reported_at_its_place() {
     let place = Place::new();

@@ -3,9 +3,10 @@
 use glam::DVec3;
 
 use super::trial::Trial;
+use super::typed;
 use crate::language::{Along, Motion, Node, Pose};
 use crate::scene::Camera;
-use crate::text::{decimals, parse_number};
+use crate::text::decimals;
 use crate::ui::keymap::Tool;
 
 /// The angle of one step, and of the grid of angles, in degrees.
@@ -69,22 +70,23 @@ pub struct Transform {
 }
 
 impl Transform {
-    /// The decimals of the numbers that it changes: what a cell can show or, for a typed amount,
-    /// enough that nothing of it is lost.
+    /// The decimals of the numbers that it changes: for moves by steps, what a cell can show.
+    /// Otherwise more, so that nothing of a typed amount is lost, and that the parts of what is
+    /// rotated or scaled stay together.
     pub(super) fn decimals(&self) -> usize {
-        /// More decimals than the amount has, for its product with a number of the text.
         const MORE: usize = 4;
-        match self.typed.as_str() {
-            "" => self.step_decimals,
-            typed => self.step_decimals.max(decimals(typed)) + MORE,
+        match (self.typed.as_str(), self.tool) {
+            ("", Tool::Move) => self.step_decimals,
+            (typed, _) => self.step_decimals.max(decimals(typed)) + MORE,
         }
     }
 
     /// The amount along the locked axis, or in the first direction: in world units, degrees, or as
     /// a factor.
     pub fn amount(&self) -> f64 {
-        if let Ok(typed) = parse_number(&self.typed) {
-            return typed;
+        if !self.typed.is_empty() {
+            let none = if self.tool == Tool::Scale { 1.0 } else { 0.0 };
+            return self.typed_numbers().map_or(none, |typed| typed[0]);
         }
         let steps = self.steps[0] + self.steps[1];
         let [step, grid] = match self.tool {
@@ -96,6 +98,22 @@ impl Transform {
         match self.tool {
             Tool::Scale => (1.0 + amount).max(SCALE[0]),
             Tool::Move | Tool::Turn => amount,
+        }
+    }
+
+    /// The numbers typed: one or, to move along x, y and z, three.
+    ///
+    /// # Errors
+    ///
+    /// Fails with what is wrong with them.
+    pub(super) fn typed_numbers(&self) -> Result<Vec<f64>, String> {
+        let numbers = typed::numbers(&self.typed)?;
+        let is_vector = self.tool == Tool::Move && self.lock == Lock::Free;
+        match numbers.len() {
+            1 => Ok(numbers),
+            3 if is_vector => Ok(numbers),
+            _ if is_vector => Err("expected one number, or three for x, y and z".to_owned()),
+            _ => Err("expected one number".to_owned()),
         }
     }
 
@@ -124,14 +142,7 @@ impl Transform {
     pub(super) fn motion(&self, [right, up, into]: [DVec3; 3]) -> Motion {
         let about = self.pose.centre;
         match self.tool {
-            Tool::Move => Motion::Move(match self.axis() {
-                Some(axis) => self.amount() * axis,
-                None if self.typed.is_empty() => {
-                    let [across, upwards] = self.in_plane();
-                    across * right + upwards * up
-                }
-                None => self.amount() * right,
-            }),
+            Tool::Move => Motion::Move(self.way(right, up)),
             Tool::Turn => Motion::Turn {
                 axis: self.axis().unwrap_or(-into),
                 angle: self.amount(),
@@ -147,6 +158,21 @@ impl Transform {
                 about,
             },
         }
+    }
+
+    /// How far and where it moves. Rounded here, so that all things keep their places to each other.
+    fn way(&self, right: DVec3, up: DVec3) -> DVec3 {
+        let way = match (self.axis(), self.typed_numbers().as_deref()) {
+            (None, Ok(&[x, y, z])) => DVec3::new(x, y, z),
+            (Some(axis), _) => self.amount() * axis,
+            (None, _) if self.typed.is_empty() => {
+                let [across, upwards] = self.in_plane();
+                across * right + upwards * up
+            }
+            (None, _) => self.amount() * right,
+        };
+        let places = 10_f64.powi(self.decimals() as i32);
+        (way * places).round() / places
     }
 
     /// The distances to the right and up of a move that is locked to no axis.

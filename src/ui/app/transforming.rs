@@ -10,7 +10,7 @@ use crate::language::{Language, Node, Pose, StructureError};
 use crate::render::{axes, pixel_width};
 use crate::scene::{Camera, Size};
 use crate::text::Edit;
-use crate::ui::keymap::{Mode, Stride, Tool};
+use crate::ui::keymap::{Mode, Stride, Tool, types_amount};
 
 impl App {
     /// Starts to move, turn or scale the targets.
@@ -150,9 +150,7 @@ impl App {
             .as_ref()
             .map_or("", |transform| &transform.typed);
         match key.code {
-            KeyCode::Char(character)
-                if character.is_ascii_digit() || matches!(character, '.' | '-' | '+') =>
-            {
+            KeyCode::Char(character) if types_amount(character, typed) => {
                 self.change_transform(|transform| transform.typed.push(character));
                 true
             }
@@ -174,6 +172,12 @@ impl App {
 
     /// Keeps the change and ends.
     pub(super) fn confirm_transform(&mut self) {
+        let transform = self.pictures.transform.as_ref();
+        let typed = transform.filter(|transform| !transform.typed.is_empty());
+        if let Some(Err(reason)) = typed.map(Transform::typed_numbers) {
+            self.overlays.fail(reason);
+            return;
+        }
         match self.pictures.transform.take() {
             Some(transform) if transform.trial.is_applied => self.overlays.say(transform.words()),
             _ => self.overlays.say("nothing has changed"),

@@ -83,6 +83,19 @@ pub(super) fn spread(kinds: impl Iterator<Item = Kind>, text: &str) -> Option<Ve
     (left.is_empty() && 1 < fields.len()).then_some(fields)
 }
 
+/// Returns the numbers of a list of numbers and expressions.
+///
+/// # Errors
+///
+/// Fails with the reason and its column.
+pub(super) fn numbers(text: &str) -> Result<Vec<f64>, String> {
+    let parts = parts(text);
+    let numbers = parts.iter().map(|(at, part)| {
+        evaluate(part).map_err(|fault| format!("column {}: {}", at + fault.at + 1, fault.reason))
+    });
+    numbers.collect()
+}
+
 /// The values of expressions: one for each component, or one for the current one.
 fn computed(
     kind: Kind,

@@ -20,7 +20,7 @@ pub use help::{Entry, HelpLine, in_columns};
 pub use line::{Line, line_hints};
 pub use listed::{Bound, NamedHere};
 pub use named::NamedAction;
-pub use rules::{begins_value, refusal};
+pub use rules::{begins_value, refusal, types_amount};
 pub use section::Section;
 
 use crossterm::event::KeyEvent;

@@ -17,12 +17,19 @@ const SAME_BYTES: [(char, &str); 4] = [
 
 /// Characters that begin to type a value in EDIT.
 const BEGINS_VALUE: &str = "0123456789+-*/.(";
-/// Characters that are typed in MOVE.
-const BEGINS_AMOUNT: &str = "0123456789+-.";
+/// Characters that begin to type an amount in MOVE.
+const BEGINS_AMOUNT: &str = "0123456789+-.(";
+/// Those that go on typing one.
+const CONTINUES_AMOUNT: &str = "*/^), ";
 
 /// Whether a character begins to type a value in EDIT.
 pub fn begins_value(character: char) -> bool {
     BEGINS_VALUE.contains(character)
+}
+
+/// Whether a character is typed in MOVE, after an amount or to begin one.
+pub fn types_amount(character: char, typed: &str) -> bool {
+    BEGINS_AMOUNT.contains(character) || !typed.is_empty() && CONTINUES_AMOUNT.contains(character)
 }
 
 /// Why keys cannot have an action in a section.
@@ -48,7 +55,7 @@ pub fn refusal(section: Section, keys: Keys, action: Option<Action>) -> Option<S
             Section::Anywhere if begins_value(c) => Some(
                 "it begins to type a value in EDIT; bind it in the sections of modes".to_owned(),
             ),
-            Section::In(Context::In(Mode::Move)) if BEGINS_AMOUNT.contains(c) => {
+            Section::In(Context::In(Mode::Move)) if types_amount(c, "0") => {
                 Some("it types the amount".to_owned())
             }
             _ => None,

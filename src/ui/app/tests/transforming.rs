@@ -89,6 +89,20 @@ fn things_are_moved_turned_and_scaled_by_typed_amounts_along_axes() {
         "box 0 0 0  1 0 0  0 1 0  0 0 1",
         "box 1.5 0.5 0  0 1 0  -1 0 0  0 0 1",
     );
+    ray(Object(0), "my1/4<Enter>", "box 0 0 0", "box 0 0.25 0");
+    ray(
+        Object(0),
+        "m1 -2 (1+2)*.5<Enter>",
+        "box 0 0 0",
+        "box 1 -2 1.5",
+    );
+    ray(Object(0), "my1/<Enter>2<Enter>", "box 0 0 0", "box 0 0.5 0");
+    ray(
+        Object(0),
+        "mx1 2<Enter><Back><Back><Enter>",
+        "box 0 0 0",
+        "box 1 0 0",
+    );
     // Nothing of a typed amount is lost, however coarse the cells are.
     ray(Object(0), "my3.285<Enter>", "box 0 0 0", "box 0 3.285 0");
     ray(
