@@ -136,6 +136,15 @@ fn trace(work: &Compare, path: &Path, size: Option<Size>) -> Result<Image, Error
     let scene = loaded.scene.ok_or(Error::Invalid {
         errors: loaded.errors,
     })?;
+    if let Some((output, _)) = &work.output
+        && loaded.files.iter().any(|used| file::is_same(output, used))
+    {
+        return Err(Error::Refused(format!(
+            "cannot overwrite {}: {} uses it; name another file",
+            output.display(),
+            path.display()
+        )));
+    }
     let tracing = Tracing {
         size: work.tracing.size.or(size),
         ..work.tracing.clone()

@@ -54,6 +54,7 @@ impl Source {
             decimals: 2,
             after: Node::View,
             marked: &[],
+            file: None,
         };
         let before = scene.nodes();
         let placement = scene.addition(name, &wish)?;

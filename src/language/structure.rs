@@ -149,11 +149,31 @@ pub struct Addition {
     pub name: &'static str,
     /// What it is, in a phrase.
     pub words: &'static str,
+    /// Where its shape comes from.
+    shape: Shape,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Shape {
+    Own,
+    File,
 }
 
 impl Addition {
     pub(super) const fn new(name: &'static str, words: &'static str) -> Self {
-        Self { name, words }
+        let shape = Shape::Own;
+        Self { name, words, shape }
+    }
+
+    /// A kind of thing that is read from a file.
+    pub(super) const fn of_file(name: &'static str, words: &'static str) -> Self {
+        let shape = Shape::File;
+        Self { name, words, shape }
+    }
+
+    /// Whether it needs [`Wish::file`].
+    pub fn needs_file(&self) -> bool {
+        self.shape == Shape::File
     }
 }
 
@@ -170,6 +190,8 @@ pub struct Wish<'a> {
     pub after: Node,
     /// The marked nodes, which a combination combines.
     pub marked: &'a [Node],
+    /// The file of a mesh, as the text is to name it.
+    pub file: Option<&'a str>,
 }
 
 /// The place and the axes of a node in world space.

@@ -100,6 +100,17 @@ fn a_scene_is_traced_at_the_size_of_the_picture() {
 }
 
 #[test]
+fn a_file_that_a_scene_uses_is_never_overwritten() {
+    let place = Place::new();
+    place.write("a.dat", TEXTURED);
+    place.write("skin.ppm", SKIN);
+    let refused = "cannot overwrite skin.ppm: a.dat uses it";
+    let errors = place.stderr("compare a.dat a.dat --spp 1 -o skin.ppm", 2);
+    assert!(errors.contains(refused), "{errors}");
+    assert_eq!(place.read("skin.ppm"), SKIN.as_bytes());
+}
+
+#[test]
 fn figures_are_printed_as_json() {
     let (printed, _) = compared(&pictures(), "mine.ppm theirs.ppm --json --tolerance 5");
     let found: serde_json::Value = serde_json::from_str(&printed).expect("JSON");

@@ -88,6 +88,20 @@ fn the_tutorial_builds_the_default_scene() {
 }
 
 #[test]
+fn a_screen_never_replaces_a_file_that_the_scene_uses() {
+    let place = Place::new();
+    let text = TEXTURED.replace("skin.ppm", "skin.png");
+    place.write("a.dat", &text);
+    place.write("skin.png", SKIN);
+    place.write("dump.keys", "dump skin.png");
+    for words in ["--dump-frame skin.png", "--keys dump.keys"] {
+        let errors = place.stderr(&format!("a.dat {words}"), 73);
+        assert!(errors.contains("skin.png: the scene uses it"), "{errors}");
+        assert_eq!(place.read("skin.png"), SKIN.as_bytes());
+    }
+}
+
+#[test]
 fn an_error_in_a_script_is_reported_at_its_place() {
     let place = Place::new();
     for (keys, reason) in [

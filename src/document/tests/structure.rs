@@ -84,6 +84,7 @@ fn change(source: &Source, random: &mut Random, side: &str) -> Option<Vec<Edit>>
                 decimals: 2,
                 after: node,
                 marked: &[],
+                file: None,
             };
             let addition = additions.get(random.below(additions.len()))?;
             source

@@ -42,6 +42,7 @@ fn wish(after: Node, marked: &[Node]) -> Wish<'_> {
         decimals: 2,
         after,
         marked,
+        file: None,
     }
 }
 

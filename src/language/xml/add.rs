@@ -14,7 +14,7 @@ use crate::text::Edit;
 pub(super) const ADDITIONS: &[Addition] = &[
     Addition::new("sphere", "round; scaled, an ellipsoid"),
     Addition::new("plane", "a square that ends at its edges"),
-    Addition::new("mesh", "triangles from an .obj file"),
+    Addition::of_file("mesh", "triangles from an .obj file"),
     Addition::new("group", "moves and turns the objects in it"),
     Addition::new("point light", "shines in all directions"),
     Addition::new("direct light", "shines from infinitely far away"),
@@ -73,8 +73,10 @@ pub(super) fn addition(
     let mut both = source.insertion(&material, Node::View)?;
     let own = placement.edits;
     if both.edits[0].span == own[0].span {
-        both.edits[0].text = format!("{}{}", own[0].text, both.edits[0].text);
-        return Ok(both);
+        return source.insertion(
+            &[material, text].join(line_ending(&source.text)),
+            wish.after,
+        );
     }
     both.edits.extend(own);
     both.edits.sort_by_key(|edit| edit.span);
@@ -95,7 +97,11 @@ pub(super) fn material(kind: &str, name: &str) -> Vec<String> {
 /// The words for the kinds that a node can be changed to.
 pub(super) fn kinds(node: Node) -> Vec<&'static str> {
     match node {
-        Node::Object(_) => ObjectKind::TYPES.into(),
+        // A mesh is named by its file, which nothing else has.
+        Node::Object(_) => {
+            let types = ObjectKind::TYPES.iter().copied();
+            types.filter(|kind| *kind != "obj").collect()
+        }
         Node::Light(_) => LightKind::TYPES.into(),
         Node::Material(_) => MaterialKind::TYPES.into(),
         _ => Vec::new(),
@@ -147,7 +153,10 @@ impl Source {
         let material = material.unwrap_or_default();
         let head = match name {
             "group" => "<object name=\"group\">".to_owned(),
-            "mesh" => "<object type=\"obj\" name=\"mesh.obj\">".to_owned(),
+            "mesh" => {
+                let file = escaped(wish.file.unwrap_or("mesh.obj"), '"');
+                format!("<object type=\"obj\" name=\"{file}\">")
+            }
             kind => format!("<object type=\"{kind}\" name=\"{kind}\"{material}>"),
         };
         let scale =

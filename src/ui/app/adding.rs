@@ -1,5 +1,7 @@
 //! Adding things and changing their kind, chosen from menus.
 
+use std::path::Path;
+
 use glam::DVec3;
 
 use super::App;
@@ -7,6 +9,7 @@ use super::menu::{Entry, Menu, Purpose};
 use super::transform::{decimals_of, round_up};
 use crate::language::{Node, Wish};
 use crate::render::{pixel_width, surface_under};
+use crate::ui::keymap::Mode;
 
 /// The fraction of the picture's height that a new thing takes up.
 const SHARE: f64 = 0.2;
@@ -49,6 +52,29 @@ impl App {
     /// Adds a thing on the surface looked at, otherwise at the camera's target; in an empty text, a
     /// minimal scene with it.
     pub(super) fn add(&mut self, name: &str) {
+        let mut additions = self.source().additions().iter();
+        if additions.any(|addition| addition.name == name && addition.needs_file()) {
+            self.open_palette_with(&format!("{name} "));
+            return;
+        }
+        self.add_with(name, None);
+    }
+
+    /// Adds the mesh of a file.
+    pub(super) fn add_mesh(&mut self, file: Option<&Path>) {
+        let mut additions = self.source().additions().iter();
+        let mesh = additions.find(|addition| addition.needs_file());
+        match (mesh, file) {
+            (None, _) => self.overlays.fail("there are no meshes in this language"),
+            (_, None) => self.overlays.fail("name the mesh: mesh FILE.obj"),
+            (Some(mesh), Some(file)) => {
+                self.mode = Mode::Select;
+                self.add_with(mesh.name, Some(&file.to_string_lossy()));
+            }
+        }
+    }
+
+    fn add_with(&mut self, name: &str, file: Option<&str>) {
         let done = format!("added: {name}; m moves it, s scales it");
         if self.source().is_blank() {
             let first = self.source().first(name);
@@ -67,6 +93,7 @@ impl App {
             decimals,
             after: self.cursor.selected(),
             marked: &marked,
+            file,
         };
         let placed = self.source().addition(name, &wish);
         let at = placed.as_ref().ok().map(|placed| placed.at);

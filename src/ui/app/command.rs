@@ -43,6 +43,8 @@ enum Command {
     ViewReset,
     /// Set the size of the output picture.
     Size(Size),
+    /// Add a mesh from a file.
+    Mesh(Option<PathBuf>),
     /// Take the mouse or leave it to the terminal.
     Mouse,
     /// Use other colours.
@@ -124,6 +126,7 @@ const TABLE: &[CommandRow] = &[
     row(&["view light"], A::Nothing(C::ViewLight), "look from the selected light"),
     row(&["view reset"], A::Nothing(C::ViewReset), "reset to the scene's view"),
     row(&["size"], A::Size(C::Size), "set the picture size in the scene"),
+    row(&["mesh"], A::File(C::Mesh), "add the mesh of an .obj FILE, named as from the scene"),
     row(&["mouse"], A::Nothing(C::Mouse), "take the mouse or leave it to the terminal"),
     row(&["theme dark"], A::Nothing(C::Theme(Theme::Dark)), "use colours for dark screens"),
     row(&["theme light"], A::Nothing(C::Theme(Theme::Light)), "use colours for light screens"),
@@ -389,6 +392,7 @@ impl App {
             Command::ViewLight => self.look_from_light(),
             Command::ViewReset => self.pictures.reset_view(),
             Command::Size(size) => self.set_size(size),
+            Command::Mesh(file) => self.add_mesh(file.as_deref()),
             Command::Mouse => return self.toggle_mouse(),
             Command::Theme(theme) => self.theme = theme,
             Command::Help => self.overlays.help = Some(Help::default()),

@@ -23,9 +23,14 @@ enum Wanted<'a> {
 impl App {
     /// Opens the command line.
     pub(super) fn open_palette(&mut self) {
+        self.open_palette_with("");
+    }
+
+    /// Opens the command line with the beginning of a command.
+    pub(super) fn open_palette_with(&mut self, typed: &str) {
         // Files may have come and gone.
         self.palette.folder = None;
-        self.overlays.open_prompt(PromptKind::Command, "");
+        self.overlays.open_prompt(PromptKind::Command, typed);
     }
 
     /// Handles a key in the command line other than those that end it.

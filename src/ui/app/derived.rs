@@ -1,5 +1,6 @@
 //! Values derived from the state, for drawing and for steps alike.
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use ratatui::layout::Rect;
@@ -267,6 +268,12 @@ impl App {
             }
             _ => Vec::new(),
         }
+    }
+
+    /// The scene's own file and those that it uses.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        let used = self.assets.files().iter().map(PathBuf::as_path);
+        self.disk.path.as_deref().into_iter().chain(used)
     }
 
     /// The current text with its parsed structure.

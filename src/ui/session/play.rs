@@ -1,9 +1,12 @@
 //! Plays a script of keys: each step follows once everything before it is done, so that the outcome
 //! does not depend on time.
 
+use std::io;
+
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 
 use super::{Session, Urgency};
+use crate::file;
 use crate::ui::ending::Error;
 use crate::ui::msg::{Effect, Msg};
 use crate::ui::options::Rehearsal;
@@ -101,7 +104,11 @@ impl Session {
         let Some(cells) = self.runtime.screen().cells() else {
             return Ok(());
         };
-        let written = snapshot::write(cells, path, format, theme);
+        let written = if self.app.files().any(|used| file::is_same(path, used)) {
+            Err(io::Error::other("the scene uses it; name another file"))
+        } else {
+            snapshot::write(cells, path, format, theme)
+        };
         written.map_err(|source| Error::Frame {
             path: path.to_owned(),
             source,

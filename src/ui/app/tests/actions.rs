@@ -144,7 +144,7 @@ fn edits(action: A) -> bool {
 }
 
 /// Commands that edit the text.
-const EDITING: &[&str] = &["view save", "size"];
+const EDITING: &[&str] = &["view save", "size", "mesh"];
 /// Those that leave it as it is.
 const OTHERS: &[&str] = &[
     "w",

@@ -195,3 +195,24 @@ fn fields_of_new_solids_share_lines_as_in_their_neighbours() {
         assert_eq!(object, expected);
     }
 }
+
+#[test]
+fn an_object_and_its_material_open_an_empty_scene_once() {
+    for text in [
+        "<xml><scene/></xml>",
+        "<xml>\n  <scene>\n  </scene>\n</xml>\n",
+    ] {
+        let app = added("a.xml", text, Node::View, "asphere<Enter>");
+        assert_eq!(app.document.text().matches("</scene>").count(), 1, "{text}");
+        assert!(app.document.text().contains("material=\"blinn\""), "{text}");
+        assert!(app.document.text().contains("name=\"blinn\""), "{text}");
+    }
+}
+
+#[test]
+fn a_mesh_is_added_once_its_file_is_named() {
+    let app = added("a.xml", XML, Object(0), "amesh<Enter>");
+    assert_eq!(app.document.text(), XML);
+    let prompt = app.overlays.prompt.as_ref().expect("it is asked for");
+    assert_eq!(prompt.input.value(), "mesh ");
+}

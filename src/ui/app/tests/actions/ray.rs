@@ -210,6 +210,7 @@ pub(super) const ROWS: &[Row] = &[
     ])),
     row(Key(A::Orthonormalise), Object(0), "eO", Says("object 1 (sphere) has no frame to orthonormalise")),
     row(Key(A::Orthonormalise), Object(1), "eO", Says("object 2 (box) is already orthonormal")),
+    row(Command("mesh"), Object(0), ":mesh a.obj<Enter>", Says("there are no meshes in this language")),
     row(Key(A::SaveView), Object(0), "vlS", Becomes(&[
         ("0 0 10 ",
             "0.8716 0 9.9619 "),

@@ -40,9 +40,14 @@ pub(super) const ROWS: &[Row] = &[
         ("      <translate x=\"1\"/>\n",
             "      <translate x=\"1\"/>\n    </object>\n    <object type=\"plane\" name=\"plane\" material=\"m\">\n      <scale value=\"1\"/>\n      <translate x=\"0\" y=\"0\" z=\"0\"/>\n"),
     ])),
-    row(Add("mesh"), Object(0), "amesh<Enter>", Becomes(&[
+    row(Add("mesh"), Object(0), "amesh<Enter>a.obj<Enter>", Becomes(&[
         ("      <translate x=\"1\"/>\n",
-            "      <translate x=\"1\"/>\n    </object>\n    <object type=\"obj\" name=\"mesh.obj\">\n      <scale value=\"1\"/>\n      <translate x=\"0\" y=\"0\" z=\"0\"/>\n"),
+            "      <translate x=\"1\"/>\n    </object>\n    <object type=\"obj\" name=\"a.obj\">\n      <scale value=\"1\"/>\n      <translate x=\"0\" y=\"0\" z=\"0\"/>\n"),
+    ])),
+    row(Command("mesh"), Object(0), ":mesh<Enter>", Says("name the mesh: mesh FILE.obj")),
+    row(Command("mesh"), Object(0), ":mesh b.obj<Enter>", Becomes(&[
+        ("      <translate x=\"1\"/>\n",
+            "      <translate x=\"1\"/>\n    </object>\n    <object type=\"obj\" name=\"b.obj\">\n      <scale value=\"1\"/>\n      <translate x=\"0\" y=\"0\" z=\"0\"/>\n"),
     ])),
     row(Add("group"), Object(0), "agroup<Enter>", Becomes(&[
         ("      <translate x=\"1\"/>\n",
