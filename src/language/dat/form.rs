@@ -64,11 +64,11 @@ pub(super) fn put(kind: ObjectKind, form: &Form, numbers: &mut [f64]) -> Result<
             const { Sphere.at("centre") }.put(numbers, form.centre.to_array());
             const { Sphere.at("radius") }.put(numbers, [a]);
         }
-        Sphere => return Err("a sphere has a single radius: press c to make it an ellipsoid"),
+        Sphere => return Err("a sphere has a single radius: change its type to ellipsoid first"),
         Ellipsoid => {
             if !is_aligned(form) {
                 return Err(
-                    "a .dat ellipsoid is always axis-aligned: press c to make it a quadric",
+                    "a .dat ellipsoid is always axis-aligned: change its type to quadric first",
                 );
             }
             const { Ellipsoid.at("centre") }.put(numbers, form.centre.to_array());

@@ -221,7 +221,7 @@ impl Source {
 /// Why a solid cannot be scaled along an axis.
 fn uneven(kind: ShapeKind) -> &'static str {
     match kind {
-        ShapeKind::Sphere => "a sphere has a single radius: press c to make it an ellipsoid",
+        ShapeKind::Sphere => "a sphere has a single radius: change its type to ellipsoid first",
         _ => "it can only be scaled along its own axes: press the axis key again",
     }
 }

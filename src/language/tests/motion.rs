@@ -371,7 +371,7 @@ fn what_a_language_cannot_express_is_refused() {
             sphere,
             Node::Object(0),
             stretch(Along::Own(0)),
-            "a sphere has a single radius: press c to make it an ellipsoid",
+            "a sphere has a single radius: change its type to ellipsoid first",
         ),
         (
             Language::Ray,

@@ -8,7 +8,7 @@ use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use super::rows::foldable;
 use super::{App, PromptKind, line};
 use crate::language::Node;
-use crate::ui::keymap::{Context, Fold, Mode};
+use crate::ui::keymap::{Action, Context, Fold, Mode};
 
 impl App {
     /// Opens the line that filters the list; it contains the present filter.
@@ -71,7 +71,8 @@ impl App {
         let count = self.cursor.rows.matches();
         match self.cursor.rows.match_at(self.selected_row()) {
             Some(at) => {
-                let words = format!("{} of {count}; Esc shows all", at + 1);
+                let back = self.key_for(Action::Back);
+                let words = format!("{} of {count}; {back} shows all", at + 1);
                 self.overlays.say(words);
             }
             None if 0 < count => {}
@@ -102,8 +103,9 @@ impl App {
     pub(super) fn search(&mut self, step: isize) {
         let wanted = &self.cursor.searched;
         if wanted.is_empty() {
-            self.overlays
-                .say("nothing to search for: / filters the list");
+            let filter = self.key_for(Action::Search);
+            let words = format!("nothing to search for: {filter} filters the list");
+            self.overlays.say(words);
             return;
         }
         let nodes = self.nodes();
@@ -128,8 +130,10 @@ impl App {
     /// unfolded, goes to the group that holds the selection or to the first thing in it.
     pub(super) fn fold(&mut self, fold: Fold) {
         if !self.cursor.rows.filter().is_empty() {
-            let words = "groups stay unfolded while the list is filtered; Esc shows all";
-            self.overlays.say(words);
+            let back = self.key_for(Action::Back);
+            self.overlays.say(format!(
+                "groups stay unfolded while the list is filtered; {back} shows all"
+            ));
             return;
         }
         let source = self.document.source();

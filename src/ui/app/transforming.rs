@@ -10,7 +10,7 @@ use crate::language::{Language, Node, Pose, StructureError};
 use crate::render::{axes, pixel_width};
 use crate::scene::{Camera, Size};
 use crate::text::Edit;
-use crate::ui::keymap::{Mode, Stride, Tool, types_amount};
+use crate::ui::keymap::{Action, Mode, Stride, Tool, types_amount};
 
 impl App {
     /// Starts to move, turn or scale the targets.
@@ -90,11 +90,21 @@ impl App {
     }
 
     /// Why the text's camera cannot be transformed, if it cannot.
-    fn refuses_camera(&self, tool: Tool) -> Option<&'static str> {
+    fn refuses_camera(&self, tool: Tool) -> Option<String> {
         match (tool, self.document.language()) {
-            // Only a comment states a view there, which S writes.
-            (_, Language::Ray) => Some("v moves the camera"),
-            (Tool::Scale, _) => Some("a camera has no size: [ and ] in VIEW change what it sees"),
+            // Only a comment states a view there, which is written on request.
+            (_, Language::Ray) => {
+                let view = self.key_for(Action::Go(Mode::View));
+                Some(format!("{view} moves the camera"))
+            }
+            (Tool::Scale, _) => {
+                let key = |step| self.key_for(Action::Widen(step));
+                Some(format!(
+                    "a camera has no size: {} and {} in VIEW change what it sees",
+                    key(-1),
+                    key(1)
+                ))
+            }
             (Tool::Move | Tool::Turn, _) => None,
         }
     }
@@ -166,8 +176,9 @@ impl App {
 
     /// Says what ends the transformation, which other actions have to wait for.
     pub(super) fn warn_of_transform(&mut self) {
-        self.overlays
-            .warn("Enter confirms the change first; Esc cancels it");
+        let (confirm, cancel) = (self.key_for(Action::Accept), self.key_for(Action::Back));
+        let words = format!("{confirm} confirms the change first; {cancel} cancels it");
+        self.overlays.warn(words);
     }
 
     /// Keeps the change and ends.

@@ -213,7 +213,7 @@ impl App {
         }
         if self.mode != Mode::Edit {
             self.overlays
-                .say("press Esc to paste items, or e to paste values into fields");
+                .say("items are pasted in SELECT, values in EDIT");
             return;
         }
         let values = self.literals_of(pasted);

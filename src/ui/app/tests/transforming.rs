@@ -284,7 +284,7 @@ fn what_cannot_be_moved_is_said() {
             DAT,
             Object(0),
             "syy2",
-            "a sphere has a single radius: press c to make it an ellipsoid",
+            "a sphere has a single radius: change its type to ellipsoid first",
         ),
     ] {
         let (mut app, _) = opened_as(name, text);

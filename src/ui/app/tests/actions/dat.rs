@@ -232,7 +232,7 @@ pub(super) const ROWS: &[Row] = &[
         ("0  1\n",
             "0  2\n"),
     ])),
-    row(Key(A::Transform(Scale)), Object(1), "syy2", Says("a sphere has a single radius: press c to make it an ellipsoid")),
+    row(Key(A::Transform(Scale)), Object(1), "syy2", Says("a sphere has a single radius: change its type to ellipsoid first")),
     row(Key(A::Transform(Scale)), Object(0), "  s2<Enter>", Becomes(&[
         ("obj sphere ID 1 mat ID 1  0 0 0  1\nobj sphere ID 2 mat ID 2  3 0 0  2\n",
             "obj sphere ID 1 mat ID 1  -3 0 0  2\nobj sphere ID 2 mat ID 2  3 0 0  4\n"),
