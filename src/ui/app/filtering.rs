@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use crossterm::event::KeyEvent;
 
 use super::rows::foldable;
 use super::{App, PromptKind, line};
@@ -20,20 +20,13 @@ impl App {
 
     /// Handles a key in the line that filters the list; `from` was selected before.
     pub(super) fn filter_key(&mut self, key: KeyEvent, from: Node) {
-        let controls = key.modifiers.contains(KeyModifiers::CONTROL);
-        let rows = match key.code {
-            KeyCode::Down | KeyCode::Tab => 1,
-            KeyCode::Up | KeyCode::BackTab => -1,
-            KeyCode::Char('n') if controls => 1,
-            KeyCode::Char('p') if controls => -1,
-            _ => {
-                if let Some(prompt) = &mut self.overlays.prompt
-                    && line::edit_over(&mut prompt.input, &mut prompt.is_selected, key)
-                {
-                    self.filter_list(from);
-                }
-                return;
+        let Some(rows) = line::rows(key) else {
+            if let Some(prompt) = &mut self.overlays.prompt
+                && line::edit_over(&mut prompt.input, &mut prompt.is_selected, key)
+            {
+                self.filter_list(from);
             }
+            return;
         };
         if 0 < self.cursor.rows.matches() {
             self.move_cursor(Context::In(Mode::Select), rows);

@@ -210,10 +210,8 @@ impl App {
         let Some(mut transform) = self.pictures.transform.take() else {
             return;
         };
-        if self.is_overtaken(&transform.trial) {
+        if self.leaves_trial(&transform.trial, "transformation") {
             self.mode = Mode::Select;
-            self.overlays
-                .warn("the scene has changed on disk; the transformation so far is kept");
             return;
         }
         change(&mut transform);
