@@ -194,7 +194,7 @@ impl Source {
                 }
                 let mut new = old.clone();
                 layout.put(&form, &mut new);
-                let turns = matches!(motion, Motion::Turn { .. });
+                let turns = matches!(motion, Motion::Rotate { .. });
                 for (at, new) in new.iter_mut().enumerate() {
                     *new = match is_direction(kind, at) {
                         true if turns => rounded(old[at], *new, PRECISE),

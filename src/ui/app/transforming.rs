@@ -1,5 +1,5 @@
-//! Moving, turning and scaling by transform, in MOVE mode. Every change is made to the text at once and
-//! replaces the one before, so that the whole is one undo step.
+//! Moving, rotating and scaling in MOVE mode. Every change is made to the text at once and replaces
+//! the one before, so that the whole is one undo step.
 
 use crossterm::event::{KeyCode, KeyEvent};
 use glam::DVec3;
@@ -13,7 +13,7 @@ use crate::text::Edit;
 use crate::ui::keymap::{Action, Mode, Stride, Tool, types_amount};
 
 impl App {
-    /// Starts to move, turn or scale the targets.
+    /// Starts to move, rotate or scale the targets.
     pub(super) fn start_transform(&mut self, tool: Tool) {
         if self.refuses_structure() {
             return;
@@ -105,7 +105,7 @@ impl App {
                     key(1)
                 ))
             }
-            (Tool::Move | Tool::Turn, _) => None,
+            (Tool::Move | Tool::Rotate, _) => None,
         }
     }
 
@@ -124,7 +124,7 @@ impl App {
         self.change_transform(|transform| {
             let pixels = match transform.tool {
                 Tool::Move => transform.pixel / transform.step,
-                Tool::Turn | Tool::Scale => 1.0,
+                Tool::Rotate | Tool::Scale => 1.0,
             };
             transform.typed.clear();
             transform.steps[0] += pixels * right;

@@ -46,7 +46,7 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::Add => "add",
         A::Retype => "change-type",
         A::Transform(Tool::Move) => "move",
-        A::Transform(Tool::Turn) => "rotate",
+        A::Transform(Tool::Rotate) => "rotate",
         A::Transform(Tool::Scale) => "scale",
         A::Step(..) | A::Cross(..) | A::Nudge(..) => of_step(action),
         A::Lock(0) => "lock-x",

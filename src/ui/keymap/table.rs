@@ -174,7 +174,7 @@ pub(super) const TABLE: &[Binding] = &[
     bind(SELECT, &[c('l')], A::Solo, "show only this in the preview"),
     bind(SELECT, &[c('c')], A::Retype, "change the type"),
     bind(SELECT_AND_FIELDS, &[c('m')], A::Transform(Tool::Move), "move"),
-    bind(SELECT_AND_FIELDS, &[c('t')], A::Transform(Tool::Turn), "rotate"),
+    bind(SELECT_AND_FIELDS, &[c('t')], A::Transform(Tool::Rotate), "rotate"),
     bind(SELECT_AND_FIELDS, &[c('s')], A::Transform(Tool::Scale), "scale"),
     bind(MOVE, &[c('h'), key(Left)], A::Step(-1, 0, Plain), "left; less"),
     bind(MOVE, &[c('j'), key(Down)], A::Step(0, -1, Plain), "down; less"),

@@ -223,8 +223,8 @@ pub(super) const ROWS: &[Row] = &[
     row(Key(A::Transform(Move)), View, "mx1<Enter>", Becomes(&[
         ("0 0 10  0 0 0", "1 0 10  1 0 0"),
     ])),
-    row(Key(A::Transform(Turn)), Object(1), "tz90<Enter>", Says("nothing has changed")),
-    row(Key(A::Transform(Turn)), Object(0), "  tz90<Enter>", Becomes(&[
+    row(Key(A::Transform(Rotate)), Object(1), "tz90<Enter>", Says("nothing has changed")),
+    row(Key(A::Transform(Rotate)), Object(0), "  tz90<Enter>", Becomes(&[
         ("1  0 0 ",
             "1  3 -3 "),
     ])),
