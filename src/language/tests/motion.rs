@@ -99,7 +99,7 @@ fn added_solids_have_the_place_and_the_size_that_were_wished_for() {
 fn a_combination_needs_two_marked_objects() {
     let (source, _) = read_as(Language::Dat, DAT, &Meshes::default());
     let refused = source.addition("union", &wish(Node::View, &[Node::Object(0)]));
-    let reason = "a union combines two objects: first mark them with Space";
+    let reason = "a union combines two objects: mark them first";
     assert_eq!(
         refused,
         Err(StructureError::Inexpressible(reason.to_owned()))

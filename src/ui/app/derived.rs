@@ -254,9 +254,9 @@ impl App {
 
     /// The objects of the scene to outline in the picture, ascending: the selected one, or those of
     /// the selected material.
-    pub fn marked_objects(&self) -> Vec<u32> {
-        let marks = matches!(self.mode, Mode::Select | Mode::Move);
-        if !marks || self.pictures.outline != Outline::Marked || 0 < self.error_count() {
+    pub fn outlined_objects(&self) -> Vec<u32> {
+        let outlines = matches!(self.mode, Mode::Select | Mode::Move);
+        if !outlines || self.pictures.outline != Outline::Shown || 0 < self.error_count() {
             return Vec::new();
         }
         let source = self.source();

@@ -119,8 +119,8 @@ pub enum Action {
     Command,
     /// Shows or hides the outline of the selected object.
     Outline,
-    /// Marks all lights, cameras and groups in the picture, or only the selected kind.
-    Marks,
+    /// Shows symbols of all lights, cameras and groups in the picture, or only of the selected kind.
+    Symbols,
     /// Shows or hides the selected object itself.
     Visibility,
     /// Marks the selected node for the commands that follow.

@@ -32,7 +32,7 @@ pub(super) const fn of_action(action: Action) -> &'static str {
         A::SearchAgain(_) => "previous-match",
         A::Command => "command",
         A::Outline => "outline",
-        A::Marks => "marks",
+        A::Symbols => "symbols",
         A::Visibility => "visibility",
         A::Mark => "mark",
         A::Delete => "delete",

@@ -91,7 +91,7 @@ pub(super) const ROWS: &[Row] = &[
         ("texture ID 1 checker 4 4 1 1 1 0 0 0\n",
             "texture ID 1 checker 4 4 1 1 1 0 0 0\ntexture ID 2 image 1 1 picture.png\n"),
     ])),
-    row(Add("union"), Object(0), "aunion<Enter>", Says("a union combines two objects: first mark them with Space")),
+    row(Add("union"), Object(0), "aunion<Enter>", Says("a union combines two objects: mark them first")),
     row(Key(A::Delete), Object(0), "d", Becomes(&[
         ("# ball\nobj sphere ID 1 mat ID 1  0 0 0  1\n",
             ""),
