@@ -38,8 +38,8 @@
 //! | [`compare`] | two pictures against each other | files, scenes |
 //! | [`watch`] | reports changes of paths on disk | what the files contain |
 //! | [`ui`] | the terminal: the only room that knows ratatui and crossterm; commands are rows of `app/command.rs`, keys of `keymap/table.rs` | how pixels are computed |
-//! | [`batch`] | headless work: check, render | terminals |
-//! | [`config`] | the user's configuration: reads, checks and prints it | terminals |
+//! | [`batch`] | headless work: check, render, compare | terminals |
+//! | [`config`] | the user's configuration: reads, checks and prints it | what the settings do |
 //! | [`cli`] | arguments and exit codes | how the work is done |
 //!
 //! `tests/rooms` enforces the dependencies between rooms and forbids cycles between sibling files.

@@ -1,7 +1,8 @@
 //! The configuration: a TOML file with the user's preferences, among them keys. What is given on
 //! the command line takes precedence over it, and it over the environment.
 //!
-//! Says where a file is wrong; prints a configuration and the keys. Does not know terminals.
+//! Says where a file is wrong; prints a configuration and the keys. Knows settings and actions by their
+//! names, but not what they do.
 
 mod keys;
 mod print;

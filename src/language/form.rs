@@ -50,8 +50,8 @@ impl Form {
 pub enum Motion {
     /// Moves by this vector.
     Move(DVec3),
-    /// Turns about an axis of unit length through a point, right-handed, in degrees.
-    Turn {
+    /// Rotates about an axis of unit length through a point, right-handed, in degrees.
+    Rotate {
         /// The unit vector of the axis.
         axis: DVec3,
         /// The angle in degrees.
@@ -86,7 +86,7 @@ impl Motion {
     pub fn is_identity(&self) -> bool {
         match *self {
             Self::Move(by) => by == DVec3::ZERO,
-            Self::Turn { angle, .. } => angle % 360.0 == 0.0,
+            Self::Rotate { angle, .. } => angle % 360.0 == 0.0,
             Self::Scale { factor, .. } => factor == 1.0,
         }
     }
@@ -95,7 +95,7 @@ impl Motion {
     pub(super) fn point(&self, point: DVec3) -> DVec3 {
         match *self {
             Self::Move(by) => point + by,
-            Self::Turn { about, .. } | Self::Scale { about, .. } => {
+            Self::Rotate { about, .. } | Self::Scale { about, .. } => {
                 about + self.linear() * (point - about)
             }
         }
@@ -104,7 +104,7 @@ impl Motion {
     /// The direction of a unit vector afterwards.
     pub(super) fn direction(&self, direction: DVec3) -> DVec3 {
         match self {
-            Self::Turn { .. } => self.linear() * direction,
+            Self::Rotate { .. } => self.linear() * direction,
             Self::Move(_) | Self::Scale { .. } => direction,
         }
     }
@@ -132,7 +132,7 @@ impl Motion {
     pub(super) fn linear(&self) -> DMat3 {
         match *self {
             Self::Move(_) => DMat3::IDENTITY,
-            Self::Turn { axis, angle, .. } => rotation(axis, angle),
+            Self::Rotate { axis, angle, .. } => rotation(axis, angle),
             Self::Scale { factor, along, .. } => match along {
                 Along::All => DMat3::from_diagonal(DVec3::splat(factor)),
                 Along::World(axis) | Along::Own(axis) => {
@@ -171,7 +171,7 @@ impl Motion {
                     moved.half[own] *= factor;
                 }
             },
-            Self::Turn { .. } => moved.axes = straightened(moved.axes, form.axes),
+            Self::Rotate { .. } => moved.axes = straightened(moved.axes, form.axes),
             Self::Move(_) => {}
         }
         Some(moved)
@@ -281,7 +281,7 @@ mod tests {
         let by = DVec3::new(0.0, 1.0, 0.0);
         let centre = DVec3::new(1.0, 3.0, 3.0);
         assert_eq!(moved(Motion::Move(by)), Some(Form { centre, ..CUBE }));
-        let turned = moved(Motion::Turn {
+        let turned = moved(Motion::Rotate {
             axis: DVec3::Z,
             angle: 90.0,
             about,
@@ -346,7 +346,7 @@ mod tests {
         let axis = DVec3::new(1.0, 2.0, -3.0).normalize();
         let mut form = CUBE;
         for _ in 0..10_000 {
-            let turn = Motion::Turn {
+            let turn = Motion::Rotate {
                 axis,
                 angle: 17.0,
                 about: form.centre,

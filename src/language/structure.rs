@@ -115,7 +115,7 @@ pub trait Restructure {
     /// The place and the axes of a node in world space; `None` if it has no place.
     fn pose(&self, node: Node) -> Option<Pose>;
 
-    /// Returns the edits that move, turn or scale nodes. Points and sizes are rounded to this number
+    /// Returns the edits that move, rotate or scale nodes. Points and sizes are rounded to this number
     /// of decimals where they change.
     ///
     /// # Errors

@@ -327,7 +327,7 @@ impl Session {
                 Urgency::Now if is_limited => 0,
                 _ => self.link.allowance(now),
             };
-            let marked = self.app.marked_objects();
+            let marked = self.app.outlined_objects();
             let picture = self.app.picture_mut();
             picture.advance(size, &marked, allowance);
             let rests = !picture.is_pending() && picture.is_complete();

@@ -49,7 +49,7 @@ pub(crate) const CURSOR: Style = Style::new().add_modifier(Modifier::REVERSED);
 pub(crate) const OUTLINE: [u8; 3] = [255, 140, 0];
 
 /// The lines of the selected object in a wireframe.
-pub(crate) const MARKED: Style = Style::new().fg(Color::Yellow).add_modifier(Modifier::BOLD);
+pub(crate) const OUTLINED: Style = Style::new().fg(Color::Yellow).add_modifier(Modifier::BOLD);
 
 /// The colour of an axis: red, green and blue for x, y and z, as in other programs.
 pub(crate) fn axis(axis: DVec3) -> Color {

@@ -273,7 +273,7 @@ impl Source {
         if let [first, second] = objects.collect::<Vec<_>>().as_slice() {
             Ok(format!("obj CSG ID 1 {operation} ID {first} ID {second}"))
         } else {
-            let reason = format!("a {operation} combines two objects: first mark them with Space");
+            let reason = format!("a {operation} combines two objects: mark them first");
             Err(StructureError::Inexpressible(reason))
         }
     }

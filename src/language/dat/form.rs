@@ -64,11 +64,11 @@ pub(super) fn put(kind: ObjectKind, form: &Form, numbers: &mut [f64]) -> Result<
             const { Sphere.at("centre") }.put(numbers, form.centre.to_array());
             const { Sphere.at("radius") }.put(numbers, [a]);
         }
-        Sphere => return Err("a sphere has a single radius: press c to make it an ellipsoid"),
+        Sphere => return Err("a sphere has a single radius: change its type to ellipsoid first"),
         Ellipsoid => {
             if !is_aligned(form) {
                 return Err(
-                    "a .dat ellipsoid is always axis-aligned: press c to make it a quadric",
+                    "a .dat ellipsoid is always axis-aligned: change its type to quadric first",
                 );
             }
             const { Ellipsoid.at("centre") }.put(numbers, form.centre.to_array());
@@ -323,7 +323,7 @@ impl Source {
     /// The form of an ellipsoid after a rotation by which it is no longer aligned with the axes.
     pub(super) fn turned_ellipsoid(&self, index: usize, motion: &Motion) -> Option<Form> {
         let (kind, _, numbers) = self.object_numbers(index)?;
-        if kind != ObjectKind::Ellipsoid || !matches!(motion, Motion::Turn { .. }) {
+        if kind != ObjectKind::Ellipsoid || !matches!(motion, Motion::Rotate { .. }) {
             return None;
         }
         let turned = motion.applied(&form(kind, &numbers)?)?;
@@ -364,7 +364,7 @@ impl Source {
                 for ((new, old), kind) in new.iter_mut().zip(&old).zip(kinds) {
                     let is_direction = matches!(kind, Kind::Direction | Kind::Axis);
                     *new = match (is_direction, motion) {
-                        (true, Motion::Turn { .. }) => rounded(*old, *new, PRECISE),
+                        (true, Motion::Rotate { .. }) => rounded(*old, *new, PRECISE),
                         (true, _) => *old,
                         (false, _) => rounded(*old, *new, decimals),
                     };

@@ -194,7 +194,7 @@ impl Source {
                 }
                 let mut new = old.clone();
                 layout.put(&form, &mut new);
-                let turns = matches!(motion, Motion::Turn { .. });
+                let turns = matches!(motion, Motion::Rotate { .. });
                 for (at, new) in new.iter_mut().enumerate() {
                     *new = match is_direction(kind, at) {
                         true if turns => rounded(old[at], *new, PRECISE),
@@ -221,7 +221,7 @@ impl Source {
 /// Why a solid cannot be scaled along an axis.
 fn uneven(kind: ShapeKind) -> &'static str {
     match kind {
-        ShapeKind::Sphere => "a sphere has a single radius: press c to make it an ellipsoid",
+        ShapeKind::Sphere => "a sphere has a single radius: change its type to ellipsoid first",
         _ => "it can only be scaled along its own axes: press the axis key again",
     }
 }

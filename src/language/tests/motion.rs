@@ -100,7 +100,7 @@ fn added_solids_have_the_place_and_the_size_that_were_wished_for() {
 fn a_combination_needs_two_marked_objects() {
     let (source, _) = read_as(Language::Dat, DAT, &Meshes::default());
     let refused = source.addition("union", &wish(Node::View, &[Node::Object(0)]));
-    let reason = "a union combines two objects: first mark them with Space";
+    let reason = "a union combines two objects: mark them first";
     assert_eq!(
         refused,
         Err(StructureError::Inexpressible(reason.to_owned()))
@@ -245,7 +245,7 @@ fn four_quarter_turns_about_its_centre_put_a_thing_back() {
                 continue;
             };
             let axis = DVec3::new(1.0, 2.0, 2.0) / 3.0;
-            let turn = Motion::Turn {
+            let turn = Motion::Rotate {
                 axis,
                 angle: 90.0,
                 about: pose.centre,
@@ -286,7 +286,7 @@ fn ten_thousand_turns_in_the_text_skew_nothing() {
         let node = Node::Object(0);
         for _ in 0..1000 {
             let about = source.pose(node).expect("it has a place").centre;
-            let turn = Motion::Turn {
+            let turn = Motion::Rotate {
                 axis,
                 angle: 36.0,
                 about,
@@ -358,7 +358,7 @@ fn what_a_language_cannot_express_is_refused() {
         along,
         about,
     };
-    let turn = Motion::Turn {
+    let turn = Motion::Rotate {
         axis: DVec3::Z,
         angle: 30.0,
         about,
@@ -372,7 +372,7 @@ fn what_a_language_cannot_express_is_refused() {
             sphere,
             Node::Object(0),
             stretch(Along::Own(0)),
-            "a sphere has a single radius: press c to make it an ellipsoid",
+            "a sphere has a single radius: change its type to ellipsoid first",
         ),
         (
             Language::Ray,
@@ -408,7 +408,7 @@ fn an_ellipsoid_of_dat_turns_exactly_as_a_quadric() {
     let text = dat("ellipsoid ID 1 mat ID 1 1 0 0 1 2 3");
     let (source, _) = read_as(Language::Dat, &text, &Meshes::default());
     let node = Node::Object(0);
-    let turn = Motion::Turn {
+    let turn = Motion::Rotate {
         axis: DVec3::Z,
         angle: 30.0,
         about: DVec3::X,

@@ -1,4 +1,4 @@
-//! Moving, turning and scaling in `.xml`: the transforms of an object follow, and new ones are
+//! Moving, rotating and scaling in `.xml`: the transforms of an object follow, and new ones are
 //! written where it has none.
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
@@ -131,7 +131,7 @@ impl Source {
             |point: DVec3| inside.transform_point3(motion.point(outside.transform_point3(point)));
         match *motion {
             Motion::Move(_) => self.placed(element, last, point(origin), decimals),
-            Motion::Turn { axis, angle, .. } => {
+            Motion::Rotate { axis, angle, .. } => {
                 let uneven = || {
                     refused(
                         "its group is scaled non-uniformly: rotate the group instead".to_owned(),
@@ -207,7 +207,7 @@ impl Source {
         })
     }
 
-    /// The edits that turn an object before its last translation.
+    /// The edits that rotate an object before its last translation.
     fn turned(&self, element: usize, transforms: &[Transform], turn: DMat3) -> Vec<Edit> {
         let is = |transform: &&Transform, name| transform.parameter.element == name;
         let last = transforms.last().filter(|last| is(last, "translate"));

@@ -9,7 +9,7 @@ use super::menu::{Entry, Menu, Purpose};
 use super::transform::{decimals_of, round_up};
 use crate::language::{Node, Wish};
 use crate::render::{pixel_width, surface_under};
-use crate::ui::keymap::Mode;
+use crate::ui::keymap::{Action, Mode, Tool};
 
 /// The fraction of the picture's height that a new thing takes up.
 const SHARE: f64 = 0.2;
@@ -75,7 +75,9 @@ impl App {
     }
 
     fn add_with(&mut self, name: &str, file: Option<&str>) {
-        let done = format!("added: {name}; m moves it, s scales it");
+        let key = |tool| self.key_for(Action::Transform(tool));
+        let (moves, scales) = (key(Tool::Move), key(Tool::Scale));
+        let done = format!("added: {name}; {moves} moves it, {scales} scales it");
         if self.source().is_blank() {
             let first = self.source().first(name);
             let node = first.as_ref().ok().map(|&(_, node)| node);

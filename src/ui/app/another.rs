@@ -9,7 +9,7 @@ use super::{App, Cursor, List, Next, OnDisk, Overlays, Page};
 use crate::document::Document;
 use crate::file::ReadError;
 use crate::language::{Language, Lowered};
-use crate::ui::keymap::Mode;
+use crate::ui::keymap::{Action, Mode};
 use crate::ui::msg::{Effect, Target};
 use crate::ui::reading::{News, Opened};
 
@@ -148,8 +148,9 @@ impl App {
 
     /// Says that the scene is new and how to write it.
     pub(super) fn announce_new(&mut self) {
+        let save = self.key_for(Action::Save);
         self.overlays.say(match self.disk.path.as_deref() {
-            Some(path) => format!("{} is new: w writes it", name_of(path)),
+            Some(path) => format!("{} is new: {save} writes it", name_of(path)),
             None => "a new scene: :w FILE writes it".to_owned(),
         });
     }

@@ -162,11 +162,12 @@ impl Assets {
         Some(words)
     }
 
-    /// The message that counts the unreadable files, and its severity.
-    pub(super) fn faults(&self) -> (Option<Severity>, String) {
+    /// The message that counts the unreadable files, and its severity; `errors` lists the reasons.
+    pub(super) fn faults(&self, errors: &str) -> (Option<Severity>, String) {
         let meshes = self.meshes.unreadable();
         let count = meshes + self.picture_errors.len();
-        let words = format!("cannot read {}: press ! to see why", counted(count, "file"));
+        let files = counted(count, "file");
+        let words = format!("cannot read {files}: press {errors} to see why");
         match (count, meshes) {
             (0, _) => (None, "all files can be read now".to_owned()),
             (_, 0) => (Some(Severity::Warning), words),

@@ -90,9 +90,7 @@ impl App {
             self.overlays.menu = Some(menu);
             return true;
         };
-        if self.is_overtaken(&trial) {
-            self.overlays
-                .warn("the scene has changed on disk; the choice so far is kept");
+        if self.leaves_trial(&trial, "choice") {
             return false;
         }
         let outcome = self.try_instead(&mut trial, |app| {

@@ -46,11 +46,7 @@ impl App {
 
     /// Changes what the colour picker's cursor is on by steps.
     pub(super) fn step_colour(&mut self, steps: i8, stride: Stride) {
-        let stride = match stride {
-            Stride::Plain => self.cursor.stride,
-            held => held,
-        };
-        let steps = stride.of(f64::from(steps));
+        let steps = self.cursor.stride_with(stride).of(f64::from(steps));
         self.change_colour(|picker| picker.step(steps));
     }
 
@@ -103,9 +99,7 @@ impl App {
         let Some(mut picker) = self.overlays.picker.take() else {
             return;
         };
-        if self.is_overtaken(&picker.trial) {
-            self.overlays
-                .warn("the scene has changed on disk; the colour so far is kept");
+        if self.leaves_trial(&picker.trial, "colour") {
             return;
         }
         change(&mut picker);

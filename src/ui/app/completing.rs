@@ -237,7 +237,7 @@ impl App {
 
     /// What to press for an action, as messages say it: its first key here or in another mode,
     /// otherwise its description in the command line.
-    pub(super) fn key_for(&self, action: Action) -> String {
+    pub fn key_for(&self, action: Action) -> String {
         let here = self.keymap.key(self.context(), action);
         let named = || {
             let mut named = self.keymap.actions(self.mode).into_iter();

@@ -272,6 +272,15 @@ impl Cursor {
         self.component = at;
     }
 
+    /// The stride of a step with a key that has this one: a modifier key takes precedence over what
+    /// was set before.
+    pub(super) fn stride_with(&self, held: Stride) -> Stride {
+        match held {
+            Stride::Plain => self.stride,
+            Stride::Fine | Stride::Coarse => held,
+        }
+    }
+
     /// Decreases or increases the stride and returns its description.
     pub(super) fn change_stride(&mut self, step: isize) -> &'static str {
         self.stride = match (self.stride, step < 0) {

@@ -20,7 +20,7 @@ use crate::scene::{Camera, Integrator, Rgb, Scene, Size};
 use crate::text::Diagnostic;
 use crate::ui::arrange::{Areas, Shape, Zoom, arrange};
 use crate::ui::errors::{self, Panel, Wrong};
-use crate::ui::keymap::{Context, Line, Mode};
+use crate::ui::keymap::{Action, Context, Line, Mode};
 use crate::ui::layout::raster;
 use crate::ui::listing::Listing;
 
@@ -29,9 +29,6 @@ const NO_SCENE: Size = Size {
     width: 4,
     height: 3,
 };
-
-/// The loss of the working view, and how to prevent it.
-const LOST_VIEW: &str = "the moved view is not in the text (S writes it)";
 
 impl App {
     /// The context whose keys are active; keys typed into a line take precedence.
@@ -190,7 +187,7 @@ impl App {
     /// Describes what would be lost by leaving the scene now; `None` if nothing. Work under way ends
     /// only with the program.
     pub fn losses_before(&self, next: &Next) -> Option<String> {
-        let view = self.is_view_unwritten().then(|| LOST_VIEW.to_owned());
+        let view = self.is_view_unwritten().then(|| self.lost_view());
         let mut lost: Vec<_> = self.lost_text().into_iter().chain(view).collect();
         if *next == Next::Quit {
             lost.extend(self.lost_export());
@@ -213,6 +210,12 @@ impl App {
         };
         let saved = self.source().saved_views();
         !saved.iter().any(|saved| saved.camera(&own) == view)
+    }
+
+    /// The loss of the working view, and how to prevent it.
+    fn lost_view(&self) -> String {
+        let write = self.key_for(Action::SaveView);
+        format!("the moved view is not in the text ({write} writes it)")
     }
 
     /// Why the text would be lost, if it would.
@@ -252,9 +255,9 @@ impl App {
 
     /// The objects of the scene to outline in the picture, ascending: the selected one, or those of
     /// the selected material.
-    pub fn marked_objects(&self) -> Vec<u32> {
-        let marks = matches!(self.mode, Mode::Select | Mode::Move);
-        if !marks || self.pictures.outline != Outline::Marked || 0 < self.error_count() {
+    pub fn outlined_objects(&self) -> Vec<u32> {
+        let outlines = matches!(self.mode, Mode::Select | Mode::Move);
+        if !outlines || self.pictures.outline != Outline::Shown || 0 < self.error_count() {
             return Vec::new();
         }
         let source = self.source();

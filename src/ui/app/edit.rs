@@ -9,7 +9,7 @@ use crate::language::table::Field;
 use crate::language::{Before, Lowered, Node, Placed};
 use crate::scene::Camera;
 use crate::text::{Diagnostic, Edit, Span, cover, parse_number};
-use crate::ui::keymap::Mode;
+use crate::ui::keymap::{Action, Mode};
 
 impl App {
     /// Takes files of the scene that were read.
@@ -24,7 +24,7 @@ impl App {
         }
         match news.notice {
             Some(Notice::Faults) => {
-                let (severity, words) = self.assets.faults();
+                let (severity, words) = self.assets.faults(&self.key_for(Action::Errors));
                 self.overlays.show(severity, words);
             }
             Some(Notice::Elsewhere(words)) => self.overlays.say(words),

@@ -1,6 +1,6 @@
 //! A list that typing filters, shared by menus and pages.
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use crossterm::event::KeyEvent;
 use tui_input::Input;
 
 use super::cursor::moved;
@@ -51,22 +51,15 @@ impl Filter {
     /// Handles a key other than those that end the list, of which `count` rows are shown: arrows,
     /// Tab, Ctrl-N and Ctrl-P move around the end, others edit the text.
     pub(super) fn key(&mut self, key: KeyEvent, count: usize) {
-        let controls = key.modifiers.contains(KeyModifiers::CONTROL);
-        let step = match key.code {
-            KeyCode::Down | KeyCode::Tab => 1,
-            KeyCode::Up | KeyCode::BackTab => -1,
-            KeyCode::Char('n') if controls => 1,
-            KeyCode::Char('p') if controls => -1,
-            _ => {
-                let before = self.typed();
-                line::edit(&mut self.input, key);
-                if self.typed() != before {
-                    self.go_to_best();
-                }
-                return;
+        let Some(rows) = line::rows(key) else {
+            let before = self.typed();
+            line::edit(&mut self.input, key);
+            if self.typed() != before {
+                self.go_to_best();
             }
+            return;
         };
-        let at = self.at as isize + step;
+        let at = self.at as isize + rows;
         self.at = at.rem_euclid(count.max(1) as isize) as usize;
     }
 
@@ -93,6 +86,8 @@ impl Filter {
 
 #[cfg(test)]
 mod tests {
+    use crossterm::event::{KeyCode, KeyModifiers};
+
     use super::*;
 
     #[test]

@@ -3,12 +3,12 @@
 
 use std::collections::BTreeSet;
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use crossterm::event::KeyEvent;
 
 use super::rows::foldable;
 use super::{App, PromptKind, line};
 use crate::language::Node;
-use crate::ui::keymap::{Context, Fold, Mode};
+use crate::ui::keymap::{Action, Context, Fold, Mode};
 
 impl App {
     /// Opens the line that filters the list; it contains the present filter.
@@ -20,20 +20,13 @@ impl App {
 
     /// Handles a key in the line that filters the list; `from` was selected before.
     pub(super) fn filter_key(&mut self, key: KeyEvent, from: Node) {
-        let controls = key.modifiers.contains(KeyModifiers::CONTROL);
-        let rows = match key.code {
-            KeyCode::Down | KeyCode::Tab => 1,
-            KeyCode::Up | KeyCode::BackTab => -1,
-            KeyCode::Char('n') if controls => 1,
-            KeyCode::Char('p') if controls => -1,
-            _ => {
-                if let Some(prompt) = &mut self.overlays.prompt
-                    && line::edit_over(&mut prompt.input, &mut prompt.is_selected, key)
-                {
-                    self.filter_list(from);
-                }
-                return;
+        let Some(rows) = line::rows(key) else {
+            if let Some(prompt) = &mut self.overlays.prompt
+                && line::edit_over(&mut prompt.input, &mut prompt.is_selected, key)
+            {
+                self.filter_list(from);
             }
+            return;
         };
         if 0 < self.cursor.rows.matches() {
             self.move_cursor(Context::In(Mode::Select), rows);
@@ -71,7 +64,8 @@ impl App {
         let count = self.cursor.rows.matches();
         match self.cursor.rows.match_at(self.selected_row()) {
             Some(at) => {
-                let words = format!("{} of {count}; Esc shows all", at + 1);
+                let back = self.key_for(Action::Back);
+                let words = format!("{} of {count}; {back} shows all", at + 1);
                 self.overlays.say(words);
             }
             None if 0 < count => {}
@@ -102,8 +96,9 @@ impl App {
     pub(super) fn search(&mut self, step: isize) {
         let wanted = &self.cursor.searched;
         if wanted.is_empty() {
-            self.overlays
-                .say("nothing to search for: / filters the list");
+            let filter = self.key_for(Action::Search);
+            let words = format!("nothing to search for: {filter} filters the list");
+            self.overlays.say(words);
             return;
         }
         let nodes = self.nodes();
@@ -128,8 +123,10 @@ impl App {
     /// unfolded, goes to the group that holds the selection or to the first thing in it.
     pub(super) fn fold(&mut self, fold: Fold) {
         if !self.cursor.rows.filter().is_empty() {
-            let words = "groups stay unfolded while the list is filtered; Esc shows all";
-            self.overlays.say(words);
+            let back = self.key_for(Action::Back);
+            self.overlays.say(format!(
+                "groups stay unfolded while the list is filtered; {back} shows all"
+            ));
             return;
         }
         let source = self.document.source();

@@ -11,8 +11,11 @@ impl App {
         match self.take_question() {
             Some(next) if self.is_saved() && self.is_view_unwritten() => {
                 self.overlays.dialog = Some(Dialog::Leave(next));
-                self.overlays
-                    .warn("saving does not keep the moved view: S writes it, y leaves without it");
+                let write = self.key_for(Action::SaveView);
+                let leave = self.key_for(Action::Accept);
+                self.overlays.warn(format!(
+                    "saving does not keep the moved view: {write} writes it, {leave} leaves without it"
+                ));
                 Vec::new()
             }
             Some(next) => self.save_and(next),

@@ -28,17 +28,41 @@ pub(super) fn edit(input: &mut Input, key: KeyEvent) {
     input.handle(request);
 }
 
+/// The rows by which a key moves in a list that typing filters; `None` for other keys.
+pub(super) fn rows(key: KeyEvent) -> Option<isize> {
+    let control = key.modifiers.contains(KeyModifiers::CONTROL);
+    match key.code {
+        KeyCode::Down | KeyCode::Tab => Some(1),
+        KeyCode::Up | KeyCode::BackTab => Some(-1),
+        KeyCode::Char('n') if control => Some(1),
+        KeyCode::Char('p') if control => Some(-1),
+        _ => None,
+    }
+}
+
+/// Whether a key types a character.
+pub(super) fn types(key: KeyEvent) -> bool {
+    let held = KeyModifiers::CONTROL | KeyModifiers::ALT;
+    matches!(key.code, KeyCode::Char(_)) && !key.modifiers.intersects(held)
+}
+
 /// Applies a key to a line that is selected as a whole at first: a character replaces it, any other
 /// key edits it. Returns whether the text has changed.
 pub(super) fn edit_over(input: &mut Input, is_selected: &mut bool, key: KeyEvent) -> bool {
     let before = input.value().to_owned();
-    let held = KeyModifiers::CONTROL | KeyModifiers::ALT;
-    let types = matches!(key.code, KeyCode::Char(_)) && !key.modifiers.intersects(held);
-    if std::mem::take(is_selected) && types {
+    if std::mem::take(is_selected) && types(key) {
         input.reset();
     }
     edit(input, key);
     input.value() != before
+}
+
+/// Inserts pasted text into a line, which it replaces if that is selected as a whole.
+pub(super) fn insert_over(input: &mut Input, is_selected: &mut bool, text: &str) {
+    if std::mem::take(is_selected) {
+        input.reset();
+    }
+    insert(input, text);
 }
 
 /// Inserts pasted text, replacing line breaks with blanks.

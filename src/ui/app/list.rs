@@ -12,7 +12,7 @@ impl App {
     /// Selects a node; ends the current undo step.
     pub(super) fn select(&mut self, node: Node) {
         self.document.end_step();
-        self.pictures.mark_selection();
+        self.pictures.outline_selection();
         self.cursor.select(node, self.document.source());
     }
 
@@ -187,7 +187,7 @@ impl App {
 
     pub(super) fn pick_cross(&mut self) {
         if let Some((column, row)) = self.pictures.cross
-            && !self.pick_mark((column, row))
+            && !self.pick_symbol((column, row))
         {
             self.pick(u32::from(column), 2 * u32::from(row));
         }
@@ -206,10 +206,10 @@ impl App {
         Ok(object.map(|object| Node::Object(self.source().object(object))))
     }
 
-    /// Selects the node whose mark is at a cell of the picture, and ends picking; returns whether
+    /// Selects the node whose symbol is at a cell of the picture, and ends picking; returns whether
     /// there is one.
-    pub(super) fn pick_mark(&mut self, cell: (u16, u16)) -> bool {
-        let node = self.mark_at(cell);
+    pub(super) fn pick_symbol(&mut self, cell: (u16, u16)) -> bool {
+        let node = self.symbol_at(cell);
         if let Some(node) = node {
             self.pick_node(node);
         }

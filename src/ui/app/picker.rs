@@ -8,6 +8,7 @@ use crate::scene::Rgb;
 const HUE: f64 = 2.0;
 /// One step of the saturation or the value.
 const SHARE: f64 = 0.02;
+
 /// The colour picker of a field.
 #[derive(Debug)]
 pub struct ColourPicker {

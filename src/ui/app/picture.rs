@@ -30,7 +30,7 @@ pub struct Picture {
     /// The number of cells not yet compared with the target.
     left: usize,
     /// The object outlined in the target.
-    marked: Vec<u32>,
+    outlined: Vec<u32>,
     /// The cells in which the outline changes. They are sent first, because they answer a key.
     outline: VecDeque<usize>,
 }
@@ -85,8 +85,8 @@ impl Shown {
         let is_object = |x: u32, y: u32| {
             let inside = x < width && y < height;
             let at = y as usize * width as usize + x as usize;
-            let is_marked = |object: &u32| objects.binary_search(object).is_ok();
-            !inside || self.objects.get(at).is_some_and(is_marked)
+            let is_outlined = |object: &u32| objects.binary_search(object).is_ok();
+            !inside || self.objects.get(at).is_some_and(is_outlined)
         };
         let is_border = |x: u32, y: u32| {
             let neighbours = [
@@ -140,10 +140,10 @@ impl Picture {
     }
 
     /// Forgets the objects under the pixels on screen until a newer frame arrives: after
-    /// renumbering, the outline would mark an object that is not selected.
+    /// renumbering, the outline would be around an object that is not selected.
     pub fn forget_objects(&mut self) {
         self.shown.objects.fill(NO_OBJECT);
-        self.mark(&[]);
+        self.outline(&[]);
     }
 
     /// Whether every requested sample has been taken and is on its way to the screen.
@@ -161,12 +161,12 @@ impl Picture {
         self.is_awaited() && self.progress().is_none_or(|progress| progress.spp < 1)
     }
 
-    /// Copies cells of the newest frame, with the outlines of `marked`, to the screen until `budget`
+    /// Copies cells of the newest frame, with the outlines of `outlined`, to the screen until `budget`
     /// bytes are spent, and continues there next time; `usize::MAX` copies the whole frame. Changes
     /// of the outline go first. Over a limited link, pixels of an unfinished frame that are almost
     /// right are skipped; a finished frame is shown exactly.
-    pub fn advance(&mut self, size: Size, marked: &[u32], budget: usize) {
-        self.aim(size, marked);
+    pub fn advance(&mut self, size: Size, outlined: &[u32], budget: usize) {
+        self.aim(size, outlined);
         let tolerance = match budget {
             usize::MAX => 0,
             _ if self.latest.as_ref().is_some_and(|f| f.progress.complete) => 0,
@@ -197,11 +197,11 @@ impl Picture {
     }
 
     /// Makes the newest frame at this size the target, with the outline of an object.
-    fn aim(&mut self, size: Size, marked: &[u32]) {
+    fn aim(&mut self, size: Size, outlined: &[u32]) {
         let Some(frame) = &self.latest else {
             return;
         };
-        let mut is_stale = self.marked != marked;
+        let mut is_stale = self.outlined != outlined;
         if self.shown.size != size {
             is_stale = true;
             self.shown = if self.shown.pixels.is_empty() {
@@ -224,16 +224,16 @@ impl Picture {
             self.left = cells(size);
         }
         if is_stale {
-            self.mark(marked);
+            self.outline(outlined);
         }
     }
 
     /// Sets the outline of the target.
-    fn mark(&mut self, marked: &[u32]) {
-        self.marked = marked.to_vec();
-        self.target.outline = match marked {
+    fn outline(&mut self, outlined: &[u32]) {
+        self.outlined = outlined.to_vec();
+        self.target.outline = match outlined {
             [] => Vec::new(),
-            marked => self.shown.outline_of(marked),
+            outlined => self.shown.outline_of(outlined),
         };
         let changes = |cell: &usize| {
             self.pixels_of(*cell)
@@ -438,13 +438,13 @@ mod tests {
     fn the_outline_is_inside_the_object_and_not_along_the_edge() {
         let mut picture = Picture::default();
         picture.take(half(true));
-        for (marked, marks) in [
+        for (outlined, marks) in [
             (&[7][..], ".#...#.."),
             (&[8], "........"),
             (&[], "........"),
         ] {
-            picture.advance(size(4, 2), marked, usize::MAX);
-            assert_eq!(outline(&picture), marks, "{marked:?}");
+            picture.advance(size(4, 2), outlined, usize::MAX);
+            assert_eq!(outline(&picture), marks, "{outlined:?}");
         }
         picture.advance(size(4, 2), &[7], usize::MAX);
         picture.forget_objects();

@@ -28,8 +28,8 @@ pub struct Pictures {
     pub wires: Option<Wires>,
     /// Whether the selected object is outlined in SELECT mode.
     pub(super) outline: Outline,
-    /// Which marks are shown of what has no surface.
-    pub(super) marks: Marking,
+    /// Which symbols are shown of what has no surface.
+    pub(super) symbols: Symbols,
     /// The cell of the crosshair in [`Mode::Pick`], relative to the picture's upper left corner;
     /// `None` before the first pick.
     pub cross: Option<(u16, u16)>,
@@ -67,14 +67,14 @@ pub(super) enum Outline {
     #[default]
     Unasked,
     /// It is outlined in SELECT and MOVE mode.
-    Marked,
+    Shown,
     /// It is never outlined.
     Hidden,
 }
 
-/// Which marks are shown of what has no surface.
+/// Which symbols are shown of what has no surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Marking {
+pub(super) enum Symbols {
     /// Those of the selected kind.
     #[default]
     Selected,
@@ -93,7 +93,7 @@ impl Pictures {
             aov: None,
             wires: None,
             outline: Outline::default(),
-            marks: Marking::default(),
+            symbols: Symbols::default(),
             cross: None,
             net: None,
             due: false,
@@ -110,7 +110,7 @@ impl Pictures {
             aov: self.aov,
             wires: self.wires.take().map(|_| Wires::default()),
             outline: self.outline,
-            marks: self.marks,
+            symbols: self.symbols,
             net: self.net,
             ..Self::new(self.quality)
         };
@@ -180,15 +180,15 @@ impl Pictures {
 
     pub(super) fn toggle_outline(&mut self) {
         self.outline = match self.outline {
-            Outline::Marked => Outline::Hidden,
-            Outline::Hidden | Outline::Unasked => Outline::Marked,
+            Outline::Shown => Outline::Hidden,
+            Outline::Hidden | Outline::Unasked => Outline::Shown,
         };
     }
 
     /// Outlines what is selected from now on, unless the user has switched that off.
-    pub(super) fn mark_selection(&mut self) {
+    pub(super) fn outline_selection(&mut self) {
         if self.outline == Outline::Unasked {
-            self.outline = Outline::Marked;
+            self.outline = Outline::Shown;
         }
     }
 

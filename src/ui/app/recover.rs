@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::journal::Outcome;
 use super::{App, Dialog, Outside};
 use crate::document::{Adopted, Merge};
+use crate::ui::keymap::Action;
 use crate::ui::msg::Effect;
 use crate::ui::recovery::{Claim, Found, Offer, Since, Way};
 
@@ -124,10 +125,12 @@ impl App {
 
     fn restored(&mut self, claim: Arc<Claim>, since: Since) -> Vec<Effect> {
         self.relower();
-        self.overlays.say(match since {
-            Since::Same => "restored; u undoes",
-            Since::Changed => "restored and merged with what has changed since; u undoes",
-        });
+        let done = match since {
+            Since::Same => "restored",
+            Since::Changed => "restored and merged with what has changed since",
+        };
+        let undo = self.key_for(Action::Undo);
+        self.overlays.say(format!("{done}; {undo} undoes it"));
         // The other journal is removed only once this run's journal holds the edits.
         let mut effects = if self.document.is_dirty() {
             vec![Effect::AdoptKept(claim)]

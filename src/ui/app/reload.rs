@@ -27,28 +27,37 @@ struct Wording {
     came: &'static str,
     /// Used instead of the changed place if only comments and spacing have changed.
     same: &'static str,
-    end: &'static str,
+    ends: Ends,
+}
+
+/// The end of a message about a text read from the file.
+#[derive(Clone, Copy)]
+enum Ends {
+    /// Nothing.
+    Plain,
+    /// How to undo the merge.
+    Merge,
 }
 
 const RELOADED: Wording = Wording {
     came: "reloaded",
     same: "the scene is unchanged",
-    end: "",
+    ends: Ends::Plain,
 };
 const MERGED: Wording = Wording {
     came: "merged the file's changes with your edits",
     same: "the picture is unchanged",
-    end: "; press u to undo the merge",
+    ends: Ends::Merge,
 };
 const ADOPTED: Wording = Wording {
     came: "merged",
     same: "the picture is unchanged",
-    end: "; press u to undo the merge",
+    ends: Ends::Merge,
 };
 const SAME_NOW: Wording = Wording {
     came: "the file now has the same changes",
     same: "nothing is unsaved",
-    end: "",
+    ends: Ends::Plain,
 };
 
 impl App {
@@ -129,8 +138,11 @@ impl App {
             }),
             Err(error) => {
                 let (state, hint) = match error {
-                    ReadError::NotFound { .. } => (OnDisk::Missing, "; press w to write it again"),
-                    _ => (OnDisk::Unreadable, ""),
+                    ReadError::NotFound { .. } => {
+                        let save = self.key_for(Action::Save);
+                        (OnDisk::Missing, format!("; press {save} to write it again"))
+                    }
+                    _ => (OnDisk::Unreadable, String::new()),
                 };
                 self.disk.state = state;
                 self.overlays.errors = None;
@@ -262,7 +274,14 @@ impl App {
                 (Some(before), Some(after)) => Arc::ptr_eq(before, after),
                 _ => false,
             };
-            let Wording { came, same, end } = words;
+            let Wording { came, same, ends } = words;
+            let end = match ends {
+                Ends::Plain => String::new(),
+                Ends::Merge => {
+                    let undo = self.key_for(Action::Undo);
+                    format!("; press {undo} to undo the merge")
+                }
+            };
             self.overlays.say(match place {
                 _ if is_same && !self.assets.lack_meshes() => format!("{came}: {same}{end}"),
                 Some(place) => format!("{came}: {place}{end}"),
@@ -345,8 +364,11 @@ impl App {
         };
         if let Some(open) = merge.conflicts.iter().position(|c| c.decision.is_none()) {
             *at = open;
-            self.overlays
-                .warn("resolve all conflicts first: press m for mine, t for the file's");
+            let (mine, theirs) = (self.key_for(Action::Mine), self.key_for(Action::Theirs));
+            let words = format!(
+                "resolve all conflicts first: press {mine} for mine, {theirs} for the file's"
+            );
+            self.overlays.warn(words);
             return Vec::new();
         }
         let Some(Dialog::Conflict { merge, from, .. }) = self.overlays.dialog.take() else {

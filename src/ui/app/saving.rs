@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::{App, OnDisk};
+use crate::ui::keymap::Action;
 use crate::ui::msg::{Effect, Guard, SaveId, SaveOutcome};
 
 impl App {
@@ -25,12 +26,17 @@ impl App {
     }
 
     /// The addition to a message about a save that the text lacks the moved view, if it does.
-    pub(super) fn unwritten_view(&self) -> &'static str {
-        match self.is_view_unwritten() {
-            true if self.mode.moves_camera() => "; the moved view is not in the text: S writes it",
-            true => "; the moved view is not in the text: S in VIEW writes it",
-            false => "",
+    pub(super) fn unwritten_view(&self) -> String {
+        if !self.is_view_unwritten() {
+            return String::new();
         }
+        let key = self.key_for(Action::SaveView);
+        let place = if self.mode.moves_camera() {
+            ""
+        } else {
+            " in VIEW"
+        };
+        format!("; the moved view is not in the text: {key}{place} writes it")
     }
 
     /// Counts another second of running saves and exports.

@@ -48,9 +48,7 @@ impl App {
         let Some(mut slide) = self.cursor.slide.take() else {
             return false;
         };
-        if self.is_overtaken(&slide.trial) {
-            self.overlays
-                .warn("the scene has changed on disk; the number so far is kept");
+        if self.leaves_trial(&slide.trial, "number") {
             return true;
         }
         // A hundredth is finer than a cell.

@@ -7,6 +7,7 @@ use super::App;
 use super::soloed::Solo;
 use crate::language::Node;
 use crate::scene::{Light, Rgb, Scene};
+use crate::ui::keymap::Action;
 
 /// A scene to show, and what its objects are called if it lacks some.
 pub(super) type Part = (Arc<Scene>, Option<Arc<[u32]>>);
@@ -37,13 +38,15 @@ impl App {
         } else if !solo.objects.is_empty() && self.drawn_in(&solo.objects).is_empty() {
             self.pictures.solo = before;
             let name = self.targets_name(&targets);
+            let show = self.key_for(Action::Visibility);
             self.overlays
-                .fail(format!("{name} is not drawn: h shows it"));
+                .fail(format!("{name} is not drawn: {show} shows it"));
         } else {
             self.pictures.solo = Some(solo);
             let name = self.targets_name(&targets);
-            self.overlays
-                .say(format!("the preview shows only {name}; l shows everything"));
+            let solo = self.key_for(Action::Solo);
+            let words = format!("the preview shows only {name}; {solo} shows everything");
+            self.overlays.say(words);
         }
         self.pictures.due = true;
     }

@@ -35,8 +35,9 @@ impl App {
         }
         let marks = self.cursor.marks.len();
         let words = counted(marks, "item");
+        let back = self.key_for(Action::Back);
         self.overlays
-            .say(format!("{words} marked; Esc clears the marks"));
+            .say(format!("{words} marked; {back} clears the marks"));
     }
 
     /// Deletes the targets; asks first if that changes others.
@@ -113,7 +114,9 @@ impl App {
         match self.source().copied(&nodes) {
             Ok(copied) => {
                 let name = self.targets_name(&nodes);
-                self.overlays.say(format!("copied: {name}; p pastes it"));
+                let paste = self.key_for(Action::Insert);
+                let words = format!("copied: {name}; {paste} pastes it");
+                self.overlays.say(words);
                 self.cursor.copied = Some(copied.clone());
                 vec![Effect::CopyText(copied)]
             }
@@ -128,9 +131,11 @@ impl App {
     pub(super) fn insert_copied(&mut self) {
         match self.cursor.copied.clone() {
             Some(copied) => self.insert(&copied),
-            None => self
-                .overlays
-                .fail("nothing to paste: y copies the selected item"),
+            None => {
+                let copy = self.key_for(Action::Copy);
+                let words = format!("nothing to paste: {copy} copies the selected item");
+                self.overlays.fail(words);
+            }
         }
     }
 

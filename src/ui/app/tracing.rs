@@ -112,18 +112,19 @@ impl App {
     }
 
     /// The job of a picture in the quality of exports, or the reason why there is none.
-    pub(super) fn final_job(&self, size: Size, spp: u32) -> Result<Job, &'static str> {
+    pub(super) fn final_job(&self, size: Size, spp: u32) -> Result<Job, String> {
         let job = self.job(size, spp, self.pictures.quality.filter);
         job.filter(|_| !self.assets.are_awaited())
             .ok_or_else(|| self.no_picture())
     }
 
     /// The reason why there is no picture.
-    pub(super) fn no_picture(&self) -> &'static str {
+    pub(super) fn no_picture(&self) -> String {
         if self.assets.are_awaited() {
-            "still reading the scene's files"
+            "still reading the scene's files".to_owned()
         } else {
-            "no picture: the scene has errors; press ! to list them"
+            let errors = self.key_for(Action::Errors);
+            format!("no picture: the scene has errors; press {errors} to list them")
         }
     }
 
@@ -153,7 +154,7 @@ impl App {
         let job = match self.final_job(self.output(), self.pictures.quality.spp) {
             Ok(job) => job,
             Err(reason) => {
-                self.refuse_picture(Severity::Error, reason);
+                self.refuse_picture(Severity::Error, &reason);
                 return Vec::new();
             }
         };

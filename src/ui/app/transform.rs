@@ -10,7 +10,7 @@ use crate::text::decimals;
 use crate::ui::keymap::Tool;
 
 /// The angle of one step, and of the grid of angles, in degrees.
-const TURN: [f64; 2] = [1.0, 15.0];
+const ROTATION: [f64; 2] = [1.0, 15.0];
 /// The change of the factor in one step, and in one of the grid.
 const SCALE: [f64; 2] = [0.05, 0.25];
 /// Steps of a move in one of the grid.
@@ -91,13 +91,13 @@ impl Transform {
         let steps = self.steps[0] + self.steps[1];
         let [step, grid] = match self.tool {
             Tool::Move => [self.step, GRID * self.step],
-            Tool::Turn => TURN,
+            Tool::Rotate => ROTATION,
             Tool::Scale => SCALE,
         };
         let amount = self.snapped(steps * step, grid);
         match self.tool {
             Tool::Scale => (1.0 + amount).max(SCALE[0]),
-            Tool::Move | Tool::Turn => amount,
+            Tool::Move | Tool::Rotate => amount,
         }
     }
 
@@ -133,7 +133,7 @@ impl Transform {
         }
     }
 
-    /// The point that it turns and scales about: where the selected thing was.
+    /// The point that it is rotated and scaled about: where the selected thing was.
     pub fn pivot(&self) -> DVec3 {
         self.pose.centre
     }
@@ -143,7 +143,7 @@ impl Transform {
         let about = self.pose.centre;
         match self.tool {
             Tool::Move => Motion::Move(self.way(right, up)),
-            Tool::Turn => Motion::Turn {
+            Tool::Rotate => Motion::Rotate {
                 axis: self.axis().unwrap_or(-into),
                 angle: self.amount(),
                 about,
@@ -191,7 +191,7 @@ impl Transform {
         };
         let amount = match (self.typed.as_str(), self.tool) {
             ("", Tool::Move) => format!("{:.*}", self.step_decimals, self.amount() + 0.0),
-            ("", Tool::Turn | Tool::Scale) => format!("{:.2}", self.amount() + 0.0),
+            ("", Tool::Rotate | Tool::Scale) => format!("{:.2}", self.amount() + 0.0),
             (typed, _) => typed.to_owned(),
         };
         let what = match (self.tool, axis) {
@@ -202,8 +202,8 @@ impl Transform {
                 format!("move: {right:.decimals$} right, {up:.decimals$} up")
             }
             (Tool::Move, None) => format!("move to the right: {amount}"),
-            (Tool::Turn, Some(axis)) => format!("rotate about {axis}: {amount}°"),
-            (Tool::Turn, None) => format!("rotate in the picture: {amount}°"),
+            (Tool::Rotate, Some(axis)) => format!("rotate about {axis}: {amount}°"),
+            (Tool::Rotate, None) => format!("rotate in the picture: {amount}°"),
             (Tool::Scale, Some(axis)) => format!("scale along {axis}: ×{amount}"),
             (Tool::Scale, None) => format!("scale: ×{amount}"),
         };

@@ -1,5 +1,5 @@
-//! Moving, turning and scaling by transform, in MOVE mode. Every change is made to the text at once and
-//! replaces the one before, so that the whole is one undo step.
+//! Moving, rotating and scaling in MOVE mode. Every change is made to the text at once and replaces
+//! the one before, so that the whole is one undo step.
 
 use crossterm::event::{KeyCode, KeyEvent};
 use glam::DVec3;
@@ -10,10 +10,10 @@ use crate::language::{Language, Node, Pose, StructureError};
 use crate::render::{axes, pixel_width};
 use crate::scene::{Camera, Size};
 use crate::text::Edit;
-use crate::ui::keymap::{Mode, Stride, Tool, types_amount};
+use crate::ui::keymap::{Action, Mode, Stride, Tool, types_amount};
 
 impl App {
-    /// Starts to move, turn or scale the targets.
+    /// Starts to move, rotate or scale the targets.
     pub(super) fn start_transform(&mut self, tool: Tool) {
         if self.refuses_structure() {
             return;
@@ -90,12 +90,22 @@ impl App {
     }
 
     /// Why the text's camera cannot be transformed, if it cannot.
-    fn refuses_camera(&self, tool: Tool) -> Option<&'static str> {
+    fn refuses_camera(&self, tool: Tool) -> Option<String> {
         match (tool, self.document.language()) {
-            // Only a comment states a view there, which S writes.
-            (_, Language::Ray) => Some("v moves the camera"),
-            (Tool::Scale, _) => Some("a camera has no size: [ and ] in VIEW change what it sees"),
-            (Tool::Move | Tool::Turn, _) => None,
+            // Only a comment states a view there, which is written on request.
+            (_, Language::Ray) => {
+                let view = self.key_for(Action::Go(Mode::View));
+                Some(format!("{view} moves the camera"))
+            }
+            (Tool::Scale, _) => {
+                let key = |step| self.key_for(Action::Widen(step));
+                Some(format!(
+                    "a camera has no size: {} and {} in VIEW change what it sees",
+                    key(-1),
+                    key(1)
+                ))
+            }
+            (Tool::Move | Tool::Rotate, _) => None,
         }
     }
 
@@ -114,7 +124,7 @@ impl App {
         self.change_transform(|transform| {
             let pixels = match transform.tool {
                 Tool::Move => transform.pixel / transform.step,
-                Tool::Turn | Tool::Scale => 1.0,
+                Tool::Rotate | Tool::Scale => 1.0,
             };
             transform.typed.clear();
             transform.steps[0] += pixels * right;
@@ -166,8 +176,9 @@ impl App {
 
     /// Says what ends the transformation, which other actions have to wait for.
     pub(super) fn warn_of_transform(&mut self) {
-        self.overlays
-            .warn("Enter confirms the change first; Esc cancels it");
+        let (confirm, cancel) = (self.key_for(Action::Accept), self.key_for(Action::Back));
+        let words = format!("{confirm} confirms the change first; {cancel} cancels it");
+        self.overlays.warn(words);
     }
 
     /// Keeps the change and ends.
@@ -199,10 +210,8 @@ impl App {
         let Some(mut transform) = self.pictures.transform.take() else {
             return;
         };
-        if self.is_overtaken(&transform.trial) {
+        if self.leaves_trial(&transform.trial, "transformation") {
             self.mode = Mode::Select;
-            self.overlays
-                .warn("the scene has changed on disk; the transformation so far is kept");
             return;
         }
         change(&mut transform);

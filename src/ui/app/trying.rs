@@ -16,9 +16,16 @@ impl App {
         }
     }
 
-    /// Whether something else has changed the text since the last attempt, which then stays.
-    pub(super) fn is_overtaken(&self, trial: &Trial) -> bool {
-        trial.revision != self.document.revision()
+    /// Leaves a trial if something else has changed the text since the last attempt, which then
+    /// stays, and says so by what was tried; returns whether it did.
+    pub(super) fn leaves_trial(&mut self, trial: &Trial, tried: &str) -> bool {
+        let is_overtaken = self.is_overtaken(trial);
+        if is_overtaken {
+            self.overlays.warn(format!(
+                "the scene has changed on disk; the {tried} so far is kept"
+            ));
+        }
+        is_overtaken
     }
 
     /// Replaces the last attempt by another one, whose edits are those of the text before the trial;
@@ -62,5 +69,9 @@ impl App {
             let _ = self.try_instead(&mut trial, |_| Ok(Vec::new()));
         }
         self.document.end_step();
+    }
+
+    fn is_overtaken(&self, trial: &Trial) -> bool {
+        trial.revision != self.document.revision()
     }
 }

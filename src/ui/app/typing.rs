@@ -1,6 +1,6 @@
 //! Entering values: nudging, typing, pasting.
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::Input;
 
 use super::cursor::Typing;
@@ -23,12 +23,7 @@ impl App {
         let Some((field, literal)) = self.current() else {
             return;
         };
-        // A modifier key takes precedence over the stride set before.
-        let stride = match stride {
-            Stride::Plain => self.cursor.stride,
-            held => held,
-        };
-        let step = stride.of(field.step);
+        let step = self.cursor.stride_with(stride).of(field.step);
         let nudged = match field.kind {
             Kind::Choice(words) => {
                 let word = field
@@ -98,12 +93,8 @@ impl App {
             }
             _ => {
                 typing.refused = None;
-                let held = KeyModifiers::CONTROL | KeyModifiers::ALT;
-                let replaces = match key.code {
-                    KeyCode::Char(_) => !key.modifiers.intersects(held),
-                    KeyCode::Backspace | KeyCode::Delete => true,
-                    _ => false,
-                };
+                let deletes = matches!(key.code, KeyCode::Backspace | KeyCode::Delete);
+                let replaces = deletes || line::types(key);
                 if std::mem::take(&mut typing.is_selected) && replaces {
                     typing.input.reset();
                 }
@@ -165,10 +156,7 @@ impl App {
         if let Some(prompt) = &mut self.overlays.prompt
             && self.overlays.dialog.is_none()
         {
-            if std::mem::take(&mut prompt.is_selected) {
-                prompt.input.reset();
-            }
-            line::insert(&mut prompt.input, text);
+            line::insert_over(&mut prompt.input, &mut prompt.is_selected, text);
             if let PromptKind::Filter(from) = prompt.kind {
                 self.filter_list(from);
             }
@@ -213,7 +201,7 @@ impl App {
         }
         if self.mode != Mode::Edit {
             self.overlays
-                .say("press Esc to paste items, or e to paste values into fields");
+                .say("items are pasted in SELECT, values in EDIT");
             return;
         }
         let values = self.literals_of(pasted);
@@ -221,10 +209,7 @@ impl App {
         let is_whole = values.as_ref().is_ok_and(|values| 1 < count(values));
         if let (Some(typing), false) = (&mut self.cursor.typing, is_whole) {
             typing.refused = None;
-            if std::mem::take(&mut typing.is_selected) {
-                typing.input.reset();
-            }
-            line::insert(&mut typing.input, text);
+            line::insert_over(&mut typing.input, &mut typing.is_selected, text);
             return;
         }
         let values = match values {

@@ -252,7 +252,7 @@ impl App {
             Action::SearchAgain(step) => self.search(step),
             Action::Command => self.open_palette(),
             Action::Outline => self.pictures.toggle_outline(),
-            Action::Marks => self.toggle_marks(),
+            Action::Symbols => self.toggle_symbols(),
             Action::Visibility => self.toggle_visibility(),
             Action::Mark => self.toggle_mark(),
             Action::Delete => self.delete(),
@@ -332,7 +332,7 @@ impl App {
         match mode {
             Mode::Trace => return self.start_trace(),
             Mode::View | Mode::Fly | Mode::Pick if self.scene.is_none() => {
-                self.refuse_picture(Severity::Error, self.no_picture());
+                self.refuse_picture(Severity::Error, &self.no_picture());
             }
             Mode::Edit if self.cursor.fields().is_empty() => {
                 self.overlays.fail("nothing to edit here");

@@ -5,6 +5,7 @@ use super::{App, List, Page};
 use crate::language::{Node, SavedView, view_name};
 use crate::scene::{Camera, Emitter};
 use crate::text::Severity;
+use crate::ui::keymap::Action;
 
 impl App {
     /// Applies a move, unless the resulting camera would see nothing.
@@ -141,7 +142,8 @@ impl App {
             return;
         };
         let name = views[at].name.clone();
-        let done = format!("view {name} is deleted; u undoes");
+        let undo = self.key_for(Action::Undo);
+        let done = format!("view {name} is deleted; {undo} undoes it");
         self.edit_saved_view(&name, None, done);
     }
 

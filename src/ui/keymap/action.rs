@@ -18,7 +18,7 @@ pub enum Mode {
     Trace,
     /// Moves a cross over the picture to pick the object under it.
     Pick,
-    /// Moves, turns or scales things in the picture.
+    /// Moves, rotates or scales things in the picture.
     Move,
 }
 
@@ -119,8 +119,8 @@ pub enum Action {
     Command,
     /// Shows or hides the outline of the selected object.
     Outline,
-    /// Marks all lights, cameras and groups in the picture, or only the selected kind.
-    Marks,
+    /// Shows symbols of all lights, cameras and groups in the picture, or only of the selected kind.
+    Symbols,
     /// Shows or hides the selected object itself.
     Visibility,
     /// Marks the selected node for the commands that follow.
@@ -143,9 +143,9 @@ pub enum Action {
     Add,
     /// Opens the menu of kinds to change to.
     Retype,
-    /// Starts to move, turn or scale.
+    /// Starts to move, rotate or scale.
     Transform(Tool),
-    /// Moves, turns or scales by steps to the right and up.
+    /// Moves, rotates or scales by steps to the right and up.
     Step(i8, i8, Stride),
     /// Locks an axis of the world, then of the thing itself: 0 is x.
     Lock(usize),
@@ -261,8 +261,8 @@ pub enum Fold {
 pub enum Tool {
     /// Moves.
     Move,
-    /// Turns.
-    Turn,
+    /// Rotates.
+    Rotate,
     /// Scales.
     Scale,
 }

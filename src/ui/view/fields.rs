@@ -15,7 +15,7 @@ use crate::scene::Rgb;
 use crate::text::{counted, parse_number, without_suffix};
 use crate::ui::app::{App, FieldRow, Provenance, Typing};
 use crate::ui::fit::wrap;
-use crate::ui::keymap::{Mode, Stride};
+use crate::ui::keymap::{Action, Mode, Stride};
 use crate::ui::layout::{self, marker_at};
 use crate::ui::theme;
 
@@ -219,7 +219,13 @@ fn explain(app: &App, field: &FieldRow, area: Rect, buffer: &mut Buffer) {
     };
     let nudge = match field.field.kind {
         Kind::Choice(_) | Kind::Reference(_) | Kind::Name(_) => {
-            " · Enter: list · h l: next".to_owned()
+            let [list, less, more] = [
+                Action::Choose,
+                Action::Nudge(-1, Stride::Plain),
+                Action::Nudge(1, Stride::Plain),
+            ]
+            .map(|action| app.key_for(action));
+            format!(" · {list}: list · {less} {more}: next")
         }
         Kind::Word => String::new(),
         _ => format!(" · step {}{unit}", app.step(field.field)),

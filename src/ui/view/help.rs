@@ -9,7 +9,7 @@ use ratatui::widgets::{Block, BorderType, Clear, Widget};
 use super::row::Row;
 use crate::text::counted;
 use crate::ui::app::{App, PageFocus};
-use crate::ui::keymap::HelpLine;
+use crate::ui::keymap::{Action, HelpLine};
 use crate::ui::layout;
 use crate::ui::theme;
 
@@ -61,7 +61,10 @@ pub(crate) fn render(app: &App, area: Rect, buffer: &mut Buffer) {
     let is_entry = |line: &&HelpLine| matches!(line, HelpLine::Entry { .. });
     let count = columns.iter().flatten().filter(is_entry).count();
     let found = match help.search.value() {
-        "" => "/ search  Esc close".to_owned(),
+        "" => {
+            let (search, close) = (app.key_for(Action::Search), app.key_for(Action::Back));
+            format!("{search} search  {close} close")
+        }
         search => format!("{} with “{search}”", counted(count, "line")),
     };
     row.put(&found, theme::DIM);

@@ -14,7 +14,6 @@ mod help;
 mod history;
 mod inks;
 mod list;
-mod marks;
 mod menu;
 mod message;
 mod oklab;
@@ -24,6 +23,7 @@ mod picker;
 mod picture;
 mod row;
 mod status;
+mod symbols;
 mod wireframe;
 
 #[cfg(test)]

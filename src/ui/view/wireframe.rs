@@ -13,14 +13,14 @@ const DOTS: [usize; 2] = [2, 4];
 /// Dots per pixel, in both directions.
 const PER_PIXEL: f64 = 2.0;
 
-/// Draws the lines over the cells of the picture; those of the `marked` objects, ascending, stand
+/// Draws the lines over the cells of the picture; those of the `outlined` objects, ascending, stand
 /// out. Says how many objects are drawn if not all are.
-pub(super) fn paint(wireframe: &Wireframe, marked: &[u32], area: Rect, buffer: &mut Buffer) {
+pub(super) fn paint(wireframe: &Wireframe, outlined: &[u32], area: Rect, buffer: &mut Buffer) {
     let [columns, rows] = [area.width, area.height].map(usize::from);
     let mut cells = vec![(0_u8, Ink::Plain); columns * rows];
     for line in &wireframe.lines {
-        let ink = match marked.binary_search(&line.object) {
-            Ok(_) => Ink::Marked,
+        let ink = match outlined.binary_search(&line.object) {
+            Ok(_) => Ink::Outlined,
             Err(_) => Ink::Plain,
         };
         for [x, y] in dots(line) {
@@ -40,8 +40,8 @@ pub(super) fn paint(wireframe: &Wireframe, marked: &[u32], area: Rect, buffer: &
         if mask != 0 {
             cell.set_char(character(mask));
         }
-        if ink == Ink::Marked {
-            cell.set_style(theme::MARKED);
+        if ink == Ink::Outlined {
+            cell.set_style(theme::OUTLINED);
         }
     }
     if wireframe.drawn < wireframe.seen {
@@ -54,7 +54,7 @@ pub(super) fn paint(wireframe: &Wireframe, marked: &[u32], area: Rect, buffer: &
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Ink {
     Plain,
-    Marked,
+    Outlined,
 }
 
 /// The dots of a line, one for each step along its longer direction.
@@ -88,7 +88,7 @@ mod tests {
 
     use super::*;
 
-    fn painted(lines: &[([[f64; 2]; 2], u32)], marked: &[u32], drawn: usize) -> Buffer {
+    fn painted(lines: &[([[f64; 2]; 2], u32)], outlined: &[u32], drawn: usize) -> Buffer {
         let lines = lines
             .iter()
             .map(|&(ends, object)| WireLine { ends, object });
@@ -99,7 +99,7 @@ mod tests {
         };
         let area = Rect::new(0, 0, 16, 3);
         let mut buffer = Buffer::empty(area);
-        paint(&wireframe, marked, area, &mut buffer);
+        paint(&wireframe, outlined, area, &mut buffer);
         buffer
     }
 
@@ -121,12 +121,12 @@ mod tests {
     }
 
     #[test]
-    fn only_marked_objects_are_styled() {
+    fn only_outlined_objects_are_styled() {
         let at = |x| [[x, 0.0], [x, 0.0]];
         let buffer = painted(&[(at(0.0), 4), (at(1.0), 7), (at(1.0), 1)], &[2, 7], 3);
         let style = |x: u16| buffer[(x, 0)].style();
         assert_eq!(style(0).fg, Some(Color::Reset));
-        assert_eq!(style(1).fg, theme::MARKED.fg);
+        assert_eq!(style(1).fg, theme::OUTLINED.fg);
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::language::Node;
 use crate::ui::app::command;
 use crate::ui::keymap::Action as A;
 use crate::ui::keymap::Stride::{Coarse, Fine, Plain};
-use crate::ui::keymap::Tool::{Move, Scale, Turn};
+use crate::ui::keymap::Tool::{Move, Rotate, Scale};
 use Node::{Light, Material, Object, Texture, View};
 
 /// A row of a table: what is selected, and what keys do then.
@@ -94,7 +94,7 @@ fn edits(action: A) -> bool {
         | A::SearchAgain(_)
         | A::Command
         | A::Outline
-        | A::Marks
+        | A::Symbols
         | A::Mark
         | A::Add
         | A::Copy

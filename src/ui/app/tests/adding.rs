@@ -158,7 +158,7 @@ fn the_first_thing_brings_a_scene_with_it() {
     let (mut app, _) = opened_as("a.dat", "");
     press(&mut app, "aunion<Enter>");
     assert_eq!(app.document.text(), "");
-    assert!(words(&app).contains("Space"), "{}", words(&app));
+    assert!(words(&app).contains("mark them first"), "{}", words(&app));
 }
 
 /// Solids of several lines, whose lengths and last numbers share lines.

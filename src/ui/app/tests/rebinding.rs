@@ -46,6 +46,73 @@ fn messages_name_the_bound_keys() {
 }
 
 #[test]
+fn what_is_said_after_keys_names_the_bound_ones() {
+    for (section, keys, name, pressed, said) in [
+        (
+            "select",
+            "Q",
+            "back",
+            " ",
+            "1 item marked; Q clears the marks",
+        ),
+        (
+            "select",
+            "Q",
+            "back",
+            "/light<Enter>",
+            "1 of 1; Q shows all",
+        ),
+        (
+            "select",
+            "Q",
+            "search",
+            "n",
+            "nothing to search for: Q filters the list",
+        ),
+        (
+            "select",
+            "Q",
+            "copy",
+            "p",
+            "nothing to paste: Q copies the selected item",
+        ),
+        (
+            "select",
+            "Q",
+            "paste",
+            "jjjy",
+            "copied: object 1 (sphere); Q pastes it",
+        ),
+        ("select", "Q", "camera", "m", "Q moves the camera"),
+        (
+            "select",
+            "Q",
+            "solo",
+            "jjjQ",
+            "the preview shows only object 1 (sphere); Q shows everything",
+        ),
+        (
+            "move",
+            "Q",
+            "accept",
+            "jjjmw",
+            "Q confirms the change first; Esc cancels it",
+        ),
+    ] {
+        let mut app = open(SCENE);
+        let section = Section::named(section).expect("a section");
+        let named = app.keymap.actions_in(section).into_iter();
+        let mut named = named.filter(|known| known.name == name);
+        let action = named.next().map(|known| known.action);
+        assert!(action.is_some(), "{name}");
+        app.keymap
+            .bind(section, Keys::parse(keys).expect("keys"), action);
+        press(&mut app, pressed);
+        assert_eq!(words(&app), said, "{pressed}");
+    }
+}
+
+#[test]
 fn help_hints_and_palette_show_the_bound_keys() {
     let mut app = rebound();
     let undo = HelpLine::Entry {

@@ -284,7 +284,7 @@ fn what_cannot_be_moved_is_said() {
             DAT,
             Object(0),
             "syy2",
-            "a sphere has a single radius: press c to make it an ellipsoid",
+            "a sphere has a single radius: change its type to ellipsoid first",
         ),
     ] {
         let (mut app, _) = opened_as(name, text);
@@ -361,10 +361,10 @@ fn menus_add_things_and_change_their_kind() {
 #[test]
 fn nothing_is_outlined_until_something_is_selected() {
     let (mut app, _) = opened_as("a.dat", DAT);
-    assert!(app.marked_objects().is_empty());
+    assert!(app.outlined_objects().is_empty());
     press(&mut app, "G");
     assert_eq!(
-        (app.cursor.selected(), app.marked_objects()),
+        (app.cursor.selected(), app.outlined_objects()),
         (Object(0), vec![0])
     );
     let two = DAT.replace(
@@ -373,9 +373,9 @@ fn nothing_is_outlined_until_something_is_selected() {
     );
     let (mut app, _) = opened_as("a.dat", &two);
     app.select(Node::Material(0));
-    assert_eq!(app.marked_objects(), [0, 1], "the users of a material");
+    assert_eq!(app.outlined_objects(), [0, 1], "the users of a material");
     press(&mut app, "o");
-    assert!(app.marked_objects().is_empty());
+    assert!(app.outlined_objects().is_empty());
 }
 
 #[test]
@@ -442,10 +442,10 @@ fn only_the_mark_moves_where_the_picture_is_seen_from_elsewhere() {
     let (mut app, _) = opened_as("a.dat", DAT);
     app.select(Node::View);
     press(&mut app, "v-<Esc>");
-    let (seen, mark) = (app.camera(), app.marks()[0]);
+    let (seen, mark) = (app.camera(), app.symbols()[0]);
     press(&mut app, "mx0.1<Enter>");
     assert_eq!(app.camera(), seen);
-    assert!(mark.cell.0 < app.marks()[0].cell.0, "{mark:?}");
+    assert!(mark.cell.0 < app.symbols()[0].cell.0, "{mark:?}");
     assert_eq!(
         app.document.text(),
         DAT.replace("0 0 10  0 0 0", "0.1 0 10  0.1 0 0")

@@ -148,7 +148,7 @@ fn a_text_that_is_not_xml_does_no_harm() {
         ] {
             press(&mut app, keys);
             assert!(app.fields().is_empty() && app.cursor.parts().is_empty());
-            let _ = (app.areas(), app.raster(), app.marked_objects());
+            let _ = (app.areas(), app.raster(), app.outlined_objects());
         }
         assert_eq!(app.document.text(), text);
     }

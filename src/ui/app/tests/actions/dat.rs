@@ -91,7 +91,7 @@ pub(super) const ROWS: &[Row] = &[
         ("texture ID 1 checker 4 4 1 1 1 0 0 0\n",
             "texture ID 1 checker 4 4 1 1 1 0 0 0\ntexture ID 2 image 1 1 picture.png\n"),
     ])),
-    row(Add("union"), Object(0), "aunion<Enter>", Says("a union combines two objects: first mark them with Space")),
+    row(Add("union"), Object(0), "aunion<Enter>", Says("a union combines two objects: mark them first")),
     row(Key(A::Delete), Object(0), "d", Becomes(&[
         ("# ball\nobj sphere ID 1 mat ID 1  0 0 0  1\n",
             ""),
@@ -223,8 +223,8 @@ pub(super) const ROWS: &[Row] = &[
     row(Key(A::Transform(Move)), View, "mx1<Enter>", Becomes(&[
         ("0 0 10  0 0 0", "1 0 10  1 0 0"),
     ])),
-    row(Key(A::Transform(Turn)), Object(1), "tz90<Enter>", Says("nothing has changed")),
-    row(Key(A::Transform(Turn)), Object(0), "  tz90<Enter>", Becomes(&[
+    row(Key(A::Transform(Rotate)), Object(1), "tz90<Enter>", Says("nothing has changed")),
+    row(Key(A::Transform(Rotate)), Object(0), "  tz90<Enter>", Becomes(&[
         ("1  0 0 ",
             "1  3 -3 "),
     ])),
@@ -232,7 +232,7 @@ pub(super) const ROWS: &[Row] = &[
         ("0  1\n",
             "0  2\n"),
     ])),
-    row(Key(A::Transform(Scale)), Object(1), "syy2", Says("a sphere has a single radius: press c to make it an ellipsoid")),
+    row(Key(A::Transform(Scale)), Object(1), "syy2", Says("a sphere has a single radius: change its type to ellipsoid first")),
     row(Key(A::Transform(Scale)), Object(0), "  s2<Enter>", Becomes(&[
         ("obj sphere ID 1 mat ID 1  0 0 0  1\nobj sphere ID 2 mat ID 2  3 0 0  2\n",
             "obj sphere ID 1 mat ID 1  -3 0 0  2\nobj sphere ID 2 mat ID 2  3 0 0  4\n"),

@@ -140,11 +140,11 @@ pub(super) const ROWS: &[Row] = &[
             "sphere 0.5 "),
     ])),
     row(Key(A::Transform(Move)), View, "m", Says("v moves the camera")),
-    row(Key(A::Transform(Turn)), Object(1), "tz90<Enter>", Becomes(&[
+    row(Key(A::Transform(Rotate)), Object(1), "tz90<Enter>", Becomes(&[
         ("2 0 0  1 0 0  0 1 ",
             "3.5 0.5 0  0 1 0  -1 0 "),
     ])),
-    row(Key(A::Transform(Turn)), Object(0), "  tz90<Enter>", Becomes(&[
+    row(Key(A::Transform(Rotate)), Object(0), "  tz90<Enter>", Becomes(&[
         ("sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\nbox 2 0 0  1 0 0  0 1 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n",
             "sphere 3.5 -1.5 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1\nbox 3.5 0.5 0  0 1 0  -1 0 0  0 0 1  1 2 3  0 0 0 .5 .4 .3 0 0 0 1 0 0 1\n"),
     ])),

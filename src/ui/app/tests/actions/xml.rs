@@ -196,11 +196,11 @@ pub(super) const ROWS: &[Row] = &[
         ("z=\"10\"/>", "z=\"10\" x=\"1\"/>"),
         ("<target value=\"0\"/>", "<target value=\"1\" x=\"1\" y=\"0\" z=\"0\"/>"),
     ])),
-    row(Key(A::Transform(Turn)), Object(1), "tz90<Enter>", Becomes(&[
+    row(Key(A::Transform(Rotate)), Object(1), "tz90<Enter>", Becomes(&[
         ("    <object type=\"plane\" name=\"b\"/>\n",
             "    <object type=\"plane\" name=\"b\">\n      <rotate z=\"1\" angle=\"90\"/>\n    </object>\n"),
     ])),
-    row(Key(A::Transform(Turn)), Object(0), "  tz90<Enter>", Becomes(&[
+    row(Key(A::Transform(Rotate)), Object(0), "  tz90<Enter>", Becomes(&[
         ("      <translate x=\"1\"/>\n",
             "      <rotate z=\"1\" angle=\"90\"/>\n      <translate x=\"0\" y=\"1\"/>\n"),
         ("    <object type=\"plane\" name=\"b\"/>\n",

@@ -1,22 +1,22 @@
-//! Marks of lights, the camera and groups over the picture.
+//! Symbols of lights, the camera and groups over the picture.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 
 use super::inks::Glyphs;
-use crate::ui::app::{App, MarkKind};
+use crate::ui::app::{App, SymbolKind};
 use crate::ui::theme;
 
-/// Draws the marks over the cells of the picture; that of the selected node stands out.
+/// Draws the symbols over the cells of the picture; that of the selected node stands out.
 pub(super) fn render(app: &App, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer) {
-    for mark in app.marks() {
-        let (symbol, plain, style) = match mark.kind {
-            MarkKind::Light => ("✶", "*", theme::WARNING),
-            MarkKind::Camera => ("◎", "@", theme::ACCENT),
-            MarkKind::Group => ("◇", "#", theme::GOOD),
+    for symbol in app.symbols() {
+        let (sign, plain, style) = match symbol.kind {
+            SymbolKind::Light => ("✶", "*", theme::WARNING),
+            SymbolKind::Camera => ("◎", "@", theme::ACCENT),
+            SymbolKind::Group => ("◇", "#", theme::GOOD),
         };
-        let place = (cells.x + mark.cell.0, cells.y + mark.cell.1);
+        let place = (cells.x + symbol.cell.0, cells.y + symbol.cell.1);
         // The picture may have another size than at the last step.
         if !cells.contains(place.into()) {
             continue;
@@ -24,14 +24,14 @@ pub(super) fn render(app: &App, glyphs: Glyphs, cells: Rect, buffer: &mut Buffer
         let Some(cell) = buffer.cell_mut(place) else {
             continue;
         };
-        let style = if app.cursor.selected() == mark.node {
+        let style = if app.cursor.selected() == symbol.node {
             theme::chip(style)
         } else {
             style.bg(Color::Black)
         };
         cell.set_symbol(match glyphs {
             Glyphs::Characters => plain,
-            Glyphs::HalfBlocks | Glyphs::HalfBlocksOf256 | Glyphs::HalfBlocksOf16 => symbol,
+            Glyphs::HalfBlocks | Glyphs::HalfBlocksOf256 | Glyphs::HalfBlocksOf16 => sign,
         });
         cell.set_style(Style::reset());
         cell.set_style(style);
@@ -58,8 +58,8 @@ sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1
 ";
 
     #[test]
-    fn the_mark_of_the_selected_light_stands_out() {
-        for (glyphs, symbol) in [(Glyphs::HalfBlocks, "✶"), (Glyphs::Characters, "*")] {
+    fn the_symbol_of_the_selected_light_stands_out() {
+        for (glyphs, sign) in [(Glyphs::HalfBlocks, "✶"), (Glyphs::Characters, "*")] {
             let mut app = app_of(Language::Ray, TWO_LIGHTS);
             // From the view to the first light.
             for key in ['j', 'j'] {
@@ -69,8 +69,8 @@ sphere 0 0 0 1  0 0 0 .5 .5 .5 0 0 0 1 0 0 1
             let (cells, _) = app.raster().expect("there is room");
             let mut buffer = Buffer::empty(cells);
             render(&app, glyphs, cells, &mut buffer);
-            let marks = buffer.content.iter().filter(|cell| cell.symbol() == symbol);
-            let reversed: Vec<_> = marks
+            let signs = buffer.content.iter().filter(|cell| cell.symbol() == sign);
+            let reversed: Vec<_> = signs
                 .map(|cell| cell.modifier.contains(Modifier::REVERSED))
                 .collect();
             assert_eq!(reversed, [true, false]);
