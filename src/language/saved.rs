@@ -146,10 +146,19 @@ fn body(camera: &Camera) -> String {
     put("target", &camera.target.to_array());
     put("up", &camera.up.to_array());
     match camera.lens {
-        Lens::Perspective(angle) => put("fov", &[angle]),
-        Lens::Orthographic(height) => put("height", &[height]),
+        Lens::Perspective(angle) => put("fov", &[shortened(angle)]),
+        Lens::Orthographic(height) => put("height", &[shortened(height)]),
     }
     text
+}
+
+/// Rounds a computed number above 0 to four decimals, or to four digits if it has fewer then.
+fn shortened(number: f64) -> f64 {
+    const DIGITS: i32 = 4;
+    let power = libm::floor(libm::log10(number)) as i32;
+    let decimals = DIGITS.max(DIGITS - 1 - power) as usize;
+    let rounded = format!("{number:.decimals$}").parse();
+    rounded.unwrap_or(number)
 }
 
 /// Reads a comment; `None` unless it is a well-formed view with a name.

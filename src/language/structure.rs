@@ -305,6 +305,15 @@ pub(super) fn lines(text: &str, own: Span, above: impl Fn(usize) -> Option<usize
     Span::new(start, line_end(text, own.end()))
 }
 
+/// Whether a text begins on the line after another.
+pub(super) fn follows(text: &str, own: Span, next: Span) -> bool {
+    let line = next_line(text, own.end());
+    line <= next.start()
+        && text[line..next.start()]
+            .trim_matches([' ', '\t'])
+            .is_empty()
+}
+
 /// The line before the one that starts at `start`.
 pub(super) fn line_before(text: &str, start: usize) -> Option<Span> {
     let start = line_start(text, start.checked_sub(1)?);

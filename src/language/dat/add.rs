@@ -8,6 +8,7 @@ use super::table::{ObjectKind, RecordKind, UseKind};
 use crate::language::form::Form;
 use crate::language::structure::{Wish, number};
 use crate::language::table::Category;
+use crate::language::view::spelled;
 use crate::language::{Addition, Answers, Node, Placement, Restructure, StructureError};
 use crate::text::{Edit, Span};
 
@@ -59,7 +60,7 @@ pub(super) fn addition(
     let solid = SOLIDS.into_iter().find(|kind| kind.keyword() == name);
     let text = match (name, solid) {
         (_, Some(kind)) => source.solid(kind, wish)?,
-        ("union" | "intersection" | "difference", _) => source.combination(name, wish)?,
+        ("union" | "intersection" | "difference", _) => return source.combination(name, wish),
         ("point light", _) => {
             format!("light ID 1 pnt  {above}  0 0 0  1 1 1  1 0 0  0 shadow_on")
         }
@@ -125,7 +126,7 @@ pub(super) fn respelled(
     let shapeless =
         || StructureError::Inexpressible("it has no size that another type could use".to_owned());
     let (_, spans, _) = source.object_numbers(index).ok_or_else(shapeless)?;
-    let literals = literals(new, form, &|number| number.to_string())?;
+    let literals = literals(new, form, &spelled)?;
     let record = source.span(Node::Object(index));
     let mut tokens = source
         .tree
@@ -264,14 +265,15 @@ impl Source {
         self.material(index).or_else(|| parts.next())
     }
 
-    /// The record that combines the two marked objects.
-    fn combination(&self, operation: &str, wish: &Wish<'_>) -> Result<String, StructureError> {
+    /// The edits that combine the two marked objects.
+    fn combination(&self, operation: &str, wish: &Wish<'_>) -> Result<Placement, StructureError> {
         let objects = wish.marked.iter().filter_map(|&node| match node {
             Node::Object(index) => Some(self.origins.objects.get(index)?.id),
             _ => None,
         });
-        if let [first, second] = objects.collect::<Vec<_>>().as_slice() {
-            Ok(format!("obj CSG ID 1 {operation} ID {first} ID {second}"))
+        if let parts @ [first, second] = objects.collect::<Vec<_>>().as_slice() {
+            let record = format!("obj CSG ID 1 {operation} ID {first} ID {second}");
+            self.inserted(&record, wish.after, parts)
         } else {
             let reason = format!("a {operation} combines two objects: mark them first");
             Err(StructureError::Inexpressible(reason))

@@ -281,16 +281,21 @@ impl Source {
             }
             Node::Light(_) => {
                 let fields = self.fields(node);
-                let at = |key| self.vector(&fields, key);
-                let source = fields.first()?.spans.first()?.of(&self.text);
-                let kind = SOURCES.iter().find(|(word, _)| *word == source)?.1;
-                matches!(kind, LightKind::Point).then_some(Pose {
-                    centre: at("position")?,
+                let is_placed = matches!(self.light_kind(&fields)?, LightKind::Point);
+                is_placed.then_some(Pose {
+                    centre: self.vector(&fields, "position")?,
                     axes: DVec3::AXES,
                 })
             }
             _ => None,
         }
+    }
+
+    /// The kind of a light with these fields.
+    fn light_kind(&self, fields: &[Placed]) -> Option<LightKind> {
+        let word = fields.first()?.spans.first()?.of(&self.text);
+        let kind = SOURCES.iter().find(|(known, _)| *known == word);
+        kind.map(|(_, kind)| *kind)
     }
 
     /// The vector of a field.
@@ -372,15 +377,20 @@ impl Source {
                 Ok(replacements(&self.text, &spans, &new))
             }
             Node::Light(_) => {
+                use LightKind::{Distant, Point};
                 let fields = self.fields(node);
+                let kind = self.light_kind(&fields).ok_or_else(fixed)?;
+                // Then a distant light shines from its position.
+                let is_undirected = self.vector(&fields, "direction") == Some(DVec3::ZERO);
                 let mut edits = Vec::new();
                 for placed in &fields {
                     let Some(old) = self.vector(&fields, placed.field.key) else {
                         continue;
                     };
-                    let (new, decimals) = match placed.field.key {
-                        "position" => (motion.point(old), decimals),
-                        "direction" => (motion.direction(old), PRECISE),
+                    let (new, decimals) = match (placed.field.key, kind) {
+                        ("position", Point) => (motion.point(old), decimals),
+                        ("position", Distant) if is_undirected => (motion.direction(old), PRECISE),
+                        ("direction", Point | Distant) => (motion.direction(old), PRECISE),
                         _ => continue,
                     };
                     let (old, new) = (old.to_array(), new.to_array());

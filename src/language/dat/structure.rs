@@ -10,7 +10,7 @@ use super::tree::is_comment;
 use super::visibility::Listing;
 use super::{Source, add, apart};
 use crate::language::structure::{
-    Block, adapted, deletions, line_before, lines, lines_after, pair, uncreatable,
+    Block, adapted, deletions, follows, line_before, lines, lines_after, pair, uncreatable,
 };
 use crate::language::table::Category;
 use crate::language::view::line_ending;
@@ -22,7 +22,7 @@ use crate::text::{Edit, Span, counted, parse_number};
 
 impl Restructure for Source {
     fn consequence(&self, nodes: &[Node]) -> Option<String> {
-        match self.dependents(nodes).as_slice() {
+        let users = match self.dependents(nodes).as_slice() {
             [] => None,
             [one] => Some(format!(
                 "{} uses it and will be deleted too",
@@ -32,7 +32,17 @@ impl Restructure for Source {
                 "{} use it and will be deleted too",
                 counted(many.len(), "object")
             )),
-        }
+        };
+        let textured = match self.textured(nodes).as_slice() {
+            [] => None,
+            [one] => Some(format!("{} uses it and will lose it", self.name(*one))),
+            many => Some(format!(
+                "{} use it and will lose it",
+                counted(many.len(), "material")
+            )),
+        };
+        let both: Vec<_> = users.into_iter().chain(textured).collect();
+        (!both.is_empty()).then(|| both.join("; "))
     }
 
     fn removal(&self, nodes: &[Node]) -> Result<Vec<Edit>, StructureError> {
@@ -87,35 +97,7 @@ impl Restructure for Source {
     }
 
     fn insertion(&self, text: &str, after: Node) -> Result<Placement, StructureError> {
-        let adapted = adapted(text, &self.text);
-        let mut copies = Copies::of(&adapted)?;
-        for category in [
-            Category::Light,
-            Category::Material,
-            Category::Texture,
-            Category::Object,
-        ] {
-            copies.renumber(category, &self.ids(category));
-        }
-        let anchor = self.anchor(&copies, after);
-        let own = match anchor {
-            Some(record) => lines_after(&self.text, self.block(record).span(), &copies.text()),
-            None => Edit {
-                span: Span::at(0),
-                text: format!("{}{}", copies.text(), line_ending(&self.text)),
-            },
-        };
-        let start = own.span.start();
-        let mut edits = vec![own];
-        if let Some(listing) = Listing::of(&self.text, &self.tree, &self.origins) {
-            edits.extend(listing.with(&copies.results()));
-        }
-        edits.sort_by_key(|edit| edit.span);
-        let at = edits.iter().position(|edit| edit.span == Span::at(start));
-        Ok(Placement {
-            at: at.unwrap_or_default(),
-            edits,
-        })
+        self.inserted(text, after, &[])
     }
 
     fn exchange(&self, node: Node, neighbour: Neighbour) -> Result<Placement, StructureError> {
@@ -266,6 +248,50 @@ impl Restructure for Source {
 }
 
 impl Source {
+    /// The edits that insert copied text; the objects with these IDs, which it combines, are no
+    /// longer drawn by themselves.
+    pub(super) fn inserted(
+        &self,
+        text: &str,
+        after: Node,
+        combined: &[i64],
+    ) -> Result<Placement, StructureError> {
+        let adapted = adapted(text, &self.text);
+        let mut copies = Copies::of(&adapted)?;
+        for category in [
+            Category::Light,
+            Category::Material,
+            Category::Texture,
+            Category::Object,
+        ] {
+            copies.renumber(category, &self.ids(category));
+        }
+        let anchor = self.anchor(&copies, after);
+        let own = match anchor {
+            Some(record) => lines_after(&self.text, self.block(record).span(), &copies.text()),
+            None => Edit {
+                span: Span::at(0),
+                text: format!("{}{}", copies.text(), line_ending(&self.text)),
+            },
+        };
+        let start = own.span.start();
+        let mut edits = vec![own];
+        if let Some(listing) = Listing::of(&self.text, &self.tree, &self.origins) {
+            let goes = |id| combined.contains(&id);
+            edits.extend(
+                listing
+                    .exchanged(&self.text, goes, &copies.results())
+                    .unwrap_or_default(),
+            );
+        }
+        edits.sort_by_key(|edit| edit.span);
+        let at = edits.iter().position(|edit| edit.span == Span::at(start));
+        Ok(Placement {
+            at: at.unwrap_or_default(),
+            edits,
+        })
+    }
+
     /// The objects that cannot stay without these nodes: those that have a material among them, or
     /// combine objects that go.
     fn dependents(&self, nodes: &[Node]) -> Vec<Node> {
@@ -284,6 +310,18 @@ impl Source {
         let objects = goes.iter().enumerate().filter(|(_, goes)| **goes);
         let objects = objects.map(|(index, _)| Node::Object(index));
         objects.filter(|node| !nodes.contains(node)).collect()
+    }
+
+    /// The materials that stay and use textures among these nodes.
+    fn textured(&self, nodes: &[Node]) -> Vec<Node> {
+        let nodes: HashSet<_> = nodes.iter().copied().collect();
+        let uses = self.origins.uses.iter();
+        let uses = uses.filter(|at| nodes.contains(&Node::Texture(at.texture)));
+        let mut users: Vec<_> = uses.map(|at| Node::Material(at.material)).collect();
+        users.retain(|user| !nodes.contains(user));
+        users.sort_unstable();
+        users.dedup();
+        users
     }
 
     /// The record after which copies stand: that of `after` if nothing they use follows it and they
@@ -367,11 +405,25 @@ impl Source {
             .ok_or_else(|| StructureError::Fixed(self.name(node)))
     }
 
+    /// Whether a comment above a record is a heading of several: one of the same category follows
+    /// on the next line.
+    fn has_heading(&self, record: usize) -> bool {
+        let of = |record| self.origins.node_of(record).and_then(category);
+        let next = record + 1;
+        of(record).is_some()
+            && of(record) == of(next)
+            && follows(
+                &self.text,
+                self.tree.span_of(record),
+                self.tree.span_of(next),
+            )
+    }
+
     /// The lines that move with a record.
     fn block(&self, record: usize) -> Block {
         let text = &*self.text;
         let comment_above = |start| {
-            let line = line_before(text, start)?;
+            let line = line_before(text, start).filter(|_| !self.has_heading(record))?;
             is_comment(line.of(text).trim()).then_some(line.start())
         };
         Block::Lines(lines(text, self.tree.span_of(record), comment_above))

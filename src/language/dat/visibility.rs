@@ -70,7 +70,7 @@ pub(super) fn edits(
             let ids: Vec<_> = new
                 .filter_map(|&object| Some(id(object)?.to_string()))
                 .collect();
-            Ok(listing.with(&ids))
+            Ok(listing.with(text, &ids))
         }
         Visibility::Hidden => {
             let gone = objects.iter().filter_map(|&object| id(object));
@@ -106,35 +106,40 @@ impl Listing {
     }
 
     /// The edits that add objects.
-    pub(super) fn with(&self, ids: &[String]) -> Vec<Edit> {
-        if ids.is_empty() {
-            return Vec::new();
-        }
-        let end = self.entries.last().map_or(self.count, |entry| entry[1]);
-        let edit = |span, text| Edit { span, text };
-        let listed: Vec<_> = ids.iter().map(|id| format!(" ID {id}")).collect();
-        vec![
-            edit(self.count, (self.entries.len() + ids.len()).to_string()),
-            edit(Span::at(end.end()), listed.concat()),
-        ]
+    pub(super) fn with(&self, text: &str, ids: &[String]) -> Vec<Edit> {
+        self.exchanged(text, |_| false, ids).unwrap_or_default()
     }
 
-    /// The edits that remove objects, each with the white space before it; `None` if no other is
-    /// listed.
+    /// The edits that remove objects; `None` if no other is listed.
     pub(super) fn without(&self, text: &str, goes: impl Fn(i64) -> bool) -> Option<Vec<Edit>> {
+        self.exchanged(text, goes, &[])
+    }
+
+    /// The edits that remove objects, each with the white space before it, and add others; `None`
+    /// if none would be listed.
+    pub(super) fn exchanged(
+        &self,
+        text: &str,
+        goes: impl Fn(i64) -> bool,
+        ids: &[String],
+    ) -> Option<Vec<Edit>> {
         let edit = |span, text| Edit { span, text };
         let before = std::iter::once(self.count).chain(self.entries.iter().map(|entry| entry[1]));
-        let removed: Vec<_> = before
+        let mut edits: Vec<_> = before
             .zip(&self.entries)
             .filter(|(_, entry)| entry[1].of(text).parse().is_ok_and(&goes))
             .map(|(before, entry)| edit(Span::new(before.end(), entry[1].end()), String::new()))
             .collect();
-        let left = self.entries.len() - removed.len();
-        if removed.is_empty() {
-            return Some(removed);
+        let left = self.entries.len() - edits.len() + ids.len();
+        if !ids.is_empty() {
+            let end = self.entries.last().map_or(self.count, |entry| entry[1]);
+            let listed: Vec<_> = ids.iter().map(|id| format!(" ID {id}")).collect();
+            edits.push(edit(Span::at(end.end()), listed.concat()));
         }
-        let count = edit(self.count, left.to_string());
-        (0 < left).then(|| std::iter::once(count).chain(removed).collect())
+        if !edits.is_empty() {
+            edits.insert(0, edit(self.count, left.to_string()));
+        }
+        (0 < left).then_some(edits)
     }
 }
 

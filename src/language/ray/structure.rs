@@ -6,7 +6,7 @@ use rayon::iter::ParallelIterator;
 
 use super::{Source, add};
 use crate::language::structure::{
-    Block, adapted, deletions, line_before, lines, lines_after, pair,
+    Block, adapted, deletions, follows, line_before, lines, lines_after, pair,
 };
 use crate::language::table;
 use crate::language::view::line_ending;
@@ -298,13 +298,28 @@ fn split(text: &str) -> Result<[(String, usize); 2], StructureError> {
     Ok([(before, lights / each), (behind, objects)])
 }
 
+/// Whether a comment above a node is a heading of several: one of the same kind follows on the next
+/// line.
+fn has_heading(source: &Source, node: Node) -> bool {
+    let Ok((kind, index)) = Counted::of(source, node) else {
+        return false;
+    };
+    let next = index + 1;
+    next < kind.number(source)
+        && follows(
+            &source.text,
+            source.span(node),
+            source.span(kind.node(next)),
+        )
+}
+
 /// The text that moves with a node. The view comment moves with none.
 fn block(source: &Source, node: Node) -> Block {
     let text = &*source.text;
     let own = source.span(node);
     let view = source.origins.view.map(|view| view.comment);
     let comment_above = |start| {
-        let line = line_before(text, start)?;
+        let line = line_before(text, start).filter(|_| !has_heading(source, node))?;
         let comment = comment_of_line(text, line.start())?;
         let is_alone = text[line.start()..comment.start()].trim().is_empty();
         (is_alone && Some(comment) != view).then_some(line.start())

@@ -9,6 +9,7 @@ use super::table::Parameter;
 use crate::geometry::normalise;
 use crate::language::form::{Along, Motion, PRECISE, rotation, rounded};
 use crate::language::structure::{Pose, number, replacements};
+use crate::language::view::spelled;
 use crate::language::{Answers, Node, StructureError};
 use crate::text::{Edit, Span, spell_like};
 
@@ -81,7 +82,7 @@ impl Source {
                 let (old, new) = (old[at] / factor, new[at] / factor);
                 let new = rounded(old, new, decimals);
                 let spelled = match placed.default_of(at) {
-                    Some(_) => new.to_string(),
+                    Some(_) => spelled(new),
                     None => spell_like(placed.spans[at].of(&self.text).trim(), new),
                 };
                 (old != new).then_some((at, spelled))

@@ -8,7 +8,7 @@ use super::table::ObjectKind;
 use super::tree::{escaped, quote};
 use super::{Source, add, apart};
 use crate::language::frame::frameless;
-use crate::language::structure::{Block, deletions, line_before, lines, uncreatable};
+use crate::language::structure::{Block, deletions, follows, line_before, lines, uncreatable};
 use crate::language::table::Category;
 use crate::language::view::line_ending;
 use crate::language::{
@@ -373,6 +373,25 @@ impl Source {
         behind.map_or_else(|| own.end(), |comment| comment.end())
     }
 
+    /// Whether a comment above an element is a heading of several: one of the same kind follows on
+    /// the next line.
+    fn has_heading(&self, node: Node, element: usize) -> bool {
+        let (tree, origins) = (&self.tree, &self.origins);
+        let own = &tree.elements[element];
+        let after = own.end as usize;
+        let Some(next) = tree.elements.get(after) else {
+            return false;
+        };
+        let is_alike = |other: Node| {
+            std::mem::discriminant(&other) == std::mem::discriminant(&node)
+                && origins.element(tree, other) == Some(after)
+        };
+        let end = Span::at(self.with_comment_behind(own.whole));
+        next.parent == own.parent
+            && origins.node_of(after).is_some_and(is_alike)
+            && follows(&self.text, end, next.whole)
+    }
+
     /// The text that moves with a node.
     fn block(&self, node: Node) -> Result<Block, StructureError> {
         let (text, tree) = (&*self.text, &self.tree);
@@ -389,8 +408,9 @@ impl Source {
         if !is_alone {
             return Ok(Block::Part(own));
         }
+        let has_heading = self.has_heading(node, element);
         let comment_above = |start| {
-            let line = line_before(text, start)?;
+            let line = line_before(text, start).filter(|_| !has_heading)?;
             let next = tree
                 .comments
                 .partition_point(|comment| comment.end() <= line.end());

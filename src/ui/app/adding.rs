@@ -75,15 +75,16 @@ impl App {
     }
 
     fn add_with(&mut self, name: &str, file: Option<&str>) {
-        let key = |tool| self.key_for(Action::Transform(tool));
-        let (moves, scales) = (key(Tool::Move), key(Tool::Scale));
-        let done = format!("added: {name}; {moves} moves it, {scales} scales it");
+        let done = format!("added: {name}");
         if self.source().is_blank() {
             let first = self.source().first(name);
             let node = first.as_ref().ok().map(|&(_, node)| node);
-            self.restructure(first.map(|(edit, _)| vec![edit]), None, &done);
+            let is_done = self.restructure(first.map(|(edit, _)| vec![edit]), None, &done);
             if let Some(node) = node.filter(|_| self.error_count() == 0) {
                 self.select(node);
+            }
+            if is_done {
+                self.say_added(&done);
             }
             return;
         }
@@ -100,7 +101,29 @@ impl App {
         let placed = self.source().addition(name, &wish);
         let at = placed.as_ref().ok().map(|placed| placed.at);
         let edits = placed.map(|placed| placed.edits);
-        self.restructure(edits, at, &done);
+        if self.restructure(edits, at, &done) {
+            self.say_added(&done);
+        }
+    }
+
+    /// Says what was added, which is selected, and the keys that transform it.
+    fn say_added(&mut self, done: &str) {
+        let node = self.cursor.selected();
+        let tools = [
+            (Tool::Move, "moves"),
+            (Tool::Turn, "rotates"),
+            (Tool::Scale, "scales"),
+        ];
+        let suited = tools
+            .into_iter()
+            .filter(|&(tool, _)| self.pose_for(tool, node, &[node]).is_ok())
+            .map(|(tool, does)| format!("{} {does} it", self.key_for(Action::Transform(tool))));
+        let suited: Vec<_> = suited.collect();
+        let words = match suited.as_slice() {
+            [] => done.to_owned(),
+            suited => format!("{done}; {}", suited.join(", ")),
+        };
+        self.overlays.say(words);
     }
 
     /// The centre and half the size of a new thing, and the decimals that its place needs.

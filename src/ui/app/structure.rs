@@ -211,6 +211,11 @@ impl App {
             Some(_) => (Visibility::Hidden, "hidden"),
             None => (Visibility::Shown, "shown"),
         };
+        let mut shown = objects.iter().filter(|_| wanted == Visibility::Shown);
+        if let Some(reason) = shown.find_map(|&object| self.refuses_part(object)) {
+            self.overlays.fail(reason);
+            return;
+        }
         self.document.end_step();
         let edits = self.source().visibility_edits(&objects, wanted);
         let outcome = edits.map_err(str::to_owned).and_then(|edits| {
@@ -228,40 +233,71 @@ impl App {
         }
     }
 
-    /// Makes structural edits as one undo step and selects the node written by the edit `at`.
+    /// Why an object cannot be shown by itself, if it is only drawn as a part of another.
+    fn refuses_part(&self, object: usize) -> Option<String> {
+        let source = self.source();
+        if source.drawn(object).is_some() {
+            return None;
+        }
+        let combines = |group: &usize| source.operation(*group).is_some();
+        let mut whole = source.group_of(object).filter(combines)?;
+        while source.drawn(whole).is_none()
+            && let Some(outer) = source.group_of(whole)
+        {
+            whole = outer;
+        }
+        let [part, whole] = [object, whole].map(|object| source.name(Node::Object(object)));
+        let key = self.key_for(Action::Visibility);
+        Some(format!(
+            "{part} is part of {whole}: {key} there shows or hides it"
+        ))
+    }
+
+    /// Makes structural edits as one undo step, selects the node written by the edit `at`, and says
+    /// what is done or why not. Returns whether it is done.
     pub(super) fn restructure(
         &mut self,
         edits: Result<Vec<Edit>, StructureError>,
         at: Option<usize>,
         done: &str,
-    ) {
-        let edits = match edits {
-            Ok(edits) => edits,
-            Err(refused) => {
-                self.overlays.fail(refused.to_string());
-                return;
-            }
-        };
-        self.document.end_step();
-        let placed = at.and_then(|at| super::edit::spans_after(&edits).get(at).copied());
-        let outcome = self.try_edits(&edits);
-        self.document.end_step();
+    ) -> bool {
+        let outcome = edits.map_err(|refused| refused.to_string());
+        let outcome = outcome.and_then(|edits| {
+            self.document.end_step();
+            let placed = at.and_then(|at| super::edit::spans_after(&edits).get(at).copied());
+            let outcome = self.try_edits(&edits);
+            self.document.end_step();
+            outcome.map(|()| placed).map_err(|refused| refused.message)
+        });
         match outcome {
-            Ok(()) => {
+            Ok(placed) => {
                 self.cursor.marks.clear();
                 if let Some(node) = placed.and_then(|span| self.first_node_in(span)) {
                     self.select(node);
                 }
                 self.overlays.say(done);
+                true
             }
-            Err(refused) => self.overlays.fail(refused.message),
+            Err(reason) => {
+                self.overlays.fail(reason);
+                false
+            }
         }
     }
 
-    /// The first node, other than the view, whose text is in a span.
+    /// The first node, other than the view, whose text is in a span, or what combines it there.
     pub(super) fn first_node_in(&self, span: Span) -> Option<Node> {
-        let mut nodes = self.source().nodes_in(span).into_iter();
-        nodes.find(|node| *node != Node::View)
+        let source = self.source();
+        let mut nodes = source.nodes_in(span).into_iter();
+        let mut node = nodes.find(|node| *node != Node::View)?;
+        let is_inside = |own: Span| span.start() <= own.start() && own.end() <= span.end();
+        while let Node::Object(object) = node
+            && let Some(group) = source.group_of(object).map(Node::Object)
+            && is_inside(source.span(group))
+        {
+            node = group;
+        }
+        Some(node)
     }
 
     /// Whether the structure cannot change because the text has errors; says so.

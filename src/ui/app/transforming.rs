@@ -6,11 +6,14 @@ use glam::DVec3;
 
 use super::App;
 use super::transform::{Lock, Snap, Transform, decimals_of, round_up};
-use crate::language::{Language, Node, Pose, StructureError};
+use crate::language::{Along, Language, Motion, Node, Pose, StructureError};
 use crate::render::{axes, pixel_width};
 use crate::scene::{Camera, Size};
 use crate::text::Edit;
 use crate::ui::keymap::{Action, Mode, Stride, Tool, types_amount};
+
+/// Decimals with which a motion is tried.
+const TRIED_DECIMALS: usize = 9;
 
 impl App {
     /// Starts to move, rotate or scale the targets.
@@ -38,10 +41,12 @@ impl App {
             self.overlays.fail(reason);
             return;
         }
-        let Some(pose) = self.pose(node) else {
-            let name = self.source().name(node);
-            self.overlays.fail(format!("{name} has no position"));
-            return;
+        let pose = match self.pose_for(tool, node, &nodes) {
+            Ok(pose) => pose,
+            Err(reason) => {
+                self.overlays.fail(reason);
+                return;
+            }
         };
         let pixel = pixel_at(pose.centre, &camera, size);
         let step = round_up(pixel);
@@ -62,6 +67,38 @@ impl App {
             trial,
         });
         self.mode = Mode::Move;
+    }
+
+    /// The place from which a tool transforms nodes: that of `node`, one of them.
+    ///
+    /// # Errors
+    ///
+    /// Fails with the reason if the tool would change none of them.
+    pub(super) fn pose_for(&self, tool: Tool, node: Node, nodes: &[Node]) -> Result<Pose, String> {
+        let lacks = match tool {
+            Tool::Move => "has no position",
+            Tool::Turn => "has no direction",
+            Tool::Scale => "cannot be scaled",
+        };
+        let refused = |lacks| Err(format!("{} {lacks}", self.source().name(node)));
+        let pose = match (self.pose(node), node) {
+            (Some(pose), _) => pose,
+            // A direction is the same everywhere.
+            (None, Node::Light(_)) if tool == Tool::Turn => Pose {
+                centre: DVec3::ZERO,
+                axes: DVec3::AXES,
+            },
+            (None, Node::Light(_)) => return refused(lacks),
+            (None, _) => return refused("has no position"),
+        };
+        let is_unchanged = |motion: &Motion| {
+            let edits = self.source().motion(nodes, motion, TRIED_DECIMALS);
+            !nodes.contains(&Node::View) && edits.is_ok_and(|edits| edits.is_empty())
+        };
+        match tried(tool, pose.centre) {
+            Some(motion) if is_unchanged(&motion) => refused(lacks),
+            _ => Ok(pose),
+        }
     }
 
     /// The place of a node; that of a combination is the middle of what it draws.
@@ -243,6 +280,25 @@ impl App {
             edits.sort_by_key(|edit| edit.span);
         }
         Ok(edits)
+    }
+}
+
+/// A motion by a tool about a point, to find out whether it changes anything; `None` if it certainly
+/// does.
+fn tried(tool: Tool, about: DVec3) -> Option<Motion> {
+    match tool {
+        Tool::Move => None,
+        Tool::Turn => Some(Motion::Turn {
+            // An axis about which nothing is likely to be symmetric.
+            axis: DVec3::new(0.36, 0.48, 0.8),
+            angle: 40.0,
+            about,
+        }),
+        Tool::Scale => Some(Motion::Scale {
+            factor: 2.0,
+            along: Along::All,
+            about,
+        }),
     }
 }
 

@@ -37,6 +37,16 @@ const XML: &str = "\
 </xml>
 ";
 
+const GROUPED: &str = "\
+<xml>
+  <scene>
+    <object name=\"group\">
+      <object type=\"sphere\" name=\"a\"/>
+    </object>
+  </scene>
+</xml>
+";
+
 /// Opens a text, selects a node, types keys, and returns the interface.
 fn after(name: &str, text: &str, node: Node, said: &str) -> App {
     let (mut app, _) = opened_as(name, text);
@@ -226,6 +236,15 @@ fn xml_scenes_are_restructured_by_keys() {
 
 #[test]
 fn the_written_thing_is_selected() {
+    for (name, text, node, said, selected) in [
+        ("scene.dat", DAT, Object(2), "D", Object(5)),
+        ("scene.dat", DAT, Object(2), "yGp", Object(6)),
+        ("scene.xml", GROUPED, Object(0), "D", Object(2)),
+        ("scene.xml", GROUPED, Object(1), "D", Object(2)),
+    ] {
+        let app = after(name, text, node, said);
+        assert_eq!(app.cursor.selected(), selected, "{node:?} {said}");
+    }
     for (node, said, selected) in [
         (Object(1), "D", Object(2)),
         (Object(1), "K", Object(0)),
@@ -369,4 +388,19 @@ fn undo_and_redo_select_the_thing_that_they_change() {
         assert_eq!(app.cursor.selected(), selected, "{said}");
         assert!(words(&app).starts_with(done), "{said}: {}", words(&app));
     }
+}
+
+#[test]
+fn a_copied_combination_moves_as_a_whole() {
+    let app = after("scene.dat", DAT, Object(2), "Dmx1<Enter>");
+    let copy = "\
+obj sphere ID 5 mat ID 1  1 0 0  1
+obj sphere ID 6 mat ID 2  2 0 0  1
+obj CSG ID 7 union ID 5 ID 6
+";
+    assert!(
+        app.document.text().contains(copy),
+        "{}",
+        app.document.text()
+    );
 }

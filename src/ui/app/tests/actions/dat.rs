@@ -53,15 +53,15 @@ pub(super) const ROWS: &[Row] = &[
     ])),
     row(Add("union"), Object(0), "  aunion<Enter>", Becomes(&[
         ("render 2 ID 1 ID 2\n",
-            "obj CSG ID 3 union ID 1 ID 2\nrender 3 ID 1 ID 2 ID 3\n"),
+            "obj CSG ID 3 union ID 1 ID 2\nrender 1 ID 3\n"),
     ])),
     row(Add("intersection"), Object(0), "  aintersection<Enter>", Becomes(&[
         ("render 2 ID 1 ID 2\n",
-            "obj CSG ID 3 intersection ID 1 ID 2\nrender 3 ID 1 ID 2 ID 3\n"),
+            "obj CSG ID 3 intersection ID 1 ID 2\nrender 1 ID 3\n"),
     ])),
     row(Add("difference"), Object(0), "  adifference<Enter>", Becomes(&[
         ("render 2 ID 1 ID 2\n",
-            "obj CSG ID 3 difference ID 1 ID 2\nrender 3 ID 1 ID 2 ID 3\n"),
+            "obj CSG ID 3 difference ID 1 ID 2\nrender 1 ID 3\n"),
     ])),
     row(Add("point light"), Object(0), "apoint light<Enter>", Becomes(&[
         ("light ID 2 amb  0 0 0  0 0 0  .5 .5 .5  1 0 0  0  shadow_off\n",
