@@ -19,7 +19,7 @@ use crate::scene::{Camera, Integrator, Rgb, Scene, Size};
 use crate::text::Diagnostic;
 use crate::ui::arrange::{Areas, Shape, Zoom, arrange};
 use crate::ui::errors::{self, Panel, Wrong};
-use crate::ui::keymap::{Context, Line, Mode};
+use crate::ui::keymap::{Action, Context, Entry, Line, Mode};
 use crate::ui::layout::raster;
 use crate::ui::listing::Listing;
 
@@ -29,16 +29,17 @@ const NO_SCENE: Size = Size {
     height: 3,
 };
 
-/// The loss of the working view, and how to prevent it.
-const LOST_VIEW: &str = "the moved view is not in the text (S writes it)";
+/// The loss of the working view.
+const LOST_VIEW: &str = "the moved view is not in the text";
 
 impl App {
     /// The context whose keys are active; keys typed into a line take precedence.
     pub fn context(&self) -> Context {
         match &self.overlays.dialog {
-            Some(Dialog::Leave(Next::Quit)) if self.is_saved() && !self.is_view_unwritten() => {
-                Context::Wait
+            Some(Dialog::Leave(_)) if self.is_saved() && self.is_view_unwritten() => {
+                Context::MovedView
             }
+            Some(Dialog::Leave(Next::Quit)) if self.is_saved() => Context::Wait,
             Some(Dialog::Leave(Next::Quit)) => Context::Quit,
             Some(Dialog::Leave(_)) => Context::Leave,
             Some(Dialog::Delete(_)) => Context::Delete,
@@ -55,6 +56,20 @@ impl App {
             None if self.disk.is_opening() => Context::Opening,
             None if self.overlays.picker.is_some() => Context::Colour,
             None => Context::In(self.mode),
+        }
+    }
+
+    /// The hints for the keys that do something now, the most useful first.
+    pub fn hints(&self) -> Vec<Entry> {
+        self.keymap
+            .hints(self.context(), |action| self.acts(action))
+    }
+
+    /// Whether an action would do something, as far as hints tell.
+    fn acts(&self, action: Action) -> bool {
+        match (action, self.context()) {
+            (Action::SaveView, Context::Quit | Context::Leave) => self.is_view_unwritten(),
+            _ => true,
         }
     }
 
@@ -218,6 +233,8 @@ impl App {
     fn lost_text(&self) -> Option<String> {
         let name = self.disk.name();
         match &self.disk.state {
+            // An untouched template can be started again.
+            OnDisk::New if !self.document.is_dirty() => None,
             OnDisk::New if self.disk.path.is_none() => {
                 Some("the new scene is not saved".to_owned())
             }
